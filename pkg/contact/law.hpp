@@ -1,0 +1,53 @@
+// The cohesive contact law of Taboada and Estrada (2009), section 2.2.1, as one projection.
+//
+// Equations (paper), with N, T, Γ the normal force, shear force and torque and U^n, U^t, w the relative velocities:
+//     Signorini with tension   (1)  U^n = 0, N ≥ −F_a   or   U^n > 0, N = −F_a ,      (2)  F_a = σ_ext ℓ
+//     Coulomb                  (3)  T opposes U^t, |T| ≤ T_max ,                      (4)  T_max = μ_s (F_a + N)
+//     rolling                  (5)  Γ opposes w,   |Γ| ≤ Γ_max ,                      (6)  Γ_max = μ_r ℓ (F_a + N)
+// Time-discrete form (Moreau-Jean, implicit): forces become impulses over the step, thresholds are multiplied by h,
+// and each velocity is shifted by a bias b:
+//     N-graph:  0 ≤ (U^n + b_n)  ⟂  (N + F_a) ≥ 0 ,   T- and Γ-graphs in U^t + b_t and w + b_r .
+//   open gap g > 0        b_n = g / h        the gap may close, not more
+//   overlap or bond       b_n = κ (g − g₀)/h relaxes the error of position with the rate κ
+//   impact                b_n = e U^n_before Newton's restitution
+// Each graph "x ∈ K, −u ∈ N_K(x)" is the fixed point x = proj_K(x − ρ u) for every ρ > 0; the residual of a solution is
+// the distance from that fixed point with ρ the inverse diagonal of the Delassus operator (natural map).
+// Sign: compression and opening positive, impulses positive on body j. Deviation from the paper: none in the graphs; the biases are
+// the discretisation's.
+#pragma once
+
+#include <algorithm>
+#include <contact/problem.hpp>
+
+namespace nonsmooth::contact {
+
+/// Nearest admissible normal impulse, eqs (1) and (2).
+inline double projectNormal(double n, double adhesion) { return std::max(n, -adhesion); }
+
+/// Nearest admissible tangential impulse or rolling impulse for a threshold, eqs (3) to (6).
+inline double projectThreshold(double value, double threshold) { return std::max(-threshold, std::min(value, threshold)); }
+
+/// T_max h, eq (4); never negative.
+inline double slidingThreshold(const Contact& c, double n) { return std::max(0.0, c.friction * (c.adhesion + n)); }
+
+/// Γ_max h, eq (6); never negative.
+inline double rollingThreshold(const Contact& c, double n) { return std::max(0.0, c.rollingArm * (c.adhesion + n)); }
+
+/// Moves impulses onto the three graphs' admissible sets, normal first.
+inline Impulse project(const Contact& c, const Impulse& p)
+{
+	const double n = projectNormal(p.n, c.adhesion);
+	return { n, projectThreshold(p.t, slidingThreshold(c, n)), projectThreshold(p.r, rollingThreshold(c, n)) };
+}
+
+/// Inverse diagonal of the Delassus operator at one contact: 1/W_nn, 1/W_tt, 1/W_rr; 0 where nothing can move.
+inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
+{
+	const double x = mi.x + mj.x, y = mi.y + mj.y;
+	const double wn = c.nx * c.nx * x + c.ny * c.ny * y + mi.w * c.leverNi * c.leverNi + mj.w * c.leverNj * c.leverNj;
+	const double wt = c.ny * c.ny * x + c.nx * c.nx * y + mi.w * c.leverTi * c.leverTi + mj.w * c.leverTj * c.leverTj;
+	const double wr = mi.w + mj.w;
+	return { wn > 0 ? 1 / wn : 0, wt > 0 ? 1 / wt : 0, wr > 0 ? 1 / wr : 0 };
+}
+
+} // namespace nonsmooth::contact

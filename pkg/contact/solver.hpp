@@ -1,0 +1,38 @@
+// Nonlinear Gauss-Seidel on the contact problem, plain or inside Nesterov's extrapolation with adaptive restart.
+//
+// One sweep visits every contact and replaces its impulses by the projection of law.hpp, row by row, velocities being kept
+// up to date (Jean 1999). Information crosses about one contact a sweep, so a deep packing needs thousands of plain sweeps.
+// The accelerated method starts every sweep from
+//     y_k = P_k + β_k (P_k − P_{k−1}),   β_k = (θ_k − 1)/θ_{k+1},   θ_{k+1} = (1 + √(1 + 4 θ_k²))/2
+// (Nesterov 1983) and sets θ = 1 again when the step turns against the momentum, (y_k − P_{k+1})·W (P_{k+1} − P_k) > 0
+// (O'Donoghue and Candès 2015). Colours make the sweep independent of the number of threads; sums are added in a fixed order.
+#pragma once
+
+#include <contact/problem.hpp>
+#include <contact/residual.hpp>
+
+namespace nonsmooth::contact {
+
+enum class Method { GaussSeidel, Accelerated };
+
+struct SolverSettings {
+	Method method        = Method::Accelerated;
+	double tolerance     = 1e-4; // on Residual::relative()
+	int    maxIterations = 1000;
+	int    checkEvery    = 5; // sweeps between two residuals
+	int    threads       = 1;
+};
+
+struct SolverStatistics {
+	int      iterations = 0;
+	int      restarts   = 0;
+	int      colours    = 0;
+	bool     converged  = true;
+	Residual residual; // of what is returned, from velocities computed anew from the impulses
+};
+
+/// Solves in place: reads problem.impulses as warm start, writes problem.impulses and problem.velocities.
+/// Throws std::invalid_argument where a size does not fit or a number is not finite.
+SolverStatistics solve(Problem& problem, const SolverSettings& settings);
+
+} // namespace nonsmooth::contact

@@ -1,0 +1,45 @@
+#include "BondEllipse.hpp"
+#include <pkg/common/Sphere.hpp>
+
+namespace yade::nscd {
+
+BondPair bondPair(const Body& b1, const Body& b2)
+{
+	const bool sphere1 = dynamic_cast<const Sphere*>(b1.shape.get()), sphere2 = dynamic_cast<const Sphere*>(b2.shape.get());
+	const bool swap    = sphere1 == sphere2 ? b1.getId() > b2.getId() : sphere1;
+	return swap ? BondPair { &b2, &b1, true } : BondPair { &b1, &b2, false };
+}
+
+void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius)
+{
+	const State &first = *pair.first->state, &second = *pair.second->state;
+	const Vector3r point = second.pos - secondRadius * normal;
+	phys.anchor1         = first.ori.conjugate() * (point - first.pos);
+	phys.anchor2         = second.ori.conjugate() * (point - second.pos);
+	phys.axis            = first.ori.conjugate() * normal;
+	phys.restGap         = std::max(gap, Real(0));
+	phys.bonded          = true;
+	phys.yielded         = false;
+	phys.brokenMode      = NscdPhys::None;
+	phys.yieldPath       = Vector3r::Zero();
+}
+
+std::pair<Real, Real> bondDisplacement(const NscdPhys& phys, const BondPair& pair)
+{
+	const State &  first = *pair.first->state, &second = *pair.second->state;
+	const Vector3r d = second.pos + second.ori * phys.anchor2 - first.pos - first.ori * phys.anchor1;
+	const Vector3r n = first.ori * phys.axis;
+	return { d.dot(n), n[0] * d[1] - n[1] * d[0] };
+}
+
+NscdPhys::Mode bondMode(const NscdPhys& phys)
+{
+	const Real sum = phys.yieldPath.sum();
+	if (!(sum > 0)) return NscdPhys::Mixed;
+	int            most;
+	const Real     largest = phys.yieldPath.maxCoeff(&most);
+	constexpr Real clear   = 0.6; // of the whole path, for one mode to name the break
+	return largest > clear * sum ? static_cast<NscdPhys::Mode>(NscdPhys::Tension + most) : NscdPhys::Mixed;
+}
+
+} // namespace yade::nscd

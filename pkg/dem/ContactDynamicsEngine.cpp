@@ -1,0 +1,226 @@
+#include "ContactDynamicsEngine.hpp"
+#include "BondEllipse.hpp"
+#include "Gravity.hpp"
+#include <chrono>
+#include <core/TimeStepper.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((ContactDynamicsEngine));
+CREATE_LOGGER(ContactDynamicsEngine);
+
+namespace contact = nonsmooth::contact;
+
+void ContactDynamicsEngine::action()
+{
+	validate();
+	const auto clock   = [] { return std::chrono::duration<Real>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+	const auto gravity = nscd::gravityOf(*scene);
+	const int  threads = threadCount();
+
+	const Real t0 = clock();
+	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed }, threads);
+	const Real t1         = clock();
+	const auto statistics = contact::solve(seam.problem, settings());
+	const Real t2         = clock();
+	account(seam.scatter(*scene, gravity, threads));
+	report(statistics);
+	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
+}
+
+int ContactDynamicsEngine::threadCount() const
+{
+#ifdef YADE_OPENMP
+	return ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads();
+#else
+	return 1;
+#endif
+}
+
+void ContactDynamicsEngine::validate() const
+{
+	const auto fail = [](const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); };
+	bool       passed = false, newton = false;
+	for (const auto& engine : scene->engines) {
+		if (engine.get() == this) passed = true;
+		if (const auto* n = dynamic_cast<const NewtonIntegrator*>(engine.get())) {
+			newton = true;
+			if (n->damping != 0)
+				fail("NewtonIntegrator.damping = " + boost::lexical_cast<string>(n->damping)
+				     + ", which would change the impulses: set damping=0 (rigid contacts dissipate by themselves)");
+			if (!passed) fail("it stands after NewtonIntegrator in O.engines: put it before");
+		}
+		const auto* stepper = dynamic_cast<const TimeStepper*>(engine.get());
+		if (stepper && stepper->active && !stepper->dead)
+			fail(stepper->getClassName() + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
+	}
+	if (!newton) fail("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");
+	if (scene->isPeriodic) fail("periodic scenes are not supported: set O.periodic = False");
+	if (!(scene->dt > 0) || !std::isfinite(scene->dt)) fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");
+	if (!(tolerance > 0)) fail("tolerance = " + boost::lexical_cast<string>(tolerance) + ": it must be positive");
+	if (maxIterations < 1) fail("maxIterations = " + std::to_string(maxIterations) + ": it must be at least 1");
+	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
+	if (!(relaxationRate >= 0 && relaxationRate <= 1)) fail("relaxationRate = " + boost::lexical_cast<string>(relaxationRate) + ": it must be from 0 to 1");
+	if (method != "accelerated" && method != "gaussSeidel") fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
+}
+
+contact::SolverSettings ContactDynamicsEngine::settings() const
+{
+	contact::SolverSettings s;
+	s.method        = method == "gaussSeidel" ? contact::Method::GaussSeidel : contact::Method::Accelerated;
+	s.tolerance     = tolerance;
+	s.maxIterations = maxIterations;
+	s.checkEvery    = checkEvery;
+	s.threads       = threadCount();
+	return s;
+}
+
+void ContactDynamicsEngine::account(const nscd::StepSums& s)
+{
+	kineticEnergy   = s.kinetic;
+	potentialEnergy = s.potential;
+	if (std::isnan(energyStart)) energyStart = kineticEnergy + potentialEnergy;
+	// energies belong to the beginning of the step, the sums to the steps before it
+	energyError = kineticEnergy + potentialEnergy - energyStart - externalWork - wallWork + slidingLoss + rollingLoss + debondingLoss + impactLoss;
+	externalWork += s.external;
+	wallWork += s.wallWork;
+	slidingLoss += s.sliding;
+	rollingLoss += s.rolling;
+	debondingLoss += s.debonding;
+	impactLoss += s.impact;
+	correctionEnergy += s.correction;
+	if (scene->trackEnergy) {
+		const std::pair<const char*, Real> parts[] = {
+			{ "contactSliding", s.sliding }, { "contactRolling", s.rolling }, { "contactDebonding", s.debonding }, { "contactImpact", s.impact }
+		};
+		for (int k = 0; k < 4; ++k)
+			scene->energy->add(parts[k].second, parts[k].first, energyIx[k]);
+	}
+	candidates       = (int)seam.links.size();
+	contacts         = s.touching;
+	bonds            = s.bonds;
+	overlapWorst     = s.worstOverlap;
+	overlapMean      = s.touching > 0 ? s.overlap / s.touching : 0;
+	overlapWorstEver = std::max(overlapWorstEver, overlapWorst);
+	brokenTension += s.broken[NscdPhys::Tension];
+	brokenShear += s.broken[NscdPhys::Shear];
+	brokenTorque += s.broken[NscdPhys::Torque];
+	brokenMixed += s.broken[NscdPhys::Mixed];
+	meanSpeed = s.bodies > 0 ? s.speed / s.bodies : 0;
+	maxSpeed  = s.largestSpeed;
+	centroid  = s.mass > 0 ? Vector3r(s.centre / s.mass) : Vector3r(Vector3r::Zero());
+	momentum  = s.momentum;
+}
+
+void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics)
+{
+	iterations = statistics.iterations;
+	residual   = statistics.residual.relative();
+	++steps;
+	totalIterations += iterations;
+	if (statistics.converged) return;
+	++unconverged;
+	// loud, but not once a step: at the 1st, 10th, 100th … time
+	Real decade = 1;
+	while (decade < unconverged)
+		decade *= 10;
+	if (decade == unconverged)
+		LOG_WARN(
+		        "step " << scene->iter << " was not solved: residual " << residual << " after " << iterations << " sweeps, wanted " << tolerance
+		                << " (" << unconverged << " such steps so far). Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
+}
+
+int ContactDynamicsEngine::bond()
+{
+	scene = Omega::instance().getScene().get();
+	int count = 0;
+	for (const auto& i : *scene->interactions) {
+		if (!i->isReal()) continue;
+		auto*       phys = dynamic_cast<NscdPhys*>(i->phys.get());
+		const auto& geom = static_cast<const ScGeom&>(*i->geom);
+		const Real  gap  = -geom.penetrationDepth;
+		if (!phys || !phys->bondable || phys->bonded || gap > phys->creationDistance) continue;
+		const auto  pair   = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
+		const auto* sphere = dynamic_cast<const Sphere*>(pair.second->shape.get());
+		nscd::markBond(*phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap, sphere ? sphere->radius : 0);
+		++count;
+	}
+	return count;
+}
+
+int ContactDynamicsEngine::unbond()
+{
+	scene = Omega::instance().getScene().get();
+	int count = 0;
+	for (const auto& i : *scene->interactions) {
+		auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr;
+		if (!phys || !phys->bonded) continue;
+		phys->bonded = false;
+		++count;
+	}
+	return count;
+}
+
+void ContactDynamicsEngine::forgetEnergies()
+{
+	energyStart = NaN;
+	for (Real* value : { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss, &correctionEnergy })
+		*value = 0;
+}
+
+boost::python::dict ContactDynamicsEngine::energies() const
+{
+	boost::python::dict d;
+	d["kinetic"]    = kineticEnergy;
+	d["potential"]  = potentialEnergy;
+	d["external"]   = externalWork;
+	d["wall"]       = wallWork;
+	d["sliding"]    = slidingLoss;
+	d["rolling"]    = rollingLoss;
+	d["debonding"]  = debondingLoss;
+	d["impact"]     = impactLoss;
+	d["correction"] = correctionEnergy;
+	d["error"]      = energyError;
+	return d;
+}
+
+namespace nscd {
+	inline boost::python::object asBytes(const std::vector<double>& rows)
+	{
+		return boost::python::object(boost::python::handle<>(
+		        PyBytes_FromStringAndSize(reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(double))));
+	}
+}
+
+boost::python::object ContactDynamicsEngine::bodyTable() const
+{
+	std::vector<double> rows;
+	for (const auto& b : *Omega::instance().getScene()->bodies) {
+		const auto* sphere = b ? dynamic_cast<const Sphere*>(b->shape.get()) : nullptr;
+		if (!sphere) continue;
+		const State& s = *b->state;
+		for (const double v : { double(b->getId()), double(s.pos[0]), double(s.pos[1]), double(sphere->radius), double(2 * std::atan2(s.ori.z(), s.ori.w())),
+		                        double(s.vel[0]), double(s.vel[1]), double(s.angVel[2]) })
+			rows.push_back(v);
+	}
+	return nscd::asBytes(rows);
+}
+
+boost::python::object ContactDynamicsEngine::contactTable() const
+{
+	std::vector<double> rows;
+	for (const auto& i : *Omega::instance().getScene()->interactions) {
+		const auto* phys = i->isReal() ? dynamic_cast<const NscdPhys*>(i->phys.get()) : nullptr;
+		if (!phys) continue;
+		const auto& g = static_cast<const ScGeom&>(*i->geom);
+		for (const double v : { double(i->getId1()), double(i->getId2()), double(phys->normal), double(phys->tangential), double(phys->torque),
+		                        double(g.normal[0]), double(g.normal[1]), double(-g.penetrationDepth), double(phys->bonded), double(phys->brokenMode),
+		                        double(g.contactPoint[0]), double(g.contactPoint[1]) })
+			rows.push_back(v);
+	}
+	return nscd::asBytes(rows);
+}
+
+} // namespace yade

@@ -1,0 +1,104 @@
+// Moreau-Jean time stepping of all contacts of a scene at once.
+//
+// One step, in the order of the stages in `action`:
+//     other engines' forces and the contacts' geometry are there already (InteractionLoop, ForceResetter, …)
+//     gather     v_free = v + h (M⁻¹ F_ext + g), frames, gaps, thresholds, last step's reactions (rescaled with h)
+//     solve      v⁺ = v_free + M⁻¹ Hᵀ P with (P, H v⁺) on the graphs of contact/law.hpp, nonlinear Gauss-Seidel
+//     scatter    reactions P/h into the interactions and O.forces, energies, slip
+//     NewtonIntegrator(damping=0) then does v⁺ = v + h (M⁻¹ F + g) and x⁺ = x + h v⁺ (θ = 1)
+// Positions: an open gap may close but not more, an overlap or a bond's error is taken back by the share κ a step. Both stand in the
+// normal bias, so no overlap adds up; what kinetic energy that costs is counted (correctionEnergy).
+#pragma once
+
+#include "ContactSeam.hpp"
+#include <contact/solver.hpp>
+#include <core/GlobalEngine.hpp>
+
+namespace yade {
+
+class ContactDynamicsEngine : public GlobalEngine {
+public:
+	void action() override;
+	/// Makes bonds at all real interactions of bondable pairs whose gap is below Δ; returns how many.
+	int bond();
+	/// Ends all bonds without counting them as broken; returns how many.
+	int  unbond();
+	void forgetEnergies();
+	boost::python::dict energies() const;
+	boost::python::object bodyTable() const;
+	boost::python::object contactTable() const;
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactDynamicsEngine,GlobalEngine,
+R"""(Contact Dynamics (Moreau 1988, Jean 1999) for rigid disks in the x-y plane: finds the reactions of all contacts that
+:yref:`Law2_ScGeom_NscdPhys_SignoriniCoulomb` keeps, such that velocities at the end of the step obey the law. Place it after
+:yref:`InteractionLoop` and every engine that adds forces, before :yref:`NewtonIntegrator`\ (damping=0). Gravity is the integrator's.
+Bodies need blockedDOFs='zXY' and a disk's mass and inertia (:yref:`yade.nonsmooth.disk`); bodies with blocked DOFs are walls, and their
+velocity drives them.
+
+The solve ends when the natural-map residual (rms over contacts, relative to the rms reaction, from velocities computed anew) is below
+:yref:`tolerance<ContactDynamicsEngine.tolerance>`. Energies go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding,
+contactImpact (dissipated) and contactCorrection. The same scene gives the same bits on any number of threads.)""",
+		((Real,tolerance,1e-4,,"Residual below which a step is solved [-]."))
+		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning."))
+		((string,method,"accelerated",,"'accelerated' (Gauss-Seidel inside Nesterov's extrapolation) or 'gaussSeidel' (plain)."))
+		((int,checkEvery,5,,"Sweeps between two residuals."))
+		((Real,relaxationRate,0.2,,"Share κ of an overlap or of a bond's error of length that one step takes back [-]."))
+		((Real,correctionSpeed,1,,"Largest speed of that correction [m/s]."))
+		((int,iterations,0,(Attr::readonly|Attr::noSave),"Sweeps of the last step."))
+		((Real,residual,0,(Attr::readonly|Attr::noSave),"Residual of the last step [-]."))
+		((int,unconverged,0,Attr::readonly,"Steps so far that ended above the tolerance."))
+		((long,steps,0,Attr::readonly,"Steps so far."))
+		((long,totalIterations,0,Attr::readonly,"Sweeps so far."))
+		((Real,overlapWorst,0,(Attr::readonly|Attr::noSave),"Largest overlap at the beginning of the last step [ℓ]."))
+		((Real,overlapMean,0,(Attr::readonly|Attr::noSave),"Mean overlap of touching contacts [ℓ]."))
+		((Real,overlapWorstEver,0,Attr::readonly,"Largest overlap of any step so far [ℓ]."))
+		((int,contacts,0,(Attr::readonly|Attr::noSave),"Contacts that touch or carry force."))
+		((int,candidates,0,(Attr::readonly|Attr::noSave),"Contacts in the solve, open ones included."))
+		((int,bonds,0,(Attr::readonly|Attr::noSave),"Living bonds."))
+		((int,brokenTension,0,Attr::readonly,"Bonds broken so far by tension."))
+		((int,brokenShear,0,Attr::readonly,"Bonds broken so far by shear."))
+		((int,brokenTorque,0,Attr::readonly,"Bonds broken so far by torque."))
+		((int,brokenMixed,0,Attr::readonly,"Bonds broken so far by more than one of these."))
+		((Real,kineticEnergy,0,(Attr::readonly|Attr::noSave),"Kinetic energy of moving bodies at the beginning of the last step [J]."))
+		((Real,potentialEnergy,0,(Attr::readonly|Attr::noSave),"Potential energy −Σ m g·x of moving bodies, at the same time [J]."))
+		((Real,externalWork,0,Attr::readonly,"Work of other engines' forces so far [J]."))
+		((Real,wallWork,0,Attr::readonly,"Work of driven bodies so far [J]."))
+		((Real,slidingLoss,0,Attr::readonly,"Energy dissipated by sliding so far [J]."))
+		((Real,rollingLoss,0,Attr::readonly,"Energy dissipated by rolling so far [J]."))
+		((Real,debondingLoss,0,Attr::readonly,"Energy dissipated by contacts in tension so far [J]."))
+		((Real,impactLoss,0,Attr::readonly,"Energy dissipated by impact so far, less correctionEnergy [J]."))
+		((Real,correctionEnergy,0,Attr::readonly,"Energy given so far by taking back overlaps [J]."))
+		((Real,energyStart,NaN,(Attr::readonly|Attr::hidden),"Kinetic and potential energy when the balance began [J]."))
+		((Real,energyError,0,(Attr::readonly|Attr::noSave),"What the balance of all these misses [J]."))
+		((Real,meanSpeed,0,(Attr::readonly|Attr::noSave),"Mean speed of moving bodies at the end of the last step [m/s]."))
+		((Real,maxSpeed,0,(Attr::readonly|Attr::noSave),"Largest speed at the end of the last step [m/s]."))
+		((Vector3r,centroid,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Centre of mass of moving bodies at the beginning of the last step [m]."))
+		((Vector3r,momentum,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Their momentum at the end of the last step [N s]."))
+		((Vector3r,stageSeconds,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Wall time spent so far in gathering, solving, scattering [s]."))
+		,
+		/* ctor */
+		,
+		.def("bond",&ContactDynamicsEngine::bond,"Make a bond wherever two bodies of one layer (or a wall that bonds to all and a body) have a gap below bondCreationDistance; run a step first, so that interactions exist. Returns the number made.")
+		.def("unbond",&ContactDynamicsEngine::unbond,"Remove all bonds. Returns their number.")
+		.def("forgetEnergies",&ContactDynamicsEngine::forgetEnergies,"Begin the energy balance anew.")
+		.def("energies",&ContactDynamicsEngine::energies,"All energies of the balance as a dictionary [J].")
+		.def("bodyTable",&ContactDynamicsEngine::bodyTable,"Spheres as bytes of doubles in rows (id, x, y, r, angle, vx, vy, omega); see :yref:`yade.nonsmooth.tables`.")
+		.def("contactTable",&ContactDynamicsEngine::contactTable,"Contacts of the last step as bytes of doubles in rows (id1, id2, N, T, Γ, nx, ny, gap, bonded, broken mode, x, y).")
+	);
+	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	void                                 validate() const;
+	nonsmooth::contact::SolverSettings   settings() const;
+	void                                 account(const nscd::StepSums& sums);
+	void                                 report(const nonsmooth::contact::SolverStatistics& statistics);
+	int                                  threadCount() const;
+
+	nscd::ContactSeam seam;
+	int               energyIx[5] = { -1, -1, -1, -1, -1 };
+	int               warnings    = 0;
+};
+REGISTER_SERIALIZABLE(ContactDynamicsEngine);
+
+} // namespace yade

@@ -1,0 +1,312 @@
+#include "ContactSeam.hpp"
+#include <contact/law.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+namespace yade::nscd {
+
+namespace contact = nonsmooth::contact;
+using contact::Contact;
+using contact::Impulse;
+using contact::Twist;
+
+namespace {
+	constexpr size_t sumChunk = 1024; // fixed, so that sums do not depend on the number of threads
+
+	Real angularPlane(const Vector3r& v) { return v[2]; }
+
+	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
+	{
+		throw std::runtime_error("ContactDynamicsEngine: body #" + std::to_string(body.getId()) + " " + why + ": " + remedy);
+	}
+}
+
+void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount)
+{
+	relaxation = how;
+	threads    = threadCount;
+	iteration  = scene.iter;
+	gatherBodies(scene, gravity);
+	collect(scene);
+	const long count = (long)links.size();
+	problem.contacts.resize(count);
+	problem.impulses.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k)
+		gatherContact(scene, k);
+}
+
+void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
+{
+	const long size = (long)scene.bodies->size();
+	scene.forces.sync();
+	for (auto* v : { &problem.freeVelocity, &before, &external })
+		v->assign(size, {});
+	problem.inverseMass.assign(size, {});
+	present.assign(size, 0);
+	const Real h = relaxation.step;
+	int        bad = -1; // body with an unusable state; reported after the loop, which must not throw
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
+	for (long id = 0; id < size; ++id) {
+		const auto& body = (*scene.bodies)[id];
+		if (!body) continue;
+		const State&   s = *body->state;
+		const unsigned d = s.blockedDOFs;
+		present[id]      = 1;
+		before[id]       = { s.vel[0], s.vel[1], angularPlane(s.angVel) };
+		auto& w          = problem.inverseMass[id];
+		if (!(d & State::DOF_X)) w.x = 1 / s.mass;
+		if (!(d & State::DOF_Y)) w.y = 1 / s.mass;
+		if (!(d & State::DOF_RZ)) w.w = 1 / s.inertia[2];
+		const Vector3r &f = scene.forces.getForce(id), &m = scene.forces.getTorque(id);
+		external[id] = { f[0], f[1], m[2] };
+		Twist v      = before[id];
+		if (w.x > 0) v.x += h * (f[0] * w.x + gravity[0]);
+		if (w.y > 0) v.y += h * (f[1] * w.y + gravity[1]);
+		if (w.w > 0) v.w += h * m[2] * w.w;
+		problem.freeVelocity[id] = v;
+
+		const bool     moves  = !w.isFixed();
+		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
+		if (!std::isfinite(v.x + v.y + v.w + s.pos[0] + s.pos[1] + w.x + w.y + w.w) || (moves && (d & planar) != planar) || body->isClump()
+		    || body->isClumpMember())
+			bad = std::max(bad, (int)id);
+	}
+	if (bad >= 0) {
+		const Body& body = *(*scene.bodies)[bad];
+		if (body.isClump() || body.isClumpMember()) refuse(body, "belongs to a clump", "clumps are not supported; use single spheres");
+		const State& s = *body.state;
+		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum())) refuse(body, "has a position or velocity that is not finite", "look at the forces and velocities set by the script");
+		if (!(s.mass > 0) || !(s.inertia[2] > 0)) refuse(body, "can move but has no mass or inertia", "set state.mass and state.inertia, or block its DOFs");
+		const Vector3r& f = scene.forces.getForce(bad);
+		if (!std::isfinite(f.sum())) refuse(body, "has a force that is not finite", "look at the engines that add forces");
+		refuse(body, "can leave the x-y plane", "set state.blockedDOFs = 'zXY' (the contact problem is two-dimensional)");
+	}
+}
+
+/// Real interactions in the order of (lower id, higher id).
+void ContactSeam::collect(Scene& scene)
+{
+	const size_t size = scene.bodies->size();
+	bucket.assign(size + 1, 0);
+	const auto real = [&](const shared_ptr<Interaction>& i) {
+		return i->isReal() && i->isActive && (size_t)std::max(i->getId1(), i->getId2()) < size && present[i->getId1()] && present[i->getId2()];
+	};
+	for (const auto& i : *scene.interactions)
+		if (real(i)) ++bucket[std::min(i->getId1(), i->getId2()) + 1];
+	for (size_t k = 0; k < size; ++k)
+		bucket[k + 1] += bucket[k];
+	ordered.resize(bucket[size]);
+	for (const auto& i : *scene.interactions)
+		if (real(i)) ordered[bucket[std::min(i->getId1(), i->getId2())]++] = i.get();
+	// each bucket now ends where the next one began
+	const auto higher = [](const Interaction* i) { return std::max(i->getId1(), i->getId2()); };
+	int        begin  = 0;
+	for (size_t k = 0; k < size; ++k) {
+		std::sort(ordered.begin() + begin, ordered.begin() + bucket[k], [&](const Interaction* a, const Interaction* b) { return higher(a) < higher(b); });
+		begin = bucket[k];
+	}
+	links.resize(ordered.size());
+	for (size_t k = 0; k < ordered.size(); ++k) {
+		auto* phys = dynamic_cast<NscdPhys*>(ordered[k]->phys.get());
+		if (!phys)
+			throw std::runtime_error(
+			        "ContactDynamicsEngine: interaction #" + std::to_string(ordered[k]->getId1()) + "+#" + std::to_string(ordered[k]->getId2()) + " has a "
+			        + ordered[k]->phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+		links[k] = { ordered[k], phys, 0, 0, false };
+	}
+}
+
+void ContactSeam::gatherContact(Scene& scene, size_t k)
+{
+	Link&        link = links[k];
+	const auto&  geom = static_cast<const ScGeom&>(*link.interaction->geom);
+	const auto&  phys = *link.phys;
+	const Body & b1 = *(*scene.bodies)[link.interaction->getId1()], &b2 = *(*scene.bodies)[link.interaction->getId2()];
+	const auto * s1 = dynamic_cast<const Sphere*>(b1.shape.get()), *s2 = dynamic_cast<const Sphere*>(b2.shape.get());
+	const Real   gap = -geom.penetrationDepth, h = relaxation.step;
+	Contact      c;
+
+	// from the lower id to the higher, from a wall to a sphere
+	link.swapped      = (s1 && s2) ? b1.getId() > b2.getId() : (s1 && !s2);
+	const Body &   bi = link.swapped ? b2 : b1, &bj = link.swapped ? b1 : b2;
+	const Vector3r n  = link.swapped ? Vector3r(-geom.normal) : geom.normal;
+	c.i               = bi.getId();
+	c.j               = bj.getId();
+	c.nx              = n[0];
+	c.ny              = n[1];
+	if (s1 && s2) {
+		c.leverTi = (link.swapped ? s2 : s1)->radius + 0.5 * gap;
+		c.leverTj = -((link.swapped ? s1 : s2)->radius + 0.5 * gap);
+	} else {
+		const Vector3r ri = geom.contactPoint - bi.state->pos, rj = geom.contactPoint - bj.state->pos;
+		c.leverNi = n[1] * ri[0] - n[0] * ri[1];
+		c.leverTi = ri.dot(n);
+		c.leverNj = n[1] * rj[0] - n[0] * rj[1];
+		c.leverTj = rj.dot(n);
+	}
+	// error of position: a bond keeps its length, a contact its gap
+	const Real error = phys.bonded ? gap - phys.restGap : gap;
+	if (!phys.bonded && gap > 0) c.biasN = gap / h;
+	else
+		c.biasN = std::max(-relaxation.largestSpeed, std::min(relaxation.largestSpeed, relaxation.rate * error / h));
+	link.bias = c.biasN;
+	link.gap  = gap;
+	if (phys.restitution > 0 && !phys.bonded) {
+		// an impact within the step counts at its full speed; one that does not happen yet is left alone
+		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
+		if (approach < 0 && gap + h * approach <= 0) c.biasN = phys.restitution * approach;
+	}
+	c.adhesion          = h * phys.adhesion;
+	c.friction          = phys.currentFriction;
+	c.rollingArm        = phys.currentRollingArm;
+	c.length            = phys.length;
+	problem.contacts[k] = c;
+	problem.impulses[k] = { h * phys.normal, h * phys.tangential, h * phys.torque };
+}
+
+StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount)
+{
+	threads          = threadCount;
+	const Real h     = relaxation.step;
+	const long count = (long)links.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		const Contact& c    = problem.contacts[k];
+		const Impulse& p    = problem.impulses[k];
+		NscdPhys&      phys = *links[k].phys;
+		phys.normal         = p.n / h;
+		phys.tangential     = p.t / h;
+		phys.torque         = p.r / h;
+		const Real sign     = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
+		phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
+		phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
+		phys.yielded        = false;
+		if (!phys.bonded) continue;
+		const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		constexpr Real close = 1 - 1e-9;
+		if (c.adhesion > 0 && p.n <= -close * c.adhesion && u.n + c.biasN > 0) {
+			phys.yielded = true;
+			phys.yieldPath[0] += std::max(Real(0), h * u.n);
+		}
+		if (std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)) phys.yieldPath[1] += std::abs(h * u.t);
+		if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) phys.yieldPath[2] += std::abs(h * u.r) * 0.5 * c.length;
+	}
+	scatterForces(scene);
+
+	// slip goes into materials that many contacts share, so one after the other
+	for (long k = 0; k < count; ++k) {
+		const Contact& c = problem.contacts[k];
+		if (problem.impulses[k].n + c.adhesion <= 0) continue;
+		links[k].phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
+	}
+
+	const size_t          chunksC = (links.size() + sumChunk - 1) / sumChunk, chunksB = (before.size() + sumChunk - 1) / sumChunk;
+	std::vector<StepSums> parts(chunksC + chunksB);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < (long)parts.size(); ++k) {
+		if ((size_t)k < chunksC) sumContacts(k * sumChunk, std::min((k + 1) * sumChunk, links.size()), parts[k]);
+		else
+			sumBodies(scene, gravity, (k - chunksC) * sumChunk, std::min((k - chunksC + 1) * sumChunk, before.size()), parts[k]);
+	}
+	StepSums total;
+	for (const StepSums& s : parts) {
+		total.sliding += s.sliding;
+		total.rolling += s.rolling;
+		total.debonding += s.debonding;
+		total.impact += s.impact;
+		total.correction += s.correction;
+		total.overlap += s.overlap;
+		total.worstOverlap = std::max(total.worstOverlap, s.worstOverlap);
+		total.touching += s.touching;
+		total.bonds += s.bonds;
+		for (int m = 0; m < 5; ++m)
+			total.broken[m] += s.broken[m];
+		total.kinetic += s.kinetic;
+		total.potential += s.potential;
+		total.external += s.external;
+		total.wallWork += s.wallWork;
+		total.mass += s.mass;
+		total.speed += s.speed;
+		total.largestSpeed = std::max(total.largestSpeed, s.largestSpeed);
+		total.centre += s.centre;
+		total.momentum += s.momentum;
+		total.bodies += s.bodies;
+	}
+	return total;
+}
+
+/// O.forces gets the sum of the step's contact forces on every body, walls included.
+void ContactSeam::scatterForces(Scene& scene)
+{
+	reaction.assign(before.size(), {});
+	for (size_t k = 0; k < links.size(); ++k) {
+		const Contact& c = problem.contacts[k];
+		const Impulse& p = problem.impulses[k];
+		const Real     fx = c.nx * p.n - c.ny * p.t, fy = c.ny * p.n + c.nx * p.t;
+		Twist &        ri = reaction[c.i], &rj = reaction[c.j];
+		ri.x -= fx;
+		ri.y -= fy;
+		ri.w -= c.leverNi * p.n + c.leverTi * p.t + p.r;
+		rj.x += fx;
+		rj.y += fy;
+		rj.w += c.leverNj * p.n + c.leverTj * p.t + p.r;
+	}
+	const Real h = relaxation.step;
+	for (size_t id = 0; id < reaction.size(); ++id) {
+		const Twist& r = reaction[id];
+		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
+		scene.forces.addForce(id, Vector3r(r.x / h, r.y / h, 0));
+		scene.forces.addTorque(id, Vector3r(0, 0, r.w / h));
+	}
+}
+
+void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
+{
+	for (size_t k = begin; k < end; ++k) {
+		const Contact&  c    = problem.contacts[k];
+		const Impulse&  p    = problem.impulses[k];
+		const NscdPhys& phys = *links[k].phys;
+		const Impulse   u0   = contact::relativeVelocity(c, before[c.i], before[c.j]);
+		const Impulse   u1   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
+		const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
+		(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
+		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
+		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
+		if (p.n > 0 && links[k].bias < 0) sums.correction -= p.n * links[k].bias;
+		const Real overlap = std::max(Real(0), -links[k].gap) / phys.length;
+		sums.overlap += overlap;
+		sums.worstOverlap = std::max(sums.worstOverlap, overlap);
+		sums.touching += (p.n != 0 || links[k].gap <= 0);
+		sums.bonds += phys.bonded;
+		if (phys.brokenStep == iteration) ++sums.broken[phys.brokenMode];
+	}
+}
+
+void ContactSeam::sumBodies(const Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
+{
+	for (size_t id = begin; id < end; ++id) {
+		if (!present[id]) continue;
+		const State& s  = *(*scene.bodies)[id]->state;
+		const Twist &v0 = before[id], &v1 = problem.velocities[id], &r = reaction[id], &f = external[id];
+		const auto&  w  = problem.inverseMass[id];
+		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
+		const Real half = 0.5 * relaxation.step, x = v0.x + v1.x, y = v0.y + v1.y, a = v0.w + v1.w;
+		sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));
+		if (w.isFixed()) continue;
+		sums.external += half * ((w.x > 0 ? f.x * x : 0) + (w.y > 0 ? f.y * y : 0) + (w.w > 0 ? f.w * a : 0));
+		// energies at the beginning of the step, like the positions they belong to
+		sums.kinetic += 0.5 * (s.mass * (v0.x * v0.x + v0.y * v0.y) + s.inertia[2] * v0.w * v0.w);
+		sums.potential -= s.mass * gravity.dot(s.pos);
+		sums.mass += s.mass;
+		sums.centre += s.mass * s.pos;
+		sums.momentum += s.mass * Vector3r(v1.x, v1.y, 0);
+		const Real speed = std::hypot(v1.x, v1.y);
+		sums.speed += speed;
+		sums.largestSpeed = std::max(sums.largestSpeed, speed);
+		++sums.bodies;
+	}
+}
+
+} // namespace yade::nscd

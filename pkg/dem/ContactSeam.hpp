@@ -1,0 +1,72 @@
+// The only place where YADE's scene and the solver's arrays meet: gather a contact problem, scatter its solution.
+//
+// The order of contacts is that of body ids, and each contact runs from the lower id to the higher (from the wall to the sphere), whatever
+// order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
+#pragma once
+
+#include "NscdPhys.hpp"
+#include <contact/problem.hpp>
+#include <core/Scene.hpp>
+
+namespace yade::nscd {
+
+/// How errors of position enter the velocities, see contact/law.hpp.
+struct Relaxation {
+	Real step;         // h [s]
+	Real rate;         // κ, share of an overlap or bond error that one step takes back
+	Real largestSpeed; // of that correction [m/s]
+};
+
+/// One gathered contact's way back to YADE.
+struct Link {
+	Interaction* interaction;
+	NscdPhys*    phys;
+	Real         gap;     // at the beginning of the step [m]
+	Real         bias;    // b_n without restitution [m/s]
+	bool         swapped; // runs against the interaction's own order
+};
+
+/// What a step did, summed in a fixed order.
+struct StepSums {
+	// contacts
+	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
+	Real correction = 0;                                      // energy given by relaxing errors of position [J]
+	Real overlap = 0, worstOverlap = 0;                       // sum and maximum over contacts, in units of ℓ
+	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
+	// bodies
+	Real     kinetic = 0, potential = 0, external = 0, wallWork = 0; // [J]; external and wallWork during the step
+	Real     mass = 0, speed = 0, largestSpeed = 0;
+	Vector3r centre = Vector3r::Zero(), momentum = Vector3r::Zero();
+	int      bodies = 0;
+};
+
+class ContactSeam {
+public:
+	/// Reads bodies and real interactions; throws std::runtime_error naming the body where the scene cannot be taken.
+	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads);
+	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
+	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads);
+
+	nonsmooth::contact::Problem problem;
+	std::vector<Link>           links;
+
+private:
+	void gatherBodies(Scene& scene, const Vector3r& gravity);
+	void collect(Scene& scene);
+	void gatherContact(Scene& scene, size_t k);
+	void scatterForces(Scene& scene);
+	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
+	void sumBodies(const Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
+
+	Relaxation                             relaxation { 1, 0, 0 };
+	int                                    threads = 1;
+	long                                   iteration = -1;
+	std::vector<nonsmooth::contact::Twist> before; // velocities at the beginning of the step
+	std::vector<nonsmooth::contact::Twist> external; // force and torque of other engines [N, N m]
+	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body
+	std::vector<char>                      present;
+	std::vector<int>                       bucket;
+	std::vector<Interaction*>              ordered;
+};
+
+} // namespace yade::nscd

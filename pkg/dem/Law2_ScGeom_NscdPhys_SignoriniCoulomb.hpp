@@ -1,0 +1,36 @@
+// The part of the nonsmooth cohesive law that belongs to one contact: does it exist, does its bond live, what are its thresholds.
+//
+// Bond (Taboada and Estrada 2009, section 2.2.2, Figure 2b). At creation the point P_j of body j that is nearest to body i is marked on j,
+// and the place it takes on i is the centre of an ellipse fixed to i, with the half-axes ε_n ℓ along the normal and ε_t ℓ along the
+// tangent of that moment. With d the displacement of P_j from the centre, seen from i, the bond lives while
+//     (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 ,
+// and is lost for good when it leaves; peak strengths hold until then, residual ones from then on. All is computed from positions and
+// rotations, so no error adds up over steps. Deviation: none. Choices where the paper is silent: a bond that has opened in tension
+// keeps its new length under compression (eq. 1 knows no gap); a contact that is not bonded has the residual adhesion while
+// its gap is below adhesionRange; i is the wall, or the body of lower id.
+// The reactions themselves are found by ContactDynamicsEngine for all contacts at once.
+#pragma once
+
+#include "NscdPhys.hpp"
+#include <core/Dispatching.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+namespace yade {
+
+class Law2_ScGeom_NscdPhys_SignoriniCoulomb : public LawFunctor {
+public:
+	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* interaction) override;
+	FUNCTOR2D(ScGeom, NscdPhys);
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS(Law2_ScGeom_NscdPhys_SignoriniCoulomb,LawFunctor,
+R"""(Nonsmooth cohesive contact of rigid bodies: Signorini's condition with a tensile threshold, Coulomb friction and rolling friction, all
+three with a threshold proportional to :math:`F_a+N` (Taboada and Estrada 2009, eqs 1 to 6). This functor follows the bonds and sets the thresholds;
+:yref:`ContactDynamicsEngine` finds the reactions.)""",
+		((Real,reach,0.05,,"A contact without a bond is forgotten when its gap exceeds this distance [ℓ]; keep it at the functors' interactionDetectionFactor − 1, and above the path of a step at the greatest speed."))
+		((Real,adhesionRange,1e-3,,"Gap [ℓ] up to which a contact without a bond counts as touching for the residual tensile strength."))
+	);
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(Law2_ScGeom_NscdPhys_SignoriniCoulomb);
+
+} // namespace yade

@@ -1,0 +1,145 @@
+// The gate of the plugin (libnonsmooth.so): opens nonsmooth_engines.so only if YADE's classes are laid
+// out in memory as the headers said when the plugin was compiled.
+//
+// YADE's layouts depend on its version and on the features it was built with. A plugin compiled for
+// others loads, registers its classes, and corrupts memory later. YADE loads every lib*.so of its library
+// folder and aborts when one fails. So this library always loads; where something differs it leaves
+// the engines out, says why on stderr, and keeps the message for `from yade import nonsmooth`.
+//
+// How a layout is compared: YADE makes an object, sets an attribute by its name as Python does (with the
+// offsets compiled into YADE), and we read the same attribute through our headers (with ours).
+
+#include <lib/factory/ClassFactory.hpp>
+#include <lib/serialization/Serializable.hpp>
+#include <core/Body.hpp>
+#include <core/Interaction.hpp>
+#include <core/Scene.hpp>
+#include <core/State.hpp>
+#include <pkg/common/ElastMat.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/dem/FrictPhys.hpp>
+#include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+#include <dlfcn.h>
+#include <malloc.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+namespace py = boost::python;
+using namespace yade;
+
+const char* const REMEDY = "Build the plugin again for this YADE (scripts/setup.sh).";
+
+// Why the engines were left out; empty when they were loaded.
+std::string& refusal()
+{
+	static std::string reason;
+	return reason;
+}
+
+[[noreturn]] void refuse(const std::string& reason) { throw std::runtime_error(reason); }
+
+void checkVersionAndFeatures()
+{
+	const py::object config  = py::import("yade.config");
+	const std::string version = py::extract<std::string>(config.attr("version"));
+	if (version != NONSMOOTH_YADE_VERSION)
+		refuse("it was built for YADE " NONSMOOTH_YADE_VERSION ", and this is YADE " + version + ".");
+	const std::string features = py::extract<std::string>(py::str(" ").join(config.attr("features")));
+	if (features != NONSMOOTH_YADE_FEATURES)
+		refuse("it was built for a YADE with the features '" NONSMOOTH_YADE_FEATURES "', and this one has '" + features + "'.");
+}
+
+template <class Class> boost::shared_ptr<Serializable> make(const char* name)
+{
+	auto object = boost::static_pointer_cast<Serializable>(ClassFactory::instance().createShared(name));
+	if (malloc_usable_size(object.get()) < sizeof(Class))
+		refuse(std::string("YADE's class ") + name + " is smaller than its header says.");
+	return object;
+}
+
+template <class Class, class Member, class Value> void check(const char* name, const char* attribute, Member Class::*member, Value value)
+{
+	const auto object = make<Class>(name);
+	object->pySetAttr(attribute, py::object(value));
+	if (static_cast<const Class&>(*object).*member != value)
+		refuse(std::string("YADE's ") + name + "." + attribute + " is not where its header says it is in memory.");
+}
+
+// For each class the engines touch: its own first and last attributes of a plain type, so that a member
+// missing or added before them, or in a base class, shows.
+void checkLayout()
+{
+	check("Scene", "dt", &Scene::dt, 0.125);
+	check("Scene", "stopAtTime", &Scene::stopAtTime, 0.375);
+	check("Scene", "selectedBody", &Scene::selectedBody, 321);
+	const auto        scene = make<Scene>("Scene");
+	const std::size_t tags  = static_cast<const Scene&>(*scene).tags.size(); // every new scene has some
+	if (tags < 1 or tags > 1000) refuse("YADE's Scene.tags is not where its header says it is in memory.");
+
+	check("Body", "flags", &Body::flags, 13);
+	check("Body", "clumpId", &Body::clumpId, 77);
+	check("Body", "timeBorn", &Body::timeBorn, 0.625);
+	check("State", "mass", &State::mass, 2.125);
+	check("State", "densityScaling", &State::densityScaling, 3.375);
+	check("Sphere", "highlight", &Sphere::highlight, true);
+	check("Sphere", "radius", &Sphere::radius, 4.625);
+	check("Interaction", "iterMadeReal", &Interaction::iterMadeReal, 987L);
+	check("Interaction", "iterBorn", &Interaction::iterBorn, 654L);
+	check("FrictMat", "density", &FrictMat::density, 5.125);
+	check("FrictMat", "frictionAngle", &FrictMat::frictionAngle, 0.875);
+	check("ScGeom", "penetrationDepth", &ScGeom::penetrationDepth, 6.375);
+	check("FrictPhys", "kn", &FrictPhys::kn, 7.625);
+	check("FrictPhys", "ks", &FrictPhys::ks, 8.125);
+	check("FrictPhys", "tangensOfFrictionAngle", &FrictPhys::tangensOfFrictionAngle, 9.375);
+	check("NewtonIntegrator", "ompThreads", &NewtonIntegrator::ompThreads, 3);
+	check("NewtonIntegrator", "damping", &NewtonIntegrator::damping, 0.0625);
+	check("NewtonIntegrator", "mask", &NewtonIntegrator::mask, 5);
+	check("Ig2_Sphere_Sphere_ScGeom", "label", &Ig2_Sphere_Sphere_ScGeom::label, std::string("probe"));
+	check("Ig2_Sphere_Sphere_ScGeom", "interactionDetectionFactor", &Ig2_Sphere_Sphere_ScGeom::interactionDetectionFactor, 1.5);
+}
+
+void loadEngines()
+{
+	Dl_info here;
+	if (not dladdr(reinterpret_cast<void*>(&loadEngines), &here)) refuse("its folder could not be found.");
+	const std::string path(here.dli_fname);
+	const std::string engines = path.substr(0, path.rfind('/') + 1) + "nonsmooth_engines.so";
+	if (not dlopen(engines.c_str(), RTLD_NOW | RTLD_GLOBAL)) refuse(dlerror());
+}
+
+// Runs when YADE opens this library: after YADE's own libraries, before any class becomes known to Python.
+__attribute__((constructor)) void open()
+{
+	if (not Py_IsInitialized()) {
+		refusal() = "it was loaded outside YADE.";
+		return;
+	}
+	const PyGILState_STATE gil = PyGILState_Ensure();
+	try {
+		checkVersionAndFeatures();
+		checkLayout();
+		loadEngines();
+	} catch (const py::error_already_set&) {
+		PyErr_Print();
+		refusal() = "YADE's classes could not be examined (see the Python error above).";
+	} catch (const std::exception& error) {
+		refusal() = error.what();
+	}
+	if (not refusal().empty()) {
+		refusal() = "the plugin yade-nonsmooth was not loaded: " + refusal() + " " + REMEDY;
+		std::fprintf(stderr, "error: %s\n", refusal().c_str());
+	}
+	PyGILState_Release(gil);
+}
+
+} // namespace
+
+// For yade.nonsmooth: the reason why the engines are missing, or an empty string.
+extern "C" const char* nonsmooth_refusal() { return refusal().c_str(); }

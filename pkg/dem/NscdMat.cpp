@@ -1,0 +1,55 @@
+#include "NscdMat.hpp"
+#include <contact/slip_weakening.hpp>
+#include <core/Omega.hpp>
+#include <lib/high-precision/Constants.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((NscdMat)(SlipWeakeningMat));
+
+void NscdMat::validate() const
+{
+	const auto require = [this](bool good, const char* name, Real value, const char* what) {
+		if (!good)
+			throw std::invalid_argument(getClassName() + " '" + label + "': " + name + " = " + boost::lexical_cast<string>(value) + ", it must be " + what);
+	};
+	require(tensileStrength >= 0, "tensileStrength", tensileStrength, "0 or more [Pa]");
+	require(residualTensileStrength >= 0, "residualTensileStrength", residualTensileStrength, "0 or more [Pa]");
+	require(frictionAngle >= 0 && frictionAngle < Mathr::PI / 2, "frictionAngle", frictionAngle, "from 0 to below π/2 [rad]");
+	require(residualFrictionAngle < Mathr::PI / 2, "residualFrictionAngle", residualFrictionAngle, "below π/2 [rad], or negative for the peak value");
+	require(rollingFriction >= 0, "rollingFriction", rollingFriction, "0 or more");
+	require(bondEllipseNormal > 0, "bondEllipseNormal", bondEllipseNormal, "positive (units of ℓ)");
+	require(bondEllipseTangential > 0, "bondEllipseTangential", bondEllipseTangential, "positive (units of ℓ)");
+	require(bondCreationDistance >= 0, "bondCreationDistance", bondCreationDistance, "0 or more (units of ℓ)");
+	require(restitution >= 0 && restitution <= 1, "restitution", restitution, "from 0 to 1");
+}
+
+Real SlipWeakeningMat::remaining(Body::id_t id) const
+{
+	const Real left = nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);
+	return weakenedFraction + (1 - weakenedFraction) * left;
+}
+
+void SlipWeakeningMat::addSlip(Body::id_t id, Real distance)
+{
+	if (id >= (Body::id_t)slip.size()) slip.resize(id + 1, 0.);
+	slip[id] += distance;
+}
+
+int SlipWeakeningMat::weakenedCount() const
+{
+	return (int)std::count_if(slip.begin(), slip.end(), [this](Real s) { return s >= criticalSlip; });
+}
+
+Real SlipWeakeningMat::meanSlip() const
+{
+	Real sum = 0;
+	int  count = 0;
+	for (const Real s : slip) {
+		sum += s;
+		count += s > 0;
+	}
+	return count > 0 ? sum / count : 0;
+}
+
+} // namespace yade

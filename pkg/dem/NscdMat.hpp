@@ -1,0 +1,73 @@
+// Materials of nonsmooth contact dynamics (NSCD): strengths of a contact, no stiffness.
+#pragma once
+
+#include <core/Body.hpp>
+#include <pkg/common/ElastMat.hpp>
+
+namespace yade {
+
+class NscdMat : public FrictMat {
+public:
+	virtual ~NscdMat() = default;
+	/// Checks the strengths; throws std::invalid_argument naming the attribute, its value and what would do.
+	void validate() const;
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdMat,FrictMat,
+R"""(Material of rigid particles with cohesive bonds, after Taboada and Estrada (2009), section 2.2 and Table 1. A contact of two such
+materials resists separation up to :math:`F_a=\sigma\ell`, sliding up to :math:`\mu_s(F_a+N)` and rolling up to
+:math:`\mu_r\ell(F_a+N)`, with :math:`\ell` the mean diameter (the disk's diameter at a wall). Stiffnesses (``young``, ``poisson``) are
+not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that of a bond; a negative residual value stands for "as the peak".)""",
+		((Real,tensileStrength,0,,"Tensile strength of a bond, σ_ext [Pa]; in two dimensions force per contact and metre of thickness is σ_ext ℓ."))
+		((Real,residualTensileStrength,0,,"Tensile strength σ_res [Pa] of a touching contact that is not bonded, between bodies of one :yref:`layer<NscdMat.layer>`."))
+		((Real,residualFrictionAngle,-1,,"Friction angle [rad] of a contact that is not bonded; negative: as frictionAngle."))
+		((Real,rollingFriction,0,,"Rolling friction μ_r [-] of a bond: arm of the resisting torque in units of ℓ (eq. 6)."))
+		((Real,residualRollingFriction,-1,,"Rolling friction [-] of a contact that is not bonded; negative: as rollingFriction."))
+		((Real,bondEllipseNormal,0.02,,"Half-axis ε_n of the ellipse in which a bond lives, along the contact normal [ℓ] (Figure 2b)."))
+		((Real,bondEllipseTangential,0.02,,"Half-axis ε_t of the ellipse along the tangent [ℓ]."))
+		((Real,bondCreationDistance,0.01,,"Bonds are made where the gap is below this distance Δ [ℓ] (Figure 2a), see :yref:`ContactDynamicsEngine.bond`."))
+		((Real,restitution,0,,"Newton's coefficient of restitution e [-], between 0 and 1; the larger of the two bodies' holds."))
+		((int,layer,0,,"Bonds and residual tensile strength exist only between bodies of the same layer; see bondsToAll for walls."))
+		((bool,bondsToAll,false,,"Make bonds with bodies of any layer (for walls, section 5.1)."))
+		((bool,wall,false,,"This material's strengths alone rule a contact with it (section 3.3); otherwise the weaker of the two values holds."))
+		,
+		createIndex();
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(NscdMat, FrictMat);
+};
+REGISTER_SERIALIZABLE(NscdMat);
+
+/// Wall whose strength is a function of slip; keeps the slip of every body along it, over all its segments.
+class SlipWeakeningMat : public NscdMat {
+public:
+	virtual ~SlipWeakeningMat() = default;
+	/// What is left of the strength of the contact with body `id`: 1 is all, 0 is none.
+	Real remaining(Body::id_t id) const;
+	Real slipOf(Body::id_t id) const { return id < (Body::id_t)slip.size() ? slip[id] : 0; }
+	void addSlip(Body::id_t id, Real distance);
+	int  weakenedCount() const;
+	Real meanSlip() const;
+	void forgetSlip() { slip.clear(); }
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningMat,NscdMat,
+R"""(Material of a wall that loses strength as bodies slip along it (Taboada and Estrada 2009, section 5.3). Friction, rolling friction and
+cohesion of a contact are multiplied by a function of the distance that the body has slipped along this wall, counted over all bodies
+that share this material object, so that it survives the joints of a polyline.)""",
+		((Real,criticalSlip,5,,"Slip D_c [m] at which the strength is lost."))
+		((string,weakening,"step",,"Function of slip: 'step' (the paper's: all, then none from D_c on), 'linear' (to none at D_c) or 'exponential' (exp(−slip/D_c))."))
+		((Real,weakenedFraction,0,,"Fraction of the strength that is left in the end [-]."))
+		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each body along this wall [m], by body id."))
+		,
+		createIndex(); wall=true;
+		,
+		.def("slipOf",&SlipWeakeningMat::slipOf,(boost::python::arg("id")),"Distance [m] that the body has slipped along this wall.")
+		.def("forgetSlip",&SlipWeakeningMat::forgetSlip,"Set the slip of all bodies to zero.")
+		.def("weakenedCount",&SlipWeakeningMat::weakenedCount,"Number of bodies that slipped further than criticalSlip.")
+		.def("meanSlip",&SlipWeakeningMat::meanSlip,"Mean slip [m] of the bodies that have touched this wall.")
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(SlipWeakeningMat, NscdMat);
+};
+REGISTER_SERIALIZABLE(SlipWeakeningMat);
+
+} // namespace yade

@@ -1,0 +1,73 @@
+#include "NscdPhys.hpp"
+#include <boost/make_shared.hpp>
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+#include <pkg/common/Sphere.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((NscdPhys)(SlipWeakeningPhys)(Ip2_NscdMat_NscdMat_NscdPhys));
+
+void NscdPhys::updateThresholds(Real gap, Real left, Real adhesionRange)
+{
+	const bool touching = gap <= adhesionRange * length;
+	adhesion            = left * (bonded ? tensileForce : (touching ? residualTensileForce : 0));
+	currentFriction     = left * (bonded ? friction : residualFriction);
+	currentRollingArm   = left * (bonded ? rollingArm : residualRollingArm);
+	tangensOfFrictionAngle = currentFriction;
+}
+
+namespace nscd {
+	/// Mean diameter of the spheres of an interaction [m]; the sphere's own where the other body is a wall.
+	inline Real meanDiameter(const Body& b1, const Body& b2)
+	{
+		const auto* s1 = dynamic_cast<const Sphere*>(b1.shape.get());
+		const auto* s2 = dynamic_cast<const Sphere*>(b2.shape.get());
+		if (s1 && s2) return s1->radius + s2->radius;
+		if (s1 || s2) return 2 * (s1 ? s1 : s2)->radius;
+		throw std::invalid_argument("Ip2_NscdMat_NscdMat_NscdPhys: one of two bodies in contact must be a Sphere");
+	}
+	inline Real residual(Real value, Real peak) { return value < 0 ? peak : value; }
+}
+
+void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
+{
+	if (interaction->phys) return;
+	const auto &a = static_cast<const NscdMat&>(*m1), &b = static_cast<const NscdMat&>(*m2);
+	a.validate();
+	b.validate();
+	const bool wallA = a.wall, wallB = b.wall;
+
+	shared_ptr<NscdPhys> phys;
+	const auto           weakA = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1), weakB = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
+	if (weakA || weakB) {
+		auto weak          = boost::make_shared<SlipWeakeningPhys>();
+		weak->wallMaterial = weakA ? weakA : weakB;
+		weak->body         = weakA ? interaction->getId2() : interaction->getId1();
+		phys               = weak;
+	} else
+		phys = boost::make_shared<NscdPhys>();
+
+	// a wall's own value, or the weaker of two particles'
+	const auto pick = [&](Real va, Real vb) { return wallA ? va : (wallB ? vb : std::min(va, vb)); };
+	const bool sameLayer = a.layer == b.layer, anyWall = wallA || wallB;
+	const Real length = nscd::meanDiameter(*Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
+
+	phys->length               = length;
+	phys->tensileForce         = length * pick(a.tensileStrength, b.tensileStrength);
+	phys->residualTensileForce = (sameLayer || anyWall) ? length * pick(a.residualTensileStrength, b.residualTensileStrength) : 0;
+	phys->friction             = pick(std::tan(a.frictionAngle), std::tan(b.frictionAngle));
+	phys->residualFriction     = pick(
+                std::tan(nscd::residual(a.residualFrictionAngle, a.frictionAngle)), std::tan(nscd::residual(b.residualFrictionAngle, b.frictionAngle)));
+	phys->rollingArm         = length * pick(a.rollingFriction, b.rollingFriction);
+	phys->residualRollingArm = length
+	        * pick(nscd::residual(a.residualRollingFriction, a.rollingFriction), nscd::residual(b.residualRollingFriction, b.rollingFriction));
+	phys->restitution       = std::max(a.restitution, b.restitution);
+	phys->ellipseNormal     = length * pick(a.bondEllipseNormal, b.bondEllipseNormal);
+	phys->ellipseTangential = length * pick(a.bondEllipseTangential, b.bondEllipseTangential);
+	phys->creationDistance  = length * pick(a.bondCreationDistance, b.bondCreationDistance);
+	phys->bondable          = a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer);
+	interaction->phys       = phys;
+}
+
+} // namespace yade

@@ -1,0 +1,92 @@
+// State of a nonsmooth cohesive contact, and the functor that makes it from two materials.
+#pragma once
+
+#include "NscdMat.hpp"
+#include <core/Dispatching.hpp>
+#include <pkg/dem/FrictPhys.hpp>
+
+namespace yade {
+
+class NscdPhys : public FrictPhys {
+public:
+	/// How a bond ended; None while it lives and where there was none.
+	enum Mode { None = 0, Tension, Shear, Torque, Mixed };
+
+	virtual ~NscdPhys() = default;
+	/// F_a [N], μ_s and μ_r ℓ [m] of the next step, for a gap [m] and what slip has left of the strength.
+	void updateThresholds(Real gap, Real remaining, Real adhesionRange);
+	/// What slip has left of the strength: 1 for a contact without slip weakening.
+	virtual Real remaining() const { return 1; }
+	virtual void addSlip(Real) { }
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdPhys,FrictPhys,
+R"""(Contact of two :yref:`NscdMats<NscdMat>`: reactions of the last step, thresholds, and the bond. Forces act on the second body;
+:yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the averages over the last step.)""",
+		((Real,length,0,Attr::readonly,"Mean diameter ℓ [m] of the two bodies; the disk's diameter at a wall."))
+		((Real,normal,0,,"Normal reaction N [N], compression positive."))
+		((Real,tangential,0,,"Tangential reaction T [N], along the contact normal (from the body of lower id) turned by +90°."))
+		((Real,torque,0,,"Rolling reaction Γ [N m] on the body of higher id, counter-clockwise positive."))
+		((Real,tensileForce,0,,"F_a of a bond [N] (eq. 2)."))
+		((Real,residualTensileForce,0,,"F_a of a touching contact that is not bonded [N]."))
+		((Real,friction,0,,"μ_s of a bond."))
+		((Real,residualFriction,0,,"μ_s of a contact that is not bonded."))
+		((Real,rollingArm,0,,"μ_r ℓ of a bond [m]."))
+		((Real,residualRollingArm,0,,"μ_r ℓ of a contact that is not bonded [m]."))
+		((Real,restitution,0,,"Coefficient of restitution."))
+		((Real,ellipseNormal,0,,"ε_n ℓ [m]."))
+		((Real,ellipseTangential,0,,"ε_t ℓ [m]."))
+		((Real,creationDistance,0,,"Δ ℓ [m]."))
+		((bool,bondable,false,,"A bond may be made here on request."))
+		((bool,bonded,false,,"A bond holds."))
+		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque, 4 mixed."))
+		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did."))
+		((Vector3r,anchor1,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Centre of the bond's ellipse, in the frame of the body of lower id (a wall where there is one)."))
+		((Vector3r,anchor2,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"The material point that must stay in the ellipse, in the frame of the other body."))
+		((Vector3r,axis,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Normal axis of the ellipse in the frame of the first of the two."))
+		((Real,restGap,0,(Attr::readonly|Attr::hidden),"Gap [m] that a bond keeps unless it yields in tension."))
+		((bool,yielded,false,(Attr::readonly|Attr::hidden),"The bond yielded in tension in the last step."))
+		((Vector3r,yieldPath,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Path [m] yielded in tension, shear and rolling, by which a break is classified."))
+		((Real,adhesion,0,(Attr::readonly|Attr::noSave),"F_a [N] in force."))
+		((Real,currentFriction,0,(Attr::readonly|Attr::noSave),"μ_s in force."))
+		((Real,currentRollingArm,0,(Attr::readonly|Attr::noSave),"μ_r ℓ in force [m]."))
+		,
+		createIndex();
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(NscdPhys, FrictPhys);
+};
+REGISTER_SERIALIZABLE(NscdPhys);
+
+class SlipWeakeningPhys : public NscdPhys {
+public:
+	virtual ~SlipWeakeningPhys() = default;
+	Real remaining() const override { return wallMaterial->remaining(body); }
+	void addSlip(Real distance) override { wallMaterial->addSlip(body, distance); }
+	// clang-format off
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningPhys,NscdPhys,
+R"""(Contact of a body with a wall of :yref:`SlipWeakeningMat`: its strength is a function of the body's slip along that wall.)""",
+		((shared_ptr<SlipWeakeningMat>,wallMaterial,,Attr::readonly,"The wall's material, which keeps the slip."))
+		((Body::id_t,body,-1,Attr::readonly,"The body that slips."))
+		,
+		createIndex();
+		,
+		.add_property("slip",+[](const SlipWeakeningPhys& p) { return p.wallMaterial ? p.wallMaterial->slipOf(p.body) : 0; },"Slip [m] of the body along the wall.")
+	);
+	// clang-format on
+	REGISTER_CLASS_INDEX(SlipWeakeningPhys, NscdPhys);
+};
+REGISTER_SERIALIZABLE(SlipWeakeningPhys);
+
+class Ip2_NscdMat_NscdMat_NscdPhys : public IPhysFunctor {
+public:
+	void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction) override;
+	FUNCTOR2D(NscdMat, NscdMat);
+	// clang-format off
+	YADE_CLASS_BASE_DOC(Ip2_NscdMat_NscdMat_NscdPhys,IPhysFunctor,
+R"""(Make a :yref:`NscdPhys` from two :yref:`NscdMats<NscdMat>`, or a :yref:`SlipWeakeningPhys` where one is a :yref:`SlipWeakeningMat`.
+Between particles the weaker of two values holds; at a wall the wall's strengths hold alone (Taboada and Estrada 2009, section 3.3).)""");
+	// clang-format on
+};
+REGISTER_SERIALIZABLE(Ip2_NscdMat_NscdMat_NscdPhys);
+
+} // namespace yade

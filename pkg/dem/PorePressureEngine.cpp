@@ -1,0 +1,62 @@
+#include "PorePressureEngine.hpp"
+#include "Gravity.hpp"
+#include <core/Scene.hpp>
+#include <lib/high-precision/Constants.hpp>
+#include <pkg/common/Sphere.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((PorePressureEngine));
+
+Real PorePressureEngine::heightAt(Real time) const
+{
+	if (times.size() != heights.size())
+		throw std::invalid_argument(
+		        "PorePressureEngine: times has " + std::to_string(times.size()) + " entries and heights " + std::to_string(heights.size())
+		        + ": give as many of both");
+	if (times.empty()) return 0;
+	if (!std::is_sorted(times.begin(), times.end())) throw std::invalid_argument("PorePressureEngine: times must rise");
+	if (time <= times.front()) return heights.front();
+	if (time >= times.back()) return heights.back();
+	const size_t k = std::upper_bound(times.begin(), times.end(), time) - times.begin();
+	return heights[k - 1] + (heights[k] - heights[k - 1]) * (time - times[k - 1]) / (times[k] - times[k - 1]);
+}
+
+void PorePressureEngine::action()
+{
+	const Vector3r gravity  = nscd::gravityOf(*scene);
+	const Vector3r normal   = planeNormal.normalized();
+	const Real     cosDip   = gravity.norm() > 0 ? -gravity.normalized().dot(normal) : 1;
+	const Vector3r down     = gravity - gravity.dot(normal) * normal;
+	const Vector3r downhill = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized()) : Vector3r(Vector3r::Zero());
+	const Vector3r gradient = unitWeight * cosDip * volumeFactor * normal;
+	height                  = heightAt(scene->time);
+	wetCount                = 0;
+	releasedCount           = 0;
+	totalForce              = Vector3r::Zero();
+
+	const size_t size = scene->bodies->size();
+	released.resize(size, 0);
+	wet.assign(size, 0);
+	for (size_t id = reference.size(); id < size; ++id) {
+		const auto& body = (*scene->bodies)[id];
+		reference.push_back(body ? body->state->pos : Vector3r(Vector3r::Zero()));
+	}
+	for (const auto& body : *scene->bodies) {
+		if (!body || !body->isDynamic() || (mask != 0 && !body->maskOk(mask))) continue;
+		const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get());
+		if (!sphere) continue;
+		const auto      id  = body->getId();
+		const Vector3r& pos = body->state->pos;
+		if (!released[id] && (pos - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
+		releasedCount += released[id];
+		if (released[id] || height <= 0 || (pos - planePoint).dot(normal) >= height) continue;
+		const Vector3r force = gradient * (Mathr::PI * sphere->radius * sphere->radius * thickness);
+		scene->forces.addForce(id, force);
+		wet[id] = 1;
+		++wetCount;
+		totalForce += force;
+	}
+}
+
+} // namespace yade
