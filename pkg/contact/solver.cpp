@@ -207,7 +207,7 @@ namespace {
 	{
 		const bool accelerated = settings.method == Method::Accelerated;
 		double     theta = 1, beta = 0;
-		int        restarts = 0, iteration = 0;
+		int        restarts = 0, iteration = 0, sinceRestart = 0;
 		const long bodies = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
 		for (long b = 0; b < bodies; ++b)
@@ -221,10 +221,11 @@ namespace {
 				double turn = 0;
 				for (const double s : sums)
 					turn += s;
-				if (turn > 0) {
+				if (turn > 0 || ++sinceRestart >= settings.restartPeriod) {
 					restarts += theta > 1;
-					theta = 1;
-					beta  = 0;
+					theta        = 1;
+					beta         = 0;
+					sinceRestart = 0;
 				} else {
 					const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
 					beta              = (theta - 1) / next;

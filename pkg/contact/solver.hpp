@@ -5,7 +5,8 @@
 // The accelerated method starts every sweep from
 //     y_k = P_k + β_k (P_k − P_{k−1}),   β_k = (θ_k − 1)/θ_{k+1},   θ_{k+1} = (1 + √(1 + 4 θ_k²))/2
 // (Nesterov 1983) and sets θ = 1 again when the step turns against the momentum, (y_k − P_{k+1})·W (P_{k+1} − P_k) > 0
-// (O'Donoghue and Candès 2015). Colours make the sweep independent of the number of threads; sums are added in a fixed order.
+// (O'Donoghue and Candès 2015), or after restartPeriod sweeps: in moving packings, where the status of many contacts changes, the
+// test alone lets the momentum swing around the solution. Colours make the sweep independent of the number of threads; sums are added in a fixed order.
 #pragma once
 
 #include <contact/problem.hpp>
@@ -20,6 +21,7 @@ struct SolverSettings {
 	double tolerance     = 1e-4; // on Residual::relative()
 	int    maxIterations = 1000;
 	int    checkEvery    = 5; // sweeps between two residuals
+	int    restartPeriod = 60; // sweeps after which the extrapolation begins anew in any case
 	int    threads       = 1;
 };
 

@@ -23,7 +23,10 @@ public:
 	int bond();
 	/// Ends all bonds without counting them as broken; returns how many.
 	int  unbond();
+	/// Takes the strengths of all contacts from the materials anew.
+	void updateStrengths();
 	void forgetEnergies();
+	void dumpRaw(const string& path) const;
 	boost::python::dict energies() const;
 	boost::python::object bodyTable() const;
 	boost::python::object contactTable() const;
@@ -80,6 +83,8 @@ contactImpact (dissipated) and contactCorrection. The same scene gives the same 
 		,
 		.def("bond",&ContactDynamicsEngine::bond,"Make a bond wherever two bodies of one layer (or a wall that bonds to all and a body) have a gap below bondCreationDistance; run a step first, so that interactions exist. Returns the number made.")
 		.def("unbond",&ContactDynamicsEngine::unbond,"Remove all bonds. Returns their number.")
+		.def("dumpRaw",&ContactDynamicsEngine::dumpRaw)
+		.def("updateStrengths",&ContactDynamicsEngine::updateStrengths,"Take the strengths of all present contacts from the bodies' materials anew (they are copied when a contact is made); bonds and reactions stay.")
 		.def("forgetEnergies",&ContactDynamicsEngine::forgetEnergies,"Begin the energy balance anew.")
 		.def("energies",&ContactDynamicsEngine::energies,"All energies of the balance as a dictionary [J].")
 		.def("bodyTable",&ContactDynamicsEngine::bodyTable,"Spheres as bytes of doubles in rows (id, x, y, r, angle, vx, vy, omega); see :yref:`yade.nonsmooth.tables`.")

@@ -26,8 +26,7 @@ void NscdMat::validate() const
 
 Real SlipWeakeningMat::remaining(Body::id_t id) const
 {
-	const Real left = nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);
-	return weakenedFraction + (1 - weakenedFraction) * left;
+	return nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);
 }
 
 void SlipWeakeningMat::addSlip(Body::id_t id, Real distance)

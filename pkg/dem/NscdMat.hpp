@@ -41,7 +41,7 @@ REGISTER_SERIALIZABLE(NscdMat);
 class SlipWeakeningMat : public NscdMat {
 public:
 	virtual ~SlipWeakeningMat() = default;
-	/// What is left of the strength of the contact with body `id`: 1 is all, 0 is none.
+	/// What is left of the strength that slip takes away, for body `id`: 1 is all, 0 is none.
 	Real remaining(Body::id_t id) const;
 	Real slipOf(Body::id_t id) const { return id < (Body::id_t)slip.size() ? slip[id] : 0; }
 	void addSlip(Body::id_t id, Real distance);
@@ -50,12 +50,14 @@ public:
 	void forgetSlip() { slip.clear(); }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningMat,NscdMat,
-R"""(Material of a wall that loses strength as bodies slip along it (Taboada and Estrada 2009, section 5.3). Friction, rolling friction and
-cohesion of a contact are multiplied by a function of the distance that the body has slipped along this wall, counted over all bodies
-that share this material object, so that it survives the joints of a polyline.)""",
+R"""(Material of a wall that loses strength as bodies slip along it (Taboada and Estrada 2009, section 5.3). Friction and cohesion of a
+contact fall to the weakened values as a function of the distance that the body has slipped along this wall, counted over all bodies that
+share this material object, so that it survives the joints of a polyline. Rolling friction stays, with the threshold that cohesion
+leaves it.)""",
 		((Real,criticalSlip,5,,"Slip D_c [m] at which the strength is lost."))
 		((string,weakening,"step",,"Function of slip: 'step' (the paper's: all, then none from D_c on), 'linear' (to none at D_c) or 'exponential' (exp(−slip/D_c))."))
-		((Real,weakenedFraction,0,,"Fraction of the strength that is left in the end [-]."))
+		((Real,weakenedFrictionAngle,0,,"Friction angle [rad] that is left in the end."))
+		((Real,weakenedTensileStrength,0,,"Tensile strength [Pa] that is left in the end."))
 		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each body along this wall [m], by body id."))
 		,
 		createIndex(); wall=true;

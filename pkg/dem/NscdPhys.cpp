@@ -8,12 +8,22 @@ namespace yade {
 
 YADE_PLUGIN((NscdPhys)(SlipWeakeningPhys)(Ip2_NscdMat_NscdMat_NscdPhys));
 
-void NscdPhys::updateThresholds(Real gap, Real left, Real adhesionRange)
+void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 {
-	const bool touching = gap <= adhesionRange * length;
-	adhesion            = left * (bonded ? tensileForce : (touching ? residualTensileForce : 0));
-	currentFriction     = left * (bonded ? friction : residualFriction);
-	currentRollingArm   = left * (bonded ? rollingArm : residualRollingArm);
+	const bool touching    = gap <= adhesionRange * length;
+	adhesion               = bonded ? tensileForce : (touching ? residualTensileForce : 0);
+	currentFriction        = bonded ? friction : residualFriction;
+	currentRollingArm      = bonded ? rollingArm : residualRollingArm;
+	tangensOfFrictionAngle = currentFriction;
+}
+
+void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)
+{
+	NscdPhys::updateThresholds(gap, adhesionRange);
+	const Real left      = wallMaterial->remaining(body);
+	const auto weakened  = [left](Real strong, Real weak) { return strong > weak ? weak + (strong - weak) * left : strong; };
+	adhesion             = weakened(adhesion, wallMaterial->weakenedTensileStrength * length);
+	currentFriction      = weakened(currentFriction, std::tan(wallMaterial->weakenedFrictionAngle));
 	tangensOfFrictionAngle = currentFriction;
 }
 
@@ -33,41 +43,43 @@ namespace nscd {
 void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
 {
 	if (interaction->phys) return;
-	const auto &a = static_cast<const NscdMat&>(*m1), &b = static_cast<const NscdMat&>(*m2);
-	a.validate();
-	b.validate();
-	const bool wallA = a.wall, wallB = b.wall;
-
 	shared_ptr<NscdPhys> phys;
-	const auto           weakA = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1), weakB = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
-	if (weakA || weakB) {
+	const auto           weak1 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1), weak2 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
+	if (weak1 || weak2) {
 		auto weak          = boost::make_shared<SlipWeakeningPhys>();
-		weak->wallMaterial = weakA ? weakA : weakB;
-		weak->body         = weakA ? interaction->getId2() : interaction->getId1();
+		weak->wallMaterial = weak1 ? weak1 : weak2;
+		weak->body         = weak1 ? interaction->getId2() : interaction->getId1();
 		phys               = weak;
 	} else
 		phys = boost::make_shared<NscdPhys>();
+	setStrengths(*phys, *Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
+	interaction->phys = phys;
+}
 
+void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, const Body& b2)
+{
+	const auto &a = static_cast<const NscdMat&>(*b1.material), &b = static_cast<const NscdMat&>(*b2.material);
+	a.validate();
+	b.validate();
 	// a wall's own value, or the weaker of two particles'
-	const auto pick = [&](Real va, Real vb) { return wallA ? va : (wallB ? vb : std::min(va, vb)); };
-	const bool sameLayer = a.layer == b.layer, anyWall = wallA || wallB;
-	const Real length = nscd::meanDiameter(*Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
+	const auto pick      = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
+	const bool sameLayer = a.layer == b.layer, anyWall = a.wall || b.wall;
+	const Real length    = nscd::meanDiameter(b1, b2);
 
-	phys->length               = length;
-	phys->tensileForce         = length * pick(a.tensileStrength, b.tensileStrength);
-	phys->residualTensileForce = (sameLayer || anyWall) ? length * pick(a.residualTensileStrength, b.residualTensileStrength) : 0;
-	phys->friction             = pick(std::tan(a.frictionAngle), std::tan(b.frictionAngle));
-	phys->residualFriction     = pick(
+	phys.length               = length;
+	phys.tensileForce         = length * pick(a.tensileStrength, b.tensileStrength);
+	phys.residualTensileForce = (sameLayer || anyWall) ? length * pick(a.residualTensileStrength, b.residualTensileStrength) : 0;
+	phys.friction             = pick(std::tan(a.frictionAngle), std::tan(b.frictionAngle));
+	phys.residualFriction     = pick(
                 std::tan(nscd::residual(a.residualFrictionAngle, a.frictionAngle)), std::tan(nscd::residual(b.residualFrictionAngle, b.frictionAngle)));
-	phys->rollingArm         = length * pick(a.rollingFriction, b.rollingFriction);
-	phys->residualRollingArm = length
+	phys.rollingArm         = length * pick(a.rollingFriction, b.rollingFriction);
+	phys.residualRollingArm = length
 	        * pick(nscd::residual(a.residualRollingFriction, a.rollingFriction), nscd::residual(b.residualRollingFriction, b.rollingFriction));
-	phys->restitution       = std::max(a.restitution, b.restitution);
-	phys->ellipseNormal     = length * pick(a.bondEllipseNormal, b.bondEllipseNormal);
-	phys->ellipseTangential = length * pick(a.bondEllipseTangential, b.bondEllipseTangential);
-	phys->creationDistance  = length * pick(a.bondCreationDistance, b.bondCreationDistance);
-	phys->bondable          = a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer);
-	interaction->phys       = phys;
+	phys.restitution       = std::max(a.restitution, b.restitution);
+	phys.ellipseNormal     = length * pick(a.bondEllipseNormal, b.bondEllipseNormal);
+	phys.ellipseTangential = length * pick(a.bondEllipseTangential, b.bondEllipseTangential);
+	phys.creationDistance  = length * pick(a.bondCreationDistance, b.bondCreationDistance);
+	phys.bondable          = a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer);
 }
 
 } // namespace yade

@@ -13,10 +13,8 @@ public:
 	enum Mode { None = 0, Tension, Shear, Torque, Mixed };
 
 	virtual ~NscdPhys() = default;
-	/// F_a [N], μ_s and μ_r ℓ [m] of the next step, for a gap [m] and what slip has left of the strength.
-	void updateThresholds(Real gap, Real remaining, Real adhesionRange);
-	/// What slip has left of the strength: 1 for a contact without slip weakening.
-	virtual Real remaining() const { return 1; }
+	/// Sets F_a [N], μ_s and μ_r ℓ [m] of the next step for a gap [m]; adhesionRange in units of ℓ.
+	virtual void updateThresholds(Real gap, Real adhesionRange);
 	virtual void addSlip(Real) { }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdPhys,FrictPhys,
@@ -60,7 +58,7 @@ REGISTER_SERIALIZABLE(NscdPhys);
 class SlipWeakeningPhys : public NscdPhys {
 public:
 	virtual ~SlipWeakeningPhys() = default;
-	Real remaining() const override { return wallMaterial->remaining(body); }
+	void updateThresholds(Real gap, Real adhesionRange) override;
 	void addSlip(Real distance) override { wallMaterial->addSlip(body, distance); }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningPhys,NscdPhys,
@@ -81,6 +79,8 @@ class Ip2_NscdMat_NscdMat_NscdPhys : public IPhysFunctor {
 public:
 	void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction) override;
 	FUNCTOR2D(NscdMat, NscdMat);
+	/// Sets strengths and lengths of a contact from the materials of its bodies; bond and reactions stay.
+	static void setStrengths(NscdPhys& phys, const Body& b1, const Body& b2);
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Ip2_NscdMat_NscdMat_NscdPhys,IPhysFunctor,
 R"""(Make a :yref:`NscdPhys` from two :yref:`NscdMats<NscdMat>`, or a :yref:`SlipWeakeningPhys` where one is a :yref:`SlipWeakeningMat`.

@@ -1,0 +1,28 @@
+# ctest: the solver's tests, those that run in YADE, and (Documentation.cmake) the documentation.
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+file(GLOB contact_tests CONFIGURE_DEPENDS tests/contact/*.cpp)
+if(contact_tests)
+    add_executable(contact_tests ${contact_tests})
+    target_link_libraries(contact_tests PRIVATE nonsmooth_contact nonsmooth_flags GTest::gtest GTest::gtest_main)
+    target_include_directories(contact_tests PRIVATE tests/contact)
+    gtest_discover_tests(contact_tests DISCOVERY_TIMEOUT 60 PROPERTIES LABELS contact TIMEOUT 600)
+endif()
+
+if(NONSMOOTH_PLUGIN)
+    # A gate whose class layout is wrong on purpose, as if the macros had been guessed: the gate must
+    # notice (tests/yade/test_load.py).
+    nonsmooth_gate(nonsmooth_gate_wrong)
+    set_target_properties(nonsmooth_gate_wrong PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/wrong_layout")
+    if("QT5" IN_LIST YADE_FEATURES)
+        target_compile_options(nonsmooth_gate_wrong PRIVATE -UYADE_OPENGL)
+    else()
+        target_compile_options(nonsmooth_gate_wrong PRIVATE -DYADE_OPENGL)
+    endif()
+
+    # pytest runs inside YADE: the tests see YADE as its users' scripts do.
+    add_test(NAME yade COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth" "${CMAKE_SOURCE_DIR}/tests/yade/run_pytest.py")
+    set_tests_properties(yade PROPERTIES LABELS yade TIMEOUT 3600 RUN_SERIAL ON
+        ENVIRONMENT "NONSMOOTH_BUILD=${CMAKE_BINARY_DIR}")
+endif()

@@ -1,0 +1,267 @@
+"""Forces: the chains in the slope at rest (Figure 8) and the sums on its walls against time (Figure 12)."""
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon, Rectangle
+
+from . import style
+from .style import COMPRESSION, INK, LINES, TENSION
+
+MEGA = 1e6
+
+
+def _bars(snapshot, chosen, reference, width):
+    """Corners (C, 4, 2) of bars from centre to centre (or to a wall's contact point), ``width`` wide at ``reference``."""
+    i, j = snapshot.ci[chosen], snapshot.cj[chosen]
+    a = np.column_stack([snapshot.x[i], snapshot.y[i]])
+    wall = j < 0
+    b = np.column_stack([snapshot.x[j], snapshot.y[j]])
+    b[wall] = np.column_stack([snapshot.cx[chosen], snapshot.cy[chosen]])[wall]
+    along = b - a
+    across = np.column_stack([-along[:, 1], along[:, 0]]) / np.maximum(np.hypot(*along.T), 1e-12)[:, None]
+    half = across * (0.5 * width * np.abs(snapshot.cn[chosen]) / reference)[:, None]
+    return np.stack([a - half, b - half, b + half, a + half], axis=1)
+
+
+def _close_up(ax, snapshot, walls, box, reference, width, outline):
+    """One window of the slope: disks as outlines, normal forces as bars."""
+    x0, x1, y0, y1 = box
+    style.frame(ax, *box)
+    for spine in ax.spines.values():
+        spine.set_visible(True)
+    style.draw_walls(ax, walls, size=11, width=2)
+    reach = 2 * snapshot.r.max()
+    seen = (np.abs(snapshot.x - (x0 + x1) / 2) < (x1 - x0) / 2 + reach) & (
+        np.abs(snapshot.y - (y0 + y1) / 2) < (y1 - y0) / 2 + reach
+    )
+    pale = 0.30 * style.layer_colours(snapshot.layer) + 0.70
+    pale[:, 3] = 1
+    style.draw_disks(ax, snapshot, pale, seen, edge="#8f8a80", width=outline)
+    chosen = np.flatnonzero(seen[snapshot.ci])
+    for sign, colour, z in ((1, COMPRESSION, 3), (-1, TENSION, 3.5)):
+        bars = chosen[sign * snapshot.cn[chosen] > 0]
+        ax.add_collection(
+            PolyCollection(
+                _bars(snapshot, bars, reference, width), facecolors=colour, edgecolors=colour if sign < 0 else "none",
+                linewidths=0.35 if sign < 0 else 0, zorder=z, rasterized=True,
+            ),
+            autolim=False,
+        )  # fmt: skip
+
+
+def _force_scale(ax, reference, width):
+    """Bars of round forces, drawn as wide as in the window, in its lower left corner, below DP."""
+    x0, x1 = ax.get_xlim()
+    y0, y1 = ax.get_ylim()
+    forces = [style.nice(reference)]
+    while len(forces) < 3:
+        forces.append(style.nice(0.6 * forces[-1]))
+    length, pitch = 0.09 * (x1 - x0), 0.075 * (y1 - y0)
+    ax.text(0.02, 0.30, "normal force", transform=ax.transAxes, va="top", fontsize=9, zorder=9)
+    for k, force in enumerate(forces):
+        y = y0 + 0.2 * (y1 - y0) - k * pitch
+        w = width * force / reference
+        ax.add_patch(Rectangle((x0 + 0.02 * (x1 - x0), y - w / 2), length, w, color=COMPRESSION, lw=0, zorder=9))
+        ax.text(
+            x0 + 0.13 * (x1 - x0), y, f"{force / MEGA:g} MN/m", va="center", fontsize=9, color=INK, zorder=9
+        )
+
+
+@style.styled
+def force_chains(snapshot, walls, path, pdf=False):
+    """The slope and the normal forces in its foot (the paper's Figure 8).
+
+    ``snapshot``: a :class:`~nonsmooth.records.Snapshot` with contacts. ``walls``: see :mod:`nonsmooth.figures`.
+    Above the whole slope by layers; below two windows at the foot, with bars between the centres of touching disks,
+    as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
+    a hairline outline so that small ones can be seen. Returns ``path``.
+    """
+    walls = style.as_walls(walls)
+    if len(snapshot.ci) == 0:
+        raise style.RecordsError("the snapshot has no contacts, so no forces to draw; take one written with contacts")
+    corner = style.foot(walls)
+    near = np.abs(snapshot.x - corner[0]) < 0.12 * np.ptp(snapshot.x)
+    height = snapshot.y[near].max() - corner[1]
+    size = 2 * np.median(snapshot.r)
+    aspect = 4.95 / 4.1
+    wide = max(1.35 * height * aspect, 30 * size)
+    tight = 26 * size
+    boxes = []
+    for w, right, below in ((wide, 0.2, 0.07), (tight, 0.22, 0.13)):
+        h = w / aspect
+        boxes.append((corner[0] - (1 - right) * w, corner[0] + right * w, corner[1] - below * h, corner[1] + (1 - below) * h))
+    x0, x1, y0, y1 = boxes[0]
+    seen = (snapshot.cx > x0) & (snapshot.cx < x1) & (snapshot.cy > y0) & (snapshot.cy < y1)
+    strength = np.abs(snapshot.cn[seen if seen.any() else slice(None)])
+    reference = max(float(np.quantile(strength, 0.995)), 1e-12)
+    width = 0.6 * size
+
+    fig = style.figure(10.4, 9.0)
+    top = fig.add_axes([0.01, 0.505, 0.98, 0.455])
+    margin = 0.02 * np.ptp(snapshot.x)
+    style.frame(
+        top, snapshot.x.min() - margin, max(snapshot.x.max(), boxes[0][1]) + margin,
+        min(snapshot.y.min(), boxes[0][2]) - margin, snapshot.y.max() + margin,
+    )  # fmt: skip
+    style.draw_walls(top, walls, labels=("DP",), size=11)
+    style.draw_disks(top, snapshot, style.layer_colours(snapshot.layer))
+    style.scale_bar(top, 0.98, 0.86)
+    layers = np.unique(snapshot.layer)
+    handles = [Patch(color=style.LAYERS[k % len(style.LAYERS)], label=f"{k + 1}") for k in layers[::-1]]
+    handles[0].set_label(f"{layers[-1] + 1} (top)")
+    top.legend(handles=handles, title="layer", loc="lower left", bbox_to_anchor=(0.06, 0.02), handlelength=1.3)
+    fig.text(
+        0.5, 0.985, f"Initial state: {len(snapshot.x):,} disks, {len(snapshot.ci):,} contacts, "
+        f"{int((snapshot.cn < 0).sum()):,} of them in tension", ha="center", va="top", fontsize=11.5,
+    )  # fmt: skip
+    for ax, box, letter in (
+        (fig.add_axes([0.012, 0.035, 0.476, 0.455]), boxes[0], "a"),
+        (fig.add_axes([0.512, 0.035, 0.476, 0.455]), boxes[1], "b"),
+    ):
+        outline = 0.25 if letter == "a" else 0.7
+        _close_up(ax, snapshot, walls, box, reference, width, outline)
+        ax.text(
+            0.02, 0.97, letter, transform=ax.transAxes, ha="left", va="top", fontsize=13, fontweight="bold",
+            bbox={"fc": "white", "ec": "#999999", "lw": 0.6, "pad": 3}, zorder=9,
+        )  # fmt: skip
+        style.scale_bar(ax, 0.965, 0.045, 0.17)
+        bx0, bx1, by0, by1 = box
+        top.add_patch(Rectangle((bx0, by0), bx1 - bx0, by1 - by0, fill=False, ec=INK, lw=1.1, zorder=6))
+        top.text(bx0, by0, f"{letter} ", va="bottom", ha="right", fontsize=11, fontweight="bold", zorder=7)
+        if letter == "b":
+            _force_scale(ax, reference, width)
+    fig.legend(
+        handles=[Patch(color=COMPRESSION, label="compression"), Patch(color=TENSION, label="tension")]
+        + [Line2D([], [], ls="", label="bars join the centres of touching disks; width is proportional to the normal force")],
+        loc="lower center", ncol=3, bbox_to_anchor=(0.5, -0.006), handlelength=1.4, columnspacing=1.5,
+    )  # fmt: skip
+    return style.save(fig, path, pdf)
+
+
+def _limits(curves, shown):
+    """Limits that hold every mean and nearly all of the raw values, so that single impacts do not flatten the plot."""
+    means = np.concatenate([mean[shown] for _, mean in curves])
+    raw = np.concatenate([np.quantile(raw[shown], [0.005, 0.995]) for raw, _ in curves])
+    low, high = min(means.min(), raw.min(), 0), max(means.max(), raw.max(), 0)
+    pad = 0.06 * (high - low or 1)
+    return low - pad, high + pad
+
+
+def _sketch(ax):
+    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12)."""
+    style.frame(ax, -10.8, 4.6, -1.6, 6.6)
+    slope = np.tan(np.radians(21))
+    plane = np.array([[-10, 10 * slope], [0, 0]])
+    back = np.array([[0, 0], [1.0, 2.6]])
+    ax.add_patch(Polygon([plane[0], plane[1], back[1], (-10, 10 * slope + 1.9)], fc="#ead9b5", ec="none"))
+    ax.plot(*np.vstack([plane, back, [4.4, 2.4]]).T, color=style.WALL, lw=1.5)
+    water = plane + 0.85 * np.array([np.sin(np.radians(21)), np.cos(np.radians(21))])
+    ax.plot(*water.T, color=style.WATER, lw=1.2, ls=(0, (4, 2)))
+    ax.text(-10.4, 4.75, "$h_w$", color=style.WATER, ha="center", va="center", fontsize=9)
+    arrow = {"arrowstyle": "-|>", "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
+    normal, down = np.array([0.358, 0.934]), np.array([0.934, -0.358])
+    middle = np.array([-5.2, 5.2 * slope])
+    ax.annotate("", middle, middle - 2.0 * normal, arrowprops={**arrow, "color": LINES["blue"]})
+    ax.text(*(middle - 2.6 * normal), "$N_{DP}$", ha="center", va="center", color=LINES["blue"], fontsize=9.5)
+    start = middle + 2.4 * down - 0.32 * normal
+    ax.annotate("", start - 1.9 * down, start, arrowprops={**arrow, "color": LINES["orange"]})
+    ax.text(*(start + 0.1 * down - 0.75 * normal), "$T_{DP}$", ha="left", va="center", color=LINES["orange"], fontsize=9.5)
+    push = back.mean(axis=0)
+    ax.annotate("", push, push + 2.0 * np.array([0.93, -0.36]), arrowprops={**arrow, "color": LINES["green"]})
+    ax.text(*(push + (2.1, -1.1)), "$N'_{FB}$", ha="left", va="center", color=LINES["green"], fontsize=9.5)
+
+
+@style.styled
+def forces_against_time(series, times, path, pdf=False, window=1.0):
+    """Forces on the walls against time (the paper's Figure 12).
+
+    ``series``: dict of columns (:func:`nonsmooth.records.read_series`). ``times``: dict t0 to t5 [s], or an object
+    with such ``times``; missing ones are left out. (a) normal force on DP: total, effective, water, and the height of
+    the water table (right axis); (b) shear force on DP, normal force on FB, and their changes since t0. On the left
+    the whole run, on the right the failure and triggering alone (when t1 and t3 are known). Lines are means over
+    ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind. Returns ``path``.
+    """
+    time, water, total, effective, pore, shear, back = style.need(
+        series, "time_s", "water_m", "dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_water_N_per_m",
+        "dp_shear_N_per_m", "fb_normal_N_per_m",
+    )  # fmt: skip
+    t = style.known_times(times)
+    start = int(np.argmin(np.abs(time - t.get("t0", time[0]))))
+    moving = t.get("t3", np.inf)
+
+    def curve(values):
+        values = values / MEGA
+        return values, np.where(time > moving, style.running_mean(time, values, window), values)
+
+    normal = [
+        ("$N_{DP}$  total", curve(total), "blue", "-"),
+        ("$N'_{DP}$  effective", curve(effective), "orange", "-"),
+        ("$U_{DP}$  water pressure", curve(pore), "sky", "-"),
+    ]
+    other = [
+        ("$T_{DP}$  shear on DP", curve(shear), "orange", "-"),
+        ("$N'_{FB}$  normal on FB", curve(back), "green", "-"),
+        ("$\\Delta T_{DP}$  since $t_0$", curve(shear - shear[start]), "orange", (0, (3, 1.2))),
+        ("$\\Delta N'_{FB}$  since $t_0$", curve(back - back[start]), "green", (0, (3, 1.2))),
+    ]
+    spans = [(time[0], max(time[-1], time[0] + 1e-9))]
+    if "t1" in t and "t3" in t:
+        d = max(t["t3"] - t["t1"], 0.03 * (spans[0][1] - spans[0][0]), 1e-9)
+        spans.append((max(time[0], t["t1"] - 0.45 * d), min(time[-1], t["t3"] + 0.45 * d)))
+
+    fig = style.figure(12.4, 8.6)
+    lefts, widths = ([0.062, 0.685], [0.595, 0.255]) if len(spans) == 2 else ([0.062], [0.878])
+    fig.text(0.062, 0.975, "Forces on the dipping plane (DP) and the frontal backstop (FB)", fontsize=13, va="top")
+    fig.text(
+        0.062, 0.938, "per metre of width. " + (f"From $t_3$ on: lines are means over {window:g} s, pale: every value."
+        if "t3" in t else "Every value is shown."), fontsize=9.5, color="#555555", va="top",
+    )  # fmt: skip
+    _sketch(fig.add_axes([0.71, 0.865, 0.23, 0.135]))
+    legend = []
+    for column, (span, left, width) in enumerate(zip(spans, lefts, widths)):
+        strip = fig.add_axes([left, 0.795, width, 0.03])
+        strip.set_xlim(span)
+        style.shade_phases(strip, t, names=True)
+        strip.set_axis_off()
+        for row, (lines, bottom) in enumerate(((normal, 0.45), (other, 0.065))):
+            ax = fig.add_axes([left, bottom, width, 0.30])
+            ax.set_xlim(span)
+            style.shade_phases(ax, t)
+            style.mark_times(ax, t, labels=row == 0, gap=0.022 * 0.595 / width)
+            for label, (raw, mean), colour, dash in lines:
+                late = time > moving
+                if "Delta" not in label:  # the changes have the same scatter
+                    ax.plot(time[late], raw[late], color=LINES[colour], lw=0.5, alpha=0.25, zorder=2)
+                wide = 3.2 if "total" in label else 1.5  # seen behind the effective force where they are equal
+                ax.plot(time, mean, color=LINES[colour], ls=dash, lw=wide, label=label, zorder=3 + (wide < 2))
+            ax.set_ylim(_limits([c for _, c, _, _ in lines], slice(None)))
+            ax.axhline(0, color="#555555", lw=0.7, zorder=1.5)
+            if column == 0:
+                ax.set_ylabel("force [MN/m]")
+                fig.text(0.012, bottom + 0.325, "(a)" if row == 0 else "(b)", fontsize=12, fontweight="bold", va="center")
+                legend.append(ax.get_legend_handles_labels())
+            else:
+                ax.tick_params(labelleft=False)
+            if row == 1:
+                ax.set_xlabel("time [s]" if column == 0 else "time [s], failure and triggering enlarged")
+            else:
+                table = ax.twinx()
+                table.plot(time, water, color=INK, lw=1.1, ls=(0, (1, 1.2)), label="$h_w$  water table (right axis)")
+                # The same zero on both axes.
+                low, high = ax.get_ylim()
+                top = 1.25 * max(water.max(), 1e-9)
+                table.set_ylim(top * low / high, top)
+                table.set_yticks([v for v in table.get_yticks() if 0 <= v <= top])
+                if column == len(spans) - 1:
+                    table.set_ylabel("water table above DP [m]")
+                    table.spines["right"].set_visible(True)
+                    handles, labels = table.get_legend_handles_labels()
+                    legend[0] = (legend[0][0] + handles, legend[0][1] + labels)
+                else:
+                    table.tick_params(labelright=False, right=False)
+    for (handles, labels), y in zip(legend, (0.866, 0.388)):
+        fig.legend(
+            handles, labels, loc="center left", bbox_to_anchor=(0.055, y), ncol=4, handlelength=2.4, columnspacing=1.6
+        )
+    return style.save(fig, path, pdf)

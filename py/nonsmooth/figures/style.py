@@ -1,0 +1,274 @@
+"""What the figures share: colours, drawing of disks and walls, time marks, saving."""
+
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import EllipseCollection
+from matplotlib.colors import to_rgba_array
+from matplotlib.figure import Figure
+
+from ..records import RecordsError
+
+# Told apart by lightness as well as by hue, so that they survive colour blindness and grey printing.
+LAYERS = ("#5a2d0c", "#b5651d", "#e9a23b", "#f7d98b", "#8c8c7a")
+DRY = ("#b89b6a", "#ddc99d")
+WET = ("#1f5fa8", "#4a90d0")
+RELEASED = ("#e06aa6", "#f5a9cd")
+COMPRESSION, TENSION = "#1f5fa8", "#d62728"
+GROUND, WALL, WATER, INK = "#e4e4e0", "#222222", "#0b6fb8", "#222222"
+# Okabe and Ito's palette for lines.
+LINES = {"blue": "#0072B2", "orange": "#D55E00", "green": "#009E73", "purple": "#9E4F86", "sky": "#4AA8DE", "grey": "#777777"}
+
+RC = {
+    "font.size": 9.5, "axes.titlesize": 10.5, "axes.labelsize": 9.5, "legend.fontsize": 9, "axes.edgecolor": "#555555",
+    "axes.linewidth": 0.7, "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.5,
+    "xtick.labelsize": 9, "ytick.labelsize": 9, "legend.frameon": False, "mathtext.default": "it", "pdf.fonttype": 42,
+}  # fmt: skip
+
+#: What the characteristic times of the paper (section 6) mark, and the phases between them.
+TIME_NAMES = {
+    "t0": "water begins to rise",
+    "t1": "limit equilibrium",
+    "t2": "triggering begins",
+    "t3": "avalanche in motion",
+    "t4": "during motion",
+    "t5": "at rest",
+}
+PHASES = (
+    ("t0", "t1", "water table rises", "#dcebf7"),
+    ("t1", "t2", "failure", "#fff3c4"),
+    ("t2", "t3", "triggering", "#fbd9c0"),
+    ("t3", "t5", "avalanche motion", "#efe3ee"),
+)
+
+
+def figure(width, height, **options):
+    """A figure of ``width`` by ``height`` inches with an Agg canvas and no global state."""
+    fig = Figure(figsize=(width, height), facecolor="white", **options)
+    FigureCanvasAgg(fig)
+    return fig
+
+
+def styled(function):
+    """Run a figure function under this project's settings, whatever the user's matplotlibrc says."""
+    from functools import wraps
+
+    @wraps(function)
+    def run(*args, **options):
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(RC)
+            return function(*args, **options)
+
+    return run
+
+
+def save(fig, path, pdf=False, dpi=170):
+    """Write the PNG (and a PDF beside it); returns the PNG's path."""
+    path = Path(path)
+    try:
+        fig.savefig(path, dpi=dpi)
+        if pdf:
+            fig.savefig(path.with_suffix(".pdf"), dpi=300)
+    except OSError as error:
+        raise RecordsError(f"{path}: figure cannot be written ({error.strerror}); choose a writable folder") from error
+    return path
+
+
+def need(series, *names):
+    """Columns of a series; RecordsError if one is missing or there are no rows."""
+    missing = [name for name in names if name not in series]
+    if missing:
+        raise RecordsError(f"the series has no column {', '.join(missing)}; draw a series written by this version")
+    if len(series[names[0]]) == 0:
+        raise RecordsError("the series has no rows; let the run go on for some steps before drawing it")
+    return [np.asarray(series[name], dtype=float) for name in names]
+
+
+def as_walls(walls):
+    """``[(name, vertices (n, 2))]`` from whatever describes the walls."""
+    pairs = []
+    for wall in getattr(walls, "walls", walls):
+        name, vertices = (wall.name, wall.vertices) if hasattr(wall, "vertices") else wall
+        vertices = np.asarray(vertices, dtype=float)
+        if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 2:
+            raise RecordsError(f"wall {name} has vertices of shape {vertices.shape}; give at least two points (x, y)")
+        pairs.append((str(name), vertices))
+    return pairs
+
+
+def find_wall(walls, name):
+    """Vertices of the wall called ``name`` (or whose name begins with it), None if there is none."""
+    for wanted in (lambda n: n == name, lambda n: n.startswith(name)):
+        for wall, vertices in walls:
+            if wanted(wall):
+                return vertices
+    return None
+
+
+def foot(walls):
+    """The lowest point of DP, the origin if there is no DP."""
+    plane = find_wall(walls, "DP")
+    return np.zeros(2) if plane is None else plane[np.argmin(plane[:, 1])]
+
+
+def known_times(times):
+    """The characteristic times that are there (not None, not NaN), in order: dict name -> seconds."""
+    times = getattr(times, "times", times) or {}
+    return {k: float(times[k]) for k in sorted(times) if times[k] is not None and np.isfinite(times[k])}
+
+
+def layer_colours(layer):
+    """RGBA (N, 4): one colour for each layer, lowest darkest."""
+    return to_rgba_array(LAYERS)[np.asarray(layer) % len(LAYERS)]
+
+
+def state_colours(snapshot):
+    """RGBA (N, 4): ochre, wet disks blue, released ones pink, each in two shades that alternate with the layers."""
+    state = np.where(snapshot.released, 2, np.where(snapshot.wet, 1, 0))
+    return to_rgba_array(DRY + WET + RELEASED)[2 * state + snapshot.layer % 2]
+
+
+def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, zorder=2):
+    """Disks with their true radii in data units; returns the collection."""
+    diameters = 2 * snapshot.r[mask]
+    disks = EllipseCollection(
+        diameters, diameters, np.zeros_like(diameters), units="xy",
+        offsets=np.column_stack([snapshot.x[mask], snapshot.y[mask]]), offset_transform=ax.transData,
+        facecolors=colours[mask], edgecolors=edge, linewidths=width, zorder=zorder, rasterized=True,
+    )  # fmt: skip
+    ax.add_collection(disks, autolim=False)
+    return disks
+
+
+def draw_walls(ax, walls, labels=("DP", "FB", "SS"), size=9.5, width=1.6):
+    """Walls as lines with the ground below them filled, and the names in ``labels`` beside them."""
+    x0, x1 = ax.get_xlim()
+    y0, y1 = ax.get_ylim()
+    for name, points in walls:
+        if len(points) < 2:
+            continue
+        ax.fill_between(points[:, 0], points[:, 1], y0 - (y1 - y0), color=GROUND, lw=0.6, zorder=0.5)
+    for name, points in walls:
+        ax.plot(points[:, 0], points[:, 1], color=WALL, lw=width, solid_capstyle="round", zorder=4)
+        if name in labels:
+            _name_wall(ax, name, points, (x0, x1, y0, y1), size)
+
+
+def _name_wall(ax, name, points, box, size):
+    """Write a wall's name below the middle of its visible part."""
+    x0, x1, y0, y1 = box
+    leg = np.r_[0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
+    along = np.linspace(0, leg[-1], 400)
+    path = np.column_stack([np.interp(along, leg, points[:, k]) for k in (0, 1)])
+    seen = path[(path[:, 0] > x0) & (path[:, 0] < x1) & (path[:, 1] > y0) & (path[:, 1] < y1)]
+    if len(seen) == 0:
+        return
+    at = seen[len(seen) // 2]
+    shift = (9, -5) if name == "FB" else (-3, -6)
+    ax.annotate(
+        name, at, xytext=shift, textcoords="offset points", ha="left" if name == "FB" else "center", va="top",
+        fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
+    )  # fmt: skip
+
+
+def frame(ax, x0, x1, y0, y1):
+    """Equal scales, given limits, no axes."""
+    ax.set_xlim(x0, x1)
+    ax.set_ylim(y0, y1)
+    ax.set_aspect("equal")
+    ax.set_xticks([])
+    ax.set_yticks([])
+    for spine in ax.spines.values():
+        spine.set_visible(False)
+
+
+def view(cases, walls):
+    """Limits that hold the disks of every snapshot."""
+    x0 = min(s.x.min() for s in cases)
+    x1 = max(max(s.x.max() for s in cases), foot(walls)[0] + 0.12 * (foot(walls)[0] - x0))
+    y0 = min(s.y.min() for s in cases)
+    y1 = max(s.y.max() for s in cases)
+    return x0 - 0.012 * (x1 - x0), x1 + 0.03 * (x1 - x0), y0 - 0.09 * (y1 - y0), y1 + 0.03 * (y1 - y0)
+
+
+def nice(value):
+    """The largest of 1, 2, 5 times a power of ten that is not above ``value``."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return max(m * power for m in (1, 2, 5) if m * power <= value * (1 + 1e-9))
+
+
+def scale_bar(ax, x=0.97, y=0.07, share=0.2):
+    """A bar of a round number of metres, its right end at the axes fractions ``x``, ``y``."""
+    x0, x1 = ax.get_xlim()
+    length = nice(share * (x1 - x0))
+    w = length / (x1 - x0)
+    ax.plot([x - w, x], [y, y], transform=ax.transAxes, color=INK, lw=3, solid_capstyle="butt", zorder=7)
+    ax.text(x - w / 2, y + 0.02, f"{length:g} m", transform=ax.transAxes, ha="center", va="bottom", zorder=7)
+
+
+def water_line(ax, walls, height, **options):
+    """The water table: DP moved by ``height`` along its normal; returns the line or None."""
+    points = water_points(walls, height)
+    if points is None:
+        return None
+    options = {"color": WATER, "lw": 1.3, "ls": (0, (5, 2)), "zorder": 5, **options}
+    return ax.plot(points[:, 0], points[:, 1], **options)[0]
+
+
+def water_points(walls, height):
+    """Vertices (n, 2) of the water table, None without DP. ``height`` [m] along the normal of DP's chord."""
+    plane = find_wall(walls, "DP")
+    if plane is None:
+        return None
+    chord = plane[-1] - plane[0]
+    normal = np.array([-chord[1], chord[0]]) / np.hypot(*chord)
+    return plane + height * (normal if normal[1] > 0 else -normal)
+
+
+def shade_phases(ax, times, names=False):
+    """Colour the phases between the characteristic times behind the curves; optionally write their names."""
+    t = known_times(times)
+    x0, x1 = ax.get_xlim()
+    for first, last, name, colour in PHASES:
+        if first not in t or last not in t:
+            continue
+        a, b = max(t[first], x0), min(t[last], x1)
+        if b <= a:
+            continue
+        ax.axvspan(a, b, color=colour, lw=0, zorder=0)
+        room = (b - a) / (x1 - x0) * ax.figure.get_figwidth() * ax.get_position().width * 72
+        if names and room > 5.2 * len(name):
+            ax.text((a + b) / 2, 0.5, name, transform=ax.get_xaxis_transform(), ha="center", va="center", fontsize=9)
+
+
+def mark_times(ax, times, labels=True, gap=0.028):
+    """Vertical lines at the characteristic times; labels above the axes, spread where the times are close."""
+    x0, x1 = ax.get_xlim()
+    t = {k: v for k, v in known_times(times).items() if x0 <= v <= x1}
+    for value in t.values():
+        ax.axvline(value, color="#555555", lw=0.8, ls=(0, (4, 3)), zorder=1)
+    if not labels or not t:
+        return
+    names = sorted(t, key=t.get)
+    true = np.array([(t[n] - x0) / (x1 - x0) for n in names])
+    shown = true.copy()
+    for _ in range(200):  # push neighbours apart
+        for i in range(len(shown) - 1):
+            lack = gap - (shown[i + 1] - shown[i])
+            if lack > 1e-9:
+                shown[i] -= lack / 2
+                shown[i + 1] += lack / 2
+    for name, a, b in zip(names, true, shown):
+        ax.plot([a, b], [1.0, 1.03], transform=ax.transAxes, color="#555555", lw=0.7, clip_on=False)
+        ax.text(b, 1.035, f"$t_{{{name[1:]}}}$", transform=ax.transAxes, ha="center", va="bottom", fontsize=10.5)
+
+
+def running_mean(time, values, window):
+    """Mean of ``values`` over the ``window`` [s] centred on each time; same shape."""
+    total = np.r_[0.0, np.cumsum(values)]
+    a = np.searchsorted(time, time - window / 2, side="left")
+    b = np.searchsorted(time, time + window / 2, side="right")
+    return (total[b] - total[a]) / (b - a)

@@ -1,0 +1,397 @@
+"""Records of a run: the time series (``series.csv``) and the snapshots (``.npz``).
+
+Both can be read and written without YADE. All quantities are in SI units, forces and energies per metre of
+thickness (the model is two-dimensional). Every failure is a :class:`RecordsError` that names the file, what is
+wrong with it and what to do.
+"""
+
+import math
+import os
+import zipfile
+import zlib
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+
+class RecordsError(Exception):
+    """A record cannot be written or read; the message says which file, what is wrong and the remedy."""
+
+
+class Column(NamedTuple):
+    """What a column of the series means."""
+
+    unit: str
+    description: str
+    integer: bool = False
+
+
+def _count(description):
+    return Column("1", description, True)
+
+
+#: The known columns: name -> (unit, description, integer). A series may hold others; these are documented.
+COLUMNS = {
+    "step": _count("number of the time step, strictly increasing"),
+    "time_s": Column("s", "simulated time"),
+    "water_m": Column("m", "height of the water table above DP, h_w"),
+    "dp_normal_total_N_per_m": Column("N/m", "total normal force on DP, N_DP = N'_DP + U_DP"),
+    "dp_normal_effective_N_per_m": Column("N/m", "effective (contact) normal force on DP, N'_DP"),
+    "dp_water_N_per_m": Column("N/m", "force of the pore water on DP, U_DP"),
+    "dp_shear_N_per_m": Column("N/m", "shear force on DP, T_DP; positive when the wall resists downslope motion"),
+    "fb_normal_N_per_m": Column("N/m", "normal force on FB, N'_FB"),
+    "fb_shear_N_per_m": Column("N/m", "shear force on FB"),
+    "ss_normal_N_per_m": Column("N/m", "normal force on SS"),
+    "ss_shear_N_per_m": Column("N/m", "shear force on SS"),
+    "wet_disks": _count("disks that feel pore pressure"),
+    "released_disks": _count("disks whose pore pressure has been released for good"),
+    "speed_mean_m_per_s": Column("m/s", "mean speed of the disks"),
+    "speed_max_m_per_s": Column("m/s", "largest speed of a disk"),
+    "front_m": Column("m", "position x of the front"),
+    "centroid_x_m": Column("m", "centre of mass, x"),
+    "centroid_y_m": Column("m", "centre of mass, y"),
+    "bonds_alive": _count("cohesive bonds that hold"),
+    "bonds_broken_tension": _count("bonds broken in tension so far"),
+    "bonds_broken_shear": _count("bonds broken in shear so far"),
+    "bonds_broken_torque": _count("bonds broken by rolling so far"),
+    "bonds_broken_mixed": _count("bonds broken in several modes at once so far"),
+    "contacts": _count("contacts, bonded ones included"),
+    "slip_mean_dp_m": Column("m", "mean cumulated slip of the disks that touch DP"),
+    "weakened_disks": _count("disks whose slip on DP has passed the critical slip D_c"),
+    "iterations": _count("sweeps of the contact solver in the step"),
+    "residual": Column("1", "residual of the contact solver at the end of the step"),
+    "overlap_worst_rel": Column("1", "largest overlap, in units of the mean diameter of the pair"),
+    "overlap_mean_rel": Column("1", "mean overlap of the contacts, in the same units"),
+    "energy_kinetic_J": Column("J/m", "kinetic energy"),
+    "energy_potential_J": Column("J/m", "potential energy of gravity"),
+    "energy_water_J": Column("J/m", "work done by the pore water"),
+    "energy_dissipated_J": Column("J/m", "energy dissipated by friction, rolling and impacts"),
+    "energy_bonds_J": Column("J/m", "work spent on bonds"),
+    "energy_correction_J": Column("J/m", "energy added by the correction of overlaps"),
+    "energy_error_rel": Column("1", "what the energy balance leaves over, relative"),
+}
+
+
+def _encode(name, value):
+    """Text of one number such that reading it gives the same bits."""
+    known = COLUMNS.get(name)
+    integer = known.integer if known else isinstance(value, (bool, int, np.integer, np.bool_))
+    if integer:
+        if float(value) != int(value):
+            raise ValueError("a count must be a whole number")
+        return str(int(value))
+    return repr(float(value))
+
+
+def _number(text):
+    try:
+        return int(text)
+    except ValueError:
+        return float(text)
+
+
+class SeriesWriter:
+    """Appends rows to a series file, each row in one unbuffered write.
+
+    ``path``: the CSV file. ``columns``: names in order, beginning with ``step``. ``resume_from_step``: continue an
+    existing file from a checkpoint of that step: rows of later steps and a half-written last line are removed, the
+    rest is kept byte for byte. Without it a file that already holds rows is refused unless ``overwrite`` is true.
+
+    A killed process loses no written row; call :meth:`sync` at checkpoints to be safe from a power failure too.
+    Numbers are written so that reading them returns the same bits; equal runs give equal files.
+
+    Raises :class:`RecordsError` for a file that cannot be written, that has other columns, or has a damaged row.
+    """
+
+    def __init__(self, path, columns, resume_from_step=None, overwrite=False):
+        self.path = Path(path)
+        self.columns = tuple(columns)
+        self.last_step: Optional[int] = None
+        self._file = None
+        if not self.columns or self.columns[0] != "step" or len(set(self.columns)) != len(self.columns):
+            raise RecordsError(f"{self.path}: columns must be unique and begin with 'step', not {self.columns[:3]}...")
+        self._header = (",".join(self.columns) + "\n").encode()
+        try:
+            if resume_from_step is None:
+                self._refuse_to_overwrite(overwrite)
+                self._file = open(self.path, "wb", buffering=0)
+                self._size = 0
+                self._append(self._header)
+            else:
+                self._size = self._keep_until(int(resume_from_step))
+                self._file = open(self.path, "r+b", buffering=0)
+                self._file.truncate(self._size)
+                self._file.seek(self._size)
+                if self._size == 0:
+                    self._append(self._header)
+        except OSError as error:
+            raise RecordsError(
+                f"{self.path}: cannot be written ({error.strerror}); choose a folder that exists and is writable"
+            ) from error
+
+    def _refuse_to_overwrite(self, overwrite):
+        if overwrite or not self.path.exists():
+            return
+        with open(self.path, "rb") as old:
+            lines = sum(1 for _ in zip(old, range(2)))
+        if lines > 1:
+            raise RecordsError(
+                f"{self.path}: already holds the rows of an earlier run; resume that run, move the file away "
+                "or choose another folder"
+            )
+
+    def _keep_until(self, step):
+        """Bytes of the existing file to keep: the header and the complete rows up to ``step``."""
+        if not self.path.exists():
+            raise RecordsError(f"{self.path}: missing, so the run cannot be resumed; start it anew without --resume")
+        data = self.path.read_bytes()
+        if self._header.startswith(data):  # killed while the header was written (or just after)
+            return len(data) if data == self._header else 0
+        if not data.startswith(self._header):
+            found = data.split(b"\n", 1)[0].decode(errors="replace")
+            raise RecordsError(
+                f"{self.path}: its columns are not those of this run (found '{found[:120]}'); resume with the version "
+                "that wrote it, or start anew in another folder"
+            )
+        keep = len(self._header)
+        for number, line in enumerate(data[keep:].splitlines(keepends=True), start=2):
+            if not line.endswith(b"\n"):
+                break
+            row = _parse_row(self.path, number, line.decode(errors="replace"), self.columns)
+            if row[0] > step:
+                break
+            if self.last_step is not None and row[0] <= self.last_step:
+                raise RecordsError(
+                    f"{self.path}, line {number}: step {row[0]} does not come after {self.last_step}; "
+                    "restore the file from a copy or start anew"
+                )
+            self.last_step = row[0]
+            keep += len(line)
+        return keep
+
+    def _append(self, data):
+        """Write all of ``data`` or nothing of it."""
+        written = 0
+        try:
+            while written < len(data):
+                written += self._file.write(data[written:])
+        except OSError as error:
+            try:
+                self._file.truncate(self._size)
+                self._file.seek(self._size)
+            except OSError:
+                pass
+            raise RecordsError(
+                f"{self.path}: a row could not be written ({error.strerror}); free some space and resume the run"
+            ) from error
+        self._size += len(data)
+
+    def write(self, row):
+        """Append one row: a mapping from column name to number, with exactly the columns of this series.
+
+        Raises :class:`RecordsError` for a missing or unknown column, a NaN or infinite number, a fractional count,
+        or a step that does not increase; the file is then unchanged.
+        """
+        if self._file is None:
+            raise RecordsError(f"{self.path}: the series has been closed; open a new SeriesWriter to go on")
+        missing = [name for name in self.columns if name not in row]
+        unknown = [name for name in row if name not in self.columns]
+        if missing or unknown:
+            raise RecordsError(
+                f"{self.path}: row lacks {missing or 'nothing'} and has unknown {unknown or 'nothing'}; "
+                "give exactly the columns the series was opened with"
+            )
+        texts = []
+        for name in self.columns:
+            value = row[name]
+            if not math.isfinite(value):
+                raise RecordsError(
+                    f"{self.path}: {name} = {value} at step {row['step']}; the computation has gone wrong before this "
+                    "row, go back to the last checkpoint with a smaller time step"
+                )
+            try:
+                texts.append(_encode(name, value))
+            except ValueError as error:
+                raise RecordsError(f"{self.path}: {name} = {value} at step {row['step']}: {error}") from error
+        step = int(row["step"])
+        if self.last_step is not None and step <= self.last_step:
+            raise RecordsError(
+                f"{self.path}: step {step} does not come after {self.last_step}; write each step once, in order"
+            )
+        self._append((",".join(texts) + "\n").encode())
+        self.last_step = step
+
+    def sync(self):
+        """Have the operating system put all rows on the disk."""
+        if self._file is not None:
+            os.fsync(self._file.fileno())
+
+    def close(self):
+        """Sync and close; a second call does nothing."""
+        if self._file is not None:
+            self.sync()
+            self._file.close()
+            self._file = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def _parse_row(path, number, line, columns):
+    cells = line.rstrip("\n").split(",")
+    try:
+        if len(cells) != len(columns):
+            raise ValueError(f"{len(cells)} numbers instead of {len(columns)}")
+        return [_number(cell) for cell in cells]
+    except ValueError as error:
+        raise RecordsError(
+            f"{path}, line {number}: damaged row ({error}); remove the line, or resume the run from an earlier checkpoint"
+        ) from error
+
+
+def read_series(path):
+    """Read a series: dict from column name to an array of shape (rows,), int64 for counts, float64 otherwise.
+
+    A half-written last line (a run that still goes on, or was killed) is left out. Raises :class:`RecordsError` if
+    the file is missing, has no header, or a row is damaged.
+    """
+    path = Path(path)
+    try:
+        text = path.read_bytes().decode(errors="replace")
+    except OSError as error:
+        raise RecordsError(f"{path}: cannot be read ({error.strerror}); check the folder given") from error
+    lines = text.split("\n")[:-1]  # what follows the last newline is empty or half-written
+    if not lines or not lines[0].startswith("step"):
+        raise RecordsError(f"{path}: has no header beginning with 'step'; it is not a series, or its run never began")
+    columns = lines[0].split(",")
+    rows = [_parse_row(path, number, line, columns) for number, line in enumerate(lines[1:], start=2)]
+    series = {}
+    for name, values in zip(columns, zip(*rows) if rows else [()] * len(columns)):
+        integer = COLUMNS[name].integer if name in COLUMNS else bool(values) and all(type(v) is int for v in values)
+        series[name] = np.array(values, dtype=np.int64 if integer else np.float64)
+    return series
+
+
+@dataclass
+class Snapshot:
+    """The slope at one instant. N disks, C contacts.
+
+    Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above DP).
+    Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest),
+    ``wet``, ``released`` (bool).
+    Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and
+    tangential force [N/m], compression positive, ``cbonded`` (bool), ``cx``, ``cy`` contact point [m]. They may all
+    be left out (C = 0), as for the frames of a video.
+    """
+
+    time_s: float
+    step: int
+    x: np.ndarray
+    y: np.ndarray
+    r: np.ndarray
+    angle: np.ndarray
+    vx: np.ndarray
+    vy: np.ndarray
+    layer: np.ndarray
+    wet: np.ndarray
+    released: np.ndarray
+    ci: np.ndarray
+    cj: np.ndarray
+    cn: np.ndarray
+    ct: np.ndarray
+    cbonded: np.ndarray
+    cx: np.ndarray
+    cy: np.ndarray
+    water_m: float
+
+
+_SCALARS = ("time_s", "step", "water_m")
+_CONTACTS = ("ci", "cj", "cn", "ct", "cbonded", "cx", "cy")
+_DISKS = tuple(f.name for f in fields(Snapshot) if f.name not in _SCALARS + _CONTACTS)
+_KINDS = {"layer": np.int64, "ci": np.int64, "cj": np.int64, "wet": bool, "released": bool, "cbonded": bool}
+
+
+def _snapshot(arrays, source):
+    """Check ``arrays`` and make a Snapshot of them; ``source`` names the file in messages."""
+    wrong = lambda what, remedy: RecordsError(f"{source}: {what}; {remedy}")  # noqa: E731
+    arrays = dict(arrays)
+    if not any(name in arrays for name in _CONTACTS):
+        arrays.update({name: np.zeros(0) for name in _CONTACTS})
+    names = {f.name for f in fields(Snapshot)}
+    missing, unknown = sorted(names - set(arrays)), sorted(set(arrays) - names)
+    if missing or unknown:
+        raise wrong(
+            f"snapshot lacks {missing or 'nothing'} and has unknown {unknown or 'nothing'}",
+            "give the arrays of nonsmooth.records.Snapshot",
+        )
+    checked = {}
+    for name in names:
+        value = np.asarray(arrays[name])
+        if not np.isfinite(value).all():
+            at = int(np.flatnonzero(~np.isfinite(value))[0]) if value.ndim else 0
+            raise wrong(f"{name}[{at}] is not a finite number", "go back to an earlier snapshot or checkpoint")
+        if name in _SCALARS:
+            if value.ndim:
+                raise wrong(f"{name} has shape {value.shape} instead of being one number", "give one number")
+            checked[name] = int(value) if name == "step" else float(value)
+        else:
+            checked[name] = value.astype(_KINDS.get(name, np.float64), copy=False)
+    for group, key in ((_DISKS, "x"), (_CONTACTS, "ci")):
+        for name in group:
+            if checked[name].shape != (len(np.atleast_1d(checked[key])),):
+                raise wrong(
+                    f"{name} has shape {checked[name].shape} and {key} {checked[key].shape}",
+                    "these arrays must be flat and equally long",
+                )
+    count = len(checked["x"])
+    if (checked["r"] <= 0).any():
+        raise wrong(f"radius of disk {int(np.argmin(checked['r']))} is {checked['r'].min()}", "radii are positive")
+    if ((checked["ci"] < 0) | (checked["ci"] >= count) | (checked["cj"] >= count)).any():
+        raise wrong(f"a contact names a disk beyond the {count} there are", "check how indices are made")
+    return Snapshot(**checked)
+
+
+def write_snapshot(path, **arrays):
+    """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as compressed ``.npz``; returns its path.
+
+    The file is written beside its place, synced and then renamed: the place holds the old file or the whole new one.
+    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a
+    NaN, a bad index, or a file that cannot be written.
+    """
+    path = Path(path)
+    snapshot = _snapshot(arrays, path)
+    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with open(beside, "wb") as file:
+            np.savez_compressed(file, **{f.name: getattr(snapshot, f.name) for f in fields(Snapshot)})
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(beside, path)
+    except OSError as error:
+        raise RecordsError(
+            f"{path}: cannot be written ({error.strerror}); choose a folder that exists, is writable and has space"
+        ) from error
+    finally:
+        beside.unlink(missing_ok=True) if beside.parent.is_dir() else None
+    return path
+
+
+def read_snapshot(path):
+    """Read a :class:`Snapshot`. Raises :class:`RecordsError` if it is missing, truncated or inconsistent."""
+    path = Path(path)
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            arrays = {name: data[name] for name in data.files}
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise RecordsError(f"{path}: cannot be read ({reason}); check the folder given") from error
+    except (zipfile.BadZipFile, zlib.error, ValueError, EOFError, KeyError, AttributeError) as error:
+        raise RecordsError(
+            f"{path}: not a snapshot, or truncated ({error}); delete it and use another, or run again"
+        ) from error
+    return _snapshot(arrays, path)

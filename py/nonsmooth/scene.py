@@ -1,0 +1,92 @@
+"""YADE bodies, materials and engines for rigid disks: what a script needs besides YADE's own classes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from yade import O, utils
+from yade.wrapper import (
+    Body, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ContactDynamicsEngine, ForceResetter, Ig2_Segment_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_NscdMat_NscdMat_NscdPhys,
+    Law2_ScGeom_NscdPhys_SignoriniCoulomb, NewtonIntegrator, Segment)
+from yade.minieigenHP import Quaternion, Vector3
+
+__all__ = ["disk", "segments", "engines"]
+
+
+def disk(centre, radius, material, fixed=False, color=None):
+    """A disk as a YADE Sphere body in the plane z = 0, not yet in the scene.
+
+    ``centre``: (x, y) [m]; ``radius`` [m]; ``material``: an NscdMat, whose density [kg/m³] gives the mass ρ π r² and the
+    inertia m r²/2 per metre of thickness. ``fixed``: block all degrees of freedom.
+    """
+    body = utils.sphere((centre[0], centre[1], 0), radius, material=material, fixed=fixed, color=color)
+    density = body.material.density
+    mass = density * math.pi * radius**2
+    body.state.mass = mass
+    body.state.inertia = Vector3(1, 1, 1) * (0.5 * mass * radius**2)
+    body.state.blockedDOFs = "xyzXYZ" if fixed else "zXY"
+    return body
+
+
+def segments(vertices, material, piece=None, sense=0, closed=False):
+    """Bodies of a wall along a polyline, fixed and not yet in the scene.
+
+    ``vertices``: (n, 2) [m]. ``piece``: greatest length of a segment [m]; long oblique segments have large bounding boxes, so cut
+    walls into pieces of some ten disk diameters. ``sense``: side that acts, see Segment.sense (+1: left of the direction of
+    travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump.
+    """
+    points = [np.asarray(v, float) for v in vertices]
+    if closed:
+        points.append(points[0])
+    if len(points) < 2:
+        raise ValueError(f"a wall needs two vertices or more, not {len(points)}")
+    cut = [points[0]]
+    for a, b in zip(points[:-1], points[1:]):
+        length = float(np.hypot(*(b - a)))
+        if not length > 0:
+            raise ValueError(f"two neighbouring vertices of a wall coincide at ({a[0]:g}, {a[1]:g})")
+        count = max(1, math.ceil(length / piece - 1e-9)) if piece else 1
+        cut += [a + (b - a) * (k / count) for k in range(1, count + 1)]
+    bodies = []
+    for k, (a, b) in enumerate(zip(cut[:-1], cut[1:])):
+        angle = math.atan2(b[1] - a[1], b[0] - a[0])
+        following = cut[k + 2] if k + 2 < len(cut) else (cut[1] if closed else None)
+        shape = Segment(halfLength=0.5 * float(np.hypot(*(b - a))), sense=sense, hasPrevious=closed or k > 0)
+        if following is not None:
+            turn = math.atan2(following[1] - b[1], following[0] - b[0]) - angle
+            shape.nextDirection = Vector3(math.cos(turn), math.sin(turn), 0)
+        body = Body()
+        body.shape = shape
+        body.state.pos = Vector3(*(0.5 * (a + b)), 0)
+        body.state.ori = Quaternion((0, 0, 1), angle)
+        body.state.refPos, body.state.refOri = body.state.pos, body.state.ori
+        body.state.blockedDOFs = "xyzXYZ"
+        body.material = material if not isinstance(material, str) else O.materials[material]
+        bodies.append(body)
+    return bodies
+
+
+def engines(gravity=(0, -9.81, 0), reach=0.05, verlet=0.1, before=(), after=(), label="contactDynamics", **options):
+    """The list O.engines of a Contact Dynamics simulation.
+
+    ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``verlet``: the collider's margin
+    [m] (negative: in smallest radii); ``before``: engines that add forces, e.g. PorePressureEngine; ``after``: engines after
+    the integrator; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
+    """
+    solver = ContactDynamicsEngine(label=label, **options)
+    return [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + reach), Bo1_Segment_Aabb()], verletDist=verlet),
+        InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + reach),
+             Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + reach)],
+            [Ip2_NscdMat_NscdMat_NscdPhys()],
+            [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=reach)]),
+        *before,
+        solver,
+        NewtonIntegrator(damping=0, gravity=gravity),
+        *after,
+    ]

@@ -1,0 +1,140 @@
+"""Checks of a section that a schema cannot make: names, sizes, and whether disks could fall out."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from shapely.geometry import LineString
+
+from . import geometry
+from .section import Layer, Section, Wall, _points
+
+__all__ = ["check", "walls"]
+
+
+def _at(point) -> str:
+    return f"({point[0]:.8g}, {point[1]:.8g})"
+
+
+def walls(document) -> tuple[Wall, ...]:
+    """The walls, with vertices that meet within the tolerance made bit-identical."""
+    raw = document.data["walls"]
+    everything = np.vstack([item["vertices"] for item in (*raw, *document.data["layers"])]).astype(float)
+    tolerance = 1e-6 * math.dist(everything.min(axis=0), everything.max(axis=0))
+    known, result = [], []
+    for item in raw:
+        vertices = []
+        for p in _points(item["vertices"]):
+            p = next((q for q in known if math.dist(p, q) <= tolerance), p)
+            known.append(p)
+            vertices.append(p)
+        result.append(Wall(item["name"], item["material"], tuple(vertices), item.get("apart", False)))
+    return tuple(result)
+
+
+def check(section: Section, document) -> None:
+    """Raise SectionError at the first thing wrong with `section`."""
+    _check_names(section, document)
+    _check_materials(section, document)
+    if section.disks.d_min > section.disks.d_max:
+        document.refuse(("disks", "diameter"), f"the smallest, {section.disks.d_min:g} m, exceeds the largest, "
+                        f"{section.disks.d_max:g} m", "give the smaller one first")
+    _check_walls(section, document)
+    _check_layers(section, document)
+    section._check_room("disks.diameter", "give smaller diameters or thicker layers")
+
+
+def _check_names(section, document) -> None:
+    for kind, items in (("walls", section.walls), ("layers", section.layers)):
+        names = [item.name for item in items]
+        for i, item in enumerate(items):
+            if item.name in names[:i]:
+                document.refuse((kind, i, "name"), f"{item.name!r} is taken", "give each its own name")
+            if item.material not in section.materials:
+                document.refuse((kind, i, "material"), f"{item.material!r} is not defined",
+                                f"add it to `materials`, or give one of {', '.join(section.materials)}")
+
+
+def _check_materials(section, document) -> None:
+    for name, material in section.materials.items():
+        raw = document.data["materials"][name]
+        if material.bonded and "tensile_strength" not in raw:
+            document.refuse(("materials", name), "a bonded material without tensile_strength",
+                            "give tensile_strength [Pa], or bonded: false")
+    for layer in section.layers:
+        material = section.materials[layer.material]
+        if material.density is None:
+            document.refuse(("materials", material.name), f"no density, and layer {layer.name} is made of it",
+                            "give density [kg/m³]")
+        if material.slip_weakening:
+            document.refuse(("materials", material.name, "slip_weakening"),
+                            f"layer {layer.name} is made of this material",
+                            "give slip_weakening to materials of walls only")
+
+
+def _check_walls(section, document) -> None:
+    lines = []
+    for i, wall in enumerate(section.walls):
+        for a, b in zip(wall.vertices, wall.vertices[1:]):
+            if a == b:
+                document.refuse(("walls", i, "vertices"), f"two vertices in a row at {_at(a)}", "remove one")
+        line = LineString(wall.vertices)
+        if not line.is_simple:
+            document.refuse(("walls", i, "vertices"), "the wall crosses itself", "correct the order of its vertices")
+        lines.append(line)
+    joined, waiting = set(), [next((i for i, w in enumerate(section.walls) if not w.apart), 0)]
+    while waiting:  # walls reached from the first one through joints
+        i = waiting.pop()
+        joined.add(i)
+        ends = [p for p in (section.walls[i].vertices[0], section.walls[i].vertices[-1])]
+        for j, other in enumerate(section.walls):
+            tips = (other.vertices[0], other.vertices[-1])
+            if j not in joined and j not in waiting and any(p in other.vertices for p in ends) | any(
+                    p in section.walls[i].vertices for p in tips):
+                waiting.append(j)
+    for i, wall in enumerate(section.walls):
+        if i in joined or wall.apart:
+            continue
+        tips = (wall.vertices[0], wall.vertices[-1])
+        gap, mine, other, theirs = min((math.dist(p, q), p, section.walls[j].name, q)
+                                       for j in joined for q in section.walls[j].vertices for p in tips)
+        document.refuse(("walls", i, "vertices"), f"a hole of {gap:.4g} m: the wall's end {_at(mine)} does not meet "
+                        f"{other}, whose nearest vertex is {_at(theirs)}",
+                        "make them the same point, or set `apart: true` if the gap is wanted")
+
+
+def _check_layers(section, document) -> None:
+    tolerance = section.tolerance
+    for i, layer in enumerate(section.layers):
+        reason = geometry.invalid_reason(layer.vertices)
+        if reason:
+            document.refuse(("layers", i, "vertices"), f"no simple polygon: {reason}",
+                            "list the vertices in order around the layer")
+    for i, layer in enumerate(section.layers):
+        for j in range(i):
+            _check_overlap(section.layers[j], layer, j, i, tolerance, document)
+    for i, layer in enumerate(section.layers):
+        core = layer.polygon.buffer(-3 * tolerance)
+        for wall in section.walls:
+            cut = LineString(wall.vertices).intersection(core)
+            if cut.length > 10 * tolerance:
+                where = cut.representative_point().coords[0]
+                document.refuse(("layers", i, "vertices"),
+                                f"the wall {wall.name} runs through the layer at {_at(where)}",
+                                "keep layers on one side of a wall")
+    hole = geometry.uncovered(section.outline, [w.vertices for w in section.walls], tolerance)
+    if hole:
+        i = min(range(len(section.layers)), key=lambda k: section.layers[k].polygon.distance(LineString(hole)))
+        document.refuse(("layers", i, "vertices"), f"disks could fall out: no wall below the layer from {_at(hole[0])} "
+                        f"to {_at(hole[1])}", "extend a wall along it, or move the layer onto a wall")
+
+
+def _check_overlap(lower: Layer, upper: Layer, j: int, i: int, tolerance: float, document) -> None:
+    common = lower.polygon.intersection(upper.polygon)
+    if common.buffer(-2 * tolerance).is_empty:
+        return
+    where = common.representative_point().coords[0]
+    document.refuse(("layers", i, "vertices"),
+                    f"overlaps layer {lower.name} by {common.area:.4g} m² around {_at(where)}",
+                    "move the vertices so that the layers touch at most")

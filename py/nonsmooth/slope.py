@@ -1,0 +1,132 @@
+"""Builds a section with its packing as a YADE scene."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from yade import O
+from yade.minieigenHP import Vector3
+from yade.wrapper import NscdMat, PorePressureEngine, SlipWeakeningMat
+
+from . import scene
+
+__all__ = ["Slope", "build", "find"]
+
+# A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
+PIECE = 8.0
+
+
+@dataclass
+class Slope:
+    """Handles of a built scene. ``walls``: name -> ids of its pieces; ``first_disk``: id of disk 0 (ids are consecutive)."""
+
+    section: object
+    walls: dict
+    first_disk: int
+    count: int
+    solver: object
+    water: object  # PorePressureEngine or None
+
+    def wall_forces(self) -> dict[str, tuple[float, float]]:
+        """Force of the disks on each wall in the last step [N/m]: (normal, positive into the wall; along its direction)."""
+        forces = {}
+        for name, ids in self.walls.items():
+            normal = shear = 0.0
+            for i in ids:
+                f = O.forces.f(i)
+                along = O.bodies[i].state.ori * Vector3(1, 0, 0)
+                normal += f[0] * along[1] - f[1] * along[0]
+                shear += f[0] * along[0] + f[1] * along[1]
+            forces[name] = (normal, shear)
+        return forces
+
+    def wall_material(self, name):
+        """Material of a wall."""
+        return O.bodies[self.walls[name][0]].material
+
+
+def _material(section, name, layer, wall):
+    """NscdMat or SlipWeakeningMat of a section's material, for layer number ``layer`` (walls: −1)."""
+    m = section.materials[name]
+    options = dict(
+        label=f"{name}-{layer}" if not wall else f"wall-{wall}",
+        density=m.density or 2500.0,
+        tensileStrength=m.tensile_strength,
+        residualTensileStrength=m.residual_tensile_strength,
+        frictionAngle=math.atan(m.friction),
+        residualFrictionAngle=math.atan(m.residual_friction),
+        rollingFriction=m.rolling_friction,
+        residualRollingFriction=m.residual_rolling_friction,
+        bondEllipseNormal=m.bond_ellipse[0],
+        bondEllipseTangential=m.bond_ellipse[1],
+        bondCreationDistance=m.bond_creation_distance,
+        restitution=m.restitution,
+        layer=layer if m.bonded else -2 - layer,
+    )
+    if not wall:
+        return NscdMat(**options)
+    options.update(wall=True, bondsToAll=m.bonded, layer=-1)
+    if m.slip_weakening is None:
+        return NscdMat(**options)
+    weak = m.slip_weakening
+    return SlipWeakeningMat(
+        criticalSlip=weak.critical_slip, weakening=weak.law, weakenedFrictionAngle=math.atan(weak.friction),
+        weakenedTensileStrength=weak.tensile_strength, **options)
+
+
+def _walls(section):
+    """Adds the walls; consecutive ones that meet share their joint as pieces of one polyline do."""
+    piece = PIECE * math.sqrt(section.disks.mean_square)
+    ids, last = {}, None
+    for wall in section.walls:
+        material = O.materials[O.materials.append(_material(section, wall.material, -1, wall.name))]
+        bodies = scene.segments(wall.points, material, piece=piece, sense=1)
+        start, end = wall.points[0], wall.points[-1]
+        if last is not None and np.allclose(last[1], start, rtol=0, atol=section.tolerance):
+            along = bodies[0].state.ori * Vector3(1, 0, 0)
+            last[0].shape.nextDirection = last[0].state.ori.conjugate() * along
+            bodies[0].shape.hasPrevious = True
+        ids[wall.name] = list(O.bodies.append(bodies))
+        last = (bodies[-1], end)
+    return ids
+
+
+def build(section, packing, threads=None) -> Slope:
+    """Fills the (empty) scene with walls, disks and engines; the disks are at rest and nothing is bonded yet.
+
+    ``section``: a checked Section; ``packing``: a Packing whose layers are the section's.
+    """
+    O.reset()
+    walls = _walls(section)
+    materials = [O.materials[O.materials.append(_material(section, layer.material, k, None))] for k, layer in enumerate(section.layers)]
+    # along the slope, so that neighbours in space are neighbours in memory
+    along = packing.x * section.downslope[0] + packing.y * section.downslope[1]
+    order = np.argsort(along, kind="stable")
+    disks = [scene.disk((float(packing.x[k]), float(packing.y[k])), float(packing.r[k]), materials[packing.layer[k]]) for k in order]
+    ids = O.bodies.append(disks)
+    before = []
+    if section.water is not None:
+        w = section.water
+        before.append(PorePressureEngine(
+            label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*section.normal, 0),
+            releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
+    n = section.numerics
+    O.engines = scene.engines(
+        gravity=(0, -section.gravity, 0), verlet=-n.verlet_distance, before=before, tolerance=n.tolerance, maxIterations=n.max_iterations)
+    O.dt = n.time_step
+    return find(section, walls, ids[0], len(ids))
+
+
+def find(section, walls, first_disk, count) -> Slope:
+    """Handles of a scene that is there already, as after O.load."""
+    engines = {type(e).__name__: e for e in O.engines}
+    return Slope(section, walls, first_disk, count, engines["ContactDynamicsEngine"], engines.get("PorePressureEngine"))
+
+
+def layers_of(slope: Slope) -> np.ndarray:
+    """Layer number of every disk, from the bottom; shape (count,)."""
+    number = {f"{layer.material}-{k}": k for k, layer in enumerate(slope.section.layers)}
+    return np.array([number[O.bodies[slope.first_disk + k].material.label] for k in range(slope.count)])

@@ -1,0 +1,37 @@
+"""State of the running YADE scene as NumPy arrays, read in one call instead of a Python loop."""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = ["bodies", "contacts"]
+
+_BODY = ("id", "x", "y", "r", "angle", "vx", "vy", "omega")
+_CONTACT = ("id1", "id2", "normal", "tangential", "torque", "nx", "ny", "gap", "bonded", "broken", "x", "y")
+
+
+def _table(raw: bytes, names) -> dict[str, np.ndarray]:
+    rows = np.frombuffer(raw, dtype=np.float64).reshape(-1, len(names))
+    return {name: rows[:, k].copy() for k, name in enumerate(names)}
+
+
+def bodies(engine) -> dict[str, np.ndarray]:
+    """Spheres of the scene, arrays of shape (n,): ``id`` (int), ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy``
+    [m/s], ``omega`` [rad/s]. ``engine``: the ContactDynamicsEngine."""
+    table = _table(engine.bodyTable(), _BODY)
+    table["id"] = table["id"].astype(int)
+    return table
+
+
+def contacts(engine) -> dict[str, np.ndarray]:
+    """Real interactions of the scene, arrays of shape (n,), in the order of (lower id, higher id).
+
+    ``id1``, ``id2`` (int); ``normal``, ``tangential`` [N/m], ``torque`` [N] per metre of thickness, compression positive;
+    ``nx``, ``ny`` (from body 1 to body 2); ``gap`` [m]; ``bonded`` (bool); ``broken`` (int, NscdPhys.brokenMode); ``x``, ``y`` [m].
+    """
+    table = _table(engine.contactTable(), _CONTACT)
+    for name in ("id1", "id2", "broken"):
+        table[name] = table[name].astype(int)
+    table["bonded"] = table["bonded"] > 0
+    order = np.lexsort((np.maximum(table["id1"], table["id2"]), np.minimum(table["id1"], table["id2"])))
+    return {name: values[order] for name, values in table.items()}

@@ -1,0 +1,169 @@
+"""A video of the avalanche from its snapshots (Animation S1 of the paper), by matplotlib and ffmpeg."""
+
+import os
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.animation import FFMpegWriter
+from matplotlib.patches import Patch
+
+from .figures import style
+from .records import RecordsError, read_snapshot
+
+FORCES = (
+    ("dp_normal_effective_N_per_m", "$N'_{DP}$  effective normal force on DP", "blue"),
+    ("dp_shear_N_per_m", "$T_{DP}$  shear force on DP", "orange"),
+    ("fb_normal_N_per_m", "$N'_{FB}$  normal force on FB", "green"),
+)
+
+
+class _Frames:
+    """The artists of one video; the fixed ones are drawn once, the others on top of their picture."""
+
+    def __init__(self, walls, view, first, size, series, times):
+        width, height = size
+        self.fig = style.figure(width / 100, height / 100, dpi=100)
+        self.walls = walls
+        room = 0.355 if series is not None else 0.0
+        self.ax = self.fig.add_axes([0, room, 1, 0.91 - room])
+        x0, x1, y0, y1 = view
+        # Widen the view to the shape of the axes, so that equal scales fill them: sky above, ground below.
+        shape = height * (0.91 - room) / width
+        if (y1 - y0) < shape * (x1 - x0):
+            y0 -= 0.5 * (shape * (x1 - x0) - (y1 - y0))
+            y1 = y0 + shape * (x1 - x0)
+        else:
+            extra = 0.5 * ((y1 - y0) / shape - (x1 - x0))
+            x0, x1 = x0 - extra, x1 + extra
+        style.frame(self.ax, x0, x1, y0, y1)
+        style.draw_walls(self.ax, walls, size=12)
+        style.scale_bar(self.ax, 0.975, 0.06, 0.12)
+        self._legend()
+        self.disks = style.draw_disks(self.ax, first, style.state_colours(first))
+        self.water = style.water_line(self.ax, walls, 0.0)
+        self.clock = self.fig.text(0.015, 0.985, "", fontsize=17, fontweight="bold", va="top")
+        self.state = self.fig.text(0.16, 0.98, "", fontsize=13, va="top", color="#444444")
+        self.moving = [a for a in (self.disks, self.water, self.clock, self.state) if a is not None]
+        self.cursors = []
+        if series is not None:
+            self._forces(series, times)
+        for artist in self.moving:
+            artist.set_visible(False)
+        self.fig.canvas.draw()
+        self.ground = self.fig.canvas.copy_from_bbox(self.fig.bbox)
+        for artist in self.moving:
+            artist.set_visible(True)
+
+    def _legend(self):
+        handles = [
+            Patch(color=pair[0], label=label)
+            for pair, label in ((style.DRY, "dry"), (style.WET, "under pore pressure"), (style.RELEASED, "released"))
+        ]
+        self.fig.legend(handles=handles, loc="upper right", ncol=3, fontsize=12, handlelength=1.2, columnspacing=1.3)
+
+    def _forces(self, series, times):
+        names = [name for name, *_ in FORCES]
+        time, *forces = style.need(series, "time_s", *names)
+        ax = self.fig.add_axes([0.06, 0.085, 0.68, 0.225])
+        ax.set_xlim(time[0], max(time[-1], time[0] + 1e-9))
+        style.shade_phases(ax, times)
+        style.mark_times(ax, times, gap=0.03)
+        late = style.known_times(times).get("t3", np.inf)
+        for (_, label, colour), force in zip(FORCES, forces):
+            smooth = np.where(time > late, style.running_mean(time, force, 1.0), force) / 1e6
+            ax.plot(time, smooth, color=style.LINES[colour], label=label)
+        ax.axhline(0, color="#555555", lw=0.7)
+        ax.set_xlabel("time [s]", fontsize=11)
+        ax.set_ylabel("force [MN/m]", fontsize=11)
+        self.fig.legend(*ax.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(0.745, 0.2), fontsize=10.5)
+        self.cursors = [ax.axvline(time[0], color=style.INK, lw=1.6, zorder=9)]
+        self.moving += self.cursors
+
+    def show(self, snapshot):
+        """Draw one snapshot; returns the picture as bytes (RGBA)."""
+        canvas = self.fig.canvas
+        canvas.restore_region(self.ground)
+        self.disks.set_offsets(np.column_stack([snapshot.x, snapshot.y]))
+        self.disks.set_facecolors(style.state_colours(snapshot))
+        if self.water is not None:
+            self.water.set_data(*style.water_points(self.walls, snapshot.water_m).T)
+            self.water.set_visible(snapshot.water_m > 0)
+        self.clock.set_text(f"t = {snapshot.time_s:.1f} s")
+        self.state.set_text(
+            f"water table {snapshot.water_m:.1f} m    mean speed {np.hypot(snapshot.vx, snapshot.vy).mean():.1f} m/s"
+        )
+        for cursor in self.cursors:
+            cursor.set_xdata([snapshot.time_s, snapshot.time_s])
+        for artist in sorted(self.moving, key=lambda a: a.get_zorder()):
+            (artist.axes or self.fig).draw_artist(artist)
+        return canvas.buffer_rgba()
+
+
+class _Writer(FFMpegWriter):
+    """FFMpegWriter that is handed finished pictures instead of drawing the figure again for each."""
+
+    @property
+    def frame_size(self):
+        return self.fig.canvas.get_width_height()
+
+    def add(self, picture):
+        self._proc.stdin.write(picture)
+
+
+def _sample(paths):
+    """The first, the last and some snapshots between: enough to choose the limits of the picture."""
+    last = len(paths) - 1
+    return [read_snapshot(paths[k]) for k in sorted({0, last // 2, 3 * last // 4, last})]
+
+
+def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), progress=None):
+    """Write an MP4 with one frame for each snapshot, in the given order.
+
+    ``snapshot_paths``: files of :func:`~nonsmooth.records.write_snapshot` of one run (contacts are not needed); they
+    are read one by one. ``walls``: see :mod:`nonsmooth.figures`. ``size``: pixels, even numbers. ``series`` (with
+    ``times``): adds a strip of forces against time with a cursor. ``progress``: called with (frames done, all
+    frames) after each frame. Returns (path, None), or (None, note) when there is no ffmpeg or it failed; a file that
+    was there before is replaced only by a whole new one. Raises :class:`~nonsmooth.records.RecordsError` if there is
+    no snapshot, one is unreadable, or their numbers of disks differ.
+    """
+    paths, path, walls = [Path(p) for p in snapshot_paths], Path(path), style.as_walls(walls)
+    if not paths:
+        raise RecordsError("there are no snapshots to make a video of; let the run write some first")
+    if not FFMpegWriter.isAvailable():
+        return None, "no video: ffmpeg is not installed (apt install ffmpeg)"
+    beside = path.with_name(f".{path.stem}.{os.getpid()}.part.mp4")
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(style.RC)
+        sample = _sample(paths)
+        frames = _Frames(walls, style.view(sample, walls), sample[0], size, series, times)
+        # yuv420p plays everywhere; the last frame stays for a second and a half.
+        writer = _Writer(
+            fps=fps, codec="h264", bitrate=-1,
+            extra_args=["-pix_fmt", "yuv420p", "-crf", "20", "-preset", "veryfast", "-threads", "1",
+                        "-vf", "tpad=stop_mode=clone:stop_duration=1.5", "-movflags", "+faststart"],
+        )  # fmt: skip
+        try:
+            with writer.saving(frames.fig, str(beside), dpi=100):
+                for done, name in enumerate(paths, start=1):
+                    snapshot = read_snapshot(name)
+                    if len(snapshot.x) != len(sample[0].x):
+                        raise RecordsError(
+                            f"{name}: {len(snapshot.x)} disks, but {paths[0]} has {len(sample[0].x)}; give snapshots "
+                            "of one run only"
+                        )
+                    writer.add(frames.show(snapshot))
+                    if progress:
+                        progress(done, len(paths))
+            os.replace(beside, path)
+        except (OSError, RuntimeError) as error:
+            return None, f"no video: ffmpeg failed ({error})"
+        except Exception as error:  # subprocess.CalledProcessError carries ffmpeg's words
+            if isinstance(error, RecordsError) or not hasattr(error, "returncode"):
+                raise
+            return None, f"no video: ffmpeg failed ({str(getattr(error, 'stderr', None) or error)[-300:]})"
+        finally:
+            if beside.exists():
+                beside.unlink()
+    return path, None

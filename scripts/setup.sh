@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Sets everything up: Debian packages, YADE, the plugin. Can be called again at any time; what is there
+# already is left alone. Usage: scripts/setup.sh
+#
+#   YADE_TARBALL=FILE     the source tarball of YADE, where the Debian mirror does not serve it
+#   YADE_PREFIX=FOLDER    a YADE install to use instead of the one that would be chosen
+#   NONSMOOTH_BUILD=DIR   the build folder (build/ of the checkout)
+set -euo pipefail
+
+ROOT=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
+for step in common packages yade build; do
+    # shellcheck source=/dev/null
+    . "$ROOT/scripts/setup/$step.sh"
+done
+
+if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
+    sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"
+    exit 0
+fi
+[ $# -eq 0 ] || die "setup.sh takes no arguments, but was given: $*"
+
+# one set-up at a time: checkouts share the cache
+mkdir -p "$(cache_dir)" || die "the cache folder $(cache_dir) cannot be made"
+exec 9>"$(cache_dir)/lock"
+flock -n 9 || { note "waiting for another set-up to end"; flock 9; }
+
+packages_install "${PACKAGES_PROJECT[@]}"
+yade_provide
+plugin_build
+note "YADE in $YADE_PREFIX, plugin in $BUILD: run scripts with scripts/yade-nonsmooth SCRIPT"

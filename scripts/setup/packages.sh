@@ -1,0 +1,60 @@
+# Debian packages: what the project needs, and installing what is missing.
+# shellcheck shell=bash
+
+# To build the plugin and the solver, to run scenarios, tests and documentation.
+PACKAGES_PROJECT=(
+    g++ cmake ninja-build pkg-config ca-certificates python3 python3-dev
+    libboost-all-dev libeigen3-dev zlib1g-dev libgtest-dev
+    python3-numpy python3-scipy python3-matplotlib python3-shapely python3-yaml python3-jsonschema
+    python3-tqdm python3-pytest python3-sphinx ffmpeg)
+
+# To configure, build and run the slim YADE.
+PACKAGES_YADE_BUILD=(
+    bzip2 libvtk9-dev libgts-dev libbz2-dev python3-ipython python3-pygraphviz python3-minieigen
+    python3-mpi4py python3-mpmath python3-pil python3-tk python3-xlib python3-pyqt5
+    python3-pyqt5.qtsvg python3-bibtexparser python3-future)
+
+# To compile against the headers of Debian's own YADE, whose feature macros ask for them.
+PACKAGES_YADE_STOCK=(
+    yade bzip2 libvtk9-dev libgts-dev libbz2-dev libmpfrc++-dev libmpc-dev libopenmpi-dev
+    libmpfr-dev libgmp-dev libopengl-dev libglu1-mesa-dev freeglut3-dev)
+
+packages_missing() {
+    local name
+    for name in "$@"; do
+        [ "$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || printf '%s\n' "$name"
+    done
+}
+
+packages_install() {
+    local missing log
+    mapfile -t missing < <(packages_missing "$@")
+    [ "${#missing[@]}" -eq 0 ] && return 0
+    log=$(mktemp)
+    say "Installing ${#missing[@]} Debian packages and what they need (2 to 12 minutes): ${missing[*]}"
+    as_root apt-get update -qq >"$log" 2>&1 || { cat "$log" >&2; die "apt-get update failed: is the package mirror reachable?"; }
+    # apt reports its progress on the standard output: sudo would close any other descriptor
+    if ! (set -o pipefail; as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+            -o Dpkg::Use-Pty=0 -o APT::Status-Fd=1 "${missing[@]}" 2>&1 </dev/null | apt_progress "$log"); then
+        grep -vE '^(dl|pm)status:' "$log" | tail -n 20 >&2
+        die "these packages could not be installed: ${missing[*]} (log: $log)"
+    fi
+    rm -f "$log"
+}
+
+# Shows how far apt is, from its "dlstatus:…:PERCENT:…" and "pmstatus:…:PERCENT:…" lines.
+apt_progress() {
+    local log=$1 start=$SECONDS printed=-60 every=15 begin="" end="\n" line what percent
+    [ -t 2 ] && every=1 begin="\r" end=""
+    while IFS= read -r line; do
+        printf '%s\n' "$line" >>"$log"
+        case "$line" in dlstatus:*) what=downloading ;; pmstatus:*) what="installing " ;; *) continue ;; esac
+        [ $((SECONDS - printed)) -ge "$every" ] || continue
+        printed=$SECONDS
+        percent=${line#*:*:}
+        # shellcheck disable=SC2059
+        printf "$begin   %s %3d %%, %d:%02d spent   $end" "$what" "${percent%%[.:]*}" \
+            $(((SECONDS - start) / 60)) $(((SECONDS - start) % 60)) >&2
+    done
+    [ -z "$begin" ] || printf '\n' >&2
+}

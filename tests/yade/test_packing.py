@@ -1,0 +1,209 @@
+"""Packings: density, sizes, overlaps and places; files that are truncated, changed or wrong."""
+
+import dataclasses
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
+from nonsmooth import geometry, packing  # noqa: E402
+from nonsmooth.packing import Packing, PackingError  # noqa: E402
+from nonsmooth.section import FOLDER, load  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def section():
+    return load("jiufengershan").with_disks(3000)
+
+
+@pytest.fixture(scope="module")
+def shares():
+    return []
+
+
+@pytest.fixture(scope="module")
+def packed(section, shares):
+    return packing.pack(section, 1, shares.append)
+
+
+def test_is_dense_without_overlap(section, packed):
+    assert len(packed) == pytest.approx(3000, abs=2)
+    found = packing.overlaps(packed, section.outline)
+    assert found.worst <= 1e-3 and found.mean <= 1e-5
+    assert found.pairs > 1.5 * len(packed)
+    assert packing.packing_fraction(packed, section.outline) == pytest.approx(0.84, abs=0.01)
+
+
+def test_is_even_along_the_slope(section, packed):
+    along = -(packed.x * section.downslope[0] + packed.y * section.downslope[1])
+    for s in range(100, 1400, 100):
+        here = (along >= s) & (along < s + 100)
+        thickness = 65 - 23 * (s + 50) / 1458
+        assert np.sum(math.pi * packed.r[here] ** 2) / (100 * thickness) == pytest.approx(0.83, abs=0.05)
+
+
+def test_disks_are_inside_and_near_their_layer(section, packed):
+    depth = np.full(len(packed), np.inf)
+    table = geometry.edges(section.outline)
+    for start, normal in zip(table.start, table.normal):  # the outline is convex
+        depth = np.minimum(depth, (packed.x - start[0]) * normal[0] + (packed.y - start[1]) * normal[1])
+    assert np.all(depth >= packed.r * (1 - 1e-3))
+    away = [section.layers[k].polygon.distance(geometry.Point(x, y))
+            for x, y, k in zip(packed.x, packed.y, packed.layer)]
+    assert np.mean(np.array(away) > 2 * packed.r.mean()) < 0.02
+    assert np.max(away) < section.disks.d_max
+
+
+def test_sizes_are_uniform_by_volume(section, packed):
+    d = 2 * packed.r
+    lo, hi = section.disks.d_min, section.disks.d_max
+    assert lo * (1 - 1e-9) <= d.min() and d.max() <= hi * (1 + 1e-9)
+    area, _ = np.histogram(d, np.linspace(lo, hi, 6), weights=d**2)
+    assert area / area.sum() == pytest.approx(np.full(5, 0.2), abs=0.01)
+    for k in range(5):  # and so in each layer
+        area, _ = np.histogram(d[packed.layer == k], np.linspace(lo, hi, 4), weights=d[packed.layer == k] ** 2)
+        assert area / area.sum() == pytest.approx(np.full(3, 1 / 3), abs=0.05)
+
+
+def test_progress(packed, shares):
+    assert shares == sorted(shares) and shares[-1] == 1 and 0 <= shares[0] < 1
+
+
+@pytest.fixture(scope="module")
+def small():
+    """A looser packing in a bent region with a reflex corner, quick to make."""
+    data = yaml.safe_load((FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8"))
+    del data["water"]
+    data["disks"] |= {"diameter": [0.5, 1.5], "packing_fraction": 0.8}
+    data["walls"] = [{"name": "floor", "material": "ss", "vertices": [[-30, 20], [0, 0], [30, 5]]}]
+    data["layers"] = [{"name": "a", "material": "rock", "vertices": [[-24, 16], [0, 0], [0, 10], [-20, 30]]},
+                      {"name": "b", "material": "rock", "vertices": [[0, 0], [24, 4], [24, 16], [0, 10]]}]
+    return data
+
+
+@pytest.fixture
+def bent(small, tmp_path):
+    path = tmp_path / "bent.yaml"
+    path.write_text(yaml.safe_dump(small))
+    return load(path)
+
+
+def test_same_seed_same_bits_in_a_bent_region(bent):
+    one, two, other = (packing.pack(bent, seed) for seed in (3, 3, 4))
+    assert one.checksum == two.checksum != other.checksum
+    assert packing.overlaps(one, bent.outline).worst <= 1e-3
+    x, y, r = one.x, one.y, one.r
+    assert all(bent.outline.contains(geometry.Point(*p)) for p in zip(x, y))
+    assert all(bent.outline.boundary.distance(geometry.Point(a, b)) >= c * 0.999 for a, b, c in zip(x, y, r))
+    assert packing.packing_fraction(one, bent.outline) == pytest.approx(0.8, abs=0.03)
+
+
+def test_too_dense(bent, monkeypatch):
+    monkeypatch.setattr("nonsmooth.packing.SWEEPS", 300)
+    dense = dataclasses.replace(bent, disks=dataclasses.replace(bent.disks, packing_fraction=0.95))
+    with pytest.raises(PackingError, match="lower disks.packing_fraction"):
+        packing.pack(dense, 1)
+
+
+def test_cache(bent, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path = packing.cache_path(bent, 3)
+    assert path.parent == tmp_path / "cache" / "yade-nonsmooth" / "packings"
+    made = packing.cached_pack(bent, 3)
+    assert [p.name for p in path.parent.iterdir()] == [path.name]
+    monkeypatch.setattr(packing, "pack", None)
+    assert packing.cached_pack(bent, 3).checksum == made.checksum
+    path.write_bytes(path.read_bytes()[:-400])
+    with pytest.raises(PackingError, match="delete the file"):
+        packing.cached_pack(bent, 3)
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    assert packing.cache_path(bent, 3).parent == Path.home() / ".cache" / "yade-nonsmooth" / "packings"
+
+
+@pytest.fixture
+def three():
+    return Packing([0.0, 1 / 3, -2e-17], [0.1, 1.0, 2.0], [0.5, 0.25, 1e-3], [0, 1, 1])
+
+
+def test_npz(three, tmp_path):
+    path = tmp_path / "deep" / "p.npz"
+    packing.save(three, path)
+    assert packing.load(path).checksum == three.checksum
+    whole = path.read_bytes()
+    for cut in (0, 10, len(whole) // 2, len(whole) - 1):
+        path.write_bytes(whole[:cut])
+        with pytest.raises(PackingError, match="delete the file"):
+            packing.load(path)
+    with pytest.raises(PackingError, match="no such packing"):
+        packing.load(tmp_path / "none.npz")
+    np.savez(path, x=three.x + 1, y=three.y, r=three.r, layer=three.layer, format=packing.FORMAT, checksum=three.checksum)
+    with pytest.raises(PackingError, match="does not match its checksum.*delete the file"):
+        packing.load(path)
+    np.savez(path, x=three.x, y=three.y, r=three.r, layer=three.layer, format=99, checksum=three.checksum)
+    with pytest.raises(PackingError, match="format 99"):
+        packing.load(path)
+    np.savez(path, x=three.x)
+    with pytest.raises(PackingError, match="delete the file"):
+        packing.load(path)
+
+
+def test_cannot_be_written(three, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(PackingError, match="cannot be written"):
+        packing.save(three, tmp_path / "file" / "p.npz")
+    (tmp_path / "p.npz").mkdir()
+    with pytest.raises(PackingError, match="cannot be written"):
+        packing.save(three, tmp_path / "p.npz")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["file", "p.npz"]
+
+
+def test_text(three, tmp_path):
+    path = tmp_path / "p.txt"
+    packing.write_text(three, path)
+    assert packing.read_text(path).checksum == three.checksum
+    path.write_text("# by hand\n\n 0 1 0.5 # a disk\n2 3 .25\n")
+    read = packing.read_text(path)
+    assert read.r.tolist() == [0.5, 0.25] and read.layer.tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("text, what", [
+    ("0 0 1 0\n1 1\n", r"line 2: 2 values"), ("0 0 1 0\n1 1 1\n", r"line 2: 3 values after lines of 4.*truncated"),
+    ("0 0 -1\n", r"line 1: the radius is -1"), ("0 nan 1\n", r"line 1: y is nan"), ("0 0 one\n", r"line 1: .*'one'"),
+    ("0 0 1 0.5\n", r"line 1: .*whole"), ("0 0 1 -1\n", r"line 1: the layer is -1"), ("# nothing\n", "holds no disk"),
+    ("# disks: 3\n0 0 1 0\n", "holds 1 disks of the 3.*truncated")])
+def test_bad_text(text, what, tmp_path):
+    path = tmp_path / "p.txt"
+    path.write_text(text)
+    with pytest.raises(PackingError, match=what) as info:
+        packing.read_text(path)
+    assert str(path) in str(info.value)
+
+
+def test_unreadable_text(tmp_path):
+    with pytest.raises(PackingError, match="cannot be read"):
+        packing.read_text(tmp_path / "none.txt")
+    (tmp_path / "b").write_bytes(b"\xff\x00")
+    with pytest.raises(PackingError, match="is no text"):
+        packing.read_text(tmp_path / "b")
+
+
+def test_bad_arrays():
+    with pytest.raises(PackingError, match="differ in length"):
+        Packing([0.0], [0.0, 1.0], [1.0], [0])
+    with pytest.raises(PackingError, match="disk 1: x is inf"):
+        Packing([0.0, np.inf], [0.0, 1.0], [1.0, 1.0], [0, 0])
+
+
+def test_packing_fraction_of_a_known_lattice():
+    n = 40
+    i, j = np.meshgrid(np.arange(n), np.arange(n))
+    square = Packing(i.ravel() + 0.5, j.ravel() + 0.5, np.full(n * n, 0.5), np.zeros(n * n))
+    box = [(0, 0), (n, 0), (n, n), (0, n)]
+    assert packing.packing_fraction(square, box) == pytest.approx(math.pi / 4, abs=2e-4)
+    assert packing.packing_fraction(square, box, 1.3) == pytest.approx(math.pi / 4, abs=0.01)
+    with pytest.raises(PackingError, match="smaller margin"):
+        packing.packing_fraction(square, box, 30)

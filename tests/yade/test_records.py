@@ -1,0 +1,210 @@
+"""Series and snapshots: exact, never half-written, clear about what is wrong. Needs no YADE."""
+
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+import synthetic_slope as synthetic  # noqa: E402
+
+records = synthetic.load("records")
+RecordsError = records.RecordsError
+COLUMNS = ("step", "time_s", "residual", "contacts", "extra")
+
+
+def row(step):
+    return {"step": step, "time_s": step * 0.1, "residual": 1e-5 / (step + 3), "contacts": 7 * step, "extra": step / 7}
+
+
+def fill(path, steps, **options):
+    with records.SeriesWriter(path, COLUMNS, **options) as writer:
+        for step in steps:
+            writer.write(row(step))
+    return path
+
+
+def test_numbers_come_back_bit_for_bit(tmp_path):
+    values = np.array([0.1 + 0.2, 1 / 3, 5e-324, -1.7976931348623157e308, 2.0**60 + 2.0**9, -0.0])
+    with records.SeriesWriter(tmp_path / "series.csv", ("step", "time_s", "contacts")) as writer:
+        for k, value in enumerate(values):
+            writer.write({"step": k, "time_s": value, "contacts": np.int32(k)})
+    series = records.read_series(tmp_path / "series.csv")
+    assert series["time_s"].tobytes() == values.tobytes()
+    assert series["contacts"].dtype == np.int64 and series["contacts"].tolist() == list(range(len(values)))
+
+
+def test_a_float_column_stays_float_when_given_whole_numbers(tmp_path):
+    with records.SeriesWriter(tmp_path / "s.csv", ("step", "time_s")) as writer:
+        writer.write({"step": 0, "time_s": 0})
+    assert (tmp_path / "s.csv").read_text() == "step,time_s\n0,0.0\n"
+    assert records.read_series(tmp_path / "s.csv")["time_s"].dtype == np.float64
+
+
+def test_rows_are_on_file_at_once(tmp_path):
+    writer = records.SeriesWriter(tmp_path / "s.csv", COLUMNS)
+    writer.write(row(0))
+    assert len(records.read_series(tmp_path / "s.csv")["step"]) == 1  # not closed, not synced
+    writer.close()
+
+
+def test_a_killed_process_loses_no_row(tmp_path):
+    pid = os.fork()
+    if pid == 0:
+        writer = records.SeriesWriter(tmp_path / "s.csv", COLUMNS)
+        for step in range(50):
+            writer.write(row(step))
+        os.kill(os.getpid(), 9)
+    os.waitpid(pid, 0)
+    assert records.read_series(tmp_path / "s.csv")["step"].tolist() == list(range(50))
+
+
+@pytest.mark.parametrize("tail", [b"", b"70,7.0,1e", b"70,7.0,1e-6,490,10."])
+def test_a_resumed_series_has_the_bytes_of_an_unbroken_one(tmp_path, tail):
+    whole = fill(tmp_path / "whole.csv", range(0, 100, 10)).read_bytes()
+    broken = fill(tmp_path / "broken.csv", range(0, 70, 10))
+    with open(broken, "ab") as file:
+        file.write(tail)
+    fill(broken, range(50, 100, 10), resume_from_step=45)  # rows 50 and 60 are computed again
+    assert broken.read_bytes() == whole
+
+
+def test_resume_at_the_last_row_keeps_all(tmp_path):
+    path = fill(tmp_path / "s.csv", range(5))
+    with records.SeriesWriter(path, COLUMNS, resume_from_step=4) as writer:
+        assert writer.last_step == 4
+    assert len(records.read_series(path)["step"]) == 5
+
+
+@pytest.mark.parametrize("cut", [0, 3, 20])
+def test_resume_after_a_half_written_header(tmp_path, cut):
+    whole = fill(tmp_path / "whole.csv", range(3)).read_bytes()
+    (tmp_path / "s.csv").write_bytes(whole[:cut])
+    assert fill(tmp_path / "s.csv", range(3), resume_from_step=0).read_bytes() == whole
+
+
+def test_reading_leaves_out_a_half_written_row(tmp_path):
+    path = fill(tmp_path / "s.csv", range(3))
+    path.write_bytes(path.read_bytes()[:-4])
+    assert records.read_series(path)["step"].tolist() == [0, 1]
+
+
+def test_an_earlier_run_is_not_overwritten_unasked(tmp_path):
+    path = fill(tmp_path / "s.csv", range(3))
+    before = path.read_bytes()
+    with pytest.raises(RecordsError, match="earlier run"):
+        records.SeriesWriter(path, COLUMNS)
+    assert path.read_bytes() == before
+    fill(path, range(1), overwrite=True)
+    assert len(records.read_series(path)["step"]) == 1
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"residual": float("nan")}, "residual = nan at step 3"),
+        ({"extra": float("inf")}, "extra = inf"),
+        ({"contacts": 1.5}, "contacts = 1.5.*whole"),
+        ({"step": 2}, "step 2 does not come after 2"),
+        ({"unheard": 1}, "unknown.*unheard"),
+    ],
+)
+def test_a_bad_row_is_refused_and_nothing_written(tmp_path, change, message):
+    with records.SeriesWriter(tmp_path / "s.csv", COLUMNS) as writer:
+        for step in range(3):
+            writer.write(row(step))
+        before = (tmp_path / "s.csv").read_bytes()
+        with pytest.raises(RecordsError, match=message):
+            writer.write({**row(3), **change})
+        with pytest.raises(RecordsError, match="lacks.*contacts"):
+            writer.write({k: v for k, v in row(3).items() if k != "contacts"})
+        assert (tmp_path / "s.csv").read_bytes() == before
+        writer.write(row(3))
+
+
+def test_messages_name_the_file_and_the_remedy(tmp_path):
+    with pytest.raises(RecordsError, match="nowhere.*cannot be written.*writable"):
+        records.SeriesWriter(tmp_path / "nowhere" / "s.csv", COLUMNS)
+    with pytest.raises(RecordsError, match="missing.*without --resume"):
+        records.SeriesWriter(tmp_path / "s.csv", COLUMNS, resume_from_step=3)
+    with pytest.raises(RecordsError, match="cannot be read"):
+        records.read_series(tmp_path / "s.csv")
+    path = fill(tmp_path / "s.csv", range(3))
+    with pytest.raises(RecordsError, match="columns are not those"):
+        records.SeriesWriter(path, COLUMNS[:-1] + ("other",), resume_from_step=1)
+    path.write_text(path.read_text().replace("\n1,", "\n1,?,"))
+    with pytest.raises(RecordsError, match="line 3: damaged row"):
+        records.read_series(path)
+    with pytest.raises(RecordsError, match="line 3: damaged row"):
+        records.SeriesWriter(path, COLUMNS, resume_from_step=2)
+    (tmp_path / "empty.csv").write_text("")
+    with pytest.raises(RecordsError, match="no header"):
+        records.read_series(tmp_path / "empty.csv")
+
+
+def test_every_known_column_is_documented():
+    for name, column in records.COLUMNS.items():
+        assert column.unit and column.description, name
+        for ending, unit in (("_N_per_m", "N/m"), ("_m_per_s", "m/s"), ("_J", "J/m"), ("_rel", "1")):
+            if name.endswith(ending):
+                assert column.unit == unit, name
+
+
+# --- snapshots ---------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def arrays():
+    return synthetic.snapshot_arrays(800, 30.0)
+
+
+def test_a_snapshot_comes_back_bit_for_bit_and_equal_ones_have_equal_bytes(tmp_path, arrays):
+    first = records.write_snapshot(tmp_path / "a.npz", **arrays)
+    second = records.write_snapshot(tmp_path / "b.npz", **arrays)
+    assert first.read_bytes() == second.read_bytes()
+    snapshot = records.read_snapshot(first)
+    for name, value in arrays.items():
+        assert np.array_equal(getattr(snapshot, name), value), name
+    assert isinstance(snapshot.step, int) and isinstance(snapshot.time_s, float) and snapshot.wet.dtype == bool
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.npz", "b.npz"]  # nothing left beside
+
+
+def test_contacts_may_be_left_out(tmp_path):
+    records.write_snapshot(tmp_path / "a.npz", **synthetic.snapshot_arrays(300, 30.0, contacts=False))
+    assert len(records.read_snapshot(tmp_path / "a.npz").ci) == 0
+
+
+def test_a_refused_snapshot_leaves_the_old_file(tmp_path, arrays):
+    path = records.write_snapshot(tmp_path / "a.npz", **arrays)
+    before = path.read_bytes()
+    bad_x = arrays["x"].copy()
+    bad_x[7] = np.nan
+    for change, message in (
+        ({"x": bad_x}, r"x\[7\] is not a finite"),
+        ({"y": arrays["y"][:-1]}, "y has shape"),
+        ({"r": -arrays["r"]}, "radius of disk"),
+        ({"ci": arrays["ci"] + 10**6}, "beyond"),
+        ({"colour": 1}, "unknown.*colour"),
+        ({"time_s": [1.0, 2.0]}, "time_s has shape"),
+    ):
+        with pytest.raises(RecordsError, match=message):
+            records.write_snapshot(path, **{**arrays, **change})
+    assert path.read_bytes() == before and len(list(tmp_path.iterdir())) == 1
+    with pytest.raises(RecordsError, match="nowhere.*cannot be written"):
+        records.write_snapshot(tmp_path / "nowhere" / "a.npz", **arrays)
+
+
+def test_truncated_damaged_or_foreign_snapshots_are_named(tmp_path, arrays):
+    data = records.write_snapshot(tmp_path / "a.npz", **arrays).read_bytes()
+    bad = tmp_path / "bad.npz"
+    for content in (data[: len(data) // 2], data[:10], b"", b"not a snapshot", data[:3000] + b"\0" * 50 + data[3050:]):
+        bad.write_bytes(content)
+        with pytest.raises(RecordsError, match="bad.npz"):
+            records.read_snapshot(bad)
+    np.savez(bad, x=arrays["x"])
+    with pytest.raises(RecordsError, match="lacks"):
+        records.read_snapshot(bad)
+    with pytest.raises(RecordsError, match="gone.npz.*cannot be read"):
+        records.read_snapshot(tmp_path / "gone.npz")
