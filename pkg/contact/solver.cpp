@@ -9,14 +9,25 @@
 namespace nonsmooth::contact {
 namespace {
 
-	constexpr std::size_t chunkSize = 256; // contacts that one thread takes at a time; sums are kept a chunk
+	constexpr std::size_t chunkSize = 128; // contacts that one thread takes at a time; sums are kept a chunk
 
-	/// A contact in sweep order with all that the sweep touches, side by side in memory.
+	/// What a sweep needs of a contact, side by side in memory and in sweep order.
 	struct Row {
-		Contact contact;
-		Impulse inverse;  // 1/W
-		Impulse p;        // P_k
-		Impulse previous; // P_{k−1}
+		std::int32_t i, j;
+		double       nx, ny, leverTi, leverTj;
+		double       biasN, adhesion, friction, rollingArm;
+		Impulse      inverse;  // 1/W_nn, 1/W_tt, 1/W_rr
+		double       couplingTR; // W_tr; the other couplings of the rows are zero for a simple contact
+		Impulse      p;        // P_k
+		Impulse      previous; // P_{k−1}
+		std::int32_t simple;   // disks of equal mass in x and y, no other bias: short formulas do
+	};
+
+	/// A body as the sweep reads and writes it: one cache line.
+	struct alignas(64) Body {
+		Twist       v;
+		InverseMass inverse;
+		bool        moves = false;
 	};
 
 	struct Chunk {
@@ -35,7 +46,9 @@ namespace {
 		void iterate();
 		void extrapolateVelocities(double beta);
 		void sweep(double beta);
-		double sweepChunk(const Chunk& chunk, double beta);
+		void sweepChunk(const Chunk& chunk, double beta);
+		void sweepGeneral(Row& row, const Impulse& y);
+		static void sweepSimple(Row& row, const Impulse& y, Body& a, Body& b);
 		void measure();
 		void finish();
 		template <class Visit> void forEachColour(Visit visit);
@@ -47,7 +60,8 @@ namespace {
 		std::vector<Chunk>       chunks;
 		std::vector<std::size_t> firstChunk; // of each colour
 		std::vector<Twist>       previousVelocity;
-		std::vector<double>      sums, squares, scales, largest; // one a chunk
+		std::vector<Body>        bodies;
+		std::vector<double>      squares, scales, largest; // one a chunk
 		Residual                 residual;
 		SolverStatistics         statistics;
 	};
@@ -64,10 +78,11 @@ namespace {
 				chunks.push_back({ at, std::min(at + width, end) });
 		}
 		firstChunk.push_back(chunks.size());
-		for (auto* v : { &sums, &squares, &scales, &largest })
+		for (auto* v : { &squares, &scales, &largest })
 			v->assign(chunks.size(), 0.0);
 		rows.resize(problem.contactCount());
 		previousVelocity.resize(problem.bodyCount());
+		bodies.resize(problem.bodyCount());
 		problem.velocities.resize(problem.bodyCount());
 		statistics.colours = static_cast<int>(colouring.count());
 	}
@@ -85,12 +100,22 @@ namespace {
 
 	void Sweeper::gather()
 	{
-		const long count = static_cast<long>(rows.size());
+		const long bodyCount = static_cast<long>(problem.bodyCount()), count = static_cast<long>(rows.size());
+#pragma omp for schedule(static)
+		for (long b = 0; b < bodyCount; ++b)
+			bodies[b] = { problem.freeVelocity[b], problem.inverseMass[b], !problem.inverseMass[b].isFixed() };
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k) {
-			const Contact& c = problem.contacts[colouring.order[k]];
-			const Impulse  p = project(c, problem.impulses[colouring.order[k]]);
-			rows[k]          = { c, inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]), p, p };
+			const Contact&     c  = problem.contacts[colouring.order[k]];
+			const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
+			const Impulse      p  = project(c, problem.impulses[colouring.order[k]]);
+			// a lever along the normal, a different mass in x and y, or a further bias couple more rows
+			const bool simple = mi.x == mi.y && mj.x == mj.y && c.biasT == 0 && c.biasR == 0 && (mi.w == 0 || c.leverNi == 0)
+			        && (mj.w == 0 || c.leverNj == 0);
+			// turning fixed bodies enter the velocities through levers too
+			const bool still = (mi.w != 0 || problem.freeVelocity[c.i].w == 0) && (mj.w != 0 || problem.freeVelocity[c.j].w == 0);
+			rows[k] = { c.i, c.j, c.nx, c.ny, c.leverTi, c.leverTj, c.biasN, c.adhesion, c.friction, c.rollingArm, inverseDelassus(c, mi, mj),
+				    mj.w * c.leverTj + mi.w * c.leverTi, p, p, simple && still };
 		}
 	}
 
@@ -100,13 +125,14 @@ namespace {
 		const long count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
 		for (long b = 0; b < count; ++b)
-			problem.velocities[b] = problem.freeVelocity[b];
+			bodies[b].v = problem.freeVelocity[b];
 		forEachColour([this](std::size_t c) {
 			for (std::size_t k = chunks[c].begin; k < chunks[c].end; ++k) {
-				const Contact& contact = rows[k].contact;
-				applyImpulse(
-				        contact, rows[k].p, problem.inverseMass[contact.i], problem.inverseMass[contact.j], problem.velocities[contact.i],
-				        problem.velocities[contact.j]);
+				Body &a = bodies[rows[k].i], &b = bodies[rows[k].j];
+				Twist va = a.v, vb = b.v;
+				applyImpulse(problem.contacts[colouring.order[k]], rows[k].p, a.inverse, b.inverse, va, vb);
+				if (a.moves) a.v = va;
+				if (b.moves) b.v = vb;
 			}
 		});
 	}
@@ -116,7 +142,7 @@ namespace {
 		const long count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
 		for (long b = 0; b < count; ++b) {
-			Twist &v = problem.velocities[b], &before = previousVelocity[b];
+			Twist &     v = bodies[b].v, &before = previousVelocity[b];
 			const Twist now = v;
 			v.x += beta * (now.x - before.x);
 			v.y += beta * (now.y - before.y);
@@ -125,44 +151,66 @@ namespace {
 		}
 	}
 
-	/// Returns Σ (y − P_{k+1})·W (P_{k+1} − P_k) over the chunk.
-	double Sweeper::sweepChunk(const Chunk& chunk, double beta)
+	/// One contact whose only coupling between rows is W_tr: all three relative velocities are read at once, the velocities written once.
+	inline void Sweeper::sweepSimple(Row& row, const Impulse& y, Body& a, Body& b)
 	{
-		double turn = 0;
-		for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
-			Row&               row = rows[k];
-			const Contact&     c   = row.contact;
-			const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
-			Twist              vi = problem.velocities[c.i], vj = problem.velocities[c.j];
-			const Impulse      before = row.p;
-			const Impulse      y { before.n + beta * (before.n - row.previous.n), before.t + beta * (before.t - row.previous.t),
-					       before.r + beta * (before.r - row.previous.r) };
-
-			// normal row first, since the other two thresholds depend on it
-			const double un = c.nx * (vj.x - vi.x) + c.ny * (vj.y - vi.y) + c.leverNj * vj.w - c.leverNi * vi.w;
-			const double n  = projectNormal(y.n - row.inverse.n * (un + c.biasN), c.adhesion);
-			applyImpulse(c, { n - y.n, 0, 0 }, mi, mj, vi, vj);
-			const double ut = -c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y) + c.leverTj * vj.w - c.leverTi * vi.w;
-			const double t  = projectThreshold(y.t - row.inverse.t * (ut + c.biasT), slidingThreshold(c, n));
-			applyImpulse(c, { 0, t - y.t, 0 }, mi, mj, vi, vj);
-			const double r = projectThreshold(y.r - row.inverse.r * (vj.w - vi.w + c.biasR), rollingThreshold(c, n));
-			vi.w -= mi.w * (r - y.r);
-			vj.w += mj.w * (r - y.r);
-
-			if (!mi.isFixed()) problem.velocities[c.i] = vi;
-			if (!mj.isFixed()) problem.velocities[c.j] = vj;
-			row.previous = before;
-			row.p        = { n, t, r };
-			if (row.inverse.n > 0) turn += (y.n - n) * (n - before.n) / row.inverse.n;
-			if (row.inverse.t > 0) turn += (y.t - t) * (t - before.t) / row.inverse.t;
-			if (row.inverse.r > 0) turn += (y.r - r) * (r - before.r) / row.inverse.r;
+		const double dx = b.v.x - a.v.x, dy = b.v.y - a.v.y, w = b.v.w - a.v.w;
+		const double un = row.nx * dx + row.ny * dy;
+		const double ut = row.nx * dy - row.ny * dx + row.leverTj * b.v.w - row.leverTi * a.v.w;
+		const double n  = projectNormal(y.n - row.inverse.n * (un + row.biasN), row.adhesion);
+		const double load = row.adhesion + n; // never negative
+		const double t    = projectThreshold(y.t - row.inverse.t * ut, row.friction * load);
+		const double dn = n - y.n, dt = t - y.t;
+		const double r  = projectThreshold(y.r - row.inverse.r * (w + row.couplingTR * dt), row.rollingArm * load);
+		const double dr = r - y.r;
+		const double fx = row.nx * dn - row.ny * dt, fy = row.ny * dn + row.nx * dt;
+		if (a.moves) {
+			a.v.x -= a.inverse.x * fx;
+			a.v.y -= a.inverse.y * fy;
+			a.v.w -= a.inverse.w * (row.leverTi * dt + dr);
 		}
-		return turn;
+		if (b.moves) {
+			b.v.x += b.inverse.x * fx;
+			b.v.y += b.inverse.y * fy;
+			b.v.w += b.inverse.w * (row.leverTj * dt + dr);
+		}
+		row.p = { n, t, r };
+	}
+
+	/// Any contact, row by row.
+	void Sweeper::sweepGeneral(Row& row, const Impulse& y)
+	{
+		const Contact& c = problem.contacts[colouring.order[&row - rows.data()]];
+		Body &         a = bodies[row.i], &b = bodies[row.j];
+		Twist          va = a.v, vb = b.v;
+		const double   n = projectNormal(y.n - row.inverse.n * (relativeVelocity(c, va, vb).n + c.biasN), c.adhesion);
+		applyImpulse(c, { n - y.n, 0, 0 }, a.inverse, b.inverse, va, vb);
+		const double t = projectThreshold(y.t - row.inverse.t * (relativeVelocity(c, va, vb).t + c.biasT), slidingThreshold(c, n));
+		applyImpulse(c, { 0, t - y.t, 0 }, a.inverse, b.inverse, va, vb);
+		const double r = projectThreshold(y.r - row.inverse.r * (relativeVelocity(c, va, vb).r + c.biasR), rollingThreshold(c, n));
+		applyImpulse(c, { 0, 0, r - y.r }, a.inverse, b.inverse, va, vb);
+		if (a.moves) a.v = va;
+		if (b.moves) b.v = vb;
+		row.p = { n, t, r };
+	}
+
+	void Sweeper::sweepChunk(const Chunk& chunk, double beta)
+	{
+		for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
+			Row&          row    = rows[k];
+			const Impulse before = row.p;
+			const Impulse y { before.n + beta * (before.n - row.previous.n), before.t + beta * (before.t - row.previous.t),
+					  before.r + beta * (before.r - row.previous.r) };
+			row.previous = before;
+			if (row.simple) sweepSimple(row, y, bodies[row.i], bodies[row.j]);
+			else
+				sweepGeneral(row, y);
+		}
 	}
 
 	void Sweeper::sweep(double beta)
 	{
-		forEachColour([this, beta](std::size_t c) { sums[c] = sweepChunk(chunks[c], beta); });
+		forEachColour([this, beta](std::size_t c) { sweepChunk(chunks[c], beta); });
 	}
 
 	/// Natural-map residual with the present velocities; same formulas as naturalMapResidual, chunk by chunk.
@@ -174,8 +222,8 @@ namespace {
 			double square = 0, scale = 0, worst = 0;
 			for (std::size_t k = chunks[c].begin; k < chunks[c].end; ++k) {
 				const Row&     row = rows[k];
-				const Contact& x   = row.contact;
-				const Impulse  u   = relativeVelocity(x, problem.velocities[x.i], problem.velocities[x.j]);
+				const Contact& x   = problem.contacts[colouring.order[k]];
+				const Impulse  u   = relativeVelocity(x, bodies[x.i].v, bodies[x.j].v);
 				const double   n   = row.p.n - projectNormal(row.p.n - row.inverse.n * (u.n + x.biasN), x.adhesion);
 				const double   t   = row.p.t - projectThreshold(row.p.t - row.inverse.t * (u.t + x.biasT), slidingThreshold(x, row.p.n));
 				const double   r
@@ -208,32 +256,34 @@ namespace {
 		const bool accelerated = settings.method == Method::Accelerated;
 		double     theta = 1, beta = 0;
 		int        restarts = 0, iteration = 0, sinceRestart = 0;
-		const long bodies = static_cast<long>(problem.bodyCount());
+		const long count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
-		for (long b = 0; b < bodies; ++b)
-			previousVelocity[b] = problem.velocities[b];
+		for (long b = 0; b < count; ++b)
+			previousVelocity[b] = bodies[b].v;
 		measure();
+		double last = residual.rms;
 		while (residual.relative() > settings.tolerance && iteration < settings.maxIterations) {
 			if (accelerated) extrapolateVelocities(beta);
 			sweep(beta);
 			++iteration;
-			if (accelerated) {
-				double turn = 0;
-				for (const double s : sums)
-					turn += s;
-				if (turn > 0 || ++sinceRestart >= settings.restartPeriod) {
-					restarts += theta > 1;
-					theta        = 1;
-					beta         = 0;
-					sinceRestart = 0;
-				} else {
-					const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
-					beta              = (theta - 1) / next;
-					theta             = next;
-				}
+			++sinceRestart;
+			bool restart = sinceRestart >= settings.restartPeriod;
+			if (iteration % settings.checkEvery == 0 || iteration == settings.maxIterations) {
+				measure();
+				restart = restart || residual.rms > last;
+				last    = residual.rms;
 			}
-			if (iteration % settings.checkEvery == 0 || iteration == settings.maxIterations) measure();
-#pragma omp barrier
+			if (!accelerated) continue;
+			if (restart) {
+				restarts += sinceRestart > 1;
+				theta        = 1;
+				beta         = 0;
+				sinceRestart = 0;
+			} else {
+				const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
+				beta              = (theta - 1) / next;
+				theta             = next;
+			}
 		}
 #pragma omp single
 		{
@@ -251,6 +301,10 @@ namespace {
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k)
 			problem.impulses[colouring.order[k]] = rows[k].p;
+		const long bodyCount = static_cast<long>(problem.bodyCount());
+#pragma omp for schedule(static)
+		for (long b = 0; b < bodyCount; ++b)
+			problem.velocities[b] = bodies[b].v;
 	}
 
 	SolverStatistics Sweeper::run()

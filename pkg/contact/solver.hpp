@@ -4,9 +4,9 @@
 // up to date (Jean 1999). Information crosses about one contact a sweep, so a deep packing needs thousands of plain sweeps.
 // The accelerated method starts every sweep from
 //     y_k = P_k + β_k (P_k − P_{k−1}),   β_k = (θ_k − 1)/θ_{k+1},   θ_{k+1} = (1 + √(1 + 4 θ_k²))/2
-// (Nesterov 1983) and sets θ = 1 again when the step turns against the momentum, (y_k − P_{k+1})·W (P_{k+1} − P_k) > 0
-// (O'Donoghue and Candès 2015), or after restartPeriod sweeps: in moving packings, where the status of many contacts changes, the
-// test alone lets the momentum swing around the solution. Colours make the sweep independent of the number of threads; sums are added in a fixed order.
+// (Nesterov 1983) and sets θ = 1 again when the residual has grown since it was last measured (O'Donoghue and Candès 2015, their
+// function scheme), or after restartPeriod sweeps: in moving packings, where the status of many contacts changes, the momentum would
+// else swing around the solution. Colours make the sweep independent of the number of threads; sums are added in a fixed order.
 #pragma once
 
 #include <contact/problem.hpp>

@@ -164,10 +164,15 @@ class Water:
 
 @dataclass(frozen=True)
 class Settle:
-    """Settling: at most `time_max` [s], until the mean speed is below `speed_rest` [m/s]."""
+    """Settling: at most `time_max` [s], until the mean speed is below `speed_rest` [m/s].
+
+    `friction`, `rolling_friction`: between disks meanwhile; None: the materials' own.
+    """
 
     time_max: float
     speed_rest: float
+    friction: float | None = None
+    rolling_friction: float | None = None
 
 
 @dataclass(frozen=True)
@@ -194,10 +199,11 @@ class Stages:
 
 @dataclass(frozen=True)
 class Numerics:
-    """`time_step` [s], relative `tolerance`, `max_iterations` a step, `verlet_distance` in smallest radii."""
+    """`time_step` [s], relative `tolerance`, and `tolerance_moving` once the slope has failed, `max_iterations` a step, `verlet_distance` in smallest radii."""
 
     time_step: float
     tolerance: float
+    tolerance_moving: float
     max_iterations: int
     verlet_distance: float
 

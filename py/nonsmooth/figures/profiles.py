@@ -91,12 +91,17 @@ def snapshots(cases, walls, path, pdf=False, close_up=True):
     return style.save(fig, path, pdf)
 
 
-def front(snapshot, share=0.999):
+def front_of(x, r, share=0.999):
     """Position x [m] that ``share`` of the disks' area has not passed: the front, without a few runaway disks."""
-    order = np.argsort(snapshot.x, kind="stable")
-    area = np.cumsum(snapshot.r[order] ** 2)
+    order = np.argsort(x, kind="stable")
+    area = np.cumsum(r[order] ** 2)
     at = int(np.searchsorted(area, share * area[-1]))
-    return float(snapshot.x[order][at] + snapshot.r[order][at])
+    return float(x[order][at] + r[order][at])
+
+
+def front(snapshot, share=0.999):
+    """:func:`front_of` a snapshot's disks."""
+    return front_of(snapshot.x, snapshot.r, share)
 
 
 def deposit_profile(snapshot, walls, bin_m=None):

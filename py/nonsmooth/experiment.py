@@ -1,0 +1,331 @@
+"""The course of a slope experiment: settle, bond, rest dry, raise the water, follow the avalanche until it rests.
+
+Everything that decides the course stands in :class:`State`, which goes into checkpoints; nothing depends on wall time. Rules:
+
+* settled: mean speed below ``stages.settle.speed_rest``, or ``time_max`` has passed; then bonds are made and the dry rest begins;
+* t0: the dry rest ends, the water begins to rise;
+* t1, failure: the disks' mean way since t0 reaches a tenth of the release distance D_c (0.5 m), a plastic strain of about one per
+  cent of the foot's thickness; with ``water.hold: failure`` the table stays where it is;
+* end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from yade import O
+
+from . import packing, records, slope, tables
+from .figures.profiles import front_of
+from .packing_files import write_atomically
+
+__all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
+
+ROW_SECONDS = 0.1        # between two rows of series.csv
+FRAME_SECONDS = 0.5      # between two snapshots, for the video and the figures
+CHECKPOINT_SECONDS = 90  # of wall time
+FAILURE_SHARE = 0.1      # of D_c, see above
+
+COLUMNS = tuple(records.COLUMNS)
+
+
+class ExperimentError(RuntimeError):
+    """The run cannot go on; the message says why and what helps."""
+
+
+@dataclass
+class State:
+    """Where the experiment stands; times in s of the simulation, None while they have not come."""
+
+    stage: str = "settle"  # settle, dry, water, done
+    settled: float | None = None
+    t0: float | None = None
+    failure: float | None = None
+    water_hold: float | None = None
+    centroid0: tuple[float, float] | None = None
+    front0: float | None = None
+    speed_max: float = 0.0
+    resting_since: float | None = None
+    bonds_initial: int = 0
+    contacts_initial: int = 0
+    packing_fraction: float = 0.0
+    frames: int = 0
+    overlap_mean_worst: float = 0.0
+    wall_s: float = 0.0
+    wall_packing_s: float = 0.0
+    first_step: int = 0
+
+
+class Experiment:
+    """Runs a built :class:`~nonsmooth.slope.Slope` and writes its records into ``folder``.
+
+    ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row.
+    """
+
+    def __init__(self, built, folder, state=None, layers=None, progress=None):
+        self.slope, self.section, self.folder = built, built.section, Path(folder)
+        self.state = state or State()
+        self.layers = slope.layers_of(built) if layers is None else layers
+        self.progress = progress or (lambda *_: None)
+        self.row_steps = max(1, round(ROW_SECONDS / O.dt))
+        self.frame_steps = self.row_steps * max(1, round(FRAME_SECONDS / ROW_SECONDS))
+        self.series = records.SeriesWriter(
+            self.folder / "series.csv", COLUMNS, resume_from_step=O.iter if state else None, overwrite=state is None)
+        self._clock = time.monotonic()
+        self._saved = self._clock
+        if state is None and self.state.stage == "settle":
+            self._strengths(settling=True)
+            self.slope.solver.tolerance = self.section.numerics.tolerance_moving
+
+    # ---- the course ---------------------------------------------------------------------------
+    def run(self, end=None):
+        """Runs until the experiment is over, or until ``end`` [s] of simulated time."""
+        while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
+            for _ in range(self.row_steps):
+                O.step()
+            self._advance()
+        self.checkpoint()
+        self.series.close()
+
+    def _advance(self):
+        solver, s = self.slope.solver, self.state
+        self._inside()
+        s.speed_max = max(s.speed_max, solver.meanSpeed) if s.stage == "water" else 0.0
+        s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
+        if s.stage != "settle":
+            self.series.write(self._row())
+            if O.iter % self.frame_steps == 0:
+                self.snapshot(self.folder / "snapshots" / f"{O.iter:08d}.npz")
+                s.frames += 1
+        getattr(self, f"_{s.stage}")()
+        self.progress(s.stage, O.time, self._foreseen())
+        if time.monotonic() - self._saved > CHECKPOINT_SECONDS:
+            self.checkpoint()
+
+    def _settle(self):
+        stage, solver = self.section.stages.settle, self.slope.solver
+        if solver.meanSpeed > stage.speed_rest and O.time < stage.time_max - 0.5 * O.dt:
+            return
+        s = self.state
+        self._strengths(settling=False)
+        solver.tolerance = self.section.numerics.tolerance
+        s.packing_fraction = self._fraction()
+        s.bonds_initial = solver.bond()
+        s.contacts_initial = solver.contacts
+        s.settled, s.stage, s.first_step = O.time, "dry", O.iter
+        solver.forgetEnergies()
+        for name in self.slope.walls:
+            material = self.slope.wall_material(name)
+            if hasattr(material, "forgetSlip"):
+                material.forgetSlip()
+        if self.slope.water:
+            self.slope.water.forgetReleases()
+        self.checkpoint()
+
+    def _dry(self):
+        s = self.state
+        if O.time < s.settled + self.section.stages.dry - 0.5 * O.dt:
+            return
+        s.t0, s.stage = O.time, "water"
+        s.centroid0 = (self.slope.solver.centroid[0], self.slope.solver.centroid[1])
+        s.front0 = front_of(*self._disks())
+        self.snapshot(self.folder / "t0.npz", contacts=True)
+        if self.slope.water:
+            w = self.section.water
+            times, heights = (list(map(float, v)) for v in zip(*w.table))
+            if w.rate:
+                span = self.section.stages.end.time
+                times.append(times[-1] + span)
+                heights.append(heights[-1] + w.rate * span)
+            self.slope.water.times = [s.t0 + t for t in times]
+            self.slope.water.heights = heights
+        self.checkpoint()
+
+    def _water(self):
+        s, stages, solver, water = self.state, self.section.stages, self.slope.solver, self.slope.water
+        down = self.section.downslope
+        way = sum((solver.centroid[k] - s.centroid0[k]) * down[k] for k in (0, 1))
+        limit = FAILURE_SHARE * (self.section.water.release_distance if water else 5.0)
+        if s.failure is None and way >= limit:
+            s.failure = O.time
+            solver.tolerance = self.section.numerics.tolerance_moving
+            if water and stages.water_hold == "failure":
+                self._hold(water.height)
+        if water and s.water_hold is None and not isinstance(stages.water_hold, str) and water.height >= stages.water_hold:
+            self._hold(float(stages.water_hold))
+        resting = s.failure is not None and solver.meanSpeed < stages.end.rest_fraction * s.speed_max
+        if not resting:
+            s.resting_since = None
+        elif s.resting_since is None:
+            s.resting_since = O.time
+        over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
+        if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
+            s.stage = "done"
+            self.snapshot(self.folder / "end.npz", contacts=True)
+
+    def _hold(self, height):
+        self.state.water_hold = height
+        self.slope.water.times = [O.time]
+        self.slope.water.heights = [height]
+
+    def _fraction(self):
+        """Packing fraction of the settled bulk; NaN where the layers are too thin to have one."""
+        x, y, r = (tables.bodies(self.slope.solver)[name] for name in ("x", "y", "r"))
+        try:
+            return packing.packing_fraction(packing.Packing(x, y, r, self.layers), self.section.outline)
+        except packing.PackingError:
+            return math.nan
+
+    def _strengths(self, settling):
+        """Strengths of the disks' contacts: those of settling, or the section's own; walls always have theirs."""
+        stage = self.section.stages.settle
+        for k, layer in enumerate(self.section.layers):
+            m = self.section.materials[layer.material]
+            mat = next(mat for mat in O.materials if mat.label == f"{layer.material}-{k}")
+            friction = stage.friction if settling and stage.friction is not None else m.friction
+            rolling = stage.rolling_friction if settling and stage.rolling_friction is not None else m.rolling_friction
+            mat.frictionAngle, mat.rollingFriction = math.atan(friction), rolling
+            mat.residualFrictionAngle = math.atan(friction if settling else m.residual_friction)
+            mat.residualRollingFriction = rolling if settling else m.residual_rolling_friction
+        self.slope.solver.updateStrengths()
+
+    def _foreseen(self):
+        """Simulated time at which the run may end [s]: an estimate for the progress bar."""
+        s, stages = self.state, self.section.stages
+        if s.stage == "done":
+            return O.time
+        settled = s.settled if s.settled is not None else max(8.0, O.time)
+        if s.failure is not None:
+            return max(min(s.failure + 55.0, settled + stages.end.time), O.time)
+        rate = self.section.water.rate if self.section.water else 0
+        rise = 25.0 / rate if rate and stages.water_hold == "failure" else stages.end.time
+        return max(min(settled + stages.dry + rise + 55.0, settled + stages.end.time), O.time)
+
+    # ---- records ------------------------------------------------------------------------------
+    def _disks(self):
+        t = tables.bodies(self.slope.solver)
+        return t["x"], t["r"]
+
+    def _inside(self):
+        """Raises where a disk has left the section's box."""
+        t = tables.bodies(self.slope.solver)
+        x0, y0, x1, y1 = self.section.bounds
+        margin = 0.1 * max(x1 - x0, y1 - y0)
+        out = ~((t["x"] > x0 - margin) & (t["x"] < x1 + margin) & (t["y"] > y0 - margin) & (t["y"] < y1 + margin))
+        if out.any():
+            k = int(np.flatnonzero(out)[0])
+            raise ExperimentError(
+                f"disk {k} left the section at t = {O.time:.3f} s: it is at ({t['x'][k]:.1f}, {t['y'][k]:.1f}) m; close the walls of "
+                f"{self.section.source} there, or lower numerics.time_step. What was written until now stays in {self.folder}")
+
+    def _row(self):
+        e, water, section = self.slope.solver, self.slope.water, self.section
+        forces = self.slope.wall_forces()
+        zero = (0.0, 0.0)
+        base = section.water.wall if section.water and section.water.wall else "DP"
+        dp, fb, ss = forces.get(base, zero), forces.get("FB", zero), forces.get("SS", zero)
+        total = water.totalForce if water else (0.0, 0.0, 0.0)
+        u = total[0] * section.normal[0] + total[1] * section.normal[1]
+        weak = self.slope.wall_material(base) if base in self.slope.walls else None
+        slip = hasattr(weak, "meanSlip")
+        losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
+        turned = losses + e.kineticEnergy + abs(e.externalWork)
+        x, r = self._disks()
+        return {
+            "step": O.iter, "time_s": O.time, "water_m": water.height if water else 0.0,
+            "dp_normal_total_N_per_m": dp[0] + u, "dp_normal_effective_N_per_m": dp[0], "dp_water_N_per_m": u, "dp_shear_N_per_m": dp[1],
+            "fb_normal_N_per_m": fb[0], "fb_shear_N_per_m": fb[1], "ss_normal_N_per_m": ss[0], "ss_shear_N_per_m": ss[1],
+            "wet_disks": water.wetCount if water else 0, "released_disks": water.releasedCount if water else 0,
+            "speed_mean_m_per_s": e.meanSpeed, "speed_max_m_per_s": e.maxSpeed, "front_m": front_of(x, r),
+            "centroid_x_m": e.centroid[0], "centroid_y_m": e.centroid[1], "bonds_alive": e.bonds,
+            "bonds_broken_tension": e.brokenTension, "bonds_broken_shear": e.brokenShear,
+            "bonds_broken_torque": e.brokenTorque, "bonds_broken_mixed": e.brokenMixed, "contacts": e.contacts,
+            "slip_mean_dp_m": weak.meanSlip() if slip else 0.0, "weakened_disks": weak.weakenedCount() if slip else 0,
+            "iterations": e.iterations, "residual": e.residual, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
+            "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy, "energy_water_J": e.externalWork,
+            "energy_dissipated_J": e.slidingLoss + e.rollingLoss + e.impactLoss, "energy_bonds_J": e.debondingLoss,
+            "energy_correction_J": e.correctionEnergy, "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
+        }
+
+    def snapshot(self, path, contacts=False):
+        """Writes the present state; with ``contacts`` also the forces."""
+        path.parent.mkdir(parents=True, exist_ok=True)
+        built, water = self.slope, self.slope.water
+        t = tables.bodies(built.solver)
+        first, count = built.first_disk, built.count
+        arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
+        arrays["wet"] = np.array([water.isWet(first + k) for k in range(count)] if water else np.zeros(count), bool)
+        arrays["released"] = np.array([water.isReleased(first + k) for k in range(count)] if water else np.zeros(count), bool)
+        if contacts:
+            wall_number = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
+            c = tables.contacts(built.solver)
+            keep = (c["normal"] != 0) | c["bonded"]
+            c = {name: values[keep] for name, values in c.items()}
+            # walls come first in the list of bodies, so a disk is always the second body of such a pair
+            a, b = np.minimum(c["id1"], c["id2"]), np.maximum(c["id1"], c["id2"])
+            arrays.update(
+                ci=b - first, cj=np.array([-1 - wall_number[i] if i in wall_number else i - first for i in a], int),
+                cn=c["normal"], ct=c["tangential"], cbonded=c["bonded"], cx=c["x"], cy=c["y"])
+        records.write_snapshot(path, time_s=O.time, step=O.iter, layer=self.layers, water_m=water.height if water else 0.0, **arrays)
+
+    # ---- checkpoints --------------------------------------------------------------------------
+    def checkpoint(self):
+        """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole."""
+        now = time.monotonic()
+        self.state.wall_s += now - self._clock
+        self._clock = self._saved = now
+        self.series.sync()
+        folder = self.folder / "checkpoint"
+        folder.mkdir(parents=True, exist_ok=True)
+        name = f"scene-{O.iter:08d}.yade.gz"
+        part = folder / f".part-{name}"
+        O.save(str(part), quiet=True)
+        os.replace(part, folder / name)
+        content = {"format": 1, "scene": name, "size": (folder / name).stat().st_size, "step": O.iter, "key": run_key(self.section),
+                   "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state)}
+        write_atomically(folder / "checkpoint.json", json.dumps(content, indent=1).encode())
+        for old in folder.glob("scene-*.yade.gz"):
+            if old.name != name:
+                old.unlink()
+
+
+def run_key(section):
+    """What must agree between a checkpoint and the section it is resumed with."""
+    import hashlib
+
+    plain = {"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
+             "seed": section.seed}
+    return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()
+
+
+def resume(section, folder, progress=None):
+    """An :class:`Experiment` that goes on from the checkpoint in ``folder``.
+
+    Raises ExperimentError where there is none, where it is damaged, or where it belongs to another section.
+    """
+    folder = Path(folder)
+    path = folder / "checkpoint" / "checkpoint.json"
+    try:
+        content = json.loads(path.read_text())
+        scene, size = path.parent / content["scene"], content["size"]
+        state = State(**content["state"])
+    except FileNotFoundError:
+        raise ExperimentError(f"{path}: there is no checkpoint to resume from; run without --resume, or give the right --out") from None
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ExperimentError(f"{path}: the checkpoint cannot be read ({error}); remove {path.parent} and run without --resume") from None
+    if not scene.exists() or scene.stat().st_size != size:
+        raise ExperimentError(f"{scene}: the checkpoint is missing or truncated; remove {path.parent} and run without --resume")
+    if content["key"] != run_key(section):
+        raise ExperimentError(f"{path}: this checkpoint belongs to another section, number of disks or seed; give the same ones, or another --out")
+    O.load(str(scene), quiet=True)
+    built = slope.find(section, content["walls"], content["first_disk"], content["count"])
+    if state.centroid0 is not None:
+        state.centroid0 = tuple(state.centroid0)
+    return Experiment(built, folder, state=state, progress=progress)

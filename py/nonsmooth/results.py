@@ -1,0 +1,164 @@
+"""What a finished (or interrupted) run says: characteristic times, summary, figures, video. Needs its records alone, no YADE.
+
+Characteristic times (paper, section 6; the rules are ours):
+
+* t0: the water table begins to rise;
+* t1, failure: the disks' mean way since t0 reaches a tenth of D_c (recorded by the run itself, see experiment.py);
+* t2: D_c is reached by one per cent of the disks that fit along the dipping plane;
+* t3: the mean of T_DP over one second has fallen by 80 % of its value at t2;
+* t4: the largest kinetic energy;
+* t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum for good.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+
+from . import figures, records, video
+from .packing_files import write_atomically
+
+__all__ = ["characteristic_times", "summarise", "draw"]
+
+
+def _mean(series, name, end, span=1.0):
+    """Mean of a column over the ``span`` seconds up to ``end`` [s]."""
+    t = series["time_s"]
+    chosen = (t > end - span - 1e-9) & (t <= end + 1e-9)
+    return float(np.mean(series[name][chosen])) if chosen.any() else math.nan
+
+
+def characteristic_times(series, section, state) -> dict[str, float | None]:
+    """t0 … t5 [s] of a run; None for those that did not come. ``state``: the fields of experiment.State as a mapping."""
+    t = series["time_s"]
+    times = dict.fromkeys(("t0", "t1", "t2", "t3", "t4", "t5"))
+    times["t0"], times["t1"] = state["t0"], state["failure"]
+    if times["t0"] is None or times["t1"] is None:
+        return times
+    base = section.water.wall if section.water and section.water.wall else section.walls[0].name
+    length = float(np.hypot(*np.diff(section.wall(base).points, axis=0).T).sum())
+    enough = max(1.0, 0.01 * length / math.sqrt(section.disks.mean_square))
+    late = np.flatnonzero((series["weakened_disks"] >= enough) & (t >= times["t0"]))
+    if not len(late):
+        return times
+    times["t2"] = float(t[late[0]])
+    before = _mean(series, "dp_shear_N_per_m", times["t2"])
+    for k in range(late[0], len(t)):
+        if _mean(series, "dp_shear_N_per_m", t[k]) <= 0.2 * before:
+            times["t3"] = float(t[k])
+            break
+    times["t4"] = float(t[np.argmax(series["energy_kinetic_J"])])
+    speed = series["speed_mean_m_per_s"]
+    moving = np.flatnonzero(speed >= section.stages.end.rest_fraction * speed.max())
+    if len(moving) and moving[-1] + 1 < len(t):
+        times["t5"] = float(t[moving[-1] + 1])
+    return times
+
+
+def _difference(a, b):
+    return None if a is None or b is None else a - b
+
+
+def summarise(folder, section, state, threads=None) -> dict:
+    """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are null."""
+    folder = Path(folder)
+    series = records.read_series(folder / "series.csv")
+    times = characteristic_times(series, section, state)
+    last = float(series["time_s"][-1])
+    at = lambda name, end, span=1.0: None if end is None else _mean(series, name, end, span)  # noqa: E731
+    t0, t1 = times["t0"], times["t1"]
+    finished = state["stage"] == "done"
+    begin = t0 if t0 is not None else last
+    after = series["time_s"] >= begin - 1e-9
+    tolerance = np.where(series["time_s"] > (t1 if t1 is not None else math.inf), section.numerics.tolerance_moving, section.numerics.tolerance)
+    start = records.read_snapshot(folder / "t0.npz") if (folder / "t0.npz").exists() else None
+    end = records.read_snapshot(folder / "end.npz") if (folder / "end.npz").exists() else None
+    moved = None
+    thickness = bulking = None
+    if start is not None and end is not None:
+        areas = []
+        for snapshot in (start, end):
+            x, base, surface = figures.deposit_profile(snapshot, section)
+            height = surface - base
+            areas.append(float(np.nansum(height)) * float(x[1] - x[0]))
+        thickness = float(np.nanmax(height))
+        bulking = areas[1] / areas[0]
+        moved = math.hypot(series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
+                           series["centroid_y_m"][-1] - series["centroid_y_m"][after][0])
+    dissipated = float((series["energy_dissipated_J"] + series["energy_bonds_J"])[-1])
+    turned = max(dissipated, float(np.max(series["energy_kinetic_J"])))
+    losses = series["energy_dissipated_J"] + series["energy_bonds_J"]
+    error = np.abs(series["energy_error_rel"]) * (losses + series["energy_kinetic_J"] + np.abs(series["energy_water_J"]))
+    summary = {
+        "section": section.name, "finished": finished, "disks": int(len(start.x)) if start is not None else None,
+        "contacts_initial": state["contacts_initial"], "bonds_initial": state["bonds_initial"],
+        "packing_fraction": state["packing_fraction"], "time_step_s": section.numerics.time_step,
+        "steps": int(series["step"][-1] - state["first_step"]), "simulated_s": last - (state["settled"] or 0.0),
+        "wall_s": state["wall_s"], "wall_packing_s": state["wall_packing_s"], "threads": threads,
+        "iterations_mean": float(np.mean(series["iterations"])),
+        "tolerance": section.numerics.tolerance, "tolerance_moving": section.numerics.tolerance_moving,
+        "residual_p95": float(np.percentile(series["residual"], 95)),
+        "residual_p95_over_tolerance": float(np.percentile(series["residual"] / tolerance, 95)),
+        "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])), "overlap_mean_rel": float(np.max(series["overlap_mean_rel"])),
+        "times_s": times, "water_at_failure_m": at("water_m", t1, 0.0),
+        "fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0), "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", t1),
+        "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2.0) if finished else None,
+        "dp_shear_dry_N_per_m": at("dp_shear_N_per_m", t0), "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", t1),
+        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2.0) if finished else None,
+        "triggering_s": _difference(times["t3"], times["t2"]), "motion_s": _difference(times["t5"], times["t3"]),
+        "front_travel_m": float(series["front_m"][-1] - state["front0"]) if state["front0"] is not None else None,
+        "centroid_travel_m": moved, "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
+        "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
+        "deposit_thickness_max_m": thickness, "bulking_factor": bulking,
+        "energy_dissipated_J_per_m": dissipated, "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,
+        "energy_error_rel": float(np.max(error)) / turned if turned > 0 else 0.0,
+    }
+    summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
+    if None not in (t0, t1):
+        rise = summary["fb_force_at_failure_N_per_m"] - summary["fb_force_dry_N_per_m"]
+        drop = summary["dp_shear_dry_N_per_m"] - summary["dp_shear_at_failure_N_per_m"]
+        summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
+    clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
+    write_atomically(folder / "summary.json", (json.dumps(clean, indent=1) + "\n").encode())
+    return clean
+
+
+def _nearest(frames, time):
+    """Snapshot file whose time is nearest; ``frames``: list of (time, path)."""
+    return min(frames, key=lambda item: abs(item[0] - time))[1]
+
+
+def draw(folder, section, summary, time_step, progress=None) -> tuple[list[Path], list[str]]:
+    """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
+    folder = Path(folder)
+    series = records.read_series(folder / "series.csv")
+    times = summary["times_s"]
+    made, notes = [], []
+    # files of steps beyond the series are left from before a resume
+    files = [p for p in sorted((folder / "snapshots").glob("*.npz")) if int(p.stem) <= int(series["step"][-1])]
+    frames = [(int(p.stem) * time_step, p) for p in files]
+    start, end = folder / "t0.npz", folder / "end.npz"
+    if start.exists():
+        first = records.read_snapshot(start)
+        made.append(figures.force_chains(first, section, folder / "force_chains.png"))
+    made.append(figures.forces_against_time(series, times, folder / "forces.png"))
+    cases = []
+    for name, t in times.items():
+        if t is None:
+            continue
+        path = start if name == "t0" and start.exists() else (_nearest(frames, t) if frames else None)
+        if path is not None:
+            cases.append((name, records.read_snapshot(path)))
+    if cases:
+        made.append(figures.snapshots(cases, section, folder / "snapshots.png"))
+    if start.exists() and end.exists():
+        made.append(figures.deposit(records.read_snapshot(end), first, section, folder / "deposit.png"))
+    made.append(figures.energy(series, folder / "energy.png", times=times))
+    made.append(figures.solver(series, folder / "solver.png", times=times, tolerance=section.numerics.tolerance_moving))
+    if files:
+        path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, progress=progress)
+        (made if path else notes).append(path or note)
+    return [Path(p) for p in made], notes

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""The rain-triggered avalanche of Taboada and Estrada (2009), or any other section.
+
+  scripts/jiufengershan.py [--section FILE] [--disks N] [--out DIR] [--threads T] [--seed S] [--end SECONDS] [--resume]
+"""
+import os, sys
+if "yade" not in sys.modules:  # started as it is: hand over to the launcher
+    launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
+    os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
+
+import argparse
+import dataclasses
+import time
+from pathlib import Path
+
+from tqdm import tqdm
+from yade import O
+from yade.nonsmooth import experiment, packing, records, results, section, slope
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="jiufengershan.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--section", default="jiufengershan", metavar="FILE", help="a section file, or the name of a shipped one")
+    parser.add_argument("--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own")
+    parser.add_argument("--disks", type=int, metavar="N", help="about N disks instead of the section's: all diameters are scaled")
+    parser.add_argument("--out", default="out/jiufengershan", metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument("--threads", type=int, metavar="T", help="threads (default: all cores)")
+    parser.add_argument("--seed", type=int, metavar="S", help="seed of the packing instead of the section's")
+    parser.add_argument("--end", type=float, metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
+    parser.add_argument("--water", metavar="RATE", type=float, help="rate at which the table rises [m/s] instead of the section's; 0: dry")
+    parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in DIR")
+    return parser.parse_args()
+
+
+def read_section(args):
+    s = section.load(args.section)
+    if args.disks is not None:
+        s = s.with_disks(args.disks)
+    if args.seed is not None:
+        s = dataclasses.replace(s, seed=args.seed)
+    if args.water is not None and s.water is not None:
+        s = dataclasses.replace(s, water=dataclasses.replace(s.water, table=((0.0, 0.0),), rate=args.water))
+    return s
+
+
+def fill(args, s):
+    """The packing, and the wall time it took [s]."""
+    began = time.monotonic()
+    if args.packing:
+        return packing.read_text(args.packing), time.monotonic() - began
+    with tqdm(total=100, desc="packing", unit="%", leave=False) as bar:
+        made = packing.cached_pack(s, progress=lambda share: bar.update(int(100 * share) - bar.n))
+    return made, time.monotonic() - began
+
+
+def check_writable(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe = folder / ".probe"
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise records.RecordsError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out") from None
+
+
+class Bar:
+    """Simulated seconds against those foreseen, with the time left."""
+
+    def __init__(self):
+        self.bar = tqdm(total=1, unit="s", bar_format="{desc} {percentage:3.0f}%|{bar}| {n:.1f}/{total:.0f} s simulated, {elapsed} gone, about {remaining} left")
+
+    def __call__(self, stage, now, foreseen):
+        self.bar.total = max(foreseen, now)
+        self.bar.set_description_str(f"{stage:8s}", refresh=False)
+        self.bar.n = now
+        self.bar.refresh() if sys.stderr.isatty() or int(now * 10) % 20 == 0 else None
+
+
+def main():
+    args = arguments()
+    s = read_section(args)
+    out = Path(args.out)
+    check_writable(out)
+    if args.resume:
+        run = experiment.resume(s, out)
+    else:
+        made, seconds = fill(args, s)
+        built = slope.build(s, made)
+        run = experiment.Experiment(built, out)
+        run.state.wall_packing_s = seconds
+        print(f"{len(made)} disks, packing fraction {packing.packing_fraction(made, s.outline):.3f}, results go to {out}", flush=True)
+    run.progress = Bar()
+    run.run(end=args.end)
+    run.progress.bar.close()
+    if run.state.stage == "settle":
+        print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
+        return
+    state = {**dataclasses.asdict(run.state), "overlap_worst_ever": run.slope.solver.overlapWorstEver}
+    summary = results.summarise(out, s, state, threads=args.threads or os.cpu_count())
+    made, notes = results.draw(out, s, summary, O.dt)
+    for note in notes:
+        print(note)
+    print(f"\n{'finished' if summary['finished'] else 'stopped (go on with --resume)'} at {O.time:.1f} s of simulated time, "
+          f"{summary['wall_s']:.0f} s of wall time")
+    for name in ("water_at_failure_m", "triggering_s", "motion_s", "front_travel_m", "deposit_thickness_max_m", "energy_error_rel"):
+        value = summary[name]
+        print(f"  {name:28s} {'-' if value is None else f'{value:.4g}'}")
+    print(f"results: {out}/summary.json, series.csv, {', '.join(p.name for p in made)}")
+
+
+try:
+    main()
+except (section.SectionError, packing.PackingError, records.RecordsError, experiment.ExperimentError) as error:
+    sys.exit(f"error: {error}")
