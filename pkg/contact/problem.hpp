@@ -22,6 +22,11 @@ struct Twist {
 	double x = 0, y = 0, w = 0;
 };
 
+/// A place in the plane [m].
+struct Point {
+	double x = 0, y = 0;
+};
+
 /// Inverse generalised mass; zero where a degree of freedom is blocked or driven.
 struct InverseMass {
 	double x = 0, y = 0, w = 0;
@@ -48,6 +53,7 @@ struct Contact {
 struct Problem {
 	std::vector<InverseMass> inverseMass; // one a body
 	std::vector<Twist>       freeVelocity; // velocity at the end of the step if no contact acted
+	std::vector<Point>       positions;    // of the bodies' centres; may be empty, serves the order of the sweep only
 	std::vector<Contact>     contacts;
 	std::vector<Impulse>     impulses;   // warm start in, solution out
 	std::vector<Twist>       velocities; // out: freeVelocity + M⁻¹ Hᵀ P

@@ -1,15 +1,13 @@
 #include <cmath>
-#include <contact/colouring.hpp>
 #include <contact/law.hpp>
 #include <contact/solver.hpp>
+#include <contact/sweep_order.hpp>
 #include <omp.h>
 #include <stdexcept>
 #include <string>
 
 namespace nonsmooth::contact {
 namespace {
-
-	constexpr std::size_t chunkSize = 128; // contacts that one thread takes at a time; sums are kept a chunk
 
 	/// What a sweep needs of a contact, side by side in memory and in sweep order.
 	struct Row {
@@ -30,11 +28,6 @@ namespace {
 		bool        moves = false;
 	};
 
-	struct Chunk {
-		std::size_t begin, end;
-	};
-
-	/// Rows in colour order, cut into chunks; the same cut for any number of threads.
 	class Sweeper {
 	public:
 		Sweeper(Problem& problem, const SolverSettings& settings);
@@ -46,22 +39,20 @@ namespace {
 		void iterate();
 		void extrapolateVelocities(double beta);
 		void sweep(double beta);
-		void sweepChunk(const Chunk& chunk, double beta);
+		void sweepStrip(std::size_t strip, double beta);
 		void sweepGeneral(Row& row, const Impulse& y);
 		static void sweepSimple(Row& row, const Impulse& y, Body& a, Body& b);
 		void measure();
 		void finish();
-		template <class Visit> void forEachColour(Visit visit);
+		template <class Visit> void forEachStrip(Visit visit);
 
 		Problem&                 problem;
 		const SolverSettings&    settings;
-		Colouring                colouring;
+		SweepOrder               arranged;
 		std::vector<Row>         rows;
-		std::vector<Chunk>       chunks;
-		std::vector<std::size_t> firstChunk; // of each colour
 		std::vector<Twist>       previousVelocity;
 		std::vector<Body>        bodies;
-		std::vector<double>      squares, scales, largest; // one a chunk
+		std::vector<double>      squares, scales, largest; // one a strip
 		Residual                 residual;
 		SolverStatistics         statistics;
 	};
@@ -69,33 +60,27 @@ namespace {
 	Sweeper::Sweeper(Problem& problem_, const SolverSettings& settings_)
 	        : problem(problem_)
 	        , settings(settings_)
-	        , colouring(colour(problem_.contacts, problem_.inverseMass))
+	        , arranged(arrange(problem_))
 	{
-		for (std::size_t k = 0; k < colouring.count(); ++k) {
-			firstChunk.push_back(chunks.size());
-			const std::size_t end = colouring.begin[k + 1], width = colouring.parallel[k] ? chunkSize : end - colouring.begin[k];
-			for (std::size_t at = colouring.begin[k]; at < end; at += width)
-				chunks.push_back({ at, std::min(at + width, end) });
-		}
-		firstChunk.push_back(chunks.size());
 		for (auto* v : { &squares, &scales, &largest })
-			v->assign(chunks.size(), 0.0);
+			v->assign(arranged.stripCount(), 0.0);
 		rows.resize(problem.contactCount());
 		previousVelocity.resize(problem.bodyCount());
 		bodies.resize(problem.bodyCount());
 		problem.velocities.resize(problem.bodyCount());
-		statistics.colours = static_cast<int>(colouring.count());
+		statistics.strips = static_cast<int>(arranged.stripCount());
 	}
 
-	/// Calls visit(chunk index) for every chunk, one colour after the other; inside a parallel region.
-	template <class Visit> void Sweeper::forEachColour(Visit visit)
+	/// Calls visit(strip) for all even strips, then for all odd ones; inside a parallel region.
+	template <class Visit> void Sweeper::forEachStrip(Visit visit)
 	{
-		for (std::size_t k = 0; k < colouring.count(); ++k) {
-			const long from = static_cast<long>(firstChunk[k]), to = static_cast<long>(firstChunk[k + 1]);
-#pragma omp for schedule(static)
-			for (long c = from; c < to; ++c)
-				visit(static_cast<std::size_t>(c));
-		}
+		const long half = static_cast<long>(arranged.evenStrips), count = static_cast<long>(arranged.stripCount());
+#pragma omp for schedule(dynamic, 1)
+		for (long s = 0; s < half; ++s)
+			visit(static_cast<std::size_t>(s));
+#pragma omp for schedule(dynamic, 1)
+		for (long s = half; s < count; ++s)
+			visit(static_cast<std::size_t>(s));
 	}
 
 	void Sweeper::gather()
@@ -106,9 +91,9 @@ namespace {
 			bodies[b] = { problem.freeVelocity[b], problem.inverseMass[b], !problem.inverseMass[b].isFixed() };
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k) {
-			const Contact&     c  = problem.contacts[colouring.order[k]];
+			const Contact&     c  = problem.contacts[arranged.order[k]];
 			const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
-			const Impulse      p  = project(c, problem.impulses[colouring.order[k]]);
+			const Impulse      p  = project(c, problem.impulses[arranged.order[k]]);
 			// a lever along the normal, a different mass in x and y, or a further bias couple more rows
 			const bool simple = mi.x == mi.y && mj.x == mj.y && c.biasT == 0 && c.biasR == 0 && (mi.w == 0 || c.leverNi == 0)
 			        && (mj.w == 0 || c.leverNj == 0);
@@ -126,11 +111,11 @@ namespace {
 #pragma omp for schedule(static)
 		for (long b = 0; b < count; ++b)
 			bodies[b].v = problem.freeVelocity[b];
-		forEachColour([this](std::size_t c) {
-			for (std::size_t k = chunks[c].begin; k < chunks[c].end; ++k) {
+		forEachStrip([this](std::size_t s) {
+			for (std::size_t k = arranged.stripBegin[s]; k < arranged.stripBegin[s + 1]; ++k) {
 				Body &a = bodies[rows[k].i], &b = bodies[rows[k].j];
 				Twist va = a.v, vb = b.v;
-				applyImpulse(problem.contacts[colouring.order[k]], rows[k].p, a.inverse, b.inverse, va, vb);
+				applyImpulse(problem.contacts[arranged.order[k]], rows[k].p, a.inverse, b.inverse, va, vb);
 				if (a.moves) a.v = va;
 				if (b.moves) b.v = vb;
 			}
@@ -180,7 +165,7 @@ namespace {
 	/// Any contact, row by row.
 	void Sweeper::sweepGeneral(Row& row, const Impulse& y)
 	{
-		const Contact& c = problem.contacts[colouring.order[&row - rows.data()]];
+		const Contact& c = problem.contacts[arranged.order[&row - rows.data()]];
 		Body &         a = bodies[row.i], &b = bodies[row.j];
 		Twist          va = a.v, vb = b.v;
 		const double   n = projectNormal(y.n - row.inverse.n * (relativeVelocity(c, va, vb).n + c.biasN), c.adhesion);
@@ -194,9 +179,9 @@ namespace {
 		row.p = { n, t, r };
 	}
 
-	void Sweeper::sweepChunk(const Chunk& chunk, double beta)
+	void Sweeper::sweepStrip(std::size_t strip, double beta)
 	{
-		for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
+		for (std::size_t k = arranged.stripBegin[strip]; k < arranged.stripBegin[strip + 1]; ++k) {
 			Row&          row    = rows[k];
 			const Impulse before = row.p;
 			const Impulse y { before.n + beta * (before.n - row.previous.n), before.t + beta * (before.t - row.previous.t),
@@ -210,19 +195,19 @@ namespace {
 
 	void Sweeper::sweep(double beta)
 	{
-		forEachColour([this, beta](std::size_t c) { sweepChunk(chunks[c], beta); });
+		forEachStrip([this, beta](std::size_t s) { sweepStrip(s, beta); });
 	}
 
-	/// Natural-map residual with the present velocities; same formulas as naturalMapResidual, chunk by chunk.
+	/// Natural-map residual with the present velocities; same formulas as naturalMapResidual, strip by strip.
 	void Sweeper::measure()
 	{
-		const long count = static_cast<long>(chunks.size());
+		const long count = static_cast<long>(arranged.stripCount());
 #pragma omp for schedule(static)
 		for (long c = 0; c < count; ++c) {
 			double square = 0, scale = 0, worst = 0;
-			for (std::size_t k = chunks[c].begin; k < chunks[c].end; ++k) {
+			for (std::size_t k = arranged.stripBegin[c]; k < arranged.stripBegin[c + 1]; ++k) {
 				const Row&     row = rows[k];
-				const Contact& x   = problem.contacts[colouring.order[k]];
+				const Contact& x   = problem.contacts[arranged.order[k]];
 				const Impulse  u   = relativeVelocity(x, bodies[x.i].v, bodies[x.j].v);
 				const double   n   = row.p.n - projectNormal(row.p.n - row.inverse.n * (u.n + x.biasN), x.adhesion);
 				const double   t   = row.p.t - projectThreshold(row.p.t - row.inverse.t * (u.t + x.biasT), slidingThreshold(x, row.p.n));
@@ -300,7 +285,7 @@ namespace {
 		const long count = static_cast<long>(rows.size());
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k)
-			problem.impulses[colouring.order[k]] = rows[k].p;
+			problem.impulses[arranged.order[k]] = rows[k].p;
 		const long bodyCount = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
 		for (long b = 0; b < bodyCount; ++b)
@@ -309,7 +294,7 @@ namespace {
 
 	SolverStatistics Sweeper::run()
 	{
-		const int threads = rows.size() < 4 * chunkSize ? 1 : std::max(1, settings.threads);
+		const int threads = arranged.stripCount() < 4 ? 1 : std::max(1, settings.threads);
 #pragma omp parallel num_threads(threads)
 		{
 			gather();

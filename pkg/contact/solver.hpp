@@ -6,7 +6,8 @@
 //     y_k = P_k + β_k (P_k − P_{k−1}),   β_k = (θ_k − 1)/θ_{k+1},   θ_{k+1} = (1 + √(1 + 4 θ_k²))/2
 // (Nesterov 1983) and sets θ = 1 again when the residual has grown since it was last measured (O'Donoghue and Candès 2015, their
 // function scheme), or after restartPeriod sweeps: in moving packings, where the status of many contacts changes, the momentum would
-// else swing around the solution. Colours make the sweep independent of the number of threads; sums are added in a fixed order.
+// else swing around the solution. Strips (sweep_order.hpp) make the sweep independent of the number of
+// threads; sums are added in a fixed order.
 #pragma once
 
 #include <contact/problem.hpp>
@@ -28,7 +29,7 @@ struct SolverSettings {
 struct SolverStatistics {
 	int      iterations = 0;
 	int      restarts   = 0;
-	int      colours    = 0;
+	int      strips     = 0;
 	bool     converged  = true;
 	Residual residual; // of what is returned, from velocities computed anew from the impulses
 };

@@ -43,7 +43,9 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	for (auto* v : { &problem.freeVelocity, &before, &external })
 		v->assign(size, {});
 	problem.inverseMass.assign(size, {});
+	problem.positions.assign(size, {});
 	present.assign(size, 0);
+	radius.assign(size, -1);
 	const Real h = relaxation.step;
 	int        bad = -1; // body with an unusable state; reported after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
@@ -53,13 +55,16 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		const State&   s = *body->state;
 		const unsigned d = s.blockedDOFs;
 		present[id]      = 1;
+		if (const Shape* shape = body->shape.get())
+			if (typeid(*shape) == typeid(Sphere) || dynamic_cast<const Sphere*>(shape)) radius[id] = static_cast<const Sphere*>(shape)->radius;
 		before[id]       = { s.vel[0], s.vel[1], angularPlane(s.angVel) };
 		auto& w          = problem.inverseMass[id];
 		if (!(d & State::DOF_X)) w.x = 1 / s.mass;
 		if (!(d & State::DOF_Y)) w.y = 1 / s.mass;
 		if (!(d & State::DOF_RZ)) w.w = 1 / s.inertia[2];
 		const Vector3r &f = scene.forces.getForce(id), &m = scene.forces.getTorque(id);
-		external[id] = { f[0], f[1], m[2] };
+		external[id]          = { f[0], f[1], m[2] };
+		problem.positions[id] = { s.pos[0], s.pos[1] };
 		Twist v      = before[id];
 		if (w.x > 0) v.x += h * (f[0] * w.x + gravity[0]);
 		if (w.y > 0) v.y += h * (f[1] * w.y + gravity[1]);
@@ -84,37 +89,47 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	}
 }
 
+namespace {
+	/// The cohesive physics of an interaction; the usual two classes are recognised without a search through their bases.
+	NscdPhys* physOf(Interaction& i)
+	{
+		IPhys&      phys = *i.phys;
+		const auto& type = typeid(phys);
+		if (type == typeid(NscdPhys) || type == typeid(SlipWeakeningPhys)) return static_cast<NscdPhys*>(&phys);
+		if (auto* derived = dynamic_cast<NscdPhys*>(&phys)) return derived;
+		throw std::runtime_error(
+		        "ContactDynamicsEngine: interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2()) + " has a " + phys.getClassName()
+		        + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+	}
+}
+
 /// Real interactions in the order of (lower id, higher id).
 void ContactSeam::collect(Scene& scene)
 {
 	const size_t size = scene.bodies->size();
 	bucket.assign(size + 1, 0);
-	const auto real = [&](const shared_ptr<Interaction>& i) {
-		return i->isReal() && i->isActive && (size_t)std::max(i->getId1(), i->getId2()) < size && present[i->getId1()] && present[i->getId2()];
-	};
-	for (const auto& i : *scene.interactions)
-		if (real(i)) ++bucket[std::min(i->getId1(), i->getId2()) + 1];
+	found.clear();
+	for (const auto& i : *scene.interactions) {
+		if (!i->isReal() || !i->isActive) continue;
+		const int low = std::min(i->getId1(), i->getId2()), high = std::max(i->getId1(), i->getId2());
+		if ((size_t)high >= size || !present[low] || !present[high]) continue;
+		found.push_back({ low, high, i.get() });
+		++bucket[low + 1];
+	}
 	for (size_t k = 0; k < size; ++k)
 		bucket[k + 1] += bucket[k];
-	ordered.resize(bucket[size]);
-	for (const auto& i : *scene.interactions)
-		if (real(i)) ordered[bucket[std::min(i->getId1(), i->getId2())]++] = i.get();
+	ordered.resize(found.size());
+	for (const Found& f : found)
+		ordered[bucket[f.low]++] = f;
 	// each bucket now ends where the next one began
-	const auto higher = [](const Interaction* i) { return std::max(i->getId1(), i->getId2()); };
-	int        begin  = 0;
+	int begin = 0;
 	for (size_t k = 0; k < size; ++k) {
-		std::sort(ordered.begin() + begin, ordered.begin() + bucket[k], [&](const Interaction* a, const Interaction* b) { return higher(a) < higher(b); });
+		std::sort(ordered.begin() + begin, ordered.begin() + bucket[k], [](const Found& a, const Found& b) { return a.high < b.high; });
 		begin = bucket[k];
 	}
 	links.resize(ordered.size());
-	for (size_t k = 0; k < ordered.size(); ++k) {
-		auto* phys = dynamic_cast<NscdPhys*>(ordered[k]->phys.get());
-		if (!phys)
-			throw std::runtime_error(
-			        "ContactDynamicsEngine: interaction #" + std::to_string(ordered[k]->getId1()) + "+#" + std::to_string(ordered[k]->getId2()) + " has a "
-			        + ordered[k]->phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
-		links[k] = { ordered[k], phys, 0, 0, false };
-	}
+	for (size_t k = 0; k < ordered.size(); ++k)
+		links[k] = { ordered[k].interaction, physOf(*ordered[k].interaction), 0, 0, false };
 }
 
 void ContactSeam::gatherContact(Scene& scene, size_t k)
@@ -123,7 +138,8 @@ void ContactSeam::gatherContact(Scene& scene, size_t k)
 	const auto&  geom = static_cast<const ScGeom&>(*link.interaction->geom);
 	const auto&  phys = *link.phys;
 	const Body & b1 = *(*scene.bodies)[link.interaction->getId1()], &b2 = *(*scene.bodies)[link.interaction->getId2()];
-	const auto * s1 = dynamic_cast<const Sphere*>(b1.shape.get()), *s2 = dynamic_cast<const Sphere*>(b2.shape.get());
+	const Real   r1 = radius[b1.getId()], r2 = radius[b2.getId()]; // negative: not a sphere
+	const bool   s1 = r1 > 0, s2 = r2 > 0;
 	const Real   gap = -geom.penetrationDepth, h = relaxation.step;
 	Contact      c;
 
@@ -136,8 +152,8 @@ void ContactSeam::gatherContact(Scene& scene, size_t k)
 	c.nx              = n[0];
 	c.ny              = n[1];
 	if (s1 && s2) {
-		c.leverTi = (link.swapped ? s2 : s1)->radius + 0.5 * gap;
-		c.leverTj = -((link.swapped ? s1 : s2)->radius + 0.5 * gap);
+		c.leverTi = (link.swapped ? r2 : r1) + 0.5 * gap;
+		c.leverTj = -((link.swapped ? r1 : r2) + 0.5 * gap);
 	} else {
 		const Vector3r ri = geom.contactPoint - bi.state->pos, rj = geom.contactPoint - bj.state->pos;
 		c.leverNi = n[1] * ri[0] - n[0] * ri[1];

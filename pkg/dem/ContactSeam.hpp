@@ -58,6 +58,11 @@ private:
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumBodies(const Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
+	struct Found {
+		int          low, high; // ids
+		Interaction* interaction;
+	};
+
 	Relaxation                             relaxation { 1, 0, 0 };
 	int                                    threads = 1;
 	long                                   iteration = -1;
@@ -66,7 +71,8 @@ private:
 	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body
 	std::vector<char>                      present;
 	std::vector<int>                       bucket;
-	std::vector<Interaction*>              ordered;
+	std::vector<Found>                     found, ordered;
+	std::vector<Real>                      radius; // of spheres, negative for other shapes
 };
 
 } // namespace yade::nscd

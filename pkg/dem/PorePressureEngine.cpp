@@ -44,8 +44,9 @@ void PorePressureEngine::action()
 	}
 	for (const auto& body : *scene->bodies) {
 		if (!body || !body->isDynamic() || (mask != 0 && !body->maskOk(mask))) continue;
-		const auto* sphere = dynamic_cast<const Sphere*>(body->shape.get());
-		if (!sphere) continue;
+		const Shape* shape = body->shape.get();
+		if (!shape || (typeid(*shape) != typeid(Sphere) && !dynamic_cast<const Sphere*>(shape))) continue;
+		const auto* sphere = static_cast<const Sphere*>(shape);
 		const auto      id  = body->getId();
 		const Vector3r& pos = body->state->pos;
 		if (!released[id] && (pos - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;

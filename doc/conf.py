@@ -1,0 +1,51 @@
+"""Sphinx of yade-nonsmooth. Built inside YADE (the target "doc"), so that the reference can ask the classes themselves."""
+import os
+import re
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(HERE)
+sys.path.insert(0, os.path.join(HERE, "ext"))
+
+project = "yade-nonsmooth"
+author = "the authors of yade-nonsmooth"
+with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as _file:
+    release = re.search(r"project\(yade-nonsmooth VERSION ([\d.]+)", _file.read()).group(1)
+version = release
+
+extensions = [
+    "sphinx.ext.autodoc",
+    "mathml",           # equations, without a network
+    "yade_reference",   # classes of the plugin, from their docstrings
+    "package_modules",  # modules of the package, from their docstrings
+    "section_keys",     # keys of a section file, from the schema
+    "records_columns",  # columns of series.csv, from the package
+    "pictures",         # figures that a run has made, where they are there
+    "checked_script",   # the README's script is the one that the tests run
+]
+
+needs_sphinx = "5.3"
+default_role = "literal"  # `name` in the package's docstrings
+highlight_language = "none"  # code blocks name theirs
+exclude_patterns = ["ext", "figures", "examples"]
+smartquotes = False  # 'zXY' and --resume are code
+math_eqref_format = "({number})"
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+
+html_math_renderer = "mathml"
+html_theme = "alabaster"
+html_title = f"yade-nonsmooth {release}"
+html_static_path = ["static"]
+html_css_files = ["pages.css"]
+html_show_sourcelink = False
+html_show_copyright = False
+html_theme_options = {
+    "description": "Contact Dynamics for YADE",
+    "page_width": "64rem",
+    "sidebar_width": "15rem",
+    "fixed_sidebar": False,
+    "show_powered_by": False,
+}
+html_sidebars = {"**": ["about.html", "navigation.html", "searchbox.html"]}

@@ -1,0 +1,125 @@
+// The projections of the contact law, branch by branch, and the functions of slip.
+#include <cmath>
+#include <contact/law.hpp>
+#include <contact/slip_weakening.hpp>
+#include <gtest/gtest.h>
+
+using namespace nonsmooth::contact;
+
+namespace {
+
+Contact contact(double adhesion, double friction, double arm)
+{
+	Contact c;
+	c.adhesion   = adhesion;
+	c.friction   = friction;
+	c.rollingArm = arm;
+	return c;
+}
+
+TEST(Law, NormalImpulseIsCutAtTheAdhesion)
+{
+	EXPECT_EQ(projectNormal(2, 0), 2); // compression stays
+	EXPECT_EQ(projectNormal(-2, 0), 0); // Signorini: no tension
+	EXPECT_EQ(projectNormal(-2, 3), -2); // eq. (1): tension below the threshold stays
+	EXPECT_EQ(projectNormal(-4, 3), -3); // and is cut at it
+}
+
+TEST(Law, ThresholdCutsBothSigns)
+{
+	EXPECT_EQ(projectThreshold(0.5, 1), 0.5);
+	EXPECT_EQ(projectThreshold(-0.5, 1), -0.5);
+	EXPECT_EQ(projectThreshold(2, 1), 1);
+	EXPECT_EQ(projectThreshold(-2, 1), -1);
+	EXPECT_EQ(projectThreshold(2, 0), 0);
+}
+
+TEST(Law, ThresholdsFollowTheAdhesionPlusTheNormalImpulse)
+{
+	const Contact c = contact(3, 0.5, 0.25);
+	EXPECT_DOUBLE_EQ(slidingThreshold(c, 1), 2); // 0.5 (3 + 1), eq. (4)
+	EXPECT_DOUBLE_EQ(rollingThreshold(c, 1), 1); // 0.25 (3 + 1), eq. (6)
+	EXPECT_EQ(slidingThreshold(c, -3), 0); // at the tensile threshold nothing is left
+	EXPECT_EQ(rollingThreshold(c, -3), 0);
+	EXPECT_EQ(slidingThreshold(c, -5), 0); // never negative
+	EXPECT_EQ(rollingThreshold(c, -5), 0);
+}
+
+TEST(Law, ProjectionTakesTheNormalFirst)
+{
+	const Contact c = contact(1, 0.5, 0.1);
+	const Impulse inside = project(c, { 1, 0.9, -0.19 });
+	EXPECT_DOUBLE_EQ(inside.n, 1);
+	EXPECT_DOUBLE_EQ(inside.t, 0.9);
+	EXPECT_DOUBLE_EQ(inside.r, -0.19);
+	const Impulse cut = project(c, { 1, -7, 7 });
+	EXPECT_DOUBLE_EQ(cut.t, -1);
+	EXPECT_DOUBLE_EQ(cut.r, 0.2);
+	const Impulse apart = project(c, { -7, 7, 7 }); // N is put at −F_a, where friction and rolling end
+	EXPECT_EQ(apart.n, -1);
+	EXPECT_EQ(apart.t, 0);
+	EXPECT_EQ(apart.r, 0);
+}
+
+TEST(Law, ProjectionIsIdempotent)
+{
+	const Contact c = contact(1, 0.5, 0.1);
+	for (const Impulse& p : { Impulse { 1, 5, -5 }, Impulse { -4, 1, 1 }, Impulse { 0, 0.2, 0.05 } }) {
+		const Impulse once = project(c, p), twice = project(c, once);
+		EXPECT_EQ(once.n, twice.n);
+		EXPECT_EQ(once.t, twice.t);
+		EXPECT_EQ(once.r, twice.r);
+	}
+}
+
+TEST(Law, InverseDelassusOfDisks)
+{
+	// two disks of mass 2 and 4, radius 0.5: W_nn = 1/2 + 1/4; W_tt and W_rr with I = m r²/2
+	Contact c;
+	c.nx      = 0.6;
+	c.ny      = 0.8;
+	c.leverTi = 0.5;
+	c.leverTj = -0.5;
+	const InverseMass mi { 0.5, 0.5, 4 }, mj { 0.25, 0.25, 2 };
+	const Impulse     w = inverseDelassus(c, mi, mj);
+	EXPECT_NEAR(w.n, 1 / 0.75, 1e-15); // rounding of two products
+	EXPECT_NEAR(w.t, 1 / (0.75 + 6 * 0.25), 1e-15);
+	EXPECT_NEAR(w.r, 1 / 6.0, 1e-15);
+	const Impulse none = inverseDelassus(c, {}, {});
+	EXPECT_EQ(none.n, 0); // two walls: nothing can move, and nothing is divided by zero
+	EXPECT_EQ(none.t, 0);
+	EXPECT_EQ(none.r, 0);
+}
+
+TEST(SlipWeakening, StepKeepsAllThenNothing)
+{
+	EXPECT_EQ(slipWeakening("step", 0, 5), 1);
+	EXPECT_EQ(slipWeakening("step", std::nextafter(5, 0), 5), 1);
+	EXPECT_EQ(slipWeakening("step", 5, 5), 0);
+	EXPECT_EQ(slipWeakening("step", 50, 5), 0);
+}
+
+TEST(SlipWeakening, LinearAndExponential)
+{
+	EXPECT_EQ(slipWeakening("linear", 0, 4), 1);
+	EXPECT_DOUBLE_EQ(slipWeakening("linear", 1, 4), 0.75);
+	EXPECT_EQ(slipWeakening("linear", 4, 4), 0);
+	EXPECT_EQ(slipWeakening("linear", 9, 4), 0);
+	EXPECT_EQ(slipWeakening("exponential", 0, 4), 1);
+	EXPECT_DOUBLE_EQ(slipWeakening("exponential", 4, 4), std::exp(-1));
+}
+
+TEST(SlipWeakening, RefusesWhatItDoesNotKnow)
+{
+	EXPECT_THROW(slipWeakening("linear", 1, 0), std::invalid_argument);
+	EXPECT_THROW(slipWeakening("linear", 1, -1), std::invalid_argument);
+	EXPECT_THROW(slipWeakening("linear", 1, std::nan("")), std::invalid_argument);
+	try {
+		slipWeakening("quadratic", 1, 1);
+		FAIL() << "an unknown function was taken";
+	} catch (const std::invalid_argument& error) {
+		EXPECT_NE(std::string(error.what()).find("'quadratic'"), std::string::npos);
+	}
+}
+
+} // namespace

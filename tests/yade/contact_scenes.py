@@ -1,0 +1,64 @@
+"""Small scenes that several tests share."""
+import math
+import random
+
+from yade import O
+from yade.minieigenHP import Vector3
+from yade.nonsmooth import scene
+from yade.wrapper import NscdMat
+
+G = 9.81
+TIGHT = dict(tolerance=1e-12, maxIterations=20000)
+
+
+def material(mu=0.3, rolling=0.0, kind=NscdMat, **more):
+    """A material in the scene: friction and rolling coefficients, other attributes by name."""
+    made = kind(density=2500, frictionAngle=math.atan(mu), rollingFriction=rolling, **more)
+    O.materials.append(made)
+    return made
+
+
+def begin(gravity=(0, -G, 0), dt=1e-3, **options):
+    """Engines in an empty scene; returns the ContactDynamicsEngine."""
+    O.engines = scene.engines(gravity=gravity, **{**TIGHT, **options})
+    O.dt = dt
+    return engine()
+
+
+def engine():
+    return next(e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine")
+
+
+def run(steps):
+    for _ in range(steps):  # O.run(wait=True) sleeps 40 ms a call
+        O.step()
+
+
+def contacts():
+    return [i for i in O.interactions if i.isReal]
+
+
+def box(stuff, width, height):
+    return O.bodies.append(scene.segments([(0, height), (0, 0), (width, 0), (width, height)], stuff, piece=2))
+
+
+def loose_heap(stuff, columns=8, rows=8, seed=5, radius=(0.3, 0.5)):
+    """Disks on a wide lattice above a floor, radii and places at random; returns their ids."""
+    dice = random.Random(seed)
+    return [O.bodies.append(scene.disk((0.75 + 1.1 * a + dice.uniform(-0.04, 0.04), 0.6 + 1.1 * b + dice.uniform(-0.04, 0.04)),
+                                       dice.uniform(*radius), stuff))
+            for b in range(rows) for a in range(columns)]
+
+
+def state(ids):
+    return [(O.bodies[i].state.pos, O.bodies[i].state.vel, O.bodies[i].state.angVel[2]) for i in ids]
+
+
+def momenta(ids):
+    """Linear momentum, and the angular one about the origin."""
+    linear, angular = Vector3(0, 0, 0), 0.0
+    for i in ids:
+        s = O.bodies[i].state
+        linear += s.mass * s.vel
+        angular += s.mass * s.pos.cross(s.vel)[2] + s.inertia[2] * s.angVel[2]
+    return linear, angular

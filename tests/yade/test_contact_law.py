@@ -1,0 +1,210 @@
+"""A disk on walls of segments: sliding, rolling, joints, corners and slip (targets.md, section Analytic)."""
+import math
+
+import pytest
+from yade import O
+from yade.minieigenHP import Vector3
+from yade.nonsmooth import scene
+from yade.wrapper import SlipWeakeningMat
+
+from contact_scenes import G, begin, contacts, material, run
+
+DIP = math.radians(21)
+ALONG, NORMAL = Vector3(math.cos(DIP), -math.sin(DIP), 0), Vector3(math.sin(DIP), math.cos(DIP), 0)
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.reset()
+
+
+def incline(mu, rolling=0.0, radius=0.5, piece=0.25, turns=True, wall=None, length=8.0, dip=DIP):
+    """A disk at rest at the top of an inclined wall of many pieces; returns its id."""
+    along, normal = Vector3(math.cos(dip), -math.sin(dip), 0), Vector3(math.sin(dip), math.cos(dip), 0)
+    stuff = material(mu, rolling)
+    O.bodies.append(scene.segments([(0, 0), tuple(length * along)[:2]], wall or stuff, piece=piece))
+    disk = O.bodies.append(scene.disk(tuple(0.35 * along + radius * normal)[:2], radius, stuff))
+    if not turns:
+        O.bodies[disk].state.blockedDOFs = "zXYZ"
+    return disk
+
+
+def follow(disk, acceleration, steps, dt=1e-3, tolerance=1e-9):
+    """Runs and checks speed, place and that one contact at most acts. Exact in Moreau-Jean stepping, whose constant acceleration gives
+    v = a t and x = a t (t + h)/2; the tolerance is the solver's and the rounding of many steps."""
+    begin(dt=dt)
+    start = O.bodies[disk].state.pos
+    for _ in range(steps // 20):
+        run(20)
+        assert len(contacts()) == 1
+    t, s = O.time, O.bodies[disk].state
+    assert s.vel.dot(ALONG) == pytest.approx(acceleration * t, rel=tolerance, abs=1e-12)
+    assert (s.pos - start).dot(ALONG) == pytest.approx(acceleration * t * (t + dt) / 2, rel=tolerance, abs=1e-12)
+    assert abs(s.vel.dot(NORMAL)) < 1e-9  # no bump: joints are straight to rounding, 1e-16 m/h
+    assert abs((s.pos - start).dot(NORMAL)) < 1e-9
+    return s
+
+
+def test_slides_over_joints_with_friction():
+    a = G * (math.sin(DIP) - 0.3 * math.cos(DIP))
+    assert a == pytest.approx(0.768, abs=5e-4)  # the figure of targets.md
+    s = follow(incline(0.3, turns=False), a, 3600)
+    assert (s.pos - 0.35 * ALONG).dot(ALONG) == pytest.approx(5, abs=0.03)  # 5 m in 3.61 s: 20 joints
+
+
+def test_slides_over_joints_without_friction():
+    a = G * math.sin(DIP)
+    assert a == pytest.approx(3.516, abs=5e-4)
+    s = follow(incline(0.0), a, 1500)
+    assert abs(s.angVel[2]) < 1e-12
+
+
+@pytest.mark.parametrize("rolling", [0.0, 0.1, 0.15])
+def test_rolls_over_joints(rolling):
+    a = 2 / 3 * G * (math.sin(DIP) - 2 * rolling * math.cos(DIP))
+    s = follow(incline(0.5, rolling), a, 2000)
+    assert s.angVel[2] == pytest.approx(-s.vel.dot(ALONG) / 0.5, rel=1e-9)  # no slip: tan θ ≤ 3 μ_s − 4 μ_r
+
+
+def test_rolling_ends_where_it_must():
+    # tan 21° = 0.38386 lies between 2 μ_r = 0.3836 (rolls, slowly) and 0.3842 (stays)
+    disk = incline(0.5, 0.1918)
+    follow(disk, 2 / 3 * G * (math.sin(DIP) - 0.3836 * math.cos(DIP)), 500, tolerance=1e-6)
+    O.reset()
+    s = follow(incline(0.5, 0.1921), 0, 500)
+    assert abs(s.angVel[2]) < 1e-12
+
+
+def test_slips_while_it_rolls_where_friction_is_short():
+    # tan θ > 3 μ_s − 4 μ_r with μ_r = 0: slides with Coulomb's force, which turns it
+    mu = 0.1
+    s = follow(incline(mu), G * (math.sin(DIP) - mu * math.cos(DIP)), 1000)
+    assert s.angVel[2] == pytest.approx(-2 * mu * G * math.cos(DIP) / 0.5 * O.time, rel=1e-9)
+
+
+def test_stays():
+    s = follow(incline(0.5, 0.2), 0, 1000)  # tan θ < 2 μ_r and μ_s
+    assert s.vel.norm() < 1e-12  # m/s: rounding
+    O.reset()
+    s = follow(incline(0.4, turns=False), 0, 1000)
+    assert s.vel.norm() < 1e-12
+
+
+def test_one_contact_at_a_straight_joint():
+    stuff = material(0.3)
+    O.bodies.append(scene.segments([(-1, 0), (1, 0)], stuff, piece=1))
+    disk = O.bodies.append(scene.disk((0, 0.5), 0.5, stuff))
+    begin()
+    run(50)
+    assert len(contacts()) == 1
+    weight = O.bodies[disk].state.mass * G
+    assert contacts()[0].phys.normal == pytest.approx(weight, rel=1e-10)
+    assert O.forces.f(0)[1] + O.forces.f(1)[1] == pytest.approx(-weight, rel=1e-10)
+
+
+def test_concave_corner_has_one_contact_a_side():
+    # a frictionless V of 45°: each side carries m g/√2, however it is cut
+    stuff = material(0.0)
+    O.bodies.append(scene.segments([(-3, 3), (0, 0), (3, 3)], stuff, piece=0.4))
+    O.bodies.append(scene.disk((0, 0.5 * math.sqrt(2)), 0.5, stuff))
+    begin()
+    run(50)
+    assert len(contacts()) == 2
+    for i in contacts():
+        assert i.phys.normal == pytest.approx(O.bodies[i.id2].state.mass * G / math.sqrt(2), rel=1e-8)
+    assert contacts()[0].geom.normal.dot(contacts()[1].geom.normal) == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("drop", [5, 30, 90])
+def test_convex_corner_is_rounded_with_one_contact(drop):
+    turn = math.radians(drop)
+    stuff = material(0.0)
+    O.bodies.append(scene.segments([(-3, 0), (0, 0), (3 * math.cos(turn), -3 * math.sin(turn))], stuff, piece=0.5))
+    disk = O.bodies.append(scene.disk((-0.3, 0.5), 0.5, stuff))
+    O.bodies[disk].state.vel = (0.8, 0, 0)
+    begin(dt=2e-4)
+    s = O.bodies[disk].state
+    most, worst = 0, 0.0
+    for _ in range(400):
+        run(20)
+        most = max(most, sum(i.phys.normal > 0 for i in contacts()))
+        corner = s.pos.norm() if s.pos[0] > 0 and s.pos.dot((math.cos(turn), -math.sin(turn), 0)) < 0 else 0.5
+        worst = max(worst, 0.5 - corner)
+        if s.pos[1] < 0.4 or s.pos[0] > 1.5:
+            break
+    assert most == 1
+    assert worst < 1e-6  # m: it went round the corner, not through it
+    # energy: no friction, no bump; the time step's error is below m g h v
+    drop_height = 0.5 - s.pos[1]
+    assert drop_height > 0.05
+    assert s.vel.norm() ** 2 == pytest.approx(0.8**2 + 2 * G * drop_height, rel=4e-3)
+
+
+def test_one_sided_wall_lets_through_from_behind():
+    stuff = material(0.3)
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff, sense=-1))
+    disk = O.bodies.append(scene.disk((0, 0.6), 0.5, stuff))
+    O.bodies[disk].state.vel = (0, 0.5, 0)
+    begin(gravity=(0, 0, 0))
+    run(10)
+    assert O.bodies[disk].state.vel[1] == 0.5 and not [i for i in contacts() if i.phys.normal]
+
+
+# ---- slip along a wall ----------------------------------------------------------------------------
+
+def weak_wall(**more):
+    return material(0.3, kind=SlipWeakeningMat, **more)
+
+
+def test_slip_survives_joints_and_is_the_path():
+    wall = weak_wall(criticalSlip=50)
+    disk = incline(0.7, turns=False, wall=wall)
+    follow(disk, G * (math.sin(DIP) - 0.3 * math.cos(DIP)), 2000)  # the wall's friction rules, not the disk's
+    path = (O.bodies[disk].state.pos - 0.35 * ALONG).dot(ALONG)
+    assert path > 1.5  # 6 joints and more
+    assert wall.slipOf(disk) == pytest.approx(path, rel=1e-9)  # sums of the same steps
+    assert contacts()[0].phys.slip == wall.slipOf(disk)
+    assert wall.slipOf(0) == 0 and wall.weakenedCount() == 0
+    assert wall.meanSlip() == pytest.approx(path, rel=1e-9)
+
+
+def test_rolling_is_no_slip():
+    wall = weak_wall(criticalSlip=50)
+    disk = incline(0.7, wall=wall)
+    follow(disk, 2 / 3 * G * math.sin(DIP), 500)
+    assert wall.slipOf(disk) < 1e-10  # m, over 0.3 m of rolling
+
+
+def test_step_weakening_drops_friction_at_the_critical_slip():
+    # a step of friction from 0.3 to 0.1 after 0.5 m: two parabolas
+    wall = weak_wall(criticalSlip=0.5, weakenedFrictionAngle=math.atan(0.1))
+    disk = incline(0.3, turns=False, wall=wall)
+    dt, s = 1e-3, O.bodies[disk].state
+    begin(dt=dt)
+    strong, weak = (G * (math.sin(DIP) - mu * math.cos(DIP)) for mu in (0.3, 0.1))
+    while wall.slipOf(disk) < 0.5:
+        run(1)
+        assert O.time < 2
+        assert wall.weakenedCount() == (wall.slipOf(disk) >= 0.5)
+    assert O.time == pytest.approx(math.sqrt(2 * 0.5 / strong), abs=2 * dt)
+    v, t = s.vel.dot(ALONG), O.time
+    assert v == pytest.approx(strong * t, rel=1e-9)
+    run(300)
+    assert s.vel.dot(ALONG) - v == pytest.approx(weak * (O.time - t), rel=1e-9)
+    assert contacts()[0].phys.tangensOfFrictionAngle == pytest.approx(0.1, rel=1e-12)
+    wall.forgetSlip()
+    assert wall.slipOf(disk) == 0
+
+
+def test_linear_weakening_follows_the_slip():
+    wall = weak_wall(criticalSlip=2, weakening="linear")
+    disk = incline(0.3, turns=False, wall=wall)
+    begin()
+    run(1200)
+    # friction of a step is that of the slip before it
+    before = wall.slipOf(disk)
+    run(1)
+    assert 0.1 < before < 1
+    assert contacts()[0].phys.tangensOfFrictionAngle == pytest.approx(0.3 * (1 - before / 2), rel=1e-9)

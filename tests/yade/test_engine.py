@@ -1,0 +1,328 @@
+"""ContactDynamicsEngine in a scene: stacks, momentum, impact, driven walls, other engines, energies, refusals, save and load."""
+import math
+import random
+
+import pytest
+from yade import O
+from yade.nonsmooth import scene
+from yade.wrapper import (
+    ForceEngine, FrictMat, GlobalStiffnessTimeStepper, Ip2_FrictMat_FrictMat_FrictPhys, NewtonIntegrator)
+
+from contact_scenes import G, begin, box, contacts, engine, loose_heap, material, momenta, run
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.trackEnergy = O.timingEnabled = False
+    O.reset()
+
+
+def free_disk(x=0.0, y=0.0, velocity=(0, 0, 0), stuff=None, **more):
+    disk = O.bodies.append(scene.disk((x, y), 0.5, stuff or material(**more)))
+    O.bodies[disk].state.vel = velocity
+    return disk
+
+
+def floor(stuff, dofs=None):
+    return O.bodies.append(scene.segments([(-20, 0), (20, 0)], stuff))[0]
+
+
+# ---- balance of forces and momentum ---------------------------------------------------------------
+
+def test_stack_of_fifty_disks_carries_its_weight():
+    stuff = material(0.3, 0.1)
+    wall = floor(stuff)
+    disks = [O.bodies.append(scene.disk((0, 0.5 + k), 0.5, stuff)) for k in range(50)]
+    begin(dt=5e-3)
+    run(100)
+    weight = sum(O.bodies[d].state.mass * G for d in disks)
+    assert -O.forces.f(wall)[1] == pytest.approx(weight, rel=1e-6)  # acceptance 5; the tolerance of the solve is 1e-12
+    for i in contacts():  # each carries what stands on it
+        above = 50 - (0 if i.id1 == wall else disks.index(i.id1) + 1)
+        assert i.phys.normal == pytest.approx(weight * above / 50, rel=1e-6)
+    assert max(O.bodies[d].state.vel.norm() for d in disks) < 1e-8  # m/s; one step's fall is 0.05
+    assert engine().overlapWorst < 1e-9
+
+
+def test_stack_carries_its_weight_at_the_default_tolerance():
+    stuff = material(0.3, 0.1)
+    wall = floor(stuff)
+    disks = [O.bodies.append(scene.disk((0, 0.5 + k), 0.5, stuff)) for k in range(50)]
+    begin(dt=5e-3, tolerance=1e-4, maxIterations=2000)
+    run(100)
+    weight = sum(O.bodies[d].state.mass * G for d in disks)
+    assert -O.forces.f(wall)[1] == pytest.approx(weight, rel=0.01)  # a loose solve, warm started: no creep
+    assert engine().unconverged == 0
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-10])
+def test_momentum_is_conserved_without_external_forces(tolerance):
+    stuff = material(0.3, 0.1, tensileStrength=2e4, residualTensileStrength=5e3, bondCreationDistance=0.3, restitution=0.3,
+                     bondEllipseNormal=0.1, bondEllipseTangential=0.1)
+    disks = loose_heap(stuff)
+    dice = random.Random(2)
+    for d in disks:
+        O.bodies[d].state.vel = (dice.uniform(-1, 1), dice.uniform(-1, 1), 0)
+        O.bodies[d].state.angVel = (0, 0, dice.uniform(-1, 1))
+    begin(gravity=(0, 0, 0), dt=2e-3, tolerance=tolerance, reach=0.4)
+    run(1)
+    assert engine().bond() > 30
+    linear, angular = momenta(disks)
+    scale = sum(O.bodies[d].state.mass for d in disks)  # times 1 m/s; times 4 m for the angular momentum
+    run(400)
+    e = engine()
+    broken = e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed
+    assert broken > 5 and e.bonds > 0 and e.slidingLoss > 0 and e.impactLoss > 0  # all that may happen does
+    after, turned = momenta(disks)
+    # whether solved or not: each impulse acts on two bodies with opposite signs; rounding of 400 steps
+    assert (after - linear).norm() < 1e-11 * scale
+    assert abs(turned - angular) < 1e-10 * scale
+    assert (e.momentum - after).norm() < 1e-11 * scale
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_restitution_head_on(restitution):
+    stuff = material(0.3, restitution=restitution)
+    left, right = free_disk(-1, 0, (1, 0, 0), stuff), free_disk(1, 0, (-2, 0, 0), stuff)
+    begin(gravity=(0, 0, 0), dt=1e-3, reach=0.05)
+    run(600)
+    # centre of mass −0.5, approach 3
+    assert O.bodies[left].state.vel[0] == pytest.approx(-0.5 - 1.5 * restitution, abs=1e-9)
+    assert O.bodies[right].state.vel[0] == pytest.approx(-0.5 + 1.5 * restitution, abs=1e-9)
+    mass = O.bodies[left].state.mass
+    e = engine()
+    # lost: (1 − e²) of the energy of approach, m_red v²/2; a gap that closes within a step takes a second step where e = 0
+    assert e.impactLoss == pytest.approx((1 - restitution**2) * 0.5 * (mass / 2) * 9, rel=1e-9, abs=1e-6)
+    assert e.overlapWorstEver < 1e-2
+
+
+# ---- walls that move, blocked directions, other engines -------------------------------------------
+
+def test_driven_wall_pushes_and_works():
+    stuff = material(0.3)
+    wall = O.bodies.append(scene.segments([(0, 5), (0, -5)], stuff))[0]
+    O.bodies[wall].state.vel = (0.5, 0, 0)
+    disk = free_disk(0.7, 0, stuff=stuff)
+    begin(gravity=(0, 0, 0))
+    run(1000)
+    s, e = O.bodies[disk].state, engine()
+    assert s.vel[0] == pytest.approx(0.5, rel=1e-10)
+    assert s.pos[0] - O.bodies[wall].state.pos[0] == pytest.approx(0.5, abs=1e-9)
+    # the wall gives m V²: half moves the disk, half is lost in the impact
+    assert e.wallWork == pytest.approx(s.mass * 0.25, rel=1e-9)
+    assert e.impactLoss == pytest.approx(0.5 * s.mass * 0.25, rel=1e-9)
+    before = e.wallWork
+    O.forces.setPermF(disk, (-1000, 0, 0))
+    run(1000)
+    assert s.vel[0] == pytest.approx(0.5, rel=1e-10)
+    assert O.forces.f(wall)[0] == pytest.approx(-1000, rel=1e-9)
+    assert engine().wallWork - before == pytest.approx(1000 * 0.5 * 1.0, rel=1e-9)  # F V t
+    assert engine().externalWork == pytest.approx(-500, rel=2e-3)  # less the step in which the balance stands
+    assert abs(engine().energyError) < 1e-6
+
+
+def test_turning_wall_drags_a_disk():
+    stuff = material(0.3)
+    drum = O.bodies.append(scene.disk((0, 0), 1, stuff, fixed=True))
+    O.bodies[drum].state.angVel = (0, 0, 1)
+    disk = free_disk(0, 1.5, stuff=stuff)
+    s = O.bodies[disk].state
+    s.blockedDOFs = "xzXY"  # what turns it is friction, until it rolls on the drum
+    O.forces.setPermF(disk, (0, -1000, 0))
+    begin(gravity=(0, 0, 0))
+    run(500)
+    assert s.angVel[2] == pytest.approx(-300 * 0.5 / s.inertia[2] * O.time, rel=1e-9)  # μ N r
+    run(4000)
+    assert s.angVel[2] == pytest.approx(-2, rel=1e-9)  # 1 m of drum against 0.5 m of disk
+    assert s.vel[0] == 0
+    # the drum gives what turns the disk and, as much again, what slides away
+    assert engine().wallWork == pytest.approx(2 * 0.5 * s.inertia[2] * 4, rel=1e-9)
+    assert engine().slidingLoss == pytest.approx(0.5 * s.inertia[2] * 4, rel=1e-9)
+
+
+def test_forces_of_other_engines_are_respected():
+    stuff = material(0.3)
+    floor(stuff)
+    flying, pushed = free_disk(-5, 3, stuff=stuff), free_disk(5, 0.5, stuff=stuff)
+    O.bodies[pushed].state.blockedDOFs = "zXYZ"
+    mass = O.bodies[flying].state.mass
+    begin(before=[ForceEngine(force=(2 * mass, 5 * mass, 0), ids=[flying, pushed])])
+    run(100)
+    t = O.time
+    assert tuple(O.bodies[flying].state.vel)[:2] == pytest.approx((2 * t, (5 - G) * t), rel=1e-12)
+    # on the floor: 2 m against μ (m g − 5 m)
+    assert O.bodies[pushed].state.vel[0] == pytest.approx((2 - 0.3 * (G - 5)) * t, rel=1e-9)
+    O.forces.setPermF(pushed, (0, 6 * mass, 0))
+    run(10)
+    assert O.bodies[pushed].state.vel[1] > 0  # lifted: 11 m against m g
+
+
+def test_blocked_directions_are_infinite_masses():
+    stuff = material(0.3)
+    held, mover = free_disk(0, 0, stuff=stuff), free_disk(1.2, 0.3, (-1, 0, 0), stuff=stuff)
+    O.bodies[held].state.blockedDOFs = "xzXYZ"  # may move along y only
+    begin(gravity=(0, 0, 0))
+    run(500)
+    a, b = O.bodies[held].state, O.bodies[mover].state
+    assert a.vel[0] == 0 and a.pos[0] == 0 and a.angVel[2] == 0
+    assert a.vel[1] < -0.01
+    assert a.mass * (a.vel[1] + b.vel[1]) == pytest.approx(0, abs=1e-8)  # the free direction keeps its momentum
+
+
+# ---- energy ---------------------------------------------------------------------------------------
+
+def test_energy_of_a_block_that_slides_to_rest():
+    stuff = material(0.3)
+    floor(stuff)
+    block = free_disk(0, 0.5, (2, 0, 0), stuff)
+    O.bodies[block].state.blockedDOFs = "zXYZ"
+    O.trackEnergy = True
+    begin()
+    run(1000)  # it rests after 2/(0.3 g) = 0.68 s
+    s, e = O.bodies[block].state, engine()
+    kinetic = 0.5 * s.mass * 4
+    assert abs(s.vel[0]) < 1e-10
+    assert s.pos[0] == pytest.approx(4 / (2 * 0.3 * G), abs=2 * O.dt)  # the step's first-order error is v h/2
+    assert e.slidingLoss == pytest.approx(kinetic, rel=1e-9)
+    assert abs(e.energyError) < 1e-9 * kinetic
+    assert e.rollingLoss == 0 and abs(e.correctionEnergy) < 1e-9 * kinetic
+    assert e.energies()["sliding"] == e.slidingLoss and e.energies()["error"] == e.energyError
+    assert dict(O.energy.items())["contactSliding"] == pytest.approx(kinetic, rel=1e-9)
+
+
+def test_energy_of_a_collapse_closes():
+    stuff = material(0.3, 0.1)
+    box(stuff, 9.5, 12)
+    loose_heap(stuff)
+    O.trackEnergy = True
+    begin(dt=1e-3, tolerance=1e-6, maxIterations=2000)
+    run(3000)
+    e = engine()
+    given = e.slidingLoss + e.rollingLoss + e.impactLoss
+    assert {"contactSliding", "contactRolling", "contactDebonding", "contactImpact"} <= set(O.energy.keys())
+    assert given > 1e5  # J: 64 disks of about 1250 kg fall by some decimetres
+    # potential energy is taken at the beginning of a step: first order, ½ m g h v, gone when all rests
+    assert abs(e.energyError) < 1e-3 * given
+    assert e.correctionEnergy < 1e-3 * given
+
+
+# ---- saving, timing, threads ----------------------------------------------------------------------
+
+def cohesive_heap():
+    stuff = material(0.3, 0.1, tensileStrength=2e3, residualTensileStrength=1e3, residualFrictionAngle=0.2, bondCreationDistance=0.02)
+    box(stuff, 9.5, 12)
+    loose_heap(stuff)
+    begin(dt=2e-3, tolerance=1e-4, maxIterations=300)
+
+
+def test_save_and_load_continue_with_the_same_bits(tmp_path):
+    cohesive_heap()
+    run(800)
+    assert engine().bond() > 20
+    run(50)
+    saved = str(tmp_path / "state.yade.gz")
+    O.save(saved)
+    run(200)
+    e = engine()
+    unbroken = (e.bodyTable(), e.contactTable(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError, e.steps)
+    O.reset()
+    O.load(saved)
+    assert type(O.bodies[0].material).__name__ == "NscdMat" and engine().bonds == 0  # not yet counted
+    run(200)
+    e = engine()
+    assert (e.bodyTable(), e.contactTable(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError,
+            e.steps) == unbroken
+    assert e.bonds > 0
+
+
+def test_timing_counts_the_engine():
+    O.timingEnabled = True
+    cohesive_heap()
+    run(20)
+    e = engine()
+    assert e.execCount == 20 and e.execTime > 0
+    assert all(s >= 0 for s in e.stageSeconds) and sum(e.stageSeconds) <= 1e-9 * e.execTime  # parts of the whole
+
+
+# ---- refusals -------------------------------------------------------------------------------------
+
+def refused(*words):
+    with pytest.raises(Exception) as error:
+        O.step()
+    for word in words:
+        assert word in str(error.value), str(error.value)
+
+
+def simple_scene(**more):
+    stuff = material(0.3, label="rock")
+    floor(stuff)
+    disk = free_disk(0, 0.5, stuff=stuff)
+    begin(**more)
+    return disk
+
+
+def integrator():
+    return next(e for e in O.engines if isinstance(e, NewtonIntegrator))
+
+
+def test_refuses_damping():
+    simple_scene()
+    integrator().damping = 0.2
+    refused("damping", "0.2", "damping=0")
+
+
+def test_refuses_soft_time_steppers_unless_off():
+    simple_scene()
+    O.engines = [GlobalStiffnessTimeStepper(active=True)] + O.engines
+    refused("GlobalStiffnessTimeStepper", "O.dt")
+    O.engines[0].active = False
+    O.step()
+
+
+def test_refuses_a_wrong_order_and_a_missing_integrator():
+    simple_scene()
+    engines = O.engines
+    at = [type(e).__name__ for e in engines].index("ContactDynamicsEngine")
+    O.engines = engines[:at] + [engines[at + 1], engines[at]]
+    refused("NewtonIntegrator", "before")
+    O.engines = engines[:at + 1]
+    refused("NewtonIntegrator", "add")
+
+
+def test_refuses_bodies_that_leave_the_plane():
+    disk = simple_scene()
+    O.bodies[disk].state.blockedDOFs = ""
+    refused(f"#{disk}", "zXY")
+
+
+@pytest.mark.parametrize("attribute, word", [("mass", "mass"), ("vel", "finite")])
+def test_refuses_unusable_states(attribute, word):
+    disk = simple_scene()
+    setattr(O.bodies[disk].state, attribute, {"mass": 0.0, "vel": (math.nan, 0, 0)}[attribute])
+    refused(f"#{disk}", word)
+
+
+def test_refuses_contacts_of_other_materials():
+    soft = FrictMat(density=2500)
+    O.materials.append(soft)
+    for x in (0, 0.9):
+        O.bodies.append(scene.disk((x, 0), 0.5, soft))
+    begin()
+    loop = next(e for e in O.engines if type(e).__name__ == "InteractionLoop")
+    loop.physDispatcher.functors = [Ip2_FrictMat_FrictMat_FrictPhys()]
+    O.engines = O.engines
+    refused("FrictPhys", "NscdMat")
+
+
+@pytest.mark.parametrize("name, value", [
+    ("tolerance", 0.0), ("maxIterations", 0), ("relaxationRate", 2.0), ("method", "jacobi"), ("checkEvery", 0)])
+def test_refuses_wrong_settings(name, value):
+    simple_scene(**{name: value})
+    refused(name)
+
+
+def test_unknown_settings_are_refused():
+    with pytest.raises(Exception, match="iterationsMaximum"):
+        scene.engines(iterationsMaximum=3)
