@@ -171,18 +171,6 @@ void ContactDynamicsEngine::updateStrengths()
 			Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(*phys, *Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
 }
 
-void ContactDynamicsEngine::dumpRaw(const string& path) const
-{
-	std::ofstream f(path, std::ios::binary);
-	const auto& p = seam.problem;
-	const size_t nb = p.bodyCount(), nc = p.contactCount();
-	f.write((const char*)&nb, 8); f.write((const char*)&nc, 8);
-	f.write((const char*)p.inverseMass.data(), nb * sizeof(p.inverseMass[0]));
-	f.write((const char*)p.freeVelocity.data(), nb * sizeof(p.freeVelocity[0]));
-	f.write((const char*)p.contacts.data(), nc * sizeof(p.contacts[0]));
-	f.write((const char*)p.impulses.data(), nc * sizeof(p.impulses[0]));
-}
-
 void ContactDynamicsEngine::forgetEnergies()
 {
 	energyStart = NaN;

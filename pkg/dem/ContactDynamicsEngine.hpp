@@ -26,7 +26,6 @@ public:
 	/// Takes the strengths of all contacts from the materials anew.
 	void updateStrengths();
 	void forgetEnergies();
-	void dumpRaw(const string& path) const;
 	boost::python::dict energies() const;
 	boost::python::object bodyTable() const;
 	boost::python::object contactTable() const;
@@ -35,12 +34,12 @@ public:
 R"""(Contact Dynamics (Moreau 1988, Jean 1999) for rigid disks in the x-y plane: finds the reactions of all contacts that
 :yref:`Law2_ScGeom_NscdPhys_SignoriniCoulomb` keeps, such that velocities at the end of the step obey the law. Place it after
 :yref:`InteractionLoop` and every engine that adds forces, before :yref:`NewtonIntegrator`\ (damping=0). Gravity is the integrator's.
-Bodies need blockedDOFs='zXY' and a disk's mass and inertia (:yref:`yade.nonsmooth.disk`); bodies with blocked DOFs are walls, and their
+Bodies need blockedDOFs='zXY' and a disk's mass and inertia (:yref:`yade.nonsmooth.scene.disk`); bodies with blocked DOFs are walls, and their
 velocity drives them.
 
 The solve ends when the natural-map residual (rms over contacts, relative to the rms reaction, from velocities computed anew) is below
-:yref:`tolerance<ContactDynamicsEngine.tolerance>`. Energies go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding,
-contactImpact (dissipated) and contactCorrection. The same scene gives the same bits on any number of threads.)""",
+:yref:`tolerance<ContactDynamicsEngine.tolerance>`. Energies dissipated go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding
+and contactImpact. The same scene gives the same bits on any number of threads.)""",
 		((Real,tolerance,1e-4,,"Residual below which a step is solved [-]."))
 		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning."))
 		((string,method,"accelerated",,"'accelerated' (Gauss-Seidel inside Nesterov's extrapolation) or 'gaussSeidel' (plain)."))
@@ -83,7 +82,6 @@ contactImpact (dissipated) and contactCorrection. The same scene gives the same 
 		,
 		.def("bond",&ContactDynamicsEngine::bond,"Make a bond wherever two bodies of one layer (or a wall that bonds to all and a body) have a gap below bondCreationDistance; run a step first, so that interactions exist. Returns the number made.")
 		.def("unbond",&ContactDynamicsEngine::unbond,"Remove all bonds. Returns their number.")
-		.def("dumpRaw",&ContactDynamicsEngine::dumpRaw)
 		.def("updateStrengths",&ContactDynamicsEngine::updateStrengths,"Take the strengths of all present contacts from the bodies' materials anew (they are copied when a contact is made); bonds and reactions stay.")
 		.def("forgetEnergies",&ContactDynamicsEngine::forgetEnergies,"Begin the energy balance anew.")
 		.def("energies",&ContactDynamicsEngine::energies,"All energies of the balance as a dictionary [J].")

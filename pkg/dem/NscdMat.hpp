@@ -24,9 +24,9 @@ not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that 
 		((Real,residualRollingFriction,-1,,"Rolling friction [-] of a contact that is not bonded; negative: as rollingFriction."))
 		((Real,bondEllipseNormal,0.02,,"Half-axis ε_n of the ellipse in which a bond lives, along the contact normal [ℓ] (Figure 2b)."))
 		((Real,bondEllipseTangential,0.02,,"Half-axis ε_t of the ellipse along the tangent [ℓ]."))
-		((Real,bondCreationDistance,0.01,,"Bonds are made where the gap is below this distance Δ [ℓ] (Figure 2a), see :yref:`ContactDynamicsEngine.bond`."))
+		((Real,bondCreationDistance,0.02,,"Bonds are made where the gap is below this distance Δ [ℓ] (Figure 2a), see :yref:`ContactDynamicsEngine.bond`."))
 		((Real,restitution,0,,"Newton's coefficient of restitution e [-], between 0 and 1; the larger of the two bodies' holds."))
-		((int,layer,0,,"Bonds and residual tensile strength exist only between bodies of the same layer; see bondsToAll for walls."))
+		((int,layer,0,,"Bonds and residual tensile strength exist only between bodies of the same layer; in a layer with a negative number no bonds are made. See bondsToAll for walls."))
 		((bool,bondsToAll,false,,"Make bonds with bodies of any layer (for walls, section 5.1)."))
 		((bool,wall,false,,"This material's strengths alone rule a contact with it (section 3.3); otherwise the weaker of the two values holds."))
 		,

@@ -79,7 +79,7 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, 
 	phys.ellipseNormal     = length * pick(a.bondEllipseNormal, b.bondEllipseNormal);
 	phys.ellipseTangential = length * pick(a.bondEllipseTangential, b.bondEllipseTangential);
 	phys.creationDistance  = length * pick(a.bondCreationDistance, b.bondCreationDistance);
-	phys.bondable          = a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer);
+	phys.bondable          = a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer && a.layer >= 0);
 }
 
 } // namespace yade

@@ -29,7 +29,7 @@ void PorePressureEngine::action()
 	const Real     cosDip   = gravity.norm() > 0 ? -gravity.normalized().dot(normal) : 1;
 	const Vector3r down     = gravity - gravity.dot(normal) * normal;
 	const Vector3r downhill = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized()) : Vector3r(Vector3r::Zero());
-	const Vector3r gradient = unitWeight * cosDip * volumeFactor * normal;
+	const Vector3r slope    = gradient != Vector3r::Zero() ? gradient : Vector3r(unitWeight * cosDip * normal);
 	height                  = heightAt(scene->time);
 	wetCount                = 0;
 	releasedCount           = 0;
@@ -52,7 +52,7 @@ void PorePressureEngine::action()
 		if (!released[id] && (pos - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
 		releasedCount += released[id];
 		if (released[id] || height <= 0 || (pos - planePoint).dot(normal) >= height) continue;
-		const Vector3r force = gradient * (Mathr::PI * sphere->radius * sphere->radius * thickness);
+		const Vector3r force = slope * (volumeFactor * Mathr::PI * sphere->radius * sphere->radius * thickness);
 		scene->forces.addForce(id, force);
 		wet[id] = 1;
 		++wetCount;

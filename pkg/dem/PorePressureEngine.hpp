@@ -33,6 +33,7 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		((Vector3r,planeNormal,Vector3r(0,1,0),,"Normal of the plane, pointing up into the slope."))
 		((vector<Real>,times,,,"Times [s] of the table of water heights, rising; between them the height is linear, outside them constant."))
 		((vector<Real>,heights,,,"Heights [m] of the water table above the plane at these times; none: dry."))
+		((Vector3r,gradient,Vector3r::Zero(),,"Pressure gradient [N/m³] to use as it is; zero: γ_w cos β along planeNormal (eq. 18)."))
 		((Real,releaseDistance,5,,"Distance D_c [m] downslope after which a body is released; infinite: never."))
 		((Real,volumeFactor,1,,"Volume on which the pressure gradient acts, in units of the body's own."))
 		((Real,thickness,1,,"Thickness [m] of the two-dimensional model."))

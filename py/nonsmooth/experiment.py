@@ -1,8 +1,9 @@
-"""The course of a slope experiment: settle, bond, rest dry, raise the water, follow the avalanche until it rests.
+"""The course of a slope experiment: bond, load, rest dry, raise the water, follow the avalanche until it rests.
 
 Everything that decides the course stands in :class:`State`, which goes into checkpoints; nothing depends on wall time. Rules:
 
-* settled: mean speed below ``stages.settle.speed_rest``, or ``time_max`` has passed; then bonds are made and the dry rest begins;
+* bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
+* settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
 * t0: the dry rest ends, the water begins to rise;
 * t1, failure: the disks' mean way since t0 reaches a tenth of the release distance D_c (0.5 m), a plastic strain of about one per
   cent of the foot's thickness; with ``water.hold: failure`` the table stays where it is;
@@ -21,6 +22,8 @@ from pathlib import Path
 import numpy as np
 
 from yade import O
+from yade.minieigenHP import Vector3
+from yade.wrapper import NewtonIntegrator
 
 from . import packing, records, slope, tables
 from .figures.profiles import front_of
@@ -80,15 +83,18 @@ class Experiment:
             self.folder / "series.csv", COLUMNS, resume_from_step=O.iter if state else None, overwrite=state is None)
         self._clock = time.monotonic()
         self._saved = self._clock
-        if state is None and self.state.stage == "settle":
-            self._strengths(settling=True)
-            self.slope.solver.tolerance = self.section.numerics.tolerance_moving
+        self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
+        if state is None:
+            self._begin()
 
     # ---- the course ---------------------------------------------------------------------------
     def run(self, end=None):
         """Runs until the experiment is over, or until ``end`` [s] of simulated time."""
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
-            for _ in range(self.row_steps):
+            # to the next multiple of row_steps, so that rows fall on the same steps after a resume
+            for _ in range(self.row_steps - O.iter % self.row_steps):
+                if self.state.stage == "settle":
+                    self.newton.gravity = self._gravity(O.time)
                 O.step()
             self._advance()
         self.checkpoint()
@@ -109,18 +115,28 @@ class Experiment:
         if time.monotonic() - self._saved > CHECKPOINT_SECONDS:
             self.checkpoint()
 
-    def _settle(self):
-        stage, solver = self.section.stages.settle, self.slope.solver
-        if solver.meanSpeed > stage.speed_rest and O.time < stage.time_max - 0.5 * O.dt:
-            return
-        s = self.state
-        self._strengths(settling=False)
-        solver.tolerance = self.section.numerics.tolerance
-        s.packing_fraction = self._fraction()
-        s.bonds_initial = solver.bond()
+    def _begin(self):
+        """Bonds the packing as it is, without load; gravity is still zero."""
+        s, solver = self.state, self.slope.solver
+        self.newton.gravity = self._gravity(0.0)
+        O.step()  # makes the interactions
+        s.bonds_initial, s.first_step = solver.bond(), O.iter
+        O.step()
         s.contacts_initial = solver.contacts
-        s.settled, s.stage, s.first_step = O.time, "dry", O.iter
-        solver.forgetEnergies()
+
+    def _gravity(self, time):
+        """Gravity [m/s²] at a time [s]: it grows linearly during the ramp of the settling stage."""
+        ramp = self.section.stages.settle.ramp
+        share = min(1.0, time / ramp) if ramp > 0 else 1.0
+        return Vector3(0, -share * self.section.gravity, 0)
+
+    def _settle(self):
+        stage, s = self.section.stages.settle, self.state
+        if O.time < stage.ramp or (self.slope.solver.meanSpeed > stage.speed_rest and O.time < stage.time_max - 0.5 * O.dt):
+            return
+        s.packing_fraction = self._fraction()
+        s.settled, s.stage = O.time, "dry"
+        self.slope.solver.forgetEnergies()
         for name in self.slope.walls:
             material = self.slope.wall_material(name)
             if hasattr(material, "forgetSlip"):
@@ -182,19 +198,6 @@ class Experiment:
             return packing.packing_fraction(packing.Packing(x, y, r, self.layers), self.section.outline)
         except packing.PackingError:
             return math.nan
-
-    def _strengths(self, settling):
-        """Strengths of the disks' contacts: those of settling, or the section's own; walls always have theirs."""
-        stage = self.section.stages.settle
-        for k, layer in enumerate(self.section.layers):
-            m = self.section.materials[layer.material]
-            mat = next(mat for mat in O.materials if mat.label == f"{layer.material}-{k}")
-            friction = stage.friction if settling and stage.friction is not None else m.friction
-            rolling = stage.rolling_friction if settling and stage.rolling_friction is not None else m.rolling_friction
-            mat.frictionAngle, mat.rollingFriction = math.atan(friction), rolling
-            mat.residualFrictionAngle = math.atan(friction if settling else m.residual_friction)
-            mat.residualRollingFriction = rolling if settling else m.residual_rolling_friction
-        self.slope.solver.updateStrengths()
 
     def _foreseen(self):
         """Simulated time at which the run may end [s]: an estimate for the progress bar."""

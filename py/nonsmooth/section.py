@@ -38,7 +38,7 @@ BORDER_STRIP = 0.085
 class SlipWeakening:
     """Strength of a wall beyond the slip `critical_slip` D_c [m] (paper, section 5.3).
 
-    `law`: "step"; `friction` and `tensile_strength` [Pa] hold beyond D_c.
+    `law`: "step", "linear" or "exponential"; `friction` and `tensile_strength` [Pa] are what is left in the end.
     """
 
     law: str
@@ -166,13 +166,12 @@ class Water:
 class Settle:
     """Settling: at most `time_max` [s], until the mean speed is below `speed_rest` [m/s].
 
-    `friction`, `rolling_friction`: between disks meanwhile; None: the materials' own.
+    Gravity grows to its value during the first `ramp` [s].
     """
 
+    ramp: float
     time_max: float
     speed_rest: float
-    friction: float | None = None
-    rolling_friction: float | None = None
 
 
 @dataclass(frozen=True)

@@ -64,7 +64,7 @@ def _material(section, name, layer, wall):
         bondEllipseTangential=m.bond_ellipse[1],
         bondCreationDistance=m.bond_creation_distance,
         restitution=m.restitution,
-        layer=layer if m.bonded else -2 - layer,
+        layer=layer if m.bonded else -2 - layer,  # a negative layer makes no bonds
     )
     if not wall:
         return NscdMat(**options)
@@ -112,7 +112,7 @@ def build(section, packing, threads=None) -> Slope:
         w = section.water
         before.append(PorePressureEngine(
             label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*section.normal, 0),
-            releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
+            gradient=Vector3(*w.gradient, 0), releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
     n = section.numerics
     O.engines = scene.engines(
         gravity=(0, -section.gravity, 0), verlet=-n.verlet_distance, before=before, tolerance=n.tolerance, maxIterations=n.max_iterations)

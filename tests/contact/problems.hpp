@@ -29,6 +29,7 @@ public:
 		for (const Disk& d : disks) {
 			problem.inverseMass.push_back({ 1 / mass(d), 1 / mass(d), 2 / (mass(d) * d.r * d.r) });
 			problem.freeVelocity.push_back({ 0, -gravity * step, 0 });
+			problem.positions.push_back({ d.x, d.y });
 		}
 	}
 
@@ -67,6 +68,7 @@ public:
 		const int body = static_cast<int>(problem.inverseMass.size());
 		problem.inverseMass.push_back({});
 		problem.freeVelocity.push_back({});
+		problem.positions.push_back({ px, py });
 		for (std::size_t k = 0; k < disks.size(); ++k) {
 			const Disk&  d   = disks[k];
 			const double gap = (d.x - px) * nx + (d.y - py) * ny - d.r;

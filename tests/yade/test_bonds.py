@@ -25,7 +25,8 @@ def clean():
 
 def pair(gap=0.0, angle=0.0, bonded=1, layers=(0, 0), **more):
     """A fixed disk and a free one at `angle`, bonded; returns the free one's id."""
-    strengths = dict(tensileStrength=SIGMA, bondEllipseNormal=ZONE, bondEllipseTangential=ZONE, mu=MU, rolling=ROLLING)
+    strengths = dict(tensileStrength=SIGMA, bondEllipseNormal=ZONE, bondEllipseTangential=ZONE, bondCreationDistance=0.01,
+                     mu=MU, rolling=ROLLING)
     a, b = (material(layer=layer, **{**strengths, **more}) for layer in layers)
     O.bodies.append(scene.disk((0, 0), RADIUS, a, fixed=True))
     distance = LENGTH + gap

@@ -1,14 +1,17 @@
 """ContactDynamicsEngine in a scene: stacks, momentum, impact, driven walls, other engines, energies, refusals, save and load."""
 import math
+import os
 import random
+import subprocess
 
 import pytest
 from yade import O
 from yade.nonsmooth import scene
 from yade.wrapper import (
-    ForceEngine, FrictMat, GlobalStiffnessTimeStepper, Ip2_FrictMat_FrictMat_FrictPhys, NewtonIntegrator)
+    ForceEngine, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
+    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
 
-from contact_scenes import G, begin, box, contacts, engine, loose_heap, material, momenta, run
+from contact_scenes import G, begin, bits, box, contacts, engine, loose_heap, material, momenta, run
 
 
 @pytest.fixture(autouse=True)
@@ -46,14 +49,20 @@ def test_stack_of_fifty_disks_carries_its_weight():
     assert engine().overlapWorst < 1e-9
 
 
-def test_stack_carries_its_weight_at_the_default_tolerance():
+def test_loosely_solved_stack_does_not_creep():
     stuff = material(0.3, 0.1)
     wall = floor(stuff)
     disks = [O.bodies.append(scene.disk((0, 0.5 + k), 0.5, stuff)) for k in range(50)]
     begin(dt=5e-3, tolerance=1e-4, maxIterations=2000)
-    run(100)
-    weight = sum(O.bodies[d].state.mass * G for d in disks)
-    assert -O.forces.f(wall)[1] == pytest.approx(weight, rel=0.01)  # a loose solve, warm started: no creep
+    run(500)
+    weight, loads, top = sum(O.bodies[d].state.mass * G for d in disks), [], O.bodies[disks[-1]].state
+    for _ in range(1000):
+        O.step()
+        loads.append(-O.forces.f(wall)[1] / weight)
+        assert top.pos[1] == pytest.approx(49.5, abs=5e-4)  # m, in 7.5 s; observed 1e-4
+    # a residual of 1e-4 leaves long waves of ± 4 % in a chain of 50 (its condition number is 4e3), but no bias
+    assert sum(loads) / len(loads) == pytest.approx(1, abs=1e-3)
+    assert 0.85 < min(loads) and max(loads) < 1.15
     assert engine().unconverged == 0
 
 
@@ -74,7 +83,7 @@ def test_momentum_is_conserved_without_external_forces(tolerance):
     run(400)
     e = engine()
     broken = e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed
-    assert broken > 5 and e.bonds > 0 and e.slidingLoss > 0 and e.impactLoss > 0  # all that may happen does
+    assert broken >= 3 and e.bonds > 0 and e.slidingLoss > 0 and e.impactLoss > 0  # all that may happen does
     after, turned = momenta(disks)
     # whether solved or not: each impulse acts on two bodies with opposite signs; rounding of 400 steps
     assert (after - linear).norm() < 1e-11 * scale
@@ -226,15 +235,49 @@ def test_save_and_load_continue_with_the_same_bits(tmp_path):
     O.save(saved)
     run(200)
     e = engine()
-    unbroken = (e.bodyTable(), e.contactTable(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError, e.steps)
+    unbroken = (bits(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError, e.steps)
     O.reset()
     O.load(saved)
     assert type(O.bodies[0].material).__name__ == "NscdMat" and engine().bonds == 0  # not yet counted
     run(200)
     e = engine()
-    assert (e.bodyTable(), e.contactTable(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError,
+    assert (bits(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError,
             e.steps) == unbroken
     assert e.bonds > 0
+
+
+def launch(script, *arguments):
+    """Runs a script by the launcher in a process of its own."""
+    here = os.path.dirname(os.path.realpath(__file__))
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
+    environment["NONSMOOTH_BUILD"] = os.path.dirname(os.environ["YADE_PREFIX"])
+    environment["PYTHONPATH"] = here
+    environment["OMP_WAIT_POLICY"] = "passive"  # threads of a busy machine must not wait for each other in spin loops
+    return subprocess.run([os.path.join(here, "..", "..", "scripts", "yade-nonsmooth"), str(script), *arguments],
+                          env=environment, text=True, capture_output=True, timeout=300)
+
+
+def test_one_and_two_threads_give_the_same_bits(tmp_path):
+    script = tmp_path / "threads.py"
+    script.write_text("""
+import hashlib
+from yade import nonsmooth
+from contact_scenes import *
+stuff = material(0.3, 0.1, tensileStrength=2e3, residualTensileStrength=1e3, bondCreationDistance=0.02)
+box(stuff, 100, 40)
+loose_heap(stuff, columns=90, rows=30)
+begin(dt=4e-3, tolerance=1e-4, maxIterations=100)
+run(300)
+print("bonds", engine().bond())
+run(50)
+print("contacts", engine().candidates)
+print("bits", [hashlib.sha256(table).hexdigest() for table in bits()], engine().slidingLoss.hex(), engine().energyError.hex())
+""")
+    first, second = (launch(script, "--threads", threads) for threads in ("1", "2"))
+    assert first.returncode == 0, first.stderr
+    lines = [[line for line in r.stdout.splitlines() if line.startswith(("bonds", "contacts", "bits"))] for r in (first, second)]
+    assert len(lines[0]) == 3 and lines[0] == lines[1]
+    assert int(lines[0][1].split()[1]) >= 2048  # four strips: the solver's own limit for more than one thread
 
 
 def test_timing_counts_the_engine():
@@ -310,10 +353,30 @@ def test_refuses_contacts_of_other_materials():
     for x in (0, 0.9):
         O.bodies.append(scene.disk((x, 0), 0.5, soft))
     begin()
-    loop = next(e for e in O.engines if type(e).__name__ == "InteractionLoop")
-    loop.physDispatcher.functors = [Ip2_FrictMat_FrictMat_FrictPhys()]
-    O.engines = O.engines
-    refused("FrictPhys", "NscdMat")
+    # a scene that was turned to Contact Dynamics by halves
+    O.engines = [e if type(e).__name__ != "InteractionLoop" else InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]) for e in O.engines]
+    refused("#0", "#1", "FrictPhys", "NscdMat")
+
+
+@pytest.mark.parametrize("name, value", [("tensileStrength", -1.0), ("restitution", 2.0), ("bondEllipseNormal", 0.0)])
+def test_refuses_materials_without_sense(name, value, tmp_path):
+    # in a process of its own: YADE makes contacts inside a parallel loop, where an exception ends the program
+    script = tmp_path / "material.py"
+    script.write_text(f"""
+from yade import nonsmooth
+from yade.nonsmooth import scene
+O.materials.append(NscdMat(density=2500, label='rock', {name}={value}))
+for x in (0, 0.9):
+    O.bodies.append(scene.disk((x, 0), 0.5, O.materials[0]))
+O.engines = scene.engines()
+O.dt = 1e-3
+O.step()
+""")
+    result = launch(script)
+    assert result.returncode != 0
+    for word in ("rock", name, "must be"):
+        assert word in result.stderr
 
 
 @pytest.mark.parametrize("name, value", [

@@ -1,0 +1,116 @@
+"""The slope's course: same bits on any number of threads and after a kill, and bad input refused before anything is lost."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "scripts" / "jiufengershan.py"
+DISKS = "400"   # coarse: enough for walls, layers and water to act
+END = "7"       # s: gravity's ramp, the dry rest, and some of the water's rise
+
+
+def run(out, *options, check=True, **kwargs):
+    done = subprocess.run([SCRIPT, "--disks", DISKS, "--out", out, "--end", END, *options], capture_output=True, text=True, **kwargs)
+    if check:
+        assert done.returncode == 0, done.stdout + done.stderr
+    return done
+
+
+@pytest.fixture(scope="module")
+def unbroken(tmp_path_factory):
+    out = tmp_path_factory.mktemp("unbroken")
+    run(out, "--threads", "2")
+    return out
+
+
+def test_records_and_figures_are_there(unbroken):
+    summary = json.loads((unbroken / "summary.json").read_text())
+    assert summary["disks"] == pytest.approx(400, abs=4)  # counts of layers are rounded
+    assert 0.80 < summary["packing_fraction"] < 0.87 or summary["packing_fraction"] is None
+    assert summary["finished"] is False
+    for name in ("series.csv", "force_chains.png", "forces.png", "snapshots.png", "energy.png", "solver.png"):
+        assert (unbroken / name).stat().st_size > 1000
+
+
+def test_one_thread_gives_the_same_bits(unbroken, tmp_path):
+    run(tmp_path, "--threads", "1")
+    assert (tmp_path / "series.csv").read_bytes() == (unbroken / "series.csv").read_bytes()
+
+
+def test_resumed_after_an_early_end_gives_the_same_bits(unbroken, tmp_path):
+    early = subprocess.run([SCRIPT, "--disks", DISKS, "--out", tmp_path, "--end", "5.5"], capture_output=True, text=True)
+    assert early.returncode == 0, early.stderr
+    run(tmp_path, "--resume")
+    assert (tmp_path / "series.csv").read_bytes() == (unbroken / "series.csv").read_bytes()
+
+
+def test_resumed_after_a_kill_gives_the_same_bits(unbroken, tmp_path):
+    process = subprocess.Popen([SCRIPT, "--disks", DISKS, "--out", tmp_path], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                               start_new_session=True)
+    series = tmp_path / "series.csv"
+    for _ in range(1200):  # killed some rows after the last checkpoint, at no particular moment
+        if series.exists() and len(series.read_bytes().splitlines()) > 12:
+            break
+        time.sleep(0.1)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    run(tmp_path, "--resume")
+    assert series.read_bytes() == (unbroken / "series.csv").read_bytes()
+
+
+def refused(*options, **kwargs):
+    done = subprocess.run([SCRIPT, *options], capture_output=True, text=True, **kwargs)
+    assert done.returncode != 0
+    assert "Traceback" not in done.stderr, done.stderr
+    return done.stderr
+
+
+def test_resume_without_a_checkpoint(tmp_path):
+    message = refused("--disks", DISKS, "--out", tmp_path, "--resume")
+    assert "checkpoint.json" in message and "without --resume" in message
+
+
+def test_truncated_checkpoint_is_refused_and_nothing_is_lost(unbroken, tmp_path):
+    out = tmp_path / "copy"
+    shutil.copytree(unbroken, out)
+    scene = next((out / "checkpoint").glob("scene-*.yade.gz"))
+    scene.write_bytes(scene.read_bytes()[:1000])
+    before = (out / "series.csv").read_bytes()
+    message = refused("--disks", DISKS, "--out", out, "--resume")
+    assert scene.name in message and "truncated" in message
+    assert (out / "series.csv").read_bytes() == before
+
+
+def test_checkpoint_of_another_section(unbroken):
+    assert "another section" in refused("--disks", "450", "--out", unbroken, "--resume")
+
+
+def test_unwritable_output(tmp_path):
+    blocker = tmp_path / "file"
+    blocker.write_text("")
+    message = refused("--disks", DISKS, "--out", blocker / "out")
+    assert "cannot be written" in message and "--out" in message
+
+
+def test_unreadable_packing(tmp_path):
+    path = tmp_path / "packing.txt"
+    path.write_text("1.0 2.0 0.5\n1.0 nan 0.5\n")
+    message = refused("--packing", path, "--out", tmp_path / "out")
+    assert "packing.txt" in message and "2" in message
+
+
+def test_unknown_key_in_the_section(tmp_path):
+    path = tmp_path / "slope.yaml"
+    text = (ROOT / "py" / "nonsmooth" / "sections" / "jiufengershan.yaml").read_text()
+    path.write_text(text.replace("gravity: 9.81", "gravity: 9.81\ncolour: red"))
+    message = refused("--section", path, "--out", tmp_path / "out")
+    assert "slope.yaml" in message and "colour" in message
+
+

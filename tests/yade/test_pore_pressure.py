@@ -1,0 +1,163 @@
+"""Water in the slope: forces below the table, the table's height in time, release after D_c, save and load."""
+import math
+
+import pytest
+from yade import O
+from yade.minieigenHP import Vector3
+from yade.nonsmooth import scene
+from yade.wrapper import NewtonIntegrator, PorePressureEngine, SlipWeakeningMat
+
+from contact_scenes import G, begin, contacts, material, run
+
+WATER = 9810
+DIP = math.radians(21)
+NORMAL = Vector3(math.sin(DIP), math.cos(DIP), 0)
+DOWN = Vector3(math.cos(DIP), -math.sin(DIP), 0)
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.reset()
+
+
+def water(heights=(10,), times=(0,), normal=NORMAL, **more):
+    return PorePressureEngine(unitWeight=WATER, planeNormal=normal, heights=list(heights), times=list(times), label="water", **more)
+
+
+def disks_above_plane(places, radius=0.5, gravity=(0, -G, 0), apart=3.0, **more):
+    """Disks whose centres stand at these heights above the dipping plane through the origin, far from each other, and water."""
+    stuff = material(0.3)
+    ids = [O.bodies.append(scene.disk(tuple(h * NORMAL - apart * k * DOWN)[:2], radius, stuff)) for k, h in enumerate(places)]
+    begin(gravity=gravity, before=[water(**more)])
+    return ids
+
+
+def test_force_acts_below_the_table_along_the_planes_normal():
+    wet, dry = disks_above_plane([9.999, 10.001])
+    run(1)
+    w = O.engines[3]
+    expected = WATER * math.cos(DIP) * math.pi * 0.25 * NORMAL
+    assert (w.totalForce - expected).norm() < 1e-12 * expected.norm()
+    assert w.wetCount == 1 and w.isWet(wet) and not w.isWet(dry) and w.releasedCount == 0
+    mass = O.bodies[wet].state.mass
+    expected_velocity = (expected / mass + Vector3(0, -G, 0)) * O.dt
+    assert (O.bodies[wet].state.vel - expected_velocity).norm() < 1e-13
+    assert O.bodies[dry].state.vel[1] == pytest.approx(-G * O.dt, rel=1e-12) and O.bodies[dry].state.vel[0] == 0
+
+
+def test_force_follows_size_thickness_and_volume_factor():
+    disks_above_plane([5], radius=0.7, thickness=2, volumeFactor=1 / 0.84)
+    run(1)
+    expected = WATER * math.cos(DIP) * math.pi * 0.49 * 2 / 0.84
+    assert O.engines[3].totalForce.norm() == pytest.approx(expected, rel=1e-12)
+
+
+def test_plane_may_stand_anywhere_and_walls_stay_dry():
+    stuff = material(0.3)
+    fixed = O.bodies.append(scene.disk((0, 4), 0.5, stuff, fixed=True))
+    a, b = (O.bodies.append(scene.disk((3 * k, 7 + k), 0.5, stuff)) for k in (1, 2))
+    begin(before=[water((2.5,), normal=Vector3(0, 2, 0), planePoint=(100, 6, 0))])  # the normal need not be of length 1
+    run(1)
+    w = O.engines[3]
+    assert w.isWet(a) and not w.isWet(b) and not w.isWet(fixed) and w.wetCount == 1
+    assert w.totalForce[1] == pytest.approx(WATER * math.pi * 0.25, rel=1e-12)
+
+
+def test_table_of_heights_is_linear_between_and_constant_outside():
+    w = water((0, 10, 4), (2, 4, 8))
+    for time, height in [(-1, 0), (0, 0), (2, 0), (2.5, 2.5), (4, 10), (6, 7), (8, 4), (100, 4)]:
+        assert w.heightAt(time) == pytest.approx(height, abs=1e-14)
+    assert water((), ()).heightAt(5) == 0
+    assert water((3,), (7,)).heightAt(0) == 3
+    with pytest.raises(Exception, match="times has 2"):
+        water((1,), (0, 1)).heightAt(0)
+    with pytest.raises(Exception, match="rise"):
+        water((1, 2), (1, 0)).heightAt(0)
+
+
+def test_rising_water_wets_one_disk_after_the_other():
+    ids = disks_above_plane([1, 2, 3, 4], gravity=(0, 0, 0), heights=(0, 5), times=(0, 1))
+    w = O.engines[3]
+    w.unitWeight = 0  # nothing moves
+    for height in (0.5, 1.5, 2.5, 3.5, 4.5):
+        while O.time < height / 5:
+            run(1)
+        run(1)
+        assert w.height == pytest.approx(5 * (O.time - O.dt), abs=1e-12)  # that of the step's beginning
+        assert w.wetCount == int(height) and w.isWet(ids[0]) == (height > 1)
+
+
+def test_dry_without_gravity_or_table():
+    disks_above_plane([5], heights=(0,))
+    run(1)
+    assert O.engines[3].wetCount == 0 and O.engines[3].totalForce.norm() == 0
+
+
+def test_release_is_for_good_after_the_distance_downslope():
+    ids = disks_above_plane([5, 5], releaseDistance=0.5)
+    w, (mover, other) = O.engines[3], ids
+    w.unitWeight = 1e-9  # a force too small to matter
+    next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity = (0, -1e-9, 0)
+    O.bodies[mover].state.vel = 1.0 * DOWN
+    O.bodies[other].state.vel = 1.0 * NORMAL  # along the normal is not downslope, and upslope is not either
+    run(495)
+    assert w.releasedCount == 0 and w.wetCount == 2
+    run(10)
+    assert w.isReleased(mover) and not w.isReleased(other)
+    assert w.releasedCount == 1 and w.wetCount == 1 and not w.isWet(mover)
+    O.bodies[mover].state.vel = -1.0 * DOWN
+    O.bodies[other].state.vel = -1.0 * DOWN
+    run(900)
+    assert w.isReleased(mover) and w.releasedCount == 1  # back where it came from, and still released
+    assert not w.isWet(mover)
+    w.forgetReleases()
+    run(1)
+    assert w.releasedCount == 0 and w.wetCount == 2
+
+
+def test_saved_and_loaded(tmp_path):
+    ids = disks_above_plane([5, 5, 20], releaseDistance=0.2, heights=(8, 12), times=(0, 10))
+    O.bodies[ids[0]].state.vel = 2.0 * DOWN
+    run(150)
+    saved = str(tmp_path / "water.yade.gz")
+    O.save(saved)
+    run(200)
+    unbroken = [(O.bodies[i].state.pos, O.bodies[i].state.vel) for i in ids], O.engines[3].releasedCount, O.engines[3].height
+    O.reset()
+    O.load(saved)
+    w = O.engines[3]
+    assert w.label == "water" and w.isReleased(ids[0]) and w.heights == [8, 12]
+    run(200)
+    assert ([(O.bodies[i].state.pos, O.bodies[i].state.vel) for i in ids], w.releasedCount, w.height) == unbroken
+
+
+def test_buoyancy_lightens_a_disk_on_a_level_floor():
+    stuff = material(0.3)
+    floor = O.bodies.append(scene.segments([(-2, 0), (2, 0)], stuff))[0]
+    O.bodies.append(scene.disk((0, 0.5), 0.5, stuff))
+    begin(before=[water((10,), normal=Vector3(0, 1, 0))])
+    run(50)
+    # Archimedes: (ρ g − γ_w) π r², to the tolerance of the solve
+    expected = (2500 * G - WATER) * math.pi * 0.25
+    assert -O.forces.f(floor)[1] == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("height, slides", [(10, True), (0.2, False)])
+def test_water_lets_a_block_slide(height, slides):
+    # eq. (7): the normal force falls by γ_w cos β V, and with it the friction; on 21° with μ = 0.45 a dry block stays
+    mu = 0.45
+    wall = material(mu, kind=SlipWeakeningMat, criticalSlip=50)
+    O.bodies.append(scene.segments([(0, 0), tuple(5 * DOWN)[:2]], wall, piece=0.5))
+    block = O.bodies.append(scene.disk(tuple(0.3 * DOWN + 0.5 * NORMAL)[:2], 0.5, wall))
+    s = O.bodies[block].state
+    s.blockedDOFs = "zXYZ"
+    begin(before=[water((height,))])
+    run(500)
+    relief = WATER / (2500 * G)
+    a = G * (math.sin(DIP) - mu * math.cos(DIP) * (1 - relief)) if slides else 0
+    assert (a > 0.3) == slides
+    assert s.vel.dot(DOWN) == pytest.approx(a * O.time, rel=1e-9, abs=1e-12)
+    weight = s.mass * G * math.cos(DIP)
+    assert contacts()[0].phys.normal == pytest.approx(weight * (1 - relief if slides else 1), rel=1e-9)
