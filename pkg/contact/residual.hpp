@@ -2,6 +2,7 @@
 // whatever method made them.
 #pragma once
 
+#include <cmath>
 #include <contact/problem.hpp>
 
 namespace nonsmooth::contact {
@@ -11,7 +12,11 @@ struct Residual {
 	double largest = 0; // its largest value [N s]
 	double scale   = 0; // rms over contacts of |P| [N s]
 	/// The figure that tolerances are given for; 0 where nothing acts and nothing should.
-	double relative() const { return scale > 0 ? rms / scale : (rms > 0 ? 1 : 0); }
+	double relative() const
+	{
+		if (!std::isfinite(rms + scale)) return HUGE_VAL; // whatever is not a number is not a solution
+		return scale > 0 ? rms / scale : (rms > 0 ? 1 : 0);
+	}
 };
 
 /// freeVelocity + M⁻¹ Hᵀ P, the velocities that belong to problem.impulses. Serial, in the contacts' order.

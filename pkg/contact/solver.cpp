@@ -315,11 +315,19 @@ namespace {
 		if (problem.impulses.size() != problem.contactCount())
 			throw std::invalid_argument("contact problem: impulses has " + std::to_string(problem.impulses.size()) + " entries for "
 			                            + std::to_string(problem.contactCount()) + " contacts");
-		for (const Twist& v : problem.freeVelocity)
-			if (!std::isfinite(v.x + v.y + v.w)) throw std::invalid_argument("contact problem: a free velocity is not finite");
+		for (std::size_t b = 0; b < problem.bodyCount(); ++b) {
+			const Twist&       v = problem.freeVelocity[b];
+			const InverseMass& m = problem.inverseMass[b];
+			if (!std::isfinite(v.x + v.y + v.w + m.x + m.y + m.w))
+				throw std::invalid_argument("contact problem: body " + std::to_string(b) + " has a velocity or mass that is not finite");
+		}
 		const auto bodies = static_cast<std::int32_t>(problem.bodyCount());
 		for (const Contact& c : problem.contacts)
-			if (c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies || !std::isfinite(c.nx + c.ny + c.biasN + c.adhesion + c.friction))
+			if (const Impulse& p = problem.impulses[&c - problem.contacts.data()];
+			    c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies
+			    || !std::isfinite(
+			            c.nx + c.ny + c.leverNi + c.leverTi + c.leverNj + c.leverTj + c.biasN + c.biasT + c.biasR + c.adhesion + c.friction
+			            + c.rollingArm + c.length + p.n + p.t + p.r))
 				throw std::invalid_argument(
 				        "contact problem: contact " + std::to_string(&c - problem.contacts.data()) + " between bodies " + std::to_string(c.i)
 				        + " and " + std::to_string(c.j) + " has an index out of range or a number that is not finite");

@@ -56,6 +56,9 @@ void ContactDynamicsEngine::validate() const
 		if (stepper && stepper->active && !stepper->dead)
 			fail(stepper->getClassName() + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
 	}
+	// here and not where contacts are made: an exception in InteractionLoop's threads would end the program
+	for (const auto& material : scene->materials)
+		if (const auto* nscd = dynamic_cast<const NscdMat*>(material.get())) nscd->validate();
 	if (!newton) fail("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");
 	if (scene->isPeriodic) fail("periodic scenes are not supported: set O.periodic = False");
 	if (!(scene->dt > 0) || !std::isfinite(scene->dt)) fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");

@@ -24,6 +24,12 @@ void NscdMat::validate() const
 	require(restitution >= 0 && restitution <= 1, "restitution", restitution, "from 0 to 1");
 }
 
+void SlipWeakeningMat::validate() const
+{
+	NscdMat::validate();
+	nonsmooth::contact::slipWeakening(weakening, 0, criticalSlip); // throws for a name or a slip that it does not know
+}
+
 Real SlipWeakeningMat::remaining(Body::id_t id) const
 {
 	return nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);

@@ -10,7 +10,7 @@ class NscdMat : public FrictMat {
 public:
 	virtual ~NscdMat() = default;
 	/// Checks the strengths; throws std::invalid_argument naming the attribute, its value and what would do.
-	void validate() const;
+	virtual void validate() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdMat,FrictMat,
 R"""(Material of rigid particles with cohesive bonds, after Taboada and Estrada (2009), section 2.2 and Table 1. A contact of two such
@@ -41,6 +41,7 @@ REGISTER_SERIALIZABLE(NscdMat);
 class SlipWeakeningMat : public NscdMat {
 public:
 	virtual ~SlipWeakeningMat() = default;
+	void validate() const override;
 	/// What is left of the strength that slip takes away, for body `id`: 1 is all, 0 is none.
 	Real remaining(Body::id_t id) const;
 	Real slipOf(Body::id_t id) const { return id < (Body::id_t)slip.size() ? slip[id] : 0; }

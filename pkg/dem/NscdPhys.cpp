@@ -59,8 +59,6 @@ void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shar
 void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, const Body& b2)
 {
 	const auto &a = static_cast<const NscdMat&>(*b1.material), &b = static_cast<const NscdMat&>(*b2.material);
-	a.validate();
-	b.validate();
 	// a wall's own value, or the weaker of two particles'
 	const auto pick      = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
 	const bool sameLayer = a.layer == b.layer, anyWall = a.wall || b.wall;
