@@ -9,6 +9,8 @@
 
 namespace nonsmooth::contact {
 
+inline bool knowsSlipWeakening(const std::string& function) { return function == "step" || function == "linear" || function == "exponential"; }
+
 /// Fraction of the strength left, 1 to 0, after `slip` [m] with the critical slip `critical` [m].
 /// Throws std::invalid_argument for an unknown name or a critical slip that is not positive.
 inline double slipWeakening(const std::string& function, double slip, double critical)

@@ -32,6 +32,8 @@ void SlipWeakeningMat::validate() const
 
 Real SlipWeakeningMat::remaining(Body::id_t id) const
 {
+	// called by InteractionLoop's threads, which no exception may leave; ContactDynamicsEngine refuses such a material in the same step
+	if (!nonsmooth::contact::knowsSlipWeakening(weakening) || !(criticalSlip > 0)) return 1;
 	return nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);
 }
 

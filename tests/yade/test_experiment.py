@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "jiufengershan.py"
 DISKS = "400"   # coarse: enough for walls, layers and water to act
-END = "7"       # s: gravity's ramp, the dry rest, and some of the water's rise
+END = "8.5"       # s: gravity's ramp, the dry rest, and some of the water's rise
 
 
 def run(out, *options, check=True, **kwargs):
@@ -33,7 +33,8 @@ def unbroken(tmp_path_factory):
 def test_records_and_figures_are_there(unbroken):
     summary = json.loads((unbroken / "summary.json").read_text())
     assert summary["disks"] == pytest.approx(400, abs=4)  # counts of layers are rounded
-    assert 0.80 < summary["packing_fraction"] < 0.87 or summary["packing_fraction"] is None
+    # so few disks have hardly a bulk; where it can be measured, it is a dense packing
+    assert summary["packing_fraction"] is None or 0.80 < summary["packing_fraction"] < 0.90
     assert summary["finished"] is False
     for name in ("series.csv", "force_chains.png", "forces.png", "snapshots.png", "energy.png", "solver.png"):
         assert (unbroken / name).stat().st_size > 1000
@@ -45,7 +46,7 @@ def test_one_thread_gives_the_same_bits(unbroken, tmp_path):
 
 
 def test_resumed_after_an_early_end_gives_the_same_bits(unbroken, tmp_path):
-    early = subprocess.run([SCRIPT, "--disks", DISKS, "--out", tmp_path, "--end", "5.5"], capture_output=True, text=True)
+    early = subprocess.run([SCRIPT, "--disks", DISKS, "--out", tmp_path, "--end", "6"], capture_output=True, text=True)
     assert early.returncode == 0, early.stderr
     run(tmp_path, "--resume")
     assert (tmp_path / "series.csv").read_bytes() == (unbroken / "series.csv").read_bytes()
