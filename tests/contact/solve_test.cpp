@@ -260,8 +260,11 @@ TEST(Refusal, SizesAndNumbers)
 	const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
 	refused([](Problem& p) { p.freeVelocity.pop_back(); }, "freeVelocity has 1");
 	refused([](Problem& p) { p.impulses.clear(); }, "impulses has 0");
-	refused([=](Problem& p) { p.freeVelocity[1].w = nan; }, "free velocity");
-	refused([=](Problem& p) { p.freeVelocity[1].x = infinite; }, "free velocity");
+	refused([=](Problem& p) { p.freeVelocity[1].w = nan; }, "body 1 has a velocity");
+	refused([=](Problem& p) { p.freeVelocity[1].x = infinite; }, "body 1 has a velocity");
+	refused([=](Problem& p) { p.inverseMass[0].w = nan; }, "body 0 has a velocity or mass");
+	refused([=](Problem& p) { p.impulses[0].r = nan; }, "contact 0");
+	refused([=](Problem& p) { p.contacts[0].leverTi = infinite; }, "contact 0");
 	refused([=](Problem& p) { p.contacts[0].biasN = nan; }, "contact 0");
 	refused([=](Problem& p) { p.contacts[0].friction = nan; }, "contact 0");
 	refused([](Problem& p) { p.contacts[0].j = 2; }, "bodies 0 and 2");
