@@ -94,7 +94,7 @@ def _walls(section):
     return ids
 
 
-def build(section, packing, threads=None) -> Slope:
+def build(section, packing) -> Slope:
     """Fills the (empty) scene with walls, disks and engines; the disks are at rest and nothing is bonded yet.
 
     ``section``: a checked Section; ``packing``: a Packing whose layers are the section's.
