@@ -50,4 +50,14 @@ inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const In
 	return { wn > 0 ? 1 / wn : 0, wt > 0 ? 1 / wt : 0, wr > 0 ? 1 / wr : 0 };
 }
 
+/// Squared distance of one contact from its graphs, |P − proj(P − (U + b)/W)|² with the rolling part divided by ℓ [N² s²].
+/// `u`: relative velocity without bias; `inverse`: inverseDelassus of the contact.
+inline double naturalMapSquare(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)
+{
+	const double n = p.n - projectNormal(p.n - inverse.n * (u.n + c.biasN), c.adhesion);
+	const double t = p.t - projectThreshold(p.t - inverse.t * (u.t + c.biasT), slidingThreshold(c, p.n));
+	const double r = (p.r - projectThreshold(p.r - inverse.r * (u.r + c.biasR), rollingThreshold(c, p.n))) / c.length;
+	return n * n + t * t + r * r;
+}
+
 } // namespace nonsmooth::contact

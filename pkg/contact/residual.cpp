@@ -23,10 +23,7 @@ Residual naturalMapResidual(const Problem& problem)
 		const Impulse& p = problem.impulses[k];
 		const Impulse  u = relativeVelocity(c, v[c.i], v[c.j]);
 		const Impulse  w = inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]);
-		const double   n = p.n - projectNormal(p.n - w.n * (u.n + c.biasN), c.adhesion);
-		const double   t = p.t - projectThreshold(p.t - w.t * (u.t + c.biasT), slidingThreshold(c, p.n));
-		const double   r = (p.r - projectThreshold(p.r - w.r * (u.r + c.biasR), rollingThreshold(c, p.n))) / c.length;
-		const double   square = n * n + t * t + r * r;
+		const double   square = naturalMapSquare(c, p, u, w);
 		sum += square;
 		largest = std::max(largest, square);
 		scale += p.n * p.n + p.t * p.t + p.r * p.r / (c.length * c.length);

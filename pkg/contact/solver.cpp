@@ -1,7 +1,7 @@
 #include <cmath>
+#include <contact/contact_blocks.hpp>
 #include <contact/law.hpp>
 #include <contact/solver.hpp>
-#include <contact/sweep_order.hpp>
 #include <omp.h>
 #include <stdexcept>
 #include <string>
@@ -9,23 +9,10 @@
 namespace nonsmooth::contact {
 namespace {
 
-	/// What a sweep needs of a contact, side by side in memory and in sweep order.
+	/// A contact outside the blocks, swept row by row.
 	struct Row {
-		std::int32_t i, j;
-		double       nx, ny, leverTi, leverTj;
-		double       biasN, adhesion, friction, rollingArm;
-		Impulse      inverse;  // 1/W_nn, 1/W_tt, 1/W_rr
-		double       couplingTR; // W_tr; the other couplings of the rows are zero for a simple contact
-		Impulse      p;        // P_k
-		Impulse      previous; // P_{k−1}
-		std::int32_t simple;   // disks of equal mass in x and y, no other bias: short formulas do
-	};
-
-	/// A body as the sweep reads and writes it: one cache line.
-	struct alignas(64) Body {
-		Twist       v;
-		InverseMass inverse;
-		bool        moves = false;
+		Impulse p, before; // P_k, P_{k−1}
+		Impulse inverse;   // 1/W_nn, 1/W_tt, 1/W_rr
 	};
 
 	class Sweeper {
@@ -34,47 +21,55 @@ namespace {
 		SolverStatistics run();
 
 	private:
-		void gather();
-		void resetVelocities();
-		void iterate();
-		void extrapolateVelocities(double beta);
-		void sweep(double beta);
-		void sweepStrip(std::size_t strip, double beta);
-		void sweepGeneral(Row& row, const Impulse& y);
-		static void sweepSimple(Row& row, const Impulse& y, Body& a, Body& b);
-		void measure();
-		void finish();
+		void  resetVelocities();
+		void  iterate();
+		void  extrapolateVelocities(double beta);
+		void  sweep(double beta);
+		void  sweepRow(std::size_t row, double beta);
+		void  measure();
+		void  measureRows(std::size_t strip, ResidualSums& sums) const;
+		void  finish();
+		Twist twist(std::int32_t body) const { return { bodies[body].v[0], bodies[body].v[1], bodies[body].v[2] }; }
+		void  setTwist(std::int32_t body, const Twist& v);
 		template <class Visit> void forEachStrip(Visit visit);
 
-		Problem&                 problem;
-		const SolverSettings&    settings;
-		SweepOrder               arranged;
-		std::vector<Row>         rows;
-		std::vector<Twist>       previousVelocity;
-		std::vector<Body>        bodies;
-		std::vector<double>      squares, scales, largest; // one a strip
-		Residual                 residual;
-		SolverStatistics         statistics;
+		Problem&                  problem;
+		const SolverSettings&     settings;
+		const BlockKernels&       kernels;
+		const int                 threads;
+		ContactBlocks             laidOut;
+		std::vector<Row>          rows;
+		std::vector<Motion>       bodies, bodiesBefore; // the last one is nobody
+		std::vector<ResidualSums> sums;                 // one a strip
+		Residual                  residual;
+		SolverStatistics          statistics;
 	};
 
 	Sweeper::Sweeper(Problem& problem_, const SolverSettings& settings_)
 	        : problem(problem_)
 	        , settings(settings_)
-	        , arranged(arrange(problem_))
+	        , kernels(settings_.portable ? portableKernels() : bestKernels())
+	        , threads(problem_.contactCount() < 1000 ? 1 : std::max(1, settings_.threads))
+	        , laidOut(layOut(problem_, threads))
+	        , rows(laidOut.others.size())
+	        , bodies(problem_.bodyCount() + 1)
+	        , bodiesBefore(problem_.bodyCount() + 1)
+	        , sums(laidOut.stripCount())
 	{
-		for (auto* v : { &squares, &scales, &largest })
-			v->assign(arranged.stripCount(), 0.0);
-		rows.resize(problem.contactCount());
-		previousVelocity.resize(problem.bodyCount());
-		bodies.resize(problem.bodyCount());
+		for (std::size_t k = 0; k < rows.size(); ++k) {
+			const Contact& c = problem.contacts[laidOut.others[k]];
+			const Impulse  p = project(c, problem.impulses[laidOut.others[k]]);
+			rows[k]          = { p, p, inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]) };
+		}
+		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
-		statistics.strips = static_cast<int>(arranged.stripCount());
+		statistics.strips = static_cast<int>(laidOut.stripCount());
 	}
 
 	/// Calls visit(strip) for all even strips, then for all odd ones; inside a parallel region.
 	template <class Visit> void Sweeper::forEachStrip(Visit visit)
 	{
-		const long half = static_cast<long>(arranged.evenStrips), count = static_cast<long>(arranged.stripCount());
+		const long half = static_cast<long>(laidOut.evenStrips), count = static_cast<long>(laidOut.stripCount());
 #pragma omp for schedule(dynamic, 1)
 		for (long s = 0; s < half; ++s)
 			visit(static_cast<std::size_t>(s));
@@ -83,25 +78,12 @@ namespace {
 			visit(static_cast<std::size_t>(s));
 	}
 
-	void Sweeper::gather()
+	void Sweeper::setTwist(std::int32_t body, const Twist& v)
 	{
-		const long bodyCount = static_cast<long>(problem.bodyCount()), count = static_cast<long>(rows.size());
-#pragma omp for schedule(static)
-		for (long b = 0; b < bodyCount; ++b)
-			bodies[b] = { problem.freeVelocity[b], problem.inverseMass[b], !problem.inverseMass[b].isFixed() };
-#pragma omp for schedule(static)
-		for (long k = 0; k < count; ++k) {
-			const Contact&     c  = problem.contacts[arranged.order[k]];
-			const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
-			const Impulse      p  = project(c, problem.impulses[arranged.order[k]]);
-			// a lever along the normal, a different mass in x and y, or a further bias couple more rows
-			const bool simple = mi.x == mi.y && mj.x == mj.y && c.biasT == 0 && c.biasR == 0 && (mi.w == 0 || c.leverNi == 0)
-			        && (mj.w == 0 || c.leverNj == 0);
-			// turning fixed bodies enter the velocities through levers too
-			const bool still = (mi.w != 0 || problem.freeVelocity[c.i].w == 0) && (mj.w != 0 || problem.freeVelocity[c.j].w == 0);
-			rows[k] = { c.i, c.j, c.nx, c.ny, c.leverTi, c.leverTj, c.biasN, c.adhesion, c.friction, c.rollingArm, inverseDelassus(c, mi, mj),
-				    mj.w * c.leverTj + mi.w * c.leverTi, p, p, simple && still };
-		}
+		if (problem.inverseMass[body].isFixed()) return; // several threads may visit it
+		bodies[body].v[0] = v.x;
+		bodies[body].v[1] = v.y;
+		bodies[body].v[2] = v.w;
 	}
 
 	/// velocities = freeVelocity + M⁻¹ Hᵀ P from scratch.
@@ -109,15 +91,18 @@ namespace {
 	{
 		const long count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
-		for (long b = 0; b < count; ++b)
-			bodies[b].v = problem.freeVelocity[b];
+		for (long b = 0; b < count; ++b) {
+			const Twist& v = problem.freeVelocity[b];
+			bodies[b].v    = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
+		}
 		forEachStrip([this](std::size_t s) {
-			for (std::size_t k = arranged.stripBegin[s]; k < arranged.stripBegin[s + 1]; ++k) {
-				Body &a = bodies[rows[k].i], &b = bodies[rows[k].j];
-				Twist va = a.v, vb = b.v;
-				applyImpulse(problem.contacts[arranged.order[k]], rows[k].p, a.inverse, b.inverse, va, vb);
-				if (a.moves) a.v = va;
-				if (b.moves) b.v = vb;
+			kernels.apply(&laidOut.blocks[laidOut.blockBegin[s]], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
+			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+				const Contact& c  = problem.contacts[laidOut.others[k]];
+				Twist          vi = twist(c.i), vj = twist(c.j);
+				applyImpulse(c, rows[k].p, problem.inverseMass[c.i], problem.inverseMass[c.j], vi, vj);
+				setTwist(c.i, vi);
+				setTwist(c.j, vj);
 			}
 		});
 	}
@@ -127,111 +112,74 @@ namespace {
 		const long count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
 		for (long b = 0; b < count; ++b) {
-			Twist &     v = bodies[b].v, &before = previousVelocity[b];
-			const Twist now = v;
-			v.x += beta * (now.x - before.x);
-			v.y += beta * (now.y - before.y);
-			v.w += beta * (now.w - before.w);
-			before = now;
+			const Lanes now   = bodies[b].v;
+			bodies[b].v       = now + beta * (now - bodiesBefore[b].v); // the mass, being the same, stays
+			bodiesBefore[b].v = now;
 		}
 	}
 
-	/// One contact whose only coupling between rows is W_tr: all three relative velocities are read at once, the velocities written once.
-	inline void Sweeper::sweepSimple(Row& row, const Impulse& y, Body& a, Body& b)
+	/// Any contact, one after the other of its three graphs.
+	void Sweeper::sweepRow(std::size_t k, double beta)
 	{
-		const double dx = b.v.x - a.v.x, dy = b.v.y - a.v.y, w = b.v.w - a.v.w;
-		const double un = row.nx * dx + row.ny * dy;
-		const double ut = row.nx * dy - row.ny * dx + row.leverTj * b.v.w - row.leverTi * a.v.w;
-		const double n  = projectNormal(y.n - row.inverse.n * (un + row.biasN), row.adhesion);
-		const double load = row.adhesion + n; // never negative
-		const double t    = projectThreshold(y.t - row.inverse.t * ut, row.friction * load);
-		const double dn = n - y.n, dt = t - y.t;
-		const double r  = projectThreshold(y.r - row.inverse.r * (w + row.couplingTR * dt), row.rollingArm * load);
-		const double dr = r - y.r;
-		const double fx = row.nx * dn - row.ny * dt, fy = row.ny * dn + row.nx * dt;
-		if (a.moves) {
-			a.v.x -= a.inverse.x * fx;
-			a.v.y -= a.inverse.y * fy;
-			a.v.w -= a.inverse.w * (row.leverTi * dt + dr);
-		}
-		if (b.moves) {
-			b.v.x += b.inverse.x * fx;
-			b.v.y += b.inverse.y * fy;
-			b.v.w += b.inverse.w * (row.leverTj * dt + dr);
-		}
-		row.p = { n, t, r };
-	}
-
-	/// Any contact, row by row.
-	void Sweeper::sweepGeneral(Row& row, const Impulse& y)
-	{
-		const Contact& c = problem.contacts[arranged.order[&row - rows.data()]];
-		Body &         a = bodies[row.i], &b = bodies[row.j];
-		Twist          va = a.v, vb = b.v;
-		const double   n = projectNormal(y.n - row.inverse.n * (relativeVelocity(c, va, vb).n + c.biasN), c.adhesion);
-		applyImpulse(c, { n - y.n, 0, 0 }, a.inverse, b.inverse, va, vb);
-		const double t = projectThreshold(y.t - row.inverse.t * (relativeVelocity(c, va, vb).t + c.biasT), slidingThreshold(c, n));
-		applyImpulse(c, { 0, t - y.t, 0 }, a.inverse, b.inverse, va, vb);
-		const double r = projectThreshold(y.r - row.inverse.r * (relativeVelocity(c, va, vb).r + c.biasR), rollingThreshold(c, n));
-		applyImpulse(c, { 0, 0, r - y.r }, a.inverse, b.inverse, va, vb);
-		if (a.moves) a.v = va;
-		if (b.moves) b.v = vb;
-		row.p = { n, t, r };
-	}
-
-	void Sweeper::sweepStrip(std::size_t strip, double beta)
-	{
-		for (std::size_t k = arranged.stripBegin[strip]; k < arranged.stripBegin[strip + 1]; ++k) {
-			Row&          row    = rows[k];
-			const Impulse before = row.p;
-			const Impulse y { before.n + beta * (before.n - row.previous.n), before.t + beta * (before.t - row.previous.t),
-					  before.r + beta * (before.r - row.previous.r) };
-			row.previous = before;
-			if (row.simple) sweepSimple(row, y, bodies[row.i], bodies[row.j]);
-			else
-				sweepGeneral(row, y);
-		}
+		Row&               row = rows[k];
+		const Contact&     c   = problem.contacts[laidOut.others[k]];
+		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
+		const Impulse      y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
+				  row.p.r + beta * (row.p.r - row.before.r) };
+		Twist              vi = twist(c.i), vj = twist(c.j);
+		const double       n = projectNormal(y.n - row.inverse.n * (relativeVelocity(c, vi, vj).n + c.biasN), c.adhesion);
+		applyImpulse(c, { n - y.n, 0, 0 }, mi, mj, vi, vj);
+		const double t = projectThreshold(y.t - row.inverse.t * (relativeVelocity(c, vi, vj).t + c.biasT), slidingThreshold(c, n));
+		applyImpulse(c, { 0, t - y.t, 0 }, mi, mj, vi, vj);
+		const double r = projectThreshold(y.r - row.inverse.r * (relativeVelocity(c, vi, vj).r + c.biasR), rollingThreshold(c, n));
+		applyImpulse(c, { 0, 0, r - y.r }, mi, mj, vi, vj);
+		setTwist(c.i, vi);
+		setTwist(c.j, vj);
+		row.before = row.p;
+		row.p      = { n, t, r };
 	}
 
 	void Sweeper::sweep(double beta)
 	{
-		forEachStrip([this, beta](std::size_t s) { sweepStrip(s, beta); });
+		forEachStrip([this, beta](std::size_t s) {
+			kernels.sweep(&laidOut.blocks[laidOut.blockBegin[s]], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data(), beta);
+			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+				sweepRow(k, beta);
+		});
 	}
 
-	/// Natural-map residual with the present velocities; same formulas as naturalMapResidual, strip by strip.
+	void Sweeper::measureRows(std::size_t s, ResidualSums& sums) const
+	{
+		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+			const Contact& c   = problem.contacts[laidOut.others[k]];
+			const Impulse& p   = rows[k].p;
+			const double   one = naturalMapSquare(c, p, relativeVelocity(c, twist(c.i), twist(c.j)), rows[k].inverse);
+			sums.square += one;
+			sums.largest = std::max(sums.largest, one);
+			sums.scale += p.n * p.n + p.t * p.t + p.r * p.r / (c.length * c.length);
+		}
+	}
+
+	/// Natural-map residual with the present velocities, summed strip by strip.
 	void Sweeper::measure()
 	{
-		const long count = static_cast<long>(arranged.stripCount());
+		const long count = static_cast<long>(sums.size());
 #pragma omp for schedule(static)
-		for (long c = 0; c < count; ++c) {
-			double square = 0, scale = 0, worst = 0;
-			for (std::size_t k = arranged.stripBegin[c]; k < arranged.stripBegin[c + 1]; ++k) {
-				const Row&     row = rows[k];
-				const Contact& x   = problem.contacts[arranged.order[k]];
-				const Impulse  u   = relativeVelocity(x, bodies[x.i].v, bodies[x.j].v);
-				const double   n   = row.p.n - projectNormal(row.p.n - row.inverse.n * (u.n + x.biasN), x.adhesion);
-				const double   t   = row.p.t - projectThreshold(row.p.t - row.inverse.t * (u.t + x.biasT), slidingThreshold(x, row.p.n));
-				const double   r
-				        = (row.p.r - projectThreshold(row.p.r - row.inverse.r * (u.r + x.biasR), rollingThreshold(x, row.p.n))) / x.length;
-				const double one = n * n + t * t + r * r;
-				square += one;
-				worst = std::max(worst, one);
-				scale += row.p.n * row.p.n + row.p.t * row.p.t + row.p.r * row.p.r / (x.length * x.length);
-			}
-			squares[c] = square;
-			scales[c]  = scale;
-			largest[c] = worst;
+		for (long s = 0; s < count; ++s) {
+			const std::size_t begin = laidOut.blockBegin[s];
+			sums[s] = kernels.measure(&laidOut.blocks[begin], laidOut.blockBegin[s + 1] - begin, bodies.data());
+			measureRows(s, sums[s]);
 		}
 #pragma omp single
 		{
-			double square = 0, scale = 0, worst = 0;
-			for (long c = 0; c < count; ++c) {
-				square += squares[c];
-				scale += scales[c];
-				worst = std::max(worst, largest[c]);
+			ResidualSums all;
+			for (const ResidualSums& s : sums) {
+				all.square += s.square;
+				all.scale += s.scale;
+				all.largest = std::max(all.largest, s.largest);
 			}
-			const double n = std::max<std::size_t>(rows.size(), 1);
-			residual       = { std::sqrt(square / n), std::sqrt(worst), std::sqrt(scale / n) };
+			const double n = std::max<std::size_t>(problem.contactCount(), 1);
+			residual       = { std::sqrt(all.square / n), std::sqrt(all.largest), std::sqrt(all.scale / n) };
 		}
 	}
 
@@ -241,10 +189,10 @@ namespace {
 		const bool accelerated = settings.method == Method::Accelerated;
 		double     theta = 1, beta = 0;
 		int        restarts = 0, iteration = 0, sinceRestart = 0;
-		const long count = static_cast<long>(problem.bodyCount());
+		const long count = static_cast<long>(bodies.size());
 #pragma omp for schedule(static)
 		for (long b = 0; b < count; ++b)
-			previousVelocity[b] = bodies[b].v;
+			bodiesBefore[b] = bodies[b];
 		measure();
 		double last = residual.rms;
 		while (residual.relative() > settings.tolerance && iteration < settings.maxIterations) {
@@ -282,22 +230,27 @@ namespace {
 		// velocities anew, so that the residual reported owes nothing to rounding gathered over the sweeps
 		resetVelocities();
 		measure();
-		const long count = static_cast<long>(rows.size());
+		const long count = static_cast<long>(laidOut.blocks.size());
 #pragma omp for schedule(static)
-		for (long k = 0; k < count; ++k)
-			problem.impulses[arranged.order[k]] = rows[k].p;
+		for (long b = 0; b < count; ++b)
+			for (std::size_t l = 0; l < lanes; ++l)
+				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
+					const Block& k          = laidOut.blocks[b];
+					problem.impulses[index] = { k.n[l], k.t[l], k.r[l] };
+				}
 		const long bodyCount = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
 		for (long b = 0; b < bodyCount; ++b)
-			problem.velocities[b] = bodies[b].v;
+			problem.velocities[b] = twist(b);
+#pragma omp single
+		for (std::size_t k = 0; k < rows.size(); ++k)
+			problem.impulses[laidOut.others[k]] = rows[k].p;
 	}
 
 	SolverStatistics Sweeper::run()
 	{
-		const int threads = arranged.stripCount() < 4 ? 1 : std::max(1, settings.threads);
 #pragma omp parallel num_threads(threads)
 		{
-			gather();
 			resetVelocities();
 			iterate();
 			finish();

@@ -24,6 +24,7 @@ struct SolverSettings {
 	int    checkEvery    = 5; // sweeps between two residuals
 	int    restartPeriod = 60; // sweeps after which the extrapolation begins anew in any case
 	int    threads       = 1;
+	bool   portable      = false; // instructions of every processor only; the bits are the same
 };
 
 struct SolverStatistics {

@@ -1,0 +1,57 @@
+// Four contacts at a time: the data and the inner loops of a sweep.
+//
+// A block holds four contacts that share no body that moves, as lanes of vectors of four doubles; a body's motion is one such vector too.
+// The loops (block_kernels.inc) are written once and compiled twice: lane after lane for any processor, and four lanes at once for AVX2;
+// which runs is decided on the machine. Neither fuses multiplications with additions nor reorders a sum, so both give the same bits.
+//
+// Only "simple" contacts fit in: bodies with one mass for x and y, no lever along the normal where a body can turn, no bias but the
+// normal one. That is every contact between disks, or between a disk and a wall that does not turn.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace nonsmooth::contact {
+
+using Lanes = double __attribute__((vector_size(32)));
+
+constexpr std::size_t lanes = 4;
+
+/// Velocity of a body and its inverse mass, (v_x, v_y, ω, 1/m).
+struct alignas(32) Motion {
+	Lanes v;
+};
+
+struct alignas(32) Block {
+	std::int32_t  i[lanes], j[lanes];
+	Lanes         nx, ny;
+	Lanes         leverTi, leverTj;           // λt [m]
+	Lanes         inverseInertiaI, inverseInertiaJ;
+	Lanes         biasN, adhesion, friction, rollingArm; // as in Contact
+	Lanes         inverseN, inverseT, inverseR; // inverse diagonal of the Delassus operator
+	Lanes         inverseLength;              // 1/ℓ, 0 in an empty lane
+	Lanes         n, t, r;                    // impulses P_k
+	Lanes         beforeN, beforeT, beforeR;  // P_{k−1}
+	unsigned char movesI, movesJ;             // bit l: the body of lane l can move
+};
+
+/// Sums over contacts: squared residual and impulse, and the largest squared residual.
+struct ResidualSums {
+	double square = 0, scale = 0, largest = 0;
+};
+
+struct BlockKernels {
+	const char* name;
+	/// One Gauss-Seidel visit of every contact, from impulses extrapolated by beta (velocities must be so already).
+	void (*sweep)(Block* blocks, std::size_t count, Motion* bodies, double beta);
+	/// v += M⁻¹ Hᵀ P.
+	void (*apply)(const Block* blocks, std::size_t count, Motion* bodies);
+	/// Natural-map residual.
+	ResidualSums (*measure)(const Block* blocks, std::size_t count, const Motion* bodies);
+};
+
+const BlockKernels& portableKernels();
+/// Those for AVX2 where this processor has it, else the portable ones.
+const BlockKernels& bestKernels();
+
+} // namespace nonsmooth::contact

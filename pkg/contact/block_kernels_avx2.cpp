@@ -1,0 +1,15 @@
+// Compiled with -mavx2 (CMakeLists.txt); empty elsewhere.
+#ifdef __AVX2__
+#include "block_kernels.inc"
+
+namespace nonsmooth::contact {
+
+const BlockKernels& avx2Kernels();
+const BlockKernels& avx2Kernels()
+{
+	static const BlockKernels kernels { "AVX2", sweepBlocks, applyBlocks, measureBlocks };
+	return kernels;
+}
+
+} // namespace nonsmooth::contact
+#endif

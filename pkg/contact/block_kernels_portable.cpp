@@ -1,0 +1,23 @@
+#include "block_kernels.inc"
+
+namespace nonsmooth::contact {
+
+const BlockKernels& portableKernels()
+{
+	static const BlockKernels kernels { "portable", sweepBlocks, applyBlocks, measureBlocks };
+	return kernels;
+}
+
+#ifdef NONSMOOTH_AVX2
+const BlockKernels& avx2Kernels(); // block_kernels_avx2.cpp
+#endif
+
+const BlockKernels& bestKernels()
+{
+#ifdef NONSMOOTH_AVX2
+	if (__builtin_cpu_supports("avx2")) return avx2Kernels();
+#endif
+	return portableKernels();
+}
+
+} // namespace nonsmooth::contact

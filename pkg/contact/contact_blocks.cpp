@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <contact/contact_blocks.hpp>
+#include <contact/law.hpp>
+#include <contact/sweep_order.hpp>
+
+namespace nonsmooth::contact {
+namespace {
+
+	/// Whether the short formulas of the blocks hold: no rows coupled but T and Γ, no bias but the normal one.
+	bool isSimple(const Problem& problem, const Contact& c)
+	{
+		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
+		// a wall that turns enters the velocities through levers too
+		const bool still = (mi.w != 0 || problem.freeVelocity[c.i].w == 0) && (mj.w != 0 || problem.freeVelocity[c.j].w == 0);
+		return still && mi.x == mi.y && mj.x == mj.y && c.biasT == 0 && c.biasR == 0 && (mi.w == 0 || c.leverNi == 0)
+		        && (mj.w == 0 || c.leverNj == 0);
+	}
+
+	/// A block that is still being filled.
+	struct Open {
+		std::size_t  block;
+		int          filled = 0;
+		std::int32_t bodies[2 * lanes];
+	};
+
+	/// What one strip consists of, before its place in the whole is known.
+	struct Strip {
+		std::vector<std::int32_t> contactOf, others;
+	};
+
+	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
+	Strip fill(const Problem& problem, const SweepOrder& order, std::size_t strip)
+	{
+		constexpr std::size_t mostOpen = 16;
+		Strip                 result;
+		std::vector<Open>     open;
+		const auto movable = [&](std::int32_t b) { return problem.inverseMass[b].isFixed() ? ContactBlocks::none : b; };
+		for (std::size_t k = order.stripBegin[strip]; k < order.stripBegin[strip + 1]; ++k) {
+			const std::int32_t index = order.order[k];
+			const Contact&     c     = problem.contacts[index];
+			if (!isSimple(problem, c)) {
+				result.others.push_back(index);
+				continue;
+			}
+			const std::int32_t i = movable(c.i), j = movable(c.j);
+			const auto         fits = [&](const Open& o) {
+				for (int b = 0; b < 2 * o.filled; ++b)
+					if (o.bodies[b] != ContactBlocks::none && (o.bodies[b] == i || o.bodies[b] == j)) return false;
+				return true;
+			};
+			std::size_t at = 0;
+			while (at < open.size() && !fits(open[at]))
+				++at;
+			if (at == open.size()) {
+				if (open.size() == mostOpen) open.erase(open.begin());
+				open.push_back({ result.contactOf.size() / lanes, 0, {} });
+				result.contactOf.resize(result.contactOf.size() + lanes, ContactBlocks::none);
+				at = open.size() - 1;
+			}
+			Open& o                                     = open[at];
+			result.contactOf[o.block * lanes + o.filled] = index;
+			o.bodies[2 * o.filled]                      = i;
+			o.bodies[2 * o.filled + 1]                  = j;
+			if (++o.filled == int(lanes)) open.erase(open.begin() + at);
+		}
+		return result;
+	}
+
+	void fillLane(Block& block, int l, const Problem& problem, std::int32_t index)
+	{
+		const Contact&     c  = problem.contacts[index];
+		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
+		const Impulse      w = inverseDelassus(c, mi, mj), p = project(c, problem.impulses[index]);
+		block.i[l]               = c.i;
+		block.j[l]               = c.j;
+		block.nx[l]              = c.nx;
+		block.ny[l]              = c.ny;
+		block.leverTi[l]         = c.leverTi;
+		block.leverTj[l]         = c.leverTj;
+		block.inverseInertiaI[l] = mi.w;
+		block.inverseInertiaJ[l] = mj.w;
+		block.biasN[l]           = c.biasN;
+		block.adhesion[l]        = c.adhesion;
+		block.friction[l]        = c.friction;
+		block.rollingArm[l]      = c.rollingArm;
+		block.inverseN[l]        = w.n;
+		block.inverseT[l]        = w.t;
+		block.inverseR[l]        = w.r;
+		block.n[l] = block.beforeN[l] = p.n;
+		block.t[l] = block.beforeT[l] = p.t;
+		block.r[l] = block.beforeR[l] = p.r;
+		block.movesI |= (mi.isFixed() ? 0u : 1u) << l;
+		block.movesJ |= (mj.isFixed() ? 0u : 1u) << l;
+		block.inverseLength[l] = 1 / c.length;
+	}
+
+} // namespace
+
+ContactBlocks layOut(const Problem& problem, int threads)
+{
+	const SweepOrder   order  = arrange(problem);
+	const std::size_t  strips = order.stripCount();
+	const auto         nobody = static_cast<std::int32_t>(problem.bodyCount());
+	std::vector<Strip> parts(strips);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+	for (long s = 0; s < static_cast<long>(strips); ++s)
+		parts[s] = fill(problem, order, s);
+
+	ContactBlocks result;
+	result.evenStrips = order.evenStrips;
+	result.blockBegin.assign(1, 0);
+	result.otherBegin.assign(1, 0);
+	for (const Strip& part : parts) {
+		result.blockBegin.push_back(result.blockBegin.back() + part.contactOf.size() / lanes);
+		result.otherBegin.push_back(result.otherBegin.back() + part.others.size());
+	}
+	result.blocks.resize(result.blockBegin.back());
+	result.contactOf.resize(result.blocks.size() * lanes);
+	result.others.resize(result.otherBegin.back());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+	for (long s = 0; s < static_cast<long>(strips); ++s) {
+		const Strip& part = parts[s];
+		std::copy(part.others.begin(), part.others.end(), result.others.begin() + result.otherBegin[s]);
+		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + result.blockBegin[s] * lanes);
+		for (std::size_t b = result.blockBegin[s]; b < result.blockBegin[s + 1]; ++b) {
+			Block block {};
+			for (int l = 0; l < int(lanes); ++l) {
+				const std::int32_t index = result.contactOf[b * lanes + l];
+				block.i[l] = block.j[l] = nobody;
+				if (index != ContactBlocks::none) fillLane(block, l, problem, index);
+			}
+			result.blocks[b] = block;
+		}
+	}
+	return result;
+}
+
+} // namespace nonsmooth::contact

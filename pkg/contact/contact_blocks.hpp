@@ -1,0 +1,26 @@
+// A contact problem laid out for sweeping: in strips, and inside a strip in blocks of four contacts that share no movable body, followed
+// by the few contacts that do not fit into blocks.
+#pragma once
+
+#include <contact/block_kernels.hpp>
+#include <contact/problem.hpp>
+#include <vector>
+
+namespace nonsmooth::contact {
+
+struct ContactBlocks {
+	static constexpr std::int32_t none = -1; // an empty lane
+
+	std::vector<Block>        blocks;
+	std::vector<std::int32_t> contactOf;     // of every lane of every block, in Problem::contacts
+	std::vector<std::int32_t> others;        // contacts outside blocks
+	std::vector<std::size_t>  blockBegin, otherBegin; // of every strip; one more than there are strips
+	std::size_t               evenStrips = 0;
+	std::size_t               stripCount() const { return blockBegin.size() - 1; }
+};
+
+/// Lays out the contacts' data; impulses come from problem.impulses, projected on their thresholds. An empty lane names the body
+/// problem.bodyCount(), which the caller provides and which cannot move.
+ContactBlocks layOut(const Problem& problem, int threads);
+
+} // namespace nonsmooth::contact

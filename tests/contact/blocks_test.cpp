@@ -1,0 +1,85 @@
+// Blocks of four contacts: complete, without conflicts, and the same bits whatever instructions work on them.
+#include "problems.hpp"
+#include <algorithm>
+#include <contact/contact_blocks.hpp>
+#include <contact/residual.hpp>
+#include <cstring>
+#include <gtest/gtest.h>
+
+using namespace nonsmooth::contact;
+using namespace nonsmooth::contact::testing;
+
+namespace {
+
+/// A packing in which some contacts do not fit into blocks: a body that is heavier in y, a lever along the normal, a tangential bias.
+Problem mixed()
+{
+	Problem p = lattice(60, 20).problem;
+	p.inverseMass[100].y *= 0.5;
+	p.contacts[500].leverNj = 0.01;
+	p.contacts[900].biasT   = 0.02;
+	return p;
+}
+
+TEST(Blocks, HoldEveryContactOnceAndNoBodyTwice)
+{
+	const Problem       p = mixed();
+	const ContactBlocks b = layOut(p, 2);
+	std::vector<int>    seen(p.contactCount(), 0);
+	std::size_t         empty = 0;
+	for (std::size_t k = 0; k < b.blocks.size(); ++k) {
+		std::vector<int> bodies;
+		for (std::size_t l = 0; l < lanes; ++l) {
+			const auto index = b.contactOf[k * lanes + l];
+			empty += index == ContactBlocks::none;
+			if (index == ContactBlocks::none) continue;
+			++seen[index];
+			for (const int body : { p.contacts[index].i, p.contacts[index].j })
+				if (!p.inverseMass[body].isFixed()) bodies.push_back(body);
+		}
+		std::sort(bodies.begin(), bodies.end());
+		EXPECT_EQ(std::adjacent_find(bodies.begin(), bodies.end()), bodies.end()) << "block " << k;
+	}
+	for (const auto index : b.others)
+		++seen[index];
+	EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), long(p.contactCount()));
+	// six or so contacts of the heavy body, one with a lever, one with a bias
+	EXPECT_GE(b.others.size(), 5u);
+	EXPECT_LE(b.others.size(), 9u);
+	EXPECT_LT(empty, p.contactCount() / 10) << "a tenth of the lanes idle at most";
+}
+
+TEST(Blocks, PortableAndBestInstructionsGiveTheSameBits)
+{
+	for (const Method method : { Method::GaussSeidel, Method::Accelerated }) {
+		Problem        a = mixed(), b = a;
+		SolverSettings s;
+		s.method        = method;
+		s.maxIterations = 150;
+		s.tolerance     = 1e-12;
+		s.portable      = true;
+		const auto x    = solve(a, s);
+		s.portable      = false;
+		const auto y    = solve(b, s);
+		EXPECT_EQ(x.iterations, y.iterations);
+		EXPECT_EQ(x.residual.rms, y.residual.rms);
+		EXPECT_EQ(0, std::memcmp(a.impulses.data(), b.impulses.data(), a.impulses.size() * sizeof(Impulse)));
+		EXPECT_EQ(0, std::memcmp(a.velocities.data(), b.velocities.data(), a.velocities.size() * sizeof(Twist)));
+	}
+}
+
+TEST(Blocks, ReportedResidualIsTheIndependentOne)
+{
+	Problem        p = mixed();
+	SolverSettings s;
+	s.maxIterations = 40;
+	s.tolerance     = 1e-12;
+	const auto     statistics = solve(p, s);
+	const Residual own = statistics.residual, independent = naturalMapResidual(p);
+	// the same formula summed in another order: rounding only
+	EXPECT_NEAR(own.rms / independent.rms, 1, 1e-9);
+	EXPECT_NEAR(own.largest / independent.largest, 1, 1e-9);
+	EXPECT_NEAR(own.scale / independent.scale, 1, 1e-9);
+}
+
+} // namespace
