@@ -96,7 +96,7 @@ namespace {
 
 } // namespace
 
-ContactBlocks layOut(const Problem& problem, int threads)
+void layOut(const Problem& problem, int threads, ContactBlocks& result)
 {
 	const SweepOrder   order  = arrange(problem);
 	const std::size_t  strips = order.stripCount();
@@ -106,7 +106,6 @@ ContactBlocks layOut(const Problem& problem, int threads)
 	for (long s = 0; s < static_cast<long>(strips); ++s)
 		parts[s] = fill(problem, order, s);
 
-	ContactBlocks result;
 	result.evenStrips = order.evenStrips;
 	result.blockBegin.assign(1, 0);
 	result.otherBegin.assign(1, 0);
@@ -132,7 +131,6 @@ ContactBlocks layOut(const Problem& problem, int threads)
 			result.blocks[b] = block;
 		}
 	}
-	return result;
 }
 
 } // namespace nonsmooth::contact

@@ -16,11 +16,11 @@ struct ContactBlocks {
 	std::vector<std::int32_t> others;        // contacts outside blocks
 	std::vector<std::size_t>  blockBegin, otherBegin; // of every strip; one more than there are strips
 	std::size_t               evenStrips = 0;
-	std::size_t               stripCount() const { return blockBegin.size() - 1; }
+	std::size_t               stripCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
 };
 
-/// Lays out the contacts' data; impulses come from problem.impulses, projected on their thresholds. An empty lane names the body
+/// Lays out the contacts' data in `result`, whose memory is used again; impulses come from problem.impulses, projected on their thresholds. An empty lane names the body
 /// problem.bodyCount(), which the caller provides and which cannot move.
-ContactBlocks layOut(const Problem& problem, int threads);
+void layOut(const Problem& problem, int threads, ContactBlocks& result);
 
 } // namespace nonsmooth::contact

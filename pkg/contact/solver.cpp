@@ -17,7 +17,7 @@ namespace {
 
 	class Sweeper {
 	public:
-		Sweeper(Problem& problem, const SolverSettings& settings);
+		Sweeper(Problem& problem, const SolverSettings& settings, Workspace& workspace);
 		SolverStatistics run();
 
 	private:
@@ -37,25 +37,29 @@ namespace {
 		const SolverSettings&     settings;
 		const BlockKernels&       kernels;
 		const int                 threads;
-		ContactBlocks             laidOut;
+		ContactBlocks&            laidOut;
 		std::vector<Row>          rows;
-		std::vector<Motion>       bodies, bodiesBefore; // the last one is nobody
+		std::vector<Motion>&      bodies; // the last one is nobody
+		std::vector<Motion>&      bodiesBefore;
 		std::vector<ResidualSums> sums;                 // one a strip
 		Residual                  residual;
 		SolverStatistics          statistics;
 	};
 
-	Sweeper::Sweeper(Problem& problem_, const SolverSettings& settings_)
+	Sweeper::Sweeper(Problem& problem_, const SolverSettings& settings_, Workspace& workspace)
 	        : problem(problem_)
 	        , settings(settings_)
 	        , kernels(settings_.portable ? portableKernels() : bestKernels())
 	        , threads(problem_.contactCount() < 1000 ? 1 : std::max(1, settings_.threads))
-	        , laidOut(layOut(problem_, threads))
-	        , rows(laidOut.others.size())
-	        , bodies(problem_.bodyCount() + 1)
-	        , bodiesBefore(problem_.bodyCount() + 1)
-	        , sums(laidOut.stripCount())
+	        , laidOut(workspace.laidOut)
+	        , bodies(workspace.bodies)
+	        , bodiesBefore(workspace.bodiesBefore)
 	{
+		layOut(problem, threads, laidOut);
+		rows.resize(laidOut.others.size());
+		sums.resize(laidOut.stripCount());
+		bodies.resize(problem.bodyCount() + 1);
+		bodiesBefore.resize(problem.bodyCount() + 1);
 		for (std::size_t k = 0; k < rows.size(); ++k) {
 			const Contact& c = problem.contacts[laidOut.others[k]];
 			const Impulse  p = project(c, problem.impulses[laidOut.others[k]]);
@@ -188,30 +192,29 @@ namespace {
 	{
 		const bool accelerated = settings.method == Method::Accelerated;
 		double     theta = 1, beta = 0;
-		int        restarts = 0, iteration = 0, sinceRestart = 0;
+		int        restarts = 0, iteration = 0;
 		const long count = static_cast<long>(bodies.size());
 #pragma omp for schedule(static)
 		for (long b = 0; b < count; ++b)
 			bodiesBefore[b] = bodies[b];
 		measure();
-		double last = residual.rms;
+		double last = residual.rms, beforeLast = residual.rms;
 		while (residual.relative() > settings.tolerance && iteration < settings.maxIterations) {
 			if (accelerated) extrapolateVelocities(beta);
 			sweep(beta);
 			++iteration;
-			++sinceRestart;
-			bool restart = sinceRestart >= settings.restartPeriod;
+			bool restart = false;
 			if (iteration % settings.checkEvery == 0 || iteration == settings.maxIterations) {
 				measure();
-				restart = restart || residual.rms > last;
-				last    = residual.rms;
+				restart    = residual.rms > beforeLast;
+				beforeLast = restart ? residual.rms : last;
+				last       = residual.rms;
 			}
 			if (!accelerated) continue;
 			if (restart) {
-				restarts += sinceRestart > 1;
-				theta        = 1;
-				beta         = 0;
-				sinceRestart = 0;
+				++restarts;
+				theta = 1;
+				beta  = 0;
 			} else {
 				const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
 				beta              = (theta - 1) / next;
@@ -288,10 +291,11 @@ namespace {
 
 } // namespace
 
-SolverStatistics solve(Problem& problem, const SolverSettings& settings)
+SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace)
 {
 	check(problem);
-	return Sweeper(problem, settings).run();
+	Workspace own;
+	return Sweeper(problem, settings, workspace ? *workspace : own).run();
 }
 
 } // namespace nonsmooth::contact

@@ -4,12 +4,13 @@
 // up to date (Jean 1999). Information crosses about one contact a sweep, so a deep packing needs thousands of plain sweeps.
 // The accelerated method starts every sweep from
 //     y_k = P_k + β_k (P_k − P_{k−1}),   β_k = (θ_k − 1)/θ_{k+1},   θ_{k+1} = (1 + √(1 + 4 θ_k²))/2
-// (Nesterov 1983) and sets θ = 1 again when the residual has grown since it was last measured (O'Donoghue and Candès 2015, their
-// function scheme), or after restartPeriod sweeps: in moving packings, where the status of many contacts changes, the momentum would
-// else swing around the solution. Strips (sweep_order.hpp) make the sweep independent of the number of
-// threads; sums are added in a fixed order.
+// (Nesterov 1983) and sets θ = 1 again when the residual has grown over the last two measurements (O'Donoghue and Candès 2015, their
+// function scheme; over one measurement it would restart too often where contacts change their status). Contacts lie in blocks of four
+// (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result independent of the number of threads and of the
+// processor; sums are added in a fixed order.
 #pragma once
 
+#include <contact/contact_blocks.hpp>
 #include <contact/problem.hpp>
 #include <contact/residual.hpp>
 
@@ -21,8 +22,7 @@ struct SolverSettings {
 	Method method        = Method::Accelerated;
 	double tolerance     = 1e-4; // on Residual::relative()
 	int    maxIterations = 1000;
-	int    checkEvery    = 5; // sweeps between two residuals
-	int    restartPeriod = 60; // sweeps after which the extrapolation begins anew in any case
+	int    checkEvery    = 10; // sweeps between two residuals
 	int    threads       = 1;
 	bool   portable      = false; // instructions of every processor only; the bits are the same
 };
@@ -35,8 +35,14 @@ struct SolverStatistics {
 	Residual residual; // of what is returned, from velocities computed anew from the impulses
 };
 
+/// Memory that one solve leaves to the next; what it holds does not matter.
+struct Workspace {
+	ContactBlocks       laidOut;
+	std::vector<Motion> bodies, bodiesBefore;
+};
+
 /// Solves in place: reads problem.impulses as warm start, writes problem.impulses and problem.velocities.
 /// Throws std::invalid_argument where a size does not fit or a number is not finite.
-SolverStatistics solve(Problem& problem, const SolverSettings& settings);
+SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace = nullptr);
 
 } // namespace nonsmooth::contact

@@ -21,9 +21,9 @@ void ContactDynamicsEngine::action()
 	const int  threads = threadCount();
 
 	const Real t0 = clock();
-	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed }, threads);
+	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads);
 	const Real t1         = clock();
-	const auto statistics = contact::solve(seam.problem, settings());
+	const auto statistics = contact::solve(seam.problem, settings(), &workspace);
 	const Real t2         = clock();
 	account(seam.scatter(*scene, gravity, threads));
 	report(statistics);

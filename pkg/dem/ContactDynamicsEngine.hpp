@@ -43,9 +43,10 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,tolerance,1e-4,,"Residual below which a step is solved [-]."))
 		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning."))
 		((string,method,"accelerated",,"'accelerated' (Gauss-Seidel inside Nesterov's extrapolation) or 'gaussSeidel' (plain)."))
-		((int,checkEvery,5,,"Sweeps between two residuals."))
+		((int,checkEvery,10,,"Sweeps between two residuals."))
 		((Real,relaxationRate,0.2,,"Share κ of an overlap or of a bond's error of length that one step takes back [-]."))
 		((Real,correctionSpeed,1,,"Largest speed of that correction [m/s]."))
+		((Real,openGap,0.05,,"A contact whose gap is wider [ℓ], and would stay so at 1.2 times its present speed of approach, is left out of the step's solve."))
 		((int,iterations,0,(Attr::readonly|Attr::noSave),"Sweeps of the last step."))
 		((Real,residual,0,(Attr::readonly|Attr::noSave),"Residual of the last step [-]."))
 		((int,unconverged,0,Attr::readonly,"Steps so far that ended above the tolerance."))
@@ -98,9 +99,9 @@ private:
 	void                                 report(const nonsmooth::contact::SolverStatistics& statistics);
 	int                                  threadCount() const;
 
-	nscd::ContactSeam seam;
-	int               energyIx[5] = { -1, -1, -1, -1, -1 };
-	int               warnings    = 0;
+	nscd::ContactSeam             seam;
+	nonsmooth::contact::Workspace workspace;
+	int                           energyIx[4] = { -1, -1, -1, -1 };
 };
 REGISTER_SERIALIZABLE(ContactDynamicsEngine);
 

@@ -34,6 +34,7 @@ void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k)
 		gatherContact(scene, k);
+	compact();
 }
 
 void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
@@ -90,17 +91,21 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 }
 
 namespace {
-	/// The cohesive physics of an interaction; the usual two classes are recognised without a search through their bases.
-	NscdPhys* physOf(Interaction& i)
+	/// The cohesive physics of an interaction, null if it has another; the usual two classes are recognised without a search.
+	NscdPhys* physOf(IPhys& phys)
 	{
-		IPhys&      phys = *i.phys;
 		const auto& type = typeid(phys);
 		if (type == typeid(NscdPhys) || type == typeid(SlipWeakeningPhys)) return static_cast<NscdPhys*>(&phys);
-		if (auto* derived = dynamic_cast<NscdPhys*>(&phys)) return derived;
-		throw std::runtime_error(
-		        "ContactDynamicsEngine: interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2()) + " has a " + phys.getClassName()
-		        + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+		return dynamic_cast<NscdPhys*>(&phys);
 	}
+
+	/// Asks for the cache lines of an object that will be needed soon; YADE's objects lie all over the memory.
+	template <size_t bytes> void fetch(const void* object)
+	{
+		for (size_t at = 0; at < bytes; at += 64)
+			__builtin_prefetch(static_cast<const char*>(object) + at, 1);
+	}
+	constexpr size_t soon = 8, later = 16; // contacts ahead
 }
 
 /// Real interactions in the order of (lower id, higher id).
@@ -109,7 +114,11 @@ void ContactSeam::collect(Scene& scene)
 	const size_t size = scene.bodies->size();
 	bucket.assign(size + 1, 0);
 	found.clear();
-	for (const auto& i : *scene.interactions) {
+	const auto&  interactions = *scene.interactions;
+	const size_t count        = scene.interactions->size();
+	for (size_t k = 0; k < count; ++k) {
+		if (k + soon < count) fetch<sizeof(Interaction)>(interactions[k + soon].get());
+		const auto& i = interactions[k];
 		if (!i->isReal() || !i->isActive) continue;
 		const int low = std::min(i->getId1(), i->getId2()), high = std::max(i->getId1(), i->getId2());
 		if ((size_t)high >= size || !present[low] || !present[high]) continue;
@@ -129,14 +138,48 @@ void ContactSeam::collect(Scene& scene)
 	}
 	links.resize(ordered.size());
 	for (size_t k = 0; k < ordered.size(); ++k)
-		links[k] = { ordered[k].interaction, physOf(*ordered[k].interaction), 0, 0, false };
+		links[k] = { ordered[k].interaction };
+}
+
+/// Drops the contacts that need not be solved for, keeping the order of the others.
+void ContactSeam::compact()
+{
+	size_t kept = 0;
+	for (size_t k = 0; k < links.size(); ++k) {
+		if (!links[k].phys) {
+			const Interaction& i = *links[k].interaction;
+			throw std::runtime_error(
+			        "ContactDynamicsEngine: interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2()) + " has a "
+			        + i.phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+		}
+		if (!links[k].solved) continue;
+		if (kept != k) {
+			links[kept]            = links[k];
+			problem.contacts[kept] = problem.contacts[k];
+			problem.impulses[kept] = problem.impulses[k];
+		}
+		++kept;
+	}
+	links.resize(kept);
+	problem.contacts.resize(kept);
+	problem.impulses.resize(kept);
 }
 
 void ContactSeam::gatherContact(Scene& scene, size_t k)
 {
-	Link&        link = links[k];
-	const auto&  geom = static_cast<const ScGeom&>(*link.interaction->geom);
-	const auto&  phys = *link.phys;
+	if (k + later < links.size()) fetch<sizeof(Interaction)>(links[k + later].interaction);
+	if (k + soon < links.size()) {
+		fetch<sizeof(ScGeom)>(links[k + soon].interaction->geom.get());
+		fetch<sizeof(NscdPhys)>(links[k + soon].interaction->phys.get());
+	}
+	Link&       link = links[k];
+	const auto& geom = static_cast<const ScGeom&>(*link.interaction->geom);
+	link.phys        = physOf(*link.interaction->phys);
+	if (!link.phys) return;
+	NscdPhys& phys = *link.phys;
+	link.bonded    = phys.bonded;
+	link.broken    = phys.brokenStep == iteration ? phys.brokenMode : int(NscdPhys::None);
+	link.slips     = phys.countsSlip();
 	const Body & b1 = *(*scene.bodies)[link.interaction->getId1()], &b2 = *(*scene.bodies)[link.interaction->getId2()];
 	const Real   r1 = radius[b1.getId()], r2 = radius[b2.getId()]; // negative: not a sphere
 	const bool   s1 = r1 > 0, s2 = r2 > 0;
@@ -158,7 +201,8 @@ void ContactSeam::gatherContact(Scene& scene, size_t k)
 		const Vector3r ri = geom.contactPoint - bi.state->pos, rj = geom.contactPoint - bj.state->pos;
 		c.leverNi = n[1] * ri[0] - n[0] * ri[1];
 		c.leverTi = ri.dot(n);
-		c.leverNj = n[1] * rj[0] - n[0] * rj[1];
+		// exactly none through a sphere's centre
+		c.leverNj = s1 || s2 ? 0 : n[1] * rj[0] - n[0] * rj[1];
 		c.leverTj = rj.dot(n);
 	}
 	// error of position: a bond keeps its length, a contact its gap
@@ -179,6 +223,13 @@ void ContactSeam::gatherContact(Scene& scene, size_t k)
 	c.length            = phys.length;
 	problem.contacts[k] = c;
 	problem.impulses[k] = { h * phys.normal, h * phys.tangential, h * phys.torque };
+
+	const Real closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
+	link.solved = phys.bonded || link.broken != NscdPhys::None || gap + 1.2 * h * closing <= relaxation.openGap * phys.length;
+	if (!link.solved && phys.normal + phys.adhesion != 0) {
+		phys.normal = phys.tangential = phys.torque = 0;
+		phys.normalForce = phys.shearForce = Vector3r::Zero();
+	}
 }
 
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount)
@@ -190,7 +241,8 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	for (long k = 0; k < count; ++k) {
 		const Contact& c    = problem.contacts[k];
 		const Impulse& p    = problem.impulses[k];
-		NscdPhys&      phys = *links[k].phys;
+		if (k + (long)soon < count) fetch<sizeof(NscdPhys)>(links[k + soon].phys);
+		NscdPhys& phys = *links[k].phys;
 		phys.normal         = p.n / h;
 		phys.tangential     = p.t / h;
 		phys.torque         = p.r / h;
@@ -213,7 +265,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	// slip goes into materials that many contacts share, so one after the other
 	for (long k = 0; k < count; ++k) {
 		const Contact& c = problem.contacts[k];
-		if (problem.impulses[k].n + c.adhesion <= 0) continue;
+		if (!links[k].slips || problem.impulses[k].n + c.adhesion <= 0) continue;
 		links[k].phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
 	}
 
@@ -282,7 +334,6 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 	for (size_t k = begin; k < end; ++k) {
 		const Contact&  c    = problem.contacts[k];
 		const Impulse&  p    = problem.impulses[k];
-		const NscdPhys& phys = *links[k].phys;
 		const Impulse   u0   = contact::relativeVelocity(c, before[c.i], before[c.j]);
 		const Impulse   u1   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 		// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
@@ -291,12 +342,12 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
 		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
 		if (p.n > 0 && links[k].bias < 0) sums.correction -= p.n * links[k].bias;
-		const Real overlap = std::max(Real(0), -links[k].gap) / phys.length;
+		const Real overlap = std::max(Real(0), -links[k].gap) / c.length;
 		sums.overlap += overlap;
 		sums.worstOverlap = std::max(sums.worstOverlap, overlap);
 		sums.touching += (p.n != 0 || links[k].gap <= 0);
-		sums.bonds += phys.bonded;
-		if (phys.brokenStep == iteration) ++sums.broken[phys.brokenMode];
+		sums.bonds += links[k].bonded;
+		if (links[k].broken != NscdPhys::None) ++sums.broken[links[k].broken];
 	}
 }
 

@@ -15,15 +15,20 @@ struct Relaxation {
 	Real step;         // h [s]
 	Real rate;         // κ, share of an overlap or bond error that one step takes back
 	Real largestSpeed; // of that correction [m/s]
+	Real openGap;      // a gap wider than this [ℓ] that will not close in the step is left out
 };
 
 /// One gathered contact's way back to YADE.
 struct Link {
 	Interaction* interaction;
-	NscdPhys*    phys;
-	Real         gap;     // at the beginning of the step [m]
-	Real         bias;    // b_n without restitution [m/s]
-	bool         swapped; // runs against the interaction's own order
+	NscdPhys*    phys    = nullptr;
+	Real         gap     = 0; // at the beginning of the step [m]
+	Real         bias    = 0; // b_n without restitution [m/s]
+	int          broken  = 0; // NscdPhys::brokenMode if the bond broke in this step
+	bool         swapped = false; // runs against the interaction's own order
+	bool         bonded  = false;
+	bool         slips   = false; // on a wall that counts slip
+	bool         solved  = false; // takes part in the solve
 };
 
 /// What a step did, summed in a fixed order.
@@ -53,6 +58,7 @@ public:
 private:
 	void gatherBodies(Scene& scene, const Vector3r& gravity);
 	void collect(Scene& scene);
+	void compact();
 	void gatherContact(Scene& scene, size_t k);
 	void scatterForces(Scene& scene);
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
@@ -63,7 +69,7 @@ private:
 		Interaction* interaction;
 	};
 
-	Relaxation                             relaxation { 1, 0, 0 };
+	Relaxation                             relaxation { 1, 0, 0, 0 };
 	int                                    threads = 1;
 	long                                   iteration = -1;
 	std::vector<nonsmooth::contact::Twist> before; // velocities at the beginning of the step

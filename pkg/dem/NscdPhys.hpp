@@ -16,6 +16,7 @@ public:
 	/// Sets F_a [N], μ_s and μ_r ℓ [m] of the next step for a gap [m]; adhesionRange in units of ℓ.
 	virtual void updateThresholds(Real gap, Real adhesionRange);
 	virtual void addSlip(Real) { }
+	virtual bool countsSlip() const { return false; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdPhys,FrictPhys,
 R"""(Contact of two :yref:`NscdMats<NscdMat>`: reactions of the last step, thresholds, and the bond. Forces act on the second body;
@@ -60,6 +61,7 @@ public:
 	virtual ~SlipWeakeningPhys() = default;
 	void updateThresholds(Real gap, Real adhesionRange) override;
 	void addSlip(Real distance) override { wallMaterial->addSlip(body, distance); }
+	bool countsSlip() const override { return true; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningPhys,NscdPhys,
 R"""(Contact of a body with a wall of :yref:`SlipWeakeningMat`: its strength is a function of the body's slip along that wall.)""",

@@ -5,8 +5,8 @@ Everything that decides the course stands in :class:`State`, which goes into che
 * bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
 * t0: the dry rest ends, the water begins to rise;
-* t1, failure: the disks' mean way since t0 reaches a tenth of the release distance D_c (0.5 m), a plastic strain of about one per
-  cent of the foot's thickness; with ``water.hold: failure`` the table stays where it is;
+* moving: the mean speed reaches 0.5 m/s: the slope no longer just follows the water. From here on the solver's tolerance is
+  ``tolerance_moving``, and with ``water.hold: motion`` the table stays where it is;
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
 
@@ -34,7 +34,7 @@ __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 ROW_SECONDS = 0.1        # between two rows of series.csv
 FRAME_SECONDS = 0.5      # between two snapshots, for the video and the figures
 CHECKPOINT_SECONDS = 90  # of wall time
-FAILURE_SHARE = 0.1      # of D_c, see above
+MOVING_SPEED = 0.5       # m/s, see above
 
 COLUMNS = tuple(records.COLUMNS)
 
@@ -50,9 +50,8 @@ class State:
     stage: str = "settle"  # settle, dry, water, done
     settled: float | None = None
     t0: float | None = None
-    failure: float | None = None
+    moving: float | None = None
     water_hold: float | None = None
-    centroid0: tuple[float, float] | None = None
     front0: float | None = None
     speed_max: float = 0.0
     resting_since: float | None = None
@@ -150,7 +149,6 @@ class Experiment:
         if O.time < s.settled + self.section.stages.dry - 0.5 * O.dt:
             return
         s.t0, s.stage = O.time, "water"
-        s.centroid0 = (self.slope.solver.centroid[0], self.slope.solver.centroid[1])
         s.front0 = front_of(*self._disks())
         self.snapshot(self.folder / "t0.npz", contacts=True)
         if self.slope.water:
@@ -166,17 +164,14 @@ class Experiment:
 
     def _water(self):
         s, stages, solver, water = self.state, self.section.stages, self.slope.solver, self.slope.water
-        down = self.section.downslope
-        way = sum((solver.centroid[k] - s.centroid0[k]) * down[k] for k in (0, 1))
-        limit = FAILURE_SHARE * (self.section.water.release_distance if water else 5.0)
-        if s.failure is None and way >= limit:
-            s.failure = O.time
+        if s.moving is None and solver.meanSpeed >= MOVING_SPEED:
+            s.moving = O.time
             solver.tolerance = self.section.numerics.tolerance_moving
-            if water and stages.water_hold == "failure":
+            if water and stages.water_hold == "motion":
                 self._hold(water.height)
         if water and s.water_hold is None and not isinstance(stages.water_hold, str) and water.height >= stages.water_hold:
             self._hold(float(stages.water_hold))
-        resting = s.failure is not None and solver.meanSpeed < stages.end.rest_fraction * s.speed_max
+        resting = s.moving is not None and solver.meanSpeed < stages.end.rest_fraction * s.speed_max
         if not resting:
             s.resting_since = None
         elif s.resting_since is None:
@@ -205,10 +200,10 @@ class Experiment:
         if s.stage == "done":
             return O.time
         settled = s.settled if s.settled is not None else max(8.0, O.time)
-        if s.failure is not None:
-            return max(min(s.failure + 55.0, settled + stages.end.time), O.time)
+        if s.moving is not None:
+            return max(min(s.moving + 55.0, settled + stages.end.time), O.time)
         rate = self.section.water.rate if self.section.water else 0
-        rise = 25.0 / rate if rate and stages.water_hold == "failure" else stages.end.time
+        rise = 25.0 / rate if rate and stages.water_hold == "motion" else stages.end.time
         return max(min(settled + stages.dry + rise + 55.0, settled + stages.end.time), O.time)
 
     # ---- records ------------------------------------------------------------------------------
@@ -329,6 +324,4 @@ def resume(section, folder, progress=None):
         raise ExperimentError(f"{path}: this checkpoint belongs to another section, number of disks or seed; give the same ones, or another --out")
     O.load(str(scene), quiet=True)
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
-    if state.centroid0 is not None:
-        state.centroid0 = tuple(state.centroid0)
     return Experiment(built, folder, state=state, progress=progress)

@@ -3,7 +3,8 @@
 Characteristic times (paper, section 6; the rules are ours):
 
 * t0: the water table begins to rise;
-* t1, failure: the disks' mean way since t0 reaches a tenth of D_c (recorded by the run itself, see experiment.py);
+* t1, failure: the mean of N_FB over one second first comes within 2 % of its largest value before t2, the strength of the foot;
+  where there is no backstop, the slope begins to move (mean speed 0.5 m/s, see experiment.py);
 * t2: D_c is reached by one per cent of the disks that fit along the dipping plane;
 * t3: the mean of T_DP over one second has fallen by 80 % of its value at t2;
 * t4: the largest kinetic energy;
@@ -35,16 +36,18 @@ def characteristic_times(series, section, state) -> dict[str, float | None]:
     """t0 … t5 [s] of a run; None for those that did not come. ``state``: the fields of experiment.State as a mapping."""
     t = series["time_s"]
     times = dict.fromkeys(("t0", "t1", "t2", "t3", "t4", "t5"))
-    times["t0"], times["t1"] = state["t0"], state["failure"]
-    if times["t0"] is None or times["t1"] is None:
+    times["t0"] = state["t0"]
+    if times["t0"] is None or state["moving"] is None:
         return times
     base = section.water.wall if section.water and section.water.wall else section.walls[0].name
     length = float(np.hypot(*np.diff(section.wall(base).points, axis=0).T).sum())
     enough = max(1.0, 0.01 * length / math.sqrt(section.disks.mean_square))
     late = np.flatnonzero((series["weakened_disks"] >= enough) & (t >= times["t0"]))
+    if len(late):
+        times["t2"] = float(t[late[0]])
+    times["t1"] = _failure(series, times, state)
     if not len(late):
         return times
-    times["t2"] = float(t[late[0]])
     before = _mean(series, "dp_shear_N_per_m", times["t2"])
     for k in range(late[0], len(t)):
         if _mean(series, "dp_shear_N_per_m", t[k]) <= 0.2 * before:
@@ -56,6 +59,17 @@ def characteristic_times(series, section, state) -> dict[str, float | None]:
     if len(moving) and moving[-1] + 1 < len(t):
         times["t5"] = float(t[moving[-1] + 1])
     return times
+
+
+def _failure(series, times, state):
+    """t1 [s], see above."""
+    t = series["time_s"]
+    until = times["t2"] if times["t2"] is not None else t[-1]
+    steps = np.flatnonzero((t >= times["t0"] + 1 - 1e-9) & (t <= until + 1e-9))
+    if not len(steps) or not np.any(series["fb_normal_N_per_m"]):
+        return state["moving"]
+    force = np.array([_mean(series, "fb_normal_N_per_m", t[k]) for k in steps])
+    return float(t[steps[np.argmax(force >= 0.98 * force.max())]])
 
 
 def _difference(a, b):
@@ -73,7 +87,8 @@ def summarise(folder, section, state, threads=None) -> dict:
     finished = state["stage"] == "done"
     begin = t0 if t0 is not None else last
     after = series["time_s"] >= begin - 1e-9
-    tolerance = np.where(series["time_s"] > (t1 if t1 is not None else math.inf), section.numerics.tolerance_moving, section.numerics.tolerance)
+    moving = state["moving"] if state["moving"] is not None else math.inf
+    tolerance = np.where(series["time_s"] > moving + 1e-9, section.numerics.tolerance_moving, section.numerics.tolerance)
     start = records.read_snapshot(folder / "t0.npz") if (folder / "t0.npz").exists() else None
     end = records.read_snapshot(folder / "end.npz") if (folder / "end.npz").exists() else None
     moved = None

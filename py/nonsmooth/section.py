@@ -188,7 +188,7 @@ class End:
 
 @dataclass(frozen=True)
 class Stages:
-    """Course of the experiment; `dry` [s]; `water_hold`: "failure", "never" or a height [m]."""
+    """Course of the experiment; `dry` [s]; `water_hold`: "motion", "never" or a height [m]."""
 
     settle: Settle
     dry: float
@@ -385,7 +385,7 @@ def _build(document, source: str) -> Section:
         materials=MappingProxyType({k: _material(k, v) for k, v in raw["materials"].items()}),
         disks=disks, water=None,
         stages=Stages(Settle(**_floats(stages["settle"])), float(stages["dry"]),
-                      stages.get("water", {}).get("hold", "failure"), End(**_floats(stages["end"]))),
+                      stages.get("water", {}).get("hold", "motion"), End(**_floats(stages["end"]))),
         numerics=Numerics(**raw["numerics"]), seed=raw["seed"], source=source)
     section_checks.check(section, document)
     if "water" in raw:

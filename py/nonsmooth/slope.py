@@ -114,8 +114,9 @@ def build(section, packing) -> Slope:
             label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*section.normal, 0),
             gradient=Vector3(*w.gradient, 0), releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
     n = section.numerics
-    # bonds are made where contacts are known, so these must reach further than Δ
-    reach = max(0.05, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
+    # bonds are made where contacts are known, so these must reach further than Δ; the rest is for fast disks: 0.2 of 1 m in a step
+    # of 5 ms is an approach at 40 m/s
+    reach = max(0.2, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
     O.engines = scene.engines(
         gravity=(0, -section.gravity, 0), reach=reach, verlet=-n.verlet_distance, before=before, tolerance=n.tolerance, maxIterations=n.max_iterations)
     O.dt = n.time_step

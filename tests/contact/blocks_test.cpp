@@ -24,7 +24,8 @@ Problem mixed()
 TEST(Blocks, HoldEveryContactOnceAndNoBodyTwice)
 {
 	const Problem       p = mixed();
-	const ContactBlocks b = layOut(p, 2);
+	ContactBlocks       b;
+	layOut(p, 2, b);
 	std::vector<int>    seen(p.contactCount(), 0);
 	std::size_t         empty = 0;
 	for (std::size_t k = 0; k < b.blocks.size(); ++k) {

@@ -107,6 +107,29 @@ def test_restitution_head_on(restitution):
     assert e.overlapWorstEver < 1e-2
 
 
+def test_fast_approach_is_solved_before_it_overlaps():
+    # 40 m/s close 0.2 m in a step, four times openGap
+    left, right = free_disk(-1, 0, (20, 0, 0)), free_disk(1, 0, (-20, 0, 0))
+    begin(gravity=(0, 0, 0), dt=5e-3, reach=0.25)
+    run(20)
+    assert engine().overlapWorstEver < 1e-12
+    assert O.bodies[left].state.vel.norm() < 1e-9 and O.bodies[right].state.vel.norm() < 1e-9  # e = 0, equal masses
+
+
+def test_gaps_that_stay_open_are_left_out():
+    stuff = material(0.3)
+    near, far = 1.02, 1.15  # gaps of 0.02 and 0.15 of the diameter, at rest
+    for y, distance in ((0, near), (5, far)):
+        free_disk(0, y, stuff=stuff)
+        free_disk(distance, y, stuff=stuff)
+    e = begin(gravity=(0, 0, 0), reach=0.2)
+    run(1)
+    assert len(contacts()) == 2 and e.candidates == 1
+    e.openGap = 0.2
+    run(1)
+    assert e.candidates == 2
+
+
 # ---- walls that move, blocked directions, other engines -------------------------------------------
 
 def test_driven_wall_pushes_and_works():

@@ -183,7 +183,7 @@ BAD = {
     "bent plane": (dict(water__plane="SS"), "SS is not straight", "straight wall"),
     "rate and points": (dict(water__table={"rate": 1.0, "points": [[0, 0]]}), "water.table: has 2 entries", "either"),
     "times falling": (dict(water__table={"points": [[0, 0], [5, 1], [4, 2]]}), "water.table.points[2]", "rising order"),
-    "hold": (dict(stages__water={"hold": "maybe"}), "stages.water.hold: 'maybe'", "failure, never"),
+    "hold": (dict(stages__water={"hold": "maybe"}), "stages.water.hold: 'maybe'", "motion, never"),
 }
 
 
