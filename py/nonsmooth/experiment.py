@@ -5,8 +5,8 @@ Everything that decides the course stands in :class:`State`, which goes into che
 * bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
 * t0: the dry rest ends, the water begins to rise;
-* moving: the mean speed reaches 0.5 m/s: the slope no longer just follows the water. From here on the solver's tolerance is
-  ``tolerance_moving``, and with ``water.hold: motion`` the table stays where it is;
+* moving: the mean speed reaches 0.5 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
+  is from here on, and the solver's tolerance is ``tolerance_moving`` until the avalanche is at rest;
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
 
@@ -101,11 +101,12 @@ class Experiment:
 
     def _advance(self):
         solver, s = self.slope.solver, self.state
-        self._inside()
+        disks = tables.bodies(solver)
+        self._inside(disks)
         s.speed_max = max(s.speed_max, solver.meanSpeed) if s.stage == "water" else 0.0
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
         if s.stage != "settle":
-            self.series.write(self._row())
+            self.series.write(self._row(disks))
             if O.iter % self.frame_steps == 0:
                 self.snapshot(self.folder / "snapshots" / f"{O.iter:08d}.npz")
                 s.frames += 1
@@ -149,7 +150,8 @@ class Experiment:
         if O.time < s.settled + self.section.stages.dry - 0.5 * O.dt:
             return
         s.t0, s.stage = O.time, "water"
-        s.front0 = front_of(*self._disks())
+        disks = tables.bodies(self.slope.solver)
+        s.front0 = front_of(disks["x"], disks["r"])
         self.snapshot(self.folder / "t0.npz", contacts=True)
         if self.slope.water:
             w = self.section.water
@@ -166,7 +168,6 @@ class Experiment:
         s, stages, solver, water = self.state, self.section.stages, self.slope.solver, self.slope.water
         if s.moving is None and solver.meanSpeed >= MOVING_SPEED:
             s.moving = O.time
-            solver.tolerance = self.section.numerics.tolerance_moving
             if water and stages.water_hold == "motion":
                 self._hold(water.height)
         if water and s.water_hold is None and not isinstance(stages.water_hold, str) and water.height >= stages.water_hold:
@@ -176,6 +177,9 @@ class Experiment:
             s.resting_since = None
         elif s.resting_since is None:
             s.resting_since = O.time
+        numerics = self.section.numerics
+        # the reactions of a mass at rest are found with the same care before and after the motion
+        solver.tolerance = numerics.tolerance_moving if s.moving is not None and not resting else numerics.tolerance
         over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
         if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
             s.stage = "done"
@@ -207,13 +211,8 @@ class Experiment:
         return max(min(settled + stages.dry + rise + 55.0, settled + stages.end.time), O.time)
 
     # ---- records ------------------------------------------------------------------------------
-    def _disks(self):
-        t = tables.bodies(self.slope.solver)
-        return t["x"], t["r"]
-
-    def _inside(self):
-        """Raises where a disk has left the section's box."""
-        t = tables.bodies(self.slope.solver)
+    def _inside(self, t):
+        """Raises where a disk of the table ``t`` has left the section's box."""
         x0, y0, x1, y1 = self.section.bounds
         margin = 0.1 * max(x1 - x0, y1 - y0)
         out = ~((t["x"] > x0 - margin) & (t["x"] < x1 + margin) & (t["y"] > y0 - margin) & (t["y"] < y1 + margin))
@@ -223,7 +222,7 @@ class Experiment:
                 f"disk {k} left the section at t = {O.time:.3f} s: it is at ({t['x'][k]:.1f}, {t['y'][k]:.1f}) m; close the walls of "
                 f"{self.section.source} there, or lower numerics.time_step. What was written until now stays in {self.folder}")
 
-    def _row(self):
+    def _row(self, disks):
         e, water, section = self.slope.solver, self.slope.water, self.section
         forces = self.slope.wall_forces()
         zero = (0.0, 0.0)
@@ -235,18 +234,17 @@ class Experiment:
         slip = hasattr(weak, "meanSlip")
         losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
         turned = losses + e.kineticEnergy + abs(e.externalWork)
-        x, r = self._disks()
         return {
             "step": O.iter, "time_s": O.time, "water_m": water.height if water else 0.0,
             "dp_normal_total_N_per_m": dp[0] + u, "dp_normal_effective_N_per_m": dp[0], "dp_water_N_per_m": u, "dp_shear_N_per_m": dp[1],
             "fb_normal_N_per_m": fb[0], "fb_shear_N_per_m": fb[1], "ss_normal_N_per_m": ss[0], "ss_shear_N_per_m": ss[1],
             "wet_disks": water.wetCount if water else 0, "released_disks": water.releasedCount if water else 0,
-            "speed_mean_m_per_s": e.meanSpeed, "speed_max_m_per_s": e.maxSpeed, "front_m": front_of(x, r),
+            "speed_mean_m_per_s": e.meanSpeed, "speed_max_m_per_s": e.maxSpeed, "front_m": front_of(disks["x"], disks["r"]),
             "centroid_x_m": e.centroid[0], "centroid_y_m": e.centroid[1], "bonds_alive": e.bonds,
             "bonds_broken_tension": e.brokenTension, "bonds_broken_shear": e.brokenShear,
             "bonds_broken_torque": e.brokenTorque, "bonds_broken_mixed": e.brokenMixed, "contacts": e.contacts,
             "slip_mean_dp_m": weak.meanSlip() if slip else 0.0, "weakened_disks": weak.weakenedCount() if slip else 0,
-            "iterations": e.iterations, "residual": e.residual, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
+            "iterations": e.iterations, "residual": e.residual, "tolerance": e.tolerance, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
             "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy, "energy_water_J": e.externalWork,
             "energy_dissipated_J": e.slidingLoss + e.rollingLoss + e.impactLoss, "energy_bonds_J": e.debondingLoss,
             "energy_correction_J": e.correctionEnergy, "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,

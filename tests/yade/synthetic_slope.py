@@ -165,6 +165,7 @@ def series(columns, rows=4000, seed=2):
         "dp_normal_effective_N_per_m": effective, "dp_water_N_per_m": pore, "dp_shear_N_per_m": shear,
         "fb_normal_N_per_m": back, "speed_mean_m_per_s": speed, "speed_max_m_per_s": 2 * speed,
         "iterations": np.round(40 + 160 * active + rng.exponential(15, rows)), "residual": 1e-5 * np.exp(rng.normal(-0.5, 0.5, rows)),
+        "tolerance": np.full(rows, 1e-5),
         "overlap_worst_rel": 0.004 + 0.006 * active * rng.random(rows), "overlap_mean_rel": 1e-4 + 2e-4 * active * rng.random(rows),
         "energy_kinetic_J": kinetic, "energy_potential_J": potential, "energy_water_J": 3e9 * drop,
         "energy_dissipated_J": potential[0] - potential - kinetic + 3e9 * drop, "energy_bonds_J": 5e8 * drop,

@@ -31,8 +31,8 @@ def test_times_of_a_whole_run(slope):
     # 2 % below 200 MN/m is 4/3 s of the rise; a mean over 1 s lags by 0.45 s
     assert times["t1"] == pytest.approx(30 - 4 / 3 + 0.45, abs=ROW)
     assert times["t2"] == pytest.approx(35, abs=1e-9)
-    # one fifth after 2.32 half lives; the mean over 1 s of an exponential of half life 0.5 s lags by 0.55 s
-    assert times["t3"] == pytest.approx(35 + 0.5 * np.log2(5) + 0.55, abs=2 * ROW)
+    # a tenth after 3.32 half lives; the mean over 1 s of an exponential of half life 0.5 s lags by 0.55 s
+    assert times["t3"] == pytest.approx(35 + 0.5 * np.log2(10) + 0.55, abs=2 * ROW)
     assert times["t4"] == pytest.approx(55, abs=1e-9)
     assert times["t5"] == pytest.approx(85 - 0.02 * 30, abs=2 * ROW)  # 2 % of the peak, 30 s before nothing
 
