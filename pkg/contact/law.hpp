@@ -50,14 +50,20 @@ inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const In
 	return { wn > 0 ? 1 / wn : 0, wt > 0 ? 1 / wt : 0, wr > 0 ? 1 / wr : 0 };
 }
 
-/// Squared distance of one contact from its graphs, |P − proj(P − (U + b)/W)|² with the rolling part divided by ℓ [N² s²].
+/// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s].
 /// `u`: relative velocity without bias; `inverse`: inverseDelassus of the contact.
-inline double naturalMapSquare(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)
+inline Impulse naturalMapDefect(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)
 {
-	const double n = p.n - projectNormal(p.n - inverse.n * (u.n + c.biasN), c.adhesion);
-	const double t = p.t - projectThreshold(p.t - inverse.t * (u.t + c.biasT), slidingThreshold(c, p.n));
-	const double r = (p.r - projectThreshold(p.r - inverse.r * (u.r + c.biasR), rollingThreshold(c, p.n))) / c.length;
-	return n * n + t * t + r * r;
+	return { p.n - projectNormal(p.n - inverse.n * (u.n + c.biasN), c.adhesion),
+		 p.t - projectThreshold(p.t - inverse.t * (u.t + c.biasT), slidingThreshold(c, p.n)),
+		 p.r - projectThreshold(p.r - inverse.r * (u.r + c.biasR), rollingThreshold(c, p.n)) };
+}
+
+/// n² + t² + (r/ℓ)² [N² s²].
+inline double squareNorm(const Contact& c, const Impulse& p)
+{
+	const double r = p.r / c.length;
+	return p.n * p.n + p.t * p.t + r * r;
 }
 
 } // namespace nonsmooth::contact

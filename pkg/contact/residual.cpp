@@ -14,21 +14,46 @@ std::vector<Twist> velocitiesOf(const Problem& problem)
 	return v;
 }
 
-Residual naturalMapResidual(const Problem& problem)
+std::vector<Impulse> naturalMapDefects(const Problem& problem)
 {
-	const auto v = velocitiesOf(problem);
-	double     sum = 0, scale = 0, largest = 0;
+	const auto           v = velocitiesOf(problem);
+	std::vector<Impulse> defects;
+	defects.reserve(problem.contactCount());
 	for (std::size_t k = 0; k < problem.contactCount(); ++k) {
 		const Contact& c = problem.contacts[k];
-		const Impulse& p = problem.impulses[k];
-		const Impulse  u = relativeVelocity(c, v[c.i], v[c.j]);
+		defects.push_back(naturalMapDefect(
+		        c, problem.impulses[k], relativeVelocity(c, v[c.i], v[c.j]), inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j])));
+	}
+	return defects;
+}
+
+SpeedResidual naturalMapSpeeds(const Problem& problem)
+{
+	const auto defects = naturalMapDefects(problem);
+	double     sum = 0, largest = 0;
+	for (std::size_t k = 0; k < defects.size(); ++k) {
+		const Contact& c = problem.contacts[k];
 		const Impulse  w = inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]);
-		const double   square = naturalMapSquare(c, p, u, w);
+		const auto     speed = [](double defect, double inverse) { return inverse > 0 ? defect / inverse : 0; };
+		const double   n = speed(defects[k].n, w.n), t = speed(defects[k].t, w.t), r = speed(defects[k].r, w.r) * c.length;
+		const double   square = n * n + t * t + r * r;
 		sum += square;
 		largest = std::max(largest, square);
-		scale += p.n * p.n + p.t * p.t + p.r * p.r / (c.length * c.length);
 	}
-	const double count = std::max<std::size_t>(problem.contactCount(), 1);
+	return { std::sqrt(sum / std::max<std::size_t>(defects.size(), 1)), std::sqrt(largest) };
+}
+
+Residual naturalMapResidual(const Problem& problem)
+{
+	const auto defects = naturalMapDefects(problem);
+	double     sum = 0, scale = 0, largest = 0;
+	for (std::size_t k = 0; k < defects.size(); ++k) {
+		const double square = squareNorm(problem.contacts[k], defects[k]);
+		sum += square;
+		largest = std::max(largest, square);
+		scale += squareNorm(problem.contacts[k], problem.impulses[k]);
+	}
+	const double count = std::max<std::size_t>(defects.size(), 1);
 	return { std::sqrt(sum / count), std::sqrt(largest), std::sqrt(scale / count) };
 }
 

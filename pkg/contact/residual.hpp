@@ -22,6 +22,15 @@ struct Residual {
 /// freeVelocity + M⁻¹ Hᵀ P, the velocities that belong to problem.impulses. Serial, in the contacts' order.
 std::vector<Twist> velocitiesOf(const Problem& problem);
 
+/// What each contact of problem.impulses misses: P − proj(P − (U + b)/W), row by row [N s, N s, N m s].
+std::vector<Impulse> naturalMapDefects(const Problem& problem);
+
+/// The same distance as velocities, W (P − proj(P − (U + b)/W)) [m/s; rolling: times ℓ]: how far the relative velocities are from the graphs.
+struct SpeedResidual {
+	double rms = 0, largest = 0; // over contacts [m/s]
+};
+SpeedResidual naturalMapSpeeds(const Problem& problem);
+
 /// Residual of problem.impulses with the velocities that follow from them (nothing of a solver's own state is used).
 Residual naturalMapResidual(const Problem& problem);
 

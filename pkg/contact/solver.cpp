@@ -157,10 +157,10 @@ namespace {
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 			const Contact& c   = problem.contacts[laidOut.others[k]];
 			const Impulse& p   = rows[k].p;
-			const double   one = naturalMapSquare(c, p, relativeVelocity(c, twist(c.i), twist(c.j)), rows[k].inverse);
+			const double   one = squareNorm(c, naturalMapDefect(c, p, relativeVelocity(c, twist(c.i), twist(c.j)), rows[k].inverse));
 			sums.square += one;
 			sums.largest = std::max(sums.largest, one);
-			sums.scale += p.n * p.n + p.t * p.t + p.r * p.r / (c.length * c.length);
+			sums.scale += squareNorm(c, p);
 		}
 	}
 

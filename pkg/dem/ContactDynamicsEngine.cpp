@@ -2,6 +2,7 @@
 #include "BondEllipse.hpp"
 #include "Gravity.hpp"
 #include <chrono>
+#include <contact/problem_file.hpp>
 #include <core/TimeStepper.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -22,6 +23,8 @@ void ContactDynamicsEngine::action()
 
 	const Real t0 = clock();
 	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads);
+	warmStart       = seam.problem.impulses;
+	stepSolved      = scene->dt;
 	const Real t1         = clock();
 	const auto statistics = contact::solve(seam.problem, settings(), &workspace);
 	const Real t2         = clock();
@@ -111,10 +114,27 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	brokenShear += s.broken[NscdPhys::Shear];
 	brokenTorque += s.broken[NscdPhys::Torque];
 	brokenMixed += s.broken[NscdPhys::Mixed];
+	if (s.broken[NscdPhys::Tension] + s.broken[NscdPhys::Shear] + s.broken[NscdPhys::Torque] + s.broken[NscdPhys::Mixed] > 0) recordBreaks();
 	meanSpeed = s.bodies > 0 ? s.speed / s.bodies : 0;
 	maxSpeed  = s.largestSpeed;
 	centroid  = s.mass > 0 ? Vector3r(s.centre / s.mass) : Vector3r(Vector3r::Zero());
 	momentum  = s.momentum;
+}
+
+void ContactDynamicsEngine::recordBreaks()
+{
+	for (const nscd::Link& link : seam.links) {
+		if (link.broken == NscdPhys::None) continue;
+		const Vector3r& at = static_cast<const ScGeom&>(*link.interaction->geom).contactPoint;
+		const int       a = link.interaction->getId1(), b = link.interaction->getId2();
+		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(a, b)), Real(std::max(a, b)), Real(link.broken), at[0], at[1] });
+	}
+}
+
+void ContactDynamicsEngine::dump(const std::string& path) const
+{
+	if (stepSolved == 0) throw std::runtime_error("ContactDynamicsEngine.dump: no step was made yet: call O.step() first");
+	contact::write(path, { seam.problem, warmStart, stepSolved });
 }
 
 void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics)
@@ -218,6 +238,8 @@ boost::python::object ContactDynamicsEngine::bodyTable() const
 	}
 	return nscd::asBytes(rows);
 }
+
+boost::python::object ContactDynamicsEngine::breakTable() const { return nscd::asBytes({ breakLog.begin(), breakLog.end() }); }
 
 boost::python::object ContactDynamicsEngine::contactTable() const
 {

@@ -26,9 +26,13 @@ public:
 	/// Takes the strengths of all contacts from the materials anew.
 	void updateStrengths();
 	void forgetEnergies();
+	void forgetBreaks() { breakLog.clear(); }
 	boost::python::dict energies() const;
 	boost::python::object bodyTable() const;
 	boost::python::object contactTable() const;
+	boost::python::object breakTable() const;
+	/// Writes the last step's contact problem, see contact/problem_file.hpp.
+	void dump(const std::string& path) const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ContactDynamicsEngine,GlobalEngine,
 R"""(Contact Dynamics (Moreau 1988, Jean 1999) for rigid disks in the x-y plane: finds the reactions of all contacts that
@@ -62,6 +66,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((int,brokenShear,0,Attr::readonly,"Bonds broken so far by shear."))
 		((int,brokenTorque,0,Attr::readonly,"Bonds broken so far by torque."))
 		((int,brokenMixed,0,Attr::readonly,"Bonds broken so far by more than one of these."))
+		((vector<Real>,breakLog,,(Attr::readonly|Attr::hidden),"Rows of seven numbers, see breakTable."))
 		((Real,kineticEnergy,0,(Attr::readonly|Attr::noSave),"Kinetic energy of moving bodies at the beginning of the last step [J]."))
 		((Real,potentialEnergy,0,(Attr::readonly|Attr::noSave),"Potential energy −Σ m g·x of moving bodies, at the same time [J]."))
 		((Real,externalWork,0,Attr::readonly,"Work of other engines' forces so far [J]."))
@@ -88,6 +93,9 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		.def("energies",&ContactDynamicsEngine::energies,"All energies of the balance as a dictionary [J].")
 		.def("bodyTable",&ContactDynamicsEngine::bodyTable,"Spheres as bytes of doubles in rows (id, x, y, r, angle, vx, vy, omega); see :yref:`yade.nonsmooth.tables`.")
 		.def("contactTable",&ContactDynamicsEngine::contactTable,"Contacts of the last step as bytes of doubles in rows (id1, id2, N, T, Γ, nx, ny, gap, bonded, broken mode, x, y).")
+		.def("breakTable",&ContactDynamicsEngine::breakTable,"All bonds that broke since forgetBreaks, as bytes of doubles in rows (step, time, id1, id2, mode, x, y); see :yref:`yade.nonsmooth.tables`.")
+		.def("forgetBreaks",&ContactDynamicsEngine::forgetBreaks,"Empty the list of broken bonds (their numbers by mode stay).")
+		.def("dump",&ContactDynamicsEngine::dump,(boost::python::arg("path")),"Write the contact problem of the last step, with what the solve began with and what it found, as an HDF5 file; see nonsmooth.contact.")
 	);
 	// clang-format on
 	DECLARE_LOGGER;
@@ -96,11 +104,14 @@ private:
 	void                                 validate() const;
 	nonsmooth::contact::SolverSettings   settings() const;
 	void                                 account(const nscd::StepSums& sums);
+	void                                 recordBreaks();
 	void                                 report(const nonsmooth::contact::SolverStatistics& statistics);
 	int                                  threadCount() const;
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;
+	std::vector<nonsmooth::contact::Impulse> warmStart;
+	Real                                     stepSolved = 0; // h of the last step, 0 before it
 	int                           energyIx[4] = { -1, -1, -1, -1 };
 };
 REGISTER_SERIALIZABLE(ContactDynamicsEngine);

@@ -11,9 +11,16 @@ using contact::Impulse;
 using contact::Twist;
 
 namespace {
+	constexpr long   tidyPeriod = 100; // steps
 	constexpr size_t sumChunk = 1024; // fixed, so that sums do not depend on the number of threads
 
-	Real angularPlane(const Vector3r& v) { return v[2]; }
+	/// Asks for the cache lines of an object that will be needed soon; YADE's objects lie all over the memory.
+	template <size_t bytes> void fetch(const void* object)
+	{
+		for (size_t at = 0; at < bytes; at += 64)
+			__builtin_prefetch(static_cast<const char*>(object) + at, 1);
+	}
+	constexpr size_t soon = 8, later = 16; // items ahead
 
 	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
 	{
@@ -47,10 +54,17 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	problem.positions.assign(size, {});
 	present.assign(size, 0);
 	radius.assign(size, -1);
+	mass.assign(size, 0);
+	inertia.assign(size, 0);
 	const Real h = relaxation.step;
 	int        bad = -1; // body with an unusable state; reported after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
 	for (long id = 0; id < size; ++id) {
+		if (id + (long)later < size) fetch<sizeof(Body)>((*scene.bodies)[id + later].get());
+		if (id + (long)soon < size && (*scene.bodies)[id + soon]) {
+			fetch<sizeof(State)>((*scene.bodies)[id + soon]->state.get());
+			fetch<64>((*scene.bodies)[id + soon]->shape.get());
+		}
 		const auto& body = (*scene.bodies)[id];
 		if (!body) continue;
 		const State&   s = *body->state;
@@ -58,7 +72,9 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		present[id]      = 1;
 		if (const Shape* shape = body->shape.get())
 			if (typeid(*shape) == typeid(Sphere) || dynamic_cast<const Sphere*>(shape)) radius[id] = static_cast<const Sphere*>(shape)->radius;
-		before[id]       = { s.vel[0], s.vel[1], angularPlane(s.angVel) };
+		before[id]       = { s.vel[0], s.vel[1], s.angVel[2] };
+		mass[id]         = s.mass;
+		inertia[id]      = s.inertia[2];
 		auto& w          = problem.inverseMass[id];
 		if (!(d & State::DOF_X)) w.x = 1 / s.mass;
 		if (!(d & State::DOF_Y)) w.y = 1 / s.mass;
@@ -98,19 +114,28 @@ namespace {
 		if (type == typeid(NscdPhys) || type == typeid(SlipWeakeningPhys)) return static_cast<NscdPhys*>(&phys);
 		return dynamic_cast<NscdPhys*>(&phys);
 	}
+}
 
-	/// Asks for the cache lines of an object that will be needed soon; YADE's objects lie all over the memory.
-	template <size_t bytes> void fetch(const void* object)
-	{
-		for (size_t at = 0; at < bytes; at += 64)
-			__builtin_prefetch(static_cast<const char*>(object) + at, 1);
+/// Puts YADE's list of interactions, which new and lost contacts shuffle, into the order of body ids: whoever walks along it then meets
+/// neighbours in memory.
+void ContactSeam::tidy(Scene& scene)
+{
+	auto&                                list = *scene.interactions;
+	std::vector<shared_ptr<Interaction>> sorted(list.begin(), list.begin() + list.size());
+	const auto key = [](const shared_ptr<Interaction>& i) {
+		return std::pair<int, int>(std::min(i->getId1(), i->getId2()), std::max(i->getId1(), i->getId2()));
+	};
+	std::sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+	for (size_t k = 0; k < sorted.size(); ++k) {
+		sorted[k]->linIx = int(k); // the list's own back-reference
+		list[k]          = std::move(sorted[k]);
 	}
-	constexpr size_t soon = 8, later = 16; // contacts ahead
 }
 
 /// Real interactions in the order of (lower id, higher id).
 void ContactSeam::collect(Scene& scene)
 {
+	if (scene.iter % tidyPeriod == 0) tidy(scene);
 	const size_t size = scene.bodies->size();
 	bucket.assign(size + 1, 0);
 	found.clear();
@@ -275,7 +300,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	for (long k = 0; k < (long)parts.size(); ++k) {
 		if ((size_t)k < chunksC) sumContacts(k * sumChunk, std::min((k + 1) * sumChunk, links.size()), parts[k]);
 		else
-			sumBodies(scene, gravity, (k - chunksC) * sumChunk, std::min((k - chunksC + 1) * sumChunk, before.size()), parts[k]);
+			sumBodies(gravity, (k - chunksC) * sumChunk, std::min((k - chunksC + 1) * sumChunk, before.size()), parts[k]);
 	}
 	StepSums total;
 	for (const StepSums& s : parts) {
@@ -351,11 +376,10 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 	}
 }
 
-void ContactSeam::sumBodies(const Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
+void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
 {
 	for (size_t id = begin; id < end; ++id) {
 		if (!present[id]) continue;
-		const State& s  = *(*scene.bodies)[id]->state;
 		const Twist &v0 = before[id], &v1 = problem.velocities[id], &r = reaction[id], &f = external[id];
 		const auto&  w  = problem.inverseMass[id];
 		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
@@ -364,11 +388,12 @@ void ContactSeam::sumBodies(const Scene& scene, const Vector3r& gravity, size_t 
 		if (w.isFixed()) continue;
 		sums.external += half * ((w.x > 0 ? f.x * x : 0) + (w.y > 0 ? f.y * y : 0) + (w.w > 0 ? f.w * a : 0));
 		// energies at the beginning of the step, like the positions they belong to
-		sums.kinetic += 0.5 * (s.mass * (v0.x * v0.x + v0.y * v0.y) + s.inertia[2] * v0.w * v0.w);
-		sums.potential -= s.mass * gravity.dot(s.pos);
-		sums.mass += s.mass;
-		sums.centre += s.mass * s.pos;
-		sums.momentum += s.mass * Vector3r(v1.x, v1.y, 0);
+		sums.kinetic += 0.5 * (mass[id] * (v0.x * v0.x + v0.y * v0.y) + inertia[id] * v0.w * v0.w);
+		const Vector3r at(problem.positions[id].x, problem.positions[id].y, 0);
+		sums.potential -= mass[id] * gravity.dot(at);
+		sums.mass += mass[id];
+		sums.centre += mass[id] * at;
+		sums.momentum += mass[id] * Vector3r(v1.x, v1.y, 0);
 		const Real speed = std::hypot(v1.x, v1.y);
 		sums.speed += speed;
 		sums.largestSpeed = std::max(sums.largestSpeed, speed);

@@ -57,12 +57,13 @@ public:
 
 private:
 	void gatherBodies(Scene& scene, const Vector3r& gravity);
+	void tidy(Scene& scene);
 	void collect(Scene& scene);
 	void compact();
 	void gatherContact(Scene& scene, size_t k);
 	void scatterForces(Scene& scene);
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
-	void sumBodies(const Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
+	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	struct Found {
 		int          low, high; // ids
@@ -79,6 +80,7 @@ private:
 	std::vector<int>                       bucket;
 	std::vector<Found>                     found, ordered;
 	std::vector<Real>                      radius; // of spheres, negative for other shapes
+	std::vector<Real>                      mass, inertia;
 };
 
 } // namespace yade::nscd

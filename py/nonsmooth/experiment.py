@@ -278,6 +278,7 @@ class Experiment:
         self.state.wall_s += now - self._clock
         self._clock = self._saved = now
         self.series.sync()
+        records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
         folder = self.folder / "checkpoint"
         folder.mkdir(parents=True, exist_ok=True)
         name = f"scene-{O.iter:08d}.yade.gz"
@@ -320,6 +321,10 @@ def resume(section, folder, progress=None):
         raise ExperimentError(f"{scene}: the checkpoint is missing or truncated; remove {path.parent} and run without --resume")
     if content["key"] != run_key(section):
         raise ExperimentError(f"{path}: this checkpoint belongs to another section, number of disks or seed; give the same ones, or another --out")
-    O.load(str(scene), quiet=True)
+    try:
+        O.load(str(scene), quiet=True)
+    except RuntimeError as error:
+        raise ExperimentError(f"{scene}: the checkpoint cannot be read ({error}): it is damaged, or another version of the plugin wrote it; "
+                              f"remove {path.parent} and run without --resume") from None
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     return Experiment(built, folder, state=state, progress=progress)

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import figures, records, video
+from . import figures, paraview, records, video
 from .packing_files import write_atomically
 
 __all__ = ["characteristic_times", "summarise", "draw"]
@@ -172,6 +172,7 @@ def draw(folder, section, summary, time_step, progress=None) -> tuple[list[Path]
     made.append(figures.energy(series, folder / "energy.png", times=times))
     made.append(figures.solver(series, folder / "solver.png", times=times))
     if files:
+        made.append(paraview.write_run(folder, section, frames))
         path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, progress=progress)
         (made if path else notes).append(path or note)
     return [Path(p) for p in made], notes

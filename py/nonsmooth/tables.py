@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["bodies", "contacts"]
+__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts"]
 
 _BODY = ("id", "x", "y", "r", "angle", "vx", "vy", "omega")
+_BREAK = ("step", "time", "id1", "id2", "mode", "x", "y")
 _CONTACT = ("id1", "id2", "normal", "tangential", "torque", "nx", "ny", "gap", "bonded", "broken", "x", "y")
+
+
+#: How a bond broke, by NscdPhys.brokenMode.
+BREAK_MODES = ("none", "tension", "shear", "torque", "mixed")
 
 
 def _table(raw: bytes, names) -> dict[str, np.ndarray]:
@@ -35,3 +40,12 @@ def contacts(engine) -> dict[str, np.ndarray]:
     table["bonded"] = table["bonded"] > 0
     order = np.lexsort((np.maximum(table["id1"], table["id2"]), np.minimum(table["id1"], table["id2"])))
     return {name: values[order] for name, values in table.items()}
+
+
+def breaks(engine) -> dict[str, np.ndarray]:
+    """Bonds that broke so far, in the order of time and ids, arrays of shape (n,): ``step``, ``id1``, ``id2`` (int, lower id first), ``time``
+    [s], ``mode`` (int, index into BREAK_MODES), ``x``, ``y`` [m]."""
+    table = _table(engine.breakTable(), _BREAK)
+    for name in ("step", "id1", "id2", "mode"):
+        table[name] = table[name].astype(int)
+    return table

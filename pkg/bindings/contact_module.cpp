@@ -1,0 +1,148 @@
+// The solver library for Python, as _nonsmooth_contact: arrays in, arrays out. No YADE here; nonsmooth/contact.py is the face of it.
+#include <contact/problem.hpp>
+#include <contact/residual.hpp>
+#include <contact/solver.hpp>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+namespace py = pybind11;
+using namespace nonsmooth::contact;
+
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Ints    = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+/// The array of a dictionary's key, checked: `columns` 0 stands for a list.
+template <class Array> Array take(const py::dict& from, const char* key, py::ssize_t rows, py::ssize_t columns)
+{
+	if (!from.contains(key)) throw py::key_error(std::string("contact problem: ") + key + " is missing");
+	Array      array = py::cast<Array>(from[key]);
+	const bool fits  = columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
+	if (!fits || (rows >= 0 && array.shape(0) != rows))
+		throw py::value_error(
+		        std::string("contact problem: ") + key + " must have the shape (" + (rows >= 0 ? std::to_string(rows) : "n") + ", "
+		        + (columns ? std::to_string(columns) : "") + ")");
+	return array;
+}
+
+template <class Item> std::vector<Item> triples(const Doubles& a)
+{
+	std::vector<Item> items;
+	const auto        v = a.unchecked<2>();
+	for (py::ssize_t k = 0; k < v.shape(0); ++k)
+		items.push_back({ v(k, 0), v(k, 1), v(k, 2) });
+	return items;
+}
+
+template <class Item> Doubles array(const std::vector<Item>& items)
+{
+	static_assert(sizeof(Item) == 3 * sizeof(double), "three numbers side by side");
+	Doubles result({ py::ssize_t(items.size()), py::ssize_t(3) });
+	std::copy_n(reinterpret_cast<const double*>(items.data()), 3 * items.size(), result.mutable_data());
+	return result;
+}
+
+Problem problemOf(const py::dict& d)
+{
+	Problem    p;
+	const auto mass     = take<Doubles>(d, "inverse_mass", -1, 3);
+	const auto normal   = take<Doubles>(d, "normal", -1, 2);
+	const auto bodies   = mass.shape(0), contacts = normal.shape(0);
+	p.inverseMass       = triples<InverseMass>(mass);
+	p.freeVelocity      = triples<Twist>(take<Doubles>(d, "free_velocity", bodies, 3));
+	p.impulses          = triples<Impulse>(take<Doubles>(d, "impulse", contacts, 3));
+	if (!d["position"].is_none()) {
+		const auto x = take<Doubles>(d, "position", bodies, 2).unchecked<2>();
+		for (py::ssize_t k = 0; k < bodies; ++k)
+			p.positions.push_back({ x(k, 0), x(k, 1) });
+	}
+	const auto bodyArray = take<Ints>(d, "body", contacts, 2);
+	const auto leverArray = take<Doubles>(d, "lever", contacts, 4), biasArray = take<Doubles>(d, "bias", contacts, 3);
+	const auto adhesionArray = take<Doubles>(d, "adhesion", contacts, 0), frictionArray = take<Doubles>(d, "friction", contacts, 0);
+	const auto armArray = take<Doubles>(d, "rolling_arm", contacts, 0), lengthArray = take<Doubles>(d, "length", contacts, 0);
+	const auto body = bodyArray.unchecked<2>();
+	const auto n = normal.unchecked<2>(), lever = leverArray.unchecked<2>(), bias = biasArray.unchecked<2>();
+	const auto adhesion = adhesionArray.unchecked<1>(), friction = frictionArray.unchecked<1>(), arm = armArray.unchecked<1>(),
+	           length = lengthArray.unchecked<1>();
+	for (py::ssize_t k = 0; k < contacts; ++k) {
+		Contact c;
+		c.i          = body(k, 0);
+		c.j          = body(k, 1);
+		c.nx         = n(k, 0);
+		c.ny         = n(k, 1);
+		c.leverNi    = lever(k, 0);
+		c.leverTi    = lever(k, 1);
+		c.leverNj    = lever(k, 2);
+		c.leverTj    = lever(k, 3);
+		c.biasN      = bias(k, 0);
+		c.biasT      = bias(k, 1);
+		c.biasR      = bias(k, 2);
+		c.adhesion   = adhesion(k);
+		c.friction   = friction(k);
+		c.rollingArm = arm(k);
+		c.length     = length(k);
+		if (c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies)
+			throw py::value_error("contact problem: contact " + std::to_string(k) + " names a body that is not there");
+		p.contacts.push_back(c);
+	}
+	return p;
+}
+
+py::dict dictOf(const Residual& r)
+{
+	py::dict d;
+	d["relative"] = r.relative();
+	d["rms"]      = r.rms;
+	d["largest"]  = r.largest;
+	d["scale"]    = r.scale;
+	return d;
+}
+
+py::dict solveArrays(const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery, int threads)
+{
+	Problem        p = problemOf(problem);
+	SolverSettings s;
+	if (method != "accelerated" && method != "gaussSeidel")
+		throw py::value_error("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
+	if (!(tolerance > 0)) throw py::value_error("tolerance = " + std::to_string(tolerance) + ": it must be positive");
+	if (maxIterations < 0 || checkEvery < 1 || threads < 1) throw py::value_error("max_iterations, check_every and threads must be positive");
+	s.method        = method == "gaussSeidel" ? Method::GaussSeidel : Method::Accelerated;
+	s.tolerance     = tolerance;
+	s.maxIterations = maxIterations;
+	s.checkEvery    = checkEvery;
+	s.threads       = threads;
+	SolverStatistics statistics;
+	{
+		py::gil_scoped_release release;
+		statistics = solve(p, s);
+	}
+	py::dict d      = dictOf(statistics.residual);
+	d["impulse"]    = array(p.impulses);
+	d["velocity"]   = array(p.velocities);
+	d["iterations"] = statistics.iterations;
+	d["restarts"]   = statistics.restarts;
+	d["converged"]  = statistics.converged;
+	return d;
+}
+
+py::dict residualOf(const py::dict& problem)
+{
+	const Problem       p     = problemOf(problem);
+	const SpeedResidual speed = naturalMapSpeeds(p);
+	py::dict            d     = dictOf(naturalMapResidual(p));
+	d["speed_rms"]            = speed.rms;
+	d["speed_largest"]        = speed.largest;
+	d["defect"]               = array(naturalMapDefects(p));
+	d["velocity"]             = array(velocitiesOf(p));
+	return d;
+}
+
+} // namespace
+
+PYBIND11_MODULE(_nonsmooth_contact, m)
+{
+	m.doc() = "Solver of yade-nonsmooth's contact problems; use nonsmooth.contact.";
+	m.def("solve", &solveArrays);
+	m.def("residual", &residualOf);
+}

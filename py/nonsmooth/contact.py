@@ -1,0 +1,162 @@
+"""Contact problems of single steps as arrays and files, and the solver without YADE.
+
+A problem is what one step of :class:`ContactDynamicsEngine` has to solve: write it with ``engine.dump("step.h5")``, read it here. The file's
+format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy, h5py and this project's module ``_nonsmooth_contact``, but no YADE::
+
+    import nonsmooth.contact as contact
+    problem = contact.load("step.h5")
+    solution = contact.solve(problem, tolerance=1e-6, start="cold")
+    print(solution.iterations, contact.residual(problem, solution.impulse).force_rms)
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+__all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "load", "residual", "save", "solve"]
+
+FORMAT = 1
+
+
+class ProblemError(ValueError):
+    """A problem or its file is not usable; the message says what is wrong."""
+
+
+@dataclass(frozen=True)
+class ContactProblem:
+    """b bodies and c contacts; SI units, masses and impulses per metre of thickness, compression positive, contacts from i to j."""
+
+    time_step: float           # h [s]
+    inverse_mass: np.ndarray   # (b, 3): 1/m_x, 1/m_y [1/kg], 1/I [1/(kg m²)]; 0 where blocked
+    free_velocity: np.ndarray  # (b, 3): velocities at the end of the step if no contact acted [m/s, m/s, rad/s]
+    velocity: np.ndarray       # (b, 3): the step's solution
+    body: np.ndarray           # (c, 2) int32: i, j
+    normal: np.ndarray         # (c, 2)
+    lever: np.ndarray          # (c, 4): λn_i, λt_i, λn_j, λt_j [m]
+    bias: np.ndarray           # (c, 3): b_n, b_t [m/s], b_r [rad/s]
+    adhesion: np.ndarray       # (c,): h F_a [N s]
+    friction: np.ndarray       # (c,): μ_s
+    rolling_arm: np.ndarray    # (c,): μ_r ℓ [m]
+    length: np.ndarray         # (c,): ℓ [m]
+    warm_start: np.ndarray     # (c, 3): impulses the step's solve began with [N s, N s, N m s]
+    impulse: np.ndarray        # (c, 3): the step's solution
+    position: np.ndarray | None = None  # (b, 2) [m], for the order of the sweep only
+
+
+@dataclass(frozen=True)
+class Residual:
+    """Distance from the graphs of the law (natural map), whoever found the impulses; rms and largest value over contacts."""
+
+    relative: float       # rms over the rms impulse: what tolerances are given for
+    force_rms: float      # [N]
+    force_largest: float  # [N]
+    speed_rms: float      # [m/s]
+    speed_largest: float  # [m/s]
+    defect: np.ndarray    # (c, 3): P − proj(P − (U + b)/W) of every contact [N s, N s, N m s]
+
+
+@dataclass(frozen=True)
+class Solution:
+    impulse: np.ndarray   # (c, 3)
+    velocity: np.ndarray  # (b, 3)
+    iterations: int
+    restarts: int
+    converged: bool
+    relative: float       # the solver's own last residual
+
+
+_BODIES = {"inverse_mass": 3, "free_velocity": 3, "velocity": 3}
+_CONTACTS = {"normal": 2, "lever": 4, "bias": 3, "adhesion": 0, "friction": 0, "rolling_arm": 0, "length": 0, "warm_start": 3, "impulse": 3}
+
+
+def load(path) -> ContactProblem:
+    """Reads a problem; raises ProblemError naming the file and what is missing or wrong in it."""
+    path = Path(path)
+    try:
+        with h5py.File(path, "r") as file:
+            if file.attrs.get("format") is None or int(file.attrs["format"][()].item()) != FORMAT:
+                raise ProblemError(f"{path}: this is not a contact problem of format {FORMAT}")
+            arrays = {name: file[f"bodies/{name}"][()] for name in _BODIES}
+            arrays.update({name: file[f"contacts/{name}"][()] for name in _CONTACTS})
+            arrays["body"] = file["contacts/body"][()].astype(np.int32)
+            if "bodies/position" in file:
+                arrays["position"] = file["bodies/position"][()]
+            problem = ContactProblem(time_step=float(np.ravel(file.attrs["time_step"])[0]), **arrays)
+    except (OSError, KeyError) as error:
+        raise ProblemError(f"{path}: the contact problem cannot be read ({error})") from None
+    return check(problem, str(path))
+
+
+def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
+    """Returns the problem if all shapes agree; raises ProblemError naming the array otherwise."""
+    bodies, contacts = len(problem.inverse_mass), len(problem.normal)
+    shapes = {name: (bodies, columns) for name, columns in _BODIES.items()}
+    shapes.update({name: (contacts, columns) if columns else (contacts,) for name, columns in _CONTACTS.items()})
+    shapes["body"] = (contacts, 2)
+    if problem.position is not None:
+        shapes["position"] = (bodies, 2)
+    for name, shape in shapes.items():
+        if np.shape(getattr(problem, name)) != shape:
+            raise ProblemError(f"{what}: {name} has the shape {np.shape(getattr(problem, name))} and must have {shape}")
+    return problem
+
+
+def save(path, problem: ContactProblem) -> Path:
+    """Writes a problem beside and renames; returns the path."""
+    path = Path(path)
+    check(problem)
+    part = path.with_name(path.name + ".part")
+    try:
+        with h5py.File(part, "w") as file:
+            file.attrs["format"], file.attrs["time_step"] = np.int32(FORMAT), float(problem.time_step)
+            for name in _BODIES:
+                file[f"bodies/{name}"] = getattr(problem, name)
+            if problem.position is not None:
+                file["bodies/position"] = problem.position
+            for name in _CONTACTS:
+                file[f"contacts/{name}"] = getattr(problem, name)
+            file["contacts/body"] = np.asarray(problem.body, np.int32)
+        os.replace(part, path)
+    except OSError as error:
+        raise ProblemError(f"{path}: the contact problem cannot be written ({error})") from None
+    return path
+
+
+def _arrays(problem, impulse):
+    fields = ("inverse_mass", "free_velocity", "position", "body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length")
+    return {**{name: getattr(problem, name) for name in fields}, "impulse": impulse}
+
+
+def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_iterations=1000, check_every=10, threads=1, start="warm") -> Solution:
+    """Solves the problem with the project's solver.
+
+    ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses of shape (c, 3).
+    Raises ValueError for settings without sense.
+    """
+    import _nonsmooth_contact
+
+    if isinstance(start, str):
+        if start not in ("warm", "cold"):
+            raise ProblemError(f"start = {start!r}: it must be 'warm', 'cold' or an array of impulses")
+        start = problem.warm_start if start == "warm" else np.zeros_like(problem.warm_start)
+    found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, tolerance, max_iterations, check_every, threads)
+    return Solution(**{name: found[name] for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative")})
+
+
+def residual(problem: ContactProblem, impulse=None) -> Residual:
+    """Residual of impulses of shape (c, 3) (default: those in the problem), from velocities computed anew from them."""
+    import _nonsmooth_contact
+
+    r = _nonsmooth_contact.residual(_arrays(check(problem), problem.impulse if impulse is None else impulse))
+    h = problem.time_step
+    return Residual(r["relative"], r["rms"] / h, r["largest"] / h, r["speed_rms"], r["speed_largest"], r["defect"])
+
+
+def with_solution(problem: ContactProblem, solution: Solution) -> ContactProblem:
+    """The problem with another solution in it."""
+    return replace(problem, impulse=solution.impulse, velocity=solution.velocity)
