@@ -33,10 +33,13 @@ packages_install() {
     log=$(mktemp)
     say "Installing ${#missing[@]} Debian packages and what they need (2 to 12 minutes): ${missing[*]}"
     as_root apt-get update -qq >"$log" 2>&1 || { cat "$log" >&2; die "apt-get update failed: is the package mirror reachable?"; }
-    # apt reports its progress on the standard output: sudo would close any other descriptor
-    if ! (set -o pipefail; as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-            -o Dpkg::Use-Pty=0 -o APT::Status-Fd=1 "${missing[@]}" 2>&1 </dev/null | apt_progress "$log"); then
-        grep -vE '^(dl|pm)status:' "$log" | tail -n 20 >&2
+    # apt's progress comes on descriptor 3, made behind sudo, which would close it; what packages print goes into a file and not into
+    # the same pipe: apt makes that one non-blocking, and a package whose script finds it full fails
+    # shellcheck disable=SC2016
+    if ! (set -o pipefail; as_root env DEBIAN_FRONTEND=noninteractive sh -c \
+            'log=$1; shift; exec apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 -o APT::Status-Fd=3 "$@" 3>&1 >"$log" 2>&1 </dev/null' \
+            sh "$log" "${missing[@]}" | apt_progress); then
+        tail -n 20 "$log" >&2
         die "these packages could not be installed: ${missing[*]} (log: $log)"
     fi
     rm -f "$log"
@@ -44,10 +47,9 @@ packages_install() {
 
 # Shows how far apt is, from its "dlstatus:…:PERCENT:…" and "pmstatus:…:PERCENT:…" lines.
 apt_progress() {
-    local log=$1 start=$SECONDS printed=-60 every=15 begin="" end="\n" line what percent
+    local start=$SECONDS printed=-60 every=15 begin="" end="\n" line what percent
     [ -t 2 ] && every=1 begin="\r" end=""
     while IFS= read -r line; do
-        printf '%s\n' "$line" >>"$log"
         case "$line" in dlstatus:*) what=downloading ;; pmstatus:*) what="installing " ;; *) continue ;; esac
         [ $((SECONDS - printed)) -ge "$every" ] || continue
         printed=$SECONDS
