@@ -1,9 +1,10 @@
 """Cohesive bonds between two disks: thresholds of eqs (2), (4) and (6), the elliptic zone, residual strength, layers."""
 import math
 
+import numpy as np
 import pytest
 from yade import O
-from yade.nonsmooth import scene
+from yade.nonsmooth import scene, tables
 
 from contact_scenes import begin, contacts, engine, material, run
 
@@ -99,6 +100,13 @@ def test_bond_breaks_just_above_its_threshold_and_records_how(name, angle):
     counts = [e.brokenTension, e.brokenShear, e.brokenTorque, e.brokenMixed]
     assert counts == [int(k == mode - 1) for k in range(4)]
     assert not phys.bonded and phys.brokenMode == mode and phys.brokenStep > 0
+    table = tables.breaks(engine())
+    assert table["step"].tolist() == [phys.brokenStep] and table["mode"].tolist() == [mode]
+    assert table["time"][0] == pytest.approx(phys.brokenStep * O.dt) and table["id1"][0] < table["id2"][0]
+    where = contacts()[0].geom.contactPoint
+    assert np.hypot(table["x"][0] - where[0], table["y"][0] - where[1]) < 0.1  # the pair has hardly moved since
+    engine().forgetBreaks()
+    assert len(tables.breaks(engine())["step"]) == 0
     # it lived as long as the marked point was inside: the path is the half-axis and one step's move
     if name == "tension":
         assert ZONE <= moved / LENGTH <= 1.05 * ZONE
