@@ -1,4 +1,5 @@
 // The solver library for Python, as _nonsmooth_contact: arrays in, arrays out. No YADE here; nonsmooth/contact.py is the face of it.
+#include <algorithm>
 #include <contact/problem.hpp>
 #include <contact/residual.hpp>
 #include <contact/solver.hpp>

@@ -139,8 +139,9 @@ void ContactDynamicsEngine::dump(const std::string& path) const
 
 void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics)
 {
-	iterations = statistics.iterations;
-	residual   = statistics.residual.relative();
+	iterations    = statistics.iterations;
+	residual      = statistics.residual.relative();
+	residualForce = statistics.residual.rms / scene->dt;
 	++steps;
 	totalIterations += iterations;
 	if (statistics.converged) return;

@@ -1,4 +1,5 @@
 #include "ContactSeam.hpp"
+#include <algorithm>
 #include <contact/law.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>

@@ -244,7 +244,7 @@ class Experiment:
             "bonds_broken_tension": e.brokenTension, "bonds_broken_shear": e.brokenShear,
             "bonds_broken_torque": e.brokenTorque, "bonds_broken_mixed": e.brokenMixed, "contacts": e.contacts,
             "slip_mean_dp_m": weak.meanSlip() if slip else 0.0, "weakened_disks": weak.weakenedCount() if slip else 0,
-            "iterations": e.iterations, "residual": e.residual, "tolerance": e.tolerance, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
+            "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
             "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy, "energy_water_J": e.externalWork,
             "energy_dissipated_J": e.slidingLoss + e.rollingLoss + e.impactLoss, "energy_bonds_J": e.debondingLoss,
             "energy_correction_J": e.correctionEnergy, "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,

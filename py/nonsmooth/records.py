@@ -65,6 +65,7 @@ COLUMNS = {
     "weakened_disks": _count("disks whose slip on DP has passed the critical slip D_c"),
     "iterations": _count("sweeps of the contact solver in the step"),
     "residual": Column("1", "residual of the contact solver at the end of the step"),
+    "residual_N_per_m": Column("N/m", "the same as a force: rms over contacts of what the reactions miss of the law"),
     "tolerance": Column("1", "residual that the step was to reach"),
     "overlap_worst_rel": Column("1", "largest overlap, in units of the mean diameter of the pair"),
     "overlap_mean_rel": Column("1", "mean overlap of the contacts, in the same units"),

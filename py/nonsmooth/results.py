@@ -114,6 +114,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "iterations_mean": float(np.mean(series["iterations"])),
         "tolerance": section.numerics.tolerance, "tolerance_moving": section.numerics.tolerance_moving,
         "residual_p95": float(np.percentile(series["residual"], 95)),
+        "residual_N_per_m_p95": float(np.percentile(series["residual_N_per_m"], 95)),
         "residual_p95_over_tolerance": float(np.percentile(series["residual"] / series["tolerance"], 95)),
         "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])), "overlap_mean_rel": float(np.max(series["overlap_mean_rel"])),
         "times_s": times, "water_at_failure_m": at("water_m", t1, 0.0),

@@ -1,5 +1,6 @@
 // Contact problems whose solution is known, and what every solution must keep.
 #include "problems.hpp"
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <limits>
 

@@ -57,6 +57,7 @@ def test_residual_is_that_of_the_engine_and_of_numpy(dumped):
     problem = contact.load(dumped)
     r = contact.residual(problem)
     assert r.relative == pytest.approx(engine().residual, rel=1e-9)  # another order of the sum
+    assert r.force_rms == pytest.approx(engine().residualForce, rel=1e-9)
     # the normal graph by hand, for contacts that press: U + b = 0 there
     i, j = problem.body.T
     u = np.einsum("ck,ck->c", problem.normal, problem.velocity[j, :2] - problem.velocity[i, :2])
