@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 using namespace nonsmooth::contact;
 using namespace nonsmooth::contact::testing;
@@ -13,7 +14,9 @@ namespace {
 
 class ProblemFile : public ::testing::Test {
 protected:
-	std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "nonsmooth_problem_file";
+	// one a test: ctest runs several at a time
+	std::filesystem::path folder = std::filesystem::path(::testing::TempDir())
+	        / (std::string("nonsmooth_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()));
 	std::string           path   = (folder / "step.h5").string();
 
 	void SetUp() override { std::filesystem::create_directories(folder); }
