@@ -100,7 +100,7 @@ namespace {
 			bodies[b].v    = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
 		}
 		forEachStrip([this](std::size_t s) {
-			kernels.apply(&laidOut.blocks[laidOut.blockBegin[s]], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
+			kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 				const Contact& c  = problem.contacts[laidOut.others[k]];
 				Twist          vi = twist(c.i), vj = twist(c.j);
@@ -146,7 +146,7 @@ namespace {
 	void Sweeper::sweep(double beta)
 	{
 		forEachStrip([this, beta](std::size_t s) {
-			kernels.sweep(&laidOut.blocks[laidOut.blockBegin[s]], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data(), beta);
+			kernels.sweep(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data(), beta);
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 				sweepRow(k, beta);
 		});
@@ -171,7 +171,7 @@ namespace {
 #pragma omp for schedule(static)
 		for (long s = 0; s < count; ++s) {
 			const std::size_t begin = laidOut.blockBegin[s];
-			sums[s] = kernels.measure(&laidOut.blocks[begin], laidOut.blockBegin[s + 1] - begin, bodies.data());
+			sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
 			measureRows(s, sums[s]);
 		}
 #pragma omp single

@@ -12,7 +12,7 @@ format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy, h5py and this pr
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import h5py
@@ -155,8 +155,3 @@ def residual(problem: ContactProblem, impulse=None) -> Residual:
     r = _nonsmooth_contact.residual(_arrays(check(problem), problem.impulse if impulse is None else impulse))
     h = problem.time_step
     return Residual(r["relative"], r["rms"] / h, r["largest"] / h, r["speed_rms"], r["speed_largest"], r["defect"])
-
-
-def with_solution(problem: ContactProblem, solution: Solution) -> ContactProblem:
-    """The problem with another solution in it."""
-    return replace(problem, impulse=solution.impulse, velocity=solution.velocity)
