@@ -5,7 +5,7 @@ Everything that decides the course stands in :class:`State`, which goes into che
 * bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
 * t0: the dry rest ends, the water begins to rise;
-* moving: the mean speed reaches 0.5 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
+* moving: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
   is from here on, and the solver's tolerance is ``tolerance_moving`` until the avalanche is at rest;
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
@@ -34,7 +34,7 @@ __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 ROW_SECONDS = 0.1        # between two rows of series.csv
 FRAME_SECONDS = 0.5      # between two snapshots, for the video and the figures
 CHECKPOINT_SECONDS = 90  # of wall time
-MOVING_SPEED = 0.5       # m/s, see above
+MOVING_SPEED = 0.2       # m/s, see above
 
 COLUMNS = tuple(records.COLUMNS)
 

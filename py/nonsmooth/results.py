@@ -4,7 +4,7 @@ Characteristic times (paper, section 6; the rules are ours):
 
 * t0: the water table begins to rise;
 * t1, failure: the mean of N_FB over one second first comes within 2 % of its largest value before t2, the strength of the foot;
-  where there is no backstop, the slope begins to move (mean speed 0.5 m/s, see experiment.py);
+  where there is no backstop, the slope begins to move (mean speed 0.2 m/s, see experiment.py);
 * t2: D_c is reached by one per cent of the disks that fit along the dipping plane;
 * t3: the mean of T_DP over one second has fallen by 90 % of its value at t2;
 * t4: the largest kinetic energy;
