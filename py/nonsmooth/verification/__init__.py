@@ -1,0 +1,23 @@
+"""What the law, the time stepping and the solver are held against: checks that compare with a derivation, with other people's codes or with
+themselves at a finer step, and a report of them. ``scripts/verify.py`` runs them.
+
+A check is a function marked by :func:`check`; it gets a :class:`Bench` and returns an :class:`Outcome`: claims (one row each in the report),
+plots and remarks. Checks stand in the modules named in :data:`MODULES`, by subject.
+"""
+
+import importlib
+
+from .claims import Claim, Outcome, at_least, at_most, between, near
+from .registry import Bench, Check, check, registered
+
+__all__ = ["MODULES", "Bench", "Check", "Claim", "Outcome", "at_least", "at_most", "between", "check", "load_checks", "near"]
+
+#: Modules of this package that hold checks, in the report's order.
+MODULES = ("contacts", "bonds", "impacts", "packings", "siconos", "lmgc90", "solver", "convergence", "avalanche")
+
+
+def load_checks():
+    """All checks, in the report's order."""
+    for name in MODULES:
+        importlib.import_module(f"{__name__}.{name}")
+    return registered()

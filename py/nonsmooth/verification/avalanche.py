@@ -1,0 +1,1 @@
+"""A whole avalanche: energy, residuals, bonds."""

@@ -1,0 +1,1 @@
+"""Bonds: thresholds in each mode and combined, and a bridge of bonded disks."""

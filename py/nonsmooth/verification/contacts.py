@@ -1,0 +1,1 @@
+"""One disk against walls: sliding, rolling, spinning, driven walls."""

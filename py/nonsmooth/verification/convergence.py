@@ -1,0 +1,1 @@
+"""Strength, failure and runout against time step and tolerance."""

@@ -1,0 +1,1 @@
+"""Impacts: restitution, head-on and oblique, and a chain of disks."""

@@ -1,0 +1,1 @@
+"""A packing at rest by LMGC90."""

@@ -1,0 +1,1 @@
+"""Packings: macroscopic friction without friction, and the statistics of forces."""

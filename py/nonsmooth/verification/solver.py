@@ -1,0 +1,1 @@
+"""Sweeps that the solver needs, and its stopping tests."""
