@@ -6,7 +6,8 @@ Everything that decides the course stands in :class:`State`, which goes into che
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
 * t0: the dry rest ends, the water begins to rise;
 * moving: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
-  is from here on, and the solver's tolerance is ``tolerance_moving`` until the avalanche is at rest;
+  is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
+  it falls with the speed, down to ``tolerance``;
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
 
@@ -35,6 +36,7 @@ ROW_SECONDS = 0.1        # between two rows of series.csv
 FRAME_SECONDS = 0.5      # between two snapshots, for the video and the figures
 CHECKPOINT_SECONDS = 90  # of wall time
 MOVING_SPEED = 0.2       # m/s, see above
+SLOW_FRACTION = 0.1      # of the largest mean speed, see above
 
 COLUMNS = tuple(records.COLUMNS)
 
@@ -178,8 +180,9 @@ class Experiment:
         elif s.resting_since is None:
             s.resting_since = O.time
         numerics = self.section.numerics
-        # the reactions of a mass at rest are found with the same care before and after the motion
-        solver.tolerance = numerics.tolerance_moving if s.moving is not None and not resting else numerics.tolerance
+        if s.moving is not None:  # reactions at rest depend on how the mass came to rest, so more care while it slows down
+            flowing = min(1.0, solver.meanSpeed / (SLOW_FRACTION * s.speed_max))
+            solver.tolerance = max(numerics.tolerance, flowing * numerics.tolerance_moving)
         over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
         if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
             s.stage = "done"
@@ -246,7 +249,8 @@ class Experiment:
             "slip_mean_dp_m": weak.meanSlip() if slip else 0.0, "weakened_disks": weak.weakenedCount() if slip else 0,
             "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
             "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy, "energy_water_J": e.externalWork,
-            "energy_dissipated_J": e.slidingLoss + e.rollingLoss + e.impactLoss, "energy_bonds_J": e.debondingLoss,
+            "energy_walls_J": e.wallWork, "energy_sliding_J": e.slidingLoss, "energy_rolling_J": e.rollingLoss,
+            "energy_impact_J": e.impactLoss, "energy_bonds_J": e.debondingLoss,
             "energy_correction_J": e.correctionEnergy, "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
         }
 
