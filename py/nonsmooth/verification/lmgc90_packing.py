@@ -21,7 +21,7 @@ from yade.wrapper import NscdMat
 from .. import contact, scene
 
 __all__ = ["DISKS", "FLOOR", "G", "H", "LEFT", "MU", "RIGHT", "Balance", "Dump", "balance", "build", "dump_step", "engine", "impulses_of", "load",
-           "pair_keys", "relative_velocities", "velocities_of", "with_radius_levers"]
+           "pair_keys", "relative_velocities", "velocities_of", "warm_start", "with_radius_levers"]
 
 DISKS, FLOOR, LEFT, RIGHT = 5000, 5000, 5001, 5002  # number of disks; ids of the walls, in our scene and, less one, in LMGC90
 WIDTH, HEIGHT = 409.59035, 91.2221                   # of the box [m]
@@ -95,6 +95,22 @@ def engine():
     return next(e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine")
 
 
+def warm_start(dump: Dump):
+    """Gives the interactions of the scene just built LMGC90's forces; makes them by a step, after which the disks are put back."""
+    solver = engine()
+    tolerance, solver.tolerance = solver.tolerance, 1e3  # the step's own solution is not wanted
+    O.step()
+    solver.tolerance = tolerance
+    for body, (x, y), (vx, vy, w) in zip(O.bodies, dump.middle.tolist(), dump.velocity.tolist()):
+        body.state.pos, body.state.vel, body.state.angVel = (x, y, 0), (vx, vy, 0), (0, 0, w)
+    for i in O.interactions:
+        if i.isReal:
+            i.phys.normal = i.phys.tangential = 0
+    for (a, b), fn, ft in zip(dump.pair.tolist(), dump.fn.tolist(), dump.ft.tolist()):
+        phys = O.interactions[a, b].phys
+        phys.normal, phys.tangential = fn, -ft
+
+
 def dump_step(path) -> contact.ContactProblem:
     """The contact problem of the scene's last step."""
     engine().dump(str(path))
@@ -160,7 +176,7 @@ class Balance:
 
     floor: float
     sides: float    # by friction, upwards
-    falling: float  # momentum that the disks have at the end of the step, downwards, over what the weight gives in a step
+    falling: float  # momentum that the disks gain in the step, downwards, over what the weight gives in a step
 
     @property
     def carried(self):
@@ -170,5 +186,5 @@ class Balance:
 def balance(dump: Dump, problem: contact.ContactProblem, impulse) -> Balance:
     """Sums of impulses of shape (c, 3) over the walls, and the momentum that they leave."""
     sums, weight = body_impulses(problem, impulse), H * dump.weight
-    falling = -(dump.mass * velocities_of(problem, impulse)[:DISKS, 1]).sum()
+    falling = -(dump.mass * (velocities_of(problem, impulse)[:DISKS, 1] - dump.velocity[:, 1])).sum()
     return Balance(-sums[FLOOR, 1] / weight, -(sums[LEFT, 1] + sums[RIGHT, 1]) / weight, falling / weight)
