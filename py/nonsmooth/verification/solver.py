@@ -56,7 +56,7 @@ def sweeps_to_a_residual(bench):
                 found[start_name, way, tolerance] = s, b
                 rows.append([start_name, way, f"{tolerance:.0e}", f"{s.iterations:,}" if s.converged else f"more than {cap:,}", f"{s.restarts}", f"{s.relative:.1e}",
                              f"{b.carried:.4f}", f"{b.floor:.4f}"])
-    curves = {method: [_after(dump, problem, method, n) for n in _sweep_counts(cap)] for method, _ in METHODS}
+    curves = {way: [_after(dump, problem, method, n, every) for n in _sweep_counts(cap, every)] for way, method, every in WAYS}
     climb = [_after(dump, problem, "accelerated", n) for n in range(10, 301, 10)]
     lifted = next((n for n, _, carried in climb if carried >= 0.99), np.inf)
     plain = {n: _after(dump, problem, "gaussSeidel", n) for n in (100, 1000)}
@@ -84,23 +84,23 @@ def sweeps_to_a_residual(bench):
                    plots=[_convergence(curves)], remarks=[remark])
 
 
-def _sweep_counts(cap):
-    return np.unique(np.round(np.geomspace(10, cap, 28) / 10).astype(int) * 10)
+def _sweep_counts(cap, every):
+    return np.unique(np.round(np.geomspace(every, cap, 28) / every).astype(int) * every)
 
 
-def _after(dump, problem, method, sweeps):
+def _after(dump, problem, method, sweeps, every=10):
     """(sweeps, residual, share carried) after so many sweeps from a cold start."""
-    s = contact.solve(problem, method=method, start="cold", tolerance=1e-15, max_iterations=int(sweeps))
+    s = contact.solve(problem, method=method, start="cold", tolerance=1e-15, max_iterations=int(sweeps), check_every=every)
     return s.iterations, s.relative, lp.balance(dump, problem, s.impulse).carried
 
 
 def _convergence(curves):
     figure = Figure(figsize=(10, 4.2))
     left, right = figure.subplots(1, 2)
-    for method, name in METHODS:
-        n, residual, carried = np.array(curves[method]).T
-        left.loglog(n, residual, "o-", ms=3, label=name)
-        right.semilogx(n, carried, "o-", ms=3, label=name)
+    for way, curve in curves.items():
+        n, residual, carried = np.array(curve).T
+        left.loglog(n, residual, "o-", ms=3, label=way)
+        right.semilogx(n, carried, "o-", ms=3, label=way)
     left.set(xlabel="sweeps", ylabel="independent residual")
     right.set(xlabel="sweeps", ylabel="share of the weight carried", ylim=(0, 1.05))
     left.legend()
