@@ -193,7 +193,7 @@ def _scatter(theirs, ours, mean):
     return figure, "The same contacts' forces in both solutions. Forces of a hyperstatic packing are not unique: LMGC90's cold start scatters as much about its warm one."
 
 
-@check("A hundred steps in YADE: the packing stays at rest", subject=SUBJECT, seconds=25, quick=6)
+@check("A hundred steps in YADE: the packing stays at rest", subject=SUBJECT, seconds=60, quick=12)
 def lmgc90_packing_stays_at_rest(bench):
     """The scene starts from LMGC90's velocities and forces and makes a hundred steps of 5 ms.
 

@@ -27,7 +27,7 @@ def _problem(bench):
     return dump, problem, lp.impulses_of(dump, problem)[0]
 
 
-@check("Sweeps to a residual, from a cold start and from known forces", subject=SUBJECT, seconds=20, quick=5)
+@check("Sweeps to a residual, from a cold start and from known forces", subject=SUBJECT, seconds=50, quick=20)
 def sweeps_to_a_residual(bench):
     """News crosses about one contact a sweep, so plain Gauss-Seidel needs as many sweeps as a diffusion across the packing, some 30 disks deep:
     thousands. Nesterov's extrapolation makes a wave of it. On 16,901 disks in a box of the same thickness, an earlier computation had found 100 accelerated
@@ -107,7 +107,7 @@ def _convergence(curves):
     return figure, "From a cold start: residual and weight carried against sweeps, the solver stopped there and both taken from the impulses it returned."
 
 
-@check("Sweeps in a running scene, from the forces of the step before", subject=SUBJECT, seconds=60, quick=None)
+@check("Sweeps in a running scene, from the forces of the step before", subject=SUBJECT, seconds=20, quick=None)
 def sweeps_in_a_running_scene(bench):
     """What a simulation needs is the warm start from the step before. The scene begins with LMGC90's forces and velocities and makes thirty steps at each tolerance
     with each method (no overlap is taken back, so that nothing but the packing's own small motion is to be followed). Rattlers knock and roll, some contacts slide, so
@@ -143,7 +143,7 @@ def sweeps_in_a_running_scene(bench):
     return Outcome(claims=claims, tables=[(f"{steps} steps of 5 ms from LMGC90's state, each from the forces of the one before.", heads, rows)])
 
 
-@check("Stopping tests by name: where they stop, and what they leave", subject=SUBJECT, seconds=8, quick=4)
+@check("Stopping tests by name: where they stop, and what they leave", subject=SUBJECT, seconds=20, quick=6)
 def stopping_tests_by_name(bench):
     """Quad, Maxm and QM/16 look at the change of relative velocity that one more visit of each contact would make (``pkg/contact/stopping.hpp``). Each must stop the solver at the
     first look, one in ten sweeps, at which its own figures are below the tolerance: at the stop they are, ten sweeps before they were not. All three are measured again from
