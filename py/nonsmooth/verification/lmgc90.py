@@ -42,7 +42,7 @@ def lmgc90_step_in_our_arrays(bench):
     velocity_error = lp.velocities_of(theirs, impulse)[:lp.DISKS] - dump.velocity_end
     inertia = np.c_[dump.mass, dump.mass, 0.5 * dump.mass * dump.r**2]
     unbalanced = np.abs(velocity_error) * inertia / lp.H
-    rms_force = np.sqrt((dump.fn**2 + dump.ft**2).mean())
+    rms_force = float(np.sqrt((dump.fn**2 + dump.ft**2).mean()))
     residual, changes = contact.residual(theirs, impulse), contact.velocity_changes(theirs, impulse)
     ours = contact.residual(problem, impulse)
     carried = lp.balance(dump, theirs, impulse)
@@ -74,6 +74,24 @@ def lmgc90_step_in_our_arrays(bench):
             for name, r, c in (("its levers, r", residual, changes), ("ours, r + g/2", ours, contact.velocity_changes(problem, impulse)))]
     heads = ["levers", "relative", "rms [N]", "largest [N]", "rms [m/s]", "largest [m/s]", "Quad", "QM/16", "Maxm"]
     return Outcome(claims=claims, tables=[("LMGC90's forces in our problem: the natural-map residual, and its own tests' figures.", heads, rows)])
+
+
+def _missed(dump, engine):
+    """What the step's contact forces and weight miss of M (v⁺ − v)/h, (n, 2) [N] and (n,) [N m]; from the scene's interactions and states, not
+    from the solver's arrays."""
+    table, after = tables.contacts(engine), tables.bodies(engine)
+    first, second = table["id1"], table["id2"]
+    n = np.c_[table["nx"], table["ny"]]  # YADE's, from the first body to the second; turned about, n and t keep N and T
+    push = table["normal"][:, None] * n + table["tangential"][:, None] * np.c_[-n[:, 1], n[:, 0]]  # on the second body
+    force, torque = np.zeros((lp.DISKS + 3, 2)), np.zeros(lp.DISKS + 3)
+    centre, at = np.r_[dump.middle, np.zeros((3, 2))], np.c_[table["x"], table["y"]]
+    for body, f in ((second, push), (first, -push)):
+        arm = at - centre[body]
+        np.add.at(force, body, f)
+        np.add.at(torque, body, arm[:, 0] * f[:, 1] - arm[:, 1] * f[:, 0])
+    gained = dump.mass[:, None] * (np.c_[after["vx"], after["vy"]] - dump.velocity[:, :2]) / lp.H
+    spun = 0.5 * dump.mass * dump.r**2 * (after["omega"] - dump.velocity[:, 2]) / lp.H
+    return gained - force[:lp.DISKS] + np.outer(dump.mass, (0, lp.G)), spun - torque[:lp.DISKS]
 
 
 def _over_mean_at_depth(force, height, layers=15):
@@ -108,16 +126,8 @@ def lmgc90_step_by_us(bench):
     theirs, at = lp.impulses_of(dump, problem)
     warm = contact.solve(problem, start=theirs, tolerance=1e-6, max_iterations=20000)
 
-    # from the running scene: interactions and states, not the solver's arrays
-    table, after = tables.contacts(engine), tables.bodies(engine)
-    force = np.zeros((lp.DISKS + 3, 2))
-    push = table["normal"][:, None] * np.c_[table["nx"], table["ny"]]
-    swapped = np.where((table["id1"] < lp.DISKS) & (table["id2"] < lp.DISKS), table["id1"] > table["id2"], table["id2"] >= lp.DISKS)
-    n = np.where(swapped[:, None], -1, 1) * np.c_[table["nx"], table["ny"]]
-    push = push + np.where(swapped, -1, 1)[:, None] * table["tangential"][:, None] * np.c_[-n[:, 1], n[:, 0]]
-    np.add.at(force, table["id2"], push)
-    np.add.at(force, table["id1"], -push)
-    missed = dump.mass[:, None] * (np.c_[after["vx"], after["vy"]] - dump.velocity[:, :2]) / lp.H - force[:lp.DISKS] + np.outer(dump.mass, (0, lp.G))
+    missed, missed_torque = _missed(dump, engine)
+    warm_missed = (np.abs(lp.velocities_of(problem, warm.impulse) - warm.velocity)[:lp.DISKS, :2] * dump.mass[:, None] / lp.H).max()
     cold = problem.impulse
     sums = {"cold": lp.balance(dump, problem, cold), "warm": lp.balance(dump, problem, warm.impulse), "LMGC90": lp.balance(dump, problem, theirs)}
 
@@ -127,15 +137,18 @@ def lmgc90_step_by_us(bench):
     height = np.where(j < lp.DISKS, 0.5 * (dump.y[i] + dump.y[j.clip(max=lp.DISKS - 1)]), dump.y[i])
     pressed = {name: f > 1e-3 * mean for name, f in normal.items()}
     share = {name: _over_mean_at_depth(f[pressed[name]], height[pressed[name]]) for name, f in normal.items()}
-    coordination = {name: 2 * p[dump.pair[:, 1] < lp.DISKS].sum() / lp.DISKS for name, p in pressed.items()}
+    coordination = {name: float(2 * p[dump.pair[:, 1] < lp.DISKS].sum() / lp.DISKS) for name, p in pressed.items()}
     either = (dump.fn > 0) | (normal["cold"] > 0)
     rms = np.sqrt(((normal["cold"] - dump.fn)[either] ** 2).mean()) / mean
     correlation = np.corrcoef(normal["cold"][either], dump.fn[either])[0, 1]
-    below = {name: (s < 1).mean() for name, s in share.items()}
-    decay = {name: 1 / (s[s > 2] - 2).mean() for name, s in share.items()}  # a of exp(−a N/⟨N⟩), the likeliest one for N > 2 ⟨N⟩
+    below = {name: float((s < 1).mean()) for name, s in share.items()}
+    decay = {name: float(1 / (s[s > 2] - 2).mean()) for name, s in share.items()}  # a of exp(−a N/⟨N⟩), the likeliest one for N > 2 ⟨N⟩
     claims = [
-        at_most("cold: force missing in a disk's balance of momentum, largest", np.abs(missed).max(), 1e-14 * np.abs(normal["cold"]).max(), unit="N",
+        at_most("cold: force missing in a disk's balance of momentum, largest", np.abs(missed).max(), 1e-14 * float(np.abs(normal["cold"]).max()), unit="N",
                 why="rounding (1e-16) of sums of some ten forces of up to 2e7 N, with a margin of 10"),
+        at_most("cold: torque missing in a disk's balance of angular momentum, largest", np.abs(missed_torque).max(), 6e-13 * float(np.abs(normal["cold"]).max()), unit="N m",
+                why="rounding of coordinates of 400 m (6e-14 m) times forces of up to 2e7 N, ten contacts"),
+        at_most("warm: force missing in a disk's balance of momentum, largest", warm_missed, 1e-14 * float(np.abs(normal["warm"]).max()), unit="N", why="the same rounding"),
         near("cold: share carried by floor and sides, and falling", sums["cold"].carried + sums["cold"].falling, 1, absolute=1e-11,
              why="Newton's law for the sum over all disks: rounding"),
         between("cold: share of the weight that is carried", sums["cold"].carried, 0.98, 1.001, against="LMGC90",

@@ -187,4 +187,4 @@ def balance(dump: Dump, problem: contact.ContactProblem, impulse) -> Balance:
     """Sums of impulses of shape (c, 3) over the walls, and the momentum that they leave."""
     sums, weight = body_impulses(problem, impulse), H * dump.weight
     falling = -(dump.mass * (velocities_of(problem, impulse)[:DISKS, 1] - dump.velocity[:, 1])).sum()
-    return Balance(-sums[FLOOR, 1] / weight, -(sums[LEFT, 1] + sums[RIGHT, 1]) / weight, falling / weight)
+    return Balance(float(-sums[FLOOR, 1] / weight), float(-(sums[LEFT, 1] + sums[RIGHT, 1]) / weight), float(falling / weight))
