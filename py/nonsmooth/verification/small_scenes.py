@@ -45,6 +45,8 @@ def wall(vertices, stuff, piece=None, velocity=(0, 0)):
 def begin(gravity=(0, 0, 0), dt=1e-3, **options):
     """Engines and time step; returns the ContactDynamicsEngine."""
     O.engines = scene.engines(gravity=gravity, **{**TIGHT, **options})
+    for e in O.engines:
+        e.ompThreads = 1  # a few bodies: threads would only wait for each other, for long on a busy machine
     O.dt = dt
     return engine()
 
