@@ -29,7 +29,7 @@ class Claim:
 
     @property
     def passed(self) -> bool:
-        return math.isfinite(self.measured) and self.low <= self.measured <= self.high
+        return bool(math.isfinite(self.measured) and self.low <= self.measured <= self.high)  # bounds may be NumPy's
 
 
 def near(what, measured, expected, *, absolute=0.0, relative=0.0, **more) -> Claim:
