@@ -96,7 +96,7 @@ def _breaks_as(pair):
     return "not at all"
 
 
-@check("Thresholds of a bond", subject="Bonds", seconds=3)
+@check("Thresholds of a bond", subject="Bonds", seconds=1)
 def bond_thresholds(bench):
     """A bonded pair under a steady load stands still while (N, T, Γ) that balance the load lie within their thresholds: N at least −F_a, T
     at most μ_s (F_a + N) and Γ at most μ_r ℓ (F_a + N) in magnitude, with F_a = σ ℓ (eqs 1 to 6 of Taboada and Estrada 2009). One disk
@@ -133,7 +133,7 @@ def bond_thresholds(bench):
                                     ["load", "angle", "threshold", "overload", "ended by"], rows)])
 
 
-@check("Residual strength of a contact without a bond", subject="Bonds", seconds=2)
+@check("Residual strength of a contact without a bond", subject="Bonds", seconds=1)
 def residual_thresholds(bench):
     """Two touching disks without a bond obey the same three thresholds with the residual strengths: F_a = σ_res ℓ, and μ_s and μ_r of
     their own (Taboada and Estrada 2009, section 2.2). The pair's bond is taken away by hand; thresholds are then found by bisection as
@@ -149,7 +149,7 @@ def residual_thresholds(bench):
     return Outcome(claims)
 
 
-@check("A bond breaks where its mark leaves the ellipse", subject="Bonds", seconds=4, quick=2)
+@check("A bond breaks where its mark leaves the ellipse", subject="Bonds", seconds=1)
 def bond_ellipse(bench):
     """A bond that yields lives until the point marked on one disk has left an ellipse fixed to the other, with the half-axes ε_n ℓ and ε_t
     ℓ (Figure 2b of Taboada and Estrada 2009). Three kinds of motion are forced on a pair, each so slowly that 1,000 steps lead to the
@@ -281,7 +281,7 @@ def _first_breaks(most):
     return [], []
 
 
-@check("A bonded row held at one end", subject="Bonds", seconds=3)
+@check("A bonded row held at one end", subject="Bonds", seconds=1)
 def cantilever(bench):
     """n disks of weight w and diameter d stand out from a fixed one in a horizontal row. The contact that carries the last k of them bears
     no normal force, the shear force k w and the moment of their weights about it, w (d/2 + 3 d/2 + …) = w d k²/2. Each disk has three
@@ -345,7 +345,7 @@ def _edge(name, build, strength, moment, turning, margin=1e-5):
     ]
 
 
-@check("A bonded row held at both ends", subject="Bonds", seconds=3)
+@check("A bonded row held at both ends", subject="Bonds", seconds=1)
 def bridge(bench):
     """n disks hang in a horizontal row between two fixed disks by n + 1 bonds. Rigid bonds have no stiffness to share the load by, so
     statics leaves the moments of the ends open; a rigid-plastic structure stands as long as some distribution within the thresholds

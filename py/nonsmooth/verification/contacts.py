@@ -47,7 +47,7 @@ class Incline:
         return (self.state.pos - self.start).dot(self.along)
 
 
-@check("A slider on a plane of 21°", subject="Sliding and rolling", seconds=2)
+@check("A slider on a plane of 21°", subject="Sliding and rolling", seconds=1)
 def slider_on_a_plane(bench):
     """A disk that may not turn is a slider. Along a plane of dip θ it has the acceleration a = g (sin θ − μ cos θ) by Coulomb's law (eq. 3
     and 4 of Taboada and Estrada 2009 with no cohesion). With θ = 21° and μ = 0.3 this is 0.768 m/s², and 5 m take √(10 m / a) = 3.61 s;
@@ -103,7 +103,7 @@ def incline_accelerations(tangent, friction, rolling):
     return c * (tangent - friction), 2 * c * (friction - 2 * rolling)
 
 
-@check("A disk on an incline rests, rolls, slips or slides", subject="Sliding and rolling", seconds=3)
+@check("A disk on an incline rests, rolls, slips or slides", subject="Sliding and rolling", seconds=1)
 def disk_on_an_incline(bench):
     """The torque that resists rolling is at most Γ = μ_r ℓ N with ℓ = d = 2 r at a wall (eq. 6), the shear force at most μ_s N. With N = m
     g cos θ and the disk's inertia m r²/2, rolling without slip means m a = m g sin θ − T and (m r²/2)(a/r) = T r − 2 μ_r r N, hence
@@ -161,7 +161,7 @@ def disk_on_an_incline(bench):
                                            "Right: with 2 μ_r > μ_s it never turns.")])
 
 
-@check("A spinning disk set down on a floor", subject="Sliding and rolling", seconds=2)
+@check("A spinning disk set down on a floor", subject="Sliding and rolling", seconds=1)
 def spinning_disk(bench):
     """A disk with the spin ω₀ and no speed touches a floor. It slips, and friction μ m g drives it on and takes its spin. With rolling
     friction μ_r the torque Γ = 2 μ_r r m g (ℓ = 2 r) brakes the spin as well:
@@ -253,7 +253,7 @@ class Squeeze:
         return O.forces.f(body.id)[0]
 
 
-@check("A disk between two driven walls", subject="Sliding and rolling", seconds=3)
+@check("A disk between two driven walls", subject="Sliding and rolling", seconds=1)
 def disk_between_driven_walls(bench):
     """A disk lies between a floor that is driven with u₂ and a roof that is driven with u₁ and pressed down with the force N; there is no
     gravity. Rolling without slip on both asks for v − r ω = u₁ and v + r ω = u₂, so v = (u₁ + u₂)/2 and ω = (u₂ − u₁)/(2 r),
@@ -342,7 +342,7 @@ def _stack(count, stuff):
     return floor, [disk(0, RADIUS + 2 * RADIUS * k, stuff) for k in range(count)]
 
 
-@check("A stack of fifty disks carries its weight", subject="Statics", seconds=3)
+@check("A stack of fifty disks carries its weight", subject="Statics", seconds=1)
 def stack_of_disks(bench):
     """In a straight stack at rest the contact below disk k, counted from the top, carries k m g, and the floor all of it. The problem has
     one solution, so the solve must find it to its tolerance. Its condition number is that of a chain, (4/π²) n² · 4 = 4e3 for n = 50: a
@@ -369,7 +369,7 @@ def _reactions():
     return np.array([(i.phys.normal, i.phys.tangential, i.phys.torque / i.phys.length) for i in contacts()])
 
 
-@check("A time step that changes at rest does nothing", subject="Statics", seconds=3)
+@check("A time step that changes at rest does nothing", subject="Statics", seconds=1)
 def changed_time_step(bench):
     """The solve starts from the last step's reactions. They are kept as forces and multiplied by the present h, so that a stack at rest
     stays solved whatever O.dt becomes: impulses and free velocities are both proportional to h, and the relative residual does not
