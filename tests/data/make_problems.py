@@ -52,22 +52,26 @@ def compress(source, target):
     """The same datasets, each deflated: our reader and h5py notice nothing."""
     with h5py.File(source, "r") as old, h5py.File(target, "w") as new:
         new.attrs.update(old.attrs)
-        old.visititems(lambda name, item: new.create_dataset(name, data=item[()], compression="gzip", compression_opts=9, shuffle=True)
-                       if isinstance(item, h5py.Dataset) else None)
+
+        def copy(name, item):  # a walk goes on as long as this returns None
+            if isinstance(item, h5py.Dataset):
+                new.create_dataset(name, data=item[()], compression="gzip", compression_opts=9, shuffle=True)
+
+        old.visititems(copy)
 
 
 def main():
     args = arguments()
     with tempfile.TemporaryDirectory() as folder:
         times, problems = run(args.disks, Path(folder))
-        print({name: value for name, value in times.items()})
+        print(times)
         for name, at in (("slope_t1.h5", times["t1"]), ("avalanche_t4.h5", times["t4"])):
             if at is None:
                 sys.exit(f"error: the slope did not reach the moment of {name}")
-            nearest = min(problems, key=lambda t: abs(t - at))
+            last = max(t for t in problems if t < at + 0.5 * O.dt)
             target = Path(args.out) / name
-            compress(problems[nearest], target)
-            print(f"{target}: t = {nearest:.2f} s, {target.stat().st_size / 1000:.0f} kB")
+            compress(problems[last], target)
+            print(f"{target}: t = {last:.2f} s, {target.stat().st_size / 1000:.0f} kB")
 
 
 main()

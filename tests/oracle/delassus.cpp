@@ -134,6 +134,17 @@ std::vector<Impulse> Delassus::impulses(const Problem& problem, const std::vecto
 	return found;
 }
 
+std::vector<double> Delassus::scaled(const Problem& problem, const std::vector<Impulse>& impulses) const
+{
+	std::vector<double> p(scale.size());
+	for (std::size_t k = 0; k < impulses.size(); ++k) {
+		const std::array<double, 3> rows { impulses[k].n + problem.contacts[k].adhesion, impulses[k].t, impulses[k].r };
+		for (int row = 0; row < size; ++row)
+			p[k * size + row] = rows[row] / (scale[k * size + row] * speed);
+	}
+	return p;
+}
+
 std::vector<Twist> velocities(const Problem& problem, const std::vector<Impulse>& impulses)
 {
 	std::vector<Twist> v = problem.freeVelocity;

@@ -25,6 +25,8 @@ struct Delassus {
 	std::size_t contactCount() const { return friction.size(); }
 	/// Impulses [N s, N s, N m s] that belong to scaled ones; without rolling rows that impulse is 0.
 	std::vector<contact::Impulse> impulses(const contact::Problem& problem, const std::vector<double>& p) const;
+	/// The other way round.
+	std::vector<double> scaled(const contact::Problem& problem, const std::vector<contact::Impulse>& impulses) const;
 
 	std::vector<double> scale; // D, one a row
 	double              speed = 1; // v₀

@@ -1,6 +1,7 @@
 // Solves a recorded contact problem with Siconos, to hold our solver against.
 //
 //     siconos_solve IN.h5 OUT.h5 --tolerance T --max-iterations N [--check-every K] [--without-rolling]
+//     siconos_solve IN.h5 --measure [--without-rolling]     only Siconos's error of the impulses in the file, and |q|/|p|
 //
 // Needs no YADE, and of our own library only the reader and writer of problem files. W and q are built in delassus.cpp. Siconos
 // (Acary, Brémond, Huber and others, INRIA) gets
@@ -14,7 +15,8 @@
 // Siconos stops where its error is below the tolerance: the natural map with ρ = 1, summed over contacts, relative to |q|. That
 // asks for a problem whose W is near 1, so every row is scaled by the square root of its diagonal (delassus.hpp): this is a mass for the
 // first two rows and an inertia for the third, velocities are divided by their rms, and then the diagonal of W is exactly 1.
-// Note that our own residual is relative to the rms impulse instead, which in a deep packing is far larger than |q|.
+// Note that our own residual is relative to the rms impulse instead: in scaled units |p|, which may be ten times |q| or a tenth of it (a
+// packing carries more than one step's fall; contacts that are still open have a large b).
 //
 // Prints one line of JSON: version and solver of Siconos, contacts, iterations, its error, its info flag (0: converged), seconds.
 #include "delassus.hpp"
@@ -35,6 +37,10 @@
 #include <siconos/numerics/RollingFrictionContactProblem.h>
 #include <siconos/numerics/SolverOptions.h>
 #include <siconos/numerics/SparseBlockMatrix.h>
+#define restrict __restrict__ // C's, which C++ has not
+#include <siconos/numerics/fc2d_compute_error.h>
+#include <siconos/numerics/rolling_fc2d_compute_error.h>
+#undef restrict
 
 using namespace nonsmooth;
 
@@ -46,9 +52,11 @@ struct Arguments {
 	int         maxIterations = 10000;
 	int         checkEvery    = 1;
 	bool        rolling       = true;
+	bool        measure       = false;
 };
 
-const char* const usage = "usage: siconos_solve IN.h5 OUT.h5 --tolerance T --max-iterations N [--check-every K] [--without-rolling]";
+const char* const usage = "usage: siconos_solve IN.h5 OUT.h5 --tolerance T --max-iterations N [--check-every K] [--without-rolling]\n"
+                          "       siconos_solve IN.h5 --measure [--without-rolling]";
 
 double number(const char* option, const char* text)
 {
@@ -66,8 +74,8 @@ Arguments parse(int argc, char** argv)
 	for (int k = 1; k < argc; ++k) {
 		const std::string word = argv[k];
 		const char*       next = k + 1 < argc ? argv[k + 1] : nullptr;
-		if (word == "--without-rolling") {
-			a.rolling = false;
+		if (word == "--without-rolling" || word == "--measure") {
+			(word == "--measure" ? a.measure : a.rolling) = word == "--measure";
 			continue;
 		}
 		if (word == "--tolerance") a.tolerance = number("--tolerance", next);
@@ -80,9 +88,9 @@ Arguments parse(int argc, char** argv)
 		}
 		++k;
 	}
-	if (files.size() != 2) throw std::invalid_argument(usage);
-	a.in  = files[0];
-	a.out = files[1];
+	if (files.size() != (a.measure ? 1 : 2)) throw std::invalid_argument(usage);
+	a.in = files[0];
+	if (!a.measure) a.out = files[1];
 	return a;
 }
 
@@ -166,6 +174,32 @@ Solved solve(oracle::Delassus& w, const Arguments& arguments)
 	return solved;
 }
 
+double norm(const std::vector<double>& v)
+{
+	double sum = 0;
+	for (const double value : v)
+		sum += value * value;
+	return std::sqrt(sum);
+}
+
+/// Siconos's error of given scaled impulses: its natural map relative to |q|.
+double errorOf(oracle::Delassus& w, std::vector<double> p)
+{
+	if (w.contactCount() == 0) return 0;
+	const BlockMatrix   block(w);
+	std::vector<double> velocity(w.q.size());
+	const int           count = int(w.contactCount());
+	double              error = 0;
+	if (w.size == 3) {
+		RollingFrictionContactProblem problem { 3, count, block.matrix, w.q.data(), w.friction.data(), w.rolling.data() };
+		rolling_fc2d_compute_error(&problem, p.data(), velocity.data(), HUGE_VAL, nullptr, norm(w.q), &error);
+	} else {
+		FrictionContactProblem problem { 2, count, block.matrix, w.q.data(), w.friction.data() };
+		fc2d_compute_error(&problem, p.data(), velocity.data(), HUGE_VAL, norm(w.q), &error);
+	}
+	return error;
+}
+
 bool anyRolls(const contact::Problem& problem)
 {
 	for (const contact::Contact& c : problem.contacts)
@@ -181,7 +215,12 @@ try {
 	contact::RecordedProblem recorded  = contact::read(arguments.in);
 	contact::Problem&        problem   = recorded.problem;
 	oracle::Delassus         w         = oracle::delassus(problem, arguments.rolling && anyRolls(problem));
-	const Solved             solved    = solve(w, arguments);
+	if (arguments.measure) {
+		const auto p = w.scaled(problem, problem.impulses);
+		std::printf("{\"siconos\": \"%s\", \"error\": %.6e, \"q_over_p\": %.6e}\n", NONSMOOTH_SICONOS_VERSION, errorOf(w, p), norm(w.q) / norm(p));
+		return 0;
+	}
+	const Solved solved = solve(w, arguments);
 	problem.impulses                   = w.impulses(problem, solved.p);
 	problem.velocities                 = oracle::velocities(problem, problem.impulses);
 	contact::write(arguments.out, recorded);

@@ -9,11 +9,13 @@ from .. import contact
 from . import disk_problems
 from .claims import Outcome, at_least, at_most
 from .registry import check
-from .siconos_solve import ROOT, OracleError, solve_with_ours, solve_with_siconos
+from .siconos_solve import ROOT, OracleError, error_by_siconos, solve_with_ours, solve_with_siconos
 
 SUBJECT = "Against Siconos"
 ROUNDING = 1e-14  # a relative residual below this is an exact solution in double precision
 FALL = 9.81 * 5e-3  # m/s, what a free disk gains in a step
+METRIC = 5  # between the two residuals, once both are relative to the same size
+METRIC_WHY = "its tolerance; the two measures weigh contacts by other powers of the mass and project on a cone or on intervals, which a factor of 5 covers"
 
 
 # ---- small random problems -----------------------------------------------------------------------
@@ -41,7 +43,7 @@ def siconos_random_rolling_cohesion(bench):
 
 
 def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
-    rows, speeds, left, ours_left, ratios, above, indeterminate = [], [], [], [], [], 0, 0
+    rows, speeds, theirs_left, ours_left, by_siconos, ratios, above, indeterminate = [], [], [], [], [], [], 0, 0
     for seed in range(count):
         disks = 3 + seed
         problem = disk_problems.random_cluster(seed, disks, **kind)
@@ -49,7 +51,9 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
         ours = solve_with_ours(problem, tolerance, sweeps)
         further = solve_with_ours(problem, _as_far(tolerance, theirs), sweeps)
         speeds.append(_largest_speed_difference(theirs, ours, _radii(problem)))
-        left.append(theirs.residual.relative)
+        error, q_over_p = error_by_siconos(problem, bench.folder, ours.impulse)
+        theirs_left.append(theirs.residual.relative / q_over_p)
+        by_siconos.append(error * q_over_p)
         ours_left.append(ours.residual.relative)
         above += max(ours.residual.relative, ROUNDING) > max(theirs.residual.relative, ROUNDING)
         ratios.append(max(further.residual.relative, ROUNDING) / max(theirs.residual.relative, ROUNDING))
@@ -60,8 +64,8 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
     chain = "1e-10 of what stops disks of 1 m/s, times 1000: the condition of W for chains of up to 20 disks"
     claims = [
         at_most("largest difference of a disk's velocity (turning: times the radius)", max(speeds), 1e3 * tolerance, unit="m/s", against="Siconos", why=chain),
-        at_most("Siconos's largest relative residual in our measure", max(left), 10 * tolerance, against="Siconos",
-                why="its own tolerance, with room for the other cone metric and for |q| instead of |P|"),
+        at_most("Siconos's largest residual in our measure, times |p|/|q|", max(theirs_left), METRIC * tolerance, against="Siconos", why=METRIC_WHY),
+        at_most("Siconos's error of our impulses by its own function, times |q|/|p|, largest", max(by_siconos), METRIC * tolerance, against="Siconos", why=METRIC_WHY),
         at_most("our largest relative residual at the same number", max(ours_left), tolerance * (1 + 1e-6), against="Siconos", why="the tolerance itself, and rounding"),
         at_most("our residual over Siconos's, ours asked for what Siconos reached, largest of all problems", max(ratios), 1.0, against="Siconos",
                 why=f"at or below on every problem is what is asked for; below {ROUNDING:g} both count as exact"),
@@ -98,7 +102,7 @@ def siconos_slope_at_failure(bench):
     """The step of the paper's slope with about 1,200 disks at which the backstop has reached its strength (t₁; ``tests/data/slope_t1.h5``): bonds,
     rolling resistance, water; from a cold start. Siconos's rolling solver, cohesion shifted.
     """
-    return _one_step(bench, contact.load(_data("slope_t1.h5")), tolerance=1e-5, sweeps=60000)
+    return _one_step(bench, contact.load(_data("slope_t1.h5")), tolerance=1e-6, sweeps=60000)
 
 
 @check("The moving avalanche, solved by Siconos too", subject=SUBJECT, seconds=60, quick=None)
@@ -106,35 +110,45 @@ def siconos_avalanche(bench):
     """The step of the same slope at its largest kinetic energy (t₄; ``tests/data/avalanche_t4.h5``): impacts, sliding, rolling and residual cohesion, from
     a cold start.
     """
-    return _one_step(bench, contact.load(_data("avalanche_t4.h5")), tolerance=1e-5, sweeps=60000)
+    return _one_step(bench, contact.load(_data("avalanche_t4.h5")), tolerance=1e-6, sweeps=60000)
 
 
 def _one_step(bench, problem, tolerance, sweeps):
+    radii, moved = _radii(problem), problem.inverse_mass.any(axis=1)
+    bench.progress("both at ten times the tolerance")
+    before = [solve_with_siconos(problem, bench.folder, 10 * tolerance, sweeps), solve_with_ours(problem, 10 * tolerance, sweeps)]
     bench.progress("Siconos")
     theirs = solve_with_siconos(problem, bench.folder, tolerance, sweeps)
     bench.progress("ours")
     ours = solve_with_ours(problem, tolerance, sweeps)
     further = solve_with_ours(problem, _as_far(tolerance, theirs), sweeps)
-    differences = _speed_differences(theirs, further, _radii(problem))
-    moved = problem.inverse_mass.any(axis=1)
-    differences = differences[moved]
+    equal = solve_with_ours(problem, _as_far(1.0, theirs), sweeps)
+    error, q_over_p = error_by_siconos(problem, bench.folder, ours.impulse)
+    differences_before = _speed_differences(*before, radii)[moved]
+    differences = _speed_differences(theirs, further, radii)[moved]
     other = differences > 0.1 * FALL
     claims = [
         at_most("our relative residual at the same number", ours.residual.relative, tolerance * (1 + 1e-6), against="Siconos", why="the tolerance itself, and rounding"),
-        at_most("Siconos's relative residual in our measure", theirs.residual.relative, 10 * tolerance, against="Siconos",
-                why="its own tolerance, with room for the other cone metric and for |q| instead of |P|"),
+        at_most("Siconos's residual in our measure, times |p|/|q|", theirs.residual.relative / q_over_p, METRIC * tolerance, against="Siconos", why=METRIC_WHY),
+        at_most("Siconos's error of our impulses by its own function, times |q|/|p|", error * q_over_p, METRIC * tolerance, against="Siconos", why=METRIC_WHY),
         at_most("our residual over Siconos's as a force, ours asked for what Siconos reached", further.residual.force_rms / theirs.residual.force_rms, 1.0,
                 against="Siconos", why="at or below is what is asked for"),
+        at_most("our residual over Siconos's as a velocity, ours asked for what Siconos reached", further.residual.speed_rms / theirs.residual.speed_rms, 1.0,
+                against="Siconos", why="the same in the other unit, though tolerances are on forces"),
         at_most("median difference of the disks' velocities", np.median(differences), 0.01 * FALL, unit="m/s", against="Siconos",
                 why="1 % of what a free disk gains in the step"),
+        at_most("the same, over that at ten times the tolerance", np.median(differences) / np.median(differences_before), 0.5, against="Siconos",
+                why="two solvers of one law approach each other; a tenth would be linear, slow modes leave more"),
         at_least("share of disks that both move the same, to a tenth of a step's free fall", 1 - other.mean(), 0.98, against="Siconos",
                  why="the rest wedges or falls, as friction leaves open; a few in a hundred disks of a packing are that loose"),
     ]
-    caption = f"From a cold start; tolerance {tolerance:g}; residuals in our measure, one thread each"
-    rows = [_row(a, name) for a, name in ((theirs, theirs.solver), (ours, "ours, the same number"), (further, "ours, to what Siconos reached"))]
+    caption = f"From a cold start; tolerance {tolerance:g}; residuals in our measure, one thread each; each row of ours names its tolerance"
+    rows = [_row(a, name) for a, name in ((theirs, theirs.solver), (ours, "ours, the same number"), (further, "ours, the lower of that and what Siconos reached"),
+                                         (equal, "ours, what Siconos reached"))]
     remarks = [
-        f"With the same number as tolerance our residual is {ours.residual.force_rms / theirs.residual.force_rms:.2f} times Siconos's: the numbers do not mean the "
-        "same, ours is relative to the rms impulse and Siconos's to |q|. So our solver was also asked for the residual that Siconos had reached.",
+        f"With the same number as tolerance our residual is {ours.residual.force_rms / theirs.residual.force_rms:.2f} times Siconos's. The numbers do not mean the "
+        f"same: ours is relative to the rms impulse, Siconos's to |q|, which is {q_over_p:.2f} times as large here. So our solver was also asked for the residual "
+        "that Siconos had reached.",
         f"Impulses of the two solutions differ by {_relative_difference(theirs.impulse, further.impulse, problem):.2g} (rms, relative): hyperstatic forces are not unique.",
         f"{int(other.sum())} of {len(other)} disks move differently, by up to {differences.max():.2g} m/s, where the law is kept to "
         f"{max(theirs.residual.speed_largest, further.residual.speed_largest):.1g} m/s at every contact by both.",
