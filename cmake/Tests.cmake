@@ -26,4 +26,8 @@ if(NONSMOOTH_PLUGIN)
     add_test(NAME yade COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth" "${CMAKE_SOURCE_DIR}/tests/yade/run_pytest.py")
     set_tests_properties(yade PROPERTIES LABELS yade TIMEOUT 3600 RUN_SERIAL ON
         ENVIRONMENT "NONSMOOTH_BUILD=${CMAKE_BINARY_DIR}")
+
+    # The law broken on purpose, in a copy: the verification must notice. Builds the plugin a second time.
+    add_test(NAME mutation COMMAND "${YADE_PYTHON}" "${CMAKE_SOURCE_DIR}/tests/mutation/run.py" "${CMAKE_BINARY_DIR}")
+    set_tests_properties(mutation PROPERTIES LABELS mutation TIMEOUT 3600 RUN_SERIAL ON)
 endif()

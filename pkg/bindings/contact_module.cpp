@@ -100,7 +100,22 @@ py::dict dictOf(const Residual& r)
 	return d;
 }
 
-py::dict solveArrays(const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery, int threads)
+py::dict dictOf(const VelocityChanges& c)
+{
+	py::dict d;
+	d["velocity"]         = c.velocity;
+	d["largest_velocity"] = c.largestVelocity;
+	d["work"]             = c.work;
+	d["largest_work"]     = c.largestWork;
+	d["drift"]            = c.drift;
+	d["quad"]             = c.figure(StoppingTest::Quad);
+	d["maxm"]             = c.figure(StoppingTest::Maxm);
+	d["qm16"]             = c.figure(StoppingTest::QM16);
+	return d;
+}
+
+py::dict solveArrays(
+        const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery, int threads, const std::string& stopping)
 {
 	Problem        p = problemOf(problem);
 	SolverSettings s;
@@ -113,6 +128,11 @@ py::dict solveArrays(const py::dict& problem, const std::string& method, double 
 	s.maxIterations = maxIterations;
 	s.checkEvery    = checkEvery;
 	s.threads       = threads;
+	try {
+		s.stopping = stoppingTestOf(stopping.c_str());
+	} catch (const std::invalid_argument& error) {
+		throw py::value_error(std::string("stopping = ") + error.what());
+	}
 	SolverStatistics statistics;
 	{
 		py::gil_scoped_release release;
@@ -139,6 +159,8 @@ py::dict residualOf(const py::dict& problem)
 	return d;
 }
 
+py::dict changesOf(const py::dict& problem) { return dictOf(velocityChanges(problemOf(problem))); }
+
 } // namespace
 
 PYBIND11_MODULE(_nonsmooth_contact, m)
@@ -146,4 +168,5 @@ PYBIND11_MODULE(_nonsmooth_contact, m)
 	m.doc() = "Solver of yade-nonsmooth's contact problems; use nonsmooth.contact.";
 	m.def("solve", &solveArrays);
 	m.def("residual", &residualOf);
+	m.def("velocity_changes", &changesOf);
 }

@@ -50,6 +50,19 @@ inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const In
 	return { wn > 0 ? 1 / wn : 0, wt > 0 ? 1 / wt : 0, wr > 0 ? 1 / wr : 0 };
 }
 
+/// One contact solved while all others keep their impulses, one after the other of its three graphs: from the impulses `y` to those
+/// returned, with the velocities of its bodies.
+inline Impulse visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseMass& mi, const InverseMass& mj, Twist& vi, Twist& vj)
+{
+	const double n = projectNormal(y.n - inverse.n * (relativeVelocity(c, vi, vj).n + c.biasN), c.adhesion);
+	applyImpulse(c, { n - y.n, 0, 0 }, mi, mj, vi, vj);
+	const double t = projectThreshold(y.t - inverse.t * (relativeVelocity(c, vi, vj).t + c.biasT), slidingThreshold(c, n));
+	applyImpulse(c, { 0, t - y.t, 0 }, mi, mj, vi, vj);
+	const double r = projectThreshold(y.r - inverse.r * (relativeVelocity(c, vi, vj).r + c.biasR), rollingThreshold(c, n));
+	applyImpulse(c, { 0, 0, r - y.r }, mi, mj, vi, vj);
+	return { n, t, r };
+}
+
 /// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s].
 /// `u`: relative velocity without bias; `inverse`: inverseDelassus of the contact.
 inline Impulse naturalMapDefect(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)

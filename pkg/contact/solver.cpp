@@ -28,6 +28,8 @@ namespace {
 		void  sweepRow(std::size_t row, double beta);
 		void  measure();
 		void  measureRows(std::size_t strip, ResidualSums& sums) const;
+		void  measureChanges();
+		bool  solved(double slack) const;
 		void  finish();
 		Twist twist(std::int32_t body) const { return { bodies[body].v[0], bodies[body].v[1], bodies[body].v[2] }; }
 		void  setTwist(std::int32_t body, const Twist& v);
@@ -43,6 +45,8 @@ namespace {
 		std::vector<Motion>&      bodiesBefore;
 		std::vector<ResidualSums> sums;                 // one a strip
 		Residual                  residual;
+		std::vector<ChangeSums>   changeSums; // one a strip
+		VelocityChanges           changes;
 		SolverStatistics          statistics;
 	};
 
@@ -58,6 +62,7 @@ namespace {
 		layOut(problem, threads, laidOut);
 		rows.resize(laidOut.others.size());
 		sums.resize(laidOut.stripCount());
+		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.stripCount());
 		bodies.resize(problem.bodyCount() + 1);
 		bodiesBefore.resize(problem.bodyCount() + 1);
 		for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -131,16 +136,10 @@ namespace {
 		const Impulse      y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
 				  row.p.r + beta * (row.p.r - row.before.r) };
 		Twist              vi = twist(c.i), vj = twist(c.j);
-		const double       n = projectNormal(y.n - row.inverse.n * (relativeVelocity(c, vi, vj).n + c.biasN), c.adhesion);
-		applyImpulse(c, { n - y.n, 0, 0 }, mi, mj, vi, vj);
-		const double t = projectThreshold(y.t - row.inverse.t * (relativeVelocity(c, vi, vj).t + c.biasT), slidingThreshold(c, n));
-		applyImpulse(c, { 0, t - y.t, 0 }, mi, mj, vi, vj);
-		const double r = projectThreshold(y.r - row.inverse.r * (relativeVelocity(c, vi, vj).r + c.biasR), rollingThreshold(c, n));
-		applyImpulse(c, { 0, 0, r - y.r }, mi, mj, vi, vj);
+		row.before = row.p;
+		row.p      = visit(c, y, row.inverse, mi, mj, vi, vj);
 		setTwist(c.i, vi);
 		setTwist(c.j, vj);
-		row.before = row.p;
-		row.p      = { n, t, r };
 	}
 
 	void Sweeper::sweep(double beta)
@@ -185,6 +184,41 @@ namespace {
 			const double n = std::max<std::size_t>(problem.contactCount(), 1);
 			residual       = { std::sqrt(all.square / n), std::sqrt(all.largest), std::sqrt(all.scale / n) };
 		}
+		if (settings.stopping != StoppingTest::NaturalMap) measureChanges();
+	}
+
+	/// The figures of LMGC90's tests with the present velocities, summed strip by strip.
+	void Sweeper::measureChanges()
+	{
+		const long count = static_cast<long>(changeSums.size());
+#pragma omp for schedule(static)
+		for (long s = 0; s < count; ++s) {
+			changeSums[s]  = {};
+			const auto add = [this, s](std::int32_t index, const Impulse& p) {
+				const Contact& c = problem.contacts[index];
+				changeSums[s].add(c, p, problem.inverseMass[c.i], problem.inverseMass[c.j], twist(c.i), twist(c.j));
+			};
+			for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
+				const Block& k = laidOut.blocks[b];
+				for (std::size_t l = 0; l < lanes; ++l)
+					if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) add(index, { k.n[l], k.t[l], k.r[l] });
+			}
+			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+				add(laidOut.others[k], rows[k].p);
+		}
+#pragma omp single
+		{
+			ChangeSums all;
+			for (const ChangeSums& s : changeSums)
+				all.add(s);
+			changes = all.changes();
+		}
+	}
+
+	bool Sweeper::solved(double slack) const
+	{
+		const double figure = settings.stopping == StoppingTest::NaturalMap ? residual.relative() : changes.figure(settings.stopping);
+		return figure <= settings.tolerance * slack;
 	}
 
 	/// Sweeps until the residual holds; every thread runs through it with its own copies of the scalars.
@@ -199,7 +233,7 @@ namespace {
 			bodiesBefore[b] = bodies[b];
 		measure();
 		double last = residual.rms, beforeLast = residual.rms;
-		while (residual.relative() > settings.tolerance && iteration < settings.maxIterations) {
+		while (!solved(1) && iteration < settings.maxIterations) {
 			if (accelerated) extrapolateVelocities(beta);
 			sweep(beta);
 			++iteration;
@@ -259,7 +293,8 @@ namespace {
 			finish();
 		}
 		statistics.residual  = residual;
-		statistics.converged = residual.relative() <= settings.tolerance * (1 + 1e-6);
+		statistics.changes   = changes;
+		statistics.converged = solved(1 + 1e-6); // velocities computed anew may round the other way
 		return statistics;
 	}
 

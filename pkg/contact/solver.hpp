@@ -13,6 +13,7 @@
 #include <contact/contact_blocks.hpp>
 #include <contact/problem.hpp>
 #include <contact/residual.hpp>
+#include <contact/stopping.hpp>
 
 namespace nonsmooth::contact {
 
@@ -20,10 +21,11 @@ enum class Method { GaussSeidel, Accelerated };
 
 struct SolverSettings {
 	Method method        = Method::Accelerated;
-	double tolerance     = 1e-4; // on Residual::relative()
+	double tolerance     = 1e-4; // on Residual::relative(), or on the figures of another stopping test
 	int    maxIterations = 1000;
 	int    checkEvery    = 10; // sweeps between two residuals
 	int    threads       = 1;
+	StoppingTest stopping = StoppingTest::NaturalMap;
 	bool   portable      = false; // instructions of every processor only; the bits are the same
 };
 
@@ -32,7 +34,8 @@ struct SolverStatistics {
 	int      restarts   = 0;
 	int      strips     = 0;
 	bool     converged  = true;
-	Residual residual; // of what is returned, from velocities computed anew from the impulses
+	Residual residual; // of what is returned, from velocities computed anew from the impulses; whatever test stopped the solver
+	VelocityChanges changes; // the same, in the figures of LMGC90's tests; only where one of them was asked for
 };
 
 /// Memory that one solve leaves to the next; what it holds does not matter.

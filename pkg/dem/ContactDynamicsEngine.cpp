@@ -70,6 +70,11 @@ void ContactDynamicsEngine::validate() const
 	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
 	if (!(relaxationRate >= 0 && relaxationRate <= 1)) fail("relaxationRate = " + boost::lexical_cast<string>(relaxationRate) + ": it must be from 0 to 1");
 	if (method != "accelerated" && method != "gaussSeidel") fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
+	try {
+		contact::stoppingTestOf(stoppingTest.c_str());
+	} catch (const std::invalid_argument& error) {
+		fail(string("stoppingTest = ") + error.what());
+	}
 }
 
 contact::SolverSettings ContactDynamicsEngine::settings() const
@@ -80,6 +85,7 @@ contact::SolverSettings ContactDynamicsEngine::settings() const
 	s.maxIterations = maxIterations;
 	s.checkEvery    = checkEvery;
 	s.threads       = threadCount();
+	s.stopping      = contact::stoppingTestOf(stoppingTest.c_str());
 	return s;
 }
 
@@ -150,10 +156,14 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics)
 	Real decade = 1;
 	while (decade < unconverged)
 		decade *= 10;
-	if (decade == unconverged)
+	if (decade == unconverged) {
+		const auto test   = contact::stoppingTestOf(stoppingTest.c_str());
+		const bool ours   = test == contact::StoppingTest::NaturalMap;
+		const Real figure = ours ? residual : statistics.changes.figure(test);
 		LOG_WARN(
-		        "step " << scene->iter << " was not solved: residual " << residual << " after " << iterations << " sweeps, wanted " << tolerance
-		                << " (" << unconverged << " such steps so far). Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
+		        "step " << scene->iter << " was not solved: " << (ours ? "residual" : stoppingTest) << " " << figure << " after " << iterations
+		                << " sweeps, wanted " << tolerance << " (" << unconverged << " such steps so far). Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
+	}
 }
 
 int ContactDynamicsEngine::bond()

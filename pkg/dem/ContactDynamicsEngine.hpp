@@ -42,9 +42,10 @@ Bodies need blockedDOFs='zXY' and a disk's mass and inertia (:yref:`yade.nonsmoo
 velocity drives them.
 
 The solve ends when the natural-map residual (rms over contacts, relative to the rms reaction, from velocities computed anew) is below
-:yref:`tolerance<ContactDynamicsEngine.tolerance>`. Energies dissipated go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding
+:yref:`tolerance<ContactDynamicsEngine.tolerance>`, unless :yref:`stoppingTest<ContactDynamicsEngine.stoppingTest>` names another test. Energies dissipated go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding
 and contactImpact. The same scene gives the same bits on any number of threads.)""",
-		((Real,tolerance,1e-4,,"Residual below which a step is solved [-]."))
+		((Real,tolerance,1e-4,,"Residual below which a step is solved [-], or the figures of another stoppingTest."))
+		((string,stoppingTest,"naturalMap",,"What tolerance is compared with: 'naturalMap' (the residual), or one of LMGC90's tests of the change of relative velocity that one more visit of a contact would make: 'Quad' (rms over active contacts), 'Maxm' (largest) or 'QM/16' (rms, and largest below 16.666 tolerances). The residual is measured and reported in any case."))
 		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning."))
 		((string,method,"accelerated",,"'accelerated' (Gauss-Seidel inside Nesterov's extrapolation) or 'gaussSeidel' (plain)."))
 		((int,checkEvery,10,,"Sweeps between two residuals."))

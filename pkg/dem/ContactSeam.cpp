@@ -252,7 +252,7 @@ void ContactSeam::gatherContact(Scene& scene, size_t k)
 
 	const Real closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
 	link.solved = phys.bonded || link.broken != NscdPhys::None || gap + 1.2 * h * closing <= relaxation.openGap * phys.length;
-	if (!link.solved && phys.normal + phys.adhesion != 0) {
+	if (!link.solved && phys.normal != 0) {
 		phys.normal = phys.tangential = phys.torque = 0;
 		phys.normalForce = phys.shearForce = Vector3r::Zero();
 	}

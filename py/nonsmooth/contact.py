@@ -18,7 +18,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-__all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "load", "residual", "save", "solve"]
+__all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "VelocityChanges", "load", "residual", "save", "solve", "velocity_changes"]
 
 FORMAT = 1
 
@@ -61,13 +61,28 @@ class Residual:
 
 
 @dataclass(frozen=True)
+class VelocityChanges:
+    """What LMGC90's stopping tests look at, for impulses whoever found them: the changes of relative velocity that one more visit of each contact
+    would make, in five dimensionless figures (``pkg/contact/stopping.hpp``), and what each test compares with its tolerance."""
+
+    velocity: float          # rms change of velocity over rms W P
+    largest_velocity: float  # largest change over the same
+    work: float              # rms of change times reaction, over the mean of P·W P
+    largest_work: float
+    drift: float             # mean of change times reaction, with its sign, over the same
+    quad: float              # figure of the test "Quad"
+    maxm: float              # of "Maxm"
+    qm16: float              # of "QM/16"
+
+
+@dataclass(frozen=True)
 class Solution:
     impulse: np.ndarray   # (c, 3)
     velocity: np.ndarray  # (b, 3)
     iterations: int
     restarts: int
     converged: bool
-    relative: float       # the solver's own last residual
+    relative: float       # residual (natural map) of what is returned, whatever test stopped the solver
 
 
 _BODIES = {"inverse_mass": 3, "free_velocity": 3, "velocity": 3}
@@ -132,10 +147,12 @@ def _arrays(problem, impulse):
     return {**{name: getattr(problem, name) for name in fields}, "impulse": impulse}
 
 
-def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_iterations=1000, check_every=10, threads=1, start="warm") -> Solution:
+def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_iterations=1000, check_every=10, threads=1, start="warm",
+          stopping="naturalMap") -> Solution:
     """Solves the problem with the project's solver.
 
     ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses of shape (c, 3).
+    ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's tests, "Quad", "Maxm", "QM/16".
     Raises ValueError for settings without sense.
     """
     import _nonsmooth_contact
@@ -144,7 +161,7 @@ def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_ite
         if start not in ("warm", "cold"):
             raise ProblemError(f"start = {start!r}: it must be 'warm', 'cold' or an array of impulses")
         start = problem.warm_start if start == "warm" else np.zeros_like(problem.warm_start)
-    found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, tolerance, max_iterations, check_every, threads)
+    found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, tolerance, max_iterations, check_every, threads, stopping)
     return Solution(**{name: found[name] for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative")})
 
 
@@ -155,3 +172,10 @@ def residual(problem: ContactProblem, impulse=None) -> Residual:
     r = _nonsmooth_contact.residual(_arrays(check(problem), problem.impulse if impulse is None else impulse))
     h = problem.time_step
     return Residual(r["relative"], r["rms"] / h, r["largest"] / h, r["speed_rms"], r["speed_largest"], r["defect"])
+
+
+def velocity_changes(problem: ContactProblem, impulse=None) -> VelocityChanges:
+    """Figures of LMGC90's stopping tests for impulses of shape (c, 3) (default: those in the problem), from velocities computed anew."""
+    import _nonsmooth_contact
+
+    return VelocityChanges(**_nonsmooth_contact.velocity_changes(_arrays(check(problem), problem.impulse if impulse is None else impulse)))

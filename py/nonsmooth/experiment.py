@@ -6,7 +6,9 @@ Everything that decides the course stands in :class:`State`, which goes into che
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
 * t0: the dry rest ends, the water begins to rise;
 * moving: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
-  is from here on, and the solver's tolerance is ``tolerance_moving`` until the avalanche is at rest;
+  is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
+  it falls with the speed, down to ``tolerance``. A slope that comes to rest again without having got going does not count as moving: the
+  table then goes on rising;
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
 
@@ -35,6 +37,9 @@ ROW_SECONDS = 0.1        # between two rows of series.csv
 FRAME_SECONDS = 0.5      # between two snapshots, for the video and the figures
 CHECKPOINT_SECONDS = 90  # of wall time
 MOVING_SPEED = 0.2       # m/s, see above
+STOPPED_SPEED = 0.02     # m/s: at rest again ...
+GOING_SPEED = 2.0        # m/s: ... without a mean speed that was ever as large
+SLOW_FRACTION = 0.1      # of the largest mean speed, see above
 
 COLUMNS = tuple(records.COLUMNS)
 
@@ -52,6 +57,7 @@ class State:
     t0: float | None = None
     moving: float | None = None
     water_hold: float | None = None
+    water_delay: float = 0.0  # how long the table stood still while the slope moved and came to rest again
     front0: float | None = None
     speed_max: float = 0.0
     resting_since: float | None = None
@@ -154,15 +160,19 @@ class Experiment:
         s.front0 = front_of(disks["x"], disks["r"])
         self.snapshot(self.folder / "t0.npz", contacts=True)
         if self.slope.water:
-            w = self.section.water
-            times, heights = (list(map(float, v)) for v in zip(*w.table))
-            if w.rate:
-                span = self.section.stages.end.time
-                times.append(times[-1] + span)
-                heights.append(heights[-1] + w.rate * span)
-            self.slope.water.times = [s.t0 + t for t in times]
-            self.slope.water.heights = heights
+            self._raise_water()
         self.checkpoint()
+
+    def _raise_water(self):
+        """Gives the water engine the section's table, from t0 and the delay on."""
+        s, w = self.state, self.section.water
+        times, heights = (list(map(float, v)) for v in zip(*w.table))
+        if w.rate:
+            span = self.section.stages.end.time
+            times.append(times[-1] + span)
+            heights.append(heights[-1] + w.rate * span)
+        self.slope.water.times = [s.t0 + s.water_delay + t for t in times]
+        self.slope.water.heights = heights
 
     def _water(self):
         s, stages, solver, water = self.state, self.section.stages, self.slope.solver, self.slope.water
@@ -170,6 +180,13 @@ class Experiment:
             s.moving = O.time
             if water and stages.water_hold == "motion":
                 self._hold(water.height)
+        elif s.moving is not None and solver.meanSpeed < STOPPED_SPEED and s.speed_max < GOING_SPEED:
+            if water and stages.water_hold == "motion":
+                s.water_delay += O.time - s.moving
+                s.water_hold = None
+                self._raise_water()
+            s.moving = None
+            solver.tolerance = self.section.numerics.tolerance
         if water and s.water_hold is None and not isinstance(stages.water_hold, str) and water.height >= stages.water_hold:
             self._hold(float(stages.water_hold))
         resting = s.moving is not None and solver.meanSpeed < stages.end.rest_fraction * s.speed_max
@@ -178,8 +195,9 @@ class Experiment:
         elif s.resting_since is None:
             s.resting_since = O.time
         numerics = self.section.numerics
-        # the reactions of a mass at rest are found with the same care before and after the motion
-        solver.tolerance = numerics.tolerance_moving if s.moving is not None and not resting else numerics.tolerance
+        if s.moving is not None:  # reactions at rest depend on how the mass came to rest, so more care while it slows down
+            flowing = min(1.0, solver.meanSpeed / (SLOW_FRACTION * s.speed_max))
+            solver.tolerance = max(numerics.tolerance, flowing * numerics.tolerance_moving)
         over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
         if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
             s.stage = "done"
@@ -246,7 +264,8 @@ class Experiment:
             "slip_mean_dp_m": weak.meanSlip() if slip else 0.0, "weakened_disks": weak.weakenedCount() if slip else 0,
             "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
             "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy, "energy_water_J": e.externalWork,
-            "energy_dissipated_J": e.slidingLoss + e.rollingLoss + e.impactLoss, "energy_bonds_J": e.debondingLoss,
+            "energy_walls_J": e.wallWork, "energy_sliding_J": e.slidingLoss, "energy_rolling_J": e.rollingLoss,
+            "energy_impact_J": e.impactLoss, "energy_bonds_J": e.debondingLoss,
             "energy_correction_J": e.correctionEnergy, "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
         }
 

@@ -72,11 +72,18 @@ COLUMNS = {
     "energy_kinetic_J": Column("J/m", "kinetic energy"),
     "energy_potential_J": Column("J/m", "potential energy of gravity"),
     "energy_water_J": Column("J/m", "work done by the pore water"),
-    "energy_dissipated_J": Column("J/m", "energy dissipated by friction, rolling and impacts"),
-    "energy_bonds_J": Column("J/m", "work spent on bonds"),
+    "energy_walls_J": Column("J/m", "work done by walls whose motion is given"),
+    "energy_sliding_J": Column("J/m", "energy dissipated by sliding"),
+    "energy_rolling_J": Column("J/m", "energy dissipated by rolling"),
+    "energy_impact_J": Column("J/m", "energy dissipated by impacts"),
+    "energy_bonds_J": Column("J/m", "energy dissipated by pulling contacts apart against their adhesion"),
     "energy_correction_J": Column("J/m", "energy added by the correction of overlaps"),
     "energy_error_rel": Column("1", "what the energy balance leaves over, relative"),
 }
+
+
+#: The four ways in which contacts dissipate energy.
+LOSSES = ("energy_sliding_J", "energy_rolling_J", "energy_impact_J", "energy_bonds_J")
 
 
 def _encode(name, value):

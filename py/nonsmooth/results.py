@@ -101,9 +101,9 @@ def summarise(folder, section, state, threads=None) -> dict:
         bulking = areas[1] / areas[0]
         moved = math.hypot(series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
                            series["centroid_y_m"][-1] - series["centroid_y_m"][after][0])
-    dissipated = float((series["energy_dissipated_J"] + series["energy_bonds_J"])[-1])
+    losses = sum(series[name] for name in records.LOSSES)
+    dissipated = float(losses[-1])
     turned = max(dissipated, float(np.max(series["energy_kinetic_J"])))
-    losses = series["energy_dissipated_J"] + series["energy_bonds_J"]
     error = np.abs(series["energy_error_rel"]) * (losses + series["energy_kinetic_J"] + np.abs(series["energy_water_J"]))
     summary = {
         "section": section.name, "finished": finished, "disks": int(len(start.x)) if start is not None else None,
@@ -127,7 +127,9 @@ def summarise(folder, section, state, threads=None) -> dict:
         "centroid_travel_m": moved, "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
         "deposit_thickness_max_m": thickness, "bulking_factor": bulking,
-        "energy_dissipated_J_per_m": dissipated, "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,
+        "energy_dissipated_J_per_m": dissipated,
+        "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES},
+        "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,
         "energy_error_rel": float(np.max(error)) / turned if turned > 0 else 0.0,
     }
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))

@@ -198,7 +198,7 @@ class Stages:
 
 @dataclass(frozen=True)
 class Numerics:
-    """`time_step` [s], relative `tolerance`, and `tolerance_moving` once the slope has failed, `max_iterations` a step, `verlet_distance` in smallest radii."""
+    """`time_step` [s], relative `tolerance`, and `tolerance_moving` while the slope moves, `max_iterations` a step, `verlet_distance` in smallest radii."""
 
     time_step: float
     tolerance: float

@@ -17,6 +17,8 @@ __all__ = ["Slope", "build", "find"]
 
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
+# Contacts are known early enough for disks that approach each other at this speed [m/s]; the fastest of the paper's slope reach 50 m/s.
+FASTEST_APPROACH = 60.0
 
 
 @dataclass
@@ -114,9 +116,8 @@ def build(section, packing) -> Slope:
             label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*section.normal, 0),
             gradient=Vector3(*w.gradient, 0), releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
     n = section.numerics
-    # bonds are made where contacts are known, so these must reach further than Δ; the rest is for fast disks: 0.2 of 1 m in a step
-    # of 5 ms is an approach at 40 m/s
-    reach = max(0.2, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
+    # bonds are made where contacts are known, so these must reach further than Δ; and a disk must be known a step before it hits another
+    reach = max(FASTEST_APPROACH * n.time_step / section.disks.d_min, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
     O.engines = scene.engines(
         gravity=(0, -section.gravity, 0), reach=reach, verlet=-n.verlet_distance, before=before, tolerance=n.tolerance, maxIterations=n.max_iterations)
     O.dt = n.time_step

@@ -14,7 +14,7 @@ constexpr double width = 409.59035;
 
 std::vector<Disk> readPacking()
 {
-	const auto   path = std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / "lmgc90_5000_xyr.txt.gz";
+	const auto   path = std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / "lmgc90_5000_disks.txt.gz";
 	const gzFile file = gzopen(path.string().c_str(), "rb");
 	if (!file) throw std::runtime_error("cannot be read: " + path.string());
 	std::string text;

@@ -160,6 +160,7 @@ def series(columns, rows=4000, seed=2):
     speed = 45 * np.sin(np.pi * np.sqrt(run)) * (run < 1) + 12 * drop * (run < 0.3) * (1 - run / 0.3)
     potential = 1.7e8 * 9.81 * (350 - 250 * run**1.3)
     kinetic = 0.6 * (potential[0] - potential) * (1 - run)
+    lost = potential[0] - potential - kinetic + 3e9 * drop
     fill = {
         "step": np.arange(rows) * 5, "time_s": t, "water_m": h, "dp_normal_total_N_per_m": total,
         "dp_normal_effective_N_per_m": effective, "dp_water_N_per_m": pore, "dp_shear_N_per_m": shear,
@@ -168,7 +169,7 @@ def series(columns, rows=4000, seed=2):
         "tolerance": np.full(rows, 1e-5),
         "overlap_worst_rel": 0.004 + 0.006 * active * rng.random(rows), "overlap_mean_rel": 1e-4 + 2e-4 * active * rng.random(rows),
         "energy_kinetic_J": kinetic, "energy_potential_J": potential, "energy_water_J": 3e9 * drop,
-        "energy_dissipated_J": potential[0] - potential - kinetic + 3e9 * drop, "energy_bonds_J": 5e8 * drop,
+        "energy_sliding_J": 0.5 * lost, "energy_rolling_J": 0.1 * lost, "energy_impact_J": 0.4 * lost, "energy_bonds_J": 5e8 * drop,
         "energy_correction_J": 1e8 * run, "energy_error_rel": 0.004 * run + 0.001 * rng.random(rows),
     }  # fmt: skip
     return {name: fill.get(name, np.zeros(rows)) for name in columns}

@@ -22,16 +22,18 @@ def _row(fig, rows, titles, time, times):
 def energy(series, path, times=None, pdf=False, limit=0.02):
     """Where the energy goes, against time, and what the balance leaves over.
 
-    ``series``: dict of columns. Above: changes since the first row of kinetic, potential, water, dissipated, bond and
-    correction energy per metre of width; below: the relative error of the balance in per cent with ``limit`` as a
+    ``series``: dict of columns. Above: changes since the first row of kinetic and potential energy, work of the water,
+    losses and correction energy per metre of width; below: the relative error of the balance in per cent with ``limit`` as a
     dashed line. ``times``: t0 to t5 to mark. Returns ``path``.
     """
     lines = (
         ("energy_potential_J", "potential", "blue", "-"),
-        ("energy_dissipated_J", "dissipated", "orange", "-"),
+        ("energy_sliding_J", "lost by sliding", "orange", "-"),
+        ("energy_rolling_J", "lost by rolling", "orange", (0, (5, 1.5))),
+        ("energy_impact_J", "lost in impacts", "orange", (0, (1, 1))),
         ("energy_kinetic_J", "kinetic", "green", "-"),
         ("energy_water_J", "work of pore water", "sky", (0, (4, 1.5))),
-        ("energy_bonds_J", "bonds", "purple", (0, (1, 1))),
+        ("energy_bonds_J", "lost on bonds", "purple", (0, (1, 1))),
         ("energy_correction_J", "overlap correction", "grey", (0, (3, 1, 1, 1))),
     )
     time, error, *values = style.need(series, "time_s", "energy_error_rel", *(name for name, *_ in lines))

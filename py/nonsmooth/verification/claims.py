@@ -29,7 +29,7 @@ class Claim:
 
     @property
     def passed(self) -> bool:
-        return math.isfinite(self.measured) and self.low <= self.measured <= self.high
+        return bool(math.isfinite(self.measured) and self.low <= self.measured <= self.high)  # bounds may be NumPy's
 
 
 def near(what, measured, expected, *, absolute=0.0, relative=0.0, **more) -> Claim:
@@ -53,7 +53,7 @@ def at_least(what, measured, limit, **more) -> Claim:
 
 @dataclass
 class Outcome:
-    """What a check found. ``plots``: (matplotlib Figure, caption); ``tables``: (caption, heads, rows of text); ``remarks``: sentences."""
+    """What a check found. ``plots``: (matplotlib Figure or path of a PNG in the bench's folder, caption); ``tables``: (caption, heads, rows of text); ``remarks``: sentences."""
 
     claims: list[Claim] = field(default_factory=list)
     plots: list = field(default_factory=list)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+import inspect
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable
@@ -47,7 +47,7 @@ def check(title, *, subject, seconds=1.0, quick=True):
             raise ValueError(f"there are two checks named {name}")
         if not function.__doc__:
             raise ValueError(f"the check {name} has no docstring, which the report prints as its derivation")
-        derivation = re.sub(r"\n[ ]+", "\n", function.__doc__.strip())
+        derivation = inspect.cleandoc(function.__doc__)
         _checks[name] = Check(name, title, subject, derivation, seconds, seconds if quick is True else quick, function)
         return function
 

@@ -65,8 +65,10 @@ def _run(check, bench):
         _clear_scene()
     plots = []
     for number, (figure, caption) in enumerate(outcome.plots):
-        path = bench.folder / f"plot-{number}.png"
-        figure.savefig(path, dpi=130, bbox_inches="tight")
+        path = figure
+        if not isinstance(figure, Path):
+            path = bench.folder / f"plot-{number}.png"
+            figure.savefig(path, dpi=130, bbox_inches="tight")
         plots.append((str(path.relative_to(bench.folder.parent.parent)), caption))
     return Result(check, outcome.claims, plots, outcome.tables, outcome.remarks, time.monotonic() - began, error)
 

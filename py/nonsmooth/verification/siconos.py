@@ -85,11 +85,11 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
 # ---- steps of packings ---------------------------------------------------------------------------
 @check("A packing of 5,000 disks at rest, solved by Siconos too", subject=SUBJECT, seconds=150, quick=None)
 def siconos_packing(bench):
-    """A step of the packing that LMGC90 made (``tests/data``), with friction, from a cold start: all weight has yet to find its way to the floor. The packing is hyperstatic, so
-    forces are not unique. Velocities are, but for disks that friction lets wedge or fall: both are solutions of Coulomb's law. A disk counts as one of
+    """The packing that LMGC90 made (``tests/data``), at rest, with friction, from a cold start: all weight has yet to find its way to the floor. The
+    packing is hyperstatic, so forces are not unique. Velocities are, but for disks that friction lets wedge or fall: both are solutions of Coulomb's law. A disk counts as one of
     those if the two solutions move it by more than a tenth of what a free disk gains in the step, although both leave far less over.
     """
-    x, y, r = np.loadtxt(_data("lmgc90_5000_xyr.txt.gz")).T
+    x, y, r = np.loadtxt(_data("lmgc90_5000_disks.txt.gz"), usecols=(0, 1, 2)).T
     width = 409.59035
     walls = [(0, 0, 0, 1), (0, 0, 1, 0), (width, 0, -1, 0)]
     # what overlaps LMGC90 left would lift the packing if they were taken back

@@ -1,0 +1,181 @@
+"""The quick checks of single contacts, bonds and impacts, and the framework that runs checks."""
+import json
+import math
+import os
+import subprocess
+
+import docutils.core
+import pytest
+from matplotlib.figure import Figure
+from yade import O
+from yade.nonsmooth import verification
+from yade.nonsmooth.verification import Outcome, at_least, at_most, between, near, registry, report, runner
+
+from contact_scenes import material
+
+OURS = ("contacts", "bonds", "impacts")
+
+
+def module_of(check):
+    return check.run.__module__.rsplit(".", 1)[-1]
+
+
+ALL = {c.name: c for c in verification.load_checks()}
+QUICK = [c.name for c in ALL.values() if module_of(c) in OURS and c.quick_seconds is not None]
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.reset()
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_quick_check_holds(name, tmp_path):
+    result, = runner.run_checks([ALL[name]], tmp_path, quick=True)
+    assert not result.error, (tmp_path / "checks" / name / "error.txt").read_text()
+    failed = [f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}" for c in result.claims if not c.passed]
+    assert result.claims and not failed, "\n".join(failed)
+
+
+@pytest.mark.parametrize("name", [c.name for c in ALL.values() if module_of(c) in OURS])
+def test_derivation_is_sound_markup(name):
+    docutils.core.publish_parts(ALL[name].derivation, writer_name="html5", settings_overrides={"halt_level": 2, "report_level": 2})
+
+
+# ---- claims ---------------------------------------------------------------------------------------
+
+def test_claims_are_two_sided_and_say_why():
+    assert near("x", 1.05, 1, absolute=0.05 + 1e-12, why="w").passed
+    assert near("x", -1.01, -1, relative=0.02, why="w").passed  # relative to the magnitude
+    assert not near("x", 1.03, 1, relative=0.02, why="w").passed and not near("x", 0.97, 1, relative=0.02, why="w").passed
+    assert between("x", 2, 2, 3, why="w").passed and not between("x", 3.1, 2, 3, why="w").passed
+    assert at_most("x", 0, 1, why="w").passed and not at_most("x", -1e-9, 1, why="w").passed  # an error cannot be negative
+    assert at_least("x", 1e300, 1, why="w").passed and not at_least("x", 0.5, 1, why="w").passed
+    with pytest.raises(ValueError, match="does not say why"):
+        near("x", 1, 1)
+    with pytest.raises(ValueError, match="allows nothing"):
+        between("x", 1, 3, 2, why="w")
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_what_is_not_a_number_never_passes(value):
+    assert not at_least("x", value, -math.inf, why="w").passed
+
+
+def test_an_outcome_without_claims_does_not_pass():
+    assert not Outcome().passed
+    good, bad = near("x", 1, 1, why="w"), near("x", 2, 1, why="w")
+    assert Outcome([good]).passed and not Outcome([good, bad]).passed
+
+
+# ---- registry and runner --------------------------------------------------------------------------
+
+def made(run, name="made"):
+    return registry.Check(name, "Made by a test", "Tests", "Nothing to derive.", 1.0, 1.0, run)
+
+
+@pytest.fixture
+def no_checks(monkeypatch):
+    monkeypatch.setattr(registry, "_checks", {})
+
+
+def test_a_check_has_a_docstring_and_a_name_of_its_own(no_checks):
+    def undocumented(bench):
+        return Outcome()
+
+    def one_check(bench):
+        """Something."""
+
+    with pytest.raises(ValueError, match="no docstring"):
+        registry.check("t", subject="s")(undocumented)
+    registry.check("t", subject="s", seconds=7, quick=None)(one_check)
+    with pytest.raises(ValueError, match="two checks named one-check"):
+        registry.check("t", subject="s")(one_check)
+    assert [(c.name, c.seconds, c.quick_seconds) for c in registry.registered()] == [("one-check", 7, None)]
+
+
+def test_an_error_is_kept_and_the_next_check_runs(tmp_path):
+    def stops(bench):
+        material(0.3)
+        raise RuntimeError("the disk is square")
+
+    def empty_scene(bench):
+        return Outcome([near("materials in a fresh scene", len(O.materials), 0, why="a count")])
+
+    first, second = runner.run_checks([made(stops, "stops"), made(empty_scene, "empty")], tmp_path)
+    assert not first.passed and first.error == "RuntimeError: the disk is square"
+    assert "Traceback" in (tmp_path / "checks" / "stops" / "error.txt").read_text()
+    assert second.passed
+
+
+def test_resume_takes_over_what_has_finished(tmp_path):
+    calls = []
+
+    def counted(bench):
+        calls.append(bench.quick)
+        figure = Figure()
+        figure.add_subplot().plot([0, 1])
+        return Outcome([near("x", 1, 1, why="w"), at_least("y", math.nan, 0, why="w")], plots=[(figure, "a line")],
+                       tables=[("t", ["a"], [["1"]])], remarks=["r"])
+
+    def failing(bench):
+        calls.append("failing")
+        raise ValueError("no")
+
+    checks = [made(counted, "counted"), made(failing, "failing")]
+    first = list(runner.run_checks(checks, tmp_path))
+    again = list(runner.run_checks(checks, tmp_path, resume=True))
+    assert calls == [False, "failing", "failing"]  # an error is tried again
+    assert again[0].claims[0] == first[0].claims[0] and math.isnan(again[0].claims[1].measured) and again[0].claims[1].high == math.inf
+    assert (again[0].plots, again[0].remarks, again[0].wall_s) == (first[0].plots, first[0].remarks, first[0].wall_s)
+    assert [c.passed for c in again[0].claims] == [True, False]
+    list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
+    assert calls[-1] is True  # a quick run is not a full one
+    (tmp_path / "checks" / "counted" / "result.json").write_text("{")
+    list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
+    assert len(calls) == 5  # what cannot be read is run
+    assert json.loads((tmp_path / "checks" / "counted" / "result.json").read_text())["claims"][0]["passed"] is True
+
+
+def test_report_shows_claims_plots_and_errors(tmp_path):
+    def good(bench):
+        figure = Figure()
+        figure.add_subplot().plot([0, 1])
+        return Outcome([near("speed < light", 1, 1, unit="m/s", why="w")], plots=[(figure, "a line")], tables=[("a table", ["head"], [["cell"]])],
+                       remarks=["a remark"])
+
+    def off(bench):
+        return Outcome([at_most("error", 2, 1, why="w")])
+
+    def stops(bench):
+        raise RuntimeError("the disk is square")
+
+    results = list(runner.run_checks([made(good, "good"), made(off, "off"), made(stops, "stops")], tmp_path))
+    page = report.write_report(tmp_path / "report.html", results, quick=True, versions={"YADE": "1"}).read_text()
+    for text in ("speed &lt; light", "data:image/png;base64,", "a table", "cell", "a remark", "FAIL", "the disk is square", "quick subset",
+                 "2 of 2 claims do not hold", "Nothing to derive", "YADE 1"):
+        assert text in page, text
+
+
+# ---- the command ----------------------------------------------------------------------------------
+
+def verify(*arguments):
+    root = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
+    environment = {**os.environ, "NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"]), "OMP_WAIT_POLICY": "passive"}
+    return subprocess.run([os.path.join(root, "scripts", "yade-nonsmooth"), os.path.join(root, "scripts", "verify.py"), *arguments],
+                          env=environment, text=True, capture_output=True, timeout=300)
+
+
+def test_command_refuses_an_unknown_check(tmp_path):
+    ended = verify("--out", str(tmp_path / "out"), "--only", "perpetual-motion")
+    assert ended.returncode != 0 and "perpetual-motion" in ended.stderr and "--list" in ended.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_command_runs_a_check_and_writes_the_report(tmp_path):
+    ended = verify("--out", str(tmp_path / "out"), "--quick", "--only", "restitution-head-on", "--threads", "1")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "1 of 1 checks hold" in ended.stdout
+    assert "Restitution head-on" in (tmp_path / "out" / "report.html").read_text()
