@@ -1,11 +1,13 @@
 """Siconos solves the same contact problems (tests/oracle); skipped where it is not installed."""
 
 import subprocess
+from dataclasses import replace
 
+import docutils.core
 import numpy as np
 import pytest
-from yade.nonsmooth import contact
-from yade.nonsmooth.verification import Bench, siconos, siconos_solve
+from yade.nonsmooth import contact, verification
+from yade.nonsmooth.verification import Bench, disk_problems, siconos, siconos_solve
 
 try:
     PROGRAM = siconos_solve.program()
@@ -54,6 +56,19 @@ def test_no_contacts(tmp_path):
 def test_random_problems_agree(tmp_path, check):
     outcome = check(Bench(tmp_path))
     assert outcome.passed, "\n".join(f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed)
+
+
+@pytest.mark.parametrize("what", ["friction", "rolling_arm", "adhesion", "bias", "lever"])
+def test_a_law_that_is_off_by_a_thousandth_would_show(tmp_path, what):
+    problem = disk_problems.random_cluster(15, 18, rolling=True, cohesion=True)
+    wrong = replace(problem, **{what: 1.001 * getattr(problem, what)})
+    theirs, ours = siconos_solve.solve_with_siconos(problem, tmp_path, 1e-10, 100000), siconos_solve.solve_with_ours(wrong, 1e-10, 100000)
+    assert np.abs(theirs.velocity - ours.velocity).max() > 100 * 1e-7  # the limit of the checks
+
+
+@pytest.mark.parametrize("check", [c for c in verification.load_checks() if c.run.__module__ == siconos.__name__], ids=lambda c: c.name)
+def test_derivation_is_sound_markup(check):
+    docutils.core.publish_parts(check.derivation, writer_name="html5", settings_overrides={"halt_level": 2, "report_level": 2})
 
 
 @pytest.mark.parametrize("arguments, said", [
