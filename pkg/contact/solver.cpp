@@ -9,6 +9,50 @@
 namespace nonsmooth::contact {
 namespace {
 
+	/// Whether the extrapolation should begin anew, asked at every look at the residual.
+	class RestartRule {
+	public:
+		RestartRule(double residual, int sweepsPerLook)
+		        : last(residual)
+		        , beforeLast(residual)
+		        , least(residual)
+		        , mostPatience(std::max(1, 40 / sweepsPerLook))
+		{
+		}
+
+		bool asks(double residual)
+		{
+			least = std::min(least, residual);
+			if (residual > 2 * least) { // it runs away
+				patience = std::max(1, patience / 2);
+				begin(residual);
+				return true;
+			}
+			if (++looks < patience) return false;
+			const bool grown = residual > beforeLast;
+			if (grown) {
+				patience = std::min(2 * patience, mostPatience);
+				begin(residual);
+			} else {
+				beforeLast = last;
+				last       = residual;
+				looks      = 0;
+			}
+			return grown;
+		}
+
+	private:
+		void begin(double residual)
+		{
+			last = beforeLast = least = residual;
+			looks                     = 0;
+		}
+
+		double last, beforeLast; // at the last two comparisons
+		double least;            // since the last restart
+		int    looks = 0, patience = 1, mostPatience; // looks since and between comparisons
+	};
+
 	/// A contact outside the blocks, swept row by row.
 	struct Row {
 		Impulse p, before; // P_k, P_{k−1}
@@ -232,7 +276,7 @@ namespace {
 		for (long b = 0; b < count; ++b)
 			bodiesBefore[b] = bodies[b];
 		measure();
-		double last = residual.rms, beforeLast = residual.rms;
+		RestartRule rule(residual.rms, settings.checkEvery);
 		while (!solved(1) && iteration < settings.maxIterations) {
 			if (accelerated) extrapolateVelocities(beta);
 			sweep(beta);
@@ -240,9 +284,7 @@ namespace {
 			bool restart = false;
 			if (iteration % settings.checkEvery == 0 || iteration == settings.maxIterations) {
 				measure();
-				restart    = residual.rms > beforeLast;
-				beforeLast = restart ? residual.rms : last;
-				last       = residual.rms;
+				restart = rule.asks(residual.rms);
 			}
 			if (!accelerated) continue;
 			if (restart) {

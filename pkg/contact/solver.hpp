@@ -4,10 +4,12 @@
 // up to date (Jean 1999). Information crosses about one contact a sweep, so a deep packing needs thousands of plain sweeps.
 // The accelerated method starts every sweep from
 //     y_k = P_k + β_k (P_k − P_{k−1}),   β_k = (θ_k − 1)/θ_{k+1},   θ_{k+1} = (1 + √(1 + 4 θ_k²))/2
-// (Nesterov 1983) and sets θ = 1 again when the residual has grown over the last two measurements (O'Donoghue and Candès 2015, their
-// function scheme; over one measurement it would restart too often where contacts change their status). Contacts lie in blocks of four
-// (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result independent of the number of threads and of the
-// processor; sums are added in a fixed order.
+// (Nesterov 1983) and sets θ = 1 again when the residual has grown over the last two comparisons (O'Donoghue and Candès 2015, their
+// function scheme; over one it would restart too often where contacts change their status). Comparisons are checkEvery sweeps apart at
+// first; every restart doubles that, up to 40, because late in a solve the residual rises and falls over tens of sweeps, and needless
+// restarts cost most there. A residual of twice the smallest one since the last restart restarts at once, and halves the distance.
+// Contacts lie in blocks of four (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result
+// independent of the number of threads and of the processor; sums are added in a fixed order.
 #pragma once
 
 #include <contact/contact_blocks.hpp>

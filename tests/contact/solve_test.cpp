@@ -246,6 +246,29 @@ TEST(Momentum, ConservedWithoutFixedBodies)
 	expectNear(momenta(scene.problem.velocities), momenta(scene.problem.freeVelocity), 1e-13 * scale);
 }
 
+TEST(Driven, HeldDiskFeelsTheFullFriction)
+{
+	// W_tt = W_rr = 0: the disk can only move along the normal, the floor below it is drawn to the right and turned
+	for (const int side : { 1, -1 }) {
+		Problem p;
+		p.inverseMass  = { {}, { 0, 0.5, 0 } };
+		p.freeVelocity = { { 1.0 * side, 0, 2.0 * side }, { 0, -3, 0 } };
+		Contact c;
+		c.i = 0, c.j = 1, c.nx = 0, c.ny = 1, c.leverTj = -1, c.friction = 0.3, c.rollingArm = 0.2, c.length = 2;
+		p.contacts = { c };
+		p.impulses.resize(1);
+		SolverSettings s;
+		s.tolerance = 1e-12;
+		EXPECT_TRUE(solve(p, s).converged);
+		const Impulse found = p.impulses[0];
+		EXPECT_NEAR(found.n, 6, 1e-12); // stops 2 kg at 3 m/s
+		const double slip = relativeVelocity(c, p.velocities[0], p.velocities[1]).t;
+		EXPECT_NEAR(found.t, -std::copysign(0.3 * 6, slip), 1e-12);
+		EXPECT_NEAR(found.r, 0.2 * 6 * side, 1e-12); // the floor's turn takes the disk along
+		EXPECT_LE(naturalMapResidual(p).relative(), 1e-12);
+	}
+}
+
 TEST(Refusal, SizesAndNumbers)
 {
 	const auto refused = [](auto change, const char* word) {

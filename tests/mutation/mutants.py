@@ -61,10 +61,11 @@ inline double       stepBefore = 0;
 
 
 def write_header(pkg: Path):
-    """The switches, included by the header that every source of the law includes."""
+    """The switches, included by the two headers that state the law or its kernels."""
     (pkg / "contact" / "mutant.hpp").write_text(HEADER + SWITCHES)
-    path = pkg / "contact" / "problem.hpp"
-    path.write_text(path.read_text().replace("#pragma once\n", "#pragma once\n#include <contact/mutant.hpp>\n", 1))
+    for name in ("problem.hpp", "block_kernels.hpp"):
+        path = pkg / "contact" / name
+        path.write_text(path.read_text().replace("#pragma once\n", "#pragma once\n#include <contact/mutant.hpp>\n", 1))
 
 
 def apply(pkg: Path):

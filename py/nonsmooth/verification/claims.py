@@ -33,7 +33,7 @@ class Claim:
 
 
 def near(what, measured, expected, *, absolute=0.0, relative=0.0, **more) -> Claim:
-    """``expected`` to within ``absolute`` + ``relative`` · |expected|."""
+    """``expected`` to within ``absolute`` plus ``relative`` times its size."""
     margin = absolute + relative * abs(expected)
     return Claim(what, float(measured), expected - margin, expected + margin, expected=float(expected), **more)
 
