@@ -2,8 +2,10 @@
 
 import math
 
+import numpy as np
 import pytest
 from yade import O
+from yade.nonsmooth import contact
 from yade.nonsmooth.verification import Bench, lmgc90, solver
 
 from contact_scenes import begin, box, engine, loose_heap, material, run
@@ -43,6 +45,18 @@ def test_engine_stops_by_name():
         sweeps[name] = e.totalIterations
     # the same heap, but not the same steps: the stricter test still needs more
     assert sweeps["Quad"] < sweeps["Maxm"]
+
+
+def test_solver_without_yade_stops_by_name_alike(tmp_path):
+    e = heap(stoppingTest="QM/16")
+    e.dump(str(tmp_path / "step.h5"))
+    problem = contact.load(tmp_path / "step.h5")
+    again = contact.solve(problem, tolerance=e.tolerance, max_iterations=e.maxIterations, stopping="QM/16")
+    assert again.iterations == e.iterations and np.array_equal(again.impulse, problem.impulse)
+    assert contact.velocity_changes(problem).qm16 <= e.tolerance * (1 + 1e-6)
+    assert again.relative == pytest.approx(contact.residual(problem).relative, rel=1e-9)  # the independent residual all the same
+    with pytest.raises(ValueError, match="stopping = 'quad': it must be 'naturalMap', 'Quad', 'Maxm' or 'QM/16'"):
+        contact.solve(problem, stopping="quad")
 
 
 def test_unknown_stopping_test_is_refused():

@@ -1,11 +1,11 @@
 """The packing at rest by LMGC90 (``tests/data``): its arrays, the YADE scene of the step that was written out, and sums over contacts.
 
-Signs. LMGC90's contact has n from j to i and t = (n_y, −n_x), and its force acts on i. Ours runs from the lower disk to the higher, from the
-wall to the disk, with t = n turned by +90°. All of LMGC90's pairs have i < j, walls last, so in our frame N = fn, T = −ft, U^n = vn, U^t = −vt.
+Signs. LMGC90's contact has n from j to i and t = (n_y, −n_x), and its force acts on i. Ours runs from the lower disk to the higher, from
+the wall to the disk, with t = n turned by +90°. All of LMGC90's pairs have i < j, walls last, so in our frame N = fn, T = −ft, U^n = vn,
+U^t = −vt.
 
-Times. LMGC90 (θ = 1/2) looks at the contacts where they are in the middle of the step, x + h/2 v, and allows gap + h vn ≥ 0 there. That is our
-step (θ = 1) begun at x + h/2 v, and it stays so from step to step: both move that point by h v⁺.
-"""
+Times. LMGC90 (θ = 1/2) looks at the contacts where they are in the middle of the step, x + h/2 v, and allows gap + h vn ≥ 0 there. That is
+our step (θ = 1) begun at x + h/2 v, and it stays so from step to step: both move that point by h v⁺."""
 
 from __future__ import annotations
 
@@ -75,8 +75,7 @@ def load() -> Dump:
 def build(dump: Dump, **options):
     """The step's beginning as the scene of YADE: disks are ids 0 to 4,999, then floor, left and right side; returns the engine.
 
-    ``options``: attributes of ContactDynamicsEngine. The share of an overlap that a step takes back is 0 unless given, as in LMGC90.
-    """
+    ``options``: attributes of ContactDynamicsEngine. The share of an overlap that a step takes back is 0 unless given, as in LMGC90."""
     stuff = NscdMat(density=DENSITY, frictionAngle=math.atan(MU))
     O.materials.append(stuff)
     O.bodies.append([scene.disk(c, r, stuff) for c, r in zip(dump.middle, dump.r)])
@@ -124,7 +123,9 @@ def pair_keys(pairs) -> np.ndarray:
 
 
 def impulses_of(dump: Dump, problem: contact.ContactProblem):
-    """LMGC90's forces as impulses of our problem, shape (c, 3), and for each of its contacts the index of ours; raises ValueError if one is missing."""
+    """LMGC90's forces as impulses of our problem, shape (c, 3), and for each of its contacts the index of ours.
+
+    Raises ValueError if one is missing."""
     ours, theirs = pair_keys(problem.body), pair_keys(dump.pair)
     order = np.argsort(ours)
     at = order[np.searchsorted(ours, theirs, sorter=order).clip(max=len(ours) - 1)]
