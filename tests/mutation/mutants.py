@@ -32,23 +32,23 @@ MUTANTS = (
             ("contact/block_kernels.inc", "(at.get(k.leverTj) * t + r)", "(at.get(k.leverTj) * t + mutant::sign * r)"),
             ("contact/problem.hpp", "(c.leverNi * p.n + c.leverTi * p.t + p.r)", "(c.leverNi * p.n + c.leverTi * p.t + mutant::sign * p.r)"),
             ("contact/problem.hpp", "(c.leverNj * p.n + c.leverTj * p.t + p.r)", "(c.leverNj * p.n + c.leverTj * p.t + mutant::sign * p.r)")),
-           ()),
+           ("disk-on-an-incline", "spinning-disk", "disk-between-driven-walls", "bond-thresholds", "cantilever", "bridge")),
     Mutant("adhesion", "F_a is missing in the Coulomb threshold",
            (("contact/block_kernels.inc", "clamp<V>(yt - at.get(k.inverseT) * u.t, at.get(k.friction) * pressed)",
              "clamp<V>(yt - at.get(k.inverseT) * u.t, at.get(k.friction) * (mutant::adhesion ? maxOf<V>(V {}, n) : pressed))"),
             ("contact/block_kernels.inc", "maxOf<V>(zero, at.get(k.friction) * pressed)",
              "maxOf<V>(zero, at.get(k.friction) * (mutant::adhesion ? pn : pressed))"),
             ("contact/law.hpp", "c.friction * (c.adhesion + n)", "c.friction * ((mutant::adhesion ? 0 : c.adhesion) + n)")),
-           ()),
+           ("bond-thresholds", "residual-thresholds", "bond-ellipse", "cantilever", "bridge")),
     Mutant("gap", "Signorini's condition does not know the gap: contacts act before they touch",
            (("dem/ContactSeam.cpp", "c.biasN = gap / h;", "c.biasN = nonsmooth::mutant::gap ? 0 : gap / h;"),),
-           ()),
+           ("landing", "restitution-head-on", "cradle")),
     Mutant("warm-start", "the warm start is not rescaled when the time step changes",
            (("dem/ContactSeam.cpp", "problem.impulses[k] = { h * phys.normal, h * phys.tangential, h * phys.torque };",
              "const Real was = nonsmooth::mutant::warmStart ? nonsmooth::mutant::stepBefore : h;\n"
              "\tproblem.impulses[k] = { was * phys.normal, was * phys.tangential, was * phys.torque };"),
             ("dem/ContactSeam.cpp", "\tscatterForces(scene);", "\tscatterForces(scene);\n\tnonsmooth::mutant::stepBefore = h;")),
-           ()),
+           ("changed-time-step",)),
 )
 
 SWITCHES = """inline const double sign      = is("rolling") ? -1 : 1;
