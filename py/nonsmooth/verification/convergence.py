@@ -144,17 +144,31 @@ class Sweep:
         at = list(self.values[self.default].values())
         return float(np.std(at, ddof=1) / np.mean(at)) if len(at) > 1 else math.nan
 
-    def draw(self, ax, scale, color="#0072B2", label=None):
-        """Every seed as a thin line, the mean with its standard error as a thick one; the default as a dashed vertical."""
-        order = sorted(self.values)
-        for seed in sorted({seed for at in self.values.values() for seed in at}):
-            line = [(v, self.values[v][seed] * scale) for v in order if seed in self.values[v]]
-            ax.plot(*zip(*line), color=color, lw=0.7, alpha=0.45)
-        mean = [np.mean(list(self.values[v].values())) * scale for v in order]
-        error = [_error(list(self.values[v].values())) * scale for v in order]
-        ax.errorbar(order, mean, np.nan_to_num(error), fmt="o-", color=color, lw=1.8, ms=4.5, capsize=3, label=label)
+    def draw(self, ax, scale, relative):
+        """Every seed as a thin line, the mean with its standard error as a thick one; the default as a dashed vertical.
+
+        ``relative``: changes from the finest value in per cent instead of the quantity times ``scale``.
+        """
+        order, points = sorted(self.values), {}
+        for v in order:
+            for seed, x in self.values[v].items():
+                points.setdefault(seed, {})[v] = x * scale
+        if relative:
+            points = {seed: {v: 100 * (x / line[self.finest] - 1) for v, x in line.items()} for seed, line in points.items() if self.finest in line}
+        for line in points.values():
+            ax.plot(line.keys(), line.values(), color="#0072B2", lw=0.8, alpha=0.5)
+        columns = [[line[v] for line in points.values() if v in line] for v in order]
+        ax.errorbar(order, [np.mean(c) for c in columns], [np.nan_to_num(_error(c)) for c in columns], fmt="o-", color="#0072B2", lw=1.8, ms=4.5, capsize=3)
         ax.axvline(self.default, color="#777777", lw=1, ls=(0, (4, 3)))
         ax.set(xscale="log", xlabel=f"{self.varied} [{self.unit}]")
+        ax.set_xticks(order, [f"{v:g}" for v in order])
+        ax.minorticks_off()
+        if relative:
+            ax.axhline(0, color="#555555", lw=0.7)
+            reach = max(5, *(1.2 * abs(x) for line in points.values() for x in line.values()))  # %, so that a rounding error does not fill the panel
+            ax.set_ylim(-reach, reach)
+        else:
+            ax.set_ylim(0, 1.2 * max(map(max, columns)))
 
     def rows(self, scale):
         """Rows of text: value, mean, standard error, change from the finest."""
@@ -178,20 +192,19 @@ def _error(values):
 # ---- checks ---------------------------------------------------------------------------------------
 
 @style.styled
-def sheet(bench, name, title, panels):
-    """Panels side by side, (sweep, scale, label of the y axis, bottom or None) each; written into the check's folder as NAME and returned."""
-    figure = style.figure(3.4 * len(panels), 3.4, layout="constrained")
-    for ax, (sweep, scale, label) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels):
-        sweep.draw(ax, scale)
+def sheet(bench, name, title, panels, relative=False):
+    """Panels side by side, (sweep, scale, label of the y axis) each; written into the check's folder as ``name`` and returned."""
+    figure = style.figure(3.2 * len(panels), 3.3, layout="constrained")
+    for ax, (sweep, scale, label) in zip(figure.subplots(1, len(panels), squeeze=False, sharey=relative)[0], panels):
+        sweep.draw(ax, scale, relative)
         ax.set_ylabel(label)
-        ax.set_ylim(0, 1.25 * ax.get_ylim()[1])
         ax.grid(axis="y", color="#e3e3e3", lw=0.7)
     figure.suptitle(title, x=0.01, ha="left", fontsize=10.5)
     style.save(figure, bench.folder / name)
     return figure
 
 
-@check("Strength of a bonded sample against time step and tolerance", subject=SUBJECT, seconds=400, quick=40)
+@check("Strength of a bonded sample against time step and tolerance", subject=SUBJECT, seconds=250, quick=35)
 def strength_convergence(bench):
     """A bond resists with an impulse of up to h F_a a step, so a bad choice of the time step h can lend a sample strength that is not in its
     bonds: Abramian and Staron (2020) show for Contact Dynamics that a larger h raises the effective cohesion. Bonds are also
@@ -200,7 +213,8 @@ def strength_convergence(bench):
     A sample of 30 m by 60 m, about 500 disks of the shipped section's rock, all bonded, is compressed between two platens at 0.05 m/s, and
     pulled at 0.02 m/s between platens that it is glued to. There is no gravity and no lateral pressure. The strength is the largest mean stress over
     half a second, taken as the mean of both platens. Inertia: the ramp of 4 s takes ρ H v̇ below 2 kPa. Changes are taken sample by
-    sample, so that the scatter between samples, which is far larger, drops out.
+    sample, so that the scatter between samples, which is far larger, drops out. What remains is that a sample of rigid disks with friction has several
+    ways to fail at nearly the same load; runs at half the platen's speed show how much that is.
     """
     seeds = (1,) if bench.quick else (1, 2)
     steps, tolerances = (STEPS[2:4], (2e-4, TOLERANCE)) if bench.quick else (STEPS, TOLERANCES)
@@ -213,14 +227,14 @@ def strength_convergence(bench):
     for name, kind in KINDS.items():
         for key, default, fixed in (("time_step", STEP, {"tolerance": TOLERANCE}), ("tolerance", TOLERANCE, {"time_step": STEP})):
             sweep = Sweep.of(cases, found, key, "peak_Pa", default, **kind, **fixed)
-            panels.append((sweep, 1e-3, f"strength in {name} [kPa]"))
+            panels.append((sweep, 1e-3, f"change of strength in {name} [%]"))
             tables.append((f"{name.capitalize()}, mean of {len(seeds)} samples", [f"{sweep.varied} [{sweep.unit}]", "strength [kPa]", "its standard error",
                                                                                    "change from the finest [%]"], list(sweep.rows(1e-3))))
             claims += _strength_claims(name, sweep, PRECISION[name])
-    text = "Strength of bonded samples against the time step and the solver's tolerance; thin: single samples, thick: mean, dashed: the shipped section's value"
+    text = "Change of the strength of bonded samples with the time step and the solver's tolerance; thin: single samples, thick: mean, dashed: the shipped section's value"
     if not bench.quick:
         tables.append(_half_speed(cases, found))
-    return Outcome(claims, plots=[(sheet(bench, "convergence_strength.png", "Strength of a bonded sample", panels), text)], tables=tables)
+    return Outcome(claims, plots=[(sheet(bench, "convergence_strength.png", "Strength of a bonded sample: change from the finest value", panels, relative=True), text)], tables=tables)
 
 
 def _strength_claims(name, sweep, precision):
@@ -249,19 +263,20 @@ def _half_speed(cases, found):
 
 #: What is claimed of the strength: default against finest, one value against the next, and why.
 PRECISION = {
-    "compression": (0.02, 0.05, "the sample fails along one of many paths, and anything that differs can lead to another one: tolerances alone do so by 1 %"),
+    "compression": (0.02, 0.05, "the sample fails along one of several paths, and anything that differs can lead to another one: half the platen's speed by 2 to 4 %"),
     "tension": (0.005, 0.01, "the first crack's load; a bond's yield force does not depend on the step"),
 }
 KINDS = {"compression": dict(pull=0, speed=SPEED, strain=0.002), "tension": dict(pull=1, speed=PULL, strain=0.001)}
 
 
-@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=1500, quick=None)
+@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=1200, quick=None)
 def slope_convergence(bench):
     """The whole experiment of the shipped section, coarse: 1,000 disks instead of 21,000, bonds twice as strong, because layers of one to two disks
-    do not bear the dry slope with those of the paper. Bonding, loading, rise of the water by 1 m/s, failure and avalanche are
-    those of ``scripts/jiufengershan.py``.
+    do not bear the dry slope with those of the paper. (The packing of seed 1 does not bear it with these either, and is left out.) Bonding, loading,
+    rise of the water by 1 m/s, failure and avalanche are those of ``scripts/jiufengershan.py``, but for at most 1,000 sweeps a step instead of 300,
+    so that tight tolerances are reached.
 
-    Two results count. The height of the water at failure comes from the strength of the foot at rest, so it must not depend on the time step or on
+    Two results count. The height of the water when the slope begins to move (mean speed 0.2 m/s) comes from the strength of the foot at rest, so it must not depend on the time step or on
     ``tolerance``. The runout is that of many collisions; two runs that differ in anything, if only in the last bit, lead to different places of
     single disks. So the yardstick for a change is the scatter over seeds of the packing: a change that is small against it cannot be told
     from another packing. Changes are taken seed by seed.
@@ -276,7 +291,9 @@ def slope_convergence(bench):
             ("tolerance", TOLERANCE, {"time_step": STEP, "tolerance_moving": TOLERANCE_MOVING}),
             ("tolerance_moving", TOLERANCE_MOVING, {"time_step": STEP, "tolerance": TOLERANCE}))
     claims, tables, failure, runout = [], [], [], []
-    for quantity, name, panels in (("water_hold_m", "water at failure", failure), ("front_travel_m", "travel of the front", runout)):
+    for quantity, name, panels, limit, why in (
+            ("water_hold_m", "water at failure", failure, 0.05, "which bond breaks first differs with anything that differs, by up to 6 % of the height in one packing"),
+            ("front_travel_m", "travel of the front", runout, 0.15, "runs of one packing differ by 10 % and more without a trend, for collisions amplify every difference")):
         for key, default, fixed in axes:
             if quantity == "water_hold_m" and key == "tolerance_moving":
                 continue  # begins to count after the failure
@@ -285,11 +302,13 @@ def slope_convergence(bench):
             tables.append((f"{name.capitalize()}, mean of {len(SLOPE_SEEDS)} packings", [f"{sweep.varied} [{sweep.unit}]", f"{name} [m]", "its standard error",
                                                                                         "change from the finest [%]"], list(sweep.rows(1))))
             mean, error = sweep.change(sweep.default, sweep.finest)
-            claims.append(near(f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}, ± {error:.3f}; scatter over packings {sweep.scatter():.3f}",
-                               1 + mean, 1, absolute=0.1, against="the finest", why="PLACEHOLDER"))
+            claims.append(near(f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error), 1 + mean, 1, absolute=limit, against="the finest",
+                               why=f"{why}; between packings it scatters by {100 * sweep.scatter():.0f} %"))
     keys = ("disks", "steps", "iterations_mean", "residual_p95_over_tolerance", "unconverged", "energy_error_rel", "energy_correction_rel", "overlap_worst_rel")
     tables.append(("All runs", ["seed", "time step [s]", "tolerance", "in motion", *keys],
                    [[str(c["seed"]), *(f"{c[k]:g}" for k in ("time_step", "tolerance", "tolerance_moving")), *(f"{f[k]:.4g}" for k in keys)]
                     for c, f in zip(cases, found)]))
-    return Outcome(claims, plots=[(sheet(bench, "convergence_failure.png", "Failure of the slope, 1,000 disks", failure), "CAPTION"),
-                                  (sheet(bench, "convergence_runout.png", "Runout of the avalanche, 1,000 disks", runout), "CAPTION")], tables=tables)
+    thin = "thin: single packings, thick: mean, dashed: the shipped section's value"
+    return Outcome(claims, plots=[
+        (sheet(bench, "convergence_failure.png", "Failure of the slope, 1,000 disks", failure), f"Height of the water table when the slope begins to move (mean speed 0.2 m/s); {thin}"),
+        (sheet(bench, "convergence_runout.png", "Runout of the avalanche, 1,000 disks", runout), f"Distance that the front has gone when the avalanche rests; {thin}")], tables=tables)

@@ -156,7 +156,7 @@ def angle_of(stresses, begin):
     return math.degrees(math.asin(sine(major, minor))), float(np.std(blocks, ddof=1) / math.sqrt(len(blocks)))
 
 
-@check("Frictionless disks still resist shear", subject=SUBJECT, seconds=400, quick=25)
+@check("Frictionless disks still resist shear", subject=SUBJECT, seconds=200, quick=12)
 def frictionless_packing(bench):
     """Disks without friction cannot resist sliding at a contact, but to pass each other they must climb. A disordered packing
     of them has a macroscopic angle of friction of 4° to 7° (Taboada and Estrada 2009, section 3.2.1, after Taboada et al. 2006); spheres
@@ -277,7 +277,7 @@ def above_mean(share):
     return float(1 / beyond.mean()), float(1 / beyond.mean() / math.sqrt(len(beyond)))
 
 
-@check("The distribution of contact forces", subject=SUBJECT, seconds=200, quick=25)
+@check("The distribution of contact forces", subject=SUBJECT, seconds=200, quick=18)
 def force_network(bench):
     """Forces in a packing are very uneven. Radjai et al. (1996) found with Contact Dynamics, for the normal force N of all contacts,
 
@@ -314,8 +314,8 @@ def force_network(bench):
     for name in ("1 to 2, at rest", "1 to 4, at rest"):
         (alpha, da), (beta, db), (weak, dw) = (results[name][k] for k in ("alpha", "beta", "weak"))
         claims += [
-            between(f"{name}: exponent α below the mean, ± {da:.2f}", alpha, -3 * da, 0.3 + 3 * da, against="Mueth 1998, Radjai 1996",
-                    why="from a uniform density to the published slope, and three standard errors of our own"),
+            near(f"{name}: exponent α below the mean, ± {da:.2f}", alpha, 0, absolute=0.3, against="Mueth 1998, Radjai 1996",
+                 why="published exponents lie from 0 (uniform) to 0.3; a sample of our size cannot tell a sign, so the other side is as wide"),
             between(f"{name}: rate β above the mean, ± {db:.2f}", beta, 1.09 - 3 * db, 1.8 + 3 * db, against="Radjai 1996, Løvoll 1999",
                     why="from what a continuous density with α = 0.3 has to the experiment's value, and three standard errors; 1.4 lies between"),
             between(f"{name}: contacts below the mean, ± {100 * dw:.1f} %", 100 * weak, 55 - 300 * dw, 67 + 300 * dw, unit="%", against="Radjai 1996",
