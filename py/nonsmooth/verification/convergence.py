@@ -231,10 +231,12 @@ def strength_convergence(bench):
             tables.append((f"{name.capitalize()}, mean of {len(seeds)} samples", [f"{sweep.varied} [{sweep.unit}]", "strength [kPa]", "its standard error",
                                                                                    "change from the finest [%]"], list(sweep.rows(1e-3))))
             claims += _strength_claims(name, sweep, PRECISION[name])
-    text = "Change of the strength of bonded samples with the time step and the solver's tolerance; thin: single samples, thick: mean, dashed: the shipped section's value"
+    text = ("Change of the strength of bonded samples with the time step and the solver's tolerance; thin: single samples, thick: mean, "
+            "dashed: the shipped section's value")
     if not bench.quick:
         tables.append(_half_speed(cases, found))
-    return Outcome(claims, plots=[(sheet(bench, "convergence_strength.png", "Strength of a bonded sample: change from the finest value", panels, relative=True), text)], tables=tables)
+    drawn = sheet(bench, "convergence_strength.png", "Strength of a bonded sample: change from the finest value", panels, relative=True)
+    return Outcome(claims, plots=[(drawn, text)], tables=tables)
 
 
 def _strength_claims(name, sweep, precision):
@@ -263,7 +265,8 @@ def _half_speed(cases, found):
 
 #: What is claimed of the strength: default against finest, one value against the next, and why.
 PRECISION = {
-    "compression": (0.02, 0.05, "the sample fails along one of several paths, and anything that differs can lead to another one: half the platen's speed by 2 to 4 %"),
+    "compression": (0.02, 0.05, "the sample fails along one of several paths, and anything that differs can lead to another one: half the "
+                    "platen's speed by 2 to 4 %"),
     "tension": (0.005, 0.01, "the first crack's load; a bond's yield force does not depend on the step"),
 }
 KINDS = {"compression": dict(pull=0, speed=SPEED, strain=0.002), "tension": dict(pull=1, speed=PULL, strain=0.001)}
@@ -276,8 +279,8 @@ def slope_convergence(bench):
     rise of the water by 1 m/s, failure and avalanche are those of ``scripts/jiufengershan.py``, but for at most 1,000 sweeps a step instead of 300,
     so that tight tolerances are reached.
 
-    Two results count. The height of the water when the slope begins to move (mean speed 0.2 m/s) comes from the strength of the foot at rest, so it must not depend on the time step or on
-    ``tolerance``. The runout is that of many collisions; two runs that differ in anything, if only in the last bit, lead to different places of
+    Two results count. The height of the water when the slope begins to move (mean speed 0.2 m/s) comes from the strength of the foot at
+    rest, so it must not depend on the time step or on ``tolerance``. The runout is that of many collisions; two runs that differ in anything, if only in the last bit, lead to different places of
     single disks. So the yardstick for a change is the scatter over seeds of the packing: a change that is small against it cannot be told
     from another packing. Changes are taken seed by seed.
     """
@@ -292,8 +295,10 @@ def slope_convergence(bench):
             ("tolerance_moving", TOLERANCE_MOVING, {"time_step": STEP, "tolerance": TOLERANCE}))
     claims, tables, failure, runout = [], [], [], []
     for quantity, name, panels, limit, why in (
-            ("water_hold_m", "water at failure", failure, 0.05, "which bond breaks first differs with anything that differs, by up to 6 % of the height in one packing"),
-            ("front_travel_m", "travel of the front", runout, 0.15, "runs of one packing differ by 10 % and more without a trend, for collisions amplify every difference")):
+            ("water_hold_m", "water at failure", failure, 0.05,
+             "which bond breaks first differs with anything that differs, by up to 6 % of the height in one packing"),
+            ("front_travel_m", "travel of the front", runout, 0.15,
+             "runs of one packing differ by 10 % and more without a trend, for collisions amplify every difference")):
         for key, default, fixed in axes:
             if quantity == "water_hold_m" and key == "tolerance_moving":
                 continue  # begins to count after the failure
@@ -310,5 +315,7 @@ def slope_convergence(bench):
                     for c, f in zip(cases, found)]))
     thin = "thin: single packings, thick: mean, dashed: the shipped section's value"
     return Outcome(claims, plots=[
-        (sheet(bench, "convergence_failure.png", "Failure of the slope, 1,000 disks", failure), f"Height of the water table when the slope begins to move (mean speed 0.2 m/s); {thin}"),
-        (sheet(bench, "convergence_runout.png", "Runout of the avalanche, 1,000 disks", runout), f"Distance that the front has gone when the avalanche rests; {thin}")], tables=tables)
+        (sheet(bench, "convergence_failure.png", "Failure of the slope, 1,000 disks", failure),
+         f"Height of the water table when the slope begins to move (mean speed 0.2 m/s); {thin}"),
+        (sheet(bench, "convergence_runout.png", "Runout of the avalanche, 1,000 disks", runout),
+         f"Distance that the front has gone when the avalanche rests; {thin}")], tables=tables)

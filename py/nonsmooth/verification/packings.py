@@ -209,7 +209,8 @@ def frictionless_packing(bench):
     return Outcome(claims, plots=[(figure, f"Angle of friction of {count} frictionless disks against the rate of strain; bars: standard error over blocks of strain and seeds")],
                    tables=[(f"{count} disks, γ to {strain:g}, mean beyond a fifth of it", ["I", "Δt/√(m/P)", "φ of the seeds [°]", "φ [°]", "sweeps a step",
                                                                                            "steps above 1e-5", "worst overlap [ℓ]"], rows)],
-                   remarks=["Flat frictionless walls order the disks beside them, and a sample of this size fluctuates by a degree or more from one rearrangement to the next; both are in the error stated."])
+                   remarks=["A sample of this size fluctuates by a degree or more from one rearrangement to the next, which the error states. Flat "
+                            "frictionless walls order the disks beside them; what that does to the angle is not measured."])
 
 
 # ---- statistics of forces -------------------------------------------------------------------------
@@ -285,8 +286,8 @@ def force_network(bench):
 
     and more than 60 % of the contacts below the mean. Experiments gave α = 0.3 and β = 1.8 under a deep packing (Løvoll et al. 1999), and a
     nearly uniform density below the mean (Mueth et al. 1998), which is α = 0. A continuous density of this form with the mean 1 has
-    β² = (1 − α)(2 − α): α = 0.3 asks for β = 1.09 and 67 % below the mean, β = 1.4 for α = 0 and 58.5 %. So each published figure is the slope of one part of
-    a measured curve; α depends on how far down one looks, and all depend on the sizes of the disks.
+    β² = (1 − α)(2 − α): α = 0.3 asks for β = 1.09, β = 1.4 for α = 0 and 58.5 % below the mean. So each published figure is the slope of
+    one part of a measured curve; α depends on how far down one looks, and all depend on the sizes of the disks.
 
     Disks with μ = 0.3 are compressed between frictionless walls without gravity until they rest: one kind of sample with diameters of 1 to 2,
     one with 1 to 4 as in the paper's slope; a third kind is then sheared slowly and looked at on the way. All forces of a sample have the
