@@ -43,8 +43,9 @@ def run_checks(checks, out, *, quick=False, threads=1, resume=False, progress=la
         folder = Path(out) / "checks" / check.name
         result = _read(check, folder, quick) if resume else None
         if result is None:
-            shutil.rmtree(folder, ignore_errors=True)
-            folder.mkdir(parents=True)
+            if not resume:  # an interrupted check may have finished parts of its own
+                shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True, exist_ok=True)
             bench = Bench(folder=folder, quick=quick, threads=threads, progress=lambda text, check=check: progress(check, text))
             result = _run(check, bench)
             _write(result, folder, quick)

@@ -1,0 +1,82 @@
+"""Independent cases of a check, each in a YADE process of its own, as many at a time as there are threads, each result on disk.
+
+Small scenes gain little from threads, so cases side by side use a machine better. What a case found is kept in the check's folder
+under the case's values and is not computed again when an interrupted check is resumed (``scripts/verify.py --resume``).
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from ..packing_files import write_atomically
+
+__all__ = ["run_cases"]
+
+_WORKER = Path(__file__).with_name("case_worker.py")
+
+
+def run_cases(bench, function, cases):
+    """Calls ``function(folder, **case)`` for every case and returns what the calls returned, in the order of ``cases``.
+
+    ``function``: of a module of this package, by name; it returns a dictionary that JSON can hold, to which ``wall_s`` [s] is added.
+    ``folder``: an empty one for the case's files. ``cases``: dictionaries of numbers and short words. Raises RuntimeError with the end
+    of its output where a case fails; the others are finished first.
+    """
+    cases, done = list(cases), 0
+    bench.progress(f"{function.__name__}, {len(cases)} cases")
+
+    def one(case):
+        nonlocal done
+        found = _one(bench.folder / "cases", function, case)
+        done += 1
+        bench.progress(f"{function.__name__}, {done} of {len(cases)} cases")
+        return found
+
+    with ThreadPoolExecutor(max(1, bench.threads)) as pool:
+        return [future.result() for future in [pool.submit(one, case) for case in cases]]
+
+
+def name_of(function, case):
+    """Name of a case's files: the function and the values, in the order of their names."""
+    values = (f"{key}={value:g}" if isinstance(value, float) else f"{key}={value}" for key, value in sorted(case.items()))
+    return ",".join((function.__name__.strip("_"), *values))
+
+
+def _one(home, function, case):
+    name = name_of(function, case)
+    path, folder = home / f"{name}.json", home / name
+    try:
+        return json.loads(path.read_text())
+    except (OSError, ValueError):
+        pass
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    began = time.monotonic()
+    request = json.dumps({"module": function.__module__, "function": function.__name__, "case": case})
+    with open(folder / "log.txt", "wb") as log:
+        status = subprocess.run([_yade(), "-n", "-x", "-j1", str(_WORKER), request, str(folder)], stdout=log, stderr=subprocess.STDOUT,
+                                stdin=subprocess.DEVNULL,
+                                # waiting threads must not spin, cases share the cores
+                                env={**os.environ, "OMP_WAIT_POLICY": "passive"}).returncode
+    try:
+        found = json.loads((folder / "found.json").read_text())
+    except (OSError, ValueError):
+        end = (folder / "log.txt").read_text(errors="replace")[-500:]
+        raise RuntimeError(f"the case {name} ended with status {status} and no result: {end}") from None
+    found["wall_s"] = time.monotonic() - began
+    write_atomically(path, json.dumps(found, indent=1).encode())
+    return found
+
+
+def _yade():
+    """The program of the YADE that runs this."""
+    from yade import config
+
+    prefix = os.environ.get("YADE_PREFIX")  # set where the plugin is used from its build folder
+    return Path(prefix or config.prefix) / "bin" / ("yade" if prefix else f"yade{config.suffix}")
