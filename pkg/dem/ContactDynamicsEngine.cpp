@@ -26,7 +26,13 @@ void ContactDynamicsEngine::action()
 	warmStart       = seam.problem.impulses;
 	stepSolved      = scene->dt;
 	const Real t1         = clock();
-	const auto statistics = contact::solve(seam.problem, settings(), &workspace);
+	auto       statistics = contact::solve(seam.problem, settings(), &workspace);
+	while (seam.recall() > 0) { // ends, as every round takes contacts in
+		warmStart.resize(seam.problem.impulses.size());
+		const int before = statistics.iterations;
+		statistics       = contact::solve(seam.problem, settings(), &workspace);
+		statistics.iterations += before;
+	}
 	const Real t2         = clock();
 	account(seam.scatter(*scene, gravity, threads));
 	report(statistics);

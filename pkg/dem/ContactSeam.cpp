@@ -13,6 +13,7 @@ using contact::Twist;
 
 namespace {
 	constexpr long   tidyPeriod = 100; // steps
+	constexpr Real   unseen     = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
 	constexpr size_t sumChunk = 1024; // fixed, so that sums do not depend on the number of threads
 
 	/// Asks for the cache lines of an object that will be needed soon; YADE's objects lie all over the memory.
@@ -167,10 +168,12 @@ void ContactSeam::collect(Scene& scene)
 		links[k] = { ordered[k].interaction };
 }
 
-/// Drops the contacts that need not be solved for, keeping the order of the others.
+/// Puts the contacts that need not be solved for aside, keeping the order of the others.
 void ContactSeam::compact()
 {
 	size_t kept = 0;
+	leftContacts.clear();
+	leftLinks.clear();
 	for (size_t k = 0; k < links.size(); ++k) {
 		if (!links[k].phys) {
 			const Interaction& i = *links[k].interaction;
@@ -178,7 +181,11 @@ void ContactSeam::compact()
 			        "ContactDynamicsEngine: interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2()) + " has a "
 			        + i.phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
 		}
-		if (!links[k].solved) continue;
+		if (!links[k].solved) {
+			leftContacts.push_back(problem.contacts[k]);
+			leftLinks.push_back(links[k]);
+			continue;
+		}
 		if (kept != k) {
 			links[kept]            = links[k];
 			problem.contacts[kept] = problem.contacts[k];
@@ -189,6 +196,35 @@ void ContactSeam::compact()
 	links.resize(kept);
 	problem.contacts.resize(kept);
 	problem.impulses.resize(kept);
+}
+
+/// A body that is hit in the step may reach others that nothing approached before.
+size_t ContactSeam::recall()
+{
+	const auto gapAfter = [this](size_t k) {
+		const Contact& c = leftContacts[k];
+		return leftLinks[k].gap + relaxation.step * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
+	};
+	bool needed = false;
+	for (size_t k = 0; k < leftLinks.size() && !needed; ++k)
+		needed = gapAfter(k) < -unseen * leftContacts[k].length;
+	if (!needed) return 0;
+	size_t left = 0;
+	for (size_t k = 0; k < leftLinks.size(); ++k) {
+		if (gapAfter(k) < 0) {
+			leftLinks[k].solved = true;
+			links.push_back(leftLinks[k]);
+			problem.contacts.push_back(leftContacts[k]);
+			problem.impulses.push_back({});
+		} else {
+			leftLinks[left]      = leftLinks[k];
+			leftContacts[left++] = leftContacts[k];
+		}
+	}
+	const size_t recalled = leftLinks.size() - left;
+	leftLinks.resize(left);
+	leftContacts.resize(left);
+	return recalled;
 }
 
 void ContactSeam::gatherContact(Scene& scene, size_t k)

@@ -49,6 +49,8 @@ class ContactSeam {
 public:
 	/// Reads bodies and real interactions; throws std::runtime_error naming the body where the scene cannot be taken.
 	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads);
+	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They need another solve.
+	size_t recall();
 	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
 	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads);
 
@@ -71,6 +73,8 @@ private:
 	};
 
 	Relaxation                             relaxation { 1, 0, 0, 0 };
+	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
+	std::vector<Link>                        leftLinks;    // their links
 	int                                    threads = 1;
 	long                                   iteration = -1;
 	std::vector<nonsmooth::contact::Twist> before; // velocities at the beginning of the step

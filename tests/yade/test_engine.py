@@ -124,6 +124,17 @@ def test_driven_wall_pushes_and_works():
     assert abs(engine().energyError) < 1e-6
 
 
+def test_who_is_hit_hits_the_next_without_overlap():
+    """The first disk closes its gap of 0.1 m in a step of 5 ms and passes on more than 20 m/s, far more than the second gap of 0.08 m needs."""
+    stuff = material(0.0)
+    for x, speed in ((0, 100), (1.1, 0), (2.18, 0), (3.26, 0)):
+        O.bodies[free_disk(x, 0, stuff=stuff)].state.vel = (speed, 0, 0)
+    begin(gravity=(0, 0, 0), dt=5e-3, reach=0.6)
+    run(3)
+    assert engine().overlapWorstEver < 1e-9  # the solve is exact to 1e-12
+    assert engine().momentum[0] == pytest.approx(O.bodies[0].state.mass * 100, rel=1e-12)
+
+
 def test_turning_wall_drags_a_disk():
     stuff = material(0.3)
     drum = O.bodies.append(scene.disk((0, 0), 1, stuff, fixed=True))
