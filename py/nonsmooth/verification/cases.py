@@ -18,7 +18,7 @@ from ..packing_files import write_atomically
 
 __all__ = ["run_cases"]
 
-_WORKER = Path(__file__).with_name("case_worker.py")
+_WORKER = Path(__file__).with_name("_case_worker.py")
 
 
 def run_cases(bench, function, cases):
