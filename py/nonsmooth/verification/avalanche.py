@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from .. import experiment, figures, packing, records, results, section, slope, tables
@@ -10,7 +12,7 @@ from . import Outcome, at_most, check, near
 SUBJECT = "A whole avalanche"
 
 
-@check("Energy, residuals and broken bonds of the rain-triggered avalanche", subject=SUBJECT, seconds=180, quick=60)
+@check("Energy, residuals and broken bonds of the rain-triggered avalanche", subject=SUBJECT, seconds=240, quick=None)
 def whole_avalanche(bench):
     """The slope of Jiufengershan from its first step to its deposit, with larger disks than the paper's.
 
@@ -19,10 +21,15 @@ def whole_avalanche(bench):
     before and after it, which is exact for constant masses. What is left over is the error of the balance; only the rounding of the
     positions' update (potential energy of a parabola taken in steps) can be in it. The overlap correction pushes disks apart and so adds
     energy; the balance counts it within the impacts, and it is shown on its own, because it is not physics.
+
+    The solver may make 1,000 sweeps a step here, instead of the section's 300.
     """
-    count = 1000 if bench.quick else 3000
+    count = 3000
     s = section.load("jiufengershan").with_disks(count)
+    # a foot a few disks thick yields for many seconds, and 300 sweeps are then often too few for the tolerance
+    s = dataclasses.replace(s, numerics=dataclasses.replace(s.numerics, max_iterations=1000))
     folder = bench.folder / "run"
+    folder.mkdir(exist_ok=True)
     run = experiment.Experiment(slope.build(s, packing.cached_pack(s)), folder)
     run.progress = lambda stage, now, foreseen: bench.progress(f"{stage}, {now:.0f} of {foreseen:.0f} s")
     run.run()
