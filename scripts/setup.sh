@@ -25,6 +25,7 @@ exec 9>"$(cache_dir)/lock"
 flock -n 9 || { note "waiting for another set-up to end"; flock 9; }
 
 packages_install "${PACKAGES_PROJECT[@]}"
+packages_install_known "${PACKAGES_ORACLE[@]}"
 yade_provide
 plugin_build
 note "YADE in $YADE_PREFIX, plugin in $BUILD: run scripts with scripts/yade-nonsmooth SCRIPT"

@@ -4,7 +4,7 @@
 # To build the plugin and the solver, to run scenarios, tests and documentation.
 PACKAGES_PROJECT=(
     g++ cmake ninja-build pkg-config ca-certificates python3 python3-dev
-    libboost-all-dev libeigen3-dev zlib1g-dev libgtest-dev libhdf5-dev pybind11-dev libsiconos-numerics-dev
+    libboost-all-dev libeigen3-dev zlib1g-dev libgtest-dev libhdf5-dev pybind11-dev
     python3-numpy python3-scipy python3-matplotlib python3-shapely python3-yaml python3-jsonschema
     python3-tqdm python3-h5py python3-h5py-serial python3-meshio python3-pytest python3-sphinx python3-docutils python3-jinja2 ffmpeg)
 
@@ -18,6 +18,18 @@ PACKAGES_YADE_BUILD=(
 PACKAGES_YADE_STOCK=(
     yade bzip2 libvtk9-dev libgts-dev libbz2-dev libmpfrc++-dev libmpc-dev libopenmpi-dev
     libmpfr-dev libgmp-dev libopengl-dev libglu1-mesa-dev freeglut3-dev)
+
+# Another solver to compare with, where the distribution has it: Debian 12 does, Debian 13 does not.
+PACKAGES_ORACLE=(libsiconos-numerics-dev)
+
+# Installs those of the packages that apt knows, and leaves out the others.
+packages_install_known() {
+    local name known=()
+    for name in "$@"; do
+        if [ -z "$(packages_missing "$name")" ] || apt-cache show "$name" >/dev/null 2>&1; then known+=("$name"); fi
+    done
+    [ "${#known[@]}" -eq 0 ] || packages_install "${known[@]}"
+}
 
 packages_missing() {
     local name
