@@ -186,7 +186,6 @@ class Experiment:
                 s.water_hold = None
                 self._raise_water()
             s.moving = None
-            solver.tolerance = self.section.numerics.tolerance
         if water and s.water_hold is None and not isinstance(stages.water_hold, str) and water.height >= stages.water_hold:
             self._hold(float(stages.water_hold))
         resting = s.moving is not None and solver.meanSpeed < stages.end.rest_fraction * s.speed_max
@@ -195,9 +194,9 @@ class Experiment:
         elif s.resting_since is None:
             s.resting_since = O.time
         numerics = self.section.numerics
-        if s.moving is not None:  # reactions at rest depend on how the mass came to rest, so more care while it slows down
-            flowing = min(1.0, solver.meanSpeed / (SLOW_FRACTION * s.speed_max))
-            solver.tolerance = max(numerics.tolerance, flowing * numerics.tolerance_moving)
+        # reactions at rest depend on how the mass came to rest, so more care while it slows down
+        flowing = 0.0 if s.moving is None else min(1.0, solver.meanSpeed / (SLOW_FRACTION * s.speed_max))
+        solver.tolerance = max(numerics.tolerance, flowing * numerics.tolerance_moving)
         over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
         if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
             s.stage = "done"

@@ -13,7 +13,7 @@ from yade.wrapper import (
     Law2_ScGeom_NscdPhys_SignoriniCoulomb, NewtonIntegrator, Segment)
 from yade.minieigenHP import Quaternion, Vector3
 
-__all__ = ["disk", "segments", "engines"]
+__all__ = ["contact_dynamics", "disk", "segments", "engines"]
 
 
 def disk(centre, radius, material, fixed=False, color=None):
@@ -90,3 +90,11 @@ def engines(gravity=(0, -9.81, 0), reach=0.05, verlet=0.1, before=(), after=(), 
         NewtonIntegrator(damping=0, gravity=gravity),
         *after,
     ]
+
+
+def contact_dynamics():
+    """The ContactDynamicsEngine in O.engines; raises LookupError where there is none."""
+    for engine in O.engines:
+        if isinstance(engine, ContactDynamicsEngine):
+            return engine
+    raise LookupError("O.engines has no ContactDynamicsEngine: set O.engines = engines(...) first")

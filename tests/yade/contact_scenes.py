@@ -6,6 +6,7 @@ import numpy as np
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
+from yade.nonsmooth.scene import contact_dynamics as engine
 from yade.wrapper import NscdMat
 
 G = 9.81
@@ -24,10 +25,6 @@ def begin(gravity=(0, -G, 0), dt=1e-3, **options):
     O.engines = scene.engines(gravity=gravity, **{**TIGHT, **options})
     O.dt = dt
     return engine()
-
-
-def engine():
-    return next(e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine")
 
 
 def run(steps):

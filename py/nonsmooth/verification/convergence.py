@@ -54,7 +54,7 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
                    for ends in (((-WIDTH, 0), (2 * WIDTH, 0)), ((2 * WIDTH, HEIGHT), (-WIDTH, HEIGHT))))
     O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.2 * float(made.r.min()), tolerance=tolerance, maxIterations=5000)
     O.dt = time_step
-    engine = next(e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine")
+    engine = scene.contact_dynamics()
     O.step()
     bonds, sign = engine.bond(), 1 if pull else -1
     moving, start, rows = O.bodies[top].state, O.bodies[top].state.pos[1], []

@@ -19,6 +19,7 @@ from yade import O
 from yade.wrapper import NscdMat
 
 from .. import contact, scene
+from ..scene import contact_dynamics as engine
 
 __all__ = ["DISKS", "FLOOR", "G", "H", "LEFT", "MU", "RIGHT", "Balance", "Dump", "balance", "build", "dump_step", "engine", "impulses_of", "load",
            "pair_keys", "relative_velocities", "velocities_of", "warm_start", "with_radius_levers"]
@@ -88,10 +89,6 @@ def build(dump: Dump, **options):
     O.engines = scene.engines(gravity=(0, -G, 0), **{"relaxationRate": 0, "maxIterations": 20000, **options})
     O.dt = H
     return engine()
-
-
-def engine():
-    return next(e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine")
 
 
 def warm_start(dump: Dump):

@@ -50,7 +50,7 @@ class Box:
         self.walls = {name: O.bodies.append(scene.segments(ends, smooth, sense=1))[0] for name, ends in runs.items()}
         O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.2 * self.small, tolerance=1e-4, maxIterations=1000)
         O.dt = STEP
-        self.engine = next(e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine")
+        self.engine = scene.contact_dynamics()
         self.scene, self.count, self.mass = O, count, MEAN_MASS * count
         self._compress()
 

@@ -8,6 +8,7 @@ from yade import O
 from yade.wrapper import NewtonIntegrator, NscdMat
 
 from .. import scene
+from ..scene import contact_dynamics as engine
 
 __all__ = ["DENSITY", "G", "TIGHT", "begin", "contacts", "disk", "engine", "material", "run", "set_gravity", "wall", "weight"]
 
@@ -49,10 +50,6 @@ def begin(gravity=(0, 0, 0), dt=1e-3, **options):
         e.ompThreads = 1  # a few bodies: threads would only wait for each other, for long on a busy machine
     O.dt = dt
     return engine()
-
-
-def engine():
-    return next(e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine")
 
 
 def set_gravity(x, y):
