@@ -14,9 +14,7 @@ Everything that decides the course stands in :class:`State`, which goes into che
 
 from __future__ import annotations
 
-import json
 import math
-import os
 import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -27,9 +25,8 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import NewtonIntegrator
 
-from . import packing, records, slope, tables
+from . import checkpoints, packing, records, slope, tables
 from .figures.profiles import front_of
-from .packing_files import write_atomically
 
 __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 
@@ -297,27 +294,14 @@ class Experiment:
         self._clock = self._saved = now
         self.series.sync()
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
-        folder = self.folder / "checkpoint"
-        folder.mkdir(parents=True, exist_ok=True)
-        name = f"scene-{O.iter:08d}.yade.gz"
-        part = folder / f".part-{name}"
-        O.save(str(part), quiet=True)
-        os.replace(part, folder / name)
-        content = {"format": 1, "scene": name, "size": (folder / name).stat().st_size, "step": O.iter, "key": run_key(self.section),
-                   "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state)}
-        write_atomically(folder / "checkpoint.json", json.dumps(content, indent=1).encode())
-        for old in folder.glob("scene-*.yade.gz"):
-            if old.name != name:
-                old.unlink()
+        checkpoints.write(self.folder, run_key(self.section), {
+            "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state)})
 
 
 def run_key(section):
     """What must agree between a checkpoint and the section it is resumed with."""
-    import hashlib
-
-    plain = {"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
-             "seed": section.seed}
-    return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()
+    return checkpoints.key_of({"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
+                               "seed": section.seed})
 
 
 def resume(section, folder, progress=None):
@@ -325,24 +309,10 @@ def resume(section, folder, progress=None):
 
     Raises ExperimentError where there is none, where it is damaged, or where it belongs to another section.
     """
-    folder = Path(folder)
-    path = folder / "checkpoint" / "checkpoint.json"
+    content = checkpoints.read(folder, run_key(section), ExperimentError)
     try:
-        content = json.loads(path.read_text())
-        scene, size = path.parent / content["scene"], content["size"]
         state = State(**content["state"])
-    except FileNotFoundError:
-        raise ExperimentError(f"{path}: there is no checkpoint to resume from; run without --resume, or give the right --out") from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ExperimentError(f"{path}: the checkpoint cannot be read ({error}); remove {path.parent} and run without --resume") from None
-    if not scene.exists() or scene.stat().st_size != size:
-        raise ExperimentError(f"{scene}: the checkpoint is missing or truncated; remove {path.parent} and run without --resume")
-    if content["key"] != run_key(section):
-        raise ExperimentError(f"{path}: this checkpoint belongs to another section, number of disks or seed; give the same ones, or another --out")
-    try:
-        O.load(str(scene), quiet=True)
-    except RuntimeError as error:
-        raise ExperimentError(f"{scene}: the checkpoint cannot be read ({error}): it is damaged, or another version of the plugin wrote it; "
-                              f"remove {path.parent} and run without --resume") from None
+    except (KeyError, TypeError) as error:
+        raise ExperimentError(f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume") from None
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     return Experiment(built, folder, state=state, progress=progress)

@@ -382,7 +382,7 @@ def _build(document, source: str) -> Section:
     section = Section(
         name=raw["name"], description=raw.get("description", "").strip(), gravity=float(raw["gravity"]),
         walls=walls, layers=layers,
-        materials=MappingProxyType({k: _material(k, v) for k, v in raw["materials"].items()}),
+        materials=MappingProxyType({k: material_from(k, v) for k, v in raw["materials"].items()}),
         disks=disks, water=None,
         stages=Stages(Settle(**_floats(stages["settle"])), float(stages["dry"]),
                       stages.get("water", {}).get("hold", "motion"), End(**_floats(stages["end"]))),
@@ -403,7 +403,7 @@ def _floats(mapping) -> dict:
     return {k: float(v) for k, v in mapping.items()}
 
 
-def _material(name: str, raw: dict) -> Material:
+def material_from(name: str, raw: dict) -> Material:
     raw = dict(raw)
     raw.setdefault("residual_friction", raw["friction"])
     raw.setdefault("residual_rolling_friction", raw["rolling_friction"])

@@ -160,12 +160,16 @@ def _explain(error) -> tuple[tuple, str, str]:
     return keys, f"{_brief(value)} is not allowed", needed
 
 
-def read(path, schema_path) -> Document:
-    """Read the section file `path` and check it against the schema; SectionError if it fails."""
+def read(path, schema_path, part=()) -> Document:
+    """Read the YAML file `path` and check it against the schema, or its `part` (keys); SectionError if it fails."""
     data, root = _yaml(Path(path))
     document = Document(str(path), data, root)
     _numbers(document, data)
-    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    whole = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    schema = whole
+    for key in part:
+        schema = schema[key]
+    schema = {"$defs": whole.get("$defs", {}), **schema}
     found = [_explain(e) for e in jsonschema.Draft202012Validator(schema).iter_errors(data)]
     if found:
         keys, what, remedy = min(found, key=lambda f: (document.line(f[0]), len(f[0]), str(f)))

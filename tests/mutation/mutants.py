@@ -49,6 +49,12 @@ MUTANTS = (
              "\tproblem.impulses[k] = { was * phys.normal, was * phys.tangential, was * phys.torque };"),
             ("dem/ContactSeam.cpp", "\tscatterForces(scene);", "\tscatterForces(scene);\n\tnonsmooth::mutant::stepBefore = h;")),
            ("changed-time-step",)),
+    Mutant("slippery", "contacts have half of their friction",
+           (("dem/ContactSeam.cpp", "c.friction           = phys.currentFriction;", "c.friction           = nonsmooth::mutant::share * phys.currentFriction;"),),
+           ("slider-on-a-plane", "oblique-impact", "disk-on-an-incline", "spinning-disk")),
+    Mutant("early", "the solver stops at a million times its tolerance and calls that solved",
+           (("contact/solver.cpp", "figure <= settings.tolerance * slack;", "figure <= settings.tolerance * slack * mutant::excess;"),),
+           ("stack-of-disks", "elastic-chain")),
 )
 
 SWITCHES = """inline const double sign      = is("rolling") ? -1 : 1;
@@ -56,6 +62,8 @@ inline const bool   adhesion  = is("adhesion");
 inline const bool   gap       = is("gap");
 inline const bool   warmStart = is("warm-start");
 inline double       stepBefore = 0;
+inline const double share     = is("slippery") ? 0.5 : 1;
+inline const double excess    = is("early") ? 1e6 : 1;
 } // namespace nonsmooth::mutant
 """
 

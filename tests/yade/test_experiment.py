@@ -107,7 +107,7 @@ def test_truncated_checkpoint_is_refused_and_nothing_is_lost(section, unbroken, 
 
 
 def test_checkpoint_of_another_section(section, unbroken):
-    assert "another section" in refused("--section", section, "--disks", "450", "--out", unbroken, "--resume")
+    assert "other settings" in refused("--section", section, "--disks", "450", "--out", unbroken, "--resume")
 
 
 def test_unwritable_output(tmp_path):

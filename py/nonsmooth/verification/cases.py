@@ -7,19 +7,13 @@ under the case's values and is not computed again when an interrupted check is r
 from __future__ import annotations
 
 import json
-import os
 import shutil
-import subprocess
-import time
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
+from .. import processes
 from ..packing_files import write_atomically
 
 __all__ = ["run_cases"]
-
-_WORKER = Path(__file__).with_name("_case_worker.py")
-
 
 def run_cases(bench, function, cases):
     """Calls ``function(folder, **case)`` for every case and returns what the calls returned, in the order of ``cases``.
@@ -57,26 +51,6 @@ def _one(home, function, case):
         pass
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    began = time.monotonic()
-    request = json.dumps({"module": function.__module__, "function": function.__name__, "case": case})
-    with open(folder / "log.txt", "wb") as log:
-        status = subprocess.run([_yade(), "-n", "-x", "-j1", str(_WORKER), request, str(folder)], stdout=log, stderr=subprocess.STDOUT,
-                                stdin=subprocess.DEVNULL,
-                                # waiting threads must not spin, cases share the cores
-                                env={**os.environ, "OMP_WAIT_POLICY": "passive"}).returncode
-    try:
-        found = json.loads((folder / "found.json").read_text())
-    except (OSError, ValueError):
-        end = (folder / "log.txt").read_text(errors="replace")[-500:]
-        raise RuntimeError(f"the case {name} ended with status {status} and no result: {end}") from None
-    found["wall_s"] = time.monotonic() - began
+    found = processes.call(function, folder, case)
     write_atomically(path, json.dumps(found, indent=1).encode())
     return found
-
-
-def _yade():
-    """The program of the YADE that runs this."""
-    from yade import config
-
-    prefix = os.environ.get("YADE_PREFIX")  # set where the plugin is used from its build folder
-    return Path(prefix or config.prefix) / "bin" / ("yade" if prefix else f"yade{config.suffix}")

@@ -1,0 +1,12 @@
+"""One call in a process of its own, see processes.py: a script for YADE with the argument FOLDER."""
+import importlib
+import json
+import sys
+from pathlib import Path
+
+from yade.nonsmooth.packing_files import write_atomically
+
+folder = Path(sys.argv[-1])
+request = json.loads((folder / "request.json").read_text())
+found = getattr(importlib.import_module(request["module"]), request["function"])(folder, **request["arguments"])
+write_atomically(folder / "found.json", json.dumps(found, indent=1).encode())

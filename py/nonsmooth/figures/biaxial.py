@@ -1,0 +1,121 @@
+"""Figures of biaxial tests, to be put beside the paper's Figures 9 to 11."""
+
+import math
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
+from matplotlib.patches import Patch
+
+from . import forces, style
+
+MEGA = 1e6
+SEQUENCE = ("#0072B2", "#D55E00", "#009E73", "#9E4F86", "#E0A100", "#4AA8DE", "#777777")
+
+
+def _colours(count):
+    return [SEQUENCE[k % len(SEQUENCE)] for k in range(count)]
+
+
+def _smooth(strain, values, window=2e-3):
+    return style.running_mean(np.asarray(strain, float), np.asarray(values, float), window)
+
+
+@style.styled
+def stress_strain(tests, path, pdf=False):
+    """Axial stress over σ₃ and volumetric strain against axial strain (the paper's Figure 10).
+
+    ``tests``: list of (σ₃ [Pa], series, measured): columns of `laboratory.biaxial.COLUMNS`, and the test's dictionary of ``summary.json``.
+    Thin: rows; thick: mean over 0.2 % of strain; dots: peaks; dashes: the mean on the plateau. Returns ``path``.
+    """
+    fig = style.figure(7.6, 7.4, layout="constrained")
+    top, bottom = fig.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
+    for (sigma3, series, measured), colour in zip(tests, _colours(len(tests))):
+        strain = 100 * np.asarray(series["strain"])
+        axial = 0.5 * (np.asarray(series["sigma1_top_Pa"]) + np.asarray(series["sigma1_bottom_Pa"]))
+        top.plot(strain, axial / sigma3, color=colour, lw=0.4, alpha=0.35)
+        top.plot(strain, _smooth(strain / 100, axial) / sigma3, color=colour, label=f"{sigma3 / MEGA:g}")
+        top.plot(100 * measured["strain_peak"], measured["sigma1_peak_Pa"] / sigma3, "o", ms=5, color=colour, mec="white", mew=0.7, zorder=5)
+        begin, end = measured["residual_between_strains"]
+        top.hlines(measured["sigma1_residual_Pa"] / sigma3, 100 * begin, 100 * min(end, strain[-1] / 100), color=colour, lw=1.2, ls=(0, (4, 2)))
+        bottom.plot(strain, 100 * np.asarray(series["volumetric_strain"]), color=colour)
+    top.set(ylabel="σ₁ / σ₃  [-]", ylim=(0, None))
+    top.legend(title="σ₃ [MPa]", ncol=min(4, len(tests)), loc="lower right")
+    bottom.axhline(0, color="#999999", lw=0.7)
+    bottom.set(xlabel="axial strain ε₁ [%]", ylabel="volumetric strain [%]\n(dilation positive)", xlim=(0, None))
+    return style.save(fig, path, pdf)
+
+
+@style.styled
+def mohr(summary, path, pdf=False):
+    """Mohr circles at the peak and on the plateau with their envelopes (the paper's Figure 11); right: the circles of low pressure.
+
+    ``summary``: of a campaign with an envelope. Several seeds: circles of all, envelope with the mean cohesion and friction. Returns ``path``.
+    """
+    fig = style.figure(10.4, 4.6, layout="constrained")
+    whole, close = fig.subplots(1, 2)
+    tests = summary["tests"]
+    lowest = sorted({t["confining_Pa"] for t in tests})
+    limit = lowest[min(2, len(lowest) - 1)]
+    kinds = (("peak", style.LINES["blue"], "peak"), ("residual", style.LINES["orange"], "residual"))
+    for ax, chosen in ((whole, tests), (close, [t for t in tests if t["confining_Pa"] <= limit])):
+        far = 1.05 * max(t["sigma1_peak_Pa"] for t in chosen) / MEGA
+        high = 0.0
+        for kind, colour, word in kinds:
+            c, angle = summary[f"cohesion_{kind}_kPa"], summary[f"friction_{kind}_deg"]
+            for t in chosen:
+                a, b = t[f"sigma3_{kind}_Pa"] / MEGA, t[f"sigma1_{kind}_Pa"] / MEGA
+                turn = np.linspace(0, math.pi, 181)
+                ax.plot(0.5 * (a + b) + 0.5 * (b - a) * np.cos(turn), 0.5 * (b - a) * np.sin(turn), color=colour, lw=0.9, alpha=0.8)
+                high = max(high, 0.5 * (b - a))
+            x = np.array([0, far])
+            ax.plot(x, 1e-3 * c + x * math.tan(math.radians(angle)), color=colour, lw=2, label=f"{word}: c′ = {c:.0f} kPa, φ′ = {angle:.1f}°")
+        ax.set(xlim=(0, far), ylim=(0, 1.25 * high), xlabel="normal stress [MPa]", ylabel="shear stress [MPa]", aspect="equal")
+    whole.legend(loc="upper left")
+    whole.set_title(f"{len(tests)} tests")
+    close.set_title("the lowest pressures, where cohesion shows")
+    return style.save(fig, path, pdf)
+
+
+def _frame(ax, snapshot):
+    m = 0.03 * np.ptp(snapshot.x)
+    style.frame(ax, snapshot.x.min() - m, snapshot.x.max() + m, snapshot.y.min() - m, snapshot.y.max() + m)
+
+
+@style.styled
+def rotations(begin, panels, path, pdf=False):
+    """The sample coloured by the rotation of its disks since the begin of shear (the paper's Figure 9).
+
+    ``begin``: the Snapshot then; ``panels``: list of (title, Snapshot, bands), bands as in ``summary.json``. Returns ``path``.
+    """
+    ratio = np.ptp(begin.y) / np.ptp(begin.x)
+    width = 3.4
+    fig = style.figure(width * len(panels) + 0.9, width * ratio + 0.5, layout="constrained")
+    axes = fig.subplots(1, len(panels), squeeze=False)[0]
+    turned = [s.angle - begin.angle for _, s, _ in panels]
+    limit = max(0.02, style.nice(float(np.quantile(np.abs(np.concatenate(turned)), 0.98))))
+    scale = ScalarMappable(Normalize(-limit, limit), "RdBu_r")
+    for ax, (title, s, found), angle in zip(axes, panels, turned):
+        _frame(ax, s)
+        style.draw_disks(ax, s, scale.to_rgba(angle), edge="#00000030", width=0.15)
+        ax.set_title(title)
+    fig.colorbar(scale, ax=axes, shrink=0.5, label="rotation [rad], counterclockwise positive", extend="both")
+    return style.save(fig, path, pdf)
+
+
+@style.styled
+def chains(snapshot, title, path, pdf=False):
+    """Normal forces of a sample as bars between centres, compression blue, tension red. Returns ``path``."""
+    ratio = np.ptp(snapshot.y) / np.ptp(snapshot.x)
+    fig = style.figure(5.2, 5.2 * ratio + 0.7, layout="constrained")
+    ax = fig.subplots()
+    _frame(ax, snapshot)
+    style.draw_disks(ax, snapshot, np.tile([0.95, 0.94, 0.91, 1.0], (len(snapshot.x), 1)), edge="#c9c4ba", width=0.2)
+    strong = max(float(np.quantile(np.abs(snapshot.cn), 0.995)), 1e-12)
+    for sign, colour in ((1, style.COMPRESSION), (-1, style.TENSION)):
+        chosen = np.flatnonzero(sign * snapshot.cn > 0)
+        ax.add_collection(PolyCollection(forces.bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)), facecolors=colour, lw=0, rasterized=True), autolim=False)
+    ax.set_title(title)
+    fig.legend(handles=[Patch(color=style.COMPRESSION, label="compression"), Patch(color=style.TENSION, label="tension")], loc="lower center", ncol=2, bbox_to_anchor=(0.5, -0.004))
+    return style.save(fig, path, pdf)

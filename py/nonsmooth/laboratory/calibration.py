@@ -1,0 +1,131 @@
+"""Contact parameters for a rock of which only macroscopic strengths are known.
+
+Unknown: σ_ext, μ_s, and where residual strengths are wanted too, μ_r and σ_res. Measured by biaxial tests of samples that stay the same from one trial to
+the next, so that differences are those of the material: c, φ at the peak, and c_res, φ_res on the plateau. By dimensional analysis c is
+proportional to σ_ext as long as σ₃/σ_ext is kept, and φ hardly depends on it; so logarithms of the parameters are used, with a Jacobian that begins
+as this guess and learns from every trial (Broyden's update). `scipy.optimize.least_squares` chooses the trials. Samples are coarse first; fine
+ones then correct what the size of the sample does.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from ..packing_files import write_atomically
+from . import biaxial, campaign, sample
+
+PRESSURES = (3.0, 12.0, 48.0)   # σ₃ over the wanted cohesion
+BOUNDS = {"tensile_strength": (1e2, 1e9), "friction": (0.02, 2.0), "rolling_friction": (0.005, 0.6), "residual_share": (0.01, 1.0)}
+# first guesses of derivatives by logarithms: of ln c, φ [°], ln c_res, φ_res [°]
+SLOPES = {"tensile_strength": (1.0, 0.0, 1.0, 0.0), "friction": (0.3, 9.0, 0.0, 4.0), "rolling_friction": (0.2, 4.0, 0.0, 5.0), "residual_share": (0.0, 0.0, 1.0, 0.0)}
+SCALE = 0.02                    # a misfit of 2 % counts as one
+DEGREES = 0.7                   # of angles, about the same
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Macroscopic strengths [Pa, degrees]; residual ones None where they do not matter."""
+
+    cohesion: float
+    friction_deg: float
+    residual_cohesion: float | None = None
+    residual_friction_deg: float | None = None
+
+    @property
+    def with_residual(self):
+        return self.residual_friction_deg is not None
+
+
+class Calibration:
+    """Searches a material; every trial is kept in ``out/trials.json`` and not computed again by a resumed search."""
+
+    def __init__(self, wanted, start, out, threads, say=print, resume=False):
+        """``start``: section.Material whose other parameters are kept; ``say``: called with a line of text for every trial."""
+        self.wanted, self.start, self.out, self.threads, self.say = wanted, start, Path(out), threads, say
+        self.names = ("tensile_strength", "friction") + (("rolling_friction", "residual_share") if wanted.with_residual else ())
+        self.trials = []
+        self.known = json.loads((self.out / "trials.json").read_text()) if resume and (self.out / "trials.json").exists() else []
+        share = start.residual_tensile_strength / start.tensile_strength if start.tensile_strength > 0 else 0.25
+        first = {"tensile_strength": 1.1 * wanted.cohesion, "friction": start.friction, "rolling_friction": start.rolling_friction, "residual_share": max(share, 0.02)}
+        self.x0 = np.log([first[name] for name in self.names])
+        self.share = share
+        self.jacobian = np.array([SLOPES[name] for name in self.names], float).T[:4 if wanted.with_residual else 2]
+        self.last = None
+
+    # ---- parameters -----------------------------------------------------------------------------
+    def material(self, x):
+        """The start material with the parameters exp(x)."""
+        v = dict(zip(self.names, np.exp(x).tolist()))
+        friction, rolling = v["friction"], v.get("rolling_friction", self.start.rolling_friction)
+        return dataclasses.replace(
+            self.start, name="calibrated", tensile_strength=v["tensile_strength"], residual_tensile_strength=v.get("residual_share", self.share) * v["tensile_strength"],
+            friction=friction, residual_friction=friction, rolling_friction=rolling, residual_rolling_friction=rolling)
+
+    # ---- trials ---------------------------------------------------------------------------------
+    def measure(self, x, disks, seeds):
+        """c [Pa], φ [°], c_res, φ_res of the material at ``x``, with samples of so many disks."""
+        key = [list(map(float, x)), disks, list(seeds)]
+        for trial in self.known:
+            if trial["key"] == key:
+                self.trials.append(trial)
+                return np.array(trial["found"])
+        m = self.material(x)
+        tests = [biaxial.Test(m, p * self.wanted.cohesion, sample.Shape(disks, seed), strain=0.06 if self.wanted.with_residual else 0.045)
+                 for seed in seeds for p in PRESSURES]
+        s = campaign.summarise(m, campaign.run(tests, self.out / "trial", self.threads), 0.0, self.threads)
+        found = [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"], 1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]
+        self.trials.append({"key": key, "parameters": dict(zip(self.names, np.exp(x).tolist())), "disks": disks, "seeds": list(seeds), "found": found})
+        write_atomically(self.out / "trials.json", json.dumps(self.trials, indent=1).encode())
+        named = ", ".join(f"{name} {value:.4g}" for name, value in zip(self.names, np.exp(x)))
+        self.say(f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°, "
+                 f"c_res {1e-3 * found[2]:.1f} kPa, φ_res {found[3]:.2f}°")
+        return np.array(found)
+
+    def misfits(self, found):
+        """What a trial misses, in units of SCALE and DEGREES."""
+        w = self.wanted
+        parts = [math.log(max(found[0], 1e-3 * w.cohesion) / w.cohesion) / SCALE, (found[1] - w.friction_deg) / DEGREES]
+        if w.with_residual:
+            # a residual cohesion near zero is measured to some kPa, not to per cents
+            parts += [(found[2] - w.residual_cohesion) / (SCALE * w.cohesion), (found[3] - w.residual_friction_deg) / DEGREES]
+        return np.array(parts)
+
+    def search(self, disks, seeds, x, trials):
+        """The best of at most ``trials`` trials from ``x`` with samples of one kind: (x, misfits)."""
+        scale = np.array([1 / SCALE, 1 / DEGREES, 1 / SCALE, 1 / DEGREES])[:len(self.jacobian)]
+        best = [None, None]
+        low, high = (np.log([BOUNDS[name][k] for name in self.names]) for k in (0, 1))
+        self.last = None
+
+        def residuals(at):
+            r = self.misfits(self.measure(at, disks, seeds))
+            if self.last is not None:
+                step, change = at - self.last[0], (r - self.last[1]) / scale
+                if step @ step > 1e-6:
+                    self.jacobian = self.jacobian + np.outer(change - self.jacobian @ step, step) / (step @ step)
+            self.last = (at.copy(), r)
+            if best[1] is None or r @ r < best[1] @ best[1]:
+                best[:] = at.copy(), r
+            return r if np.abs(r).max() > 1 else np.zeros_like(r)  # good enough: the samples tell no more
+
+        least_squares(residuals, np.clip(x, low + 1e-6, high - 1e-6), jac=lambda at: self.jacobian * scale[:, None], bounds=(low, high), max_nfev=trials, ftol=1e-3, xtol=1e-3)
+        return best[0], best[1]
+
+    def run(self, coarse, fine, trials=(8, 4)):
+        """Coarse search, then a fine one from there; ``coarse``, ``fine``: (disks, seeds). Returns a report, a dictionary."""
+        x, _ = self.search(*coarse, self.x0, trials[0])
+        x, misfit = self.search(*fine, x, trials[1])
+        found = next(t["found"] for t in self.trials if t["key"] == [list(map(float, x)), fine[0], list(fine[1])])
+        _, singular, directions = np.linalg.svd(self.jacobian)
+        return {"material": dataclasses.asdict(self.material(x)), "wanted": dataclasses.asdict(self.wanted), "found": found, "misfit_in_tolerances": misfit.tolist(),
+                "trials": self.trials, "parameters": list(self.names), "sensitivity": self.jacobian.tolist(), "singular_values": singular.tolist(),
+                "least_certain_direction": dict(zip(self.names, directions[-1].tolist())),
+                "unique": "σ_ext and μ_s follow from c and φ for the given μ_r; another μ_r gives another μ_s with the same peak and another plateau"
+                if not self.wanted.with_residual else "four parameters from four strengths; see the singular values for what the strengths tell least about"}

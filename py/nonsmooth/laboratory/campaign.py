@@ -1,0 +1,134 @@
+"""Biaxial tests side by side, and what they say together: ``summary.json``."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from .. import processes, records
+from ..packing_files import write_atomically
+from . import bands, biaxial, strength
+
+BAND_AT = "2"  # snapshot (strain in per cent) in which bands are measured: after the peak, before they have spread
+
+
+class CampaignError(RuntimeError):
+    """Tests that could not be run; the message says which and why."""
+
+
+def name_of(test):
+    """Name of a test's folder."""
+    return f"{test.confining / 1e6:g}MPa-seed{test.shape.seed}"
+
+
+def name_of_result(measured):
+    """The same, of a test's dictionary in ``summary.json``."""
+    return f"{measured['confining_Pa'] / 1e6:g}MPa-seed{measured['seed']}"
+
+
+def run(tests, out, threads, resume=False, progress=lambda share: None):
+    """Runs biaxial Tests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns what :func:`measure` says of each.
+
+    ``resume``: keep tests that ended, and go on with others from their checkpoints. ``progress``: called with the share done now and then.
+    Raises CampaignError with the first failure after the others have ended.
+    """
+    home, tests = Path(out) / "tests", list(tests)
+    folders = [home / name_of(test) for test in tests]
+    if len(set(folders)) < len(folders):
+        raise CampaignError("two tests have the same confining pressure and seed: give each once")
+    for folder in folders:
+        if not resume:
+            shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True, exist_ok=True)
+    ended = threading.Event()
+    watcher = threading.Thread(target=_watch, args=(folders, progress, ended), daemon=True)
+    watcher.start()
+    try:
+        with ThreadPoolExecutor(max(1, threads)) as pool:
+            futures = [pool.submit(_one, test, folder) for test, folder in zip(tests, folders)]
+            failures = [f"{folder.name}: {error}" for folder, f in zip(folders, futures) if (error := f.exception())]
+    finally:
+        ended.set()
+        watcher.join()
+    if failures:
+        raise CampaignError(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""))
+    return [measure(test, folder) for test, folder in zip(tests, folders)]
+
+
+def _one(test, folder):
+    key, path = biaxial.key_of(test), folder / "result.json"
+    try:
+        if json.loads(path.read_text())["key"] == key:
+            return
+    except (OSError, ValueError, KeyError):
+        pass
+    found = processes.call(biaxial.run, folder, asdict(test))
+    shutil.rmtree(folder / "checkpoint", ignore_errors=True)
+    write_atomically(path, json.dumps({"key": key, "test": asdict(test), "found": found}, indent=1).encode())
+
+
+def _watch(folders, progress, ended):
+    while not ended.wait(1.0):
+        done = 0.0
+        for folder in folders:
+            try:
+                done += 1.0 if (folder / "result.json").exists() else float((folder / "progress").read_text())
+            except (OSError, ValueError):
+                pass
+        progress(done / len(folders))
+
+
+def measure(test, folder):
+    """Figures of one test, a dictionary for ``summary.json``."""
+    folder = Path(folder)
+    found = json.loads((folder / "result.json").read_text())["found"]
+    series = records.read_series(folder / "series.csv")
+    plateau = (strength.PLATEAU[0], max(strength.PLATEAU[1], test.strain))
+    c = strength.curve(series, plateau)
+    seen = band_of(folder)
+    return {"confining_Pa": test.confining, "seed": test.shape.seed, "disks": found["disks"], "bonds": found["bonds"], "packing_fraction": found["packing_fraction"],
+            "sigma1_peak_Pa": c.peak, "strain_peak": c.peak_strain, "sigma3_peak_Pa": c.peak_confining, "sigma1_residual_Pa": c.residual,
+            "sigma1_residual_error_Pa": c.residual_error, "sigma3_residual_Pa": c.residual_confining, "residual_between_strains": plateau,
+            "dilatancy_deg": c.dilatancy_deg, "volumetric_strain_end": c.volumetric_end, "platen_difference_rel": c.imbalance,
+            "bands": [None if b is None else {"angle_deg": b.angle_deg, "width_d": b.width, "rotation_rad": b.rotation, "contrast": b.contrast} for b in seen],
+            **{key: found[key] for key in ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s",
+                                           "sweeps_mean", "unconverged", "overlap_worst_rel")}}
+
+
+def band_of(folder):
+    """Shear bands of a test, see :func:`bands.find`."""
+    begin = records.read_snapshot(folder / "snapshots" / "begin.npz")
+    path = folder / "snapshots" / f"{BAND_AT}.npz"
+    late = records.read_snapshot(path if path.exists() else folder / "snapshots" / "end.npz")
+    return bands.find(late.x, late.y, late.r, late.angle - begin.angle)
+
+
+def summarise(material, measured, wall_s, threads):
+    """``summary.json``: per test, and per material with the mean and the 95 % confidence interval over seeds (null for one seed)."""
+    by_seed = {}
+    for m in measured:
+        by_seed.setdefault(m["seed"], []).append(m)
+    whole = {"material": asdict(material), "tests": measured, "seeds": sorted(by_seed), "threads": threads, "wall_s": wall_s,
+             "fit": "line closest to tangent to the circles, least squares of relative misses; confidence over seeds by Student's t"}
+    if len({m["confining_Pa"] for m in measured}) < 2:
+        return {**whole, "note": "one confining pressure: no envelope"}
+    for kind, unit in (("peak", "peak"), ("residual", "residual")):
+        fits = [strength.envelope([m[f"sigma3_{kind}_Pa"] for m in group], [m[f"sigma1_{kind}_Pa"] for m in group]) for group in by_seed.values()]
+        cohesion = strength.Estimate.of([1e-3 * f.cohesion for f in fits])
+        friction = strength.Estimate.of([f.friction_deg for f in fits])
+        whole |= {f"cohesion_{unit}_kPa": cohesion.mean, f"cohesion_{unit}_95_kPa": _number(cohesion.half_width), f"friction_{unit}_deg": friction.mean,
+                  f"friction_{unit}_95_deg": _number(friction.half_width),
+                  f"misses_{unit}_rel": np.mean([f.misses for f in fits], axis=0).tolist()}
+    return whole
+
+
+def _number(value):
+    return None if math.isnan(value) else value

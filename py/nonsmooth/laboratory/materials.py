@@ -1,0 +1,44 @@
+"""Materials of laboratory tests: those of the paper's Table 1 by name, others from a file.
+
+A material file is YAML with the keys that a material has in a section file, as ``friction: 0.3``; see ``sections/jiufengershan.yaml``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import yaml
+
+from .. import section
+from ..packing_files import write_atomically
+from ..section_reader import SectionError, read
+
+#: Names of the paper's Table 1 and the materials of the shipped section that hold their parameters.
+SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
+
+
+def load(name_or_path):
+    """A section.Material by its name in :data:`SHIPPED`, or from a material file.
+
+    Raises SectionError, naming file, line, key, value and remedy.
+    """
+    name = str(name_or_path)
+    if name in SHIPPED:
+        return dataclasses.replace(section.load("jiufengershan").materials[SHIPPED[name]], name=name)
+    path = Path(name)
+    if path.suffix not in (".yaml", ".yml") and not path.exists():
+        raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
+    document = read(path, section.FOLDER / "section.schema.yaml", part=("properties", "materials", "additionalProperties"))
+    material = section.material_from(path.stem, document.data)
+    if material.density is None:
+        document.refuse((), "the key 'density' is missing", "add it (kg/m³, of the disks)")
+    return material
+
+
+def save(material, path, comment=""):
+    """Writes a material file; ``comment``: text for its head."""
+    plain = {k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening") and v is not None}
+    plain["bond_ellipse"] = list(plain["bond_ellipse"])
+    head = "".join(f"# {line}\n" for line in comment.splitlines())
+    write_atomically(Path(path), (head + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True)).encode())

@@ -1,0 +1,51 @@
+"""What a campaign of biaxial tests shows: a table, figures, and files for ParaView."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .. import paraview, records
+from ..figures import biaxial as figures
+from .campaign import name_of_result
+
+
+def table(summary):
+    """Rows of text: one a test, then the envelopes."""
+    lines = [" σ₃ [MPa]  seed   σ₁ peak  at ε₁ [%]   residual   ψ [°]   bands [d]     I        platens differ"]
+    for t in summary["tests"]:
+        widths = ", ".join("-" if b is None else f"{b['width_d']:.1f}" for b in t["bands"])
+        lines.append(f"{t['confining_Pa'] / 1e6:9.3g} {t['seed']:5d} {t['sigma1_peak_Pa'] / 1e6:9.3f} {100 * t['strain_peak']:10.2f} {t['sigma1_residual_Pa'] / 1e6:10.3f} "
+                     f"{t['dilatancy_deg']:7.1f}   {widths:11s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %")
+    for kind in ("peak", "residual"):
+        if f"cohesion_{kind}_kPa" in summary:
+            dc, df = summary[f"cohesion_{kind}_95_kPa"], summary[f"friction_{kind}_95_deg"]
+            lines.append(f"{kind:9s} cohesion {summary[f'cohesion_{kind}_kPa']:6.1f}{'' if dc is None else f' ± {dc:.1f}'} kPa, "
+                         f"friction {summary[f'friction_{kind}_deg']:5.2f}{'' if df is None else f' ± {df:.2f}'}°")
+    return "\n".join(lines)
+
+
+def draw(out, summary):
+    """Figures and ParaView files of a campaign in ``out``; returns the figures' paths."""
+    out, made = Path(out), []
+    first = [t for t in summary["tests"] if t["seed"] == summary["seeds"][0]]
+    curves = [(t["confining_Pa"], records.read_series(out / "tests" / name_of_result(t) / "series.csv"), t) for t in first]
+    made.append(figures.stress_strain(curves, out / "stress_strain.png"))
+    if "cohesion_peak_kPa" in summary:
+        made.append(figures.mohr(summary, out / "mohr.png"))
+    shown = min(first, key=lambda t: abs(t["confining_Pa"] - 8e6))  # the paper's Figure 9 is at 8 MPa
+    folder = out / "tests" / name_of_result(shown) / "snapshots"
+    frames = {path.stem: records.read_snapshot(path) for path in folder.glob("*.npz")}
+    begin = frames["begin"]
+    order = [name for name in ("1", "2", "4", "end") if name in frames]
+    title = lambda name: "end" if name == "end" else f"ε₁ = {name} %"  # noqa: E731
+    panels = [(f"{title(name)}, σ₃ = {shown['confining_Pa'] / 1e6:g} MPa", frames[name], shown["bands"]) for name in (order[0], order[-1])]
+    made.append(figures.rotations(begin, panels, out / "bands.png"))
+    made.append(figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png"))
+    for t in summary["tests"]:
+        home, entries = out / "tests" / name_of_result(t), []
+        for path in (home / "snapshots").glob("*.npz"):
+            s = records.read_snapshot(path)
+            entries.append((s.time_s, paraview.write_disks(s, home / "vtk" / f"disks-{path.stem}.vtu")))
+            paraview.write_contacts(s, home / "vtk" / f"contacts-{path.stem}.vtu")
+        paraview.write_collection(sorted(entries), home / "vtk" / "biaxial.pvd")
+    return made

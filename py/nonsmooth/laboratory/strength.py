@@ -1,0 +1,109 @@
+"""Strength from the curves of biaxial tests: peak, plateau, dilatancy, and the envelope of Mohr's circles.
+
+A circle of the stresses σ₁ ≥ σ₃ has its centre at s = (σ₁ + σ₃)/2 and the radius t = (σ₁ − σ₃)/2. The line τ = c + σ tan φ touches it where
+
+    t = c cos φ + s sin φ .
+
+The envelope is the line that comes closest to touching all circles (Taboada and Estrada 2009, section 5.2, Figure 11): least squares of the
+relative misses (t − c cos φ − s sin φ)/t, so that circles of low pressure, which alone tell the cohesion, count as much as large ones.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+PEAK_WINDOW = 2e-3           # strain over which the stress is averaged before its maximum is taken
+DILATANCY_WINDOW = 5e-3      # strain around the peak over which the slope of the volume is taken
+PLATEAU = (0.04, 0.06)       # strains between which the residual strength is the mean
+
+
+@dataclass(frozen=True)
+class Curve:
+    """What one test says. Stresses [Pa]; ``confining`` as it was during peak or plateau; ``error``: standard error of the plateau's mean."""
+
+    peak: float
+    peak_strain: float
+    peak_confining: float
+    residual: float
+    residual_error: float
+    residual_confining: float
+    dilatancy_deg: float
+    imbalance: float           # largest difference between the platens around the peak and on the plateau, relative
+    volumetric_end: float
+
+
+def curve(series, plateau=PLATEAU):
+    """Figures of a test's series (columns as in `biaxial.COLUMNS`); ValueError where it ends before the plateau has begun."""
+    strain = np.asarray(series["strain"], float)
+    if strain[-1] < plateau[0] + PEAK_WINDOW:
+        raise ValueError(f"the test ended at a strain of {strain[-1]:.4f}, before the plateau, which begins at {plateau[0]:g}")
+    top, bottom = (np.asarray(series[f"sigma1_{name}_Pa"], float) for name in ("top", "bottom"))
+    axial = 0.5 * (top + bottom)
+    lateral = 0.5 * (np.asarray(series["sigma3_left_Pa"], float) + np.asarray(series["sigma3_right_Pa"], float))
+    step = strain[-1] / len(strain)
+    n = max(1, round(PEAK_WINDOW / step))
+    smooth = np.convolve(axial, np.ones(n) / n, "valid")
+    k = int(np.argmax(smooth))
+    at = slice(k, k + n)
+    late = (strain >= plateau[0]) & (strain <= plateau[1] + 1e-9)
+    blocks = [b.mean() for b in np.array_split(axial[late], 5)]
+    middle = strain[at].mean()
+    around = np.abs(strain - middle) <= DILATANCY_WINDOW / 2
+    slope = np.polyfit(strain[around], np.asarray(series["volumetric_strain"], float)[around], 1)[0] if around.sum() > 2 else math.nan
+    gap = lambda where: abs(top[where].mean() / bottom[where].mean() - 1)  # noqa: E731
+    return Curve(
+        peak=float(smooth[k]), peak_strain=float(middle), peak_confining=float(lateral[at].mean()), residual=float(axial[late].mean()),
+        residual_error=float(np.std(blocks, ddof=1) / math.sqrt(len(blocks))), residual_confining=float(lateral[late].mean()),
+        # sin ψ = dε_v / (2 dε₁ + dε_v) in plane strain
+        dilatancy_deg=math.degrees(math.asin(max(-1.0, min(1.0, slope / (2 + slope))))), imbalance=float(max(gap(at), gap(late))),
+        volumetric_end=float(series["volumetric_strain"][-1]))
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """Cohesion [Pa], angle of friction [°], and the relative miss of each circle."""
+
+    cohesion: float
+    friction_deg: float
+    misses: tuple
+
+    def strength(self, confining):
+        """σ₁ [Pa] at failure under σ₃ [Pa] (scalar or array)."""
+        sine = math.sin(math.radians(self.friction_deg))
+        return (np.asarray(confining) * (1 + sine) + 2 * self.cohesion * math.sqrt(1 - sine * sine)) / (1 - sine)
+
+
+def envelope(minor, major):
+    """Envelope of the circles of ``minor`` (σ₃) and ``major`` (σ₁) [Pa], arrays of two or more."""
+    minor, major = np.asarray(minor, float), np.asarray(major, float)
+    if len(minor) < 2 or np.ptp(minor) == 0:
+        raise ValueError(f"an envelope needs two confining pressures or more, not {sorted(set(minor.tolist()))}")
+    s, t = 0.5 * (major + minor), 0.5 * (major - minor)
+    # linear in c cos φ and sin φ; in units of the smallest centre, as they differ by orders of magnitude
+    unit = s.min()
+    rows = np.column_stack((unit / t, s / t))
+    (a, sine), *_ = np.linalg.lstsq(rows, np.ones(len(t)), rcond=None)
+    sine = min(max(float(sine), 0.0), 0.999)
+    cosine = math.sqrt(1 - sine * sine)
+    misses = 1 - (a * unit + s * sine) / t
+    return Envelope(float(a) * unit / cosine, math.degrees(math.asin(sine)), tuple(misses.tolist()))
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A mean over seeds with the half width of its 95 % confidence interval (Student's t); NaN for one seed."""
+
+    mean: float
+    half_width: float
+
+    @classmethod
+    def of(cls, values):
+        from scipy import stats
+
+        values = np.asarray(values, float)
+        n = len(values)
+        half = float(stats.t.ppf(0.975, n - 1) * values.std(ddof=1) / math.sqrt(n)) if n > 1 else math.nan
+        return cls(float(values.mean()), half)

@@ -1,0 +1,121 @@
+"""Sliding test of a packing on a wall: strength of the line that bounds a slope (Taboada and Estrada 2009, section 3.3, Table 1).
+
+A flat block of disks, bonded so strongly that it stays rigid, lies on a Segment wall of the material to be tested. A plate that is glued on, and
+can only rise and sink, presses it down with the force σ L. The wall is then pulled along at a slow constant speed v. With N and T the force of the
+block on the wall,
+
+    σ = N/L,  τ = T/L,      τ = c + μ σ  (least squares over the pressures).
+
+Expected, as all contacts slip at once: μ = μ_s, c = μ_s Σ F_a / L = μ_s σ_ext Σ ℓ / L over the disks that are bonded to the wall; Σ ℓ / L, the
+share of the line that disks cover, is what makes the two adhesions "approximately equal" in a dense packing.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+
+from .. import section
+from . import sample
+
+BLOCK_STRENGTH = 1e9  # Pa, of the block's own bonds
+BLOCK_BONDS = 0.15    # ℓ; a disk that the block does not hold could roll between it and the wall
+SPEED = 0.1           # m/s
+STEP = 2e-3           # s
+PEAK_SLIP = 0.005     # m, slip until which the peak is looked for: a quarter of the smallest bond's ellipse
+PLATE_MASS = 0.2      # of the block's
+PRESSING = 150        # steps in which the pressure grows
+LENGTH, HEIGHT = 50.0, 6.0  # mean diameters
+TOLERANCE = 1e-4      # a bonded beam converges slowly
+
+
+@dataclasses.dataclass(frozen=True)
+class Slide:
+    """One test: stresses [Pa] at the peak and after slip, and the share of the wall that bonded disks cover."""
+
+    normal_peak: float
+    shear_peak: float
+    normal_residual: float
+    shear_residual: float
+    coverage: float
+    disks: int
+
+
+def slide(material, pressure, seed, d_min=1.0, d_max=4.0):
+    """A sliding test of the wall ``material`` (section.Material) under ``pressure`` [Pa]; fills the scene anew."""
+    from yade import O
+
+    from .. import packing, scene
+
+    d = math.sqrt(d_min * d_max)
+    shipped = section.load("jiufengershan")
+    rock = shipped.materials["rock"]
+    width, height = LENGTH * d, HEIGHT * d
+    corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
+    block = dataclasses.replace(shipped, layers=(section.Layer("block", "rock", corners),), seed=seed, source="the block",
+                                disks=section.Disks(d_min, d_max, "uniform_by_volume", shipped.disks.packing_fraction))
+    made = packing.cached_pack(block)
+    O.reset()
+    strong = dataclasses.replace(rock, tensile_strength=BLOCK_STRENGTH, bond_creation_distance=BLOCK_BONDS, friction=1.0, residual_friction=1.0, rolling_friction=1.0, residual_rolling_friction=1.0)
+    stuff, wall = sample.material_of(strong), sample.material_of(material, wall=True)
+    wall.bondsToAll = material.bonded
+    glue = sample.material_of(strong, wall=True)
+    glue.bondsToAll = True
+    O.materials.append((stuff, wall, glue))
+    base, plate = (O.bodies.append(scene.segments(ends, what, sense=1))[0] for ends, what in (
+        (((-width, 0), (3 * width, 0)), wall), (((3 * width, height), (-width, height)), glue)))
+    O.bodies.append([scene.disk((float(made.x[k]), float(made.y[k])), float(made.r[k]), stuff) for k in np.argsort(made.x, kind="stable")])
+    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * d_min, tolerance=TOLERANCE, maxIterations=1000)
+    O.dt = STEP
+    mass = rock.density * float(np.sum(math.pi * made.r**2))
+    load, state = pressure * width, O.bodies[plate].state
+    state.mass, state.blockedDOFs = PLATE_MASS * mass, "xzXYZ"
+
+    def step(share):
+        O.forces.setPermF(plate, (0, -share * load, 0))
+        O.step()
+
+    engine = scene.contact_dynamics()
+    O.step()  # finds the contacts
+    engine.bond()
+    for k in range(PRESSING):
+        step((k + 1) / PRESSING)
+    bonded = [2 * _radius(O, i, base) for i in O.interactions if base in (i.id1, i.id2) and i.isReal and i.phys.bonded]
+    pulled, peak, late = 0.0, (0.0, 0.0), []
+    end = 0.04 * d_max  # twice the largest ellipse of 0.02
+    while pulled < 2 * end:
+        v = SPEED * min(1.0, pulled / 1e-3 + 0.05)
+        O.bodies[base].state.vel = (v, 0, 0)
+        step(1.0)
+        pulled += v * O.dt
+        force = O.forces.f(base)
+        normal, shear = -force[1], -force[0]
+        if pulled < PEAK_SLIP and shear > peak[1]:
+            peak = (normal, shear)
+        if pulled > end:
+            late.append((normal, shear))
+    residual = np.mean(late, axis=0)
+    return Slide(peak[0] / width, peak[1] / width, residual[0] / width, residual[1] / width, float(sum(bonded)) / width, len(made))
+
+
+def _radius(O, interaction, wall):
+    other = interaction.id2 if interaction.id1 == wall else interaction.id1
+    return O.bodies[other].shape.radius
+
+
+def strength_of(material, pressures, seed, progress=lambda: None):
+    """Friction and cohesion of a wall material from slides under ``pressures`` [Pa]: a dictionary for ``summary.json``, and the slides."""
+    slides = []
+    for pressure in pressures:
+        slides.append(slide(material, pressure, seed))
+        progress()
+    found = {"material": material.name, "seed": seed, "pressures_Pa": list(pressures), "coverage": float(np.mean([s.coverage for s in slides])),
+             "disks": slides[0].disks}
+    for kind in ("peak", "residual"):
+        normal, shear = (np.array([getattr(s, f"{what}_{kind}") for s in slides]) for what in ("normal", "shear"))
+        slope, cohesion = np.polyfit(normal, shear, 1)
+        found |= {f"friction_{kind}": float(slope), f"friction_{kind}_deg": math.degrees(math.atan(slope)), f"cohesion_{kind}_kPa": 1e-3 * float(cohesion),
+                  f"misfit_{kind}_rel": float(np.max(np.abs(slope * normal + cohesion - shear) / shear))}
+    return found, slides

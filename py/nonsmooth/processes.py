@@ -1,0 +1,46 @@
+"""Calls of this package's functions in YADE processes of their own.
+
+Small scenes gain little from threads, so runs side by side use a machine better. Each process has one thread.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import time
+from pathlib import Path
+
+__all__ = ["call"]
+
+_WORKER = Path(__file__).with_name("_process_worker.py")
+
+
+def call(function, folder, arguments):
+    """Calls ``function(folder, **arguments)`` in a process and returns what it returned, with ``wall_s`` [s] added where it has none.
+
+    ``function``: of a module of this package; it returns a dictionary that JSON can hold. ``folder`` exists and is kept; the process
+    writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold. Raises RuntimeError with the end of the process's output where it fails.
+    """
+    folder, began = Path(folder), time.monotonic()
+    request = folder / "request.json"
+    request.write_text(json.dumps({"module": function.__module__, "function": function.__name__, "arguments": arguments}))
+    (folder / "found.json").unlink(missing_ok=True)
+    with open(folder / "log.txt", "wb") as log:
+        status = subprocess.run([_yade(), "-n", "-x", "-j1", str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                # waiting threads must not spin, processes share the cores
+                                env={**os.environ, "OMP_WAIT_POLICY": "passive"}).returncode
+    try:
+        found = json.loads((folder / "found.json").read_text())
+    except (OSError, ValueError):
+        end = (folder / "log.txt").read_text(errors="replace")[-500:]
+        raise RuntimeError(f"{folder}: the run ended with status {status} and no result: {end}") from None
+    return {"wall_s": time.monotonic() - began, **found}
+
+
+def _yade():
+    """The program of the YADE that runs this."""
+    from yade import config
+
+    prefix = os.environ.get("YADE_PREFIX")  # set where the plugin is used from its build folder
+    return Path(prefix or config.prefix) / "bin" / ("yade" if prefix else f"yade{config.suffix}")

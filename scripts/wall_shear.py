@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Sliding tests of a packing on a wall (Taboada and Estrada 2009, section 3.3): friction and cohesion of DP, FB and SS in Table 1.
+
+  scripts/wall_shear.py [--material NAME|FILE …] [--pressures MPA,MPA,…] [--seeds S …] [--out DIR]
+"""
+import os, sys
+if "yade" not in sys.modules:  # started as it is: hand over to the launcher
+    launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
+    os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
+
+import argparse
+import dataclasses
+import json
+from pathlib import Path
+
+from tqdm import tqdm
+from yade.nonsmooth import packing, section
+from yade.nonsmooth.laboratory import materials, wall_shear
+from yade.nonsmooth.packing_files import write_atomically
+
+
+def pressures(text):
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: give pressures in MPa, separated by commas") from None
+    if not all(v > 0 for v in values) or len(set(values)) < 2:
+        raise argparse.ArgumentTypeError(f"{text!r}: give two or more different positive pressures")
+    return values
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="wall_shear.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--material", nargs="+", default=["dp", "fb", "ss"], metavar="NAME|FILE", help="of the wall: dp, fb, ss, wwr or a material file (default: dp fb ss)")
+    parser.add_argument("--bonded", action="store_true", help="bond the block to the wall in any case; dp and ss are shipped without bonds")
+    parser.add_argument("--tensile-strength", type=float, metavar="KPA", help="of these bonds, instead of the material's [kPa]")
+    parser.add_argument("--pressures", type=pressures, default=[0.25, 0.5, 1, 2], metavar="MPA,…", help="normal stresses [MPa] (default: 0.25,0.5,1,2)")
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2], metavar="S", help="seeds of the packings (default: 1 2)")
+    parser.add_argument("--out", default="out/wall_shear", metavar="DIR", help="folder for summary.json (default: %(default)s)")
+    return parser.parse_args()
+
+
+def main():
+    args = arguments()
+    chosen = []
+    for name in args.material:
+        m = materials.load(name)
+        if args.bonded:
+            m = dataclasses.replace(m, bonded=True)
+        if args.tensile_strength is not None:
+            m = dataclasses.replace(m, tensile_strength=1e3 * args.tensile_strength)
+        chosen.append(m)
+    found = []
+    with tqdm(total=len(chosen) * len(args.seeds) * len(args.pressures), unit="test", leave=False) as bar:
+        for m in chosen:
+            for seed in args.seeds:
+                one, slides = wall_shear.strength_of(m, [1e6 * p for p in args.pressures], seed, bar.update)
+                found.append({**one, "slides": [dataclasses.asdict(s) for s in slides]})
+    out = Path(args.out)
+    write_atomically(out / "summary.json", json.dumps({"tests": found}, indent=1).encode())
+    print("wall       seed   peak: friction  φ [°]   cohesion [kPa]   residual: friction  φ [°]   cohesion [kPa]   covered")
+    for f in found:
+        print(f"{f['material']:10s} {f['seed']:4d} {f['friction_peak']:16.3f} {f['friction_peak_deg']:6.1f} {f['cohesion_peak_kPa']:16.1f} {f['friction_residual']:20.3f} "
+              f"{f['friction_residual_deg']:6.1f} {f['cohesion_residual_kPa']:16.1f} {f['coverage']:9.2f}")
+    print(f"results: {out}/summary.json")
+
+
+try:
+    main()
+except (section.SectionError, packing.PackingError) as error:
+    sys.exit(f"error: {error}")

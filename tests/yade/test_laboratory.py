@@ -1,0 +1,205 @@
+"""Laboratory tests: measures on made-up data with known answers, walls against eq. 4, and a small biaxial test."""
+import dataclasses
+import json
+import math
+import os
+import subprocess
+from dataclasses import asdict
+
+import numpy as np
+import pytest
+from yade import O
+from yade.nonsmooth import records, section
+from yade.nonsmooth.laboratory import bands, biaxial, materials, membrane, sample, strength, wall_shear
+
+ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.reset()
+
+
+# ---- curves and envelopes -------------------------------------------------------------------------
+
+def test_envelope_finds_the_line_that_touches_all_circles():
+    c, angle = 88e3, math.radians(38.5)
+    minor = np.array([0.25, 0.5, 1, 2, 4, 8, 16]) * 1e6
+    major = minor * math.tan(math.pi / 4 + angle / 2) ** 2 + 2 * c * math.tan(math.pi / 4 + angle / 2)
+    found = strength.envelope(minor, major)
+    assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(38.5, rel=1e-9)  # rounding
+    assert np.abs(found.misses).max() < 1e-12
+    assert found.strength(minor) == pytest.approx(major, rel=1e-9)
+    with pytest.raises(ValueError, match="two confining pressures"):
+        strength.envelope([1e6, 1e6], [4e6, 4.1e6])
+
+
+def made_curve(noise=0.0):
+    strain = np.arange(1, 601) * 1e-4
+    rng = np.random.default_rng(1)
+    axial = 27e6 + 8e6 * np.exp(-((strain - 0.015) / 0.006) ** 2) + noise * rng.standard_normal(len(strain))
+    # dε_v/dε₁ = 0.5 everywhere: sin ψ = 0.5/2.5
+    return {"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": 1.01 * axial, "sigma1_bottom_Pa": 0.99 * axial,
+            "sigma3_left_Pa": np.full(600, 8e6), "sigma3_right_Pa": np.full(600, 8.2e6)}
+
+
+def test_curve_measures_peak_plateau_and_dilatancy():
+    c = strength.curve(made_curve())
+    assert c.peak == pytest.approx(35e6, rel=5e-3)  # the window of 0.2 % of strain takes (0.1/0.6)²/3 of the bump away
+    assert c.peak_strain == pytest.approx(0.015, abs=1e-4)
+    assert c.residual == pytest.approx(27e6, rel=1e-6) and c.residual_confining == pytest.approx(8.1e6, rel=1e-12)
+    assert c.dilatancy_deg == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9)
+    assert c.imbalance == pytest.approx(1.01 / 0.99 - 1, rel=1e-9)
+
+
+def test_a_curve_without_a_plateau_is_refused():
+    short = {name: values[:300] for name, values in made_curve().items()}
+    with pytest.raises(ValueError, match="before the plateau"):
+        strength.curve(short)
+
+
+def test_confidence_over_seeds_is_students():
+    e = strength.Estimate.of([38.0, 39.0, 40.0])
+    assert e.mean == 39.0 and e.half_width == pytest.approx(4.3027 / math.sqrt(3), rel=1e-4)  # t(0.975, 2 degrees of freedom) has 5 digits
+    assert math.isnan(strength.Estimate.of([38.0]).half_width)
+
+
+# ---- bands ----------------------------------------------------------------------------------------
+
+def test_bands_are_found_with_their_angle_and_width():
+    rng = np.random.default_rng(2)
+    x, y = rng.uniform(0, 100, 6000), rng.uniform(0, 200, 6000)
+    r = np.full(6000, 1.0)
+    # a band of 12 m, six diameters, that rises at 60° to the right through (45, 90); and a weaker one of 10 m at −55°
+    offset = lambda deg, px, py: -math.sin(math.radians(deg)) * (x - px) + math.cos(math.radians(deg)) * (y - py)  # noqa: E731
+    rotation = 0.3 * (np.abs(offset(60, 45, 90)) < 6) - 0.2 * (np.abs(offset(-55, 50, 100)) < 5) + 0.01 * rng.standard_normal(6000)
+    left, right = bands.find(x, y, r, rotation)
+    assert left.angle_deg == pytest.approx(60, abs=3) and right.angle_deg == pytest.approx(-55, abs=3)  # a strip is 2 m wide, the band 120 m long
+    assert left.width == pytest.approx(6, abs=1) and right.width == pytest.approx(5, abs=1)  # one strip
+    assert left.rotation > 0.2 and right.rotation < -0.13
+
+
+def test_no_band_in_even_rotation():
+    rng = np.random.default_rng(3)
+    x, y = rng.uniform(0, 100, 4000), rng.uniform(0, 200, 4000)
+    assert bands.find(x, y, np.ones(4000), rng.standard_normal(4000)) == (None, None)
+
+
+# ---- the membrane ---------------------------------------------------------------------------------
+
+def test_membrane_balances_and_presses_on_the_outermost_disks():
+    columns, rows = 12, 30
+    x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(columns), np.arange(rows)))
+    rng = np.random.default_rng(4)
+    x, y = x + 0.05 * rng.standard_normal(len(x)), y + 0.05 * rng.standard_normal(len(y))
+    r = np.full(len(x), 0.5)
+    bottom, top, p = -0.55, rows - 0.45, 7.0
+    force, area = membrane.forces(x, y, r, bottom, top, p)
+    assert force.sum(axis=0)[0] == pytest.approx(0, abs=1e-9)  # rounding
+    left = force[:, 0] > 0
+    assert force[left, 0].sum() == pytest.approx(p * (top - bottom), rel=1e-9)  # the horizontal sum does not depend on the line's shape
+    pressed = np.any(force != 0, axis=1)
+    assert set(np.round(x[pressed])) <= {0.0, columns - 1.0} and pressed.sum() == 2 * rows
+    assert area == pytest.approx((top - bottom) * columns, rel=0.01)  # the noise moves a side by 0.05/√rows
+
+
+# ---- materials ------------------------------------------------------------------------------------
+
+def test_a_material_survives_its_file(tmp_path):
+    m = materials.load("wwr")
+    assert (m.friction, m.tensile_strength, m.residual_tensile_strength) == (0.3, 100e3, 25e3)
+    materials.save(m, tmp_path / "wwr.yaml", "made by a test\nin two lines")
+    assert materials.load(tmp_path / "wwr.yaml") == m
+
+
+@pytest.mark.parametrize("text, message", [
+    ("friction: 0.3\n", "'rolling_friction' is missing"),
+    ("friction: 0.3\nrolling_friction: -1\ndensity: 2500\n", "rolling_friction: -1 is not allowed"),
+    ("friction: 0.3\nrolling_friction: 0.1\n", "'density' is missing"),
+    ("friction: 0.3\nrolling_friction: 0.1\ndensity: 2500\nstrength: 1\n", "unknown key"),
+])
+def test_a_bad_material_is_one_message(tmp_path, text, message):
+    path = tmp_path / "bad.yaml"
+    path.write_text(text)
+    with pytest.raises(section.SectionError, match=message):
+        materials.load(path)
+    with pytest.raises(section.SectionError, match="neither a file nor"):
+        materials.load("granite")
+
+
+# ---- walls ----------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("name, peak, residual", [("fb", 0.7, 0.5), ("ss", 0.2, 0.2)])
+def test_a_wall_has_the_strength_of_its_contacts(name, peak, residual):
+    m = materials.load(name)
+    found, slides = wall_shear.strength_of(m, [0.5e6, 2e6], 1)
+    # all contacts slip at once, so the sum obeys eq. 4 to the solver's tolerance of 1e-4
+    assert found["friction_peak"] == pytest.approx(peak, rel=1e-3) and found["friction_residual"] == pytest.approx(residual, rel=1e-3)
+    cohesion = 1e-3 * peak * m.tensile_strength * found["coverage"] if m.bonded else 0.0
+    assert found["cohesion_peak_kPa"] == pytest.approx(cohesion, abs=0.5) and found["cohesion_residual_kPa"] == pytest.approx(0, abs=0.5)
+    if m.bonded:
+        assert 0.75 < found["coverage"] < 1.0  # disks cover most of a line, but not all
+
+
+# ---- a small test, whole --------------------------------------------------------------------------
+
+SMALL = biaxial.Test(materials.load("wwr"), 1e6, sample.Shape(count=150, seed=3, d_min=1.0, d_max=2.0), strain=0.046, tolerance=1e-4, step=0.2)
+
+
+def test_a_sample_that_is_too_small_is_refused():
+    with pytest.raises(sample.SampleError, match="ask for more disks"):
+        sample.Shape(count=40, seed=1).section()
+
+
+@pytest.mark.parametrize("sides", ["rigid", "flexible"])
+def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_path, sides):
+    test = dataclasses.replace(SMALL, sides=sides)
+    whole, broken = tmp_path / "whole", tmp_path / "broken"
+    for folder in (whole, broken):
+        folder.mkdir()
+    biaxial.run(whole, **asdict(test))
+    series = records.read_series(whole / "series.csv")
+    late = series["strain"] > 0.01
+    for name in ("left", "right"):
+        # each row is the mean of 10 steps; the wall's own inertia and the tolerance make the rest
+        assert np.mean(series[f"sigma3_{name}_Pa"][late]) == pytest.approx(1e6, rel=0.01)
+    top, bottom = series["sigma1_top_Pa"][late].mean(), series["sigma1_bottom_Pa"][late].mean()
+    # quasi-static; a membrane whose ends stand at different x pushes up or down too: p ΔW/W of some per cent, a third of that of σ₁
+    assert top == pytest.approx(bottom, rel=0.01 if sides == "rigid" else 0.03)
+    assert 2e6 < top < 8e6  # friction angles from 20° to 50°
+
+    class Stopped(Exception):
+        pass
+
+    course = biaxial.Course.begin(test, broken)
+
+    def stop(share):
+        if share > 0.4:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        course.run(stop)
+    course.checkpoint()
+    O.reset()
+    biaxial.run(broken, **asdict(test))
+    assert (broken / "series.csv").read_bytes() == (whole / "series.csv").read_bytes()
+    with pytest.raises(biaxial.TestError, match="other settings"):
+        biaxial.Course.resume(dataclasses.replace(test, inertia=2e-4), broken)
+
+
+def test_the_script_writes_a_summary_and_figures(tmp_path):
+    command = [os.path.join(ROOT, "scripts", name) for name in ("yade-nonsmooth", "biaxial.py")]
+    environment = {**os.environ, "NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"])}
+    options = ["--disks", "150", "--diameter", "1", "2", "--confining", "0.5,4", "--strain", "0.046", "--step", "0.2", "--tolerance", "1e-4", "--threads", "2", "--out", str(tmp_path)]
+    done = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=600)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert len(summary["tests"]) == 2 and 20 < summary["friction_peak_deg"] < 55  # a sample of 150 disks is no material
+    for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
+        assert (tmp_path / name).stat().st_size > 300
+    again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
+    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
+    bad = subprocess.run([*command, "--confining", "4,x"], env=environment, text=True, capture_output=True, timeout=100)
+    assert bad.returncode != 0 and "give pressures in MPa" in bad.stderr + bad.stdout
