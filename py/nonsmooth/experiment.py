@@ -9,6 +9,8 @@ Everything that decides the course stands in :class:`State`, which goes into che
   is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
   it falls with the speed, down to ``tolerance``. A slope that comes to rest again without having got going does not count as moving: the
   table then goes on rising;
+* still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of ``tolerance``, since
+  nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a bond or two that bear all they can;
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
 
@@ -37,6 +39,8 @@ MOVING_SPEED = 0.2       # m/s, see above
 STOPPED_SPEED = 0.02     # m/s: at rest again ...
 GOING_SPEED = 2.0        # m/s: ... without a mean speed that was ever as large
 SLOW_FRACTION = 0.1      # of the largest mean speed, see above
+STILL_SECONDS = 5.0      # with nothing that changes ...
+STILL_SHARE = 0.25       # ... the tolerance goes down to this part of itself
 
 COLUMNS = tuple(records.COLUMNS)
 
@@ -54,6 +58,8 @@ class State:
     t0: float | None = None
     moving: float | None = None
     water_hold: float | None = None
+    table: float = 0.0  # height of the water table ...
+    table_since: float | None = None  # ... and the time since when it has been there
     water_delay: float = 0.0  # how long the table stood still while the slope moved and came to rest again
     front0: float | None = None
     speed_max: float = 0.0
@@ -139,6 +145,7 @@ class Experiment:
             return
         s.packing_fraction = self._fraction()
         s.settled, s.stage = O.time, "dry"
+        s.table_since = O.time
         self.slope.solver.forgetEnergies()
         for name in self.slope.walls:
             material = self.slope.wall_material(name)
@@ -193,7 +200,11 @@ class Experiment:
         numerics = self.section.numerics
         # reactions at rest depend on how the mass came to rest, so more care while it slows down
         flowing = 0.0 if s.moving is None else min(1.0, solver.meanSpeed / (SLOW_FRACTION * s.speed_max))
-        solver.tolerance = max(numerics.tolerance, flowing * numerics.tolerance_moving)
+        height = water.height if water else 0.0
+        if height != s.table:
+            s.table, s.table_since = height, O.time
+        still = s.moving is None and O.time - s.table_since >= STILL_SECONDS
+        solver.tolerance = max((STILL_SHARE if still else 1.0) * numerics.tolerance, flowing * numerics.tolerance_moving)
         over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
         if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
             s.stage = "done"

@@ -132,3 +132,21 @@ def test_unknown_key_in_the_section(tmp_path):
     assert "slope.yaml" in message and "colour" in message
 
 
+
+
+def test_a_slope_that_stands_still_is_solved_more_tightly(section, tmp_path):
+    """Five seconds after the settling (1.5 s), with a table at rest; a rising one keeps the tolerance."""
+    from yade.nonsmooth import records
+
+    strong = tmp_path / "strong.yaml"  # so few disks would not hold with the paper's strength
+    strong.write_text(section.read_text().replace("friction: 0.3\n", "friction: 0.8\n").replace("tensile_strength: 100.0e3", "tensile_strength: 100.0e6"))
+    section = strong
+    run(section, tmp_path / "dry", "--water", "0", end="7.5")
+    dry = records.read_series(tmp_path / "dry" / "series.csv")
+    settled = dry["time_s"][0]
+    late = dry["time_s"] > settled + 5.1  # the rule is looked at once a row, 0.1 s
+    assert (dry["speed_mean_m_per_s"] < 0.2).all()  # else it would count as moving
+    assert set(dry["tolerance"][late]) == {0.25e-4} and set(dry["tolerance"][dry["time_s"] < settled + 4.9]) == {1e-4}
+    run(section, tmp_path / "wet", end="7.5")
+    wet = records.read_series(tmp_path / "wet" / "series.csv")
+    assert (wet["tolerance"] >= 1e-4).all()

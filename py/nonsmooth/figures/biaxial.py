@@ -115,7 +115,7 @@ def chains(snapshot, title, path, pdf=False):
     strong = max(float(np.quantile(np.abs(snapshot.cn), 0.995)), 1e-12)
     for sign, colour in ((1, style.COMPRESSION), (-1, style.TENSION)):
         chosen = np.flatnonzero(sign * snapshot.cn > 0)
-        ax.add_collection(PolyCollection(forces.bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)), facecolors=colour, lw=0, rasterized=True), autolim=False)
+        ax.add_collection(PolyCollection(forces.force_bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)), facecolors=colour, lw=0, rasterized=True), autolim=False)
     ax.set_title(title)
     fig.legend(handles=[Patch(color=style.COMPRESSION, label="compression"), Patch(color=style.TENSION, label="tension")], loc="lower center", ncol=2, bbox_to_anchor=(0.5, -0.004))
     return style.save(fig, path, pdf)

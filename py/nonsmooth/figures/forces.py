@@ -11,7 +11,7 @@ from .style import COMPRESSION, INK, LINES, TENSION
 MEGA = 1e6
 
 
-def bars(snapshot, chosen, reference, width):
+def force_bars(snapshot, chosen, reference, width):
     """Corners (C, 4, 2) of bars from centre to centre (or to a wall's contact point), ``width`` wide at ``reference``."""
     i, j = snapshot.ci[chosen], snapshot.cj[chosen]
     a = np.column_stack([snapshot.x[i], snapshot.y[i]])
@@ -43,7 +43,7 @@ def _close_up(ax, snapshot, walls, box, reference, width, outline):
         bars = chosen[sign * snapshot.cn[chosen] > 0]
         ax.add_collection(
             PolyCollection(
-                bars(snapshot, bars, reference, width), facecolors=colour, edgecolors=colour if sign < 0 else "none",
+                force_bars(snapshot, bars, reference, width), facecolors=colour, edgecolors=colour if sign < 0 else "none",
                 linewidths=0.35 if sign < 0 else 0, zorder=z, rasterized=True,
             ),
             autolim=False,
