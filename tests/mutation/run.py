@@ -4,7 +4,8 @@
   tests/mutation/run.py BUILD   with BUILD the build folder of the checkout; works in BUILD/mutation
 
 Builds one copy of the plugin with all mutants (mutants.py), runs the quick checks of single contacts, bonds and impacts on it unbroken and
-with each mutant, and prints which checks notice which. Fails where the unbroken copy does, or where a check that must notice does not.
+with each mutant, and prints which checks notice which. Fails where the unbroken copy does, where a check that must notice does not, and
+where a check notices nothing at all.
 """
 import json
 import os
@@ -91,6 +92,8 @@ def main():
                 problems.append(f"{name} does not notice the mutant {mutant.name}")
         if not noticed[mutant.name]:
             problems.append(f"nothing notices the mutant {mutant.name}")
+
+    problems += [f"{name} notices no mutant" for name in sorted(sound) if not any(name in found for found in noticed.values())]
 
     width = max(map(len, sound))
     print(f"\n{'check':{width}s}  " + "  ".join(m.name for m in MUTANTS))

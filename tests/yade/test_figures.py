@@ -47,13 +47,13 @@ def test_bars_join_centres_and_are_as_wide_as_the_force(tmp_path):
     forces = synthetic.load("figures.forces")
     s = snapshot(contacts=True)
     pairs = np.flatnonzero(s.cj >= 0)[:50]
-    bars = forces._bars(s, pairs, reference=2e6, width=3.0)
+    bars = forces.force_bars(s, pairs, reference=2e6, width=3.0)
     wide = np.hypot(*(bars[:, 0] - bars[:, 3]).T)
     assert wide == pytest.approx(3.0 * np.abs(s.cn[pairs]) / 2e6)
     assert (bars[:, 0] + bars[:, 3]) / 2 == pytest.approx(np.column_stack([s.x[s.ci[pairs]], s.y[s.ci[pairs]]]))
     assert (bars[:, 1] + bars[:, 2]) / 2 == pytest.approx(np.column_stack([s.x[s.cj[pairs]], s.y[s.cj[pairs]]]))
     wall = np.flatnonzero(s.cj < 0)[:20]
-    ends = forces._bars(s, wall, 2e6, 3.0)[:, 1:3].mean(axis=1)
+    ends = forces.force_bars(s, wall, 2e6, 3.0)[:, 1:3].mean(axis=1)
     assert ends == pytest.approx(np.column_stack([s.cx[wall], s.cy[wall]]))
 
 

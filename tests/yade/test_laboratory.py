@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import records, section
-from yade.nonsmooth.laboratory import bands, biaxial, materials, membrane, sample, strength, wall_shear
+from yade.nonsmooth.laboratory import bands, biaxial, calibration, materials, membrane, sample, strength, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
@@ -143,9 +143,39 @@ def test_a_wall_has_the_strength_of_its_contacts(name, peak, residual):
         assert 0.75 < found["coverage"] < 1.0  # disks cover most of a line, but not all
 
 
+# ---- calibration ----------------------------------------------------------------------------------
+
+class MadeUpRock(calibration.Calibration):
+    """A rock whose strengths are known functions of its contacts, a little stronger in coarse samples."""
+
+    def test(self, material, disks, seeds):
+        m, coarse = material, 1.03 if disks < 1000 else 1.0
+        share = m.residual_tensile_strength / m.tensile_strength
+        return [coarse * 0.9 * m.tensile_strength * m.friction**0.2, coarse * (45 + 7 * math.log(m.friction) + 3 * math.log(10 * m.rolling_friction)),
+                0.5 * share * m.tensile_strength, 30 + 3 * math.log(m.friction) + 6 * math.log(10 * m.rolling_friction)]
+
+
+@pytest.mark.parametrize("wanted", [calibration.Wanted(60e3, 34.0), calibration.Wanted(60e3, 34.0, 6e3, 25.0)])
+def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_path, wanted):
+    options = wanted, materials.load("wwr"), tmp_path, 2, lambda text: None
+    search = MadeUpRock(*options)
+    report = search.run((600, [1, 2]), (2500, [1]), trials=(12, 8))
+    # the search may stop where no misfit exceeds 2 % or 0.7°
+    assert report["found"][0] == pytest.approx(60e3, rel=0.021) and report["found"][1] == pytest.approx(34.0, abs=0.71)
+    if wanted.with_residual:
+        assert report["found"][2] == pytest.approx(6e3, abs=1.3e3) and report["found"][3] == pytest.approx(25.0, abs=0.71)
+    assert len(search.trials) <= 20
+
+    class Refuses(MadeUpRock):
+        def test(self, *what):
+            raise AssertionError("a trial was computed again")
+
+    assert Refuses(*options, resume=True).run((600, [1, 2]), (2500, [1]), trials=(12, 8))["found"] == report["found"]
+
+
 # ---- a small test, whole --------------------------------------------------------------------------
 
-SMALL = biaxial.Test(materials.load("wwr"), 1e6, sample.Shape(count=150, seed=3, d_min=1.0, d_max=2.0), strain=0.046, tolerance=1e-4, step=0.2)
+SMALL = biaxial.Test(materials.load("wwr"), 1e6, sample.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82), strain=0.046, tolerance=1e-4, step=0.2)
 
 
 def test_a_sample_that_is_too_small_is_refused():
@@ -192,7 +222,7 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
 def test_the_script_writes_a_summary_and_figures(tmp_path):
     command = [os.path.join(ROOT, "scripts", name) for name in ("yade-nonsmooth", "biaxial.py")]
     environment = {**os.environ, "NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"])}
-    options = ["--disks", "150", "--diameter", "1", "2", "--confining", "0.5,4", "--strain", "0.046", "--step", "0.2", "--tolerance", "1e-4", "--threads", "2", "--out", str(tmp_path)]
+    options = ["--disks", "150", "--diameter", "1", "2", "--fraction", "0.82", "--confining", "0.5,4", "--strain", "0.046", "--step", "0.2", "--tolerance", "1e-4", "--threads", "2", "--out", str(tmp_path)]
     done = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=600)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     summary = json.loads((tmp_path / "summary.json").read_text())

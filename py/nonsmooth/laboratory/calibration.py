@@ -76,17 +76,20 @@ class Calibration:
             if trial["key"] == key:
                 self.trials.append(trial)
                 return np.array(trial["found"])
-        m = self.material(x)
-        tests = [biaxial.Test(m, p * self.wanted.cohesion, sample.Shape(disks, seed), strain=0.06 if self.wanted.with_residual else 0.045)
-                 for seed in seeds for p in PRESSURES]
-        s = campaign.summarise(m, campaign.run(tests, self.out / "trial", self.threads), 0.0, self.threads)
-        found = [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"], 1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]
+        found = self.test(self.material(x), disks, seeds)
         self.trials.append({"key": key, "parameters": dict(zip(self.names, np.exp(x).tolist())), "disks": disks, "seeds": list(seeds), "found": found})
         write_atomically(self.out / "trials.json", json.dumps(self.trials, indent=1).encode())
         named = ", ".join(f"{name} {value:.4g}" for name, value in zip(self.names, np.exp(x)))
         self.say(f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°, "
                  f"c_res {1e-3 * found[2]:.1f} kPa, φ_res {found[3]:.2f}°")
         return np.array(found)
+
+    def test(self, material, disks, seeds):
+        """c [Pa], φ [°], c_res, φ_res of a material, from biaxial tests."""
+        tests = [biaxial.Test(material, p * self.wanted.cohesion, sample.Shape(disks, seed), strain=0.06 if self.wanted.with_residual else 0.045)
+                 for seed in seeds for p in PRESSURES]
+        s = campaign.summarise(material, campaign.run(tests, self.out / "trial", self.threads), 0.0, self.threads)
+        return [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"], 1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]
 
     def misfits(self, found):
         """What a trial misses, in units of SCALE and DEGREES."""
