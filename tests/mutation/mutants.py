@@ -50,7 +50,7 @@ MUTANTS = (
             ("dem/ContactSeam.cpp", "\tscatterForces(scene);", "\tscatterForces(scene);\n\tnonsmooth::mutant::stepBefore = h;")),
            ("changed-time-step",)),
     Mutant("slippery", "contacts have half of their friction",
-           (("dem/ContactSeam.cpp", "c.friction           = phys.currentFriction;", "c.friction           = nonsmooth::mutant::share * phys.currentFriction;"),),
+           (("dem/ContactSeam.cpp", "= phys.currentFriction;", "= nonsmooth::mutant::share * phys.currentFriction;"),),
            ("slider-on-a-plane", "oblique-impact", "disk-on-an-incline", "spinning-disk")),
     Mutant("early", "the solver stops at a million times its tolerance and calls that solved",
            (("contact/solver.cpp", "figure <= settings.tolerance * slack;", "figure <= settings.tolerance * slack * mutant::excess;"),),
