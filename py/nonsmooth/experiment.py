@@ -59,7 +59,7 @@ class State:
     moving: float | None = None
     water_hold: float | None = None
     table: float = 0.0  # height of the water table ...
-    table_since: float | None = None  # ... and the time since when it has been there
+    table_since: float = 0.0  # ... and the time since when it has been there
     water_delay: float = 0.0  # how long the table stood still while the slope moved and came to rest again
     front0: float | None = None
     speed_max: float = 0.0
