@@ -15,44 +15,26 @@ from pathlib import Path
 
 from tqdm import tqdm
 from yade.nonsmooth import packing, records, section
-from yade.nonsmooth.laboratory import biaxial, campaign, materials, report, sample
+from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report
 from yade.nonsmooth.packing_files import write_atomically
 
 
-def pressures(text):
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: give pressures in MPa, separated by commas") from None
-    if not all(v > 0 for v in values) or len(set(values)) < len(values):
-        raise argparse.ArgumentTypeError(f"{text!r}: give positive pressures, each once")
-    return values
-
-
-def positive(text):
-    value = float(text)
-    if not value > 0:
-        raise argparse.ArgumentTypeError(f"{text}: it must be positive")
-    return value
-
-
-def arguments():
+def read_arguments():
     parser = argparse.ArgumentParser(prog="biaxial.py", description=__doc__.splitlines()[0])
     parser.add_argument("--material", default="wwr", metavar="NAME|FILE", help="wwr, the paper's weakly weathered rock (default), or a material file")
-    parser.add_argument("--confining", type=pressures, default=[0.25, 0.5, 1, 2, 4, 8, 16], metavar="MPA,…", help="confining pressures [MPa] (default: 0.25 to 16)")
+    parser.add_argument("--confining", type=arguments.pressures(), default=[0.25, 0.5, 1, 2, 4, 8, 16], metavar="MPA,…", help="confining pressures [MPa] (default: 0.25 to 16)")
     parser.add_argument("--disks", type=int, default=5000, metavar="N", help="disks of the sample (default: %(default)s)")
-    parser.add_argument("--diameter", type=positive, nargs=2, default=(1.0, 4.0), metavar=("MIN", "MAX"), help="diameters [m] (default: 1 4)")
-    parser.add_argument("--fraction", type=positive, default=0.848, help="packing fraction that the sample is made with (default: %(default)s)")
-    parser.add_argument("--aspect", type=positive, default=2.0, help="height over width (default: %(default)s)")
+    parser.add_argument("--diameter", type=arguments.positive, nargs=2, default=(1.0, 4.0), metavar=("MIN", "MAX"), help="diameters [m] (default: 1 4)")
+    parser.add_argument("--fraction", type=arguments.positive, default=0.848, help="packing fraction that the sample is made with (default: %(default)s)")
+    parser.add_argument("--aspect", type=arguments.positive, default=2.0, help="height over width (default: %(default)s)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings; several give confidence intervals")
     parser.add_argument("--platens", choices=("smooth", "rough", "glued"), default="smooth", help="friction of the platens (default: %(default)s)")
     parser.add_argument("--sides", choices=("rigid", "flexible"), default="rigid", help="lateral boundaries (default: %(default)s)")
-    parser.add_argument("--strain", type=positive, default=0.06, help="axial strain at the end (default: %(default)s)")
-    parser.add_argument("--inertia", type=positive, default=1e-4, metavar="I", help="inertial number of the loading (default: %(default)g)")
-    parser.add_argument("--step", type=positive, default=0.1, help="time step in √(m/σ₃) (default: %(default)s)")
-    parser.add_argument("--tolerance", type=positive, default=1e-5, help="of the solver's residual (default: %(default)g)")
+    parser.add_argument("--strain", type=arguments.positive, default=0.06, help="axial strain at the end (default: %(default)s)")
+    parser.add_argument("--inertia", type=arguments.positive, default=1e-4, metavar="I", help="inertial number of the loading (default: %(default)g)")
+    parser.add_argument("--step", type=arguments.positive, default=0.1, help="time step in √(m/σ₃) (default: %(default)s)")
+    parser.add_argument("--tolerance", type=arguments.positive, default=1e-5, help="of the solver's residual (default: %(default)g)")
     parser.add_argument("--pressing-friction", type=float, default=0.0, metavar="MU", help="friction of contacts while the sample is pressed (default: 0)")
-    parser.add_argument("--bond-first", action="store_true", help="make bonds before the pressure grows")
     parser.add_argument("--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
@@ -60,22 +42,20 @@ def arguments():
 
 
 def main():
-    args, out, began = arguments(), None, time.monotonic()
-    material = materials.load(args.material)
-    out = Path(args.out)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        sys.exit(f"error: {out}: the output folder cannot be made ({error.strerror}); give another with --out")
-    tests = [biaxial.Test(material, 1e6 * p, sample.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect), args.strain, args.platens, args.sides,
-                          args.inertia, args.step, args.tolerance, pressing_friction=args.pressing_friction, bond_first=args.bond_first)
+    args, began = read_arguments(), time.monotonic()
+    material, out = materials.load(args.material), Path(args.out)
+    records.check_writable(out)
+    tests = [biaxial.Test(material, 1e6 * p, pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, args.pressing_friction), args.strain,
+                          args.platens, args.sides, args.inertia, args.step, args.tolerance)
              for seed in args.seeds for p in sorted(args.confining)]
-    for shape in {test.shape for test in tests}:  # once, before many processes ask for it
-        with tqdm(total=100, desc="packing", unit="%", leave=False) as bar:
-            packing.cached_pack(shape.section(), progress=lambda share: bar.update(int(100 * share) - bar.n))
     # a file gets a line every half a minute
-    with tqdm(total=1000, mininterval=0.5 if sys.stderr.isatty() else 30, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left", desc=f"{len(tests)} tests") as bar:
-        measured = campaign.run(tests, out, args.threads, args.resume, lambda share: bar.update(int(1000 * share) - bar.n))
+    with tqdm(total=1000, mininterval=0.5 if sys.stderr.isatty() else 30, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left") as bar:
+
+        def progress(share, doing):
+            bar.set_description_str(doing, refresh=False)
+            bar.update(int(1000 * share) - bar.n)
+
+        measured = campaign.run(tests, out, args.threads, args.resume, progress)
     summary = campaign.summarise(material, measured, time.monotonic() - began, args.threads)
     write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())
     made = report.draw(out, summary)
@@ -85,5 +65,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError, campaign.CampaignError, sample.SampleError) as error:
+except (section.SectionError, packing.PackingError, records.RecordsError, campaign.CampaignError, pressing.SampleError) as error:
     sys.exit(f"error: {error}")

@@ -13,13 +13,12 @@ import json
 import time
 from pathlib import Path
 
-import numpy as np
 from yade.nonsmooth import packing, records, section
-from yade.nonsmooth.laboratory import calibration, campaign, materials, sample
+from yade.nonsmooth.laboratory import calibration, campaign, materials, pressing
 from yade.nonsmooth.packing_files import write_atomically
 
 
-def arguments():
+def read_arguments():
     parser = argparse.ArgumentParser(prog="calibrate.py", description=__doc__.splitlines()[0])
     parser.add_argument("--cohesion", type=float, required=True, metavar="KPA", help="wanted peak cohesion [kPa]")
     parser.add_argument("--friction", type=float, required=True, metavar="DEG", help="wanted peak angle of friction [°]")
@@ -44,21 +43,16 @@ def arguments():
 
 
 def main():
-    args, began = arguments(), time.monotonic()
+    args, began = read_arguments(), time.monotonic()
     residual = (1e3 * args.residual_cohesion, args.residual_friction) if args.residual_friction is not None else (None, None)
     wanted = calibration.Wanted(1e3 * args.cohesion, args.friction, *residual)
     path = Path(args.out)
     work = path.with_name(path.stem + "-calibration")
-    work.mkdir(parents=True, exist_ok=True)
-    for disks in (args.coarse, args.fine):
-        for seed in args.seeds:
-            packing.cached_pack(sample.Shape(disks, seed).section())
+    records.check_writable(work)
     search = calibration.Calibration(wanted, materials.load(args.start), work, args.threads, lambda text: print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True), args.resume)
-    report = search.run((args.coarse, args.seeds), (args.fine, args.seeds[:1]))
+    best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds[:1]))
     write_atomically(work / "report.json", json.dumps({**report, "wall_s": time.monotonic() - began}, indent=1).encode())
     c, angle = report["found"][:2]
-    best = search.material(np.log([report["material"][n] if n != "residual_share" else report["material"]["residual_tensile_strength"] / report["material"]["tensile_strength"]
-                                   for n in search.names]))
     materials.save(best, path, f"Calibrated by scripts/calibrate.py for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
                                f"Samples of {args.fine} disks gave c = {1e-3 * c:.1f} kPa, φ = {angle:.2f}°.")
     print(f"{path}: c = {1e-3 * c:.1f} kPa (wanted {args.cohesion:g}), φ = {angle:.2f}° (wanted {args.friction:g}); {report['unique']}; report: {work}/report.json")
@@ -66,5 +60,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError, campaign.CampaignError, sample.SampleError) as error:
+except (section.SectionError, packing.PackingError, records.RecordsError, campaign.CampaignError, pressing.SampleError) as error:
     sys.exit(f"error: {error}")

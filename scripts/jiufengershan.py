@@ -53,16 +53,6 @@ def fill(args, s):
     return made, time.monotonic() - began
 
 
-def check_writable(folder):
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / ".probe"
-        probe.touch()
-        probe.unlink()
-    except OSError as error:
-        raise records.RecordsError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out") from None
-
-
 class Bar:
     """Simulated seconds against those foreseen, with the time left."""
 
@@ -80,7 +70,7 @@ def main():
     args = arguments()
     s = read_section(args)
     out = Path(args.out)
-    check_writable(out)
+    records.check_writable(out)
     if args.resume:
         run = experiment.resume(s, out)
     else:

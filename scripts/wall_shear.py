@@ -14,34 +14,26 @@ import json
 from pathlib import Path
 
 from tqdm import tqdm
-from yade.nonsmooth import packing, section
-from yade.nonsmooth.laboratory import materials, wall_shear
+from yade.nonsmooth import packing, records, section
+from yade.nonsmooth.laboratory import arguments, materials, wall_shear
 from yade.nonsmooth.packing_files import write_atomically
 
 
-def pressures(text):
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: give pressures in MPa, separated by commas") from None
-    if not all(v > 0 for v in values) or len(set(values)) < 2:
-        raise argparse.ArgumentTypeError(f"{text!r}: give two or more different positive pressures")
-    return values
-
-
-def arguments():
+def read_arguments():
     parser = argparse.ArgumentParser(prog="wall_shear.py", description=__doc__.splitlines()[0])
     parser.add_argument("--material", nargs="+", default=["dp", "fb", "ss"], metavar="NAME|FILE", help="of the wall: dp, fb, ss, wwr or a material file (default: dp fb ss)")
     parser.add_argument("--bonded", action="store_true", help="bond the block to the wall in any case; dp and ss are shipped without bonds")
     parser.add_argument("--tensile-strength", type=float, metavar="KPA", help="of these bonds, instead of the material's [kPa]")
-    parser.add_argument("--pressures", type=pressures, default=[0.25, 0.5, 1, 2], metavar="MPA,…", help="normal stresses [MPa] (default: 0.25,0.5,1,2)")
+    parser.add_argument("--pressures", type=arguments.pressures(2), default=[0.25, 0.5, 1, 2], metavar="MPA,…", help="normal stresses [MPa] (default: 0.25,0.5,1,2)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2], metavar="S", help="seeds of the packings (default: 1 2)")
     parser.add_argument("--out", default="out/wall_shear", metavar="DIR", help="folder for summary.json (default: %(default)s)")
     return parser.parse_args()
 
 
 def main():
-    args = arguments()
+    args = read_arguments()
+    out = Path(args.out)
+    records.check_writable(out)
     chosen = []
     for name in args.material:
         m = materials.load(name)
@@ -56,7 +48,6 @@ def main():
             for seed in args.seeds:
                 one, slides = wall_shear.strength_of(m, [1e6 * p for p in args.pressures], seed, bar.update)
                 found.append({**one, "slides": [dataclasses.asdict(s) for s in slides]})
-    out = Path(args.out)
     write_atomically(out / "summary.json", json.dumps({"tests": found}, indent=1).encode())
     print("wall       seed   peak: friction  φ [°]   cohesion [kPa]   residual: friction  φ [°]   cohesion [kPa]   covered")
     for f in found:
@@ -67,5 +58,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError) as error:
+except (section.SectionError, packing.PackingError, records.RecordsError) as error:
     sys.exit(f"error: {error}")

@@ -286,15 +286,8 @@ class Experiment:
         arrays["wet"] = np.array([water.isWet(first + k) for k in range(count)] if water else np.zeros(count), bool)
         arrays["released"] = np.array([water.isReleased(first + k) for k in range(count)] if water else np.zeros(count), bool)
         if contacts:
-            wall_number = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
-            c = tables.contacts(built.solver)
-            keep = (c["normal"] != 0) | c["bonded"]
-            c = {name: values[keep] for name, values in c.items()}
-            # walls come first in the list of bodies, so a disk is always the second body of such a pair
-            a, b = np.minimum(c["id1"], c["id2"]), np.maximum(c["id1"], c["id2"])
-            arrays.update(
-                ci=b - first, cj=np.array([-1 - wall_number[i] if i in wall_number else i - first for i in a], int),
-                cn=c["normal"], ct=c["tangential"], cbonded=c["bonded"], cx=c["x"], cy=c["y"])
+            wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
+            arrays.update(tables.loaded_contacts(built.solver, first, wall_numbers))
         records.write_snapshot(path, time_s=O.time, step=O.iter, layer=self.layers, water_m=water.height if water else 0.0, **arrays)
 
     # ---- checkpoints --------------------------------------------------------------------------

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-__all__ = ["FORMAT", "Packing", "PackingError", "cache_path", "load", "read_text", "save", "write_atomically",
+__all__ = ["FORMAT", "Packing", "PackingError", "cache_folder", "cache_path", "load", "read_text", "save", "write_atomically",
            "write_text"]
 
 FORMAT = 1  # of cache files and of the way packings are made; a new number makes old files unused
@@ -110,11 +110,15 @@ def load(path) -> Packing:
     return packing
 
 
+def cache_folder(name) -> Path:
+    """Where what is made once is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/NAME."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "yade-nonsmooth" / name
+
+
 def cache_path(section, seed: int | None = None) -> Path:
-    """Where the packing of `section` and `seed` is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/packings."""
-    root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    """Where the packing of `section` and `seed` is kept, in the cache folder "packings"."""
     seed = section.seed if seed is None else seed
-    return root / "yade-nonsmooth" / "packings" / f"{section.key()[:32]}-{seed}-v{FORMAT}.npz"
+    return cache_folder("packings") / f"{section.key()[:32]}-{seed}-v{FORMAT}.npz"
 
 
 def write_text(packing: Packing, path) -> None:

@@ -23,6 +23,18 @@ class RecordsError(Exception):
     """A record cannot be written or read; the message says which file, what is wrong and the remedy."""
 
 
+def check_writable(folder):
+    """Makes a folder for results; raises RecordsError where nothing can be written there."""
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe = folder / ".probe"
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise RecordsError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out") from None
+
+
 class Column(NamedTuple):
     """What a column of the series means."""
 

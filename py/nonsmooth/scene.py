@@ -10,10 +10,23 @@ from yade import O, utils
 from yade.wrapper import (
     Body, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ContactDynamicsEngine, ForceResetter, Ig2_Segment_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_NscdMat_NscdMat_NscdPhys,
-    Law2_ScGeom_NscdPhys_SignoriniCoulomb, NewtonIntegrator, Segment)
+    Law2_ScGeom_NscdPhys_SignoriniCoulomb, NewtonIntegrator, NscdMat, Segment)
 from yade.minieigenHP import Quaternion, Vector3
 
-__all__ = ["contact_dynamics", "disk", "segments", "engines"]
+__all__ = ["contact_dynamics", "disk", "engines", "material", "segments"]
+
+
+def material(m, kind=NscdMat, **others):
+    """A material with the strengths of the section.Material ``m``, not yet in the scene.
+
+    ``kind``: NscdMat or a class derived from it; ``others``: further attributes, or other values. A wall may have no density; it then gets a rock's.
+    """
+    values = dict(
+        density=m.density or 2500.0, tensileStrength=m.tensile_strength, residualTensileStrength=m.residual_tensile_strength,
+        frictionAngle=math.atan(m.friction), residualFrictionAngle=math.atan(m.residual_friction), rollingFriction=m.rolling_friction,
+        residualRollingFriction=m.residual_rolling_friction, bondEllipseNormal=m.bond_ellipse[0], bondEllipseTangential=m.bond_ellipse[1],
+        bondCreationDistance=m.bond_creation_distance, restitution=m.restitution)
+    return kind(**{**values, **others})
 
 
 def disk(centre, radius, material, fixed=False, color=None):

@@ -53,29 +53,14 @@ class Slope:
 def _material(section, name, layer, wall):
     """NscdMat or SlipWeakeningMat of a section's material, for layer number ``layer`` (walls: −1)."""
     m = section.materials[name]
-    options = dict(
-        label=f"{name}-{layer}" if not wall else f"wall-{wall}",
-        density=m.density or 2500.0,
-        tensileStrength=m.tensile_strength,
-        residualTensileStrength=m.residual_tensile_strength,
-        frictionAngle=math.atan(m.friction),
-        residualFrictionAngle=math.atan(m.residual_friction),
-        rollingFriction=m.rolling_friction,
-        residualRollingFriction=m.residual_rolling_friction,
-        bondEllipseNormal=m.bond_ellipse[0],
-        bondEllipseTangential=m.bond_ellipse[1],
-        bondCreationDistance=m.bond_creation_distance,
-        restitution=m.restitution,
-        layer=layer if m.bonded else -2 - layer,  # a negative layer makes no bonds
-    )
     if not wall:
-        return NscdMat(**options)
-    options.update(wall=True, bondsToAll=m.bonded, layer=-1)
+        return scene.material(m, label=f"{name}-{layer}", layer=layer if m.bonded else -2 - layer)  # a negative layer makes no bonds
+    options = dict(label=f"wall-{wall}", wall=True, bondsToAll=m.bonded, layer=-1)
     if m.slip_weakening is None:
-        return NscdMat(**options)
+        return scene.material(m, **options)
     weak = m.slip_weakening
-    return SlipWeakeningMat(
-        criticalSlip=weak.critical_slip, weakening=weak.law, weakenedFrictionAngle=math.atan(weak.friction),
+    return scene.material(
+        m, SlipWeakeningMat, criticalSlip=weak.critical_slip, weakening=weak.law, weakenedFrictionAngle=math.atan(weak.friction),
         weakenedTensileStrength=weak.tensile_strength, **options)
 
 

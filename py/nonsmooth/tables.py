@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts"]
+__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts"]
 
 _BODY = ("id", "x", "y", "r", "angle", "vx", "vy", "omega")
 _BREAK = ("step", "time", "id1", "id2", "mode", "x", "y")
@@ -40,6 +40,21 @@ def contacts(engine) -> dict[str, np.ndarray]:
     table["bonded"] = table["bonded"] > 0
     order = np.lexsort((np.maximum(table["id1"], table["id2"]), np.minimum(table["id1"], table["id2"])))
     return {name: values[order] for name, values in table.items()}
+
+
+def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
+    """Contacts that carry a normal force or a bond, as `records.write_snapshot` takes them.
+
+    ``first_disk``: id of disk 0; ``wall_numbers``: {id: number} of bodies that are walls. Arrays of shape (n,): ``ci`` a disk, ``cj`` a disk or -1 - number
+    of a wall (int), ``cn``, ``ct`` normal and tangential force [N/m], ``cbonded`` (bool), ``cx``, ``cy`` [m].
+    """
+    c = contacts(engine)
+    keep = (c["normal"] != 0) | c["bonded"]
+    c = {name: values[keep] for name, values in c.items()}
+    # walls come first in the list of bodies, so a disk is always the second body of such a pair
+    a, b = np.minimum(c["id1"], c["id2"]), np.maximum(c["id1"], c["id2"])
+    return {"ci": b - first_disk, "cj": np.array([-1 - wall_numbers[i] if i in wall_numbers else i - first_disk for i in a], int),
+            "cn": c["normal"], "ct": c["tangential"], "cbonded": c["bonded"], "cx": c["x"], "cy": c["y"]}
 
 
 def breaks(engine) -> dict[str, np.ndarray]:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import records, section
-from yade.nonsmooth.laboratory import bands, biaxial, calibration, materials, membrane, sample, strength, wall_shear
+from yade.nonsmooth.laboratory import bands, biaxial, calibration, materials, membrane, pressing, strength, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
@@ -159,7 +159,8 @@ class MadeUpRock(calibration.Calibration):
 def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_path, wanted):
     options = wanted, materials.load("wwr"), tmp_path, 2, lambda text: None
     search = MadeUpRock(*options)
-    report = search.run((600, [1, 2]), (2500, [1]), trials=(12, 8))
+    material, report = search.run((600, [1, 2]), (2500, [1]), trials=(12, 8))
+    assert asdict(material) == report["material"]
     # the search may stop where no misfit exceeds 2 % or 0.7°
     assert report["found"][0] == pytest.approx(60e3, rel=0.021) and report["found"][1] == pytest.approx(34.0, abs=0.71)
     if wanted.with_residual:
@@ -170,17 +171,17 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
         def test(self, *what):
             raise AssertionError("a trial was computed again")
 
-    assert Refuses(*options, resume=True).run((600, [1, 2]), (2500, [1]), trials=(12, 8))["found"] == report["found"]
+    assert Refuses(*options, resume=True).run((600, [1, 2]), (2500, [1]), trials=(12, 8))[1]["found"] == report["found"]
 
 
 # ---- a small test, whole --------------------------------------------------------------------------
 
-SMALL = biaxial.Test(materials.load("wwr"), 1e6, sample.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82), strain=0.046, tolerance=1e-4, step=0.2)
+SMALL = biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82), strain=0.046, tolerance=1e-4, step=0.2)
 
 
 def test_a_sample_that_is_too_small_is_refused():
-    with pytest.raises(sample.SampleError, match="ask for more disks"):
-        sample.Shape(count=40, seed=1).section()
+    with pytest.raises(pressing.SampleError, match="ask for more disks"):
+        pressing.Shape(count=40, seed=1).section()
 
 
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
@@ -189,6 +190,7 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     for folder in (whole, broken):
         folder.mkdir()
+    pressing.prepare(test.shape, tmp_path / "pressing")
     biaxial.run(whole, **asdict(test))
     series = records.read_series(whole / "series.csv")
     late = series["strain"] > 0.01

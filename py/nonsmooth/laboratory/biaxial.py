@@ -18,9 +18,12 @@ from pathlib import Path
 
 import numpy as np
 
+from yade import O
+
 from .. import checkpoints, records, section, tables
 from ..packing_files import write_atomically
-from . import membrane, sample
+from . import membrane, pressing, sample
+from .walls import Walls
 
 RAMP = 0.002               # strain in which the platens reach their speed
 ROW_STRAIN = 1e-4          # between two rows of series.csv
@@ -43,15 +46,14 @@ class Test:
     """What determines a test. ``confining``: σ₃ [Pa]; ``strain``: at the end.
 
     ``platens``: "smooth", "rough" (friction and rolling friction of the rock, no bonds) or "glued" (bonded as the rock is); ``sides``: "rigid" or
-    "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i; ``pressing_friction``: of contacts while the sample
-    is made; ``bond_first``: bonds are made before the pressure grows.
+    "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i.
     """
 
     __test__ = False
 
     material: section.Material
     confining: float
-    shape: sample.Shape
+    shape: pressing.Shape
     strain: float = 0.06
     platens: str = "smooth"
     sides: str = "rigid"
@@ -59,8 +61,6 @@ class Test:
     step: float = 0.1
     tolerance: float = 1e-5
     max_iterations: int = 1000
-    pressing_friction: float = 0.0
-    bond_first: bool = False
 
     @classmethod
     def of(cls, plain):
@@ -69,12 +69,14 @@ class Test:
         m = dict(plain.pop("material"))
         m["bond_ellipse"] = tuple(m["bond_ellipse"])
         m["slip_weakening"] = None
-        return cls(material=section.Material(**m), shape=sample.Shape(**plain.pop("shape")), **plain)
+        return cls(material=section.Material(**m), shape=pressing.Shape(**plain.pop("shape")), **plain)
 
     @property
     def platen(self):
         """Material of the platens."""
-        m = replace(self.material, name="platen", tensile_strength=0.0, residual_tensile_strength=0.0)
+        if self.platens == "glued":
+            return replace(self.material, name="platen", bonded=True)
+        m = replace(self.material, name="platen", bonded=False, tensile_strength=0.0, residual_tensile_strength=0.0)
         if self.platens == "smooth":
             return replace(m, friction=0.0, residual_friction=0.0, rolling_friction=0.0, residual_rolling_friction=0.0)
         return m
@@ -92,29 +94,22 @@ class Course:
     # ---- begin ----------------------------------------------------------------------------------
     @classmethod
     def begin(cls, test, folder):
-        """Makes the sample: packed, pressed, bonded."""
+        """Bonds the pressed sample and makes it ready."""
         began = time.monotonic()
-        body = sample.Sample.build(test.shape, test.material, test.platen, min(test.tolerance, 1e-5), max(test.max_iterations, 1000))
-        engine, made = body.engine, 0
-        if test.bond_first:
-            body.scene.step()
-            made = engine.bond()
-        body.press(test.confining, test.pressing_friction)
-        if not test.bond_first:
-            made = engine.bond()
-        body.step()
-        unit = math.sqrt(body.mass / test.confining)
-        disks = tables.bodies(engine)
-        state = {"unit_s": unit, "rate": test.inertia / unit, "height": body.height(), "width": body.width(), "area": body.height() * body.width(), "bonds": made,
-                 "begin": body.scene.iter, "begin_time": body.scene.time, "disks": body.count, "contacts": engine.contacts, "made_s": time.monotonic() - began,
-                 "wall_s": 0.0, "sweeps": engine.totalIterations, "unconverged": engine.unconverged,
-                 "fraction": float(np.sum(math.pi * disks["r"] ** 2)) / (body.height() * body.width())}
+        body = sample.Sample.build(test.shape, test.material, test.platen, test.confining, tolerance=min(test.tolerance, 1e-5), maxIterations=max(test.max_iterations, 1000))
+        engine, walls = body.engine, body.walls
+        made = engine.bond()
+        walls.step()
+        unit, height, width = math.sqrt(body.mass / test.confining), walls.height(), walls.width()
+        state = {"unit_s": unit, "rate": test.inertia / unit, "height": height, "width": width, "area": height * width, "bonds": made, "begin": O.iter,
+                 "begin_time": O.time, "disks": body.count, "contacts": engine.contacts, "made_s": time.monotonic() - began, "wall_s": 0.0,
+                 "sweeps": engine.totalIterations, "unconverged": engine.unconverged, "fraction": body.disks_area() / (height * width)}
         engine.tolerance, engine.maxIterations = test.tolerance, test.max_iterations
-        body.scene.dt = test.step * unit
-        body.drive("top", (0, 0))
+        O.dt = test.step * unit
+        walls.drive("top")
         course = cls(test, folder, body, state)
         if test.sides == "flexible":
-            body.remove_sides()
+            walls.remove("left", "right")
             state["area"] = course._membrane()
         course.snapshot("begin")
         return course
@@ -123,8 +118,7 @@ class Course:
     def resume(cls, test, folder):
         """From the checkpoint in ``folder``; TestError where there is none or it is another test's."""
         content = checkpoints.read(Path(folder), key_of(test), TestError)
-        body = sample.Sample(content["walls"], content["first_disk"], content["count"])
-        body.pressure = test.confining
+        body = sample.Sample(Walls(content["walls"], test.confining), content["first_disk"], content["count"])
         course = cls(test, folder, body, content["state"])
         if test.sides == "flexible":
             course.state["pressed"] = []  # a saved scene keeps no permanent forces
@@ -134,11 +128,11 @@ class Course:
     # ---- the course -----------------------------------------------------------------------------
     @property
     def strain(self):
-        return 1 - self.sample.height() / self.state["height"]
+        return 1 - self.sample.walls.height() / self.state["height"]
 
     def run(self, progress=None):
         """Shears the sample to the end; ``progress``: called with the share done."""
-        O, s, test, engine = self.sample.scene, self.state, self.test, self.sample.engine
+        s, test, engine, walls = self.state, self.test, self.sample.engine, self.sample.walls
         per_row = max(1, round(ROW_STRAIN / (s["rate"] * O.dt)))
         taken = [strain for strain in SNAPSHOTS if strain < test.strain - 1e-9]
         while self.strain < test.strain - 1e-9:
@@ -147,12 +141,12 @@ class Course:
                 elapsed = (O.time - s["begin_time"]) * s["rate"]
                 # the speed grows linearly with the time until half of twice RAMP's strain
                 share = min(1.0, (elapsed + 0.5 * s["rate"] * O.dt) / (2 * RAMP))
-                self.sample.drive("top", (0, -share * s["rate"] * s["height"]))
-                self.sample.step()
+                walls.drive("top", (0, -share * s["rate"] * s["height"]))
+                walls.step()
                 worst = max(worst, engine.residual)
-                for name, force in self.sample.wall_forces().items():
+                for name, force in walls.forces().items():
                     sums[name] = sums.get(name, 0.0) + force / per_row
-            area = self._membrane() if test.sides == "flexible" else self.sample.height() * self.sample.width()
+            area = self._membrane() if test.sides == "flexible" else walls.height() * walls.width()
             before = s.get("strain", 0.0)
             s["strain"], s["row_step"] = self.strain, O.iter
             self._row(sums, area, (engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed)
@@ -169,10 +163,10 @@ class Course:
 
     def _membrane(self):
         """Puts the pressure on the outermost disks; returns the sample's area [m²]."""
-        body, O = self.sample, self.sample.scene
+        body = self.sample
         t = tables.bodies(body.engine)
         try:
-            found, area = membrane.forces(t["x"], t["y"], t["r"], body.place("bottom")[1], body.place("top")[1], self.test.confining)
+            found, area = membrane.forces(t["x"], t["y"], t["r"], body.walls.place("bottom")[1], body.walls.place("top")[1], self.test.confining)
         except membrane.MembraneError as error:
             raise TestError(f"at a strain of {self.strain:.4f}: {error}, or give --sides rigid") from None
         now = set(np.flatnonzero(np.any(found != 0, axis=1)).tolist())
@@ -185,8 +179,8 @@ class Course:
         return area
 
     def _row(self, sums, area, sweeps, worst, missed):
-        engine, O, s = self.sample.engine, self.sample.scene, self.state
-        height = self.sample.height()
+        engine, s = self.sample.engine, self.state
+        height = self.sample.walls.height()
         width = area / height
         sides = self.test.sides == "rigid"
         self.series.write({
@@ -200,26 +194,22 @@ class Course:
 
     # ---- records --------------------------------------------------------------------------------
     def snapshot(self, name):
-        """Writes the present state with its forces as ``snapshots/NAME.npz``, a records.Snapshot; walls are numbered as in Sample.walls."""
+        """Writes the present state with its forces as ``snapshots/NAME.npz``, a records.Snapshot; walls are numbered as in Walls.ids."""
         body = self.sample
-        t, c = tables.bodies(body.engine), tables.contacts(body.engine)
-        keep = (c["normal"] != 0) | c["bonded"]
-        c = {key: values[keep] for key, values in c.items()}
-        number = {i: k for k, i in enumerate(body.walls.values())}
-        a, b = np.minimum(c["id1"], c["id2"]), np.maximum(c["id1"], c["id2"])
+        t = tables.bodies(body.engine)
         folder = self.folder / "snapshots"
         folder.mkdir(parents=True, exist_ok=True)
         none = np.zeros(body.count, bool)
         records.write_snapshot(
-            folder / f"{name}.npz", time_s=body.scene.time - self.state["begin_time"], step=body.scene.iter, water_m=0.0, layer=np.zeros(body.count, int), wet=none, released=none,
-            **{key: t[key] for key in ("x", "y", "r", "angle", "vx", "vy")}, ci=b - body.first_disk,
-            cj=np.array([-1 - number[i] if i in number else i - body.first_disk for i in a], int), cn=c["normal"], ct=c["tangential"], cbonded=c["bonded"], cx=c["x"], cy=c["y"])
+            folder / f"{name}.npz", time_s=O.time - self.state["begin_time"], step=O.iter, water_m=0.0, layer=np.zeros(body.count, int), wet=none, released=none,
+            **{key: t[key] for key in ("x", "y", "r", "angle", "vx", "vy")},
+            **tables.loaded_contacts(body.engine, body.first_disk, {i: k for k, i in enumerate(body.walls.ids.values())}))
 
     def checkpoint(self):
         """Saves all that :meth:`resume` needs."""
         self._count_time()
         self.series.sync()
-        checkpoints.write(self.folder, key_of(self.test), {"walls": self.sample.walls, "first_disk": self.sample.first_disk, "count": self.sample.count, "state": self.state})
+        checkpoints.write(self.folder, key_of(self.test), {"walls": self.sample.walls.ids, "first_disk": self.sample.first_disk, "count": self.sample.count, "state": self.state})
         self._saved = time.monotonic()
 
     def _count_time(self):
@@ -250,8 +240,8 @@ def run(folder, **plain):
 
     course.run(progress)
     s, engine = course.state, course.sample.engine
-    steps = course.sample.scene.iter - s["begin"]
+    steps = O.iter - s["begin"]
     return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "height_m": s["height"], "width_m": s["width"],
-            "rate_per_s": s["rate"], "inertial_number": test.inertia, "time_step_s": course.sample.scene.dt, "steps": steps, "simulated_s": course.sample.scene.time - s["begin_time"],
+            "rate_per_s": s["rate"], "inertial_number": test.inertia, "time_step_s": O.dt, "steps": steps, "simulated_s": O.time - s["begin_time"],
             "wall_making_s": s["made_s"], "wall_s": s["wall_s"], "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
             "unconverged": engine.unconverged - s["unconverged"], "overlap_worst_rel": engine.overlapWorstEver, "residual": engine.residual}

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from ..packing_files import write_atomically
-from . import biaxial, campaign, sample
+from . import biaxial, campaign, pressing
 
 PRESSURES = (3.0, 12.0, 48.0)   # σ₃ over the wanted cohesion
 BOUNDS = {"tensile_strength": (1e2, 1e9), "friction": (0.02, 2.0), "rolling_friction": (0.005, 0.6), "residual_share": (0.01, 1.0)}
@@ -86,7 +86,7 @@ class Calibration:
 
     def test(self, material, disks, seeds):
         """c [Pa], φ [°], c_res, φ_res of a material, from biaxial tests."""
-        tests = [biaxial.Test(material, p * self.wanted.cohesion, sample.Shape(disks, seed), strain=0.06 if self.wanted.with_residual else 0.045)
+        tests = [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.06 if self.wanted.with_residual else 0.045)
                  for seed in seeds for p in PRESSURES]
         s = campaign.summarise(material, campaign.run(tests, self.out / "trial", self.threads), 0.0, self.threads)
         return [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"], 1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]
@@ -122,12 +122,13 @@ class Calibration:
         return best[0], best[1]
 
     def run(self, coarse, fine, trials=(8, 4)):
-        """Coarse search, then a fine one from there; ``coarse``, ``fine``: (disks, seeds). Returns a report, a dictionary."""
+        """Coarse search, then a fine one from there; ``coarse``, ``fine``: (disks, seeds). Returns the material and a report, a dictionary."""
         x, _ = self.search(*coarse, self.x0, trials[0])
         x, misfit = self.search(*fine, x, trials[1])
         found = next(t["found"] for t in self.trials if t["key"] == [list(map(float, x)), fine[0], list(fine[1])])
         _, singular, directions = np.linalg.svd(self.jacobian)
-        return {"material": dataclasses.asdict(self.material(x)), "wanted": dataclasses.asdict(self.wanted), "found": found, "misfit_in_tolerances": misfit.tolist(),
+        material = self.material(x)
+        return material, {"material": dataclasses.asdict(material), "wanted": dataclasses.asdict(self.wanted), "found": found, "misfit_in_tolerances": misfit.tolist(),
                 "trials": self.trials, "parameters": list(self.names), "sensitivity": self.jacobian.tolist(), "singular_values": singular.tolist(),
                 "least_certain_direction": dict(zip(self.names, directions[-1].tolist())),
                 "unique": "σ_ext and μ_s follow from c and φ for the given μ_r; another μ_r gives another μ_s with the same peak and another plateau"

@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import processes, records
 from ..packing_files import write_atomically
-from . import bands, biaxial, strength
+from . import bands, biaxial, pressing, strength
 
 BAND_AT = "2"  # snapshot (strain in per cent) in which bands are measured: after the peak, before they have spread
 
@@ -34,10 +34,10 @@ def name_of_result(measured):
     return f"{measured['confining_Pa'] / 1e6:g}MPa-seed{measured['seed']}"
 
 
-def run(tests, out, threads, resume=False, progress=lambda share: None):
+def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     """Runs biaxial Tests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns what :func:`measure` says of each.
 
-    ``resume``: keep tests that ended, and go on with others from their checkpoints. ``progress``: called with the share done now and then.
+    ``resume``: keep tests that ended, and go on with others from their checkpoints. ``progress``: called with the share done and what is being done, now and then.
     Raises CampaignError with the first failure after the others have ended.
     """
     home, tests = Path(out) / "tests", list(tests)
@@ -48,6 +48,7 @@ def run(tests, out, threads, resume=False, progress=lambda share: None):
         if not resume:
             shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True, exist_ok=True)
+    _press({test.shape for test in tests}, home, threads, progress)
     ended = threading.Event()
     watcher = threading.Thread(target=_watch, args=(folders, progress, ended), daemon=True)
     watcher.start()
@@ -61,6 +62,19 @@ def run(tests, out, threads, resume=False, progress=lambda share: None):
     if failures:
         raise CampaignError(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""))
     return [measure(test, folder) for test, folder in zip(tests, folders)]
+
+
+def _press(shapes, home, threads, progress):
+    """Makes the samples that are not in the cache, before many tests ask for them."""
+    missing = sorted((s for s in shapes if not pressing.cache_path(s).exists()), key=lambda s: s.seed)
+    if not missing:
+        return
+    progress(0.0, f"pressing {len(missing)} sample{'s' if len(missing) > 1 else ''}")
+    with ThreadPoolExecutor(max(1, threads)) as pool:
+        futures = [pool.submit(pressing.prepare, shape, home / f"pressing-{k}") for k, shape in enumerate(missing)]
+        failures = [str(error) for f in futures if (error := f.exception())]
+    if failures:
+        raise CampaignError(f"a sample could not be made: {failures[0]}")
 
 
 def _one(test, folder):
@@ -83,7 +97,7 @@ def _watch(folders, progress, ended):
                 done += 1.0 if (folder / "result.json").exists() else float((folder / "progress").read_text())
             except (OSError, ValueError):
                 pass
-        progress(done / len(folders))
+        progress(done / len(folders), f"{len(folders)} test{'s' if len(folders) > 1 else ''}")
 
 
 def measure(test, folder):

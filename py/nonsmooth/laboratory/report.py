@@ -33,19 +33,26 @@ def draw(out, summary):
     if "cohesion_peak_kPa" in summary:
         made.append(figures.mohr(summary, out / "mohr.png"))
     shown = min(first, key=lambda t: abs(t["confining_Pa"] - 8e6))  # the paper's Figure 9 is at 8 MPa
-    folder = out / "tests" / name_of_result(shown) / "snapshots"
-    frames = {path.stem: records.read_snapshot(path) for path in folder.glob("*.npz")}
-    begin = frames["begin"]
-    order = [name for name in ("1", "2", "4", "end") if name in frames]
-    title = lambda name: "end" if name == "end" else f"ε₁ = {name} %"  # noqa: E731
-    panels = [(f"{title(name)}, σ₃ = {shown['confining_Pa'] / 1e6:g} MPa", frames[name], shown["bands"]) for name in (order[0], order[-1])]
-    made.append(figures.rotations(begin, panels, out / "bands.png"))
-    made.append(figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png"))
     for t in summary["tests"]:
-        home, entries = out / "tests" / name_of_result(t), []
-        for path in (home / "snapshots").glob("*.npz"):
-            s = records.read_snapshot(path)
-            entries.append((s.time_s, paraview.write_disks(s, home / "vtk" / f"disks-{path.stem}.vtu")))
-            paraview.write_contacts(s, home / "vtk" / f"contacts-{path.stem}.vtu")
-        paraview.write_collection(sorted(entries), home / "vtk" / "biaxial.pvd")
+        home = out / "tests" / name_of_result(t)
+        frames = {path.stem: records.read_snapshot(path) for path in (home / "snapshots").glob("*.npz")}
+        _paraview(frames, home / "vtk")
+        if t is shown:
+            made += _pictures(t, frames, out)
     return made
+
+
+def _pictures(test, frames, out):
+    """The sample by rotation, and its forces: from snapshots by name."""
+    order = [name for name in ("1", "2", "4", "end") if name in frames]
+    title = lambda name: f"{'end' if name == 'end' else f'ε₁ = {name} %'}, σ₃ = {test['confining_Pa'] / 1e6:g} MPa"  # noqa: E731
+    panels = [(title(name), frames[name], test["bands"]) for name in (order[0], order[-1])]
+    return [figures.rotations(frames["begin"], panels, out / "bands.png"), figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png")]
+
+
+def _paraview(frames, folder):
+    entries = []
+    for name, s in frames.items():
+        entries.append((s.time_s, paraview.write_disks(s, folder / f"disks-{name}.vtu")))
+        paraview.write_contacts(s, folder / f"contacts-{name}.vtu")
+    paraview.write_collection(sorted(entries), folder / "biaxial.pvd")

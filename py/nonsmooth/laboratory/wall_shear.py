@@ -18,7 +18,6 @@ import math
 import numpy as np
 
 from .. import section
-from . import sample
 
 BLOCK_STRENGTH = 1e9  # Pa, of the block's own bonds
 BLOCK_BONDS = 0.15    # ℓ; a disk that the block does not hold could roll between it and the wall
@@ -59,10 +58,8 @@ def slide(material, pressure, seed, d_min=1.0, d_max=4.0):
     made = packing.cached_pack(block)
     O.reset()
     strong = dataclasses.replace(rock, tensile_strength=BLOCK_STRENGTH, bond_creation_distance=BLOCK_BONDS, friction=1.0, residual_friction=1.0, rolling_friction=1.0, residual_rolling_friction=1.0)
-    stuff, wall = sample.material_of(strong), sample.material_of(material, wall=True)
-    wall.bondsToAll = material.bonded
-    glue = sample.material_of(strong, wall=True)
-    glue.bondsToAll = True
+    stuff, wall = scene.material(strong), scene.material(material, wall=True, bondsToAll=material.bonded, layer=-1)
+    glue = scene.material(strong, wall=True, bondsToAll=True, layer=-1)
     O.materials.append((stuff, wall, glue))
     base, plate = (O.bodies.append(scene.segments(ends, what, sense=1))[0] for ends, what in (
         (((-width, 0), (3 * width, 0)), wall), (((3 * width, height), (-width, height)), glue)))

@@ -43,10 +43,7 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
     corners = ((0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT))
     sample = dataclasses.replace(shipped, layers=(section.Layer("sample", "rock", corners),), seed=seed)
     made, m = packing.cached_pack(sample), shipped.materials["rock"]
-    rock = NscdMat(
-        density=m.density, tensileStrength=m.tensile_strength, residualTensileStrength=m.residual_tensile_strength,
-        frictionAngle=math.atan(m.friction), rollingFriction=m.rolling_friction, bondEllipseNormal=m.bond_ellipse[0],
-        bondEllipseTangential=m.bond_ellipse[1], bondCreationDistance=m.bond_creation_distance)
+    rock = scene.material(m)
     glue = dict(tensileStrength=1e7, bondsToAll=True, bondCreationDistance=m.bond_creation_distance) if pull else {}
     platen = NscdMat(frictionAngle=math.atan(0.3), wall=True, **glue)
     O.materials.append((rock, platen))

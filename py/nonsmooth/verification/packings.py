@@ -16,6 +16,7 @@ DENSITY = 2500.0                        # kg/m³
 PRESSURE = 1e4                          # Pa; rigid disks know no other stress, so its value sets the unit of time only
 STEP = 0.02                             # s while a box is compressed: a twentieth of the time below
 MEAN_MASS = DENSITY * math.pi / 4       # kg/m; disks of all samples have the mean square diameter 1 m²
+WALL_MASS = 10 * MEAN_MASS              # kg/m, of a wall that follows the pressure
 TIME = math.sqrt(MEAN_MASS / PRESSURE)  # s, of the inertial number: 0.44 s, in which pressure moves a disk by its size
 
 
@@ -31,6 +32,7 @@ class Box:
         from yade.wrapper import NscdMat
 
         from .. import scene
+        from ..laboratory.walls import Walls
 
         rng = np.random.default_rng(seed)
         rank = (rng.permutation(count) + rng.random(count)) / count
@@ -41,76 +43,39 @@ class Box:
         width, height = columns * pitch, math.ceil(count / columns) * pitch
         angle = math.atan(friction)
         stuff = NscdMat(density=DENSITY, frictionAngle=angle)
-        smooth = NscdMat(density=DENSITY, frictionAngle=0.0, wall=True)
+        smooth = NscdMat(frictionAngle=0.0, wall=True)
         O.materials.append((stuff, smooth))
         O.bodies.append([scene.disk(((k % columns + 0.5) * pitch, (k // columns + 0.5) * pitch), float(radii[k]), stuff) for k in range(count)])
-        far = width + height
-        runs = {"bottom": ((-far, 0), (far, 0)), "right": ((width, -far), (width, far)), "top": ((far, height), (-far, height)),
-                "left": ((0, far), (0, -far))}  # each with the disks on its left
-        self.walls = {name: O.bodies.append(scene.segments(ends, smooth, sense=1))[0] for name, ends in runs.items()}
+        self.walls = Walls.around(width, height, smooth, smooth)
+        self.walls.pressure = PRESSURE
         O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.2 * self.small, tolerance=1e-4, maxIterations=1000)
         O.dt = STEP
         self.engine = scene.contact_dynamics()
-        self.scene, self.count, self.mass = O, count, MEAN_MASS * count
+        self.count = count
         self._compress()
 
     def _compress(self):
         # at a given rate until the disks carry, at most 1 % of a diameter a step; heavy walls under pressure would go on swinging, one in while
         # the other goes out, which frictionless disks hardly resist
-        moving = [self.scene.bodies[self.walls[name]].state for name in ("right", "top")]
-        while sum(self.stresses().values()) < 2 * PRESSURE:
-            rate = 0.01 * self.small / STEP / max(self.size())
-            moving[0].vel, moving[1].vel = (-rate * self.size()[0], 0, 0), (0, -rate * self.size()[1], 0)
-            self.scene.step()
-        for state in moving:
-            state.vel = (0, 0, 0)
-        self.free("right", "x", 10 * MEAN_MASS)
-        self.free("top", "y", 10 * MEAN_MASS)
-        self.engine.tolerance, settled, start = 1e-6, 0, self.scene.iter
+        from yade import O
+
+        walls = self.walls
+        while sum(walls.stresses().values()) < 2 * PRESSURE:
+            width, height = walls.width(), walls.height()
+            rate = 0.01 * self.small / STEP / max(width, height)
+            walls.drive("right", (-rate * width, 0))
+            walls.drive("top", (0, -rate * height))
+            walls.step()
+        for name in ("right", "top"):
+            walls.drive(name)
+            walls.free(name, WALL_MASS)
+        self.engine.tolerance, settled, start = 1e-6, 0, O.iter
         while settled < 30:
-            self.step()
-            sides = self.stresses()
+            walls.step()
+            sides = walls.stresses()
             settled = settled + 1 if all(abs(s / PRESSURE - 1) < 0.02 for s in sides.values()) else 0
-            if self.scene.iter > start + 5000:
+            if O.iter > start + 5000:
                 raise RuntimeError(f"the sample does not come to rest under its pressure: stresses {sides}, mean speed {self.engine.meanSpeed:g} m/s")
-
-    def free(self, wall, axis, mass):
-        """Lets a wall of ``mass`` [kg] follow the pressure along ``axis``."""
-        state = self.scene.bodies[self.walls[wall]].state
-        state.mass = mass
-        state.blockedDOFs = "yzXYZ" if axis == "x" else "xzXYZ"
-
-    def drive(self, wall):
-        """Takes a wall's freedom; its velocity is then the script's."""
-        state = self.scene.bodies[self.walls[wall]].state
-        state.blockedDOFs = "xyzXYZ"
-        state.vel = (0, 0, 0)
-        self.scene.forces.setPermF(self.walls[wall], (0, 0, 0))
-
-    def size(self):
-        """Width and height [m]."""
-        at = {name: self.scene.bodies[i].state.pos for name, i in self.walls.items()}
-        return at["right"][0] - at["left"][0], at["top"][1] - at["bottom"][1]
-
-    def step(self):
-        """One step with the pressure on the walls that are free."""
-        width, height = self.size()
-        for name, force in (("right", (-PRESSURE * height, 0, 0)), ("top", (0, -PRESSURE * width, 0))):
-            if self.scene.bodies[self.walls[name]].state.blockedDOFs != "xyzXYZ":
-                self.scene.forces.setPermF(self.walls[name], force)
-        self.scene.step()
-
-    def stresses(self):
-        """Pressure of the disks on each wall in the last step [Pa]; the lengths are those of the step's end."""
-        width, height = self.size()
-        perm = {"right": PRESSURE * height, "top": PRESSURE * width}
-        found = {}
-        for name, sign, axis, length in (("bottom", -1, 1, width), ("right", 1, 0, height), ("top", 1, 1, width), ("left", -1, 0, height)):
-            i = self.walls[name]
-            free = self.scene.bodies[i].state.blockedDOFs != "xyzXYZ"
-            # O.forces holds the pressure too
-            found[name] = (sign * self.scene.forces.f(i)[axis] + (perm[name] if free else 0)) / length
-        return found
 
 
 # ---- friction without friction --------------------------------------------------------------------
@@ -121,27 +86,27 @@ def shear(folder, count, seed, inertia, strain, step):
     ``inertia``: inertial number γ̇ √(m/P) with γ̇ = 2 ε̇₁; ``strain``: γ in all; ``step``: time step in units of √(m/P). Returns the stress
     ratio of every hundredth of the strain, and how the solver did.
     """
+    from yade import O
+
     box = Box(count, seed, 0.0, 1.6)
-    engine, scene = box.engine, box.scene
+    engine, walls = box.engine, box.walls
     engine.tolerance = 1e-5
-    box.drive("top")
-    box.free("right", "x", 10 * MEAN_MASS)
-    scene.dt = step * TIME
+    O.dt = step * TIME
     rate = 0.5 * inertia / TIME  # ε̇₁
-    steps, parts = round(strain / (2 * rate * scene.dt)), 100
+    steps, parts = round(strain / (2 * rate * O.dt)), 100
     sums, rows, sweeps, failed = np.zeros(4), [], engine.totalIterations, engine.unconverged
-    first = box.size()
+    first = walls.width(), walls.height()
     for k in range(steps):
-        scene.bodies[box.walls["top"]].state.vel = (0, -rate * box.size()[1], 0)
-        box.step()
-        sides = box.stresses()
+        walls.drive("top", (0, -rate * walls.height()))
+        walls.step()
+        sides = walls.stresses()
         sums += [sides[name] for name in ("top", "bottom", "right", "left")]
         if (k + 1) * parts // steps > k * parts // steps:
             rows.append((sums * parts / steps).tolist())
             sums[:] = 0
-    last = box.size()
+    last = walls.width(), walls.height()
     return {"stresses": rows, "steps": steps, "sweeps": (engine.totalIterations - sweeps) / steps, "unconverged": engine.unconverged - failed,
-            "size": [first, last], "overlap": engine.overlapWorstEver, "step_s": scene.dt}
+            "size": [first, last], "overlap": engine.overlapWorstEver, "step_s": O.dt}
 
 
 def angle_of(stresses, begin):
@@ -220,17 +185,18 @@ def network(folder, count, seed, friction, strain, ratio):
 
     ``strain`` 0: at rest under isotropic pressure. Else γ of a slow biaxial compression (I = 1e-3), whose last half is looked at in five places.
     """
+    from yade import O
+
     box = Box(count, seed, friction, 1.6 if strain else 1.0, ratio)
-    engine, scene = box.engine, box.scene
+    engine, walls = box.engine, box.walls
     looks = [_look(box)] if not strain else []
     if strain:
-        box.drive("top")
-        engine.tolerance, scene.dt = 1e-5, 0.1 * TIME
+        engine.tolerance, O.dt = 1e-5, 0.1 * TIME
         rate = 0.5 * 1e-3 / TIME
-        steps = round(strain / (2 * rate * scene.dt))
+        steps = round(strain / (2 * rate * O.dt))
         for k in range(1, steps + 1):
-            scene.bodies[box.walls["top"]].state.vel = (0, -rate * box.size()[1], 0)
-            box.step()
+            walls.drive("top", (0, -rate * walls.height()))
+            walls.step()
             if k > steps // 2 and k % (steps // 10) == 0:
                 looks.append(_look(box))
     return {name: [look[name] for look in looks] for name in looks[0]}
@@ -247,11 +213,11 @@ def _look(box):
     usual = engine.tolerance, engine.maxIterations
     engine.tolerance, engine.maxIterations = 1e-7, 20000
     for k in range(30):
-        box.step()
+        box.walls.step()
         if k >= 2 and engine.residual <= 10 * engine.tolerance:
             break
-    t, (width, height) = tables.contacts(engine), box.size()
-    margin, (x0, y0) = 1.5 * box.large, (box.scene.bodies[box.walls[name]].state.pos for name in ("left", "bottom"))
+    t, width, height = tables.contacts(engine), box.walls.width(), box.walls.height()
+    margin, x0, y0 = 1.5 * box.large, box.walls.place("left"), box.walls.place("bottom")
     inner = (np.abs(t["x"] - x0[0] - width / 2) < width / 2 - margin) & (np.abs(t["y"] - y0[1] - height / 2) < height / 2 - margin)
     force = t["normal"][inner & (t["id1"] < box.count) & (t["id2"] < box.count)]
     disks = tables.bodies(engine)
