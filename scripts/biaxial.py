@@ -35,6 +35,7 @@ def read_arguments():
     parser.add_argument("--step", type=arguments.positive, default=0.1, help="time step in √(m/σ₃) (default: %(default)s)")
     parser.add_argument("--tolerance", type=arguments.positive, default=1e-5, help="of the solver's residual (default: %(default)g)")
     parser.add_argument("--pressing-friction", type=float, default=0.0, metavar="MU", help="friction of contacts while the sample is pressed (default: 0)")
+    parser.add_argument("--bond-first", action="store_true", help="as a slope is made: bond the disks as they were packed, then let the pressure grow")
     parser.add_argument("--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
@@ -45,7 +46,8 @@ def main():
     args, began = read_arguments(), time.monotonic()
     material, out = materials.load(args.material), Path(args.out)
     records.check_writable(out)
-    tests = [biaxial.Test(material, 1e6 * p, pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, args.pressing_friction), args.strain,
+    friction = None if args.bond_first else args.pressing_friction
+    tests = [biaxial.Test(material, 1e6 * p, pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, friction), args.strain,
                           args.platens, args.sides, args.inertia, args.step, args.tolerance)
              for seed in args.seeds for p in sorted(args.confining)]
     # a file gets a line every half a minute

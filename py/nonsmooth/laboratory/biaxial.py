@@ -94,14 +94,12 @@ class Course:
     # ---- begin ----------------------------------------------------------------------------------
     @classmethod
     def begin(cls, test, folder):
-        """Bonds the pressed sample and makes it ready."""
+        """Puts the sample into the scene, bonded and under its pressure."""
         began = time.monotonic()
         body = sample.Sample.build(test.shape, test.material, test.platen, test.confining, tolerance=min(test.tolerance, 1e-5), maxIterations=max(test.max_iterations, 1000))
         engine, walls = body.engine, body.walls
-        made = engine.bond()
-        walls.step()
         unit, height, width = math.sqrt(body.mass / test.confining), walls.height(), walls.width()
-        state = {"unit_s": unit, "rate": test.inertia / unit, "height": height, "width": width, "area": height * width, "bonds": made, "begin": O.iter,
+        state = {"unit_s": unit, "rate": test.inertia / unit, "height": height, "width": width, "area": height * width, "bonds": body.bonds, "begin": O.iter,
                  "begin_time": O.time, "disks": body.count, "contacts": engine.contacts, "made_s": time.monotonic() - began, "wall_s": 0.0,
                  "sweeps": engine.totalIterations, "unconverged": engine.unconverged, "fraction": body.disks_area() / (height * width)}
         engine.tolerance, engine.maxIterations = test.tolerance, test.max_iterations

@@ -40,7 +40,10 @@ class SampleError(RuntimeError):
 
 @dataclass(frozen=True)
 class Shape:
-    """A sample: about ``count`` disks of ``d_min`` to ``d_max`` [m], packed to ``fraction``, ``aspect`` times as high as wide, pressed with ``friction``."""
+    """A sample: about ``count`` disks of ``d_min`` to ``d_max`` [m], packed to ``fraction``, ``aspect`` times as high as wide.
+
+    ``friction``: of the disks while they are pressed; None: not pressed at all, the disks stay as they were packed, just short of touching.
+    """
 
     count: int
     seed: int
@@ -48,7 +51,7 @@ class Shape:
     d_max: float = 4.0
     fraction: float = 0.848
     aspect: float = 2.0
-    friction: float = 0.0
+    friction: float | None = 0.0
 
     @property
     def mean_square(self):
@@ -123,6 +126,10 @@ def make(folder, **plain):
     shape = Shape(**plain)
     box = shape.section()
     made = packing.cached_pack(box)
+    if shape.friction is None:
+        order = np.argsort(made.y, kind="stable")
+        _keep(shape, made.x[order], made.y[order], made.r[order], *box.layers[0].points[2])
+        return {"disks": len(made)}
     angle = math.atan(shape.friction)
     O.reset()
     stuff, smooth = NscdMat(density=DENSITY, frictionAngle=angle), NscdMat(frictionAngle=0.0, wall=True)
@@ -151,7 +158,11 @@ def make(folder, **plain):
             raise SampleError(f"the sample does not come to rest under pressure: mean speed {engine.meanSpeed:g} m/s, wanted {slow:g} m/s, "
                               f"stresses {mean}; try another seed")
     t, corner = tables.bodies(engine), (walls.place("left")[0], walls.place("bottom")[1])
-    content = io.BytesIO()
-    np.savez(content, x=t["x"] - corner[0], y=t["y"] - corner[1], r=t["r"], width=walls.width(), height=walls.height())
-    write_atomically(cache_path(shape), content.getvalue())
+    _keep(shape, t["x"] - corner[0], t["y"] - corner[1], t["r"], walls.width(), walls.height())
     return {"steps": O.iter, "disks": len(made), "sweeps_mean": engine.totalIterations / O.iter, "overlap_worst_rel": engine.overlapWorst}
+
+
+def _keep(shape, x, y, r, width, height):
+    content = io.BytesIO()
+    np.savez(content, x=x, y=y, r=r, width=width, height=height)
+    write_atomically(cache_path(shape), content.getvalue())

@@ -16,14 +16,16 @@ REST_STEPS = 100  # in which a pressed sample takes up the test's pressure
 
 
 class Sample:
-    """Handles of a sample that is in the scene: its ``walls``, id of its first disk, and the number of disks."""
+    """Handles of a sample that is in the scene: its ``walls``, id of its first disk, number of disks, and of bonds made (None after a resume)."""
 
     def __init__(self, walls, first_disk, count):
-        self.engine, self.walls, self.first_disk, self.count = scene.contact_dynamics(), walls, first_disk, count
+        self.engine, self.walls, self.first_disk, self.count, self.bonds = scene.contact_dynamics(), walls, first_disk, count, None
 
     @classmethod
     def build(cls, shape, rock, platen, pressure, **solver):
-        """Fills the (empty) scene; the sample rests under ``pressure`` [Pa], and nothing is bonded yet.
+        """Fills the (empty) scene; the sample is bonded and rests under ``pressure`` [Pa].
+
+        A pressed sample takes up the pressure and is then bonded. One that was not pressed is bonded first, as a slope is, and the pressure then grows.
 
         ``shape``: of a sample that `pressing.prepare` made; ``rock``, ``platen``: section.Material of disks and of platens, sides have no friction;
         ``solver``: attributes of ContactDynamicsEngine.
@@ -39,11 +41,22 @@ class Sample:
         O.engines = scene.engines(gravity=(0, 0, 0), reach=reach, verlet=0.1 * shape.d_min, **solver)
         made = cls(walls, ids[0], len(ids))
         O.dt = pressing.STEP * math.sqrt(made.mass / pressure)
-        walls.pressure = pressure
+        pressed = shape.friction is not None
         for name in FREE_STATES:
-            walls.free(name, pressing.WALL_MASS * made.mass * made.count)
-        for _ in range(REST_STEPS):
+            walls.free(name, (pressing.WALL_MASS if pressed else 1.0) * made.mass * made.count)
+        ramp = 1 if pressed else pressing.RAMP
+        if not pressed:
+            O.step()  # finds the contacts
+            made.bonds = made.engine.bond()
+        for k in range(ramp + REST_STEPS):
+            walls.pressure = pressure * min(1.0, (k + 1) / ramp) ** 2
             walls.step()
+        if pressed:
+            made.bonds = made.engine.bond()
+        else:
+            for name in FREE_STATES:
+                walls.free(name, pressing.WALL_MASS * made.mass * made.count)
+        walls.step()
         return made
 
     @property
