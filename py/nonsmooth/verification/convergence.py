@@ -329,11 +329,10 @@ def slope_convergence(bench):
 
 def _standing(bench, case):
     """Seeds of the first packings that bear the dry slope, as many as are compared, and of those that were passed over. ``case``: of a seed."""
-    standing, fallen = [], []
-    for first in range(0, len(SLOPE_SEEDS), COMPARED):
-        seeds = SLOPE_SEEDS[first:first + COMPARED]
-        for seed, found in zip(seeds, run_cases(bench, slope, [case(s) for s in seeds])):
+    seeds, standing, fallen = list(SLOPE_SEEDS), [], []
+    while seeds and len(standing) < COMPARED:
+        lacking = COMPARED - len(standing)
+        now, seeds = seeds[:lacking], seeds[lacking:]
+        for seed, found in zip(now, run_cases(bench, slope, [case(s) for s in now])):
             (standing if found["water_hold_m"] is not None and found["water_hold_m"] > STANDS else fallen).append(seed)
-        if len(standing) >= COMPARED:
-            break
-    return standing[:COMPARED], [s for s in fallen if s < standing[-1]]
+    return standing, fallen
