@@ -78,9 +78,12 @@ def mohr(summary, path, pdf=False):
     return style.save(fig, path, pdf)
 
 
-def _frame(ax, snapshot):
-    m = 0.03 * np.ptp(snapshot.x)
-    style.frame(ax, snapshot.x.min() - m, snapshot.x.max() + m, snapshot.y.min() - m, snapshot.y.max() + m)
+def _frame(ax, *snapshots):
+    """One scale for all: around the left and lower edge of each and the largest size."""
+    width, height = (max(np.ptp(getattr(s, axis)) for s in snapshots) for axis in "xy")
+    m, s = 0.03 * width, snapshots[0]
+    x0 = 0.5 * (s.x.min() + s.x.max() - width)
+    style.frame(ax, x0 - m, x0 + width + m, s.y.min() - m, s.y.min() + height + m)
 
 
 @style.styled
@@ -89,7 +92,8 @@ def rotations(begin, panels, path, pdf=False):
 
     ``begin``: the Snapshot then; ``panels``: list of (title, Snapshot, bands), bands as in ``summary.json``. Returns ``path``.
     """
-    ratio = np.ptp(begin.y) / np.ptp(begin.x)
+    shown = [s for _, s, _ in panels]
+    ratio = max(np.ptp(s.y) for s in shown) / max(np.ptp(s.x) for s in shown)
     width = 3.4
     fig = style.figure(width * len(panels) + 0.9, width * ratio + 0.5, layout="constrained")
     axes = fig.subplots(1, len(panels), squeeze=False)[0]
@@ -97,7 +101,7 @@ def rotations(begin, panels, path, pdf=False):
     limit = max(0.02, style.nice(float(np.quantile(np.abs(np.concatenate(turned)), 0.98))))
     scale = ScalarMappable(Normalize(-limit, limit), "RdBu_r")
     for ax, (title, s, found), angle in zip(axes, panels, turned):
-        _frame(ax, s)
+        _frame(ax, s, *shown)
         style.draw_disks(ax, s, scale.to_rgba(angle), edge="#00000030", width=0.15)
         ax.set_title(title)
     fig.colorbar(scale, ax=axes, shrink=0.5, label="rotation [rad], counterclockwise positive", extend="both")

@@ -109,6 +109,8 @@ class Course:
         if test.sides == "flexible":
             walls.remove("left", "right")
             state["area"] = course._membrane()
+        elif test.platens != "smooth":
+            walls.free("left", walls.state("right").mass)  # platens that drag must not load one side more than the other
         course.snapshot("begin")
         return course
 

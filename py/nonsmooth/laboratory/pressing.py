@@ -121,7 +121,7 @@ def make(folder, **plain):
     from yade.wrapper import NscdMat
 
     from .. import scene, tables
-    from .walls import FREE_STATES, SIDES, Walls
+    from .walls import SIDES, Walls
 
     shape = Shape(**plain)
     box = shape.section()
@@ -142,13 +142,13 @@ def make(folder, **plain):
     whole = DENSITY * float(np.sum(math.pi * made.r**2))
     O.dt = STEP * math.sqrt(whole / len(made) / PRESSURE)
     # heavy at first, so that the walls do not knock; light at last, so that they follow
-    for name in FREE_STATES:
+    for name in ("right", "top"):
         walls.free(name, whole)
     slow, calm, mean = REST_SPEED * math.sqrt(PRESSURE / DENSITY), False, dict.fromkeys(SIDES, 0.0)
     while not calm:
         walls.pressure = PRESSURE * min(1.0, max(1e-3, O.iter / RAMP) ** 2)
         if O.iter == 2 * RAMP:
-            for name in FREE_STATES:
+            for name in ("right", "top"):
                 walls.free(name, WALL_MASS * whole)
         walls.step()
         for name, stress in walls.stresses().items():

@@ -10,7 +10,7 @@ from yade.wrapper import NscdMat
 
 from .. import scene, tables
 from . import pressing
-from .walls import FREE_STATES, Walls
+from .walls import Walls
 
 REST_STEPS = 100  # in which a pressed sample takes up the test's pressure
 
@@ -42,7 +42,7 @@ class Sample:
         made = cls(walls, ids[0], len(ids))
         O.dt = pressing.STEP * math.sqrt(made.mass / pressure)
         pressed = shape.friction is not None
-        for name in FREE_STATES:
+        for name in ("right", "top"):
             walls.free(name, (pressing.WALL_MASS if pressed else 1.0) * made.mass * made.count)
         ramp = 1 if pressed else pressing.RAMP
         if not pressed:
@@ -54,7 +54,7 @@ class Sample:
         if pressed:
             made.bonds = made.engine.bond()
         else:
-            for name in FREE_STATES:
+            for name in ("right", "top"):
                 walls.free(name, pressing.WALL_MASS * made.mass * made.count)
         walls.step()
         return made

@@ -7,7 +7,7 @@ from yade import O
 from .. import scene
 
 SIDES = ("bottom", "right", "top", "left")
-FREE_STATES = {"right": "yzXYZ", "top": "xzXYZ"}  # blocked DOFs of a wall that follows the pressure
+FREE_STATES = {"right": "yzXYZ", "top": "xzXYZ", "left": "yzXYZ"}  # blocked DOFs of a wall that follows the pressure
 OUTWARDS = {"bottom": (1, -1), "right": (0, 1), "top": (1, 1), "left": (0, -1)}  # axis, sign
 
 
@@ -30,7 +30,7 @@ class Walls:
         return O.bodies[self.ids[wall]].state
 
     def free(self, wall, mass):
-        """Lets "right" or "top" follow the pressure as a body of ``mass`` [kg/m]."""
+        """Lets "right", "top" or "left" follow the pressure as a body of ``mass`` [kg/m]."""
         state = self.state(wall)
         state.mass = mass
         state.blockedDOFs = FREE_STATES[wall]
@@ -67,9 +67,9 @@ class Walls:
         """One step of the scene, with the pressure on the walls that are free."""
         for wall in FREE_STATES:
             if self.is_free(wall):
-                axis = OUTWARDS[wall][0]
+                axis, sign = OUTWARDS[wall]
                 self._pushes[wall] = push = self.pressure * (self.height() if axis == 0 else self.width())
-                O.forces.setPermF(self.ids[wall], (-push, 0, 0) if axis == 0 else (0, -push, 0))
+                O.forces.setPermF(self.ids[wall], (-sign * push, 0, 0) if axis == 0 else (0, -sign * push, 0))
         O.step()
 
     def forces(self):
