@@ -105,6 +105,14 @@ def test_membrane_balances_and_presses_on_the_outermost_disks():
     assert area == pytest.approx((top - bottom) * columns, rel=0.01)  # the noise moves a side by 0.05/√rows
 
 
+def test_a_disk_that_has_come_off_is_not_part_of_the_outline():
+    x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(5), np.arange(8)))
+    r = np.full(len(x), 0.5)
+    whole = membrane.boundary(x, y, r)
+    with_one_off = membrane.boundary(np.append(x, -9.0), np.append(y, 3.0), np.append(r, 0.5))
+    assert len(whole) == 22 and sorted(whole) == sorted(with_one_off)  # 2 (4 + 7) along the border of the grid
+
+
 # ---- materials ------------------------------------------------------------------------------------
 
 def test_a_material_survives_its_file(tmp_path):

@@ -35,14 +35,14 @@ def boundary(x, y, r):
     for p, q in known:
         if (q, p) not in known:
             after.setdefault(p, []).append(q)
-    # at a disk where the outline touches itself, the rightmost turn stays outside
-    start = int(np.argmin(x - r))
+    if not after:
+        raise MembraneError("the sample has no outline; ask for more disks")
+    # at a disk where the outline touches itself, the rightmost turn stays outside; a disk that has come off belongs to no triangle
+    start = min(after, key=lambda k: (x[k] - r[k], k))
     chain, before = [start], places[start] - np.array([0.0, -1.0])
     while True:
         here = chain[-1]
-        choices = after.get(here, [])
-        if not choices:
-            raise MembraneError("the outline of the sample is open; more disks, or a smaller strain, keep it whole")
+        choices = after[here]
         came = places[here] - before
         def turn(q):
             go = places[q] - places[here]
