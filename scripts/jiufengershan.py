@@ -95,6 +95,9 @@ def main():
     for name in ("water_at_failure_m", "triggering_s", "motion_s", "front_travel_m", "deposit_thickness_max_m", "energy_error_rel"):
         value = summary[name]
         print(f"  {name:28s} {'-' if value is None else f'{value:.4g}'}")
+    if summary.get("water_at_failure_over_passive"):
+        print(f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water; "
+              f"the slope failed at {summary['water_at_failure_over_passive']:.2f} of that")
     print(f"results: {out}/summary.json, series.csv, {', '.join(p.name for p in made)}")
 
 

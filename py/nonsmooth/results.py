@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import figures, paraview, records, video
+from . import figures, paraview, records, toe, video
 from .packing_files import write_atomically
 
 __all__ = ["characteristic_times", "summarise", "draw"]
@@ -74,6 +74,16 @@ def _failure(series, times, state):
 
 def _difference(a, b):
     return None if a is None or b is None else a - b
+
+
+def _passive(section, packing_fraction, water):
+    """What the toe's passive strength says about the failure, see toe.py; nothing where the rock's envelope or the water's wall is not given."""
+    envelope = section.materials[section.layers[0].material].envelope
+    if envelope is None or section.water is None or section.water.wall is None:
+        return {}
+    found = toe.passive(section, envelope.cohesion, envelope.friction_deg, packing_fraction)
+    return {"water_passive_m": found.water_m, "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
+            "passive_resistance_dry_N_per_m": found.resistance_dry}
 
 
 def summarise(folder, section, state, threads=None) -> dict:
@@ -137,6 +147,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         rise = summary["fb_force_at_failure_N_per_m"] - summary["fb_force_dry_N_per_m"]
         drop = summary["dp_shear_dry_N_per_m"] - summary["dp_shear_at_failure_N_per_m"]
         summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
+    summary |= _passive(section, state["packing_fraction"], summary["water_at_failure_m"])
     clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
     write_atomically(folder / "summary.json", (json.dumps(clean, indent=1) + "\n").encode())
     return clean

@@ -24,7 +24,7 @@ from shapely.geometry import Polygon
 from . import geometry
 from .section_reader import SectionError, read
 
-__all__ = ["Disks", "End", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
+__all__ = ["Disks", "End", "Envelope", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
            "SlipWeakening", "Stages", "Wall", "Water", "load", "shipped"]
 
 FOLDER = Path(__file__).resolve().parent / "sections"
@@ -48,6 +48,14 @@ class SlipWeakening:
 
 
 @dataclass(frozen=True)
+class Envelope:
+    """Macroscopic peak strength of a material as biaxial tests measured it: `cohesion` [Pa], `friction_deg` [degrees]."""
+
+    cohesion: float
+    friction_deg: float
+
+
+@dataclass(frozen=True)
 class Material:
     """Contact parameters (paper, section 2.2 and Table 1): strengths in Pa, lengths in units of ℓ."""
 
@@ -64,6 +72,7 @@ class Material:
     density: float | None = None
     bonded: bool = True
     slip_weakening: SlipWeakening | None = None
+    envelope: Envelope | None = None
 
     @property
     def critical_slip(self) -> float:
@@ -334,7 +343,7 @@ class Section:
         content = {"layers": [layer.vertices for layer in self.layers],
                    "disks": [d.d_min, d.d_max, d.distribution, d.packing_fraction]}
         if scope == "settled":
-            plain = {name: {k: v for k, v in dataclasses.asdict(m).items() if k != "name"}
+            plain = {name: {k: v for k, v in dataclasses.asdict(m).items() if k not in ("name", "envelope")}
                      for name, m in self.materials.items()}
             content |= {"walls": [[w.vertices, plain[w.material]] for w in self.walls],
                         "rock": [plain[layer.material] for layer in self.layers], "gravity": self.gravity,
@@ -411,6 +420,8 @@ def material_from(name: str, raw: dict) -> Material:
         raw["bond_ellipse"] = tuple(map(float, raw["bond_ellipse"]))
     if "slip_weakening" in raw:
         raw["slip_weakening"] = SlipWeakening(**raw["slip_weakening"])
+    if "envelope" in raw:
+        raw["envelope"] = Envelope(**_floats(raw["envelope"]))
     return Material(name, **{k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v
                              for k, v in raw.items()})
 

@@ -68,7 +68,7 @@ class Test:
         plain = dict(plain)
         m = dict(plain.pop("material"))
         m["bond_ellipse"] = tuple(m["bond_ellipse"])
-        m["slip_weakening"] = None
+        m["slip_weakening"] = m["envelope"] = None  # neither rules a contact of the sample
         return cls(material=section.Material(**m), shape=pressing.Shape(**plain.pop("shape")), **plain)
 
     @property

@@ -38,7 +38,7 @@ def load(name_or_path):
 
 def save(material, path, comment=""):
     """Writes a material file; ``comment``: text for its head."""
-    plain = {k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening") and v is not None}
+    plain = {k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening", "envelope") and v is not None}
     plain["bond_ellipse"] = list(plain["bond_ellipse"])
     head = "".join(f"# {line}\n" for line in comment.splitlines())
     write_atomically(Path(path), (head + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True)).encode())

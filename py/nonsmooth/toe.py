@@ -1,0 +1,72 @@
+"""Water table at which the toe of a slab reaches its passive strength, from a measured envelope of the rock. Needs no YADE.
+
+A slab of bulk weight γ, thickness H at its toe, dips by β on a plane with friction μ and is held by a backstop perpendicular to the plane. Per metre of
+thickness, with W the weight of all layers, h the height of the water table over the plane and U(h) what the water lifts (Taboada and Estrada 2009,
+eqs 7 and 18: γ_w cos β on the volume of every disk below the table, along the normal):
+
+    push        P(h) = W sin β − μ (W cos β − U(h))                     the plane at its limit (paper, eq. 20),
+    resistance  R(h) = ∫₀ᴴ [ K_p σ'(z, h) + 2 c √K_p ] dz ,  K_p = tan²(45° + φ/2)     Rankine's passive state along the slab,
+    σ'(z, h) = γ cos β z − w max(0, z − H + h)                            effective normal stress at the depth z, w the lift per volume of bulk.
+
+The toe fails where P = R. Neglected: the shear stress γ sin β z on planes parallel to the slab, friction on the backstop, friction of the plane below
+the wedge, and that the toe fails progressively; the first lowers the resistance, the next two raise it. So the height is an estimate to some 20 %.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from scipy.optimize import brentq
+from shapely import affinity
+from shapely.geometry import box
+
+__all__ = ["Toe", "passive"]
+
+SLICE = 0.01  # of the slab's length, in which its thickness at the toe is looked for
+
+
+@dataclass(frozen=True)
+class Toe:
+    """``water_m``: height of the water table at failure, None where the toe bears any or not even the dry slab; ``thickness_m``: H; ``push``, ``resistance``
+    [N/m]: dry, and at failure where there is one."""
+
+    water_m: float | None
+    thickness_m: float
+    push_dry: float
+    resistance_dry: float
+    push_N_per_m: float | None
+
+
+def passive(section, cohesion, friction_deg, packing_fraction):
+    """The Toe of a Section with water above a wall; ``cohesion`` [Pa], ``friction_deg`` [°] of its rock, ``packing_fraction`` of disks in the layers.
+
+    Raises ValueError for a section without water above a wall.
+    """
+    water = section.water
+    if water is None or water.wall is None:
+        raise ValueError(f"{section.name}: its water table stands above no wall, so there is no slab")
+    beta = math.radians(abs(section.dip))
+    rock = section.materials[section.layers[0].material]
+    plane = section.materials[section.wall(water.wall).material]
+    # along the slab, the plane being the x axis; downslope is +x for a plane that falls to the right
+    slab = affinity.rotate(section.outline, section.dip, origin=water.point)
+    slab = affinity.translate(slab, 0.0, -water.point[1])
+    x0, _, x1, _ = slab.bounds
+    end = x1 - SLICE * (x1 - x0) if section.dip >= 0 else x0
+    thickness = slab.intersection(box(end, -1e9, end + SLICE * (x1 - x0), 1e9)).bounds[3]
+    bulk = rock.density * packing_fraction * section.gravity
+    lift = water.unit_weight * math.cos(beta) * (packing_fraction if water.volume == "disk" else 1.0)
+    weight = bulk * section.area
+    k = math.tan(math.pi / 4 + math.radians(friction_deg) / 2) ** 2
+
+    def push(h):
+        wet = slab.intersection(box(x0, -1e9, x1, h)).area
+        return weight * math.sin(beta) - plane.friction * (weight * math.cos(beta) - lift * wet)
+
+    def resistance(h):
+        return k * (0.5 * bulk * math.cos(beta) * thickness**2 - 0.5 * lift * h**2) + 2 * cohesion * math.sqrt(k) * thickness
+
+    miss = lambda h: push(h) - resistance(h)  # noqa: E731
+    height = brentq(miss, 0.0, thickness) if miss(0.0) < 0 < miss(thickness) else None
+    return Toe(height, thickness, push(0.0), resistance(0.0), None if height is None else push(height))
