@@ -125,11 +125,13 @@ class Experiment:
             self.checkpoint()
 
     def _begin(self):
-        """Bonds the packing as it is, without load; gravity is still zero."""
+        """The first steps, without gravity; bonds the packing as it is, unless that comes after gravity has grown."""
         s, solver = self.state, self.slope.solver
         self.newton.gravity = self._gravity(0.0)
         O.step()  # makes the interactions
-        s.bonds_initial, s.first_step = solver.bond(), O.iter
+        s.first_step = O.iter
+        if self.section.stages.settle.bond == "before":
+            s.bonds_initial = solver.bond()
         O.step()
         s.contacts_initial = solver.contacts
 
@@ -144,6 +146,8 @@ class Experiment:
         if O.time < stage.ramp or (self.slope.solver.meanSpeed > stage.speed_rest and O.time < stage.time_max - 0.5 * O.dt):
             return
         s.packing_fraction = self._fraction()
+        if stage.bond == "after":
+            s.bonds_initial, s.contacts_initial = self.slope.solver.bond(), self.slope.solver.contacts
         s.settled, s.stage = O.time, "dry"
         s.table_since = O.time
         self.slope.solver.forgetEnergies()

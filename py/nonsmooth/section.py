@@ -175,12 +175,13 @@ class Water:
 class Settle:
     """Settling: at most `time_max` [s], until the mean speed is below `speed_rest` [m/s].
 
-    Gravity grows to its value during the first `ramp` [s].
+    Gravity grows to its value during the first `ramp` [s]. `bond`: "before" it grows, or "after" the packing has come to rest under it.
     """
 
     ramp: float
     time_max: float
     speed_rest: float
+    bond: str = "before"
 
 
 @dataclass(frozen=True)
@@ -393,7 +394,7 @@ def _build(document, source: str) -> Section:
         walls=walls, layers=layers,
         materials=MappingProxyType({k: material_from(k, v) for k, v in raw["materials"].items()}),
         disks=disks, water=None,
-        stages=Stages(Settle(**_floats(stages["settle"])), float(stages["dry"]),
+        stages=Stages(Settle(**{k: v if k == "bond" else float(v) for k, v in stages["settle"].items()}), float(stages["dry"]),
                       stages.get("water", {}).get("hold", "motion"), End(**_floats(stages["end"]))),
         numerics=Numerics(**raw["numerics"]), seed=raw["seed"], source=source)
     section_checks.check(section, document)
