@@ -9,11 +9,11 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 import argparse
+import dataclasses
 import json
 import time
 from pathlib import Path
 
-from tqdm import tqdm
 from yade.nonsmooth import packing, records, section
 from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report
 from yade.nonsmooth.packing_files import write_atomically
@@ -28,14 +28,15 @@ def read_arguments():
     parser.add_argument("--fraction", type=arguments.positive, default=0.848, help="packing fraction that the sample is made with (default: %(default)s)")
     parser.add_argument("--aspect", type=arguments.positive, default=2.0, help="height over width (default: %(default)s)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings; several give confidence intervals")
-    parser.add_argument("--platens", choices=("smooth", "rough", "glued"), default="smooth", help="friction of the platens (default: %(default)s)")
-    parser.add_argument("--sides", choices=("rigid", "flexible"), default="rigid", help="lateral boundaries (default: %(default)s)")
-    parser.add_argument("--strain", type=arguments.positive, default=0.06, help="axial strain at the end (default: %(default)s)")
+    parser.add_argument("--platens", choices=("smooth", "rough", "glued"), default="rough", help="friction of the platens (default: %(default)s)")
+    parser.add_argument("--sides", choices=("rigid", "flexible"), default="flexible", help="lateral boundaries (default: %(default)s)")
+    parser.add_argument("--strain", type=arguments.positive, default=0.08, help="axial strain at the end (default: %(default)s)")
     parser.add_argument("--inertia", type=arguments.positive, default=1e-4, metavar="I", help="inertial number of the loading (default: %(default)g)")
     parser.add_argument("--step", type=arguments.positive, default=0.1, help="time step in √(m/σ₃) (default: %(default)s)")
     parser.add_argument("--tolerance", type=arguments.positive, default=1e-5, help="of the solver's residual (default: %(default)g)")
     parser.add_argument("--pressing-friction", type=float, default=0.0, metavar="MU", help="friction of contacts while the sample is pressed (default: 0)")
     parser.add_argument("--bond-first", action="store_true", help="as a slope is made: bond the disks as they were packed, then let the pressure grow")
+    parser.add_argument("--bond-distance", type=arguments.positive, metavar="L", help="largest gap that is bonded, in mean diameters, instead of the material's")
     parser.add_argument("--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
@@ -46,17 +47,13 @@ def main():
     args, began = read_arguments(), time.monotonic()
     material, out = materials.load(args.material), Path(args.out)
     records.check_writable(out)
+    if args.bond_distance is not None:
+        material = dataclasses.replace(material, bond_creation_distance=args.bond_distance)
     friction = None if args.bond_first else args.pressing_friction
     tests = [biaxial.Test(material, 1e6 * p, pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, friction), args.strain,
                           args.platens, args.sides, args.inertia, args.step, args.tolerance)
              for seed in args.seeds for p in sorted(args.confining)]
-    # a file gets a line every half a minute
-    with tqdm(total=1000, mininterval=0.5 if sys.stderr.isatty() else 30, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left") as bar:
-
-        def progress(share, doing):
-            bar.set_description_str(doing, refresh=False)
-            bar.update(int(1000 * share) - bar.n)
-
+    with arguments.bar() as progress:
         measured = campaign.run(tests, out, args.threads, args.resume, progress)
     summary = campaign.summarise(material, measured, time.monotonic() - began, args.threads)
     write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())

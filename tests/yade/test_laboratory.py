@@ -46,7 +46,7 @@ def made_curve(noise=0.0):
 
 
 def test_curve_measures_peak_plateau_and_dilatancy():
-    c = strength.curve(made_curve())
+    c = strength.curve(made_curve(), (0.04, 0.06))
     assert c.peak == pytest.approx(35e6, rel=5e-3)  # the window of 0.2 % of strain takes (0.1/0.6)²/3 of the bump away
     assert c.peak_strain == pytest.approx(0.015, abs=1e-4)
     assert c.residual == pytest.approx(27e6, rel=1e-6) and c.residual_confining == pytest.approx(8.1e6, rel=1e-12)
@@ -57,7 +57,7 @@ def test_curve_measures_peak_plateau_and_dilatancy():
 def test_a_curve_without_a_plateau_is_refused():
     short = {name: values[:300] for name, values in made_curve().items()}
     with pytest.raises(ValueError, match="before the plateau"):
-        strength.curve(short)
+        strength.curve(short, (0.04, 0.06))
 
 
 def test_confidence_over_seeds_is_students():
@@ -184,7 +184,7 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
 
 # ---- a small test, whole --------------------------------------------------------------------------
 
-SMALL = biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82), strain=0.046, tolerance=1e-4, step=0.2)
+SMALL = biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82), strain=0.03, sides="rigid", tolerance=1e-4, step=0.2)
 
 
 def test_a_sample_that_is_too_small_is_refused():
@@ -232,7 +232,7 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
 def test_the_script_writes_a_summary_and_figures(tmp_path):
     command = [os.path.join(ROOT, "scripts", name) for name in ("yade-nonsmooth", "biaxial.py")]
     environment = {**os.environ, "NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"])}
-    options = ["--disks", "150", "--diameter", "1", "2", "--fraction", "0.82", "--confining", "0.5,4", "--strain", "0.046", "--step", "0.2", "--tolerance", "1e-4", "--threads", "2", "--out", str(tmp_path)]
+    options = ["--disks", "150", "--diameter", "1", "2", "--fraction", "0.82", "--confining", "0.5,4", "--strain", "0.03", "--sides", "rigid", "--step", "0.2", "--tolerance", "1e-4", "--threads", "2", "--out", str(tmp_path)]
     done = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=600)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     summary = json.loads((tmp_path / "summary.json").read_text())

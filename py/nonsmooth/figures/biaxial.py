@@ -123,3 +123,31 @@ def chains(snapshot, title, path, pdf=False):
     ax.set_title(title)
     fig.legend(handles=[Patch(color=style.COMPRESSION, label="compression"), Patch(color=style.TENSION, label="tension")], loc="lower center", ncol=2, bbox_to_anchor=(0.5, -0.004))
     return style.save(fig, path, pdf)
+
+
+@style.styled
+def effects(rows, path, pdf=False):
+    """Angles of friction of peak and plateau against what varies, one panel an effect; dots: samples, lines: means with their 95 % interval.
+
+    ``rows``: of `laboratory.effects.run`. Returns ``path``.
+    """
+    names = list(dict.fromkeys(row["effect"] for row in rows))
+    fig = style.figure(3.1 * len(names), 4.0, layout="constrained")
+    for ax, name in zip(fig.subplots(1, len(names), sharey=True, squeeze=False)[0], names):
+        chosen = sorted((row for row in rows if row["effect"] == name), key=lambda row: row["value"])
+        values = [row["value"] for row in chosen]
+        for kind, colour, word in (("peak", style.LINES["blue"], "peak"), ("residual", style.LINES["orange"], "plateau")):
+            for row in chosen:
+                ax.plot([row["value"]] * len(row[f"{kind}_deg"]), row[f"{kind}_deg"], "o", ms=3.5, color=colour, alpha=0.35, mew=0)
+            ax.errorbar(values, [row[f"{kind}_mean_deg"] for row in chosen], [row[f"{kind}_95_deg"] or 0.0 for row in chosen], fmt="s-", ms=5, color=colour,
+                        capsize=3, lw=1.4, label=word)
+        ax.axvline(next(row["value"] for row in chosen if row["usual"]), color="#777777", lw=1, ls=(0, (4, 3)), zorder=0)
+        ax.set(xscale="log", xlabel=chosen[0]["label"])
+        ax.set_xticks(values, [f"{v:g}" for v in values])
+        ax.minorticks_off()
+        ax.grid(axis="y", color="#e3e3e3", lw=0.7)
+    first = fig.axes[0]
+    first.set_ylabel("angle of friction [°]")
+    first.set_ylim(0, None)
+    first.legend(loc="lower right")
+    return style.save(fig, path, pdf)

@@ -1,8 +1,10 @@
-"""Types of arguments that the laboratory's scripts share, for argparse."""
+"""What the laboratory's scripts share on the command line: types of arguments, and the progress bar."""
 
 from __future__ import annotations
 
 import argparse
+import contextlib
+import sys
 
 
 def pressures(least=1):
@@ -29,3 +31,18 @@ def positive(text):
     if not value > 0:
         raise argparse.ArgumentTypeError(f"{text}: it must be positive")
     return value
+
+
+@contextlib.contextmanager
+def bar():
+    """A progress bar; gives a function to call with the share done and what is being done, in words."""
+    from tqdm import tqdm
+
+    # a file gets a line every half a minute
+    with tqdm(total=1000, mininterval=0.5 if sys.stderr.isatty() else 30, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left") as shown:
+
+        def progress(share, doing):
+            shown.set_description_str(doing, refresh=False)
+            shown.update(int(1000 * share) - shown.n)
+
+        yield progress

@@ -54,9 +54,9 @@ class Test:
     material: section.Material
     confining: float
     shape: pressing.Shape
-    strain: float = 0.06
-    platens: str = "smooth"
-    sides: str = "rigid"
+    strain: float = 0.08
+    platens: str = "rough"
+    sides: str = "flexible"
     inertia: float = 1e-4
     step: float = 0.1
     tolerance: float = 1e-5

@@ -17,7 +17,7 @@ from .. import processes, records
 from ..packing_files import write_atomically
 from . import bands, biaxial, pressing, strength
 
-BAND_AT = "2"  # snapshot (strain in per cent) in which bands are measured: after the peak, before they have spread
+BAND_AT = "4"  # snapshot (strain in per cent) in which bands are measured: after the peak, before they have spread
 
 
 class CampaignError(RuntimeError):
@@ -105,7 +105,7 @@ def measure(test, folder):
     folder = Path(folder)
     found = json.loads((folder / "result.json").read_text())["found"]
     series = records.read_series(folder / "series.csv")
-    plateau = (strength.PLATEAU[0], max(strength.PLATEAU[1], test.strain))
+    plateau = (strength.PLATEAU * test.strain, test.strain)
     c = strength.curve(series, plateau)
     seen = band_of(folder)
     return {"confining_Pa": test.confining, "seed": test.shape.seed, "disks": found["disks"], "bonds": found["bonds"], "packing_fraction": found["packing_fraction"],
@@ -138,11 +138,12 @@ def summarise(material, measured, wall_s, threads):
         fits = [strength.envelope([m[f"sigma3_{kind}_Pa"] for m in group], [m[f"sigma1_{kind}_Pa"] for m in group]) for group in by_seed.values()]
         cohesion = strength.Estimate.of([1e-3 * f.cohesion for f in fits])
         friction = strength.Estimate.of([f.friction_deg for f in fits])
-        whole |= {f"cohesion_{unit}_kPa": cohesion.mean, f"cohesion_{unit}_95_kPa": _number(cohesion.half_width), f"friction_{unit}_deg": friction.mean,
-                  f"friction_{unit}_95_deg": _number(friction.half_width),
+        whole |= {f"cohesion_{unit}_kPa": cohesion.mean, f"cohesion_{unit}_95_kPa": number(cohesion.half_width), f"friction_{unit}_deg": friction.mean,
+                  f"friction_{unit}_95_deg": number(friction.half_width),
                   f"misses_{unit}_rel": np.mean([f.misses for f in fits], axis=0).tolist()}
     return whole
 
 
-def _number(value):
+def number(value):
+    """A number as JSON can hold it."""
     return None if math.isnan(value) else value

@@ -17,6 +17,10 @@ from ..section_reader import SectionError, read
 #: Names of the paper's Table 1 and the materials of the shipped section that hold their parameters.
 SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
 
+#: Largest gap [ℓ] that is bonded in a pressed sample of wwr. A slope is bonded as it was packed, with its neighbours just short of touching, and the
+#: same number of bonds for each disk takes a gap of 0.05; see doc/laboratory.rst.
+PRESSED_BONDS = 0.0125
+
 
 def load(name_or_path):
     """A section.Material by its name in :data:`SHIPPED`, or from a material file.
@@ -25,7 +29,8 @@ def load(name_or_path):
     """
     name = str(name_or_path)
     if name in SHIPPED:
-        return dataclasses.replace(section.load("jiufengershan").materials[SHIPPED[name]], name=name)
+        m = dataclasses.replace(section.load("jiufengershan").materials[SHIPPED[name]], name=name, envelope=None)
+        return dataclasses.replace(m, bond_creation_distance=PRESSED_BONDS) if name == "wwr" else m
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and not path.exists():
         raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")

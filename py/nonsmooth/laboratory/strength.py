@@ -17,7 +17,7 @@ import numpy as np
 
 PEAK_WINDOW = 2e-3           # strain over which the stress is averaged before its maximum is taken
 DILATANCY_WINDOW = 5e-3      # strain around the peak over which the slope of the volume is taken
-PLATEAU = (0.04, 0.06)       # strains between which the residual strength is the mean
+PLATEAU = 0.5                # share of a test's strain from which on the residual strength is the mean
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,11 @@ class Curve:
     volumetric_end: float
 
 
-def curve(series, plateau=PLATEAU):
-    """Figures of a test's series (columns as in `biaxial.COLUMNS`); ValueError where it ends before the plateau has begun."""
+def curve(series, plateau):
+    """Figures of a test's series (columns as in `biaxial.COLUMNS`).
+
+    ``plateau``: strains between which the residual strength is the mean. Raises ValueError where the test ends before the plateau has begun.
+    """
     strain = np.asarray(series["strain"], float)
     if strain[-1] < plateau[0] + PEAK_WINDOW:
         raise ValueError(f"the test ended at a strain of {strain[-1]:.4f}, before the plateau, which begins at {plateau[0]:g}")
