@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import records, section
-from yade.nonsmooth.laboratory import bands, biaxial, calibration, materials, membrane, pressing, strength, wall_shear
+from yade.nonsmooth.laboratory import bands, biaxial, calibration, effects, materials, membrane, pressing, strength, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
@@ -243,3 +243,24 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
     bad = subprocess.run([*command, "--confining", "4,x"], env=environment, text=True, capture_output=True, timeout=100)
     assert bad.returncode != 0 and "give pressures in MPa" in bad.stderr + bad.stdout
+
+
+# ---- effects --------------------------------------------------------------------------------------
+
+def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path, monkeypatch):
+    """A made-up rock whose strength grows with the rate, by the same share in both samples, and depends on nothing else."""
+    runs = []
+
+    def made_up(tests, out, threads, resume, progress):
+        runs.append(out)
+        strong = lambda t: 30e6 * (1 + 0.1 * t.shape.seed) * (1.02 if t.inertia > 1.5e-4 else 1.0)  # noqa: E731
+        return [{"seed": t.shape.seed, "wall_s": 1.0, "sigma3_peak_Pa": 8e6, "sigma1_peak_Pa": strong(t), "sigma3_residual_Pa": 8e6, "sigma1_residual_Pa": 24e6} for t in tests]
+
+    monkeypatch.setattr(effects.campaign, "run", made_up)
+    rows = effects.run(effects.effects(materials.load("wwr"), [1, 2]), tmp_path, 1)
+    assert len(rows) == 14 and len(runs) == 11  # the usual test belongs to all four effects and is run once
+    assert sum(row["usual"] for row in rows) == 4
+    for row in rows:
+        fast = row["effect"] == "inertia" and row["value"] > 1.5e-4
+        assert row["peak_change_rel"] == pytest.approx(0.02 if fast else 0.0, abs=1e-12) and row["residual_change_rel"] == 0.0
+        assert row["residual_mean_deg"] == pytest.approx(30.0)  # sin φ = (24 − 8)/(24 + 8)
