@@ -57,7 +57,7 @@ def mohr(summary, path, pdf=False):
     whole, close = fig.subplots(1, 2)
     tests = summary["tests"]
     lowest = sorted({t["confining_Pa"] for t in tests})
-    limit = lowest[min(2, len(lowest) - 1)]
+    limit = lowest[max(0, min(2, len(lowest) - 2))]
     kinds = (("peak", style.LINES["blue"], "peak"), ("residual", style.LINES["orange"], "residual"))
     for ax, chosen in ((whole, tests), (close, [t for t in tests if t["confining_Pa"] <= limit])):
         far = 1.05 * max(t["sigma1_peak_Pa"] for t in chosen) / MEGA
@@ -71,10 +71,10 @@ def mohr(summary, path, pdf=False):
                 high = max(high, 0.5 * (b - a))
             x = np.array([0, far])
             ax.plot(x, 1e-3 * c + x * math.tan(math.radians(angle)), color=colour, lw=2, label=f"{word}: c′ = {c:.0f} kPa, φ′ = {angle:.1f}°")
-        ax.set(xlim=(0, far), ylim=(0, 1.25 * high), xlabel="normal stress [MPa]", ylabel="shear stress [MPa]", aspect="equal")
-    whole.legend(loc="upper left")
+        ax.set(xlim=(0, far), ylim=(0, 1.6 * high), xlabel="normal stress [MPa]", ylabel="shear stress [MPa]", aspect="equal")
     whole.set_title(f"{len(tests)} tests")
     close.set_title("the lowest pressures, where cohesion shows")
+    whole.legend(loc="upper left")
     return style.save(fig, path, pdf)
 
 
@@ -116,10 +116,10 @@ def chains(snapshot, title, path, pdf=False):
     ax = fig.subplots()
     _frame(ax, snapshot)
     style.draw_disks(ax, snapshot, np.tile([0.95, 0.94, 0.91, 1.0], (len(snapshot.x), 1)), edge="#c9c4ba", width=0.2)
-    strong = max(float(np.quantile(np.abs(snapshot.cn), 0.995)), 1e-12)
+    strong = max(float(np.quantile(np.abs(snapshot.cn), 0.98)), 1e-12)
     for sign, colour in ((1, style.COMPRESSION), (-1, style.TENSION)):
         chosen = np.flatnonzero(sign * snapshot.cn > 0)
-        ax.add_collection(PolyCollection(forces.force_bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)), facecolors=colour, lw=0, rasterized=True), autolim=False)
+        ax.add_collection(PolyCollection(forces.force_bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)), facecolors=colour, lw=0, zorder=3, rasterized=True), autolim=False)
     ax.set_title(title)
     fig.legend(handles=[Patch(color=style.COMPRESSION, label="compression"), Patch(color=style.TENSION, label="tension")], loc="lower center", ncol=2, bbox_to_anchor=(0.5, -0.004))
     return style.save(fig, path, pdf)
