@@ -271,7 +271,7 @@ PRECISION = {
 KINDS = {"compression": dict(pull=0, speed=SPEED, strain=0.002), "tension": dict(pull=1, speed=PULL, strain=0.001)}
 
 
-@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=1200, quick=None)
+@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=2400, quick=None)
 def slope_convergence(bench):
     """The whole experiment of the shipped section, coarse: 1,000 disks instead of 21,000, bonds twice as strong, because layers of one to two disks
     do not bear the dry slope with those of the paper. Packings that do not bear it with these either, and move before the water has
