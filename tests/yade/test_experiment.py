@@ -150,3 +150,15 @@ def test_a_slope_that_stands_still_is_solved_more_tightly(section, tmp_path):
     run(section, tmp_path / "wet", end="7.5")
     wet = records.read_series(tmp_path / "wet" / "series.csv")
     assert (wet["tolerance"] >= 1e-4).all()
+
+
+def test_bonds_can_be_made_after_gravity_has_grown(section, unbroken, tmp_path):
+    later = tmp_path / "later.yaml"
+    later.write_text(section.read_text().replace("    ramp: 1.0", "    bond: after\n    ramp: 1.0"))
+    run(later, tmp_path / "out", end="1.7")
+    first, usual = (json.loads((folder / "summary.json").read_text()) for folder in (tmp_path / "out", unbroken))
+    # pressed together by their weight, more disks are within the bonds' reach than as they were packed, and none has broken yet
+    assert usual["bonds_initial"] < first["bonds_initial"] < 3 * 400
+    rows = (tmp_path / "out" / "series.csv").read_text().splitlines()
+    begin = dict(zip(rows[0].split(","), rows[1].split(",")))
+    assert float(begin["bonds_alive"]) > 0.9 * first["bonds_initial"]
