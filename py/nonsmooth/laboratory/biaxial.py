@@ -54,7 +54,7 @@ class Test:
     material: section.Material
     confining: float
     shape: pressing.Shape
-    strain: float = 0.08
+    strain: float = 0.1
     platens: str = "rough"
     sides: str = "flexible"
     inertia: float = 1e-4

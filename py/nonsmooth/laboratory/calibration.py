@@ -86,7 +86,7 @@ class Calibration:
 
     def test(self, material, disks, seeds):
         """c [Pa], φ [°], c_res, φ_res of a material, from biaxial tests."""
-        tests = [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.08 if self.wanted.with_residual else 0.03)
+        tests = [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.1 if self.wanted.with_residual else 0.03)
                  for seed in seeds for p in PRESSURES]
         s = campaign.summarise(material, campaign.run(tests, self.out / "trial", self.threads), 0.0, self.threads)
         return [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"], 1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]

@@ -19,7 +19,7 @@ SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
 
 #: Largest gap [ℓ] that is bonded in a pressed sample of wwr. A slope is bonded as it was packed, with its neighbours just short of touching, and the
 #: same number of bonds for each disk takes a gap of 0.05; see doc/laboratory.rst.
-PRESSED_BONDS = 0.0125
+PRESSED_BONDS = 0.016
 
 
 def load(name_or_path):
