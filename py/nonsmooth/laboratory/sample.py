@@ -41,29 +41,39 @@ class Sample:
         O.engines = scene.engines(gravity=(0, 0, 0), reach=reach, verlet=0.1 * shape.d_min, **solver)
         made = cls(walls, ids[0], len(ids))
         O.dt = pressing.STEP * math.sqrt(made.mass / pressure)
-        pressed = shape.friction is not None
-        for name in ("right", "top"):
-            walls.free(name, (pressing.WALL_MASS if pressed else 1.0) * made.mass * made.count)
-        ramp = 1 if pressed else pressing.RAMP
-        if not pressed:
-            O.step()  # finds the contacts
-            made.bonds = made.engine.bond()
-        for k in range(ramp + REST_STEPS):
-            walls.pressure = pressure * min(1.0, (k + 1) / ramp) ** 2
-            walls.step()
-        if pressed:
-            made.bonds = made.engine.bond()
+        if shape.friction is None:
+            made._bond_and_load(pressure)
         else:
-            for name in ("right", "top"):
-                walls.free(name, pressing.WALL_MASS * made.mass * made.count)
+            made._load_and_bond(pressure)
         walls.step()
         return made
+
+    def _load_and_bond(self, pressure):
+        self._free(pressing.WALL_MASS)
+        self.walls.pressure = pressure
+        for _ in range(REST_STEPS):
+            self.walls.step()
+        self.bonds = self.engine.bond()
+
+    def _bond_and_load(self, pressure):
+        O.step()  # finds the contacts
+        self.bonds = self.engine.bond()
+        self._free(1.0)
+        for k in range(pressing.RAMP + REST_STEPS):
+            self.walls.pressure = pressure * min(1.0, (k + 1) / pressing.RAMP) ** 2
+            self.walls.step()
+        self._free(pressing.WALL_MASS)
+
+    def _free(self, share):
+        """Lets two walls follow the pressure, with this share of the sample's mass each."""
+        for name in ("right", "top"):
+            self.walls.free(name, share * self.mass * self.count)
 
     @property
     def mass(self):
         """Mean mass of a disk [kg/m]."""
-        disks = O.bodies[self.first_disk].material.density, [O.bodies[self.first_disk + k].shape.radius for k in range(self.count)]
-        return disks[0] * math.pi * float(np.mean(np.square(disks[1])))
+        radii = [O.bodies[self.first_disk + k].shape.radius for k in range(self.count)]
+        return O.bodies[self.first_disk].material.density * math.pi * float(np.mean(np.square(radii)))
 
     def disks_area(self):
         """Area of the disks [m²]."""
