@@ -32,6 +32,10 @@ def test_envelope_finds_the_line_that_touches_all_circles():
     assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(38.5, rel=1e-9)  # rounding
     assert np.abs(found.misses).max() < 1e-12
     assert found.strength(minor) == pytest.approx(major, rel=1e-9)
+    # circles whose line would cut the axis below zero: without cohesion the best is the mean of t/s, weighed by s/t
+    bent = strength.envelope(minor, minor * np.linspace(3.6, 4.4, 7))
+    s, t = minor * (np.linspace(3.6, 4.4, 7) + 1) / 2, minor * (np.linspace(3.6, 4.4, 7) - 1) / 2
+    assert bent.cohesion == 0 and math.sin(math.radians(bent.friction_deg)) == pytest.approx((s / t).sum() / (s**2 / t**2).sum(), rel=1e-9)
     with pytest.raises(ValueError, match="two confining pressures"):
         strength.envelope([1e6, 1e6], [4e6, 4.1e6])
 

@@ -5,7 +5,8 @@ A circle of the stresses σ₁ ≥ σ₃ has its centre at s = (σ₁ + σ₃)/2
     t = c cos φ + s sin φ .
 
 The envelope is the line that comes closest to touching all circles (Taboada and Estrada 2009, section 5.2, Figure 11): least squares of the
-relative misses (t − c cos φ − s sin φ)/t, so that circles of low pressure, which alone tell the cohesion, count as much as large ones.
+relative misses (t − c cos φ − s sin φ)/t, so that circles of low pressure, which alone tell the cohesion, count as much as large ones. Neither c nor φ is
+let below zero.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import optimize
 
 PEAK_WINDOW = 2e-3           # strain over which the stress is averaged before its maximum is taken
 DILATANCY_WINDOW = 5e-3      # strain around the peak over which the slope of the volume is taken
@@ -88,8 +90,8 @@ def envelope(minor, major):
     # linear in c cos φ and sin φ; in units of the smallest centre, as they differ by orders of magnitude
     unit = s.min()
     rows = np.column_stack((unit / t, s / t))
-    (a, sine), *_ = np.linalg.lstsq(rows, np.ones(len(t)), rcond=None)
-    sine = min(max(float(sine), 0.0), 0.999)
+    (a, sine), _ = optimize.nnls(rows, np.ones(len(t)))
+    sine = min(float(sine), 0.999)
     cosine = math.sqrt(1 - sine * sine)
     misses = 1 - (a * unit + s * sine) / t
     return Envelope(float(a) * unit / cosine, math.degrees(math.asin(sine)), tuple(misses.tolist()))
