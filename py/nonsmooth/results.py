@@ -81,7 +81,7 @@ def _passive(section, packing_fraction, water):
     envelope = section.materials[section.layers[0].material].envelope
     if envelope is None or section.water is None or section.water.wall is None:
         return {}
-    found = toe.passive(section, envelope.cohesion, envelope.friction_deg, packing_fraction)
+    found = toe.passive(section, envelope.cohesion, envelope.friction_deg, packing_fraction or section.disks.packing_fraction)
     return {"water_passive_m": found.water_m, "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
             "passive_resistance_dry_N_per_m": found.resistance_dry}
 

@@ -27,6 +27,8 @@ BOUNDS = {"tensile_strength": (1e2, 1e9), "friction": (0.02, 2.0), "rolling_fric
 SLOPES = {"tensile_strength": (1.0, 0.0, 1.0, 0.0), "friction": (0.3, 9.0, 0.0, 4.0), "rolling_friction": (0.2, 4.0, 0.0, 5.0), "residual_share": (0.0, 0.0, 1.0, 0.0)}
 SCALE = 0.02                    # a misfit of 2 % counts as one
 DEGREES = 0.7                   # of angles, about the same
+COARSE = 3.0                    # what coarse samples may miss, in these units: fine ones differ from them by more
+LEARN = 0.04                    # smallest step (of logarithms) from which the Jacobian learns; what differs after a smaller one is scatter
 
 
 @dataclass(frozen=True)
@@ -100,8 +102,8 @@ class Calibration:
             parts += [(found[2] - w.residual_cohesion) / (SCALE * w.cohesion), (found[3] - w.residual_friction_deg) / DEGREES]
         return np.array(parts)
 
-    def search(self, disks, seeds, x, trials):
-        """The best of at most ``trials`` trials from ``x`` with samples of one kind: (x, misfits)."""
+    def search(self, disks, seeds, x, trials, enough=1.0):
+        """The best of at most ``trials`` trials from ``x`` with samples of one kind: (x, misfits); ends where no misfit exceeds ``enough``."""
         scale = np.array([1 / SCALE, 1 / DEGREES, 1 / SCALE, 1 / DEGREES])[:len(self.jacobian)]
         best = [None, None]
         low, high = (np.log([BOUNDS[name][k] for name in self.names]) for k in (0, 1))
@@ -111,19 +113,19 @@ class Calibration:
             r = self.misfits(self.measure(at, disks, seeds))
             if self.last is not None:
                 step, change = at - self.last[0], (r - self.last[1]) / scale
-                if step @ step > 1e-6:
+                if step @ step > LEARN**2:
                     self.jacobian = self.jacobian + np.outer(change - self.jacobian @ step, step) / (step @ step)
             self.last = (at.copy(), r)
             if best[1] is None or r @ r < best[1] @ best[1]:
                 best[:] = at.copy(), r
-            return r if np.abs(r).max() > 1 else np.zeros_like(r)  # good enough: the samples tell no more
+            return r if np.abs(r).max() > enough else np.zeros_like(r)  # the samples tell no more
 
         least_squares(residuals, np.clip(x, low + 1e-6, high - 1e-6), jac=lambda at: self.jacobian * scale[:, None], bounds=(low, high), max_nfev=trials, ftol=1e-3, xtol=1e-3)
         return best[0], best[1]
 
     def run(self, coarse, fine, trials=(8, 4)):
         """Coarse search, then a fine one from there; ``coarse``, ``fine``: (disks, seeds). Returns the material and a report, a dictionary."""
-        x, _ = self.search(*coarse, self.x0, trials[0])
+        x, _ = self.search(*coarse, self.x0, trials[0], COARSE)
         x, misfit = self.search(*fine, x, trials[1])
         found = next(t["found"] for t in self.trials if t["key"] == [list(map(float, x)), fine[0], list(fine[1])])
         _, singular, directions = np.linalg.svd(self.jacobian)
