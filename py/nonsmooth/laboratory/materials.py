@@ -17,8 +17,8 @@ from ..section_reader import SectionError, read
 #: Names of the paper's Table 1 and the materials of the shipped section that hold their parameters.
 SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
 
-#: Largest gap [ℓ] that is bonded in a pressed sample of wwr. A slope is bonded as it was packed, with its neighbours just short of touching, and the
-#: same number of bonds for each disk takes a gap of 0.05; see doc/laboratory.rst.
+#: Largest gap [ℓ] that is bonded in a pressed sample of wwr. A slope is bonded as it was packed, with its neighbours just short of touching, where
+#: about as many bonds take a gap of 0.05; see doc/laboratory.rst.
 PRESSED_BONDS = 0.016
 
 
