@@ -50,7 +50,7 @@ def main():
     work = path.with_name(path.stem + "-calibration")
     records.check_writable(work)
     search = calibration.Calibration(wanted, materials.load(args.start), work, args.threads, lambda text: print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True), args.resume)
-    best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds[:1]))
+    best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds))
     write_atomically(work / "report.json", json.dumps({**report, "wall_s": time.monotonic() - began}, indent=1).encode())
     c, angle = report["found"][:2]
     materials.save(best, path, f"Calibrated by scripts/calibrate.py for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
