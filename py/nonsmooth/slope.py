@@ -9,7 +9,7 @@ import numpy as np
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import NscdMat, PorePressureEngine, SlipWeakeningMat
+from yade.wrapper import PorePressureEngine, SlipWeakeningMat
 
 from . import scene
 

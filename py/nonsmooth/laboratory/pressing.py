@@ -126,8 +126,8 @@ def make(folder, **plain):
     shape = Shape(**plain)
     box = shape.section()
     made = packing.cached_pack(box)
+    order = np.argsort(made.y, kind="stable")  # neighbours in space are neighbours in memory
     if shape.friction is None:
-        order = np.argsort(made.y, kind="stable")
         _keep(shape, made.x[order], made.y[order], made.r[order], *box.layers[0].points[2])
         return {"disks": len(made)}
     angle = math.atan(shape.friction)
@@ -135,7 +135,6 @@ def make(folder, **plain):
     stuff, smooth = NscdMat(density=DENSITY, frictionAngle=angle), NscdMat(frictionAngle=0.0, wall=True)
     O.materials.append((stuff, smooth))
     walls = Walls.around(*box.layers[0].points[2], smooth, smooth)
-    order = np.argsort(made.y, kind="stable")  # neighbours in space are neighbours in memory
     O.bodies.append([scene.disk((float(made.x[k]), float(made.y[k])), float(made.r[k]), stuff) for k in order])
     O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * shape.d_min, tolerance=TOLERANCE, maxIterations=MAX_ITERATIONS)
     engine = scene.contact_dynamics()

@@ -66,8 +66,9 @@ class Sample:
 
     def _free(self, share):
         """Lets two walls follow the pressure, with this share of the sample's mass each."""
+        mass = share * self.mass * self.count
         for name in ("right", "top"):
-            self.walls.free(name, share * self.mass * self.count)
+            self.walls.free(name, mass)
 
     @property
     def mass(self):
