@@ -29,10 +29,14 @@ struct alignas(32) Block {
 	Lanes         inverseInertiaI, inverseInertiaJ;
 	Lanes         biasN, adhesion, friction, rollingArm; // as in Contact
 	Lanes         inverseN, inverseT, inverseR; // inverse diagonal of the Delassus operator
-	Lanes         inverseLength;              // 1/ℓ, 0 in an empty lane
 	Lanes         n, t, r;                    // impulses P_k
 	Lanes         beforeN, beforeT, beforeR;  // P_{k−1}
 	unsigned char movesI, movesJ;             // bit l: the body of lane l can move
+};
+
+/// 1/ℓ of a block's contacts, 0 in an empty lane.
+struct alignas(32) InverseLength {
+	Lanes v;
 };
 
 /// Sums over contacts: squared residual and impulse, and the largest squared residual.
@@ -46,8 +50,10 @@ struct BlockKernels {
 	void (*sweep)(Block* blocks, std::size_t count, Motion* bodies, double beta);
 	/// v += M⁻¹ Hᵀ P.
 	void (*apply)(const Block* blocks, std::size_t count, Motion* bodies);
-	/// Natural-map residual.
-	ResidualSums (*measure)(const Block* blocks, std::size_t count, const Motion* bodies);
+	/// Natural-map residual; one `inverseLength` a block.
+	ResidualSums (*measure)(const Block* blocks, const InverseLength* inverseLength, std::size_t count, const Motion* bodies);
+	/// v ← v + β (v − before), before ← v.
+	void (*extrapolate)(Motion* bodies, Motion* before, std::size_t count, double beta);
 };
 
 const BlockKernels& portableKernels();

@@ -23,16 +23,12 @@ namespace {
 		std::int32_t bodies[2 * lanes];
 	};
 
-	/// What one strip consists of, before its place in the whole is known.
-	struct Strip {
-		std::vector<std::int32_t> contactOf, others;
-	};
-
 	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
-	Strip fill(const Problem& problem, const SweepOrder& order, std::size_t strip)
+	void fill(const Problem& problem, const SweepOrder& order, std::size_t strip, ContactBlocks::Strip& result)
 	{
 		constexpr std::size_t mostOpen = 16;
-		Strip                 result;
+		result.contactOf.clear();
+		result.others.clear();
 		std::vector<Open>     open;
 		const auto movable = [&](std::int32_t b) { return problem.inverseMass[b].isFixed() ? ContactBlocks::none : b; };
 		for (std::size_t k = order.stripBegin[strip]; k < order.stripBegin[strip + 1]; ++k) {
@@ -63,16 +59,15 @@ namespace {
 			o.bodies[2 * o.filled + 1]                  = j;
 			if (++o.filled == int(lanes)) open.erase(open.begin() + at);
 		}
-		return result;
 	}
 
-	void fillLane(Block& block, int l, const Problem& problem, std::int32_t index)
+	void fillLane(Block& block, int l, const Problem& problem, std::int32_t index, const std::vector<std::int32_t>& placeOf)
 	{
 		const Contact&     c  = problem.contacts[index];
 		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
 		const Impulse      w = inverseDelassus(c, mi, mj), p = project(c, problem.impulses[index]);
-		block.i[l]               = c.i;
-		block.j[l]               = c.j;
+		block.i[l]               = placeOf[c.i];
+		block.j[l]               = placeOf[c.j];
 		block.nx[l]              = c.nx;
 		block.ny[l]              = c.ny;
 		block.leverTi[l]         = c.leverTi;
@@ -91,34 +86,38 @@ namespace {
 		block.r[l] = block.beforeR[l] = p.r;
 		block.movesI |= (mi.isFixed() ? 0u : 1u) << l;
 		block.movesJ |= (mj.isFixed() ? 0u : 1u) << l;
-		block.inverseLength[l] = 1 / c.length;
 	}
 
 } // namespace
 
 void layOut(const Problem& problem, int threads, ContactBlocks& result)
 {
-	const SweepOrder   order  = arrange(problem);
-	const std::size_t  strips = order.stripCount();
-	const auto         nobody = static_cast<std::int32_t>(problem.bodyCount());
-	std::vector<Strip> parts(strips);
+	const SweepOrder& order = result.order;
+	arrange(problem, result.order);
+	const std::size_t strips = order.stripCount();
+	const auto        nobody = static_cast<std::int32_t>(problem.bodyCount());
+	auto&             parts  = result.scratch;
+	parts.resize(strips);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(strips); ++s)
-		parts[s] = fill(problem, order, s);
+		fill(problem, order, s, parts[s]);
 
-	result.evenStrips = order.evenStrips;
+	result.placeOf.resize(problem.bodyCount());
+	for (std::size_t k = 0; k < order.bodies.size(); ++k)
+		result.placeOf[order.bodies[k]] = static_cast<std::int32_t>(k);
 	result.blockBegin.assign(1, 0);
 	result.otherBegin.assign(1, 0);
-	for (const Strip& part : parts) {
+	for (const ContactBlocks::Strip& part : parts) {
 		result.blockBegin.push_back(result.blockBegin.back() + part.contactOf.size() / lanes);
 		result.otherBegin.push_back(result.otherBegin.back() + part.others.size());
 	}
 	result.blocks.resize(result.blockBegin.back());
 	result.contactOf.resize(result.blocks.size() * lanes);
+	result.inverseLength.assign(result.blocks.size(), InverseLength {});
 	result.others.resize(result.otherBegin.back());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(strips); ++s) {
-		const Strip& part = parts[s];
+		const ContactBlocks::Strip& part = parts[s];
 		std::copy(part.others.begin(), part.others.end(), result.others.begin() + result.otherBegin[s]);
 		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + result.blockBegin[s] * lanes);
 		for (std::size_t b = result.blockBegin[s]; b < result.blockBegin[s + 1]; ++b) {
@@ -126,7 +125,9 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result)
 			for (int l = 0; l < int(lanes); ++l) {
 				const std::int32_t index = result.contactOf[b * lanes + l];
 				block.i[l] = block.j[l] = nobody;
-				if (index != ContactBlocks::none) fillLane(block, l, problem, index);
+				if (index == ContactBlocks::none) continue;
+				fillLane(block, l, problem, index, result.placeOf);
+				result.inverseLength[b].v[l] = 1 / problem.contacts[index].length;
 			}
 			result.blocks[b] = block;
 		}

@@ -4,6 +4,7 @@
 
 #include <contact/block_kernels.hpp>
 #include <contact/problem.hpp>
+#include <contact/sweep_order.hpp>
 #include <vector>
 
 namespace nonsmooth::contact {
@@ -15,12 +16,20 @@ struct ContactBlocks {
 	std::vector<std::int32_t> contactOf;     // of every lane of every block, in Problem::contacts
 	std::vector<std::int32_t> others;        // contacts outside blocks
 	std::vector<std::size_t>  blockBegin, otherBegin; // of every strip; one more than there are strips
-	std::size_t               evenStrips = 0;
+	std::vector<InverseLength> inverseLength; // of every block; apart, since only the residual needs it
+	std::vector<std::int32_t> placeOf; // of the problem's bodies in order.bodies
+	SweepOrder                order;
 	std::size_t               stripCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
+
+	/// What one strip consists of, before its place in the whole is known.
+	struct Strip {
+		std::vector<std::int32_t> contactOf, others;
+	};
+	std::vector<Strip> scratch;
 };
 
-/// Lays out the contacts' data in `result`, whose memory is used again; impulses come from problem.impulses, projected on their thresholds. An empty lane names the body
-/// problem.bodyCount(), which the caller provides and which cannot move.
+/// Lays out the contacts' data in `result`, whose memory is used again; impulses come from problem.impulses, projected on their thresholds.
+/// Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move.
 void layOut(const Problem& problem, int threads, ContactBlocks& result);
 
 } // namespace nonsmooth::contact

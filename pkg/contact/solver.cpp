@@ -67,7 +67,6 @@ namespace {
 	private:
 		void  resetVelocities();
 		void  iterate();
-		void  extrapolateVelocities(double beta);
 		void  sweep(double beta);
 		void  sweepRow(std::size_t row, double beta);
 		void  measure();
@@ -75,7 +74,11 @@ namespace {
 		void  measureChanges();
 		bool  solved(double slack) const;
 		void  finish();
-		Twist twist(std::int32_t body) const { return { bodies[body].v[0], bodies[body].v[1], bodies[body].v[2] }; }
+		Twist twist(std::int32_t body) const
+		{
+			const Lanes& v = bodies[laidOut.placeOf[body]].v;
+			return { v[0], v[1], v[2] };
+		}
 		void  setTwist(std::int32_t body, const Twist& v);
 		template <class Visit> void forEachStrip(Visit visit);
 
@@ -85,7 +88,7 @@ namespace {
 		const int                 threads;
 		ContactBlocks&            laidOut;
 		std::vector<Row>          rows;
-		std::vector<Motion>&      bodies; // the last one is nobody
+		std::vector<Motion>&      bodies; // by place; the last one is nobody
 		std::vector<Motion>&      bodiesBefore;
 		std::vector<ResidualSums> sums;                 // one a strip
 		Residual                  residual;
@@ -122,7 +125,7 @@ namespace {
 	/// Calls visit(strip) for all even strips, then for all odd ones; inside a parallel region.
 	template <class Visit> void Sweeper::forEachStrip(Visit visit)
 	{
-		const long half = static_cast<long>(laidOut.evenStrips), count = static_cast<long>(laidOut.stripCount());
+		const long half = static_cast<long>(laidOut.order.evenStrips), count = static_cast<long>(laidOut.stripCount());
 #pragma omp for schedule(dynamic, 1)
 		for (long s = 0; s < half; ++s)
 			visit(static_cast<std::size_t>(s));
@@ -134,9 +137,10 @@ namespace {
 	void Sweeper::setTwist(std::int32_t body, const Twist& v)
 	{
 		if (problem.inverseMass[body].isFixed()) return; // several threads may visit it
-		bodies[body].v[0] = v.x;
-		bodies[body].v[1] = v.y;
-		bodies[body].v[2] = v.w;
+		Lanes& motion = bodies[laidOut.placeOf[body]].v;
+		motion[0]     = v.x;
+		motion[1]     = v.y;
+		motion[2]     = v.w;
 	}
 
 	/// velocities = freeVelocity + M⁻¹ Hᵀ P from scratch.
@@ -144,9 +148,10 @@ namespace {
 	{
 		const long count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
-		for (long b = 0; b < count; ++b) {
-			const Twist& v = problem.freeVelocity[b];
-			bodies[b].v    = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
+		for (long k = 0; k < count; ++k) {
+			const std::int32_t b = laidOut.order.bodies[k];
+			const Twist&       v = problem.freeVelocity[b];
+			bodies[k].v          = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
 		}
 		forEachStrip([this](std::size_t s) {
 			kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
@@ -158,17 +163,6 @@ namespace {
 				setTwist(c.j, vj);
 			}
 		});
-	}
-
-	void Sweeper::extrapolateVelocities(double beta)
-	{
-		const long count = static_cast<long>(problem.bodyCount());
-#pragma omp for schedule(static)
-		for (long b = 0; b < count; ++b) {
-			const Lanes now   = bodies[b].v;
-			bodies[b].v       = now + beta * (now - bodiesBefore[b].v); // the mass, being the same, stays
-			bodiesBefore[b].v = now;
-		}
 	}
 
 	/// Any contact, one after the other of its three graphs.
@@ -186,9 +180,15 @@ namespace {
 		setTwist(c.j, vj);
 	}
 
+	/// One sweep from what impulses and velocities become when they are extrapolated by beta.
 	void Sweeper::sweep(double beta)
 	{
 		forEachStrip([this, beta](std::size_t s) {
+			if (s < laidOut.order.evenStrips && settings.method == Method::Accelerated) {
+				// a strip in the first half is the first to touch its own bodies and those of the next one
+				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.stripCount())];
+				kernels.extrapolate(bodies.data() + first, bodiesBefore.data() + first, last - first, beta);
+			}
 			kernels.sweep(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data(), beta);
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 				sweepRow(k, beta);
@@ -214,7 +214,7 @@ namespace {
 #pragma omp for schedule(static)
 		for (long s = 0; s < count; ++s) {
 			const std::size_t begin = laidOut.blockBegin[s];
-			sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
+			sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
 			measureRows(s, sums[s]);
 		}
 #pragma omp single
@@ -278,7 +278,6 @@ namespace {
 		measure();
 		RestartRule rule(residual.rms, settings.checkEvery);
 		while (!solved(1) && iteration < settings.maxIterations) {
-			if (accelerated) extrapolateVelocities(beta);
 			sweep(beta);
 			++iteration;
 			bool restart = false;

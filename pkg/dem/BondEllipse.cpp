@@ -5,7 +5,9 @@ namespace yade::nscd {
 
 BondPair bondPair(const Body& b1, const Body& b2)
 {
-	const bool sphere1 = dynamic_cast<const Sphere*>(b1.shape.get()), sphere2 = dynamic_cast<const Sphere*>(b2.shape.get());
+	// almost all are, and this class itself is recognised without a search
+	const auto isSphere = [](const Shape& s) { return typeid(s) == typeid(Sphere) || dynamic_cast<const Sphere*>(&s); };
+	const bool sphere1 = isSphere(*b1.shape), sphere2 = isSphere(*b2.shape);
 	const bool swap    = sphere1 == sphere2 ? b1.getId() > b2.getId() : sphere1;
 	return swap ? BondPair { &b2, &b1, true } : BondPair { &b1, &b2, false };
 }
@@ -22,14 +24,6 @@ void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real
 	phys.yielded         = false;
 	phys.brokenMode      = NscdPhys::None;
 	phys.yieldPath       = Vector3r::Zero();
-}
-
-std::pair<Real, Real> bondDisplacement(const NscdPhys& phys, const BondPair& pair)
-{
-	const State &  first = *pair.first->state, &second = *pair.second->state;
-	const Vector3r d = second.pos + second.ori * phys.anchor2 - first.pos - first.ori * phys.anchor1;
-	const Vector3r n = first.ori * phys.axis;
-	return { d.dot(n), n[0] * d[1] - n[1] * d[0] };
 }
 
 NscdPhys::Mode bondMode(const NscdPhys& phys)

@@ -1,4 +1,5 @@
 #include "ContactSeam.hpp"
+#include "Prefetch.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -15,14 +16,6 @@ namespace {
 	constexpr long   tidyPeriod = 100; // steps
 	constexpr Real   unseen     = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
 	constexpr size_t sumChunk = 1024; // fixed, so that sums do not depend on the number of threads
-
-	/// Asks for the cache lines of an object that will be needed soon; YADE's objects lie all over the memory.
-	template <size_t bytes> void fetch(const void* object)
-	{
-		for (size_t at = 0; at < bytes; at += 64)
-			__builtin_prefetch(static_cast<const char*>(object) + at, 1);
-	}
-	constexpr size_t soon = 8, later = 16; // items ahead
 
 	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
 	{

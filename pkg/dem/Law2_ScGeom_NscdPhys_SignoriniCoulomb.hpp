@@ -11,8 +11,9 @@
 // The reactions themselves are found by ContactDynamicsEngine for all contacts at once.
 #pragma once
 
-#include "NscdPhys.hpp"
+#include "BondEllipse.hpp"
 #include <core/Dispatching.hpp>
+#include <core/Scene.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade {
@@ -21,6 +22,20 @@ class Law2_ScGeom_NscdPhys_SignoriniCoulomb : public LawFunctor {
 public:
 	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* interaction) override;
 	FUNCTOR2D(ScGeom, NscdPhys);
+	/// Follows a bond of bodies at two places, in the bond's order (see nscd::BondPair), with the gap [m] they have now.
+	template <class Place> void followBond(NscdPhys& phys, Real gap, const Place& first, const Place& second) const
+	{
+		const auto [dn, dt] = nscd::bondDisplacement(phys, first, second);
+		const Real zone     = std::pow(dn / phys.ellipseNormal, 2) + std::pow(dt / phys.ellipseTangential, 2);
+		if (zone >= 1) {
+			phys.bonded     = false;
+			phys.brokenMode = nscd::bondMode(phys);
+			phys.brokenStep = scene->iter;
+		} else if (phys.yielded)
+			phys.restGap = std::max(phys.restGap, gap);
+	}
+	/// Whether a contact with that gap is kept; one whose bond broke in this step stays for the step, to be counted.
+	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.brokenStep == scene->iter || gap <= reach * phys.length; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Law2_ScGeom_NscdPhys_SignoriniCoulomb,LawFunctor,
 R"""(Nonsmooth cohesive contact of rigid bodies: Signorini's condition with a tensile threshold, Coulomb friction and rolling friction, all

@@ -9,8 +9,8 @@ import numpy as np
 from yade import O, utils
 from yade.wrapper import (
     Body, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ContactDynamicsEngine, ForceResetter, Ig2_Segment_Sphere_ScGeom,
-    Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_NscdMat_NscdMat_NscdPhys,
-    Law2_ScGeom_NscdPhys_SignoriniCoulomb, NewtonIntegrator, NscdMat, Segment)
+    Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, Ip2_NscdMat_NscdMat_NscdPhys, Law2_ScGeom_NscdPhys_SignoriniCoulomb,
+    NscdInteractionLoop, NscdMat, PlanarNewtonIntegrator, Segment)
 from yade.minieigenHP import Quaternion, Vector3
 
 __all__ = ["contact_dynamics", "disk", "engines", "material", "segments"]
@@ -93,14 +93,14 @@ def engines(gravity=(0, -9.81, 0), reach=0.05, verlet=0.1, before=(), after=(), 
     return [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + reach), Bo1_Segment_Aabb()], verletDist=verlet),
-        InteractionLoop(
+        NscdInteractionLoop(
             [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + reach),
              Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + reach)],
             [Ip2_NscdMat_NscdMat_NscdPhys()],
             [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=reach)]),
         *before,
         solver,
-        NewtonIntegrator(damping=0, gravity=gravity),
+        PlanarNewtonIntegrator(damping=0, gravity=gravity),
         *after,
     ]
 

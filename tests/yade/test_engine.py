@@ -249,6 +249,41 @@ def test_save_and_load_continue_with_the_same_bits(tmp_path):
     assert e.bonds > 0
 
 
+def plain(e):
+    """YADE's own engine in place of ours, with the same settings."""
+    if isinstance(e, InteractionLoop):
+        return InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors)
+    return NewtonIntegrator(damping=0, gravity=e.gravity) if isinstance(e, NewtonIntegrator) else e
+
+
+def test_own_loop_and_integrator_have_the_bits_of_yades():
+    # bonds that break, contacts that come and go, walls: every field that a rigid contact has
+    def course(engines_of):
+        O.reset()
+        cohesive_heap()
+        O.engines = [engines_of(e) for e in O.engines]
+        run(600)
+        bonds = engine().bond()
+        integrator().gravity = (6, -G, 0)
+        run(400)
+        geometry = sorted((i.id1, i.id2, tuple(i.geom.normal), tuple(i.geom.contactPoint), i.geom.penetrationDepth, i.geom.refR1, i.geom.refR2, i.phys.bonded,
+                           i.phys.brokenMode, i.iterMadeReal) for i in contacts())
+        return bonds, bits(), [tuple(b.state.ori) for b in O.bodies], geometry, engine().brokenTension + engine().brokenShear + engine().brokenMixed
+
+    ours, theirs = course(lambda e: e), course(plain)
+    assert ours[0] > 20 and ours[4] > 0 and len(ours[3]) > 50
+    assert ours == theirs
+
+
+def test_own_integrator_leaves_clumps_to_yades():
+    stuff = material(0.3)
+    pair = [free_disk(0, 5, stuff=stuff), free_disk(1.2, 5, stuff=stuff)]
+    O.bodies.clump(pair)
+    begin()
+    O.engines = [e for e in O.engines if e is not engine()]
+    refused("PlanarNewtonIntegrator", "clump", "NewtonIntegrator")
+
+
 def launch(script, *arguments):
     """Runs a script by the launcher in a process of its own."""
     here = os.path.dirname(os.path.realpath(__file__))
@@ -357,7 +392,7 @@ def test_refuses_contacts_of_other_materials():
         O.bodies.append(scene.disk((x, 0), 0.5, soft))
     begin()
     # a scene that was turned to Contact Dynamics by halves
-    O.engines = [e if type(e).__name__ != "InteractionLoop" else InteractionLoop(
+    O.engines = [e if not isinstance(e, InteractionLoop) else InteractionLoop(
         [Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]) for e in O.engines]
     refused("#0", "#1", "FrictPhys", "NscdMat")
 

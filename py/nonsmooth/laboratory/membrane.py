@@ -30,11 +30,10 @@ def boundary(x, y, r):
     triangles[flip] = triangles[flip][:, [0, 2, 1]]
     triangles = triangles[keep]
     edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    known = {(int(p), int(q)) for p, q in edges}
+    there, back = edges[:, 0].astype(np.int64) * len(x) + edges[:, 1], edges[:, 1].astype(np.int64) * len(x) + edges[:, 0]
     after = {}
-    for p, q in known:
-        if (q, p) not in known:
-            after.setdefault(p, []).append(q)
+    for p, q in edges[~np.isin(back, there)].tolist():
+        after.setdefault(p, []).append(q)
     if not after:
         raise MembraneError("the sample has no outline; ask for more disks")
     # at a disk where the outline touches itself, the rightmost turn stays outside; a disk that has come off belongs to no triangle
@@ -50,7 +49,7 @@ def boundary(x, y, r):
         follow = min(choices, key=turn)
         if follow == start:
             return np.array(chain)
-        if len(chain) > len(known):
+        if len(chain) > len(edges):
             raise MembraneError("the outline of the sample does not close; more disks, or a smaller strain, keep it whole")
         before = places[here]
         chain.append(follow)

@@ -1,0 +1,154 @@
+#include "NscdInteractionLoop.hpp"
+#include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
+#include "Prefetch.hpp"
+#include <core/Scene.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((NscdInteractionLoop));
+
+namespace {
+	using nscd::fetch, nscd::later, nscd::soon;
+
+	/// What Ig2_Sphere_Sphere_ScGeom writes and rigid contacts read, in the same order of operations.
+	void updateGeometry(ScGeom& geom, const Vector3r& x1, const Vector3r& x2, Real r1, Real r2)
+	{
+		Vector3r   normal = x2 - x1;
+		const Real norm   = normal.norm();
+		normal /= norm;
+		const Real overlap    = r1 + r2 - norm;
+		geom.contactPoint     = x1 + (r1 - 0.5 * overlap) * normal;
+		geom.penetrationDepth = overlap;
+		geom.radius1          = r1;
+		geom.radius2          = r2;
+		geom.normal           = normal;
+	}
+
+	/// The one functor of this class, and not of one derived from it; null where there is none.
+	template <class Functor, class List> const Functor* exactly(const List& functors)
+	{
+		for (const auto& f : functors)
+			if (typeid(*f) == typeid(Functor)) return static_cast<const Functor*>(f.get());
+		return nullptr;
+	}
+
+	string missing(const Interaction& I, const string& kind, const string& a, const string& b)
+	{
+		return "NscdInteractionLoop: bodies #" + std::to_string(I.getId1()) + " and #" + std::to_string(I.getId2()) + ": there is no functor " + kind + " for "
+		        + a + " and " + b + ": add one to the list";
+	}
+
+	/// One interaction as YADE's loop treats it; returns false where it should be erased.
+	bool visit(const shared_ptr<Interaction>& I, Scene& scene, InteractionLoop& loop)
+	{
+		const shared_ptr<Body>&b1_ = Body::byId(I->getId1(), &scene), &b2_ = Body::byId(I->getId2(), &scene);
+		if (!b1_ || !b2_) return false;
+		auto& cache = I->functorCache;
+		if (b1_->isClump() || b2_->isClump() || !cache.geomExists || !b1_->shape || !b2_->shape) return true;
+		bool swap = false;
+		if (!cache.geom) {
+			cache.geom = loop.geomDispatcher->getFunctor2D(b1_->shape, b2_->shape, swap);
+			if (!cache.geom) {
+				cache.geomExists = false;
+				return true;
+			}
+		}
+		if (swap) I->swapOrder();
+		const shared_ptr<Body>&b1 = swap ? b2_ : b1_, &b2 = swap ? b1_ : b2_;
+		const bool wasReal = I->isReal();
+		if (!cache.geom->go(b1->shape, b2->shape, *b1->state, *b2->state, Vector3r::Zero(), false, I)) return !wasReal;
+		if (!cache.phys) cache.phys = loop.physDispatcher->getFunctor2D(b1->material, b2->material, swap);
+		if (!cache.phys) throw std::runtime_error(missing(*I, "Ip2", b1->material->getClassName(), b2->material->getClassName()));
+		cache.phys->go(b1->material, b2->material, I);
+		if (!wasReal) I->iterMadeReal = scene.iter;
+		if (!cache.constLaw) cache.constLaw = loop.lawDispatcher->getFunctor2D(I->geom, I->phys, swap);
+		if (!cache.constLaw) throw std::runtime_error(missing(*I, "Law2", I->geom->getClassName(), I->phys->getClassName()));
+		return cache.constLaw->go(I->geom, I->phys, I.get());
+	}
+}
+
+void NscdInteractionLoop::action()
+{
+	auto& list = *scene->interactions;
+	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0) {
+		InteractionLoop::action();
+		return;
+	}
+	lawDispatcher->scene = physDispatcher->scene = geomDispatcher->scene = scene;
+	geomDispatcher->updateScenePtr();
+	physDispatcher->updateScenePtr();
+	lawDispatcher->updateScenePtr();
+
+	const int threads = ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads();
+	gatherPlaces(threads);
+	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
+	const auto* spheres = exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors);
+	const auto* law     = exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors);
+
+	const long  count = (long)list.size();
+	std::string error; // thrown after the loop, since threads may not
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
+		if (k + (long)soon < count) {
+			const Interaction& ahead = *list[k + soon];
+			if (ahead.geom) fetch<sizeof(ScGeom)>(ahead.geom.get());
+			if (ahead.phys) fetch<sizeof(NscdPhys)>(ahead.phys.get());
+		}
+		const shared_ptr<Interaction>& I  = list[k];
+		const Place &                  p1 = places[I->getId1()], &p2 = places[I->getId2()];
+		if (p1.radius > 0 && p2.radius > 0) {
+			if (spheres && I->functorCache.geom.get() == spheres && !I->isReal()) {
+				const Real reach = spheres->interactionDetectionFactor * (p1.radius + p2.radius);
+				if (std::pow(reach, 2) - (p2.pos - p1.pos).squaredNorm() < 0) continue;
+			} else if (law && I->functorCache.constLaw.get() == law && I->functorCache.geom.get() == spheres && typeid(*I->phys) == typeid(NscdPhys)) {
+				auto& geom = static_cast<ScGeom&>(*I->geom);
+				auto& phys = static_cast<NscdPhys&>(*I->phys);
+				updateGeometry(geom, p1.pos, p2.pos, p1.radius, p2.radius);
+				const Real gap  = -geom.penetrationDepth;
+				const bool swap = I->getId1() > I->getId2();
+				if (phys.bonded) law->followBond(phys, gap, swap ? p2 : p1, swap ? p1 : p2);
+				if (law->keeps(phys, gap)) phys.updateThresholds(gap, law->adhesionRange);
+				else
+					list.requestErase(I);
+				continue;
+			}
+		}
+		try {
+			if (!visit(I, *scene, *this)) list.requestErase(I);
+		} catch (const std::exception& e) {
+#pragma omp critical
+			error = e.what();
+		}
+	}
+	if (!error.empty()) throw std::runtime_error(error);
+}
+
+/// What the loop needs of the bodies, side by side in memory.
+void NscdInteractionLoop::gatherPlaces(int threads)
+{
+	const auto& bodies = *scene->bodies;
+	const long  count  = (long)bodies.size();
+	places.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long id = 0; id < count; ++id) {
+		if (id + (long)later < count) fetch<sizeof(Body)>(bodies[id + later].get());
+		if (id + (long)soon < count && bodies[id + soon]) {
+			fetch<sizeof(State)>(bodies[id + soon]->state.get());
+			fetch<sizeof(Sphere)>(bodies[id + soon]->shape.get());
+		}
+		const auto& body = bodies[id];
+		Place&      p    = places[id];
+		p.radius         = -1;
+		if (!body || !body->shape || body->isClump()) continue;
+		const Shape& shape = *body->shape;
+		if (typeid(shape) == typeid(Sphere)) p.radius = static_cast<const Sphere&>(shape).radius;
+		p.pos = body->state->pos;
+		p.ori = body->state->ori;
+	}
+}
+
+} // namespace yade

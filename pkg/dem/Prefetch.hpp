@@ -1,0 +1,17 @@
+// Asking for memory before it is needed: YADE's objects lie all over it, each one of a loop's items somewhere else.
+#pragma once
+
+#include <cstddef>
+
+namespace yade::nscd {
+
+/// Asks for the cache lines of an object that will be needed soon.
+template <std::size_t bytes> void fetch(const void* object)
+{
+	for (std::size_t at = 0; at < bytes; at += 64)
+		__builtin_prefetch(static_cast<const char*>(object) + at, 1);
+}
+
+constexpr std::size_t soon = 8, later = 16; // items ahead: what an item points to, and the item itself
+
+} // namespace yade::nscd
