@@ -9,6 +9,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 import argparse
+import dataclasses
 import json
 import time
 from pathlib import Path
@@ -53,7 +54,8 @@ def main():
     best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds))
     write_atomically(work / "report.json", json.dumps({**report, "wall_s": time.monotonic() - began}, indent=1).encode())
     c, angle = report["found"][:2]
-    materials.save(best, path, f"Calibrated by scripts/calibrate.py for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
+    measured = section.Envelope(*map(float, (c, angle)))
+    materials.save(dataclasses.replace(best, envelope=measured), path, f"Calibrated by scripts/calibrate.py for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
                                f"Samples of {args.fine} disks gave c = {1e-3 * c:.1f} kPa, φ = {angle:.2f}°.")
     print(f"{path}: c = {1e-3 * c:.1f} kPa (wanted {args.cohesion:g}), φ = {angle:.2f}° (wanted {args.friction:g}); {report['unique']}; report: {work}/report.json")
 

@@ -16,12 +16,14 @@ from pathlib import Path
 from tqdm import tqdm
 from yade import O
 from yade.nonsmooth import experiment, packing, records, results, section, slope
+from yade.nonsmooth.laboratory import materials
 
 
 def arguments():
     parser = argparse.ArgumentParser(prog="jiufengershan.py", description=__doc__.splitlines()[0])
     parser.add_argument("--section", default="jiufengershan", metavar="FILE", help="a section file, or the name of a shipped one")
     parser.add_argument("--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own")
+    parser.add_argument("--rock", metavar="NAME|FILE", help="material of the layers instead of the section's: wwr, as biaxial.py tests it, or a material file, as calibrate.py writes it")
     parser.add_argument("--disks", type=int, metavar="N", help="about N disks instead of the section's: all diameters are scaled")
     parser.add_argument("--out", default="out/jiufengershan", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, metavar="T", help="threads (default: all cores)")
@@ -36,6 +38,8 @@ def read_section(args):
     s = section.load(args.section)
     if args.disks is not None:
         s = s.with_disks(args.disks)
+    if args.rock is not None:
+        s = s.with_rock(materials.load(args.rock))
     if args.seed is not None:
         s = dataclasses.replace(s, seed=args.seed)
     if args.water is not None and s.water is not None:

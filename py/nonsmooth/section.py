@@ -327,6 +327,14 @@ class Section:
         scaled._check_room(f"{count} disks", "ask for more disks")
         return scaled
 
+    def with_rock(self, rock: Material) -> Section:
+        """The same slope with all layers of `rock`; the names of their materials stay. Raises SectionError for a rock without density."""
+        if rock.density is None:
+            raise SectionError(f"{rock.name}: no density, and layers are to be made of it; add `density` (kg/m³, of the disks)")
+        names = {layer.material for layer in self.layers}
+        made = {k: dataclasses.replace(rock, name=k, slip_weakening=None) if k in names else m for k, m in self.materials.items()}
+        return dataclasses.replace(self, materials=MappingProxyType(made))
+
     def _check_room(self, what: str, remedy: str) -> None:
         for polygon in geometry.parts(self.outline):
             if polygon.buffer(-self.disks.d_max / 2).is_empty or min(self.disk_counts()) < 1:

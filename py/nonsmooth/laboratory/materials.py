@@ -15,11 +15,7 @@ from ..packing_files import write_atomically
 from ..section_reader import SectionError, read
 
 #: Names of the paper's Table 1 and the materials of the shipped section that hold their parameters.
-SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
-
-#: Largest gap [ℓ] that is bonded in a pressed sample of wwr. A slope is bonded as it was packed, with its neighbours just short of touching, where
-#: about as many bonds take a gap of 0.05; see doc/laboratory.rst.
-PRESSED_BONDS = 0.016
+SHIPPED = {"wwr": "wwr", "dp": "dp", "fb": "fb", "ss": "ss"}
 
 
 def load(name_or_path):
@@ -29,8 +25,7 @@ def load(name_or_path):
     """
     name = str(name_or_path)
     if name in SHIPPED:
-        m = dataclasses.replace(section.load("jiufengershan").materials[SHIPPED[name]], name=name, envelope=None)
-        return dataclasses.replace(m, bond_creation_distance=PRESSED_BONDS) if name == "wwr" else m
+        return dataclasses.replace(section.load("jiufengershan").materials[SHIPPED[name]], name=name)
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and not path.exists():
         raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
@@ -43,7 +38,7 @@ def load(name_or_path):
 
 def save(material, path, comment=""):
     """Writes a material file; ``comment``: text for its head."""
-    plain = {k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening", "envelope") and v is not None}
+    plain = {k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening") and v is not None}
     plain["bond_ellipse"] = list(plain["bond_ellipse"])
     head = "".join(f"# {line}\n" for line in comment.splitlines())
     write_atomically(Path(path), (head + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True)).encode())
