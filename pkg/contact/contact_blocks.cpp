@@ -29,7 +29,7 @@ namespace {
 	};
 
 	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
-	Strip fill(const Problem& problem, const SweepOrder& order, std::size_t strip)
+	Strip fill(const Problem& problem, const SweepOrder& order, std::size_t strip, bool blocks)
 	{
 		constexpr std::size_t mostOpen = 16;
 		Strip                 result;
@@ -38,7 +38,7 @@ namespace {
 		for (std::size_t k = order.stripBegin[strip]; k < order.stripBegin[strip + 1]; ++k) {
 			const std::int32_t index = order.order[k];
 			const Contact&     c     = problem.contacts[index];
-			if (!isSimple(problem, c)) {
+			if (!blocks || !isSimple(problem, c)) {
 				result.others.push_back(index);
 				continue;
 			}
@@ -96,7 +96,7 @@ namespace {
 
 } // namespace
 
-void layOut(const Problem& problem, int threads, ContactBlocks& result)
+void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks)
 {
 	const SweepOrder   order  = arrange(problem);
 	const std::size_t  strips = order.stripCount();
@@ -104,7 +104,7 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result)
 	std::vector<Strip> parts(strips);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(strips); ++s)
-		parts[s] = fill(problem, order, s);
+		parts[s] = fill(problem, order, s, blocks);
 
 	result.evenStrips = order.evenStrips;
 	result.blockBegin.assign(1, 0);

@@ -103,7 +103,7 @@ namespace {
 	        , bodies(workspace.bodies)
 	        , bodiesBefore(workspace.bodiesBefore)
 	{
-		layOut(problem, threads, laidOut);
+		layOut(problem, threads, laidOut, !settings.reference);
 		rows.resize(laidOut.others.size());
 		sums.resize(laidOut.stripCount());
 		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.stripCount());

@@ -1,0 +1,113 @@
+"""The slope at rest and on the move, as saved scenes: made once and kept in the cache, so that every measurement begins with the same bits.
+
+At rest: bonded, under its weight, dry, a second after the settling of a slope experiment ended. On the move: from there the wall DP loses its
+friction and the backstop FB all its strength, the water table stands at 20 m, and the slope runs until its mean speed is 5 m/s.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import tempfile
+from pathlib import Path
+
+from yade import O, config
+
+from .. import checkpoints, experiment, packing, section, slope
+from ..packing_files import cache_folder
+
+__all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
+
+NAMES = ("rest", "moving")
+VERSION = 1          # of the way states are made; a new number makes old ones unused
+REST_SECONDS = 1.0   # of simulation after the settling
+WATER_HEIGHT = 20.0  # of the moving slope [m]
+SPEED = 5.0          # its mean speed [m/s] ...
+MOVING_SECONDS = 20.0  # ... or what it has reached after so much simulated time
+SPEED_LEAST = 0.2    # m/s, below which a slope does not count as moving
+PROGRESS_STEPS = 20  # between two notes of how far the making is
+
+
+class BenchmarkError(RuntimeError):
+    """A measurement that cannot be made; the message says why and what helps."""
+
+
+def section_of(disks):
+    """The shipped slope with about so many disks. Raises section.SectionError where there is no room for them."""
+    return section.load("jiufengershan").with_disks(disks)
+
+
+def key_of(chosen):
+    """What a saved state depends on: section, water, seed, YADE and the engines' code."""
+    engines = Path(config.libDir, "nonsmooth_engines.so").read_bytes()
+    return checkpoints.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed, "version": VERSION,
+                               "yade": config.version, "engines": hashlib.sha256(engines).hexdigest()})
+
+
+def folder_of(disks) -> Path:
+    """Where the states of a slope of so many disks are kept, in the cache folder "benchmark"."""
+    return cache_folder("benchmark") / key_of(section_of(disks))[:32]
+
+
+def exist(disks):
+    """Whether both states are there."""
+    return all(checkpoints.exists(folder_of(disks) / name) for name in NAMES)
+
+
+def make(folder, disks):
+    """Makes both states and returns nothing of interest; writes the share done to ``folder/progress`` (see processes.call).
+
+    Raises BenchmarkError where the slope does not begin to move.
+    """
+    chosen = section_of(disks)
+    note = lambda share: (Path(folder) / "progress").write_text(f"{share:.3f}")  # noqa: E731
+    built = _settle(chosen, lambda share: note(0.6 * share))
+    _save("rest", chosen, built)
+    _move(built, lambda share: note(0.6 + 0.4 * share))
+    _save("moving", chosen, built)
+    return {}
+
+
+def load(disks, name):
+    """Loads the state ``name`` into YADE; returns the Slope.
+
+    Raises BenchmarkError where it is missing or damaged.
+    """
+    chosen = section_of(disks)
+    content = checkpoints.read(folder_of(disks) / name, key_of(chosen), BenchmarkError)
+    return slope.find(chosen, content["walls"], content["first_disk"], content["count"])
+
+
+def _save(name, chosen, built):
+    checkpoints.write(folder_of(chosen.disks.count) / name, key_of(chosen), {
+        "walls": built.walls, "first_disk": built.first_disk, "count": built.count, "mean_speed_m_per_s": built.solver.meanSpeed, "time_s": O.time})
+
+
+def _settle(chosen, progress):
+    """The settling of a slope experiment, which then ends instead of raising the water."""
+    stages = dataclasses.replace(chosen.stages, dry=0.0, end=dataclasses.replace(chosen.stages.end, time=REST_SECONDS))
+    dry = dataclasses.replace(chosen, stages=stages, water=dataclasses.replace(chosen.water, table=((0.0, 0.0),), rate=0.0))
+    built = slope.build(dry, packing.cached_pack(dry))
+    foreseen = chosen.stages.settle.ramp + 1.5 + REST_SECONDS
+    with tempfile.TemporaryDirectory() as records:
+        experiment.Experiment(built, records, progress=lambda stage, now, _: progress(min(1.0, now / foreseen))).run()
+    return built
+
+
+def _move(built, progress):
+    solver, begin = built.solver, O.time
+    for name in ("DP", "FB"):
+        material = built.wall_material(name)
+        material.frictionAngle = material.residualFrictionAngle = 0
+        material.tensileStrength = material.residualTensileStrength = 0
+    solver.updateStrengths()
+    solver.tolerance = built.section.numerics.tolerance_moving
+    built.water.times, built.water.heights = [begin], [WATER_HEIGHT]
+    while solver.meanSpeed < SPEED and O.time < begin + MOVING_SECONDS:
+        for _ in range(PROGRESS_STEPS):
+            O.step()
+        progress(min(1.0, solver.meanSpeed / SPEED))
+    if solver.meanSpeed < SPEED_LEAST:
+        raise BenchmarkError(f"the slope of {built.count} disks does not move {MOVING_SECONDS:g} s after its wall DP has lost its friction (mean speed "
+                             f"{solver.meanSpeed:.2g} m/s); take another number of disks")

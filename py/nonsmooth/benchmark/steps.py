@@ -1,0 +1,72 @@
+"""Whole time steps from a saved state: wall time of each, in all and by stage."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from yade import O
+
+from . import states
+from .statistics import spread
+
+__all__ = ["STAGES", "TimedSteps", "measure"]
+
+#: Stages of a step by the class of the engine; ContactDynamicsEngine has three of its own.
+STAGES = {"ForceResetter": "reset", "InsertionSortCollider": "collider", "InteractionLoop": "interactions", "PorePressureEngine": "pore_pressure",
+          "NewtonIntegrator": "integrator"}
+SOLVER_STAGES = ("gather", "solve", "scatter")
+WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
+
+
+class TimedSteps:
+    """Times steps of the present scene with YADE's own timers and a clock around each step.
+
+    ``rows``: one dictionary a step: wall time [s] by stage, "step" for all of it and "other" for what no stage has.
+    """
+
+    def __init__(self):
+        O.timingEnabled = True
+        self.engines = [(e, STAGES[type(e).__name__]) for e in O.engines if type(e).__name__ in STAGES]
+        self.solver = next((e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine"), None)
+        self.rows = []
+
+    def run(self, steps, warm_up=WARM_UP):
+        """Makes so many steps, and before them ``warm_up`` that are not kept."""
+        for _ in range(warm_up):
+            O.step()
+        for _ in range(steps):
+            before, begin = self._spent(), time.perf_counter()
+            O.step()
+            step = time.perf_counter() - begin
+            row = {name: after - before[name] for name, after in self._spent().items()}
+            self.rows.append({**row, "other": step - sum(row.values()), "step": step})
+        return self
+
+    def _spent(self):
+        spent = {name: 1e-9 * engine.execTime for engine, name in self.engines}
+        if self.solver:
+            spent.update(zip(SOLVER_STAGES, self.solver.stageSeconds))
+        return spent
+
+    def summary(self):
+        """{"step_ms": spread, "stage_ms": {name: spread}}, see statistics.spread."""
+        in_ms = {name: spread([1e3 * row[name] for row in self.rows]) for name in self.rows[0]}
+        return {"step_ms": in_ms.pop("step"), "stage_ms": in_ms}
+
+
+def measure(folder, state, disks, steps, dump=False):
+    """Times steps from a saved state; a function for processes.call.
+
+    ``state``: "rest" or "moving"; ``dump``: whether to leave the last step's contact problem in ``folder/step.h5``. Raises states.BenchmarkError where the
+    state is missing.
+    """
+    solver = states.load(disks, state).solver
+    timed = TimedSteps().run(0)
+    sweeps, unconverged = solver.totalIterations, solver.unconverged
+    timed.run(steps, warm_up=0)
+    if dump:
+        solver.dump(str(Path(folder) / "step.h5"))
+    return {**timed.summary(), "sweeps_mean": (solver.totalIterations - sweeps) / steps, "unconverged": solver.unconverged - unconverged,
+            "contacts": solver.contacts, "candidates": solver.candidates, "bonds": solver.bonds, "mean_speed_m_per_s": solver.meanSpeed,
+            "tolerance": solver.tolerance, "time_step_s": O.dt, "steps": steps}
