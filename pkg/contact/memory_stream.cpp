@@ -2,6 +2,10 @@
 
 namespace nonsmooth::contact {
 
+#ifdef NONSMOOTH_AVX2
+// as wide as the loops that are held against it, else instructions and not memory would set the rate in a cache
+__attribute__((target_clones("avx2", "default")))
+#endif
 void MemoryStream::pass()
 {
 	// tends to 2: no number becomes too small for fast arithmetic, however many passes there are

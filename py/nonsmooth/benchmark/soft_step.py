@@ -48,8 +48,8 @@ def soften(built):
     O.dt = 0.5 * utils.PWaveTimeStep()
 
 
-def measure(folder, disks, steps):
+def measure(folder, source, disks, steps):
     """Times soft steps of the slope at rest; a function for processes.call. Raises states.BenchmarkError where the state is missing."""
-    soften(states.load(disks, "rest"))
+    soften(states.load(source, disks, "rest"))
     timed = TimedSteps().run(steps, warm_up=LOADING)
     return {**timed.summary(), "contacts": O.interactions.countReal(), "time_step_s": O.dt, "steps": steps}

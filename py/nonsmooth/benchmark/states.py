@@ -21,7 +21,9 @@ __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
 
 NAMES = ("rest", "moving")
 VERSION = 1          # of the way states are made; a new number makes old ones unused
-REST_SECONDS = 1.0   # of simulation after the settling
+REST_SECONDS = 1.0   # of simulation after the settling ...
+REST_SPEED = 0.05    # ... and the largest mean speed that counts as rest then [m/s]
+WEAKENED = ("DP", "FB")  # walls, see above
 WATER_HEIGHT = 20.0  # of the moving slope [m]
 SPEED = 5.0          # its mean speed [m/s] ...
 MOVING_SECONDS = 20.0  # ... or what it has reached after so much simulated time
@@ -33,9 +35,17 @@ class BenchmarkError(RuntimeError):
     """A measurement that cannot be made; the message says why and what helps."""
 
 
-def section_of(disks):
-    """The shipped slope with about so many disks. Raises section.SectionError where there is no room for them."""
-    return section.load("jiufengershan").with_disks(disks)
+def section_of(source, disks):
+    """The section ``source`` (a file, or the name of a shipped one) with about so many disks.
+
+    Raises section.SectionError where there is no room for them, BenchmarkError where it has no water or lacks a wall that is weakened.
+    """
+    chosen = section.load(source).with_disks(disks)
+    missing = [name for name in WEAKENED if name not in {wall.name for wall in chosen.walls}]
+    if missing or chosen.water is None:
+        raise BenchmarkError(f"{source}: there is no {'wall ' + missing[0] if missing else 'water'}, which the moving slope needs; take jiufengershan or a "
+                             "section made from it")
+    return chosen
 
 
 def key_of(chosen):
@@ -45,22 +55,23 @@ def key_of(chosen):
                                "yade": config.version, "engines": hashlib.sha256(engines).hexdigest()})
 
 
-def folder_of(disks) -> Path:
-    """Where the states of a slope of so many disks are kept, in the cache folder "benchmark"."""
-    return cache_folder("benchmark") / key_of(section_of(disks))[:32]
+def folder_of(chosen) -> Path:
+    """Where the states of a Section are kept, in the cache folder "benchmark"."""
+    return cache_folder("benchmark") / key_of(chosen)[:32]
 
 
-def exist(disks):
+def exist(source, disks):
     """Whether both states are there."""
-    return all(checkpoints.exists(folder_of(disks) / name) for name in NAMES)
+    home = folder_of(section_of(source, disks))
+    return all(checkpoints.exists(home / name) for name in NAMES)
 
 
-def make(folder, disks):
-    """Makes both states and returns nothing of interest; writes the share done to ``folder/progress`` (see processes.call).
+def make(folder, source, disks):
+    """Makes both states; returns an empty dictionary. Writes the share done to ``folder/progress`` (see processes.call).
 
-    Raises BenchmarkError where the slope does not begin to move.
+    Raises BenchmarkError where the slope does not come to rest, or does not begin to move.
     """
-    chosen = section_of(disks)
+    chosen = section_of(source, disks)
     note = lambda share: (Path(folder) / "progress").write_text(f"{share:.3f}")  # noqa: E731
     built = _settle(chosen, lambda share: note(0.6 * share))
     _save("rest", chosen, built)
@@ -69,18 +80,18 @@ def make(folder, disks):
     return {}
 
 
-def load(disks, name):
+def load(source, disks, name):
     """Loads the state ``name`` into YADE; returns the Slope.
 
     Raises BenchmarkError where it is missing or damaged.
     """
-    chosen = section_of(disks)
-    content = checkpoints.read(folder_of(disks) / name, key_of(chosen), BenchmarkError)
+    chosen = section_of(source, disks)
+    content = checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError)
     return slope.find(chosen, content["walls"], content["first_disk"], content["count"])
 
 
 def _save(name, chosen, built):
-    checkpoints.write(folder_of(chosen.disks.count) / name, key_of(chosen), {
+    checkpoints.write(folder_of(chosen) / name, key_of(chosen), {
         "walls": built.walls, "first_disk": built.first_disk, "count": built.count, "mean_speed_m_per_s": built.solver.meanSpeed, "time_s": O.time})
 
 
@@ -92,12 +103,15 @@ def _settle(chosen, progress):
     foreseen = chosen.stages.settle.ramp + 1.5 + REST_SECONDS
     with tempfile.TemporaryDirectory() as records:
         experiment.Experiment(built, records, progress=lambda stage, now, _: progress(min(1.0, now / foreseen))).run()
+    if built.solver.meanSpeed > REST_SPEED:
+        raise BenchmarkError(f"{chosen.source}: {built.count} disks do not come to rest (mean speed {built.solver.meanSpeed:.2g} m/s after {O.time:.1f} s); "
+                             "take more disks, or stronger materials")
     return built
 
 
 def _move(built, progress):
     solver, begin = built.solver, O.time
-    for name in ("DP", "FB"):
+    for name in WEAKENED:
         material = built.wall_material(name)
         material.frictionAngle = material.residualFrictionAngle = 0
         material.tensileStrength = material.residualTensileStrength = 0

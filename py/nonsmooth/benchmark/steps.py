@@ -12,10 +12,11 @@ from .statistics import spread
 
 __all__ = ["STAGES", "TimedSteps", "measure"]
 
-#: Stages of a step by the class of the engine; ContactDynamicsEngine has three of its own.
-STAGES = {"ForceResetter": "reset", "InsertionSortCollider": "collider", "InteractionLoop": "interactions", "PorePressureEngine": "pore_pressure",
-          "NewtonIntegrator": "integrator"}
-SOLVER_STAGES = ("gather", "solve", "scatter")
+#: Stages of a step in their order; "other" is what no stage has.
+STAGES = ("reset", "collider", "interactions", "pore_pressure", "gather", "solve", "scatter", "integrator", "other")
+STAGE_OF = {"ForceResetter": "reset", "InsertionSortCollider": "collider", "InteractionLoop": "interactions", "PorePressureEngine": "pore_pressure",
+            "NewtonIntegrator": "integrator"}  # by the class of the engine ...
+SOLVER_STAGES = ("gather", "solve", "scatter")  # ... but for ContactDynamicsEngine, which has three
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
 
 
@@ -27,7 +28,7 @@ class TimedSteps:
 
     def __init__(self):
         O.timingEnabled = True
-        self.engines = [(e, STAGES[type(e).__name__]) for e in O.engines if type(e).__name__ in STAGES]
+        self.engines = [(e, STAGE_OF[type(e).__name__]) for e in O.engines if type(e).__name__ in STAGE_OF]
         self.solver = next((e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine"), None)
         self.rows = []
 
@@ -50,18 +51,18 @@ class TimedSteps:
         return spent
 
     def summary(self):
-        """{"step_ms": spread, "stage_ms": {name: spread}}, see statistics.spread."""
+        """{"step_ms": spread, "stage_ms": {name: spread}} in the order of STAGES, see statistics.spread."""
         in_ms = {name: spread([1e3 * row[name] for row in self.rows]) for name in self.rows[0]}
-        return {"step_ms": in_ms.pop("step"), "stage_ms": in_ms}
+        return {"step_ms": in_ms["step"], "stage_ms": {name: in_ms[name] for name in STAGES if name in in_ms}}
 
 
-def measure(folder, state, disks, steps, dump=False):
+def measure(folder, source, disks, state, steps, dump=False):
     """Times steps from a saved state; a function for processes.call.
 
     ``state``: "rest" or "moving"; ``dump``: whether to leave the last step's contact problem in ``folder/step.h5``. Raises states.BenchmarkError where the
     state is missing.
     """
-    solver = states.load(disks, state).solver
+    solver = states.load(source, disks, state).solver
     timed = TimedSteps().run(0)
     sweeps, unconverged = solver.totalIterations, solver.unconverged
     timed.run(steps, warm_up=0)

@@ -1,0 +1,75 @@
+"""What the measurements say together: the headline figures of ``benchmark.json``, and tables of text."""
+
+from __future__ import annotations
+
+from tabulate import tabulate
+
+__all__ = ["HEADLINES", "summarise", "table"]
+
+#: Headline figures, all medians where there is a distribution, but means of stages, which add up to the mean step: what each is. Steps are of the slope at rest, with as many threads as were asked for.
+HEADLINES = {
+    "sweep_ns_per_contact": "a sweep, for each contact, one thread [ns]",
+    "sweep_speedup_over_scalar": "the same, over contacts swept one at a time",
+    "sweep_speedup_two_threads": "a sweep on one thread, over two",
+    "fraction_of_bandwidth_bound": "time to stream through the blocks, over a sweep's",
+    "step_ms": "a step [ms]",
+    "soft_step_ms": "a step of YADE's soft contacts [ms]",
+    "step_over_soft_step": "the one over the other",
+    "simulated_second_over_soft": "the same, for a second of simulation",
+    "warm_sweeps_mean": "sweeps of a step, mean",
+    "cold_sweeps_to_1e-4": "sweeps to a residual of 1e-4 from zero",
+}
+
+
+def _of(measured, threads, state=None):
+    return next(m for m in measured if m["threads"] == threads and m.get("state") == state)
+
+
+def summarise(found) -> dict:
+    """``found`` of suite.run with the headline figures before it, and quartiles of those that have them."""
+    rest, soft = _of(found["steps"], found["threads"], "rest"), _of(found["soft_steps"], found["threads"])
+    sweeps, cold = found["sweeps"], found["cold_start"]["slope"]
+    step, soft_step = rest["step_ms"]["median"], soft["step_ms"]["median"]
+    spreads = {"sweep_ns_per_contact": sweeps["ns_per_contact"]["best"], "sweep_speedup_over_scalar": sweeps["speedup_over_reference"]["best"],
+               "sweep_speedup_two_threads": sweeps["speedup_two_threads"], "step_ms": rest["step_ms"], "soft_step_ms": soft["step_ms"]}
+    return {**{name: s["median"] for name, s in spreads.items()},
+            "step_over_soft_step": step / soft_step,
+            "simulated_second_over_soft": step / rest["time_step_s"] / (soft_step / soft["time_step_s"]),
+            "stage_ms": {name: s["mean"] for name, s in rest["stage_ms"].items()},
+            "cold_sweeps_to_1e-4": cold["sweeps"], "warm_sweeps_mean": rest["sweeps_mean"],
+            "fraction_of_bandwidth_bound": sweeps["fraction_of_bandwidth_bound"]["working_set"],
+            "quartiles": {name: s["quartiles"] for name, s in spreads.items()}, **found}
+
+
+def _number(value):
+    return f"{value:.4g}"
+
+
+def _with_quartiles(spread):
+    return "{:.3g} ({:.3g} … {:.3g})".format(spread["median"], *spread["quartiles"])
+
+
+def table(summary) -> str:
+    """Tables of text: headlines, steps by stage, sweeps by path, cold starts."""
+    rows = [(what, _number(summary[name]), " … ".join(map(_number, summary["quartiles"].get(name, ())))) for name, what in HEADLINES.items()]
+    parts = [tabulate(rows, ("", "", "quartiles"), disable_numparse=True)]
+    steps = [(f"{m['state']}, {m['threads']} thr.", m) for m in summary["steps"]] + [(f"soft, {m['threads']} thr.", m) for m in summary["soft_steps"]]
+    stages = list(steps[0][1]["stage_ms"])
+    rows = [("step", *(_with_quartiles(m["step_ms"]) for _, m in steps))]
+    # a stage that works in some steps only, as the collider does, shows in the mean alone
+    rows += [(f"{name}, mean", *(_number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for _, m in steps)) for name in stages]
+    rows += [(name, *(_number(m[key]) if key in m else "-" for _, m in steps))
+             for name, key in (("sweeps, mean", "sweeps_mean"), ("contacts", "contacts"), ("candidates", "candidates"))]
+    parts.append(tabulate(rows, ("[ms]", *(name for name, _ in steps)), disable_numparse=True))
+    found = summary["sweeps"]
+    rows = [(name.replace("_", " "), _with_quartiles(s), _with_quartiles(found["speedup_over_reference"][name]) if name != "reference" else "1")
+            for name, s in found["ns_per_contact"].items()]
+    parts.append(tabulate(rows, ("sweep", "ns a contact", "over reference"), disable_numparse=True))
+    rate = found["bandwidth_GB_per_s"]
+    parts.append(f"memory: {rate['working_set']:.1f} GB/s over the {found['working_set_MB']:.1f} MB of the blocks, {rate['memory']:.1f} GB/s over what no cache holds; "
+                 f"a sweep takes {1 / found['fraction_of_bandwidth_bound']['working_set']:.2f} and {1 / found['fraction_of_bandwidth_bound']['memory']:.2f} times as long")
+    rows = [(name, str(c["contacts"]), str(c["sweeps"]), f"{c['share_of_weight']:.4f}", str(c["sweeps_tight"])) for name, c in summary["cold_start"].items()]
+    parts.append(tabulate(rows, ("cold start", "contacts", "sweeps to 1e-4", "load on the ground", "sweeps to 1e-7"), disable_numparse=True))
+    m = summary["machine"]
+    parts.append(f"{m['cpu']}, {m['cores']} cores, {m['compiler']}, path {m['best_path']}, load {m['load_average'][0]:.1f}, {m['date']}")
+    return "\n\n".join(parts)
