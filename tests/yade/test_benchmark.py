@@ -4,6 +4,7 @@ import json
 import math
 import os
 import subprocess
+import time
 from pathlib import Path
 
 import numpy as np
@@ -119,6 +120,16 @@ def test_another_section_or_plugin_makes_states_anew(measured, tmp_path, monkeyp
     (tmp_path / "nonsmooth_engines.so").write_bytes(b"another build")
     monkeypatch.setattr(states.config, "libDir", str(tmp_path))
     assert states.key_of(one) != before
+
+
+def test_states_that_nobody_used_for_long_are_removed(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    home = tmp_path / "yade-nonsmooth" / "benchmark"
+    for name, days in (("old", states.KEPT_DAYS + 1), ("recent", states.KEPT_DAYS - 1)):
+        (home / name).mkdir(parents=True)
+        os.utime(home / name, (time.time() - 86400 * days,) * 2)
+    states._forget_old()
+    assert [p.name for p in home.iterdir()] == ["recent"]
 
 
 def test_a_damaged_state_is_refused_with_a_remedy(measured, monkeypatch, tmp_path):

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-import json
+import os
+import shutil
 import tempfile
+import time
 from pathlib import Path
 
 from yade import O, config
@@ -29,6 +31,7 @@ SPEED = 5.0          # its mean speed [m/s] ...
 MOVING_SECONDS = 20.0  # ... or what it has reached after so much simulated time
 SPEED_LEAST = 0.2    # m/s, below which a slope does not count as moving
 PROGRESS_STEPS = 20  # between two notes of how far the making is
+KEPT_DAYS = 14       # without use; every build of the engines has states of its own
 
 
 class BenchmarkError(RuntimeError):
@@ -72,6 +75,7 @@ def make(folder, source, disks):
     Raises BenchmarkError where the slope does not come to rest, or does not begin to move.
     """
     chosen = section_of(source, disks)
+    _forget_old()
     note = lambda share: (Path(folder) / "progress").write_text(f"{share:.3f}")  # noqa: E731
     built = _settle(chosen, lambda share: note(0.6 * share))
     _save("rest", chosen, built)
@@ -87,7 +91,14 @@ def load(source, disks, name):
     """
     chosen = section_of(source, disks)
     content = checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError)
+    os.utime(folder_of(chosen))  # used now
     return slope.find(chosen, content["walls"], content["first_disk"], content["count"])
+
+
+def _forget_old():
+    for folder in cache_folder("benchmark").glob("*"):
+        if folder.stat().st_mtime < time.time() - 86400 * KEPT_DAYS:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def _save(name, chosen, built):
