@@ -53,8 +53,9 @@ namespace {
 		int    looks = 0, patience = 1, mostPatience; // looks since and between comparisons
 	};
 
-	/// A contact outside the blocks, swept row by row.
+	/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
 	struct Row {
+		Contact contact;
 		Impulse p, before; // P_k, P_{k−1}
 		Impulse inverse;   // 1/W_nn, 1/W_tt, 1/W_rr
 	};
@@ -112,7 +113,7 @@ namespace {
 		for (std::size_t k = 0; k < rows.size(); ++k) {
 			const Contact& c = problem.contacts[laidOut.others[k]];
 			const Impulse  p = project(c, problem.impulses[laidOut.others[k]]);
-			rows[k]          = { p, p, inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]) };
+			rows[k]          = { c, p, p, inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]) };
 		}
 		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
@@ -151,7 +152,7 @@ namespace {
 		forEachStrip([this](std::size_t s) {
 			kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-				const Contact& c  = problem.contacts[laidOut.others[k]];
+				const Contact& c  = rows[k].contact;
 				Twist          vi = twist(c.i), vj = twist(c.j);
 				applyImpulse(c, rows[k].p, problem.inverseMass[c.i], problem.inverseMass[c.j], vi, vj);
 				setTwist(c.i, vi);
@@ -175,7 +176,7 @@ namespace {
 	void Sweeper::sweepRow(std::size_t k, double beta)
 	{
 		Row&               row = rows[k];
-		const Contact&     c   = problem.contacts[laidOut.others[k]];
+		const Contact&     c   = row.contact;
 		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
 		const Impulse      y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
 				  row.p.r + beta * (row.p.r - row.before.r) };
@@ -198,7 +199,7 @@ namespace {
 	void Sweeper::measureRows(std::size_t s, ResidualSums& sums) const
 	{
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-			const Contact& c   = problem.contacts[laidOut.others[k]];
+			const Contact& c   = rows[k].contact;
 			const Impulse& p   = rows[k].p;
 			const double   one = squareNorm(c, naturalMapDefect(c, p, relativeVelocity(c, twist(c.i), twist(c.j)), rows[k].inverse));
 			sums.square += one;

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tabulate import tabulate
 
-__all__ = ["HEADLINES", "summarise", "table"]
+__all__ = ["HEADLINES", "scale_table", "summarise", "table"]
 
 #: Headline figures, all medians where there is a distribution, but means of stages, which add up to the mean step: what each is. Steps are of the slope at rest, with as many threads as were asked for.
 HEADLINES = {
@@ -21,13 +21,13 @@ HEADLINES = {
 }
 
 
-def _of(measured, threads, state=None):
-    return next(m for m in measured if m["threads"] == threads and m.get("state") == state)
+def _of(measured, state, threads):
+    return next(m for m in measured if m["state"] == state and m["threads"] == threads)
 
 
 def summarise(found) -> dict:
     """``found`` of suite.run with the headline figures before it, and quartiles of those that have them."""
-    rest, soft = _of(found["steps"], found["threads"], "rest"), _of(found["soft_steps"], found["threads"])
+    rest, soft = (_of(found["steps"], state, found["threads"]) for state in ("rest", "soft"))
     sweeps, cold = found["sweeps"], found["cold_start"]["slope"]
     step, soft_step = rest["step_ms"]["median"], soft["step_ms"]["median"]
     spreads = {"sweep_ns_per_contact": sweeps["ns_per_contact"]["best"], "sweep_speedup_over_scalar": sweeps["speedup_over_reference"]["best"],
@@ -53,7 +53,7 @@ def table(summary) -> str:
     """Tables of text: headlines, steps by stage, sweeps by path, cold starts."""
     rows = [(what, _number(summary[name]), " … ".join(map(_number, summary["quartiles"].get(name, ())))) for name, what in HEADLINES.items()]
     parts = [tabulate(rows, ("", "", "quartiles"), disable_numparse=True)]
-    steps = [(f"{m['state']}, {m['threads']} thr.", m) for m in summary["steps"]] + [(f"soft, {m['threads']} thr.", m) for m in summary["soft_steps"]]
+    steps = [(f"{m['state']}, {m['threads']} thr.", m) for m in summary["steps"]]
     stages = list(steps[0][1]["stage_ms"])
     rows = [("step", *(_with_quartiles(m["step_ms"]) for _, m in steps))]
     # a stage that works in some steps only, as the collider does, shows in the mean alone
@@ -73,3 +73,12 @@ def table(summary) -> str:
     m = summary["machine"]
     parts.append(f"{m['cpu']}, {m['cores']} cores, {m['compiler']}, path {m['best_path']}, load {m['load_average'][0]:.1f}, {m['date']}")
     return "\n\n".join(parts)
+
+
+def scale_table(found) -> str:
+    """Table of text of what scale.run found: one row a size."""
+    rows = [(str(s["disks"]), str(s["candidates"]), f"{s['packing_s']:.0f}", f"{s['building_s']:.1f}", f"{1e-3 * s['bytes_per_disk']:.1f}",
+             _with_quartiles(s["step_ms"]), _number(s["step_ms"]["mean"] / s["disks"] * 1e3), _number(s["sweeps_mean"]),
+             _number(s["solve_ns_per_contact_and_sweep"])) for s in found["sizes"]]
+    return tabulate(rows, ("disks", "contacts", "packing [s]", "building [s]", "kB a disk", "step [ms]", "µs a disk", "sweeps", "ns a contact and sweep"),
+                    disable_numparse=True)

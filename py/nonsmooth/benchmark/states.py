@@ -1,7 +1,8 @@
-"""The slope at rest and on the move, as saved scenes: made once and kept in the cache, so that every measurement begins with the same bits.
+"""The slope at rest, on the move, and on soft contacts, as saved scenes: made once and kept in the cache, so that every measurement begins with the same bits.
 
 At rest: bonded, under its weight, dry, a second after the settling of a slope experiment ended. On the move: from there the wall DP loses its
-friction and the backstop FB all its strength, the water table stands at 20 m, and the slope runs until its mean speed is 5 m/s.
+friction and the backstop FB all its strength, the water table stands at 20 m, and the slope runs until its mean speed is 5 m/s. Soft: YADE's own contacts in the place of the rigid ones at rest, after a second in which
+gaps have closed and springs have taken up the weight.
 """
 
 from __future__ import annotations
@@ -16,19 +17,20 @@ from pathlib import Path
 
 from yade import O, config
 
-from .. import checkpoints, experiment, packing, section, slope
+from .. import checkpoints, experiment, packing, scene, section, slope
 from ..packing_files import cache_folder
+from . import soft_contacts
 
 __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
 
-NAMES = ("rest", "moving")
-VERSION = 1          # of the way states are made; a new number makes old ones unused
+NAMES = ("rest", "moving", "soft")
 REST_SECONDS = 1.0   # of simulation after the settling ...
 REST_SPEED = 0.05    # ... and the largest mean speed that counts as rest then [m/s]
 WEAKENED = ("DP", "FB")  # walls, see above
 WATER_HEIGHT = 20.0  # of the moving slope [m]
 SPEED = 5.0          # its mean speed [m/s] ...
 MOVING_SECONDS = 20.0  # ... or what it has reached after so much simulated time
+SOFT_SECONDS = 1.0   # of simulation on soft contacts
 SPEED_LEAST = 0.2    # m/s, below which a slope does not count as moving
 PROGRESS_STEPS = 20  # between two notes of how far the making is
 KEPT_DAYS = 14       # without use; every build of the engines has states of its own
@@ -52,10 +54,10 @@ def section_of(source, disks):
 
 
 def key_of(chosen):
-    """What a saved state depends on: section, water, seed, YADE and the engines' code."""
-    engines = Path(config.libDir, "nonsmooth_engines.so").read_bytes()
-    return checkpoints.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed, "version": VERSION,
-                               "yade": config.version, "engines": hashlib.sha256(engines).hexdigest()})
+    """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
+    code = [Path(config.libDir, "nonsmooth_engines.so"), Path(__file__), *(Path(m.__file__) for m in (scene, slope, experiment, packing, soft_contacts))]
+    return checkpoints.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed,
+                               "yade": config.version, "code": [hashlib.sha256(path.read_bytes()).hexdigest() for path in code]})
 
 
 def folder_of(chosen) -> Path:
@@ -64,35 +66,38 @@ def folder_of(chosen) -> Path:
 
 
 def exist(source, disks):
-    """Whether both states are there."""
+    """Whether all states are there."""
     home = folder_of(section_of(source, disks))
     return all(checkpoints.exists(home / name) for name in NAMES)
 
 
 def make(folder, source, disks):
-    """Makes both states; returns an empty dictionary. Writes the share done to ``folder/progress`` (see processes.call).
+    """Makes all states; returns an empty dictionary. Writes the share done to ``folder/progress`` (see processes.call).
 
     Raises BenchmarkError where the slope does not come to rest, or does not begin to move.
     """
     chosen = section_of(source, disks)
     _forget_old()
     note = lambda share: (Path(folder) / "progress").write_text(f"{share:.3f}")  # noqa: E731
-    built = _settle(chosen, lambda share: note(0.6 * share))
+    built = _settle(chosen, lambda share: note(0.5 * share))
     _save("rest", chosen, built)
-    _move(built, lambda share: note(0.6 + 0.4 * share))
+    _move(built, lambda share: note(0.5 + 0.3 * share))
     _save("moving", chosen, built)
+    load(source, disks, "rest")
+    soft_contacts.soften(built)
+    _run_soft(lambda share: note(0.8 + 0.2 * share))
+    _save("soft", chosen, built)
     return {}
 
 
 def load(source, disks, name):
-    """Loads the state ``name`` into YADE; returns the Slope.
+    """Loads the state ``name`` into YADE.
 
     Raises BenchmarkError where it is missing or damaged.
     """
     chosen = section_of(source, disks)
-    content = checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError)
+    checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError)
     os.utime(folder_of(chosen))  # used now
-    return slope.find(chosen, content["walls"], content["first_disk"], content["count"])
 
 
 def _forget_old():
@@ -102,8 +107,7 @@ def _forget_old():
 
 
 def _save(name, chosen, built):
-    checkpoints.write(folder_of(chosen) / name, key_of(chosen), {
-        "walls": built.walls, "first_disk": built.first_disk, "count": built.count, "mean_speed_m_per_s": built.solver.meanSpeed, "time_s": O.time})
+    checkpoints.write(folder_of(chosen) / name, key_of(chosen), {"disks": built.count, "time_s": O.time})
 
 
 def _settle(chosen, progress):
@@ -136,3 +140,11 @@ def _move(built, progress):
     if solver.meanSpeed < SPEED_LEAST:
         raise BenchmarkError(f"the slope of {built.count} disks does not move {MOVING_SECONDS:g} s after its wall DP has lost its friction (mean speed "
                              f"{solver.meanSpeed:.2g} m/s); take another number of disks")
+
+
+def _run_soft(progress):
+    steps = round(SOFT_SECONDS / O.dt)
+    for k in range(steps):
+        O.step()
+        if k % PROGRESS_STEPS == 0:
+            progress(k / steps)

@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 from yade import O
+from yade.wrapper import ContactDynamicsEngine, ForceResetter, InsertionSortCollider, InteractionLoop, NewtonIntegrator, PorePressureEngine
 
 from . import states
 from .statistics import spread
@@ -14,8 +15,8 @@ __all__ = ["STAGES", "TimedSteps", "measure"]
 
 #: Stages of a step in their order; "other" is what no stage has.
 STAGES = ("reset", "collider", "interactions", "pore_pressure", "gather", "solve", "scatter", "integrator", "other")
-STAGE_OF = {"ForceResetter": "reset", "InsertionSortCollider": "collider", "InteractionLoop": "interactions", "PorePressureEngine": "pore_pressure",
-            "NewtonIntegrator": "integrator"}  # by the class of the engine ...
+STAGE_OF = {ForceResetter: "reset", InsertionSortCollider: "collider", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
+            NewtonIntegrator: "integrator"}  # by the class of the engine or one it is derived from ...
 SOLVER_STAGES = ("gather", "solve", "scatter")  # ... but for ContactDynamicsEngine, which has three
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
 
@@ -28,8 +29,8 @@ class TimedSteps:
 
     def __init__(self):
         O.timingEnabled = True
-        self.engines = [(e, STAGE_OF[type(e).__name__]) for e in O.engines if type(e).__name__ in STAGE_OF]
-        self.solver = next((e for e in O.engines if type(e).__name__ == "ContactDynamicsEngine"), None)
+        self.engines = [(e, name) for e in O.engines for kind, name in STAGE_OF.items() if isinstance(e, kind)]
+        self.solver = next((e for e in O.engines if isinstance(e, ContactDynamicsEngine)), None)
         self.rows = []
 
     def run(self, steps, warm_up=WARM_UP):
@@ -59,11 +60,14 @@ class TimedSteps:
 def measure(folder, source, disks, state, steps, dump=False):
     """Times steps from a saved state; a function for processes.call.
 
-    ``state``: "rest" or "moving"; ``dump``: whether to leave the last step's contact problem in ``folder/step.h5``. Raises states.BenchmarkError where the
+    ``state``: one of states.NAMES; ``dump``: whether to leave the last step's contact problem in ``folder/step.h5``. Raises states.BenchmarkError where the
     state is missing.
     """
-    solver = states.load(source, disks, state).solver
+    states.load(source, disks, state)
     timed = TimedSteps().run(0)
+    solver = timed.solver
+    if solver is None:
+        return {**timed.run(steps, warm_up=0).summary(), "contacts": O.interactions.countReal(), "time_step_s": O.dt, "steps": steps}
     sweeps, unconverged = solver.totalIterations, solver.unconverged
     timed.run(steps, warm_up=0)
     if dump:

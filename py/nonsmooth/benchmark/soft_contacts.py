@@ -1,4 +1,4 @@
-"""Steps of YADE's soft contacts (springs and friction, Cundall and Strack 1979) on the disks and walls of the slope at rest.
+"""YADE's soft contacts (springs and friction, Cundall and Strack 1979) on the disks and walls of a slope, to compare steps with.
 
 The scene is what a YADE user would write: one FrictMat for disks and walls, Law2_ScGeom_FrictPhys_CundallStrack, half of the P-wave time step. Disks
 have the masses of spheres, as that time step supposes. The collider keeps the margin it has in the slope, but its boxes are not enlarged:
@@ -15,17 +15,13 @@ from yade.wrapper import (
     Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider,
     InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
 
-from . import states
-from .steps import TimedSteps
-
-__all__ = ["measure"]
+__all__ = ["soften"]
 
 YOUNG, POISSON, FRICTION, DAMPING = 2e8, 0.3, 0.3, 0.2
-LOADING = 100  # steps in which springs take up the weight, before those that count
 
 
 def soften(built):
-    """Puts soft contacts in the place of the rigid ones of the Slope in the scene."""
+    """Puts soft contacts in the place of the rigid ones of ``built``, the Slope in the scene; forces begin at zero."""
     gravity = built.section.gravity
     margin = next(e for e in O.engines if isinstance(e, InsertionSortCollider)).verletDist
     density = built.section.materials[built.section.layers[0].material].density
@@ -46,10 +42,3 @@ def soften(built):
         NewtonIntegrator(damping=DAMPING, gravity=(0, -gravity, 0)),
     ]
     O.dt = 0.5 * utils.PWaveTimeStep()
-
-
-def measure(folder, source, disks, steps):
-    """Times soft steps of the slope at rest; a function for processes.call. Raises states.BenchmarkError where the state is missing."""
-    soften(states.load(source, disks, "rest"))
-    timed = TimedSteps().run(steps, warm_up=LOADING)
-    return {**timed.summary(), "contacts": O.interactions.countReal(), "time_step_s": O.dt, "steps": steps}
