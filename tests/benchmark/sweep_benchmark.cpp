@@ -49,7 +49,8 @@ void sweep(benchmark::State& state, Path path)
 }
 
 // a fixed number of repetitions: the time that counts is a small part of what each takes
-#define NONSMOOTH_SWEEP(name, path) BENCHMARK_CAPTURE(sweep, name, path)->ArgName("threads")->Arg(1)->Arg(2)->UseManualTime()->Iterations(10)->Unit(benchmark::kMicrosecond)
+#define NONSMOOTH_SWEEP(name, path)                                                                                                            \
+	BENCHMARK_CAPTURE(sweep, name, path)->ArgName("threads")->Arg(1)->Arg(2)->UseManualTime()->Iterations(10)->Unit(benchmark::kMicrosecond)
 NONSMOOTH_SWEEP(reference, Path::Reference);
 NONSMOOTH_SWEEP(portable, Path::Portable);
 NONSMOOTH_SWEEP(best, Path::Best);

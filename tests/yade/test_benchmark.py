@@ -156,7 +156,8 @@ def test_a_section_without_the_walls_that_are_weakened_is_refused_at_once(tmp_pa
 def test_a_sweep_is_timed_only_where_every_sweep_is_made():
     problem = contact.load(ROOT / "tests" / "data" / "slope_t1.h5")
     assert all(math.isfinite(sweeps.sweep_seconds(problem, path, 1)) for path in ("reference", "best"))
-    nothing = {name: getattr(problem, name)[:0] for name in ("body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length", "warm_start", "impulse")}
+    contacts = ("body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length", "warm_start", "impulse")
+    nothing = {name: getattr(problem, name)[:0] for name in contacts}
     with pytest.raises(RuntimeError, match="cannot be timed"):
         sweeps.sweep_seconds(dataclasses.replace(problem, **nothing), "best", 1)
 

@@ -6,7 +6,7 @@ from tabulate import tabulate
 
 __all__ = ["HEADLINES", "scale_table", "summarise", "table"]
 
-#: Headline figures, all medians where there is a distribution, but means of stages, which add up to the mean step: what each is. Steps are of the slope at rest, with as many threads as were asked for.
+#: Headline figures and what each is; medians where there is a distribution. Steps are of the slope at rest, with as many threads as were asked for.
 HEADLINES = {
     "sweep_ns_per_contact": "a sweep, for each contact, one thread [ns]",
     "sweep_speedup_over_scalar": "the same, over contacts swept one at a time",
@@ -26,7 +26,7 @@ def _of(measured, state, threads):
 
 
 def summarise(found) -> dict:
-    """``found`` of suite.run with the headline figures before it, and quartiles of those that have them."""
+    """``found`` of suite.run with the headline figures before it, quartiles of those that have them, and the mean time of each stage."""
     rest, soft = (_of(found["steps"], state, found["threads"]) for state in ("rest", "soft"))
     sweeps, cold = found["sweeps"], found["cold_start"]["slope"]
     step, soft_step = rest["step_ms"]["median"], soft["step_ms"]["median"]
@@ -66,8 +66,9 @@ def table(summary) -> str:
             for name, s in found["ns_per_contact"].items()]
     parts.append(tabulate(rows, ("sweep", "ns a contact", "over reference"), disable_numparse=True))
     rate = found["bandwidth_GB_per_s"]
-    parts.append(f"memory: {rate['working_set']:.1f} GB/s over the {found['working_set_MB']:.1f} MB of the blocks, {rate['memory']:.1f} GB/s over what no cache holds; "
-                 f"a sweep takes {1 / found['fraction_of_bandwidth_bound']['working_set']:.2f} and {1 / found['fraction_of_bandwidth_bound']['memory']:.2f} times as long")
+    bound = found["fraction_of_bandwidth_bound"]
+    parts.append(f"memory: {rate['working_set']:.1f} GB/s over the {found['working_set_MB']:.1f} MB of the blocks, {rate['memory']:.1f} GB/s over what no "
+                 f"cache holds; a sweep takes {1 / bound['working_set']:.2f} and {1 / bound['memory']:.2f} times as long")
     rows = [(name, str(c["contacts"]), str(c["sweeps"]), f"{c['share_of_weight']:.4f}", str(c["sweeps_tight"])) for name, c in summary["cold_start"].items()]
     parts.append(tabulate(rows, ("cold start", "contacts", "sweeps to 1e-4", "load on the ground", "sweeps to 1e-7"), disable_numparse=True))
     m = summary["machine"]

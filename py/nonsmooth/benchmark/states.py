@@ -1,8 +1,8 @@
 """The slope at rest, on the move, and on soft contacts, as saved scenes: made once and kept in the cache, so that every measurement begins with the same bits.
 
 At rest: bonded, under its weight, dry, a second after the settling of a slope experiment ended. On the move: from there the wall DP loses its
-friction and the backstop FB all its strength, the water table stands at 20 m, and the slope runs until its mean speed is 5 m/s. Soft: YADE's own contacts in the place of the rigid ones at rest, after a second in which
-gaps have closed and springs have taken up the weight.
+friction and the backstop FB all its strength, the water table stands at 20 m, and the slope runs until its mean speed is 5 m/s. Soft: YADE's own
+contacts in the place of the rigid ones at rest, after a second in which gaps have closed and springs have taken up the weight.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ def sweep_seconds(problem, path, threads):
     def solve(sweeps):
         solved = contact.solve(problem, tolerance=1e-300, max_iterations=sweeps, check_every=sweeps, threads=threads, path=path)
         if solved.iterations != sweeps:
-            raise RuntimeError(f"a solve made {solved.iterations} sweeps instead of {sweeps}: the problem has no contact that acts, so its sweeps cannot be timed")
+            raise RuntimeError(f"a solve made {solved.iterations} sweeps instead of {sweeps}: no contact of the problem acts, so its sweeps cannot be timed")
         return solved.seconds
 
     few = min(solve(FEW), solve(FEW))  # one that was interrupted would make the sweeps too short, or even negative
