@@ -69,8 +69,10 @@ def table(summary) -> str:
     bound = found["fraction_of_bandwidth_bound"]
     parts.append(f"memory: {rate['working_set']:.1f} GB/s over the {found['working_set_MB']:.1f} MB of the blocks, {rate['memory']:.1f} GB/s over what no "
                  f"cache holds; a sweep takes {1 / bound['working_set']:.2f} and {1 / bound['memory']:.2f} times as long")
-    rows = [(name, str(c["contacts"]), str(c["sweeps"]), f"{c['share_of_weight']:.4f}", str(c["sweeps_tight"])) for name, c in summary["cold_start"].items()]
-    parts.append(tabulate(rows, ("cold start", "contacts", "sweeps to 1e-4", "load on the ground", "sweeps to 1e-7"), disable_numparse=True))
+    rows = [(name, str(c["contacts"]), str(c["sweeps"]), f"{c['share_of_weight']:.4f}", f"{c['sweeps_tight']} ({c['residual_tight']:.0e})")
+            for name, c in summary["cold_start"].items()]
+    heads = ("cold start", "contacts", "sweeps to 1e-4", "load on the ground, relative to a tight solve", "sweeps of that (residual)")
+    parts.append(tabulate(rows, heads, disable_numparse=True))
     m = summary["machine"]
     parts.append(f"{m['cpu']}, {m['cores']} cores, {m['compiler']}, path {m['best_path']}, load {m['load_average'][0]:.1f}, {m['date']}")
     return "\n\n".join(parts)
