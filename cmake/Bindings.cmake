@@ -5,6 +5,7 @@ find_package(pybind11 REQUIRED CONFIG)
 set(NONSMOOTH_PYTHON "${CMAKE_BINARY_DIR}/python")
 pybind11_add_module(nonsmooth_contact_module MODULE "${CMAKE_SOURCE_DIR}/pkg/bindings/contact_module.cpp")
 target_link_libraries(nonsmooth_contact_module PRIVATE nonsmooth_contact nonsmooth_flags)
+target_compile_definitions(nonsmooth_contact_module PRIVATE "NONSMOOTH_COMPILER=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}, ${CMAKE_BUILD_TYPE}\"")
 set_target_properties(nonsmooth_contact_module PROPERTIES
     OUTPUT_NAME _nonsmooth_contact LIBRARY_OUTPUT_DIRECTORY "${NONSMOOTH_PYTHON}")
 # the source folder itself, so that edits need no build

@@ -1,10 +1,13 @@
 // The solver library for Python, as _nonsmooth_contact: arrays in, arrays out. No YADE here; nonsmooth/contact.py is the face of it.
 #include <algorithm>
+#include <chrono>
+#include <contact/memory_stream.hpp>
 #include <contact/problem.hpp>
 #include <contact/residual.hpp>
 #include <contact/solver.hpp>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 namespace py = pybind11;
 using namespace nonsmooth::contact;
@@ -114,29 +117,39 @@ py::dict dictOf(const VelocityChanges& c)
 	return d;
 }
 
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
 py::dict solveArrays(
-        const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery, int threads, const std::string& stopping)
+        const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery, int threads, const std::string& stopping,
+        const std::string& path)
 {
 	Problem        p = problemOf(problem);
 	SolverSettings s;
 	if (method != "accelerated" && method != "gaussSeidel")
 		throw py::value_error("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
 	if (!(tolerance > 0)) throw py::value_error("tolerance = " + std::to_string(tolerance) + ": it must be positive");
+	if (path != "best" && path != "portable" && path != "reference")
+		throw py::value_error("path = '" + path + "': it must be 'best', 'portable' or 'reference'");
 	if (maxIterations < 0 || checkEvery < 1 || threads < 1) throw py::value_error("max_iterations, check_every and threads must be positive");
 	s.method        = method == "gaussSeidel" ? Method::GaussSeidel : Method::Accelerated;
 	s.tolerance     = tolerance;
 	s.maxIterations = maxIterations;
 	s.checkEvery    = checkEvery;
 	s.threads       = threads;
+	s.portable      = path == "portable";
+	s.reference     = path == "reference";
 	try {
 		s.stopping = stoppingTestOf(stopping.c_str());
 	} catch (const std::invalid_argument& error) {
 		throw py::value_error(std::string("stopping = ") + error.what());
 	}
 	SolverStatistics statistics;
+	double           seconds = 0;
 	{
 		py::gil_scoped_release release;
-		statistics = solve(p, s);
+		const double           begin = now();
+		statistics                   = solve(p, s);
+		seconds                      = now() - begin;
 	}
 	py::dict d      = dictOf(statistics.residual);
 	d["impulse"]    = array(p.impulses);
@@ -144,6 +157,7 @@ py::dict solveArrays(
 	d["iterations"] = statistics.iterations;
 	d["restarts"]   = statistics.restarts;
 	d["converged"]  = statistics.converged;
+	d["seconds"]    = seconds;
 	return d;
 }
 
@@ -161,6 +175,21 @@ py::dict residualOf(const py::dict& problem)
 
 py::dict changesOf(const py::dict& problem) { return dictOf(velocityChanges(problemOf(problem))); }
 
+/// Wall time [s] of each of `passes` over `bytes` of memory, by one thread.
+std::vector<double> streamSeconds(std::size_t bytes, int passes)
+{
+	if (bytes < sizeof(Motion) || passes < 1) throw py::value_error("bytes and passes must be positive");
+	MemoryStream stream(bytes);
+	stream.pass();
+	std::vector<double> seconds;
+	for (int k = 0; k < passes; ++k) {
+		const double begin = now();
+		stream.pass();
+		seconds.push_back(now() - begin);
+	}
+	return seconds;
+}
+
 } // namespace
 
 PYBIND11_MODULE(_nonsmooth_contact, m)
@@ -169,4 +198,8 @@ PYBIND11_MODULE(_nonsmooth_contact, m)
 	m.def("solve", &solveArrays);
 	m.def("residual", &residualOf);
 	m.def("velocity_changes", &changesOf);
+	m.def("stream_seconds", &streamSeconds);
+	m.attr("bytes_per_contact") = double(sizeof(Block)) / lanes;
+	m.attr("best_path")         = bestKernels().name;
+	m.attr("compiler")          = NONSMOOTH_COMPILER;
 }

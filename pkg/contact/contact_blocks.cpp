@@ -24,7 +24,7 @@ namespace {
 	};
 
 	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
-	void fill(const Problem& problem, const SweepOrder& order, std::size_t strip, ContactBlocks::Strip& result)
+	void fill(const Problem& problem, const SweepOrder& order, std::size_t strip, bool blocks, ContactBlocks::Strip& result)
 	{
 		constexpr std::size_t mostOpen = 16;
 		result.contactOf.clear();
@@ -34,7 +34,7 @@ namespace {
 		for (std::size_t k = order.stripBegin[strip]; k < order.stripBegin[strip + 1]; ++k) {
 			const std::int32_t index = order.order[k];
 			const Contact&     c     = problem.contacts[index];
-			if (!isSimple(problem, c)) {
+			if (!blocks || !isSimple(problem, c)) {
 				result.others.push_back(index);
 				continue;
 			}
@@ -90,7 +90,7 @@ namespace {
 
 } // namespace
 
-void layOut(const Problem& problem, int threads, ContactBlocks& result)
+void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks)
 {
 	const SweepOrder& order = result.order;
 	arrange(problem, result.order);
@@ -100,7 +100,7 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result)
 	parts.resize(strips);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(strips); ++s)
-		fill(problem, order, s, parts[s]);
+		fill(problem, order, s, blocks, parts[s]);
 
 	result.placeOf.resize(problem.bodyCount());
 	for (std::size_t k = 0; k < order.bodies.size(); ++k)

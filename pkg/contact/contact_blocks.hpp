@@ -29,7 +29,8 @@ struct ContactBlocks {
 };
 
 /// Lays out the contacts' data in `result`, whose memory is used again; impulses come from problem.impulses, projected on their thresholds.
-/// Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move.
-void layOut(const Problem& problem, int threads, ContactBlocks& result);
+/// Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move. Without `blocks`
+/// all contacts are among the others, in the order of the sweep.
+void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks = true);
 
 } // namespace nonsmooth::contact

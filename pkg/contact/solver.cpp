@@ -53,10 +53,12 @@ namespace {
 		int    looks = 0, patience = 1, mostPatience; // looks since and between comparisons
 	};
 
-	/// A contact outside the blocks, swept row by row.
+	/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
 	struct Row {
-		Impulse p, before; // P_k, P_{k−1}
-		Impulse inverse;   // 1/W_nn, 1/W_tt, 1/W_rr
+		Contact     contact;   // names bodies by their places
+		InverseMass mi, mj;
+		Impulse     p, before; // P_k, P_{k−1}
+		Impulse     inverse;   // 1/W_nn, 1/W_tt, 1/W_rr
 	};
 
 	class Sweeper {
@@ -74,12 +76,9 @@ namespace {
 		void  measureChanges();
 		bool  solved(double slack) const;
 		void  finish();
-		Twist twist(std::int32_t body) const
-		{
-			const Lanes& v = bodies[laidOut.placeOf[body]].v;
-			return { v[0], v[1], v[2] };
-		}
-		void  setTwist(std::int32_t body, const Twist& v);
+		Twist twistAt(std::int32_t place) const { return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] }; }
+		Twist twist(std::int32_t body) const { return twistAt(laidOut.placeOf[body]); }
+		void  setTwists(const Row& row, const Twist& vi, const Twist& vj);
 		template <class Visit> void forEachStrip(Visit visit);
 
 		Problem&                  problem;
@@ -106,16 +105,19 @@ namespace {
 	        , bodies(workspace.bodies)
 	        , bodiesBefore(workspace.bodiesBefore)
 	{
-		layOut(problem, threads, laidOut);
+		layOut(problem, threads, laidOut, !settings.reference);
 		rows.resize(laidOut.others.size());
 		sums.resize(laidOut.stripCount());
 		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.stripCount());
 		bodies.resize(problem.bodyCount() + 1);
 		bodiesBefore.resize(problem.bodyCount() + 1);
 		for (std::size_t k = 0; k < rows.size(); ++k) {
-			const Contact& c = problem.contacts[laidOut.others[k]];
-			const Impulse  p = project(c, problem.impulses[laidOut.others[k]]);
-			rows[k]          = { p, p, inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]) };
+			Contact           c  = problem.contacts[laidOut.others[k]];
+			const InverseMass mi = problem.inverseMass[c.i], mj = problem.inverseMass[c.j];
+			const Impulse     p  = project(c, problem.impulses[laidOut.others[k]]);
+			c.i                  = laidOut.placeOf[c.i];
+			c.j                  = laidOut.placeOf[c.j];
+			rows[k]              = { c, mi, mj, p, p, inverseDelassus(c, mi, mj) };
 		}
 		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
@@ -134,13 +136,18 @@ namespace {
 			visit(static_cast<std::size_t>(s));
 	}
 
-	void Sweeper::setTwist(std::int32_t body, const Twist& v)
+	/// Leaves fixed bodies alone, which several threads may visit.
+	void Sweeper::setTwists(const Row& row, const Twist& vi, const Twist& vj)
 	{
-		if (problem.inverseMass[body].isFixed()) return; // several threads may visit it
-		Lanes& motion = bodies[laidOut.placeOf[body]].v;
-		motion[0]     = v.x;
-		motion[1]     = v.y;
-		motion[2]     = v.w;
+		const auto set = [this](std::int32_t place, const InverseMass& mass, const Twist& v) {
+			if (mass.isFixed()) return;
+			Lanes& motion = bodies[place].v;
+			motion[0]     = v.x;
+			motion[1]     = v.y;
+			motion[2]     = v.w;
+		};
+		set(row.contact.i, row.mi, vi);
+		set(row.contact.j, row.mj, vj);
 	}
 
 	/// velocities = freeVelocity + M⁻¹ Hᵀ P from scratch.
@@ -156,11 +163,10 @@ namespace {
 		forEachStrip([this](std::size_t s) {
 			kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-				const Contact& c  = problem.contacts[laidOut.others[k]];
-				Twist          vi = twist(c.i), vj = twist(c.j);
-				applyImpulse(c, rows[k].p, problem.inverseMass[c.i], problem.inverseMass[c.j], vi, vj);
-				setTwist(c.i, vi);
-				setTwist(c.j, vj);
+				const Row& row = rows[k];
+				Twist      vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
+				applyImpulse(row.contact, row.p, row.mi, row.mj, vi, vj);
+				setTwists(row, vi, vj);
 			}
 		});
 	}
@@ -168,16 +174,13 @@ namespace {
 	/// Any contact, one after the other of its three graphs.
 	void Sweeper::sweepRow(std::size_t k, double beta)
 	{
-		Row&               row = rows[k];
-		const Contact&     c   = problem.contacts[laidOut.others[k]];
-		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
-		const Impulse      y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
-				  row.p.r + beta * (row.p.r - row.before.r) };
-		Twist              vi = twist(c.i), vj = twist(c.j);
+		Row&          row = rows[k];
+		const Impulse y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
+			          row.p.r + beta * (row.p.r - row.before.r) };
+		Twist         vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
 		row.before = row.p;
-		row.p      = visit(c, y, row.inverse, mi, mj, vi, vj);
-		setTwist(c.i, vi);
-		setTwist(c.j, vj);
+		row.p      = visit(row.contact, y, row.inverse, row.mi, row.mj, vi, vj);
+		setTwists(row, vi, vj);
 	}
 
 	/// One sweep from what impulses and velocities become when they are extrapolated by beta.
@@ -198,9 +201,9 @@ namespace {
 	void Sweeper::measureRows(std::size_t s, ResidualSums& sums) const
 	{
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-			const Contact& c   = problem.contacts[laidOut.others[k]];
+			const Contact& c   = rows[k].contact;
 			const Impulse& p   = rows[k].p;
-			const double   one = squareNorm(c, naturalMapDefect(c, p, relativeVelocity(c, twist(c.i), twist(c.j)), rows[k].inverse));
+			const double   one = squareNorm(c, naturalMapDefect(c, p, relativeVelocity(c, twistAt(c.i), twistAt(c.j)), rows[k].inverse));
 			sums.square += one;
 			sums.largest = std::max(sums.largest, one);
 			sums.scale += squareNorm(c, p);

@@ -29,6 +29,7 @@ struct SolverSettings {
 	int    threads       = 1;
 	StoppingTest stopping = StoppingTest::NaturalMap;
 	bool   portable      = false; // instructions of every processor only; the bits are the same
+	bool   reference     = false; // contact after contact as law.hpp has it, none in blocks: what blocks are measured against
 };
 
 struct SolverStatistics {

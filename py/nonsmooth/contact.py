@@ -83,6 +83,7 @@ class Solution:
     restarts: int
     converged: bool
     relative: float       # residual (natural map) of what is returned, whatever test stopped the solver
+    seconds: float        # wall time of the solve, without the copying of arrays [s]
 
 
 _BODIES = {"inverse_mass": 3, "free_velocity": 3, "velocity": 3}
@@ -148,11 +149,13 @@ def _arrays(problem, impulse):
 
 
 def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_iterations=1000, check_every=10, threads=1, start="warm",
-          stopping="naturalMap") -> Solution:
+          stopping="naturalMap", path="best") -> Solution:
     """Solves the problem with the project's solver.
 
     ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses of shape (c, 3).
     ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's tests, "Quad", "Maxm", "QM/16".
+    ``path``: the loops of the sweep: "best" (four contacts at a time, by the fastest instructions of this processor), "portable" (instructions of every
+    processor; the same bits) or "reference" (contact after contact, by the general formulas; the same solution to within the tolerance).
     Raises ValueError for settings without sense.
     """
     import _nonsmooth_contact
@@ -161,8 +164,8 @@ def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_ite
         if start not in ("warm", "cold"):
             raise ProblemError(f"start = {start!r}: it must be 'warm', 'cold' or an array of impulses")
         start = problem.warm_start if start == "warm" else np.zeros_like(problem.warm_start)
-    found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, tolerance, max_iterations, check_every, threads, stopping)
-    return Solution(**{name: found[name] for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative")})
+    found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, tolerance, max_iterations, check_every, threads, stopping, path)
+    return Solution(**{name: found[name] for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative", "seconds")})
 
 
 def residual(problem: ContactProblem, impulse=None) -> Residual:

@@ -1,6 +1,6 @@
 """Calls of this package's functions in YADE processes of their own.
 
-Small scenes gain little from threads, so runs side by side use a machine better. Each process has one thread.
+Small scenes gain little from threads, so runs side by side use a machine better. Each process has one thread unless more are asked for.
 """
 
 from __future__ import annotations
@@ -16,20 +16,22 @@ __all__ = ["call"]
 _WORKER = Path(__file__).with_name("_process_worker.py")
 
 
-def call(function, folder, arguments):
+def call(function, folder, arguments, threads=1):
     """Calls ``function(folder, **arguments)`` in a process and returns what it returned, with ``wall_s`` [s] added where it has none.
 
     ``function``: of a module of this package; it returns a dictionary that JSON can hold. ``folder`` exists and is kept; the process
-    writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold. Raises RuntimeError with the end of the process's output where it fails.
+    writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold; ``threads``: of the process. Raises RuntimeError with the end of the
+    process's output where it fails.
     """
     folder, began = Path(folder), time.monotonic()
     request = folder / "request.json"
     request.write_text(json.dumps({"module": function.__module__, "function": function.__name__, "arguments": arguments}))
     (folder / "found.json").unlink(missing_ok=True)
+    # waiting threads must not spin where processes share the cores
+    environment = {**os.environ, "OMP_WAIT_POLICY": "passive"} if threads == 1 else None
     with open(folder / "log.txt", "wb") as log:
-        status = subprocess.run([_yade(), "-n", "-x", "-j1", str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                # waiting threads must not spin, processes share the cores
-                                env={**os.environ, "OMP_WAIT_POLICY": "passive"}).returncode
+        status = subprocess.run([_yade(), "-n", "-x", f"-j{threads}", str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT,
+                                stdin=subprocess.DEVNULL, env=environment).returncode
     try:
         found = json.loads((folder / "found.json").read_text())
     except (OSError, ValueError):

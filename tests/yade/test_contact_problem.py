@@ -53,6 +53,18 @@ def test_solved_again_it_gives_the_same_bits(dumped):
     assert np.array_equal(again.impulse, problem.impulse) and np.array_equal(again.velocity, problem.velocity)
 
 
+def test_each_path_solves_and_an_unknown_one_is_refused(dumped):
+    problem = contact.load(dumped)
+    best, portable, reference = (contact.solve(problem, tolerance=1e-8, max_iterations=20000, start="cold", path=p) for p in ("best", "portable", "reference"))
+    assert np.array_equal(best.impulse, portable.impulse) and np.array_equal(best.velocity, portable.velocity)
+    assert reference.converged and contact.residual(problem, reference.impulse).relative < 1.001e-8  # summed in another order
+    assert 0 < best.seconds < 60
+    # forces with friction are not unique, the motion is: a heap at rest moves in neither
+    assert np.abs(reference.velocity - best.velocity).max() < 1e-5 * 9.81 * problem.time_step
+    with pytest.raises(ValueError, match="path = 'fast': it must be 'best', 'portable' or 'reference'"):
+        contact.solve(problem, path="fast")
+
+
 def test_residual_is_that_of_the_engine_and_of_numpy(dumped):
     problem = contact.load(dumped)
     r = contact.residual(problem)

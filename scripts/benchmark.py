@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Measures how fast steps and sweeps are on this machine, and writes benchmark.json.
+
+  scripts/benchmark.py [--out DIR] [--quick] [--threads T] [--disks N] [--section FILE]
+  scripts/benchmark.py --scale [N,N,…] [--out DIR] [--threads T] [--section FILE]
+"""
+import os, sys
+if "yade" not in sys.modules:  # started as it is: hand over to the launcher
+    launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
+    os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
+
+import argparse
+import json
+import time
+from pathlib import Path
+
+from yade.nonsmooth import packing, records, section
+from yade.nonsmooth.benchmark import report, scale, states, suite
+from yade.nonsmooth.figures.scale import cost_by_size
+from yade.nonsmooth.laboratory import arguments
+from yade.nonsmooth.packing_files import write_atomically
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(prog="benchmark.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--out", default="out/benchmark", metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument("--quick", action="store_true", help="fewer steps and repetitions: minutes, quartiles a little wider")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="threads of the steps, besides one (default: all cores)")
+    parser.add_argument("--disks", type=int, default=20000, metavar="N", help="disks of the slope (default: %(default)s)")
+    parser.add_argument("--section", default="jiufengershan", metavar="FILE", help="a section file with walls DP and FB, or the name of a shipped one")
+    parser.add_argument("--scale", type=sizes, nargs="?", const=scale.SIZES, metavar="N,…",
+                        help=f"instead, how cost grows with size: numbers of disks (default: {','.join(map(str, scale.SIZES))}; the last one takes most of an hour)")
+    args = parser.parse_args()
+    if args.threads < 1:
+        parser.error(f"--threads {args.threads}: give a whole number from 1")
+    return args
+
+
+def sizes(text):
+    try:
+        values = [int(part) for part in text.split(",")]
+    except ValueError:
+        values = [0]
+    if min(values) < 1 or len(set(values)) < len(values):
+        raise argparse.ArgumentTypeError(f"{text!r}: give numbers of disks, separated by commas, each once")
+    return values
+
+
+def measure_scale(args, out):
+    for disks in args.scale:
+        states.section_of(args.section, disks)
+    with arguments.bar() as progress:
+        found = scale.run(out, args.section, args.scale, args.threads, progress)
+    write_atomically(out / "scale.json", json.dumps(found, indent=1).encode())
+    print(report.scale_table(found))
+    print(f"results: {out}/scale.json, {cost_by_size(found['sizes'], out / 'scale.png').name}")
+
+
+def main():
+    args, began = read_arguments(), time.monotonic()
+    out = Path(args.out)
+    records.check_writable(out)
+    if args.scale:
+        return measure_scale(args, out)
+    states.section_of(args.section, args.disks)  # refused before anything runs
+    with arguments.bar() as progress:
+        found = suite.run(out, args.section, args.disks, args.threads, suite.QUICK if args.quick else suite.FULL, progress)
+    summary = {**report.summarise(found), "quick": args.quick, "wall_s": time.monotonic() - began}
+    write_atomically(out / "benchmark.json", json.dumps(summary, indent=1).encode())
+    print(report.table(summary))
+    print(f"{summary['wall_s']:.0f} s of wall time; results: {out}/benchmark.json")
+
+
+try:
+    main()
+except (section.SectionError, packing.PackingError, records.RecordsError, states.BenchmarkError) as error:
+    sys.exit(f"error: {error}")
