@@ -137,7 +137,7 @@ void ContactDynamicsEngine::recordBreaks()
 {
 	for (const nscd::Link& link : seam.links) {
 		if (link.broken == NscdPhys::None) continue;
-		const Vector3r& at = static_cast<const ScGeom&>(*link.interaction->geom).contactPoint;
+		const Vector3r& at = link.geom->contactPoint;
 		const int       a = link.interaction->getId1(), b = link.interaction->getId2();
 		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(a, b)), Real(std::max(a, b)), Real(link.broken), at[0], at[1] });
 	}

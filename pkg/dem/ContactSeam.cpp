@@ -142,7 +142,7 @@ void ContactSeam::collect(Scene& scene)
 		if (!i->isReal() || !i->isActive) continue;
 		const int low = std::min(i->getId1(), i->getId2()), high = std::max(i->getId1(), i->getId2());
 		if ((size_t)high >= size || !present[low] || !present[high]) continue;
-		found.push_back({ low, high, i.get() });
+		found.push_back({ low, high, i->getId1() > i->getId2(), i.get(), static_cast<const ScGeom*>(i->geom.get()), i->phys.get() });
 		++bucket[low + 1];
 	}
 	for (size_t k = 0; k < size; ++k)
@@ -158,7 +158,7 @@ void ContactSeam::collect(Scene& scene)
 	}
 	links.resize(ordered.size());
 	for (size_t k = 0; k < ordered.size(); ++k)
-		links[k] = { ordered[k].interaction };
+		links[k] = { ordered[k].interaction, ordered[k].geom };
 }
 
 /// Puts the contacts that need not be solved for aside, keeping the order of the others.
@@ -222,38 +222,38 @@ size_t ContactSeam::recall()
 
 void ContactSeam::gatherContact(Scene& scene, size_t k)
 {
-	if (k + later < links.size()) fetch<sizeof(Interaction)>(links[k + later].interaction);
 	if (k + soon < links.size()) {
-		fetch<sizeof(ScGeom)>(links[k + soon].interaction->geom.get());
-		fetch<sizeof(NscdPhys)>(links[k + soon].interaction->phys.get());
+		fetch<partOfGeometry>(links[k + soon].geom);
+		fetch<partOfPhysics>(ordered[k + soon].phys);
 	}
 	Link&       link = links[k];
-	const auto& geom = static_cast<const ScGeom&>(*link.interaction->geom);
-	link.phys        = physOf(*link.interaction->phys);
+	const auto& geom = *link.geom;
+	link.phys        = physOf(*ordered[k].phys);
 	if (!link.phys) return;
 	NscdPhys& phys = *link.phys;
 	link.bonded    = phys.bonded;
 	link.broken    = phys.brokenStep == iteration ? phys.brokenMode : int(NscdPhys::None);
 	link.slips     = phys.countsSlip();
-	const Body & b1 = *(*scene.bodies)[link.interaction->getId1()], &b2 = *(*scene.bodies)[link.interaction->getId2()];
-	const Real   r1 = radius[b1.getId()], r2 = radius[b2.getId()]; // negative: not a sphere
+	const Found& ids = ordered[k];
+	const int    id1 = ids.falling ? ids.high : ids.low, id2 = ids.falling ? ids.low : ids.high;
+	const Real   r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
 	const bool   s1 = r1 > 0, s2 = r2 > 0;
 	const Real   gap = -geom.penetrationDepth, h = relaxation.step;
 	Contact      c;
 
 	// from the lower id to the higher, from a wall to a sphere
-	link.swapped      = (s1 && s2) ? b1.getId() > b2.getId() : (s1 && !s2);
-	const Body &   bi = link.swapped ? b2 : b1, &bj = link.swapped ? b1 : b2;
-	const Vector3r n  = link.swapped ? Vector3r(-geom.normal) : geom.normal;
-	c.i               = bi.getId();
-	c.j               = bj.getId();
+	link.swapped     = (s1 && s2) ? ids.falling : (s1 && !s2);
+	const Vector3r n = link.swapped ? Vector3r(-geom.normal) : geom.normal;
+	c.i              = link.swapped ? id2 : id1;
+	c.j              = link.swapped ? id1 : id2;
 	c.nx              = n[0];
 	c.ny              = n[1];
 	if (s1 && s2) {
 		c.leverTi = (link.swapped ? r2 : r1) + 0.5 * gap;
 		c.leverTj = -((link.swapped ? r1 : r2) + 0.5 * gap);
 	} else {
-		const Vector3r ri = geom.contactPoint - bi.state->pos, rj = geom.contactPoint - bj.state->pos;
+		const auto     pos = [&scene](int id) -> const Vector3r& { return (*scene.bodies)[id]->state->pos; };
+		const Vector3r ri = geom.contactPoint - pos(c.i), rj = geom.contactPoint - pos(c.j);
 		c.leverNi = n[1] * ri[0] - n[0] * ri[1];
 		c.leverTi = ri.dot(n);
 		// exactly none through a sphere's centre
@@ -296,7 +296,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	for (long k = 0; k < count; ++k) {
 		const Contact& c    = problem.contacts[k];
 		const Impulse& p    = problem.impulses[k];
-		if (k + (long)soon < count) fetch<sizeof(NscdPhys)>(links[k + soon].phys);
+		if (k + (long)soon < count) fetch<partOfPhysics>(links[k + soon].phys);
 		NscdPhys& phys = *links[k].phys;
 		phys.normal         = p.n / h;
 		phys.tangential     = p.t / h;

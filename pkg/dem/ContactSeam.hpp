@@ -7,6 +7,7 @@
 #include "NscdPhys.hpp"
 #include <contact/problem.hpp>
 #include <core/Scene.hpp>
+#include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
 
@@ -20,7 +21,8 @@ struct Relaxation {
 
 /// One gathered contact's way back to YADE.
 struct Link {
-	Interaction* interaction;
+	Interaction*  interaction;
+	const ScGeom* geom    = nullptr;
 	NscdPhys*    phys    = nullptr;
 	Real         gap     = 0; // at the beginning of the step [m]
 	Real         bias    = 0; // b_n without restitution [m/s]
@@ -68,8 +70,11 @@ private:
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	struct Found {
-		int          low, high; // ids
-		Interaction* interaction;
+		int           low, high; // ids
+		bool          falling;   // from the higher id to the lower
+		Interaction*  interaction;
+		const ScGeom* geom;
+		IPhys*        phys;
 	};
 
 	Relaxation                             relaxation { 1, 0, 0, 0 };

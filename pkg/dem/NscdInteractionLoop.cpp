@@ -95,7 +95,7 @@ void NscdInteractionLoop::action()
 		if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
 		if (k + (long)soon < count) {
 			const Interaction& ahead = *list[k + soon];
-			if (ahead.geom) fetch<sizeof(ScGeom)>(ahead.geom.get());
+			if (ahead.geom) fetch<nscd::partOfGeometry>(ahead.geom.get());
 			if (ahead.phys) fetch<sizeof(NscdPhys)>(ahead.phys.get());
 		}
 		const shared_ptr<Interaction>& I  = list[k];
