@@ -14,7 +14,7 @@ import json
 import time
 from pathlib import Path
 
-from yade.nonsmooth import packing, records, section
+from yade.nonsmooth import errors, records
 from yade.nonsmooth.benchmark import report, scale, states, suite
 from yade.nonsmooth.figures.scale import cost_by_size
 from yade.nonsmooth.laboratory import arguments
@@ -73,5 +73,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError, states.BenchmarkError) as error:
+except errors.UserError as error:
     sys.exit(f"error: {error}")

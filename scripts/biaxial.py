@@ -14,7 +14,7 @@ import json
 import time
 from pathlib import Path
 
-from yade.nonsmooth import packing, records, section
+from yade.nonsmooth import errors, records
 from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report
 from yade.nonsmooth.packing_files import write_atomically
 
@@ -64,5 +64,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError, campaign.CampaignError, pressing.SampleError) as error:
+except errors.UserError as error:
     sys.exit(f"error: {error}")

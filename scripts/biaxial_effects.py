@@ -12,9 +12,9 @@ import argparse
 import json
 from pathlib import Path
 
-from yade.nonsmooth import packing, records, section
+from yade.nonsmooth import errors, records
 from yade.nonsmooth.figures import biaxial as figures
-from yade.nonsmooth.laboratory import arguments, campaign, effects, materials, pressing
+from yade.nonsmooth.laboratory import arguments, effects, materials
 from yade.nonsmooth.packing_files import write_atomically
 
 
@@ -51,5 +51,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError, campaign.CampaignError, pressing.SampleError) as error:
+except errors.UserError as error:
     sys.exit(f"error: {error}")

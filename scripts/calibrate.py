@@ -14,8 +14,8 @@ import json
 import time
 from pathlib import Path
 
-from yade.nonsmooth import packing, records, section
-from yade.nonsmooth.laboratory import calibration, campaign, materials, pressing
+from yade.nonsmooth import errors, records, section
+from yade.nonsmooth.laboratory import calibration, materials
 from yade.nonsmooth.packing_files import write_atomically
 
 
@@ -27,7 +27,7 @@ def read_arguments():
     parser.add_argument("--residual-friction", type=float, metavar="DEG", help="wanted residual angle of friction [°]")
     parser.add_argument("--start", default="wwr", metavar="NAME|FILE", help="material whose other parameters are kept (default: wwr)")
     parser.add_argument("--coarse", type=int, default=600, metavar="N", help="disks of the coarse samples (default: %(default)s)")
-    parser.add_argument("--fine", type=int, default=2500, metavar="N", help="disks of the fine samples (default: %(default)s)")
+    parser.add_argument("--fine", type=int, default=5000, metavar="N", help="disks of the fine samples (default: %(default)s)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[11, 12], metavar="S", help="seeds of the samples (default: 11 12)")
     parser.add_argument("--out", default="material.yaml", metavar="FILE", help="the material; a report stands beside it (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
@@ -62,5 +62,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError, campaign.CampaignError, pressing.SampleError) as error:
+except errors.UserError as error:
     sys.exit(f"error: {error}")

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 from yade import O
-from yade.nonsmooth import experiment, packing, records, results, section, slope
+from yade.nonsmooth import errors, experiment, packing, records, results, section, slope
 from yade.nonsmooth.laboratory import materials
 
 
@@ -107,5 +107,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError, experiment.ExperimentError) as error:
+except errors.UserError as error:
     sys.exit(f"error: {error}")

@@ -14,7 +14,7 @@ import json
 from pathlib import Path
 
 from tqdm import tqdm
-from yade.nonsmooth import packing, records, section
+from yade.nonsmooth import errors, records
 from yade.nonsmooth.laboratory import arguments, materials, wall_shear
 from yade.nonsmooth.packing_files import write_atomically
 
@@ -58,5 +58,5 @@ def main():
 
 try:
     main()
-except (section.SectionError, packing.PackingError, records.RecordsError) as error:
+except errors.UserError as error:
     sys.exit(f"error: {error}")

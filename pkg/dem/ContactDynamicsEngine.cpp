@@ -1,6 +1,7 @@
 #include "ContactDynamicsEngine.hpp"
 #include "BondEllipse.hpp"
 #include "Gravity.hpp"
+#include "NonsmoothTimeStepper.hpp"
 #include <chrono>
 #include <contact/problem_file.hpp>
 #include <core/TimeStepper.hpp>
@@ -34,7 +35,8 @@ void ContactDynamicsEngine::action()
 		statistics.iterations += before;
 	}
 	const Real t2         = clock();
-	account(seam.scatter(*scene, gravity, threads));
+	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
+	account(seam.scatter(*scene, gravity, threads, adapts));
 	report(statistics);
 	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
 }
@@ -127,6 +129,8 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	brokenTorque += s.broken[NscdPhys::Torque];
 	brokenMixed += s.broken[NscdPhys::Mixed];
 	if (s.broken[NscdPhys::Tension] + s.broken[NscdPhys::Shear] + s.broken[NscdPhys::Torque] + s.broken[NscdPhys::Mixed] > 0) recordBreaks();
+	contactRate = s.contactRate;
+	bondRate    = s.bondRate;
 	meanSpeed = s.bodies > 0 ? s.speed / s.bodies : 0;
 	maxSpeed  = s.largestSpeed;
 	centroid  = s.mass > 0 ? Vector3r(s.centre / s.mass) : Vector3r(Vector3r::Zero());
@@ -151,7 +155,8 @@ void ContactDynamicsEngine::dump(const std::string& path) const
 
 void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics)
 {
-	iterations    = statistics.iterations;
+	iterations = lastIterations = statistics.iterations;
+	lastUnsolved  = !statistics.converged;
 	residual      = statistics.residual.relative();
 	residualForce = statistics.residual.rms / scene->dt;
 	++steps;

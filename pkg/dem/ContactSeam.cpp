@@ -287,7 +287,7 @@ void ContactSeam::gatherContact(Scene& scene, size_t k)
 	}
 }
 
-StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount)
+StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
 {
 	threads          = threadCount;
 	const Real h     = relaxation.step;
@@ -328,8 +328,10 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	std::vector<StepSums> parts(chunksC + chunksB);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < (long)parts.size(); ++k) {
-		if ((size_t)k < chunksC) sumContacts(k * sumChunk, std::min((k + 1) * sumChunk, links.size()), parts[k]);
-		else
+		if ((size_t)k < chunksC) {
+			sumContacts(k * sumChunk, std::min((k + 1) * sumChunk, links.size()), parts[k]);
+			if (rates) rateContacts(k * sumChunk, std::min((k + 1) * sumChunk, links.size()), parts[k]);
+		} else
 			sumBodies(gravity, (k - chunksC) * sumChunk, std::min((k - chunksC + 1) * sumChunk, before.size()), parts[k]);
 	}
 	StepSums total;
@@ -341,6 +343,8 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		total.correction += s.correction;
 		total.overlap += s.overlap;
 		total.worstOverlap = std::max(total.worstOverlap, s.worstOverlap);
+		total.contactRate = std::max(total.contactRate, s.contactRate);
+		total.bondRate    = std::max(total.bondRate, s.bondRate);
 		total.touching += s.touching;
 		total.bonds += s.bonds;
 		for (int m = 0; m < 5; ++m)
@@ -381,6 +385,21 @@ void ContactSeam::scatterForces(Scene& scene)
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
 		scene.forces.addForce(id, Vector3r(r.x / h, r.y / h, 0));
 		scene.forces.addTorque(id, Vector3r(0, 0, r.w / h));
+	}
+}
+
+/// How fast contacts turn and bonds cross their ellipses at the end of the step.
+void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
+{
+	for (size_t k = begin; k < end; ++k) {
+		const Contact& c = problem.contacts[k];
+		const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+		const Impulse  u    = contact::relativeVelocity(c, vi, vj);
+		const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
+		sums.contactRate    = std::max(sums.contactRate, (wall ? std::abs(u.n) : std::hypot(vj.x - vi.x, vj.y - vi.y)) / c.length);
+		if (!links[k].phys->bonded) continue;
+		const NscdPhys& phys = *links[k].phys;
+		sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / phys.ellipseNormal, std::abs(u.t) / phys.ellipseTangential));
 	}
 }
 

@@ -39,6 +39,7 @@ struct StepSums {
 	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
 	Real correction = 0;                                      // energy given by relaxing errors of position [J]
 	Real overlap = 0, worstOverlap = 0;                       // sum and maximum over contacts, in units of ℓ
+	Real contactRate = 0, bondRate = 0;                       // [1/s], see NonsmoothTimeStepper
 	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 	// bodies
 	Real     kinetic = 0, potential = 0, external = 0, wallWork = 0; // [J]; external and wallWork during the step
@@ -54,7 +55,8 @@ public:
 	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They need another solve.
 	size_t recall();
 	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
-	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads);
+	/// `rates`: also how fast contacts and bonds change, for the choice of the next step.
+	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads, bool rates);
 
 	nonsmooth::contact::Problem problem;
 	std::vector<Link>           links;
@@ -66,6 +68,7 @@ private:
 	void compact();
 	void gatherContact(Scene& scene, size_t k);
 	void scatterForces(Scene& scene);
+	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 

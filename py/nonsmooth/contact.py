@@ -18,12 +18,14 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from .errors import UserError
+
 __all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "VelocityChanges", "load", "residual", "save", "solve", "velocity_changes"]
 
 FORMAT = 1
 
 
-class ProblemError(ValueError):
+class ProblemError(UserError, ValueError):
     """A problem or its file is not usable; the message says what is wrong."""
 
 

@@ -28,6 +28,7 @@ from yade.minieigenHP import Vector3
 from yade.wrapper import NewtonIntegrator
 
 from . import checkpoints, packing, records, slope, tables
+from .errors import UserError
 from .figures.profiles import front_of
 
 __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
@@ -45,7 +46,7 @@ STILL_SHARE = 0.25       # ... the tolerance goes down to this part of itself
 COLUMNS = tuple(records.COLUMNS)
 
 
-class ExperimentError(RuntimeError):
+class ExperimentError(UserError, RuntimeError):
     """The run cannot go on; the message says why and what helps."""
 
 

@@ -13,13 +13,15 @@ from pathlib import Path
 
 import numpy as np
 
+from .errors import UserError
+
 __all__ = ["FORMAT", "Packing", "PackingError", "cache_folder", "cache_path", "load", "read_text", "save", "write_atomically",
            "write_text"]
 
 FORMAT = 1  # of cache files and of the way packings are made; a new number makes old files unused
 
 
-class PackingError(ValueError):
+class PackingError(UserError, ValueError):
     """A packing that cannot be made, read or written; the message says why and what helps."""
 
 

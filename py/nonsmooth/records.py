@@ -15,11 +15,12 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from .errors import UserError
 from .packing_files import write_atomically
 from .tables import BREAK_MODES
 
 
-class RecordsError(Exception):
+class RecordsError(UserError):
     """A record cannot be written or read; the message says which file, what is wrong and the remedy."""
 
 

@@ -14,10 +14,12 @@ from typing import NoReturn
 import jsonschema
 import yaml
 
+from .errors import UserError
+
 __all__ = ["Document", "SectionError", "read"]
 
 
-class SectionError(ValueError):
+class SectionError(UserError, ValueError):
     """A section file that cannot be used; the message names file, line, key, value and remedy."""
 
 

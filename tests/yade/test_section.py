@@ -104,6 +104,16 @@ def test_with_disks_scales_diameters(section, count):
     assert other.layers == section.layers
 
 
+def test_with_rock_changes_the_layers_alone(section):
+    wwr = section.materials["wwr"]
+    other = section.with_rock(wwr)
+    assert other.materials["rock"] == dataclasses.replace(wwr, name="rock")
+    assert all(other.materials[k] == m for k, m in section.materials.items() if k != "rock")
+    assert other.key() == section.key() and other.key("settled") != section.key("settled")  # the same packing, another slope
+    with pytest.raises(SectionError, match="no density"):
+        section.with_rock(section.materials["ss"])
+
+
 def test_count_in_the_file(tmp_path):
     path = tmp_path / "s.yaml"
     path.write_text(changed(disks__count=2000))

@@ -15,7 +15,6 @@ from yade import O
 from .. import packing, slope
 from . import machine, states
 from .course import Course
-from .statistics import spread
 from .steps import TimedSteps
 
 __all__ = ["SIZES", "measure", "run"]

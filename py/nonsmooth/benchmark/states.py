@@ -18,6 +18,7 @@ from pathlib import Path
 from yade import O, config
 
 from .. import checkpoints, experiment, packing, scene, section, slope
+from ..errors import UserError
 from ..packing_files import cache_folder
 from . import soft_contacts
 
@@ -36,7 +37,7 @@ PROGRESS_STEPS = 20  # between two notes of how far the making is
 KEPT_DAYS = 14       # without use; every build of the engines has states of its own
 
 
-class BenchmarkError(RuntimeError):
+class BenchmarkError(UserError, RuntimeError):
     """A measurement that cannot be made; the message says why and what helps."""
 
 

@@ -21,6 +21,7 @@ import numpy as np
 from yade import O
 
 from .. import checkpoints, records, section, tables
+from ..errors import UserError
 from ..packing_files import write_atomically
 from . import membrane, pressing, sample
 from .walls import Walls
@@ -35,7 +36,7 @@ COLUMNS = ("step", "time_s", "strain", "volumetric_strain", "sigma1_top_Pa", "si
            "iterations_mean", "residual_worst", "unconverged", "overlap_worst_rel")
 
 
-class TestError(RuntimeError):
+class TestError(UserError, RuntimeError):
     """A test that cannot go on; the message says why and what helps."""
 
     __test__ = False  # no test of pytest's

@@ -13,13 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from .. import processes, records
+from ..errors import UserError
 from ..packing_files import write_atomically
 from . import bands, biaxial, pressing, strength
 
 BAND_AT = "4"  # snapshot (strain in per cent) in which bands are measured: after the peak, before they have spread
 
 
-class CampaignError(RuntimeError):
+class CampaignError(UserError, RuntimeError):
     """Tests that could not be run; the message says which and why."""
 
 

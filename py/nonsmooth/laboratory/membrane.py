@@ -11,10 +11,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import Delaunay
 
+from ..errors import UserError
+
 LARGEST_VOID = 1.0  # largest diameters
 
 
-class MembraneError(RuntimeError):
+class MembraneError(UserError, RuntimeError):
     """The outline of the sample is no longer one line from platen to platen."""
 
 

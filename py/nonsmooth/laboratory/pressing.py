@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import checkpoints, packing, processes, section
+from ..errors import UserError
 from ..packing_files import cache_folder, write_atomically
 
 VERSION = 1          # of the way samples are made; a new number makes old files unused
@@ -34,7 +35,7 @@ REST_STEPS = 40      # ... over about so many steps; the walls go on swinging a 
 LIMIT = 6000         # steps
 
 
-class SampleError(RuntimeError):
+class SampleError(UserError, RuntimeError):
     """A sample that cannot be made; the message says why and what helps."""
 
 

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from yade import O
 
-from .claims import Outcome, at_least, at_most, near
+from .claims import Outcome, at_most, near
 from .registry import check
-from .small_scenes import G, begin, contacts, disk, engine, material, run, wall, weight
+from .small_scenes import G, begin, contacts, disk, material, run, wall, weight
 
 RADIUS = 0.5
 EXACT = "the impact law is exact; left are the solve, 1e-12, and rounding"

@@ -1,0 +1,52 @@
+#include "NonsmoothTimeStepper.hpp"
+#include "ContactDynamicsEngine.hpp"
+#include <core/Scene.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((NonsmoothTimeStepper));
+
+void NonsmoothTimeStepper::validate() const
+{
+	const auto fail     = [](const string& why) { throw std::runtime_error("NonsmoothTimeStepper: " + why); };
+	const auto positive = [&](const char* name, Real value) {
+		if (!(value > 0) || !std::isfinite(value)) fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be positive");
+	};
+	positive("smallest", smallest);
+	positive("path", path);
+	positive("bondPath", bondPath);
+	if (!(largest >= smallest) || !std::isfinite(largest))
+		fail("largest = " + boost::lexical_cast<string>(largest) + ": it must not be below smallest = " + boost::lexical_cast<string>(smallest));
+	if (!(growth >= 1)) fail("growth = " + boost::lexical_cast<string>(growth) + ": it must be at least 1");
+	if (scene->engines.empty() || scene->engines.front().get() != this)
+		fail("it must stand first in O.engines, since every engine after it works with the step it chooses");
+}
+
+void NonsmoothTimeStepper::action()
+{
+	validate();
+	const ContactDynamicsEngine* solver = nullptr;
+	for (const auto& engine : scene->engines)
+		if (const auto* found = dynamic_cast<const ContactDynamicsEngine*>(engine.get())) solver = found;
+	if (!solver) throw std::runtime_error("NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine: add one, or set O.dt yourself");
+
+	Real       step  = largest;
+	const auto bound = [&](Real most, Limit why) {
+		if (most < step) {
+			step  = most;
+			limit = why;
+		}
+	};
+	limit = Largest;
+	if (solver->contactRate > 0) bound(path / solver->contactRate, Contacts);
+	if (solver->bondRate > 0) bound(bondPath / solver->bondRate, Bonds);
+	const bool busy = solver->lastUnsolved || (sweeps > 0 && solver->lastIterations > sweeps);
+	bound(busy ? scene->dt : growth * scene->dt, busy ? Sweeps : Growth);
+	if (step < smallest) {
+		step  = smallest;
+		limit = Smallest;
+	}
+	scene->dt = step;
+}
+
+} // namespace yade
