@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 from yade.nonsmooth import errors, records, section
-from yade.nonsmooth.laboratory import calibration, materials
+from yade.nonsmooth.laboratory import arguments, calibration, materials
 from yade.nonsmooth.packing_files import write_atomically
 
 
@@ -50,8 +50,10 @@ def main():
     path = Path(args.out)
     work = path.with_name(path.stem + "-calibration")
     records.check_writable(work)
-    search = calibration.Calibration(wanted, materials.load(args.start), work, args.threads, lambda text: print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True), args.resume)
-    best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds))
+    say = lambda text: print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True)  # noqa: E731
+    with arguments.bar() as progress:
+        search = calibration.Calibration(wanted, materials.load(args.start), work, args.threads, say, args.resume, progress)
+        best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds))
     write_atomically(work / "report.json", json.dumps({**report, "wall_s": time.monotonic() - began}, indent=1).encode())
     c, angle = report["found"][:2]
     measured = section.Envelope(*map(float, (c, angle)))

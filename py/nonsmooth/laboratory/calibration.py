@@ -48,9 +48,10 @@ class Wanted:
 class Calibration:
     """Searches a material; every trial is kept in ``out/trials.json`` and not computed again by a resumed search."""
 
-    def __init__(self, wanted, start, out, threads, say=print, resume=False):
-        """``start``: section.Material whose other parameters are kept; ``say``: called with a line of text for every trial."""
-        self.wanted, self.start, self.out, self.threads, self.say = wanted, start, Path(out), threads, say
+    def __init__(self, wanted, start, out, threads, say=print, resume=False, progress=lambda share, doing: None):
+        """``start``: section.Material whose other parameters are kept; ``say``: called with a line of text for every trial; ``progress``: now and then
+        with the share that is done of as many trials as there may be, and what is being done."""
+        self.wanted, self.start, self.out, self.threads, self.say, self.progress = wanted, start, Path(out), threads, say, progress
         self.names = ("tensile_strength", "friction") + (("rolling_friction", "residual_share") if wanted.with_residual else ())
         self.trials = []
         self.known = json.loads((self.out / "trials.json").read_text()) if resume and (self.out / "trials.json").exists() else []
@@ -60,6 +61,7 @@ class Calibration:
         self.share = share
         self.jacobian = np.array([SLOPES[name] for name in self.names], float).T[:4 if wanted.with_residual else 2]
         self.last = None
+        self._done, self._whole = 0.0, 1.0  # disks of the trials behind us, and of all that may come
 
     # ---- parameters -----------------------------------------------------------------------------
     def material(self, x):
@@ -90,8 +92,12 @@ class Calibration:
         """c [Pa], φ [°], c_res, φ_res of a material, from biaxial tests."""
         tests = [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.1 if self.wanted.with_residual else 0.03)
                  for seed in seeds for p in PRESSURES]
-        s = campaign.summarise(material, campaign.run(tests, self.out / "trial", self.threads), 0.0, self.threads)
+        s = campaign.summarise(material, campaign.run(tests, self.out / "trial", self.threads, progress=self._show(disks * len(seeds))), 0.0, self.threads)
         return [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"], 1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]
+
+    def _show(self, disks):
+        number, before, self._done = len(self.trials) + 1, self._done, self._done + disks
+        return lambda share, doing: self.progress(min(1.0, (before + share * disks) / self._whole), f"trial {number}: {doing}")
 
     def misfits(self, found):
         """What a trial misses, in units of SCALE and DEGREES."""
@@ -125,7 +131,10 @@ class Calibration:
 
     def run(self, coarse, fine, trials=(8, 4)):
         """Coarse search, then a fine one from there; ``coarse``, ``fine``: (disks, seeds). Returns the material and a report, a dictionary."""
+        sizes = [kind[0] * len(kind[1]) for kind in (coarse, fine)]
+        self._whole = sizes[0] * trials[0] + sizes[1] * trials[1]
         x, _ = self.search(*coarse, self.x0, trials[0], COARSE)
+        self._done = sizes[0] * trials[0]
         x, misfit = self.search(*fine, x, trials[1])
         found = next(t["found"] for t in self.trials if t["key"] == [list(map(float, x)), fine[0], list(fine[1])])
         _, singular, directions = np.linalg.svd(self.jacobian)
