@@ -59,9 +59,11 @@ class Calibration:
         first = {"tensile_strength": 1.1 * wanted.cohesion, "friction": start.friction, "rolling_friction": start.rolling_friction, "residual_share": max(share, 0.02)}
         self.x0 = np.log([first[name] for name in self.names])
         self.share = share
-        self.jacobian = np.array([SLOPES[name] for name in self.names], float).T[:4 if wanted.with_residual else 2]
-        self.last = None
+        self.jacobian, self.last = self._first_jacobian(), None
         self._done, self._whole = 0.0, 1.0  # disks of the trials behind us, and of all that may come
+
+    def _first_jacobian(self):
+        return np.array([SLOPES[name] for name in self.names], float).T[:4 if self.wanted.with_residual else 2]
 
     # ---- parameters -----------------------------------------------------------------------------
     def material(self, x):
@@ -113,7 +115,7 @@ class Calibration:
         scale = np.array([1 / SCALE, 1 / DEGREES, 1 / SCALE, 1 / DEGREES])[:len(self.jacobian)]
         best = [None, None]
         low, high = (np.log([BOUNDS[name][k] for name in self.names]) for k in (0, 1))
-        self.last = None
+        self.jacobian, self.last = self._first_jacobian(), None  # what another kind of samples has taught is mostly their scatter
 
         def residuals(at):
             r = self.misfits(self.measure(at, disks, seeds))
