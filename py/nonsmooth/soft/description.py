@@ -1,0 +1,92 @@
+"""An equivalent soft model in words: its parameters as a table, and what it does not have of the hard law."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .parameters import Equivalent
+
+__all__ = ["Description", "describe"]
+
+_ALWAYS = (
+    "rigidity: contacts yield before they reach a threshold, and disks overlap by N/k_n",
+    "restitution: a spring gives speed back, less what damping takes; in the hard law e alone decides",
+    "walls: friction only, without cohesion, rolling resistance or slip weakening; the smaller friction angle of wall and disk holds",
+    "residual tensile strength σ_res: a contact that is not bonded bears no tension, and the parts μ_s σ_res ℓ and μ_r ℓ σ_res ℓ of its other "
+    "thresholds are missing",
+)
+_BONDED = (
+    "elliptic zone: a bond breaks when its threshold is reached, after its elastic elongation, and not after a path of ε_n ℓ or ε_t ℓ at the "
+    "threshold; the energy of a break is smaller",
+    "softening by steps: a contact keeps the peak friction of its broken bond until soft.weaken() is called",
+)
+_LOST = {
+    "cohesion_moment": (
+        *_BONDED,
+        "a bond over a gap that breaks lets go even under compression; the disks meet after closing the gap",
+        "rolling of new contacts: the arm is 2 μ_r min(R) until soft.weaken() makes it μ_r ℓ",
+    ),
+    "jcfpm": (
+        *_BONDED,
+        "moments: neither bonds nor contacts resist rolling (μ_r and its residual value)",
+        "distance at rest: a contact counts overlap from where it was made; one that was made over a gap presses before the disks touch, as long "
+        "as it lives",
+    ),
+    "friction": (
+        "bonds: no tension, shear or torque threshold from cohesion; friction is the residual one from the start",
+        "moments: contacts do not resist rolling (the residual value of μ_r)",
+    ),
+}
+
+
+class Description(NamedTuple):
+    """``rows``: (what, in YADE, value, in the hard law), texts; ``lost``: sentences. As a string, both as plain text."""
+
+    rows: tuple[tuple[str, str, str, str], ...]
+    lost: tuple[str, ...]
+
+    def __str__(self):
+        widths = [max(map(len, column)) for column in zip(*self.rows)]
+        lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths)).rstrip() for row in self.rows]
+        return "\n".join([*lines, "", "Not in the soft model:", *(f"* {line}" for line in self.lost)])
+
+
+def describe(e: Equivalent) -> Description:
+    """Parameters at the mean diameter, for a contact of two equal disks, with those of the hard law beside them; and what is lost."""
+    m, length = e.material, e.length
+    kn, ks, kr = e.stiffnesses(0.5 * length, 0.5 * length)
+    tension, shear, torque = e.thresholds(length)
+    law = {"cohesion_moment": "Law2_ScGeom6D_CohFrictPhys_CohesionMoment", "jcfpm": "Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM",
+           "friction": "Law2_ScGeom_FrictPhys_CundallStrack"}[e.model]
+    names = {"cohesion_moment": ("normalAdhesion", "shearAdhesion", "rollingAdhesion"), "jcfpm": ("FnMax", "FsMax", "-"),
+             "friction": ("-", "-", "-")}[e.model]
+    rows = [
+        ("quantity", "in YADE", "value", "hard law"),
+        ("contact law", law, "-", "Law2_ScGeom_NscdPhys_SignoriniCoulomb"),
+        ("mean diameter ℓ", "-", f"{length:.6g} m", "ℓ"),
+        ("Young's modulus", "young", f"{e.young:.6g} Pa", "rigid"),
+        ("normal stiffness", "kn", f"{kn:.6g} N/m", "rigid"),
+        ("shear stiffness", "ks", f"{ks:.6g} N/m", "rigid"),
+        ("rolling stiffness", "kr", f"{kr:.6g} N m" if kr else "none", "rigid"),
+        ("tension threshold", names[0], _force(tension, "N"), "F_a = σ_ext ℓ"),
+        ("shear threshold at N = 0", names[1], _force(shear, "N"), "μ_s F_a"),
+        ("torque threshold at N = 0", names[2], _force(torque, "N m"), "μ_r ℓ F_a"),
+    ]
+    if e.model != "friction":
+        rows.append(("friction of a bond", "tanFrictionAngle" if e.model == "jcfpm" else "tangensOfFrictionAngle", f"{m.friction:.6g}", "μ_s"))
+    rows.append(("friction without a bond", "frictionAngle of the material" if e.model != "jcfpm" else "residualFrictionAngle of the material",
+                 f"{m.residual_friction:.6g}", "residual μ_s"))
+    if e.model == "cohesion_moment":
+        rows += [("rolling arm of a bond", "maxRollPl", f"{m.rolling_friction * length:.6g} m", "μ_r ℓ"),
+                 ("rolling arm without a bond", "maxRollPl", f"{m.residual_rolling_friction * length:.6g} m", "residual μ_r ℓ")]
+    if tension:
+        rows += [("elongation of a bond at its break", "F_a/kn", f"{tension / kn:.3g} m", f"ε_n ℓ = {m.bond_ellipse[0] * length:.3g} m"),
+                 ("energy of a break in tension", "F_a²/(2 kn)", f"{tension**2 / (2 * kn):.3g} J",
+                  f"F_a ε_n ℓ = {tension * m.bond_ellipse[0] * length:.3g} J")]
+    rows += [("restitution of elastic disks", f"damping {e.damping:g}", f"{e.restitution:.3g}", f"e = {m.restitution:g}"),
+             ("largest stable time step", "O.dt", f"{e.step_limit:.3g} s", "no such limit")]
+    return Description(tuple(rows), _ALWAYS + _LOST[e.model])
+
+
+def _force(value: float, unit: str) -> str:
+    return f"{value:.6g} {unit}" if value else "none"

@@ -1,0 +1,76 @@
+"""Materials and engines of a scene with soft contacts, in the manner of :mod:`yade.nonsmooth.scene`."""
+
+from __future__ import annotations
+
+import math
+
+from yade.wrapper import (
+    Bo1_Segment_Aabb, Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, Ip2_FrictMat_FrictMat_FrictPhys,
+    Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, JCFpmMat, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, Law2_ScGeom_FrictPhys_CundallStrack,
+    Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM, NewtonIntegrator, PyRunner)
+
+__all__ = ["engines", "material", "wall_material"]
+
+
+def material(e, **others):
+    """The material of disks for the :class:`~yade.nonsmooth.soft.Equivalent` ``e``, not yet in the scene; ``others``: further attributes.
+
+    It rules contacts that are not bonded: its friction is the residual one. Strengths are such that YADE's own formulae give the bond's
+    thresholds at the mean diameter, normalCohesion = σ_ext ℓ/R² and tensileStrength = σ_ext ℓ/(π R²) with R = ℓ/2. At other
+    diameters they do not, since YADE multiplies by min(R)² and the law by ℓ; :func:`~yade.nonsmooth.soft.bonds.bond` sets each contact.
+    """
+    m = e.material
+    values = dict(density=m.density, young=e.young, poisson=e.shear_ratio, frictionAngle=math.atan(m.residual_friction))
+    stress = 4 * e.thresholds(e.length)[0] / e.length**2
+    if e.model == "cohesion_moment":
+        # YADE's arm is η min(R), the law's μ_r ℓ
+        values |= dict(normalCohesion=stress, shearCohesion=m.friction * stress, etaRoll=2 * m.residual_rolling_friction, etaTwist=0,
+                       alphaKr=e.rolling_ratio, alphaKtw=0, momentRotationLaw=True, fragile=True, isCohesive=m.bonded)
+        return CohFrictMat(**{**values, **others})
+    if e.model == "jcfpm":
+        values |= dict(tensileStrength=stress / math.pi, cohesion=m.friction * stress / math.pi, frictionAngle=math.atan(m.friction),
+                       residualFrictionAngle=math.atan(m.residual_friction))
+        return JCFpmMat(**{**values, **others})
+    return FrictMat(**{**values, **others})
+
+
+def wall_material(e, friction, **others):
+    """The material of walls, for every model: springs with friction, not yet in the scene.
+
+    ``friction``: coefficient [-]. YADE takes the smaller of the two bodies' friction angles; the wall's alone rules in the hard law.
+    """
+    return FrictMat(**{**dict(density=e.material.density, young=e.young, poisson=e.shear_ratio, frictionAngle=math.atan(friction)), **others})
+
+
+def engines(e, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200):
+    """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below ``e.step_limit``.
+
+    ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``:
+    springs act once disks overlap, and bonds over a gap are made by :func:`~yade.nonsmooth.soft.bonds.bond`. ``every``: steps after
+    which contacts whose bond broke get the residual strengths (:func:`~yade.nonsmooth.soft.bonds.weaken`).
+
+    Disks touch Segment walls through FrictPhys in all models. That functor gives no rotations (ScGeom, not ScGeom6D), which
+    CohesionMoment needs, and JCFpm needs a JCFpmState on both bodies: so walls take :func:`wall_material`, and contacts with them have
+    neither cohesion nor rolling resistance. A CohFrictMat or JCFpmMat on a Segment makes YADE crash.
+    """
+    geometry = Ig2_Sphere_Sphere_ScGeom6D() if e.model == "cohesion_moment" else Ig2_Sphere_Sphere_ScGeom()
+    own = {
+        "cohesion_moment": lambda: ([Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()],
+                                    # incremental, or thresholds of torques would not be kept (YADE's own warning)
+                                    [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True)]),
+        "jcfpm": lambda: ([Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(cohesiveTresholdIteration=0)], [Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()]),
+        "friction": lambda: ([], []),
+    }
+    physics, laws = own[e.model]()
+    residual = PyRunner(command="from yade.nonsmooth import soft; soft.weaken()", iterPeriod=every, label="softResidual")
+    return [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=verlet),
+        InteractionLoop([geometry, Ig2_Segment_Sphere_ScGeom()], [*physics, Ip2_FrictMat_FrictMat_FrictPhys()],
+                        [*laws, Law2_ScGeom_FrictPhys_CundallStrack()]),
+        *before,
+        NewtonIntegrator(damping=e.damping, dampGravity=False, gravity=gravity),  # a falling disk is not braked
+        *([residual] if laws else []),
+        *after,
+    ]
