@@ -52,7 +52,8 @@ def engines(e, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200
 
     Disks touch Segment walls through FrictPhys in all models. That functor gives no rotations (ScGeom, not ScGeom6D), which
     CohesionMoment needs, and JCFpm needs a JCFpmState on both bodies: so walls take :func:`wall_material`, and contacts with them have
-    neither cohesion nor rolling resistance. A CohFrictMat or JCFpmMat on a Segment makes YADE crash.
+    neither cohesion nor rolling resistance. YADE refuses a JCFpmMat on a Segment; a CohFrictMat on one it takes without a check, and
+    treats its ScGeom as the ScGeom6D that it is not.
     """
     geometry = Ig2_Sphere_Sphere_ScGeom6D() if e.model == "cohesion_moment" else Ig2_Sphere_Sphere_ScGeom()
     own = {
@@ -70,7 +71,8 @@ def engines(e, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200
         InteractionLoop([geometry, Ig2_Segment_Sphere_ScGeom()], [*physics, Ip2_FrictMat_FrictMat_FrictPhys()],
                         [*laws, Law2_ScGeom_FrictPhys_CundallStrack()]),
         *before,
-        NewtonIntegrator(damping=e.damping, dampGravity=False, gravity=gravity),  # a falling disk is not braked
+        # weight is damped too, YADE's default: with forces of contacts damped alone, a disk on a wall never comes to rest
+        NewtonIntegrator(damping=e.damping, gravity=gravity),
         *([residual] if laws else []),
         *after,
     ]

@@ -1,0 +1,314 @@
+"""Soft counterparts of a material: their thresholds against the hard law's, bonds contact by contact, walls, the step's limit, the way back."""
+import dataclasses
+import math
+import random
+
+import pytest
+from yade import O
+from yade.nonsmooth import scene, section, soft
+from yade.nonsmooth.verification.bonds import F_A, FRICTION, LENGTH, PUSH, RADIUS, RESIDUAL, ROLLING, SIGMA, Pair, cases
+from yade.wrapper import CohFrictMat, FrictMat, JCFpmMat
+
+from contact_scenes import begin, contacts, engine, run
+
+ROCK = section.Material("rock", friction=FRICTION, residual_friction=0.2, rolling_friction=ROLLING, residual_rolling_friction=0.05,
+                        tensile_strength=SIGMA, density=2500.0)
+E = 1e9  # Pa
+# A ramp of 8,000 steps overshoots by rate/ω, 7e-4 of a threshold; contacts that yield by 1e-3 ℓ turn the load by 1e-3.
+RAMP = 5e-3
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.reset()
+
+
+def parameters(model="cohesion_moment", rock=ROCK, **more):
+    return soft.equivalent(rock, E, model, **{**dict(diameter=LENGTH, damping=0.5), **more})
+
+
+class SoftPair:
+    """A fixed disk and a free one at `angle`, as verification.bonds.Pair has them, with soft contacts."""
+
+    def __init__(self, e, angle=0.0, bonded=True, gap=0.0):
+        O.reset()
+        stuff = soft.material(e)
+        O.materials.append(stuff)
+        self.c, self.s = math.cos(angle), math.sin(angle)
+        O.bodies.append(scene.disk((0, 0), RADIUS, stuff, fixed=True))
+        self.free = O.bodies.append(scene.disk(((LENGTH + gap) * self.c, (LENGTH + gap) * self.s), RADIUS, stuff))
+        O.engines = soft.engines(e, gravity=(0, 0, 0))
+        O.dt = 0.5 * e.step_limit
+        if e.model == "jcfpm":
+            O.bodies[self.free].state.blockedDOFs = "zXYZ"  # nothing resists rolling
+        if bonded:
+            assert soft.bond(e) == 1
+
+    def load(self, normal=0.0, shear=0.0, torque=0.0):
+        """Compression and shear [N] at the contact point on the free disk, torque about it [N m]."""
+        O.forces.setPermF(self.free, (-normal * self.c - shear * self.s, -normal * self.s + shear * self.c, 0))
+        O.forces.setPermT(self.free, (0, 0, torque - RADIUS * shear))
+
+    def threshold(self, loads, yields, steps=8000):
+        """x at which `yields(contact)` becomes true, None (contact lost) included: loads grow to those of x = 0, then x to 1.2."""
+        for k in range(steps // 4):
+            self.load(**{key: value * 4 * k / steps for key, value in loads(0).items()})
+            O.step()
+        for k in range(steps):
+            self.load(**loads(1.2 * k / steps))
+            O.step()
+            if yields(next(iter(contacts()), None)):
+                return 1.2 * k / steps
+        return math.inf
+
+
+def broken(contact):
+    from yade.nonsmooth.soft.bonds import bonded
+
+    return contact is None or not bonded(contact.phys)
+
+
+@pytest.mark.parametrize("angle", [0.0, 2.0])
+@pytest.mark.parametrize("name", ["tension", "shear", "torque", "shear under compression", "torque under compression", "shear under tension"])
+def test_a_soft_bond_breaks_where_the_hard_one_does(name, angle):
+    loads = cases(F_A, FRICTION, ROLLING)[name][2]
+    hard = Pair(angle).threshold(loads)
+    found = SoftPair(parameters(), angle).threshold(loads, broken)
+    print(f"{name}, {angle:g} rad: hard {hard:.6f}, soft {found:.6f} of the derived threshold")
+    assert found == pytest.approx(hard, rel=RAMP)
+
+
+@pytest.mark.parametrize("name", ["tension", "shear", "shear under compression"])
+def test_a_bond_of_jcfpm_breaks_where_the_hard_one_does(name):
+    loads = cases(F_A, FRICTION, ROLLING)[name][2]
+    hard = Pair(2.0).threshold(loads)
+    found = SoftPair(parameters("jcfpm"), 2.0).threshold(loads, broken)
+    print(f"jcfpm, {name}: hard {hard:.6f}, soft {found:.6f} of the derived threshold")
+    assert found == pytest.approx(hard, rel=RAMP)
+
+
+def slides(contact):
+    p = contact.phys
+    return p.shearForce.norm() >= p.tangensOfFrictionAngle * p.normalForce.norm() * (1 - 1e-9) > 0
+
+
+def rolls(contact):
+    p = contact.phys
+    return p.moment_bending.norm() >= p.maxRollPl * p.normalForce.norm() * (1 - 1e-9) > 0
+
+
+@pytest.mark.parametrize("name, yields", [("shear under compression", slides), ("torque under compression", rolls)])
+def test_a_contact_without_a_bond_yields_where_the_hard_one_does(name, yields):
+    loads = cases(0.0, 0.2, 0.05)[name][2]
+    pair = Pair(2.0, **{**RESIDUAL, "residualTensileStrength": 0.0})
+    engine().unbond()
+    hard = pair.threshold(loads)
+    found = SoftPair(parameters(), 2.0, bonded=False, gap=-1e-9).threshold(loads, yields)
+    print(f"no bond, {name}: hard {hard:.6f}, soft {found:.6f} of the derived threshold")
+    assert found == pytest.approx(hard, rel=RAMP)
+
+
+def test_springs_with_friction_slide_where_the_residual_law_does():
+    loads = cases(0.0, 0.2, 0.0)["shear under compression"][2]
+    pair = SoftPair(parameters("friction"), 2.0, bonded=False, gap=-1e-9)
+    O.bodies[pair.free].state.blockedDOFs = "zXYZ"  # nothing resists rolling
+    assert pair.threshold(loads, slides) == pytest.approx(1, rel=RAMP)
+
+
+def test_a_bond_over_a_gap_is_born_without_force_and_breaks_at_the_same_load():
+    loads = cases(F_A, FRICTION, ROLLING)["tension"][2]
+    for model in ("cohesion_moment", "jcfpm"):
+        pair = SoftPair(parameters(model), gap=0.015)
+        run(100)
+        assert O.bodies[pair.free].state.pos[0] == pytest.approx(LENGTH + 0.015, abs=1e-12)  # rounding of R₁ + R₂ − distance
+        assert pair.threshold(loads, broken) == pytest.approx(1, rel=RAMP)
+
+
+def lattice(stuff, seed=3):
+    """Disks of several sizes with gaps and overlaps around the creation distance."""
+    dice = random.Random(seed)
+    for k in range(36):
+        O.bodies.append(scene.disk((k % 6, k // 6), dice.uniform(0.46, 0.5), stuff))
+
+
+def test_bonds_are_those_of_the_hard_law_with_its_thresholds_at_each_contact():
+    rock = dataclasses.replace(ROCK, bond_creation_distance=0.03)
+    hard_stuff = scene.material(rock)
+    O.materials.append(hard_stuff)
+    lattice(hard_stuff)
+    begin(gravity=(0, 0, 0), reach=0.05)
+    run(1)
+    count = engine().bond()
+    hard = {frozenset((i.id1, i.id2)): (i.phys.tensileForce, i.phys.friction, i.phys.rollingArm) for i in contacts() if i.phys.bonded}
+    for model in ("cohesion_moment", "jcfpm"):
+        O.reset()
+        e = parameters(model, rock, diameter=(0.9, 1.0))
+        O.materials.append(soft.material(e))
+        lattice(O.materials[0])
+        O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0)), 0.5 * e.step_limit
+        assert 0 < soft.bond(e) == count < 60
+        assert soft.bond(e) == 0
+        assert {frozenset((i.id1, i.id2)) for i in contacts()} == set(hard)
+        for i in contacts():
+            tension, friction, arm = hard[frozenset((i.id1, i.id2))]
+            p, same = i.phys, dict(rel=1e-12)  # products in another order
+            if model == "jcfpm":
+                assert (p.FnMax, p.FsMax, p.tanFrictionAngle) == pytest.approx((tension, friction * tension, friction), **same)
+            else:
+                assert (p.normalAdhesion, p.shearAdhesion, p.rollingAdhesion) == pytest.approx((tension, friction * tension, arm * tension), **same)
+                assert (p.tangensOfFrictionAngle, p.maxRollPl) == pytest.approx((friction, arm), **same)
+            r1, r2 = (O.bodies[k].shape.radius for k in (i.id1, i.id2))
+            assert (p.kn, p.ks) == pytest.approx(e.stiffnesses(r1, r2)[:2], **same)
+
+
+def test_bonds_join_the_disks_of_one_layer_only():
+    e = parameters()
+    O.materials.append(soft.material(e))
+    ids = [O.bodies.append(scene.disk((k, 0), RADIUS, O.materials[0])) for k in range(4)]
+    O.engines = soft.engines(e)
+    assert (soft.bond(e, ids[:2]), soft.bond(e, ids[2:])) == (1, 1)
+    assert sorted((i.id1, i.id2) for i in contacts()) == [(0, 1), (2, 3)]
+    assert soft.bond(parameters(rock=dataclasses.replace(ROCK, bonded=False))) == 0
+
+
+@pytest.mark.parametrize("model", ["cohesion_moment", "jcfpm"])
+def test_a_broken_bond_gets_the_residual_strengths(model):
+    pair = SoftPair(parameters(model))
+    loads = cases(F_A, FRICTION, ROLLING)["shear under compression"][2]
+    assert pair.threshold(loads, broken) < 1.2
+    soft.weaken()
+    p = contacts()[0].phys
+    if model == "jcfpm":
+        assert p.tanFrictionAngle == pytest.approx(0.2)
+    else:
+        assert (p.tangensOfFrictionAngle, p.maxRollPl) == pytest.approx((0.2, 0.05 * LENGTH))
+
+
+@pytest.mark.parametrize("model", soft.MODELS)
+def test_a_disk_rests_on_a_segment_by_its_spring_and_slides_along_it(model):
+    e = parameters(model)
+    O.materials.append(soft.material(e))
+    wall = soft.wall_material(e, 0.1)
+    O.materials.append(wall)
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], wall, piece=1, sense=1))
+    body = O.bodies[O.bodies.append(scene.disk((0.3, RADIUS), RADIUS, O.materials[0]))]
+    O.engines, O.dt = soft.engines(e), 0.5 * e.step_limit
+    run(1000)
+    weight = body.state.mass * 9.81
+    assert RADIUS - body.state.pos[1] == pytest.approx(weight / (E * RADIUS), rel=1e-3)  # at rest: k_n = E R at a wall
+    body.state.blockedDOFs = "zXYZ"
+    body.state.vel = (1, 0, 0)
+    run(200)
+    drag = O.forces.f(body.id)[0]
+    assert drag == pytest.approx(-0.1 * weight, rel=0.01)  # the normal force still trembles a little
+    assert all(type(i.phys).__name__ == "FrictPhys" for i in contacts())
+
+
+def test_damping_gives_the_restitution_that_is_stated():
+    for damping in (0.0, 0.2, 0.7):
+        e = parameters("friction", damping=damping)
+        O.reset()
+        O.materials.append(soft.material(e))
+        O.bodies.append(scene.disk((0, 0), RADIUS, O.materials[0], fixed=True))
+        body = O.bodies[O.bodies.append(scene.disk((LENGTH + 1e-4, 0), RADIUS, O.materials[0]))]
+        body.state.vel = (-0.1, 0, 0)
+        O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0)), 0.01 * e.step_limit
+        run(3000)
+        assert body.state.vel[0] == pytest.approx(0.1 * e.restitution, rel=0.01)  # the spring's half period is some 300 steps
+
+
+def test_damping_slows_a_fall_as_stated():
+    e = parameters("friction", damping=0.2)
+    O.materials.append(soft.material(e))
+    body = O.bodies[O.bodies.append(scene.disk((0, 0), RADIUS, O.materials[0]))]
+    O.engines, O.dt = soft.engines(e), 0.5 * e.step_limit
+    run(100)
+    assert body.state.vel[1] == pytest.approx(-0.8 * 9.81 * 100 * O.dt, rel=1e-12)
+
+
+def growth(e, factor, places):
+    """Largest speed of bonded disks after 2,000 steps of `factor` times the limit, by that at the beginning; no damping."""
+    O.reset()
+    O.materials.append(soft.material(e))
+    for k, place in enumerate(places):
+        body = O.bodies[O.bodies.append(scene.disk(place, RADIUS, O.materials[0]))]
+        body.state.vel = (1e-6 * (-1)**k, 0.3e-6 * (-1)**(k // 2), 0)
+    O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0)), factor * e.step_limit
+    soft.bond(e)
+    run(2000)
+    return max(b.state.vel.norm() for b in O.bodies) / 1e-6
+
+
+def test_the_step_limit_is_where_a_pair_becomes_unstable_and_safe_for_a_patch():
+    strong = dataclasses.replace(ROCK, tensile_strength=1e30)
+    pair = [(0, 0), (LENGTH, 0)]
+    e = parameters(rock=strong, contacts=1, damping=0)
+    assert growth(e, 0.99, pair) < 20       # below the limit steps of 2/ω amplify by 1/√(1 − 0.99²) = 7
+    assert growth(e, 1.01, pair) > 1e6      # above it by exp(2 arcosh 1.01) = 1.3 a step
+    patch = [(LENGTH * (a + 0.5 * b), LENGTH * b * math.sqrt(0.75)) for a in range(5) for b in range(5)]
+    e = parameters(rock=strong, damping=0)
+    assert growth(e, 0.99, patch) < 20
+    assert growth(e, 3.0, patch) > 1e6      # and the bound is no worse than a factor of three
+
+
+def test_the_way_back():
+    pair = SoftPair(parameters())
+    back = soft.material_of(contacts()[0], residual=ROCK, name="rock")
+    assert dataclasses.asdict(back) == pytest.approx(dataclasses.asdict(ROCK), rel=1e-12)
+    pair.load(normal=-2 * F_A)
+    run(200)
+    assert not contacts()
+    rock = dataclasses.replace(ROCK, rolling_friction=0.125, residual_rolling_friction=0.125, residual_friction=FRICTION)
+    for model, lost in (("cohesion_moment", {}), ("jcfpm", dict(rolling_friction=0.0, residual_rolling_friction=0.0))):
+        back = soft.material_of(soft.material(parameters(model, rock)), LENGTH, name="rock")
+        assert dataclasses.asdict(back) == pytest.approx(dataclasses.asdict(dataclasses.replace(rock, **lost)), rel=1e-12)
+    assert soft.material_of(FrictMat(frictionAngle=math.atan(0.4)), 1.0).friction == pytest.approx(0.4)
+
+
+COHESIVE = dict(normalCohesion=4e5, shearCohesion=1.2e5, frictionAngle=math.atan(0.3), momentRotationLaw=True, etaRoll=0.25)
+
+
+@pytest.mark.parametrize("make, word", [
+    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "shearCohesion": 2e5}), 1.0), "shearCohesion"),
+    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "etaRoll": 0.5}), 1.0), "etaRoll"),
+    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "etaRoll": -1}), 1.0), "elastic"),
+    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "normalCohesion": -1}), 1.0), "normalCohesion -1"),
+    (lambda: soft.material_of(JCFpmMat(tensileStrength=1e5, cohesion=1e5, frictionAngle=0.3), 1.0), "cohesion"),
+    (lambda: soft.material_of(CohFrictMat(**COHESIVE)), "diameter None"),
+    (lambda: soft.material_of(3.0, 1.0), "float"),
+    (lambda: parameters("mindlin"), "mindlin"),
+    (lambda: parameters(diameter=(2, 1)), "diameter"),
+    (lambda: soft.equivalent(ROCK, 0, diameter=1), "stiffness 0"),
+    (lambda: parameters(shear_ratio=0), "shear_ratio"),
+    (lambda: parameters(rolling_ratio=0), "rolling_ratio"),
+    (lambda: parameters(damping=1), "damping"),
+    (lambda: parameters(rock=dataclasses.replace(ROCK, density=None)), "density"),
+    (lambda: parameters(rock=dataclasses.replace(ROCK, slip_weakening=section.SlipWeakening("step", 5.0))), "slip_weakening"),
+    (lambda: soft.bond(parameters("friction")), "no bonds"),
+    (lambda: soft.bond(parameters()), "O.engines"),
+])
+def test_what_has_no_counterpart_is_refused_by_name(make, word):
+    with pytest.raises(soft.SoftError, match=word):
+        make()
+
+
+def test_disks_of_another_material_are_refused():
+    e = parameters()
+    O.materials.append(soft.material(parameters("friction")))
+    O.bodies.append(scene.disk((0, 0), RADIUS, O.materials[0]))
+    O.engines = soft.engines(e)
+    with pytest.raises(soft.SoftError, match="body 0: material FrictMat"):
+        soft.bond(e)
+
+
+@pytest.mark.parametrize("model, words", [
+    ("cohesion_moment", ("150000 N", "45000 N", "22500 N m", "elliptic zone", "residual tensile strength")),
+    ("jcfpm", ("150000 N", "45000 N", "moments:")),
+    ("friction", ("bonds:", "moments:")),
+])
+def test_the_description_has_thresholds_and_losses(model, words):
+    text = str(soft.describe(parameters(model, diameter=(1, 2))))
+    for word in words:
+        assert word in text
