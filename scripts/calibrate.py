@@ -26,7 +26,7 @@ def read_arguments():
     parser.add_argument("--residual-cohesion", type=float, metavar="KPA", help="wanted residual cohesion [kPa]")
     parser.add_argument("--residual-friction", type=float, metavar="DEG", help="wanted residual angle of friction [°]")
     parser.add_argument("--start", default="wwr", metavar="NAME|FILE", help="material whose other parameters are kept (default: wwr)")
-    parser.add_argument("--coarse", type=int, default=600, metavar="N", help="disks of the coarse samples (default: %(default)s)")
+    parser.add_argument("--coarse", type=int, default=1500, metavar="N", help="disks of the coarse samples (default: %(default)s)")
     parser.add_argument("--fine", type=int, default=5000, metavar="N", help="disks of the fine samples (default: %(default)s)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[11, 12], metavar="S", help="seeds of the samples (default: 11 12)")
     parser.add_argument("--out", default="material.yaml", metavar="FILE", help="the material; a report stands beside it (default: %(default)s)")
