@@ -48,7 +48,7 @@ def copy_sources(target):
 def build(source, folder, main_build):
     known = dict(line.split("=", 1) for line in (main_build / "CMakeCache.txt").read_text().splitlines() if "=" in line and line[0] not in "#/")
     options = [f"-D{name}={value}" for key, value in known.items() for name, _, _ in [key.partition(":")] if name in ("YADE_PREFIX", "YADE_HEADERS")]
-    commands = (["cmake", "-G", "Ninja", "-S", source, "-B", folder, "-DNONSMOOTH_TESTS=OFF", *options], ["ninja", "-C", folder])
+    commands = (["cmake", "-G", "Ninja", "-S", source, "-B", folder, "-DNONSMOOTH_TESTS=OFF", "-DNONSMOOTH_BENCHMARKS=OFF", *options], ["ninja", "-C", folder])
     for command in commands:
         done = subprocess.run([str(c) for c in command], env=TOOLS, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode:
