@@ -7,7 +7,7 @@ import pytest
 from yade import O
 from yade.nonsmooth import scene, section, soft
 from yade.nonsmooth.soft.bonds import bonded
-from yade.nonsmooth.verification.bonds import F_A, FRICTION, LENGTH, PUSH, RADIUS, RESIDUAL, ROLLING, SIGMA, Pair, cases
+from yade.nonsmooth.verification.bonds import F_A, FRICTION, LENGTH, RADIUS, RESIDUAL, ROLLING, SIGMA, Pair, cases
 from yade.wrapper import CohFrictMat, FrictMat, JCFpmMat, NewtonIntegrator
 
 from contact_scenes import begin, contacts, engine, run
