@@ -14,7 +14,7 @@ public:
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
-R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about three times
+R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
 as fast. Contacts of two :yref:`spheres<Sphere>` with :yref:`NscdPhys` are kept up to date without their functor: position, normal and overlap are those
 of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, stay as they were when the
 contact began. With periodic boundaries, callbacks or sorted interactions it is the plain loop.)""");

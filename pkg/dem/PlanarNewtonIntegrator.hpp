@@ -10,7 +10,7 @@ public:
 	void action() override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC(PlanarNewtonIntegrator,NewtonIntegrator,
-R"""(:yref:`NewtonIntegrator` for disks and walls, which asks for bodies before it needs them and is about three times as fast. No clumps and no aspherical
+R"""(:yref:`NewtonIntegrator` for disks and walls, which asks for bodies before it needs them and is about twice as fast. No clumps and no aspherical
 bodies. With damping, periodic boundaries, density scaling, a mask or O.trackEnergy it is the plain integrator.)""");
 	// clang-format on
 };
