@@ -10,10 +10,10 @@ from yade import O, utils
 from yade.wrapper import (
     Body, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ContactDynamicsEngine, ForceResetter, Ig2_Segment_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, Ip2_NscdMat_NscdMat_NscdPhys, Law2_ScGeom_NscdPhys_SignoriniCoulomb,
-    NscdInteractionLoop, NscdMat, PlanarNewtonIntegrator, Segment)
+    NscdInteractionLoop, NscdMat, PlanarNewtonIntegrator, Segment, SlipWeakeningMat)
 from yade.minieigenHP import Quaternion, Vector3
 
-__all__ = ["contact_dynamics", "disk", "engines", "material", "segments"]
+__all__ = ["contact_dynamics", "disk", "engines", "material", "segments", "wall_material"]
 
 
 def material(m, kind=NscdMat, **others):
@@ -27,6 +27,20 @@ def material(m, kind=NscdMat, **others):
         residualRollingFriction=m.residual_rolling_friction, bondEllipseNormal=m.bond_ellipse[0], bondEllipseTangential=m.bond_ellipse[1],
         bondCreationDistance=m.bond_creation_distance, restitution=m.restitution)
     return kind(**{**values, **others})
+
+
+def wall_material(m, **others):
+    """The material of a wall, whose strengths alone rule contacts with it; not yet in the scene.
+
+    ``m``: a section.Material; with ``m.slip_weakening`` a SlipWeakeningMat, and bonds with disks of any layer if ``m.bonded``.
+    """
+    options = dict(wall=True, bondsToAll=m.bonded, layer=-1)
+    weak = m.slip_weakening
+    if weak is None:
+        return material(m, **{**options, **others})
+    options |= dict(criticalSlip=weak.critical_slip, weakening=weak.law, weakenedFrictionAngle=math.atan(weak.friction),
+                    weakenedTensileStrength=weak.tensile_strength)
+    return material(m, SlipWeakeningMat, **{**options, **others})
 
 
 def disk(centre, radius, material, fixed=False, color=None):

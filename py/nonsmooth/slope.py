@@ -9,7 +9,7 @@ import numpy as np
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import PorePressureEngine, SlipWeakeningMat
+from yade.wrapper import PorePressureEngine
 
 from . import scene
 
@@ -50,18 +50,10 @@ class Slope:
         return O.bodies[self.walls[name][0]].material
 
 
-def _material(section, name, layer, wall):
-    """NscdMat or SlipWeakeningMat of a section's material, for layer number ``layer`` (walls: −1)."""
+def _rock(section, name, layer):
+    """NscdMat of a section's material, for layer number ``layer``."""
     m = section.materials[name]
-    if not wall:
-        return scene.material(m, label=f"{name}-{layer}", layer=layer if m.bonded else -2 - layer)  # a negative layer makes no bonds
-    options = dict(label=f"wall-{wall}", wall=True, bondsToAll=m.bonded, layer=-1)
-    if m.slip_weakening is None:
-        return scene.material(m, **options)
-    weak = m.slip_weakening
-    return scene.material(
-        m, SlipWeakeningMat, criticalSlip=weak.critical_slip, weakening=weak.law, weakenedFrictionAngle=math.atan(weak.friction),
-        weakenedTensileStrength=weak.tensile_strength, **options)
+    return scene.material(m, label=f"{name}-{layer}", layer=layer if m.bonded else -2 - layer)  # a negative layer makes no bonds
 
 
 def _walls(section):
@@ -69,7 +61,7 @@ def _walls(section):
     piece = PIECE * math.sqrt(section.disks.mean_square)
     ids, last = {}, None
     for wall in section.walls:
-        material = O.materials[O.materials.append(_material(section, wall.material, -1, wall.name))]
+        material = O.materials[O.materials.append(scene.wall_material(section.materials[wall.material], label=f"wall-{wall.name}"))]
         bodies = scene.segments(wall.points, material, piece=piece, sense=1)
         start, end = wall.points[0], wall.points[-1]
         if last is not None and np.allclose(last[1], start, rtol=0, atol=section.tolerance):
@@ -88,7 +80,7 @@ def build(section, packing) -> Slope:
     """
     O.reset()
     walls = _walls(section)
-    materials = [O.materials[O.materials.append(_material(section, layer.material, k, None))] for k, layer in enumerate(section.layers)]
+    materials = [O.materials[O.materials.append(_rock(section, layer.material, k))] for k, layer in enumerate(section.layers)]
     # along the slope, so that neighbours in space are neighbours in memory
     along = packing.x * section.downslope[0] + packing.y * section.downslope[1]
     order = np.argsort(along, kind="stable")

@@ -10,7 +10,7 @@ from yade.wrapper import (
     Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, JCFpmMat, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, Law2_ScGeom_FrictPhys_CundallStrack,
     Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM, NewtonIntegrator, PyRunner)
 
-__all__ = ["engines", "material", "wall_material"]
+__all__ = ["engines", "engines_of", "material", "wall_material"]
 
 
 def material(e, **others):
@@ -43,8 +43,13 @@ def wall_material(e, friction, **others):
     return FrictMat(**{**dict(density=e.material.density, young=e.young, poisson=e.shear_ratio, frictionAngle=math.atan(friction)), **others})
 
 
-def engines(e, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200):
-    """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below ``e.step_limit``.
+def engines(e, **options):
+    """:func:`engines_of` the model and the damping of an :class:`~yade.nonsmooth.soft.Equivalent`, with its ``options``."""
+    return engines_of(e.model, e.damping, **options)
+
+
+def engines_of(model, damping, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200):
+    """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below ``Equivalent.step_limit``.
 
     ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``:
     springs act once disks overlap, and bonds over a gap are made by :func:`~yade.nonsmooth.soft.bonds.bond`. ``every``: steps after
@@ -55,7 +60,7 @@ def engines(e, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200
     neither cohesion nor rolling resistance. YADE refuses a JCFpmMat on a Segment; a CohFrictMat on one it takes without a check, and
     treats its ScGeom as the ScGeom6D that it is not.
     """
-    geometry = Ig2_Sphere_Sphere_ScGeom6D() if e.model == "cohesion_moment" else Ig2_Sphere_Sphere_ScGeom()
+    geometry = Ig2_Sphere_Sphere_ScGeom6D() if model == "cohesion_moment" else Ig2_Sphere_Sphere_ScGeom()
     own = {
         "cohesion_moment": lambda: ([Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()],
                                     # incremental, or thresholds of torques would not be kept (YADE's own warning)
@@ -63,7 +68,7 @@ def engines(e, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200
         "jcfpm": lambda: ([Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(cohesiveTresholdIteration=0)], [Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()]),
         "friction": lambda: ([], []),
     }
-    physics, laws = own[e.model]()
+    physics, laws = own[model]()
     residual = PyRunner(command="from yade.nonsmooth import soft; soft.weaken()", iterPeriod=every, label="softResidual")
     return [
         ForceResetter(),
@@ -72,7 +77,7 @@ def engines(e, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200
                         [*laws, Law2_ScGeom_FrictPhys_CundallStrack()]),
         *before,
         # weight is damped too, YADE's default: with forces of contacts damped alone, a disk on a wall never comes to rest
-        NewtonIntegrator(damping=e.damping, gravity=gravity),
+        NewtonIntegrator(damping=damping, gravity=gravity),
         *([residual] if laws else []),
         *after,
     ]

@@ -1,0 +1,106 @@
+"""One scene, two worlds: what a scene of disks and walls takes from the contact model, the same calls for hard and for soft contacts::
+
+    world = worlds.Hard(time_step=2e-3)                          # Contact Dynamics
+    world = worlds.Soft(stiffness=1e8, diameter=(0.01, 0.02))    # springs, YADE's own laws, see yade.nonsmooth.soft
+
+    rock = O.materials[O.materials.append(world.material(m))]    # m: a section.Material
+    ground = O.materials[O.materials.append(world.wall_material(wall))]
+    ...                                                          # disks by scene.disk, walls by scene.segments
+    O.engines, O.dt = world.engines(), world.step_for([m])
+    world.bond([(m, ids)])
+
+A world has a ``name``, "hard" or "soft", and nothing else that a scene needs to ask.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from yade import O
+from . import scene, soft
+
+__all__ = ["Hard", "Soft"]
+
+
+@dataclass(frozen=True)
+class Hard:
+    """Contact Dynamics.
+
+    ``time_step`` [s]; ``tolerance``: of the solver's residual, relative; ``reach``: gap up to which contacts are known beforehand, in
+    mean diameters; ``verlet``: the collider's margin [m], negative: in smallest radii; ``options``: further attributes of
+    ContactDynamicsEngine.
+    """
+
+    time_step: float
+    tolerance: float = 1e-5
+    reach: float = 0.05
+    verlet: float = -0.6
+    options: dict = field(default_factory=dict)
+    name = "hard"
+
+    def material(self, m, layer=0, **others):
+        """The material of disks for the section.Material ``m``, not yet in the scene. Disks of different ``layer`` are never bonded."""
+        return scene.material(m, layer=layer if m.bonded else -2 - layer, **others)
+
+    def wall_material(self, m, **others):
+        """The material of a wall; with ``m.slip_weakening`` it loses its strength as disks slip."""
+        return scene.wall_material(m, **others)
+
+    def step_for(self, materials):
+        """Time step [s] for these section.Materials of disks."""
+        return self.time_step
+
+    def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
+        """The list O.engines; ``before``: engines that add forces, ``after``: engines after the integrator."""
+        return scene.engines(gravity=gravity, reach=self.reach, verlet=self.verlet, before=before, after=after, tolerance=self.tolerance, **self.options)
+
+    def bond(self, groups=()):
+        """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step, which finds the contacts: call it
+        in a scene at rest. ``groups``: not needed here, see :meth:`Soft.bond`.
+        """
+        O.step()
+        return scene.contact_dynamics().bond()
+
+
+@dataclass(frozen=True)
+class Soft:
+    """Springs at contacts, by one of YADE's own models.
+
+    ``stiffness``: Young's modulus [Pa]; ``diameter``: smallest and largest of the disks [m]; ``model``, ``damping``, ``shear_ratio``,
+    ``rolling_ratio``: see :func:`yade.nonsmooth.soft.equivalent`; ``step_share``: time step in units of its stability limit;
+    ``verlet`` as in :class:`Hard`.
+    """
+
+    stiffness: float
+    diameter: tuple[float, float]
+    model: str = "cohesion_moment"
+    damping: float = 0.2
+    shear_ratio: float = 0.3
+    rolling_ratio: float = 1.0
+    step_share: float = 0.5
+    verlet: float = -0.6
+    name = "soft"
+
+    def equivalent(self, m):
+        """The :class:`yade.nonsmooth.soft.Equivalent` of a section.Material."""
+        return soft.equivalent(m, self.stiffness, self.model, diameter=self.diameter, shear_ratio=self.shear_ratio, rolling_ratio=self.rolling_ratio, damping=self.damping)
+
+    def material(self, m, layer=0, **others):
+        """As :meth:`Hard.material`; which disks are bonded is told to :meth:`bond`."""
+        return soft.material(self.equivalent(m), **others)
+
+    def wall_material(self, m, **others):
+        """As :meth:`Hard.wall_material`."""
+        return scene.wall_material(m, **{**dict(young=self.stiffness, poisson=self.shear_ratio), **others})
+
+    def step_for(self, materials):
+        """Time step [s] for these section.Materials of disks: the share of the smallest limit."""
+        return self.step_share * min(self.equivalent(m).step_limit for m in materials)
+
+    def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
+        """As :meth:`Hard.engines`."""
+        return soft.engines_of(self.model, self.damping, gravity=gravity, verlet=self.verlet, before=before, after=after)
+
+    def bond(self, groups=()):
+        """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), see :func:`yade.nonsmooth.soft.bond`."""
+        return sum(soft.bond(self.equivalent(m), ids) for m, ids in groups if m.bonded and self.model != "friction")
