@@ -3,7 +3,6 @@
 #include <boost/make_shared.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
-#include <pkg/common/Sphere.hpp>
 
 namespace yade {
 

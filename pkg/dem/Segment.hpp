@@ -3,6 +3,7 @@
 
 #include <core/Dispatching.hpp>
 #include <core/Shape.hpp>
+#include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade {

@@ -99,8 +99,11 @@ class Soft:
 
     def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
         """As :meth:`Hard.engines`."""
-        return soft.engines_of(self.model, self.damping, gravity=gravity, verlet=self.verlet, before=before, after=after)
+        return soft.engines_of(self.model, self.damping, self.rolling_ratio, gravity=gravity, verlet=self.verlet, before=before, after=after)
 
     def bond(self, groups=()):
-        """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), see :func:`yade.nonsmooth.soft.bond`."""
-        return sum(soft.bond(self.equivalent(m), ids) for m, ids in groups if m.bonded and self.model != "friction")
+        """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), and disks to walls that are bonded; returns
+        how many. See :func:`yade.nonsmooth.soft.bond` and :func:`yade.nonsmooth.soft.bond_walls`.
+        """
+        made = sum(soft.bond(self.equivalent(m), ids) for m, ids in groups if m.bonded and self.model != "friction")
+        return made + soft.bond_walls([i for _, ids in groups for i in ids])

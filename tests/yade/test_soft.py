@@ -228,7 +228,7 @@ def test_a_disk_rests_on_a_segment_by_its_spring_and_slides_along_it(model):
     run(200)
     drag = O.forces.f(body.id)[0]
     assert drag == pytest.approx(-0.1 * weight, rel=0.01)  # the normal force still trembles a little
-    assert all(type(i.phys).__name__ == "FrictPhys" for i in contacts())
+    assert all(type(i.phys).__name__ == "WallPhys" for i in contacts())
 
 
 def test_damping_gives_the_restitution_that_is_stated():

@@ -8,11 +8,12 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from yade import O, utils
-from yade.wrapper import CohFrictMat, CohFrictPhys, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, JCFpmMat, JCFpmPhys, Sphere
+from yade.minieigenHP import Vector3
+from yade.wrapper import CohFrictMat, CohFrictPhys, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, JCFpmMat, JCFpmPhys, NscdMat, Segment, Sphere, WallPhys
 
 from .parameters import SoftError
 
-__all__ = ["bond", "bonded", "weaken"]
+__all__ = ["bond", "bond_walls", "bonded", "weaken"]
 
 MATERIALS = {"cohesion_moment": CohFrictMat, "jcfpm": JCFpmMat}
 
@@ -57,6 +58,37 @@ def bond(e, ids=None):
     return count
 
 
+def bond_walls(ids=None):
+    """Bonds disks to walls whose material is made for it (``bondsToAll``, as ``bonded: true`` in a section file), where the gap is at most Δ ℓ;
+    returns how many were new.
+
+    ``ids``: of disks, default all. Call it after the engines are set. A bond over a gap is born without force.
+    """
+    disks = [b for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else [O.bodies[k] for k in ids]
+    centres, radii = np.array([b.state.pos for b in disks])[:, :2], np.array([b.shape.radius for b in disks])
+    count = 0
+    for wall in O.bodies:
+        m = wall.material
+        if not isinstance(wall.shape, Segment) or not isinstance(m, NscdMat) or not m.bondsToAll:
+            continue
+        along, half = np.array(wall.state.ori * Vector3(1, 0, 0))[:2], wall.shape.halfLength
+        away = centres - np.array(wall.state.pos)[:2]
+        height = along[0] * away[:, 1] - along[1] * away[:, 0]
+        height = height * wall.shape.sense if wall.shape.sense else np.abs(height)
+        place = away @ along
+        # as Segment has it: the centre stands above the segment, whose far end is the next one's
+        near = (place >= -half) & (place < half) & (height > 0) & (height - radii <= m.bondCreationDistance * 2 * radii)
+        for k in np.flatnonzero(near):
+            i = disks[k].id
+            contact = O.interactions[wall.id, i] if O.interactions.has(wall.id, i, True) else utils.createInteraction(wall.id, i)
+            if not isinstance(contact.phys, WallPhys):
+                raise SoftError(f"body {wall.id}: contacts with walls are {type(contact.phys).__name__}; set O.engines = soft.engines(...) first")
+            if not contact.phys.bonded:
+                contact.phys.bonded, contact.phys.restPenetration = True, min(contact.geom.penetrationDepth, 0.0)
+                count += 1
+    return count
+
+
 def _functor(e):
     """The functor that makes bonds of CohFrictPhys, None in "jcfpm"; SoftError where the engines are not those of the model."""
     functors = [f for engine in O.engines if isinstance(engine, InteractionLoop) for f in engine.physDispatcher.functors]
@@ -86,6 +118,8 @@ def bonded(physics):
     """Whether the physics of a contact is that of a bond that holds."""
     if isinstance(physics, CohFrictPhys):
         return not physics.cohesionBroken
+    if isinstance(physics, WallPhys):
+        return physics.bonded
     return isinstance(physics, JCFpmPhys) and physics.isCohesive
 
 

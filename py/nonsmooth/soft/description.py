@@ -12,7 +12,7 @@ _ALWAYS = (
     "rigidity: contacts yield before they reach a threshold, and disks overlap by N/k_n",
     "restitution: a spring gives speed back, less what damping takes; in the hard law e alone decides",
     "free motion: damping takes the part λ of every force that speeds a disk up, so disks fall with (1 − λ) g",
-    "walls: friction only, without cohesion, rolling resistance or slip weakening; the smaller friction angle of wall and disk holds",
+    "walls: no elliptic zone and no residual tensile strength",
     "residual tensile strength σ_res: a contact that is not bonded bears no tension, and the parts μ_s σ_res ℓ and μ_r ℓ σ_res ℓ of its other "
     "thresholds are missing",
 )

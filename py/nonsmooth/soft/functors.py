@@ -7,8 +7,11 @@ import math
 from yade.wrapper import (
     Bo1_Segment_Aabb, Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, Ip2_FrictMat_FrictMat_FrictPhys,
-    Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, JCFpmMat, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, Law2_ScGeom_FrictPhys_CundallStrack,
-    Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM, NewtonIntegrator, PyRunner)
+    Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, Ip2_NscdMat_FrictMat_WallPhys, JCFpmMat, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, Law2_ScGeom_FrictPhys_CundallStrack,
+    Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM, Law2_SegmentGeom_WallPhys_SlipWeakening, NewtonIntegrator, NscdMat, PyRunner)
+
+from .. import scene
+from ..section import Material
 
 __all__ = ["engines", "engines_of", "material", "wall_material"]
 
@@ -35,30 +38,33 @@ def material(e, **others):
     return FrictMat(**{**values, **others})
 
 
-def wall_material(e, friction, **others):
-    """The material of walls, for every model: springs with friction, not yet in the scene.
+def wall_material(e, wall, **others):
+    """The material of walls, for every model; not yet in the scene.
 
-    ``friction``: coefficient [-]. YADE takes the smaller of the two bodies' friction angles; the wall's alone rules in the hard law.
+    ``wall``: the section.Material of the wall, whose strengths alone rule as in the hard law, slip weakening included; or a coefficient
+    of friction [-], for a wall without cohesion and rolling resistance.
     """
-    return FrictMat(**{**dict(density=e.material.density, young=e.young, poisson=e.shear_ratio, frictionAngle=math.atan(friction)), **others})
+    options = dict(young=e.young, poisson=e.shear_ratio)
+    if isinstance(wall, Material):
+        return scene.wall_material(wall, **{**options, **others})
+    return NscdMat(**{**options, **dict(density=e.material.density, frictionAngle=math.atan(wall), wall=True, layer=-1), **others})
 
 
 def engines(e, **options):
     """:func:`engines_of` the model and the damping of an :class:`~yade.nonsmooth.soft.Equivalent`, with its ``options``."""
-    return engines_of(e.model, e.damping, **options)
+    return engines_of(e.model, e.damping, **{**dict(rolling_ratio=e.rolling_ratio or 1.0), **options})
 
 
-def engines_of(model, damping, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200):
+def engines_of(model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200):
     """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below ``Equivalent.step_limit``.
 
-    ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``:
+    ``rolling_ratio``: of walls' contacts, k_r/(k_s R²). ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``:
     springs act once disks overlap, and bonds over a gap are made by :func:`~yade.nonsmooth.soft.bonds.bond`. ``every``: steps after
     which contacts whose bond broke get the residual strengths (:func:`~yade.nonsmooth.soft.bonds.weaken`).
 
-    Disks touch Segment walls through FrictPhys in all models. That functor gives no rotations (ScGeom, not ScGeom6D), which
-    CohesionMoment needs, and JCFpm needs a JCFpmState on both bodies: so walls take :func:`wall_material`, and contacts with them have
-    neither cohesion nor rolling resistance. YADE refuses a JCFpmMat on a Segment; a CohFrictMat on one it takes without a check, and
-    treats its ScGeom as the ScGeom6D that it is not.
+    Disks touch Segment walls through WallPhys in all models, so walls take :func:`wall_material`. A material of the disks' kind will not do:
+    CohesionMoment needs rotations that a Segment's geometry has not (it is a ScGeom, not a ScGeom6D, and YADE does not check), and JCFpm
+    needs a JCFpmState on both bodies.
     """
     geometry = Ig2_Sphere_Sphere_ScGeom6D() if model == "cohesion_moment" else Ig2_Sphere_Sphere_ScGeom()
     own = {
@@ -73,8 +79,8 @@ def engines_of(model, damping, gravity=(0, -9.81, 0), verlet=0.1, before=(), aft
     return [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=verlet),
-        InteractionLoop([geometry, Ig2_Segment_Sphere_ScGeom()], [*physics, Ip2_FrictMat_FrictMat_FrictPhys()],
-                        [*laws, Law2_ScGeom_FrictPhys_CundallStrack()]),
+        InteractionLoop([geometry, Ig2_Segment_Sphere_ScGeom()], [*physics, Ip2_FrictMat_FrictMat_FrictPhys(), Ip2_NscdMat_FrictMat_WallPhys(rollingRatio=rolling_ratio)],
+                        [*laws, Law2_ScGeom_FrictPhys_CundallStrack(), Law2_SegmentGeom_WallPhys_SlipWeakening()]),
         *before,
         # weight is damped too, YADE's default: with forces of contacts damped alone, a disk on a wall never comes to rest
         NewtonIntegrator(damping=damping, gravity=gravity),

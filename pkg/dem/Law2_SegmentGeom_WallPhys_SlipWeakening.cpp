@@ -1,0 +1,74 @@
+#include "Law2_SegmentGeom_WallPhys_SlipWeakening.hpp"
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((Law2_SegmentGeom_WallPhys_SlipWeakening));
+
+namespace {
+	struct Strengths {
+		Real adhesion, friction, rollingArm;
+	};
+
+	Strengths strengths(const WallPhys& phys, Real left)
+	{
+		Strengths s { phys.bonded ? phys.tensileForce : 0, phys.bonded ? phys.friction : phys.residualFriction, phys.bonded ? phys.rollingArm : phys.residualRollingArm };
+		if (const auto* weak = phys.wallMaterial.get()) {
+			const auto weakened = [left](Real strong, Real final) { return strong > final ? final + (strong - final) * left : strong; };
+			s.adhesion          = weakened(s.adhesion, weak->weakenedTensileStrength * phys.length);
+			s.friction          = weakened(s.friction, std::tan(weak->weakenedFrictionAngle));
+		}
+		return s;
+	}
+}
+
+bool Law2_SegmentGeom_WallPhys_SlipWeakening::go(shared_ptr<IGeom>& ig, shared_ptr<IPhys>& ip, Interaction* interaction)
+{
+	auto& geom = static_cast<SegmentGeom&>(*ig);
+	auto& phys = static_cast<WallPhys&>(*ip);
+	if (!phys.bonded && (geom.penetrationDepth < 0 || !geom.owned)) return false;
+
+	const State& wall  = *Body::byId(interaction->getId1(), scene)->state;
+	const State& disk  = *Body::byId(interaction->getId2(), scene)->state;
+	Vector3r&    shear = geom.rotate(phys.shearForce);
+	shear -= phys.ks * geom.shearIncrement();
+	phys.rollingTorque -= phys.kr * (disk.angVel[2] - wall.angVel[2]) * scene->dt;
+
+	Real left = 1;
+	if (phys.wallMaterial) {
+		const std::lock_guard<std::mutex> guard(slipLock);
+		left = phys.wallMaterial->remaining(phys.body);
+	}
+	const auto normalForce = [&] { return phys.kn * (geom.penetrationDepth - (phys.bonded ? phys.restPenetration : 0)); };
+	Strengths  s           = strengths(phys, left);
+	Real       normal = normalForce(), held = s.adhesion + normal;
+	if (phys.bonded && (held < 0 || shear.norm() > s.friction * held || std::abs(phys.rollingTorque) > s.rollingArm * held)) {
+		phys.bonded = false;
+		if (geom.penetrationDepth < 0 || !geom.owned) return false;
+		s      = strengths(phys, left);
+		normal = normalForce();
+		held   = s.adhesion + normal;
+	}
+	const Real sliding = s.friction * held, trial = shear.norm();
+	if (trial > sliding) {
+		shear *= sliding / trial;
+		const Real slip = (trial - sliding) / phys.ks;
+		if (phys.wallMaterial) {
+			const std::lock_guard<std::mutex> guard(slipLock);
+			phys.wallMaterial->addSlip(phys.body, slip);
+		}
+		if (scene->trackEnergy) scene->energy->add(slip * sliding, "plastDissip", slidingIx, false);
+	}
+	const Real rolling          = s.rollingArm * held;
+	phys.rollingTorque          = std::max(-rolling, std::min(rolling, phys.rollingTorque));
+	phys.tangensOfFrictionAngle = s.friction;
+	phys.normalForce            = normal * geom.normal;
+
+	applyForceAtContactPoint(-phys.normalForce - shear, geom.contactPoint, interaction->getId1(), wall.se3.position, interaction->getId2(), disk.se3.position);
+	scene->forces.addTorque(interaction->getId1(), Vector3r(0, 0, -phys.rollingTorque));
+	scene->forces.addTorque(interaction->getId2(), Vector3r(0, 0, phys.rollingTorque));
+	return true;
+}
+
+} // namespace yade

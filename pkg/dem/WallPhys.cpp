@@ -1,0 +1,36 @@
+#include "WallPhys.hpp"
+#include <boost/make_shared.hpp>
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((WallPhys)(Ip2_NscdMat_FrictMat_WallPhys));
+
+void Ip2_NscdMat_FrictMat_WallPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
+{
+	if (interaction->phys) return;
+	const auto& wall   = static_cast<const NscdMat&>(*m1);
+	const auto& disk   = static_cast<const FrictMat&>(*m2);
+	const Real  radius = static_cast<const GenericSpheresContact&>(*interaction->geom).refR2;
+	const auto  paired = [radius](Real a, Real b) { return a + b > 0 ? 2 * radius * a * b / (a + b) : Real(0); };
+	const auto  or_    = [](Real value, Real peak) { return value < 0 ? peak : value; };
+
+	const auto phys          = boost::make_shared<WallPhys>();
+	phys->length             = 2 * radius;
+	phys->kn                 = paired(wall.young, disk.young);
+	phys->ks                 = paired(wall.young * wall.poisson, disk.young * disk.poisson);
+	phys->kr                 = rollingRatio * phys->ks * radius * radius;
+	phys->tensileForce       = wall.tensileStrength * phys->length;
+	phys->friction           = std::tan(wall.frictionAngle);
+	phys->residualFriction   = std::tan(or_(wall.residualFrictionAngle, wall.frictionAngle));
+	phys->rollingArm         = wall.rollingFriction * phys->length;
+	phys->residualRollingArm = or_(wall.residualRollingFriction, wall.rollingFriction) * phys->length;
+	phys->body               = interaction->getId2();
+	phys->wallMaterial       = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1);
+	phys->tangensOfFrictionAngle = phys->residualFriction;
+	interaction->phys            = phys;
+}
+
+} // namespace yade
