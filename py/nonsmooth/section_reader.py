@@ -57,7 +57,8 @@ class Document:
                 found = [(k, v) for k, v in node.value if k.value == str(key)]
                 if not found:
                     break
-                line, node = found[0][0].start_mark.line, found[0][1]
+                # the last: a key of the mapping itself comes after those that `<<` brings
+                line, node = found[-1][0].start_mark.line, found[-1][1]
             elif isinstance(node, yaml.SequenceNode) and isinstance(key, int) and key < len(node.value):
                 node = node.value[key]
                 line = node.start_mark.line

@@ -205,6 +205,11 @@ def test_bad_values(case, refused):
     assert ": line " in message or "no room" in message
 
 
+def test_line_of_a_number_that_replaces_a_borrowed_one(refused):
+    text = TEXT.replace("bond_creation_distance: 0.015", "bond_creation_distance: much")
+    assert f"line {1 + text[:text.index('distance: much')].count(chr(10))}: materials.wwr.bond_creation_distance" in refused(text)
+
+
 def test_line_number(refused):
     text = TEXT.replace("distribution: uniform", "distribution: even")
     assert f"line {1 + text[:text.index('distribution: even')].count(chr(10))}: disks.distribution" in refused(text)
