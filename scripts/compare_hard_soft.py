@@ -2,6 +2,7 @@
 """The same experiment with rigid disks (Contact Dynamics) and with YADE's soft contacts, side by side.
 
   scripts/compare_hard_soft.py --scenario slope [--disks N] [--stiffness PA,PA,…] [--seeds S …] [--out DIR] [--threads T] [--resume]
+  scripts/compare_hard_soft.py --cost [--disks N] [--stiffness PA,PA,…] [--out DIR] [--threads T] [--resume]
 """
 import os, sys
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
@@ -12,7 +13,7 @@ import argparse
 from pathlib import Path
 
 from yade.nonsmooth import errors, records
-from yade.nonsmooth.comparison import course
+from yade.nonsmooth.comparison import cost, cost_report, course
 from yade.nonsmooth.laboratory import arguments
 
 
@@ -37,6 +38,8 @@ def read_arguments():
     parser.add_argument("--damping-moving", type=float, default=0.02, metavar="L", help="while the mass moves, where it would brake it (default: %(default)s)")
     parser.add_argument("--step-share", type=arguments.positive, default=0.5, metavar="S", help="time step of soft runs in units of its stability limit (default: %(default)s)")
     parser.add_argument("--only-ensemble", action="store_true", help="leave out hard runs of other steps and tolerances, and the one of another damping")
+    parser.add_argument("--cost", action="store_true", help="instead, time steps of the paper's slope (20000 disks) in both worlds on all threads, one process after the other")
+    parser.add_argument("--steps", type=int, default=300, metavar="N", help="with --cost: steps that are timed (default: %(default)s)")
     parser.add_argument("--end", type=arguments.positive, metavar="SECONDS", help="slope: simulated time after settling, at most")
     parser.add_argument("--out", default="out/compare", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="runs at a time, each on one thread (default: all cores)")
@@ -44,19 +47,35 @@ def read_arguments():
     return parser.parse_args()
 
 
+def tell(questions):
+    for question, verdict, sentences in questions:
+        print(f"\n{question} {verdict}")
+        for sentence in sentences:
+            print(f"  {sentence}")
+
+
+def measure_cost(args, out):
+    if args.scenario != "slope":
+        raise errors.UserError(f"--cost with --scenario {args.scenario}: it is measured on the slope; leave --scenario out")
+    with arguments.bar() as progress:
+        told = cost.run(out, args.source or "jiufengershan", args.disks or 20000, args.threads, args.stiffness or cost.STIFFNESSES, args.steps, args.damping,
+                        args.damping_moving, args.step_share, args.resume, progress, args.model)
+    tell(cost_report.write(out, told))
+    print(f"\nresults: {out}/report.html, summary.json, figures")
+
+
 def main():
     args = read_arguments()
     out = Path(args.out)
     records.check_writable(out)
+    if args.cost:
+        return measure_cost(args, out)
     with arguments.bar() as progress:
         summary, questions = course.compare(
             args.scenario, out, args.seeds, disks=args.disks, source=args.source, stiffnesses=args.stiffness, ensemble=args.ensemble_stiffness, model=args.model, damping=args.damping,
             damping_moving=args.damping_moving, step_share=args.step_share, short=args.only_ensemble, threads=args.threads, resume=args.resume, progress=progress,
             options={} if args.end is None else {"end": args.end})
-    for question, verdict, sentences in questions:
-        print(f"\n{question} {verdict}")
-        for sentence in sentences:
-            print(f"  {sentence}")
+    tell(questions)
     print(f"\n{summary['wall_s']:.0f} s of wall time; results: {out}/report.html, summary.json, figures, runs/*")
 
 

@@ -14,7 +14,7 @@ from yade.wrapper import PorePressureEngine
 from . import scene, worlds
 from .soft.measures import Measures
 
-__all__ = ["Slope", "build", "find", "hard"]
+__all__ = ["Slope", "build", "find", "hard", "order_of"]
 
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
@@ -79,6 +79,11 @@ def hard(section) -> worlds.Hard:
     return worlds.Hard(n.time_step, n.tolerance, reach, -n.verlet_distance, {"maxIterations": n.max_iterations})
 
 
+def order_of(section, packing) -> np.ndarray:
+    """Numbers of the packing's disks in the order of their ids in the scene: along the slope, so that neighbours in space are neighbours in memory."""
+    return np.argsort(packing.x * section.downslope[0] + packing.y * section.downslope[1], kind="stable")
+
+
 def build(section, packing, world=None) -> Slope:
     """Fills the (empty) scene with walls, disks and engines; the disks are at rest and nothing is bonded yet.
 
@@ -89,9 +94,7 @@ def build(section, packing, world=None) -> Slope:
     walls = _walls(section, world)
     rocks = [section.materials[layer.material] for layer in section.layers]
     materials = [O.materials[O.materials.append(world.material(m, layer=k, label=_label(layer, k)))] for k, (layer, m) in enumerate(zip(section.layers, rocks))]
-    # along the slope, so that neighbours in space are neighbours in memory
-    along = packing.x * section.downslope[0] + packing.y * section.downslope[1]
-    order = np.argsort(along, kind="stable")
+    order = order_of(section, packing)
     disks = [scene.disk((float(packing.x[k]), float(packing.y[k])), float(packing.r[k]), materials[packing.layer[k]]) for k in order]
     ids = O.bodies.append(disks)
     before = []

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from ..errors import UserError
 
-__all__ = ["Case", "ComparisonError", "plan"]
+__all__ = ["Case", "ComparisonError", "Plan", "modulus_label", "plan"]
 
 #: Time step and tolerance of hard runs, as multiples of the section's, coarse to fine; the last is the reference.
 HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))
@@ -25,6 +25,12 @@ HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))
 
 class ComparisonError(UserError, RuntimeError):
     """A comparison that cannot be made; the message says why and what helps."""
+
+
+def modulus_label(modulus):
+    """Young's modulus [Pa] in words: "E = 100 MPa"."""
+    factor, prefix = next((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (0, "")) if modulus >= f)
+    return f"E = {modulus / (factor or 1):g} {prefix}Pa"
 
 
 @dataclass(frozen=True)
@@ -59,7 +65,7 @@ class Case:
     def label(self):
         """The same in words, without the seed."""
         if self.world == "soft":
-            return f"soft, E = {self.stiffness:.3g} Pa" + (f", damping {self.damping:g} throughout" if self.damping == self.damping_moving else "")
+            return f"soft, {modulus_label(self.stiffness)}" + (f", damping {self.damping:g} throughout" if self.damping == self.damping_moving else "")
         if (self.step, self.tolerance) == (1.0, 1.0):
             return "hard"
         return f"hard, step × {self.step:g}, tolerance × {self.tolerance:g}"

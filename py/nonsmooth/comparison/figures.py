@@ -9,8 +9,10 @@ from matplotlib.patches import PathPatch
 
 from ..figures import style
 from ..figures.style import INK, LINES
+from . import precision
+from .cases import modulus_label
 
-__all__ = ["convergence", "cost", "courses", "deposits_overlaid", "force_distribution", "modes", "network", "overlaps", "work_precision"]
+__all__ = ["convergence", "cost", "cost_and_overlap", "courses", "deposits_overlaid", "force_distribution", "modes", "network", "overlaps", "work_precision"]
 
 HARD, SOFT, BOTH = LINES["blue"], LINES["orange"], "#b9b9c9"
 SHADES = ("#f6c28b", "#ee9a4d", "#D55E00", "#8f3c00", "#4d1f00", "#2b1100")  # soft, from the softest to the stiffest
@@ -21,12 +23,6 @@ def shade(modulus, moduli):
     """Colour of a stiffness among ``moduli``."""
     order = sorted(moduli)
     return SHADES[min(len(SHADES) - 1, round(order.index(modulus) * (len(SHADES) - 2) / max(1, len(order) - 1)))]
-
-
-def modulus_label(modulus):
-    """"E = 100 MPa"."""
-    factor, prefix = next((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (0, "")) if modulus >= f)
-    return f"E = {modulus / (factor or 1):g} {prefix}Pa"
 
 
 def _patch(geometry, **options):
@@ -165,6 +161,33 @@ def cost(moduli, rates, steps, hard_rate, hard_steps, path):
         ax.set_ylabel(label)
         ax.grid(color="#e3e3e3", lw=0.7)
         ax.legend()
+    return style.save(fig, path)
+
+
+@style.styled
+def cost_and_overlap(panels, path):
+    """Wall time for a second of simulation against mean overlap; ``panels``: list of (title, hard, [soft, …]) of dictionaries as cost.measure_hard and measure_soft return."""
+    fig = style.figure(11, 4.8, layout="constrained")
+    for ax, (title, hard, soft) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
+        x, y = [s["overlap_mean_rel"] for s in soft], [s["rate"] for s in soft]
+        ax.plot(x, y, color=SOFT, marker=MARKS["soft"], label="soft")
+        for s in soft:
+            ax.annotate(modulus_label(s["stiffness_Pa"]), (s["overlap_mean_rel"], s["rate"]), xytext=(6, 4), textcoords="offset points", fontsize=8, color=SOFT)
+        ax.plot([hard["overlap_mean_rel"]], [hard["rate"]], color=HARD, marker=MARKS["hard"], ms=8, ls="", label="hard")
+        if hard["overlap_mean_rel"] > 0 and len(soft) > 1:
+            rate, beyond = precision.loglog(hard["overlap_mean_rel"], x, y)
+            end = x[-1] if beyond else hard["overlap_mean_rel"]
+            ax.plot([end, hard["overlap_mean_rel"]], [y[-1] if beyond else rate, rate], color=SOFT, ls=(0, (4, 2)), lw=1.0)
+            ax.plot([hard["overlap_mean_rel"]] * 2, [hard["rate"], rate], color=INK, lw=0.9)
+            ax.annotate(f"× {rate / hard['rate']:.3g}", (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])), xytext=(6, 0), textcoords="offset points")
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+        ax.margins(x=0.15, y=0.12)
+        ax.set_title(title)
+        ax.set_xlabel("mean overlap [mean diameters]")
+        ax.grid(color="#e3e3e3", lw=0.7)
+        ax.legend()
+    fig.axes[0].set_ylabel("wall time for a second of simulation [s]")
     return style.save(fig, path)
 
 

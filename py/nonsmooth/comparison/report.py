@@ -13,6 +13,7 @@ import jinja2
 from ..packing_files import write_atomically
 from . import answers, figures
 from .answers import number
+from .cases import modulus_label
 
 __all__ = ["Section", "common_sections", "write"]
 
@@ -54,7 +55,7 @@ def _quantities(summary):
         cell = lambda w: number(q[w]["mean"], q["unit"]) + ("" if q[w]["sd"] is None else f" ± {number(q[w]['sd'], q['unit'])}")  # noqa: E731
         within = {None: "–", True: "yes", False: "no"}[q["within_scatter"]]
         rows.append((q["means"], cell("hard"), cell("soft"), number(q["difference"], q["unit"]), "–" if q["difference_95"] is None else "± " + number(q["difference_95"], q["unit"]), within))
-    caption = (f"Means and standard deviations over seeds {', '.join(map(str, summary['seeds']))}; soft with {figures.modulus_label(summary['ensemble_stiffness_Pa'])}. "
+    caption = (f"Means and standard deviations over seeds {', '.join(map(str, summary['seeds']))}; soft with {modulus_label(summary['ensemble_stiffness_Pa'])}. "
                "Differences are soft minus hard of the same packing, with their 95 % confidence (Student's t).")
     return Section("All quantities", tables=[(caption, ("quantity", "hard", "soft", "difference", "confidence", "within the scatter"), rows)])
 
@@ -98,7 +99,7 @@ def _convergence(folder, summary):
     verdict = {True: "yes", False: "no", None: "–"}
     table = [(r["means"], *(number(d, digits=2) if d is not None else "–" for d in r["differences"]), "–" if r["power"] is None else
               f"{r['power']:.2f}" + ("" if r["power_error"] is None else f" ± {r['power_error']:.2f}"), _percent(r["scatter"]), verdict[r["stiffest_within_scatter"]]) for r in rows]
-    heads = ("difference from hard of", *(figures.modulus_label(e) for e in found["stiffnesses_Pa"]), "power of E", "scatter over seeds", "stiffest within it")
+    heads = ("difference from hard of", *(modulus_label(e) for e in found["stiffnesses_Pa"]), "power of E", "scatter over seeds", "stiffest within it")
     text = ["What converges has a clearly negative power of E; the mean overlap must, with about −1. What stays at the level of the scatter over seeds does not converge any "
             "further: a chaotic motion depends on details that no stiffness settles, and so do single contact forces."]
     return Section("Convergence of soft to hard", text, plots, [("Relative differences by stiffness", heads, table)])

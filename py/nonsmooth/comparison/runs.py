@@ -18,7 +18,7 @@ from .. import checkpoints, processes
 from ..packing_files import write_atomically
 from .cases import ComparisonError
 
-__all__ = ["Progress", "found_of", "folder_of", "run"]
+__all__ = ["Progress", "folder_of", "found_of", "keep", "kept", "run"]
 
 NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
 
@@ -34,11 +34,21 @@ def _key(function, case):
 
 def found_of(function, case, out):
     """What a finished case returned, None where it has not finished or was another."""
+    return kept(folder_of(case, out), _key(function, case))
+
+
+def kept(folder, key):
+    """The result that :func:`keep` wrote, None where there is none of this key."""
     try:
-        kept = json.loads((folder_of(case, out) / "result.json").read_text())
-        return kept["found"] if kept["key"] == _key(function, case) else None
+        content = json.loads((Path(folder) / "result.json").read_text())
+        return content["found"] if content["key"] == key else None
     except (OSError, ValueError, KeyError):
         return None
+
+
+def keep(folder, key, found):
+    """Writes the result of a run, with a key that tells what it is of."""
+    write_atomically(Path(folder) / "result.json", json.dumps({"key": key, "found": found}, indent=1).encode())
 
 
 def run(function, cases, out, threads, resume=False, progress=lambda share, doing: None):
@@ -74,7 +84,7 @@ def _one(function, case, out):
     if found is None:
         folder = folder_of(case, out)
         found = processes.call(function, folder, asdict(case))
-        write_atomically(folder / "result.json", json.dumps({"key": _key(function, case), "case": asdict(case), "found": found}, indent=1).encode())
+        keep(folder, _key(function, case), found)
     return found
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from . import deposits, figures, slopes
+from .cases import modulus_label
 from .report import Section
 
 __all__ = ["QUESTIONS", "sections"]
@@ -16,7 +17,7 @@ QUESTIONS = (("Do both models fail at the same water table and run out as far, w
 
 def _groups(plan, outcomes, pick):
     """Hard and soft of all seeds."""
-    label = figures.modulus_label(plan.ensemble[0][1].stiffness)
+    label = modulus_label(plan.ensemble[0][1].stiffness)
     return [("hard", figures.HARD, [pick(outcomes[h]) for h, _ in plan.ensemble]), (f"soft, {label}", figures.SOFT, [pick(outcomes[s]) for _, s in plan.ensemble])]
 
 
@@ -24,7 +25,7 @@ def _by_stiffness(plan, outcomes, pick):
     """The hard run and all stiffnesses on the first packing."""
     moduli = [c.stiffness for c in plan.sweep]
     return [("hard", figures.HARD, [pick(outcomes[plan.ensemble[0][0]])])] + [
-        (f"soft, {figures.modulus_label(c.stiffness)}", figures.shade(c.stiffness, moduli), [pick(outcomes[c])]) for c in plan.sweep]
+        (f"soft, {modulus_label(c.stiffness)}", figures.shade(c.stiffness, moduli), [pick(outcomes[c])]) for c in plan.sweep]
 
 
 def sections(out, plan, outcomes, summary):
@@ -53,7 +54,7 @@ def sections(out, plan, outcomes, summary):
     made.append(Section("Kinetic energy, bonds, water", plots=[(figures.courses(_by_stiffness(plan, outcomes, all_of), energy, clock, folder / "energy.png"), f"All stiffnesses, seed {hard.case.seed}.")]))
     moduli = [c.stiffness for c in plan.sweep]
     groups = [("hard", figures.HARD, np.array(list(hard.forces.values())))] + [
-        (f"soft, {figures.modulus_label(c.stiffness)}", figures.shade(c.stiffness, moduli), np.array(list(outcomes[c].forces.values()))) for c in plan.sweep]
+        (f"soft, {modulus_label(c.stiffness)}", figures.shade(c.stiffness, moduli), np.array(list(outcomes[c].forces.values()))) for c in plan.sweep]
     made.append(Section("Force distribution", plots=[(figures.force_distribution(groups, folder / "force_distribution.png"), "Normal forces of contacts under compression, at rest before the water rises (t0).")]))
     names = ("tension", "shear", "torque", "mixed")
     share = lambda o: {n: o.series[f"bonds_broken_{n}"][-1] / max(1, o.series["bonds_alive"][0] + sum(o.series[f"bonds_broken_{m}"][0] for m in names)) for n in names}  # noqa: E731
@@ -78,4 +79,4 @@ def _damping(folder, plan, outcomes):
             f"and comes to rest on another then stops after (1 − λ)/(1 + λ) of its way on the second: {(1 - e) / (1 + e):.2f} for λ = {e:g}, "
             f"{(1 - usual.case.damping_moving) / (1 + usual.case.damping_moving):.2f} for λ = {usual.case.damping_moving:g}. So damping is {usual.case.damping:g} at rest and "
             f"{usual.case.damping_moving:g} while the slope moves, with a linear passage below a tenth of the largest mean speed."]
-    return Section("What damping does", text, [(path, f"{figures.modulus_label(throughout.case.stiffness)}, seed {throughout.case.seed}.")])
+    return Section("What damping does", text, [(path, f"{modulus_label(throughout.case.stiffness)}, seed {throughout.case.seed}.")])
