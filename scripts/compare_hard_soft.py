@@ -17,6 +17,9 @@ from yade.nonsmooth.comparison import cost, cost_report, course
 from yade.nonsmooth.laboratory import arguments
 
 
+OPTIONS = {"slope": ("end",), "biaxial": ("confining", "strain", "sides", "platens"), "column": ("aspect", "friction", "base"), "pile": ("aspect", "friction", "base")}
+
+
 def stiffnesses(text):
     """Young's moduli [Pa], with commas."""
     try:
@@ -41,10 +44,27 @@ def read_arguments():
     parser.add_argument("--cost", action="store_true", help="instead, time steps of the paper's slope (20000 disks) in both worlds on all threads, one process after the other")
     parser.add_argument("--steps", type=int, default=300, metavar="N", help="with --cost: steps that are timed (default: %(default)s)")
     parser.add_argument("--end", type=arguments.positive, metavar="SECONDS", help="slope: simulated time after settling, at most")
+    parser.add_argument("--confining", type=arguments.positive, metavar="MPA", help="biaxial: confining pressure [MPa] (default: 1)")
+    parser.add_argument("--strain", type=arguments.positive, help="biaxial: axial strain at the end (default: 0.06)")
+    parser.add_argument("--sides", choices=("rigid", "flexible"), help="biaxial: lateral boundaries (default: flexible)")
+    parser.add_argument("--platens", choices=("smooth", "rough"), help="biaxial: friction of the platens (default: rough)")
+    parser.add_argument("--aspect", type=arguments.positive, help="column, pile: height over width (pile: over half of it)")
+    parser.add_argument("--friction", type=float, metavar="MU", help="column, pile: friction of contacts")
+    parser.add_argument("--base", choices=("smooth", "rough"), help="column, pile: the floor")
     parser.add_argument("--out", default="out/compare", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="runs at a time, each on one thread (default: all cores)")
     parser.add_argument("--resume", action="store_true", help="keep runs in DIR that have ended")
     return parser.parse_args()
+
+
+def options_of(args):
+    """What the scenario takes besides, of the options that were given."""
+    taken = OPTIONS[args.scenario]
+    given = {name: getattr(args, name) for names in OPTIONS.values() for name in names if getattr(args, name) is not None}
+    for name in given:
+        if name not in taken:
+            raise errors.UserError(f"--{name} with --scenario {args.scenario}: it has no such option; leave it out, or take {', '.join('--' + n for n in taken)}")
+    return given | ({"confining": 1e6 * given["confining"]} if "confining" in given else {})
 
 
 def tell(questions):
@@ -74,7 +94,7 @@ def main():
         summary, questions = course.compare(
             args.scenario, out, args.seeds, disks=args.disks, source=args.source, stiffnesses=args.stiffness, ensemble=args.ensemble_stiffness, model=args.model, damping=args.damping,
             damping_moving=args.damping_moving, step_share=args.step_share, short=args.only_ensemble, threads=args.threads, resume=args.resume, progress=progress,
-            options={} if args.end is None else {"end": args.end})
+            options=options_of(args))
     tell(questions)
     print(f"\n{summary['wall_s']:.0f} s of wall time; results: {out}/report.html, summary.json, figures, runs/*")
 

@@ -38,7 +38,7 @@ class Case:
     """One run. ``world``: "hard" or "soft"; ``source``: section or material of the scenario; ``disks``: their number; ``seed``: of the packing.
 
     Hard: ``step``, ``tolerance``: factors on the scenario's own. Soft: ``stiffness``: Young's modulus [Pa]; ``step``: share of the stability limit;
-    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves; ``model``: see :mod:`yade.nonsmooth.soft`. ``options``: what else the scenario takes.
+    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`. ``options``: what else the scenario takes.
     """
 
     world: str
@@ -49,7 +49,7 @@ class Case:
     tolerance: float = 1.0
     stiffness: float | None = None
     damping: float = 0.0
-    damping_moving: float = 0.0
+    damping_moving: float | None = None
     model: str | None = None
     options: dict = dataclasses.field(default_factory=dict)
 
@@ -109,7 +109,7 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
     if not seeds or len(set(seeds)) < len(seeds):
         raise ComparisonError(f"--seeds {' '.join(map(str, seeds))}: give each seed once, and one at least")
     for key, value in (("--damping", damping), ("--damping-moving", damping_moving)):
-        if not 0 <= value < 1:
+        if value is not None and not 0 <= value < 1:
             raise ComparisonError(f"{key} {value:g}: give a number from 0 to less than 1")
     middle = float(ensemble) if ensemble is not None else chosen[len(chosen) // 2]
     if middle not in chosen:
@@ -124,7 +124,7 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
     first, at = seeds[0], chosen.index(middle)
     return Plan(tuple((hard(seed), soft(middle, seed)) for seed in seeds), tuple(soft(e, first) for e in chosen),
                 (*(hard(first, *pair) for pair in numerics[:-1]), hard(first), *(hard(first, *pair) for pair in numerics[-1:])),
-                soft(chosen[max(0, at - 1)], first, damping) if damping_run and damping != damping_moving else None)
+                soft(chosen[max(0, at - 1)], first, damping) if damping_run and damping_moving not in (None, damping) else None)
 
 
 class _Options(dict):

@@ -45,7 +45,6 @@ def _percent(value):
 def common_sections(out, scenario, plan, outcomes, summary):
     """Sections that every scenario has: quantities, cost, work and precision, convergence, runs. Figures go to ``out/figures``."""
     folder = Path(out) / "figures"
-    folder.mkdir(parents=True, exist_ok=True)
     return [_quantities(summary), _overlaps(folder, plan, outcomes, summary), _work(folder, scenario, summary), _convergence(folder, summary), _runs(plan, outcomes, summary)]
 
 
