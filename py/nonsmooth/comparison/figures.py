@@ -200,7 +200,7 @@ def work_precision(panels, chance, path):
             points = [p for p in points if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
             ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world], ms=7, label=world)
             for wall, value, label in points:
-                ax.annotate(label, (wall, value), xytext=(5, 5), textcoords="offset points", fontsize=7.5, color=colour)
+                ax.annotate(label, (wall, value), xytext=(6, 5 if world == "hard" else -11), textcoords="offset points", fontsize=7.5, color=colour)
         if chance and np.isfinite(chance):
             ax.axhspan(1e-12, chance, color="#eeeeee", zorder=0)
             ax.axhline(chance, color=LINES["grey"], ls=(0, (4, 2)), label="scatter over seeds")

@@ -18,6 +18,9 @@ from .cases import modulus_label
 __all__ = ["Section", "common_sections", "write"]
 
 
+SHOWN = ("error", "overlap", "front_travel_m")  # of the convergence, in the figure, besides curves and key quantities
+
+
 @dataclass
 class Section:
     """A part of the page: ``text`` (sentences), ``plots`` [(path, caption)], ``tables`` [(caption, heads, rows)]."""
@@ -45,7 +48,7 @@ def _percent(value):
 def common_sections(out, scenario, plan, outcomes, summary):
     """Sections that every scenario has: quantities, cost, work and precision, convergence, runs. Figures go to ``out/figures``."""
     folder = Path(out) / "figures"
-    return [_quantities(summary), _overlaps(folder, plan, outcomes, summary), _work(folder, scenario, summary), _convergence(folder, summary), _runs(plan, outcomes, summary)]
+    return [_quantities(summary), _overlaps(folder, plan, outcomes, summary), _work(folder, scenario, summary), _convergence(folder, scenario, summary), _runs(plan, outcomes, summary)]
 
 
 def _quantities(summary):
@@ -86,10 +89,11 @@ def _work(folder, scenario, summary):
                    [("Errors against the finest hard run", ("run", "wall time", "error", "its parts"), rows)])
 
 
-def _convergence(folder, summary):
+def _convergence(folder, scenario, summary):
     found = summary["convergence"]
     rows = list(found["rows"].values())
-    plots = [(figures.convergence(found["stiffnesses_Pa"], [(r["means"], r["differences"], r["scatter"], r["power"], r["scale"]) for r in rows], folder / "convergence.png"),
+    shown = [r for name, r in found["rows"].items() if name in SHOWN or name in scenario.KEYS or name in scenario.CURVES]
+    plots = [(figures.convergence(found["stiffnesses_Pa"], [(r["means"], r["differences"], r["scatter"], r["power"], r["scale"]) for r in shown], folder / "convergence.png"),
               "Relative difference of soft runs from the hard one of the same packing, against stiffness; dashed: the power of E that fits best.")]
     forces = found["forces"]
     if any(c is not None for c in forces["correlation"]):
