@@ -38,6 +38,7 @@ QUANTITIES = (
 )
 
 RELAX_UNITS, REST_UNITS = 40.0, 20.0  # t_i in which the pressure grows on soft contacts, and for which it then rests
+SWITCHES = 20                         # times that the membrane is laid anew while the sample comes to rest in it
 SAMPLES = 20                          # of the forces on the walls, in a row of the series
 SOFT_COLUMNS = tuple(name for name in biaxial.COLUMNS if name not in ("iterations_mean", "residual_worst", "unconverged"))
 
@@ -93,7 +94,10 @@ class SoftCourse(biaxial.Course):
 
     @classmethod
     def begin_soft(cls, test, folder, case):
-        """Puts the pressed sample into the scene; it takes up the pressure, is bonded, and rests."""
+        """Puts the pressed sample into the scene; it takes up the pressure, comes to rest in its membrane, and is bonded.
+
+        In the hard world bonds come before the membrane, where they do not feel the change.
+        """
         from yade import O
 
         from .. import scene, worlds
@@ -119,18 +123,23 @@ class SoftCourse(biaxial.Course):
         for k in range(steps):
             walls.pressure = test.confining * min(1.0, (k + 1) / ramp)
             walls.step()
-        body.bonds = body.engine.bond()
-        height, width = walls.height(), walls.width()
-        area = float(np.sum(math.pi * pressed.r**2))
-        state = {"unit_s": unit, "rate": test.inertia / unit, "height": height, "width": width, "area": height * width, "bonds": body.bonds, "begin": O.iter, "begin_time": O.time,
-                 "disks": body.count, "contacts": body.engine.contacts, "made_s": 0.0, "wall_s": 0.0, "wall_steps_s": 0.0, "fraction": area / (height * width)}
-        walls.drive("top")
+        state = {"unit_s": unit, "rate": test.inertia / unit, "begin_time": O.time, "wall_s": 0.0, "wall_steps_s": 0.0}
         course = cls(test, folder, body, state)
+        walls.drive("top")
         if test.sides == "flexible":
+            # a membrane presses on other disks than a wall did: soft contacts feel a blow that would break bonds, so they are made when it has died away
             walls.remove("left", "right")
-            state["area"] = course._membrane()
-        elif test.platens != "smooth":
+            for _ in range(SWITCHES):
+                course._membrane()
+                for _ in range(max(1, round(REST_UNITS / SWITCHES * unit / O.dt))):
+                    O.step()
+        body.bonds = body.engine.bond()
+        height = walls.height()
+        area = course._membrane() if test.sides == "flexible" else height * walls.width()
+        if test.sides == "rigid" and test.platens != "smooth":
             walls.free("left", walls.state("right").mass)
+        state |= {"height": height, "area": area, "bonds": body.bonds, "begin": O.iter, "begin_time": O.time, "disks": body.count, "contacts": body.engine.contacts,
+                  "fraction": float(np.sum(math.pi * pressed.r**2)) / area}
         course.snapshot("begin")
         return course
 

@@ -122,22 +122,25 @@ def _without_strength(chosen, walls):
 
 
 def _bond(built, order, held):
-    """Bonds the layers' close neighbours, and breaks those that had no bond before; returns how many hold."""
+    """Bonds the layers' close neighbours, and takes bonds away where there was none before; returns how many hold."""
     from yade import O
+    from yade.wrapper import CohFrictPhys, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys
 
     from ..soft.bonds import bonded
 
     built.solver.bond()
+    functors = [f for e in O.engines if isinstance(e, InteractionLoop) for f in e.physDispatcher.functors if isinstance(f, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys)]
     number = 0
     for i in O.interactions:
-        p = i.phys
-        if not i.isReal or not bonded(p):
+        if not i.isReal or not bonded(i.phys):
             continue
-        pair = tuple(int(order[k - built.first_disk]) for k in (i.id1, i.id2))
-        if pair in held or pair[::-1] in held:
+        pair = tuple(int(order[k - built.first_disk]) if k >= built.first_disk else -1 for k in (i.id1, i.id2))
+        if pair in held or pair[::-1] in held or -1 in pair:
             number += 1
-        elif hasattr(p, "cohesionBroken"):
-            p.cohesionBroken, p.normalAdhesion, p.shearAdhesion, p.rollingAdhesion = True, 0.0, 0.0, 0.0
+        elif isinstance(i.phys, CohFrictPhys):
+            functors[0].setCohesion(i, False, False)
+        else:
+            i.phys.isCohesive = False
     return number
 
 
