@@ -11,6 +11,7 @@ Everything that decides the course stands in :class:`State`, which goes into che
   table then goes on rising;
 * still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of ``tolerance``, since
   nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a bond or two that bear all they can;
+* with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the integrator's damping (``damping_moving``);
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
 
@@ -25,7 +26,7 @@ import numpy as np
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import NewtonIntegrator
+from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 
 from . import checkpoints, packing, records, slope, tables
 from .errors import UserError
@@ -44,6 +45,9 @@ STILL_SECONDS = 5.0      # with nothing that changes ...
 STILL_SHARE = 0.25       # ... the tolerance goes down to this part of itself
 
 COLUMNS = tuple(records.COLUMNS)
+#: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
+OF_SOLVER = ("iterations", "residual", "residual_N_per_m", "tolerance", "energy_water_J", "energy_walls_J", "energy_sliding_J", "energy_rolling_J",
+             "energy_impact_J", "energy_bonds_J", "energy_correction_J", "energy_error_rel")
 
 
 class ExperimentError(UserError, RuntimeError):
@@ -72,27 +76,34 @@ class State:
     overlap_mean_worst: float = 0.0
     wall_s: float = 0.0
     wall_packing_s: float = 0.0
+    wall_steps_s: float = 0.0  # of wall_s: steps alone, without records ...
+    wall_moving_s: float = 0.0  # ... and of these, the ones of the water stage
+    steps_moving: int = 0
     first_step: int = 0
 
 
 class Experiment:
     """Runs a built :class:`~nonsmooth.slope.Slope` and writes its records into ``folder``.
 
-    ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row.
+    ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row. ``damping_moving``: of soft contacts, instead of
+    their world's while the slope moves. A slope of soft contacts has no checkpoints.
     """
 
-    def __init__(self, built, folder, state=None, layers=None, progress=None):
+    def __init__(self, built, folder, state=None, layers=None, progress=None, damping_moving=None):
         self.slope, self.section, self.folder = built, built.section, Path(folder)
         self.state = state or State()
         self.layers = slope.layers_of(built) if layers is None else layers
         self.progress = progress or (lambda *_: None)
+        self.hard = isinstance(built.solver, ContactDynamicsEngine)
+        self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         self.row_steps = max(1, round(ROW_SECONDS / O.dt))
         self.frame_steps = self.row_steps * max(1, round(FRAME_SECONDS / ROW_SECONDS))
         self.series = records.SeriesWriter(
-            self.folder / "series.csv", COLUMNS, resume_from_step=O.iter if state else None, overwrite=state is None)
+            self.folder / "series.csv", self.columns, resume_from_step=O.iter if state else None, overwrite=state is None)
         self._clock = time.monotonic()
         self._saved = self._clock
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
+        self.damping = (self.newton.damping, self.newton.damping if damping_moving is None else damping_moving)
         if state is None:
             self._begin()
 
@@ -101,13 +112,22 @@ class Experiment:
         """Runs until the experiment is over, or until ``end`` [s] of simulated time."""
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
             # to the next multiple of row_steps, so that rows fall on the same steps after a resume
-            for _ in range(self.row_steps - O.iter % self.row_steps):
+            steps, began = self.row_steps - O.iter % self.row_steps, time.perf_counter()
+            for _ in range(steps):
                 if self.state.stage == "settle":
                     self.newton.gravity = self._gravity(O.time)
                 O.step()
+            self._count(steps, time.perf_counter() - began)
             self._advance()
         self.checkpoint()
         self.series.close()
+
+    def _count(self, steps, seconds):
+        s = self.state
+        s.wall_steps_s += seconds
+        if s.moving is not None:
+            s.wall_moving_s += seconds
+            s.steps_moving += steps
 
     def _advance(self):
         solver, s = self.slope.solver, self.state
@@ -202,18 +222,25 @@ class Experiment:
             s.resting_since = None
         elif s.resting_since is None:
             s.resting_since = O.time
-        numerics = self.section.numerics
         # reactions at rest depend on how the mass came to rest, so more care while it slows down
         flowing = 0.0 if s.moving is None else min(1.0, solver.meanSpeed / (SLOW_FRACTION * s.speed_max))
         height = water.height if water else 0.0
         if height != s.table:
             s.table, s.table_since = height, O.time
         still = s.moving is None and O.time - s.table_since >= STILL_SECONDS
-        solver.tolerance = max((STILL_SHARE if still else 1.0) * numerics.tolerance, flowing * numerics.tolerance_moving)
+        self._care(flowing, still)
         over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
         if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
             s.stage = "done"
             self.snapshot(self.folder / "end.npz", contacts=True)
+
+    def _care(self, flowing, still):
+        """How exactly contacts are computed; ``flowing``: from 0 at rest to 1 on the move."""
+        if self.hard:
+            numerics = self.section.numerics
+            self.slope.solver.tolerance = max((STILL_SHARE if still else 1.0) * numerics.tolerance, flowing * numerics.tolerance_moving)
+        else:
+            self.newton.damping = (1 - flowing) * self.damping[0] + flowing * self.damping[1]
 
     def _hold(self, height):
         self.state.water_hold = height
@@ -262,9 +289,7 @@ class Experiment:
         u = total[0] * section.normal[0] + total[1] * section.normal[1]
         weak = self.slope.wall_material(base) if base in self.slope.walls else None
         slip = hasattr(weak, "meanSlip")
-        losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
-        turned = losses + e.kineticEnergy + abs(e.externalWork)
-        return {
+        row = {
             "step": O.iter, "time_s": O.time, "water_m": water.height if water else 0.0,
             "dp_normal_total_N_per_m": dp[0] + u, "dp_normal_effective_N_per_m": dp[0], "dp_water_N_per_m": u, "dp_shear_N_per_m": dp[1],
             "fb_normal_N_per_m": fb[0], "fb_shear_N_per_m": fb[1], "ss_normal_N_per_m": ss[0], "ss_shear_N_per_m": ss[1],
@@ -274,9 +299,18 @@ class Experiment:
             "bonds_broken_tension": e.brokenTension, "bonds_broken_shear": e.brokenShear,
             "bonds_broken_torque": e.brokenTorque, "bonds_broken_mixed": e.brokenMixed, "contacts": e.contacts,
             "slip_mean_dp_m": weak.meanSlip() if slip else 0.0, "weakened_disks": weak.weakenedCount() if slip else 0,
-            "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance, "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
-            "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy, "energy_water_J": e.externalWork,
-            "energy_walls_J": e.wallWork, "energy_sliding_J": e.slidingLoss, "energy_rolling_J": e.rollingLoss,
+            "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
+            "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy,
+        }
+        return row | self._of_solver(e) if self.hard else row
+
+    def _of_solver(self, e):
+        """The columns of OF_SOLVER."""
+        losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
+        turned = losses + e.kineticEnergy + abs(e.externalWork)
+        return {
+            "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance,
+            "energy_water_J": e.externalWork, "energy_walls_J": e.wallWork, "energy_sliding_J": e.slidingLoss, "energy_rolling_J": e.rollingLoss,
             "energy_impact_J": e.impactLoss, "energy_bonds_J": e.debondingLoss,
             "energy_correction_J": e.correctionEnergy, "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
         }
@@ -297,14 +331,15 @@ class Experiment:
 
     # ---- checkpoints --------------------------------------------------------------------------
     def checkpoint(self):
-        """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole."""
+        """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole. With soft contacts the records alone."""
         now = time.monotonic()
         self.state.wall_s += now - self._clock
         self._clock = self._saved = now
         self.series.sync()
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
-        checkpoints.write(self.folder, run_key(self.section), {
-            "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state)})
+        if self.hard:
+            checkpoints.write(self.folder, run_key(self.section), {
+                "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state)})
 
 
 def run_key(section):

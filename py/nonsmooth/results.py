@@ -22,10 +22,10 @@ import numpy as np
 from . import figures, paraview, records, toe, video
 from .packing_files import write_atomically
 
-__all__ = ["characteristic_times", "summarise", "draw"]
+__all__ = ["characteristic_times", "mean_of", "summarise", "draw"]
 
 
-def _mean(series, name, end, span=1.0):
+def mean_of(series, name, end, span=1.0):
     """Mean of a column over the ``span`` seconds up to ``end`` [s]."""
     t = series["time_s"]
     chosen = (t > end - span - 1e-9) & (t <= end + 1e-9)
@@ -48,9 +48,9 @@ def characteristic_times(series, section, state) -> dict[str, float | None]:
     times["t1"] = _failure(series, times, state)
     if not len(late):
         return times
-    before = _mean(series, "dp_shear_N_per_m", times["t2"])
+    before = mean_of(series, "dp_shear_N_per_m", times["t2"])
     for k in range(late[0], len(t)):
-        if _mean(series, "dp_shear_N_per_m", t[k]) <= 0.1 * before:
+        if mean_of(series, "dp_shear_N_per_m", t[k]) <= 0.1 * before:
             times["t3"] = float(t[k])
             break
     times["t4"] = float(t[np.argmax(series["energy_kinetic_J"])])
@@ -68,7 +68,7 @@ def _failure(series, times, state):
     steps = np.flatnonzero((t >= times["t0"] + 1 - 1e-9) & (t <= until + 1e-9))
     if not len(steps) or not np.any(series["fb_normal_N_per_m"]):
         return state["moving"]
-    force = np.array([_mean(series, "fb_normal_N_per_m", t[k]) for k in steps])
+    force = np.array([mean_of(series, "fb_normal_N_per_m", t[k]) for k in steps])
     return float(t[steps[np.argmax(force >= 0.98 * force.max())]])
 
 
@@ -92,7 +92,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     series = records.read_series(folder / "series.csv")
     times = characteristic_times(series, section, state)
     last = float(series["time_s"][-1])
-    at = lambda name, end, span=1.0: None if end is None else _mean(series, name, end, span)  # noqa: E731
+    at = lambda name, end, span=1.0: None if end is None else mean_of(series, name, end, span)  # noqa: E731
     t0, t1 = times["t0"], times["t1"]
     finished = state["stage"] == "done"
     begin = t0 if t0 is not None else last

@@ -1,4 +1,4 @@
-"""Builds a section with its packing as a YADE scene."""
+"""Builds a section with its packing as a YADE scene, of rigid disks or, in another of the :mod:`worlds`, of soft ones."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import PorePressureEngine
 
-from . import scene
+from . import scene, worlds
+from .soft.measures import Measures
 
-__all__ = ["Slope", "build", "find"]
+__all__ = ["Slope", "build", "find", "hard", "order_of"]
 
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
@@ -23,7 +24,10 @@ FASTEST_APPROACH = 60.0
 
 @dataclass
 class Slope:
-    """Handles of a built scene. ``walls``: name -> ids of its pieces; ``first_disk``: id of disk 0 (ids are consecutive)."""
+    """Handles of a built scene. ``walls``: name -> ids of its pieces; ``first_disk``: id of disk 0 (ids are consecutive).
+
+    ``solver``: what tells of the contacts and makes bonds: the ContactDynamicsEngine, or with soft contacts :class:`~.soft.measures.Measures`.
+    """
 
     section: object
     walls: dict
@@ -50,18 +54,12 @@ class Slope:
         return O.bodies[self.walls[name][0]].material
 
 
-def _rock(section, name, layer):
-    """NscdMat of a section's material, for layer number ``layer``."""
-    m = section.materials[name]
-    return scene.material(m, label=f"{name}-{layer}", layer=layer if m.bonded else -2 - layer)  # a negative layer makes no bonds
-
-
-def _walls(section):
+def _walls(section, world):
     """Adds the walls; consecutive ones that meet share their joint as pieces of one polyline do."""
     piece = PIECE * math.sqrt(section.disks.mean_square)
     ids, last = {}, None
     for wall in section.walls:
-        material = O.materials[O.materials.append(scene.wall_material(section.materials[wall.material], label=f"wall-{wall.name}"))]
+        material = O.materials[O.materials.append(world.wall_material(section.materials[wall.material], label=f"wall-{wall.name}"))]
         bodies = scene.segments(wall.points, material, piece=piece, sense=1)
         start, end = wall.points[0], wall.points[-1]
         if last is not None and np.allclose(last[1], start, rtol=0, atol=section.tolerance):
@@ -73,17 +71,30 @@ def _walls(section):
     return ids
 
 
-def build(section, packing) -> Slope:
+def hard(section) -> worlds.Hard:
+    """The world of rigid disks with the section's numerics."""
+    n = section.numerics
+    # bonds are made where contacts are known, so these must reach further than Δ; and a disk must be known a step before it hits another
+    reach = max(FASTEST_APPROACH * n.time_step / section.disks.d_min, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
+    return worlds.Hard(n.time_step, n.tolerance, reach, -n.verlet_distance, {"maxIterations": n.max_iterations})
+
+
+def order_of(section, packing) -> np.ndarray:
+    """Numbers of the packing's disks in the order of their ids in the scene: along the slope, so that neighbours in space are neighbours in memory."""
+    return np.argsort(packing.x * section.downslope[0] + packing.y * section.downslope[1], kind="stable")
+
+
+def build(section, packing, world=None) -> Slope:
     """Fills the (empty) scene with walls, disks and engines; the disks are at rest and nothing is bonded yet.
 
-    ``section``: a checked Section; ``packing``: a Packing whose layers are the section's.
+    ``section``: a checked Section; ``packing``: a Packing whose layers are the section's; ``world``: one of :mod:`worlds`, :func:`hard` unless given.
     """
+    world = world or hard(section)
     O.reset()
-    walls = _walls(section)
-    materials = [O.materials[O.materials.append(_rock(section, layer.material, k))] for k, layer in enumerate(section.layers)]
-    # along the slope, so that neighbours in space are neighbours in memory
-    along = packing.x * section.downslope[0] + packing.y * section.downslope[1]
-    order = np.argsort(along, kind="stable")
+    walls = _walls(section, world)
+    rocks = [section.materials[layer.material] for layer in section.layers]
+    materials = [O.materials[O.materials.append(world.material(m, layer=k, label=_label(layer, k)))] for k, (layer, m) in enumerate(zip(section.layers, rocks))]
+    order = order_of(section, packing)
     disks = [scene.disk((float(packing.x[k]), float(packing.y[k])), float(packing.r[k]), materials[packing.layer[k]]) for k in order]
     ids = O.bodies.append(disks)
     before = []
@@ -92,22 +103,26 @@ def build(section, packing) -> Slope:
         before.append(PorePressureEngine(
             label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*section.normal, 0),
             gradient=Vector3(*w.gradient, 0), releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
-    n = section.numerics
-    # bonds are made where contacts are known, so these must reach further than Δ; and a disk must be known a step before it hits another
-    reach = max(FASTEST_APPROACH * n.time_step / section.disks.d_min, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
-    O.engines = scene.engines(
-        gravity=(0, -section.gravity, 0), reach=reach, verlet=-n.verlet_distance, before=before, tolerance=n.tolerance, maxIterations=n.max_iterations)
-    O.dt = n.time_step
-    return find(section, walls, ids[0], len(ids))
+    O.engines = world.engines(gravity=(0, -section.gravity, 0), before=before)
+    O.dt = world.step_for(rocks)
+    built = find(section, walls, ids[0], len(ids))
+    if world.name == "soft":
+        layer = packing.layer[order]
+        built.solver = Measures(world, [(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)])
+    return built
 
 
 def find(section, walls, first_disk, count) -> Slope:
     """Handles of a scene that is there already, as after O.load."""
     engines = {type(e).__name__: e for e in O.engines}
-    return Slope(section, walls, first_disk, count, engines["ContactDynamicsEngine"], engines.get("PorePressureEngine"))
+    return Slope(section, walls, first_disk, count, engines.get("ContactDynamicsEngine"), engines.get("PorePressureEngine"))
+
+
+def _label(layer, number):
+    return f"{layer.material}-{number}"
 
 
 def layers_of(slope: Slope) -> np.ndarray:
     """Layer number of every disk, from the bottom; shape (count,)."""
-    number = {f"{layer.material}-{k}": k for k, layer in enumerate(slope.section.layers)}
+    number = {_label(layer, k): k for k, layer in enumerate(slope.section.layers)}
     return np.array([number[O.bodies[slope.first_disk + k].material.label] for k in range(slope.count)])

@@ -87,12 +87,14 @@ class Test:
 
 
 class Course:
-    """Runs a test and writes its records into ``folder``."""
+    """Runs a test and writes its records into ``folder``; ``columns``: those of its series."""
+
+    columns = COLUMNS
 
     def __init__(self, test, folder, body, state):
         """``body``: the Sample in the scene; ``state``: dictionary of numbers that a checkpoint keeps."""
         self.test, self.folder, self.sample, self.state = test, Path(folder), body, state
-        self.series = records.SeriesWriter(self.folder / "series.csv", COLUMNS, resume_from_step=state.get("row_step"), overwrite="row_step" not in state)
+        self.series = records.SeriesWriter(self.folder / "series.csv", self.columns, resume_from_step=state.get("row_step"), overwrite="row_step" not in state)
         self._saved = self._clock = time.monotonic()
 
     # ---- begin ----------------------------------------------------------------------------------
@@ -187,14 +189,15 @@ class Course:
         height = self.sample.walls.height()
         width = area / height
         sides = self.test.sides == "rigid"
-        self.series.write({
+        row = {
             "step": O.iter, "time_s": O.time - s["begin_time"], "strain": s["strain"], "volumetric_strain": area / s["area"] - 1,
             "sigma1_top_Pa": sums["top"] / width, "sigma1_bottom_Pa": sums["bottom"] / width,
             "sigma3_left_Pa": sums["left"] / height if sides else self.test.confining, "sigma3_right_Pa": sums["right"] / height if sides else self.test.confining,
             "inertial_number": s["rate"] * s["unit_s"], "bonds_alive": engine.bonds, "bonds_broken_tension": engine.brokenTension,
             "bonds_broken_shear": engine.brokenShear, "bonds_broken_torque": engine.brokenTorque, "bonds_broken_mixed": engine.brokenMixed,
             "contacts": engine.contacts, "speed_mean_m_per_s": engine.meanSpeed, "iterations_mean": sweeps, "residual_worst": worst, "unconverged": missed,
-            "overlap_worst_rel": engine.overlapWorst})
+            "overlap_worst_rel": engine.overlapWorst}
+        self.series.write({name: row[name] for name in self.columns})
 
     # ---- records --------------------------------------------------------------------------------
     def snapshot(self, name):

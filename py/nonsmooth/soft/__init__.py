@@ -12,6 +12,7 @@
 * :mod:`description`: these as a table, and what is lost;
 * :mod:`reverse`: the material of a soft material or bond, where there is one;
 * :mod:`functors`: materials and engines of a scene;
+* :mod:`measures`: speeds, overlaps and broken bonds of a scene, under the names of ContactDynamicsEngine;
 * :mod:`bonds`: bonds with thresholds set contact by contact, and residual strengths.
 
 The first three need no running simulation.

@@ -123,13 +123,13 @@ def bonded(physics):
     return isinstance(physics, JCFpmPhys) and physics.isCohesive
 
 
-def weaken():
+def weaken(contacts=None):
     """Gives contacts of disks that are not bonded the residual friction of their materials, and the arm μ_r ℓ, ℓ = R₁ + R₂.
 
     YADE keeps the peak values of a contact whose bond broke, and gives new contacts the arm 2 μ_r min(R). The weaker of the two
-    materials' values holds, as in the hard law. Walks over all contacts; :func:`~yade.nonsmooth.soft.functors.engines` calls it now and then.
+    materials' values holds, as in the hard law. ``contacts``: interactions to look at, without them all; :func:`~yade.nonsmooth.soft.functors.engines` calls it now and then.
     """
-    for i in O.interactions:
+    for i in O.interactions if contacts is None else contacts:
         p = i.phys if i.isReal else None
         if bonded(p) or not isinstance(p, (CohFrictPhys, JCFpmPhys)):
             continue

@@ -1,0 +1,81 @@
+"""The first screen: the questions of a comparison answered in plain words, with numbers from ``summary.json``."""
+
+from __future__ import annotations
+
+__all__ = ["answer_cost", "answer_costs", "answer_same", "number"]
+
+
+def number(value, unit="", digits=3):
+    """A number with its unit for a reader; "not known" for None."""
+    if value is None:
+        return "not known"
+    scale, prefix = 1.0, ""
+    if unit in ("N/m", "Pa", "N") and value:
+        scale, prefix = next(((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
+    text = f"{value / scale:.{digits}g}"
+    if "e" in text and 1e-3 <= abs(value / scale) < 1e6:
+        text = f"{value / scale:.0f}"
+    return text if unit in ("", "1") else f"{text} {prefix}{unit}"
+
+
+def _with_spread(found, unit):
+    if found["mean"] is None:
+        return "not known"
+    return number(found["mean"], unit) + (f" ± {number(found['sd'], unit)}" if found["sd"] is not None else "")
+
+
+def answer_same(summary, names):
+    """Sentences on whether both worlds agree in the quantities ``names``: (verdict, sentences); the verdict is "yes", "no" or "not told"."""
+    sentences, verdicts = [], []
+    seeds = len(summary["seeds"])
+    for name in names:
+        q = summary["quantities"][name]
+        unit = q["unit"]
+        text = f"{q['means'][0].upper()}{q['means'][1:]}: {_with_spread(q['hard'], unit)} hard, {_with_spread(q['soft'], unit)} soft"
+        known = [sum(v is not None for v in q[world]["values"]) for world in ("hard", "soft")]
+        if min(known) < seeds:
+            text += f" (in {known[0]} hard and {known[1]} soft runs of {seeds} it came to that)"
+        if q["within_scatter"] is None:
+            text += "; with these runs difference cannot be told from scatter."
+            verdicts.append(None)
+        else:
+            verdicts.append(q["within_scatter"])
+            span = f" (95 % confidence ± {number(q['difference_95'], unit)}, same packings)" if q["difference_95"] is not None else ""
+            text += f". The difference, {number(q['difference'], unit)}{span}, is {'within' if q['within_scatter'] else 'larger than'} the scatter over seeds, {number(q['scatter'], unit)}."
+        sentences.append(text)
+    verdict = "not told" if None in verdicts else ("yes" if all(verdicts) else ("no" if not any(verdicts) else "in part"))
+    if summary.get("deposit_overlap_fraction") is not None:
+        text = f"Deposits of the same packing cover each other by {number(100 * summary['deposit_overlap_fraction'])} % of the area that either covers"
+        between = summary.get("deposit_overlap_fraction_between_seeds")
+        text += f"; hard deposits of different seeds by {number(100 * between)} %." if between is not None else "."
+        sentences.append(text)
+    return verdict, sentences
+
+
+def answer_costs(summary):
+    """Sentences on which world costs less at equal accuracy: (verdict, sentences); the verdict is "hard", "soft" or "not told"."""
+    work = summary["work_precision"]
+    found, sentences = work["against_hard"]["compared"], []
+    verdict = "not told"
+    if found:
+        verdict = "hard" if found["factor"] > 1 else "soft"
+        cheaper = found["factor"] if found["factor"] > 1 else 1 / found["factor"]
+        where = "the scatter over seeds, below which errors tell nothing" if found["at_scatter"] else "the smallest that both reach"
+        sentences.append(f"At equal accuracy (error {number(found['error'])} against the finest hard run: {where}) {verdict} costs less, by a factor of {number(cheaper)}: "
+                         f"“{found['hard_label']}” against “{found['soft_label']}”.")
+    own = work["against_own"]["compared"]
+    if own:
+        sentences.append(f"Each against the finest run of its own world, at an error of {number(own['error'])}: a factor of {number(own['factor'])}, soft over hard.")
+    return verdict, sentences + [s for s in answer_cost(summary) if s]
+
+
+def answer_cost(summary):
+    """Sentences on wall time for a second of simulation."""
+    factor = summary["soft_over_hard_wall_equal_overlap"]
+    if factor is not None:
+        beyond = " That stiffness was not run: the factor is extrapolated." if summary["equal_overlap_extrapolated"] else ""
+        yield (f"At equal mean overlap ({number(summary['overlap_hard_rel'], digits=2)} of the mean diameter, which takes a Young's modulus of "
+               f"{number(summary['stiffness_equal_overlap_Pa'], 'Pa', 2)}) a second of simulation costs soft contacts {number(factor)} times the wall time of hard ones.{beyond}")
+    rock = summary["soft_over_hard_wall_rock_stiffness"]
+    if rock is not None:
+        yield f"At a rock's stiffness, 10 GPa, {number(rock)} times" + (" (extrapolated)." if summary["rock_stiffness_extrapolated"] else ".")

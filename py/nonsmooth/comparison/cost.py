@@ -1,0 +1,200 @@
+"""Wall time for a second of simulation at the paper's scale, soft over hard, on several threads.
+
+Both worlds hold the same disks at the same places: those of the benchmark's states (:mod:`yade.nonsmooth.benchmark.states`), the slope at rest under its
+weight, and on the move (backstop and plane without strength, water table at 20 m, mean speed 5 m/s). The hard steps are timed from there. For soft contacts
+the scene is built anew from these places and velocities, with the bonds that held; it runs :data:`RELAX_SECONDS`, in which springs take up the weight, and
+is then timed. The soft step is a share of its stability limit.
+
+Overlap has one definition: mean over contacts that touch or bear a force of the overlap over the mean diameter. Soft overlaps fall as 1/E and the cost grows as √E,
+so what soft contacts cost at the overlap of the hard ones is read from straight lines between logarithms, beyond the stiffest along the last one.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from .. import checkpoints
+from ..benchmark import machine
+from ..benchmark.course import Course
+from . import precision
+from .runs import keep, kept
+from .summary import ROCK_STIFFNESS, clean
+
+__all__ = ["STATES", "STIFFNESSES", "measure_hard", "measure_soft", "run", "summarise"]
+
+STATES = ("moving", "rest")
+STIFFNESSES = (1e7, 1e8, 1e9, 1e10)  # Pa
+RELAX_SECONDS = 1.0  # of simulation, soft
+WARM_UP, LOOKS = 10, 5  # steps before those that are timed; times at which soft overlaps are taken
+
+
+def measure_hard(folder, source, disks, state, steps):
+    """Times hard steps from a saved state; returns mean overlap and wall time for a second of simulation."""
+    from yade import O
+
+    from .. import scene
+    from ..benchmark import states
+
+    states.load(source, disks, state)
+    for _ in range(WARM_UP):
+        O.step()
+    solver, overlaps, wall = scene.contact_dynamics(), [], 0.0
+    sweeps = solver.totalIterations
+    for _ in range(steps):
+        began = time.perf_counter()
+        O.step()
+        wall += time.perf_counter() - began
+        overlaps.append(solver.overlapMean)
+    return _found(O.dt, steps, wall, overlaps, solver.contacts, solver.meanSpeed) | {
+        "tolerance": solver.tolerance, "sweeps_mean": (solver.totalIterations - sweeps) / steps, "overlap_worst_rel": solver.overlapWorstEver}
+
+
+def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_share, relax=RELAX_SECONDS, model="cohesion_moment"):
+    """The same on soft contacts with this Young's modulus [Pa]; ``damping``: of the integrator, ``step_share``: of the stability limit."""
+    from yade import O
+
+    from .. import packing_files, scene, slope, tables, worlds
+    from ..benchmark import states
+
+    chosen = states.section_of(source, disks)
+    states.load(source, disks, state)
+    solver = scene.contact_dynamics()
+    t, c, time_s = tables.bodies(solver), tables.contacts(solver), O.time
+    height = next(e for e in O.engines if e.label == "porePressure").heightAt(O.time) if state == "moving" else 0.0
+    first = int(t["id"][0])
+    held = {(int(a) - first, int(b) - first) for a, b in zip(c["id1"][c["bonded"]], c["id2"][c["bonded"]])}
+    layers = np.array([_layer(O.bodies[int(k)].material.label) for k in t["id"]])
+    if state == "moving":
+        chosen = _without_strength(chosen, states.WEAKENED)
+    packed = packing_files.Packing(t["x"], t["y"], t["r"], layers)
+    world = worlds.Soft(stiffness, (chosen.disks.d_min, chosen.disks.d_max), model=model, damping=damping, step_share=step_share, verlet=-chosen.numerics.verlet_distance)
+    built = slope.build(chosen, packed, world)
+    order = slope.order_of(chosen, packed)
+    for k, old in enumerate(order):
+        body = O.bodies[built.first_disk + k].state
+        body.vel, body.angVel = (t["vx"][old], t["vy"][old], 0), (0, 0, t["omega"][old])
+    if chosen.water is not None:
+        built.water.times, built.water.heights = [0.0], [height]
+    bonds = _bond(built, order, held)
+    relax_steps = max(1, round(relax / O.dt))
+    for k in range(relax_steps):
+        O.step()
+        if k % 100 == 0:
+            (Path(folder) / "progress").write_text(f"{0.9 * k / relax_steps:.3f}")
+    overlaps, wall = [], 0.0
+    for _ in range(LOOKS):
+        part = max(1, steps // LOOKS)
+        began = time.perf_counter()
+        for _ in range(part):
+            O.step()
+        wall += time.perf_counter() - began
+        overlaps.append(built.solver.overlapMean)
+    return _found(O.dt, LOOKS * part, wall, overlaps, built.solver.contacts, built.solver.meanSpeed) | {
+        "bonds_made": bonds, "bonds_before": len(held), "state_time_s": time_s, "overlap_worst_rel": built.solver.overlapWorst}
+
+
+def _found(dt, steps, wall, overlaps, contacts, speed):
+    return {"time_step_s": dt, "steps": steps, "wall_s_per_step": wall / steps, "rate": wall / steps / dt, "overlap_mean_rel": float(np.mean(overlaps)),
+            "contacts": contacts, "mean_speed_m_per_s": speed}
+
+
+def _layer(label):
+    return int(label.rsplit("-", 1)[1])
+
+
+def _without_strength(chosen, walls):
+    """The section with walls that bear neither shear nor tension, as benchmark.states leaves them on the move."""
+    made = dict(chosen.materials)
+    changed = []
+    for wall in chosen.walls:
+        if wall.name in walls:
+            name = f"{wall.material} without strength"
+            made[name] = dataclasses.replace(chosen.materials[wall.material], name=name, friction=0.0, residual_friction=0.0, tensile_strength=0.0,
+                                             residual_tensile_strength=0.0, bonded=False, slip_weakening=None)
+            wall = dataclasses.replace(wall, material=name)
+        changed.append(wall)
+    return dataclasses.replace(chosen, walls=tuple(changed), materials=MappingProxyType(made))
+
+
+def _bond(built, order, held):
+    """Bonds the layers' close neighbours, and takes bonds away where there was none before; returns how many hold."""
+    from yade import O
+    from yade.wrapper import CohFrictPhys, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys
+
+    from ..soft.bonds import bonded
+
+    built.solver.bond()
+    functors = [f for e in O.engines if isinstance(e, InteractionLoop) for f in e.physDispatcher.functors if isinstance(f, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys)]
+    number = 0
+    for i in O.interactions:
+        if not i.isReal or not bonded(i.phys):
+            continue
+        pair = tuple(int(order[k - built.first_disk]) if k >= built.first_disk else -1 for k in (i.id1, i.id2))
+        if pair in held or pair[::-1] in held or -1 in pair:
+            number += 1
+        elif isinstance(i.phys, CohFrictPhys):
+            functors[0].setCohesion(i, False, False)
+        else:
+            i.phys.isCohesive = False
+    return number
+
+
+def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping=0.2, damping_moving=0.02, step_share=0.5, resume=False,
+        progress=lambda share, doing: None, model="cohesion_moment"):
+    """Makes the states that are missing and measures both worlds, one process after the other on ``threads``; returns :func:`summarise` of it.
+
+    Raises benchmark.states.BenchmarkError where a measurement fails.
+    """
+    from ..benchmark import states
+
+    subject = {"source": source, "disks": disks}
+    made = not states.exist(source, disks)
+    per_thousand = disks / 1000
+    hard_s = 2 + 0.015 * steps * per_thousand
+    soft_s = {e: 5 + 0.2 * per_thousand + (0.0012 * per_thousand) * (steps + RELAX_SECONDS * (e / 1e10) ** 0.5 * 5500) for e in stiffnesses}
+    measuring = Course(out, (10 * per_thousand if made else 0) + len(STATES) * (hard_s + sum(soft_s.values())), progress)
+    if made:
+        measuring.call("states", 10 * per_thousand, states.make, subject, threads)
+    found = {"hard": {}, "soft": {}}
+
+    def once(name, seconds, function, arguments):
+        key = checkpoints.key_of({"name": name, "threads": threads, "state": states.folder_of(states.section_of(source, disks)).name, **arguments})
+        folder = measuring.home / name
+        known = kept(folder, key) if resume else None
+        if known is None:
+            folder.mkdir(parents=True, exist_ok=True)
+            known = measuring.call(name, seconds, function, arguments, threads)
+            keep(folder, key, known)
+        return known
+
+    for state in STATES:
+        found["hard"][state] = once(f"hard-{state}", hard_s, measure_hard, {**subject, "state": state, "steps": steps})
+        found["soft"][state] = [{"stiffness_Pa": e, **once(f"soft-{e:g}-{state}".replace("+", ""), soft_s[e], measure_soft, {
+            **subject, "state": state, "stiffness": e, "steps": steps, "damping": damping_moving if state == "moving" else damping, "step_share": step_share, "model": model})}
+            for e in sorted(stiffnesses)]
+    return summarise(found) | clean({"scenario": "slope", "disks": disks, "threads": threads, "source": source, "damping": damping, "damping_moving": damping_moving, "step_share": step_share,
+                                     "model": model, "steps_timed": steps, "relax_s": RELAX_SECONDS, "machine": machine.describe()})
+
+
+def summarise(found):
+    """Factors of ``found``, {"hard": {state: numbers}, "soft": {state: [numbers by stiffness]}}; the headline ones are those of the moving slope."""
+    states = {}
+    for state, hard in found["hard"].items():
+        soft = found["soft"][state]
+        moduli, overlaps, rates = ([s[name] for s in soft] for name in ("stiffness_Pa", "overlap_mean_rel", "rate"))
+        rate, beyond = precision.loglog(hard["overlap_mean_rel"], overlaps, rates)
+        modulus, _ = precision.loglog(hard["overlap_mean_rel"], overlaps, moduli)
+        rock, rock_beyond = precision.loglog(ROCK_STIFFNESS, moduli, rates)
+        fits = [precision.power_law(moduli, values) for values in (overlaps, rates)]
+        states[state] = {"equal_overlap": rate / hard["rate"], "equal_overlap_stiffness_Pa": modulus, "equal_overlap_extrapolated": beyond, "rock_stiffness": rock / hard["rate"],
+                         "rock_stiffness_extrapolated": rock_beyond, "overlap_power": fits[0].power if fits[0] else None, "rate_power": fits[1].power if fits[1] else None,
+                         "hard": hard, "soft": soft}
+    head = states["moving"]
+    return clean({"soft_over_hard_wall_equal_overlap": head["equal_overlap"], "soft_over_hard_wall_rock_stiffness": head["rock_stiffness"],
+                  "stiffness_equal_overlap_Pa": head["equal_overlap_stiffness_Pa"], "equal_overlap_extrapolated": head["equal_overlap_extrapolated"],
+                  "rock_stiffness_extrapolated": head["rock_stiffness_extrapolated"], "overlap_hard_rel": head["hard"]["overlap_mean_rel"], "states": states})

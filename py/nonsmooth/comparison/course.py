@@ -1,0 +1,61 @@
+"""A comparison from its plan to its report."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+
+from ..benchmark import machine
+from ..packing_files import write_atomically
+from . import answers, biaxial_report, biaxials, collapse_report, collapses, report, runs, slope_report, slopes, summary
+from .cases import HARD_NUMERICS, ComparisonError, plan
+
+__all__ = ["SCENARIOS", "compare"]
+
+#: Experiment and report of each scenario.
+SCENARIOS = {"slope": (slopes, slope_report), "biaxial": (biaxials, biaxial_report), "column": (collapses.COLUMN, collapse_report),
+             "pile": (collapses.PILE, collapse_report)}
+COST_QUESTION = "Which costs less at equal accuracy, and by what factor?"
+
+
+def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, threads=1, resume=False, progress=lambda share, doing: None, short=False, options=None, **plan_options):
+    """Runs all cases that are not kept, writes ``summary.json`` and ``report.html`` into ``out``; returns the summary and the answered questions.
+
+    ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``short``: neither hard runs of other numerics nor the run of another
+    damping; ``plan_options``: of cases.plan. Raises ComparisonError before anything runs for arguments that cannot be used, and after all runs have ended where one failed.
+    """
+    began, out = time.monotonic(), Path(out)
+    experiment, pages = SCENARIOS[scenario]
+    disks = experiment.DISKS if disks is None else disks
+    if disks < 1:
+        raise ComparisonError(f"--disks {disks}: give a number above 0")
+    if threads < 1:
+        raise ComparisonError(f"--threads {threads}: give a number above 0")
+    if not getattr(experiment, "MOVING", True):
+        plan_options["damping_moving"] = None
+    short_options = dict(numerics=HARD_NUMERICS[-1:], damping_run=False) if short else {}
+    chosen = plan(source or experiment.SOURCE, disks, seeds, stiffnesses or experiment.DEFAULT_STIFFNESSES, options=options, **{**plan_options, **short_options})
+    cases = chosen.cases
+    for case in {c.seed: c for c in cases}.values():
+        progress(0.0, f"packing of seed {case.seed}")
+        experiment.prepare(case)
+    found = runs.run(experiment.run, cases, out, threads, resume, progress)
+    outcomes = {case: experiment.measure(case, runs.folder_of(case, out), one) for case, one in zip(cases, found)}
+    told = {**summary.summarise(experiment, chosen, outcomes), "machine": summary.clean(machine.describe()), "threads": threads}
+    questions = [(text, *answers.answer_same(told, names)) for text, names in pages.QUESTIONS] + [(COST_QUESTION, *answers.answer_costs(told))]
+    (out / "figures").mkdir(parents=True, exist_ok=True)
+    sections = [*pages.sections(out, experiment, chosen, outcomes, told), *report.common_sections(out, experiment, chosen, outcomes, told)]
+    told["wall_s"] = time.monotonic() - began
+    write_atomically(out / "summary.json", (json.dumps(told, indent=1) + "\n").encode())
+    report.write(out / "report.html", f"Hard against soft: {scenario}", _lead(chosen, experiment, told), questions, sections, told["machine"])
+    return told, questions
+
+
+def _lead(chosen, experiment, told):
+    hard, soft = chosen.ensemble[0]
+    rest = f"{soft.damping:g}" if soft.damping_moving in (None, soft.damping) else f"{soft.damping:g} at rest, {soft.damping_moving:g} while the mass moves"
+    return [f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and parameters with Contact Dynamics (“hard”) and with YADE's "
+            f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa where seeds are compared; "
+            f"time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",
+            "The scatter is the standard deviation over seeds, root mean square of both worlds'. Differences within it may be chance."]

@@ -1,0 +1,115 @@
+"""Cases in YADE processes of their own, as many at a time as there are threads; each keeps its result, so that a resume repeats none.
+
+Each process has one thread, so wall times of all runs are on the same footing; those of runs that share a machine's memory with others are a little
+longer than alone.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
+from pathlib import Path
+
+from .. import checkpoints, processes
+from ..packing_files import write_atomically
+from .cases import ComparisonError
+
+__all__ = ["Progress", "folder_of", "found_of", "keep", "kept", "run"]
+
+NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
+
+
+def folder_of(case, out) -> Path:
+    """Where a case's records are."""
+    return Path(out) / "runs" / case.name
+
+
+def _key(function, case):
+    return checkpoints.key_of({"function": f"{function.__module__}.{function.__name__}", "case": asdict(case)})
+
+
+def found_of(function, case, out):
+    """What a finished case returned, None where it has not finished or was another."""
+    return kept(folder_of(case, out), _key(function, case))
+
+
+def kept(folder, key):
+    """The result that :func:`keep` wrote, None where there is none of this key."""
+    try:
+        content = json.loads((Path(folder) / "result.json").read_text())
+        return content["found"] if content["key"] == key else None
+    except (OSError, ValueError, KeyError):
+        return None
+
+
+def keep(folder, key, found):
+    """Writes the result of a run, with a key that tells what it is of."""
+    write_atomically(Path(folder) / "result.json", json.dumps({"key": key, "found": found}, indent=1).encode())
+
+
+def run(function, cases, out, threads, resume=False, progress=lambda share, doing: None):
+    """Calls ``function(folder, **case)`` for every case; returns what each returned, in their order.
+
+    ``function``: of a module of this package, see processes.call; it may write the share done with :class:`Progress`. ``resume``: keep what has finished.
+    ``progress``: called with the share done and what is being done. Raises ComparisonError with the first failure after all others have ended.
+    """
+    cases = list(cases)
+    for case in cases:
+        folder = folder_of(case, out)
+        if not resume or found_of(function, case, out) is None:
+            shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True, exist_ok=True)
+    ended = threading.Event()
+    watcher = threading.Thread(target=_watch, args=([folder_of(c, out) for c in cases], progress, ended), daemon=True)
+    watcher.start()
+    try:
+        with ThreadPoolExecutor(max(1, threads)) as pool:
+            futures = [pool.submit(_one, function, case, out) for case in cases]
+            failures = [f"{case.name}: {error}" for case, f in zip(cases, futures) if (error := f.exception())]
+    finally:
+        ended.set()
+        watcher.join()
+    if failures:
+        more = f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""
+        raise ComparisonError(f"{failures[0]}{more}; finished runs are kept, go on with --resume")
+    return [f.result() for f in futures]
+
+
+def _one(function, case, out):
+    found = found_of(function, case, out)
+    if found is None:
+        folder = folder_of(case, out)
+        found = processes.call(function, folder, asdict(case))
+        keep(folder, _key(function, case), found)
+    return found
+
+
+def _watch(folders, progress, ended):
+    while not ended.wait(NOTE_SECONDS):
+        shares = [_share(folder) for folder in folders]
+        progress(sum(shares) / len(shares), f"{sum(s >= 1 for s in shares)} of {len(shares)} runs done")
+
+
+def _share(folder):
+    if (folder / "result.json").exists():
+        return 1.0
+    try:
+        return min(0.99, float((folder / "progress").read_text()))
+    except (OSError, ValueError):
+        return 0.0
+
+
+class Progress:
+    """Notes the share done in a run's folder, now and then."""
+
+    def __init__(self, folder):
+        self._path, self._shown = Path(folder) / "progress", 0.0
+
+    def __call__(self, share):
+        if time.monotonic() - self._shown > NOTE_SECONDS:
+            write_atomically(self._path, f"{share:.4f}".encode())
+            self._shown = time.monotonic()

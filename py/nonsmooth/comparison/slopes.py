@@ -1,0 +1,127 @@
+"""The slope experiment in both worlds: one course (:mod:`yade.nonsmooth.experiment`), one set of rules (:mod:`yade.nonsmooth.results`)."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import asdict
+
+import numpy as np
+
+from .. import packing, records, results, section
+from ..figures.profiles import deposit_profile
+from .cases import Case
+from .outcomes import Cost, Outcome, Quantity
+from .runs import Progress
+
+__all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "forces_of", "measure", "prepare", "run", "section_of"]
+
+#: Young's moduli [Pa], to a rock's. Under the slope's stress of some MPa contacts overlap by about 10 % of the radius at the softest.
+DEFAULT_STIFFNESSES = (1e7, 1e8, 1e9, 1e10)
+
+QUANTITIES = (
+    Quantity("water_at_failure_m", "water table at failure (t1)", "m"),
+    Quantity("front_travel_m", "travel of the front", "m"),
+    Quantity("centroid_travel_m", "travel of the centre of mass", "m"),
+    Quantity("fb_force_at_failure_N_per_m", "normal force on FB at failure", "N/m"),
+    Quantity("dp_shear_at_failure_N_per_m", "shear force on DP at failure", "N/m"),
+    Quantity("fb_force_final_N_per_m", "normal force on FB at the end", "N/m"),
+    Quantity("dp_shear_final_N_per_m", "shear force on DP at the end", "N/m"),
+    Quantity("bonds_broken_share", "bonds broken, of those made", "1"),
+    Quantity("deposit_thickness_max_m", "greatest thickness of the deposit", "m"),
+    Quantity("speed_mean_max_m_per_s", "largest mean speed", "m/s"),
+)
+
+
+NAME, TITLE = "slope", "Rain-triggered rock slope"
+SOURCE, DISKS = "jiufengershan", 3000
+KEYS = ("water_at_failure_m",)  # quantities that are parts of the error, besides curves and deposit
+CURVES = {"front": "the front's way", "centroid": "the centre of mass's way", "deposit": "the deposit (1 − common area)"}
+
+
+def section_of(case: Case):
+    """The section of a case: its disks, its seed, and for a hard run its numerics."""
+    s = section.load(case.source).with_disks(case.disks)
+    n, stages = s.numerics, s.stages
+    if case.world == "hard":
+        n = dataclasses.replace(n, time_step=n.time_step * case.step, tolerance=n.tolerance * case.tolerance, tolerance_moving=n.tolerance_moving * case.tolerance)
+    if case.options.get("end") is not None:
+        stages = dataclasses.replace(stages, end=dataclasses.replace(stages.end, time=case.options["end"]))
+    return dataclasses.replace(s, seed=case.seed, numerics=n, stages=stages)
+
+
+def prepare(case: Case):
+    """Makes the packing of a case, unless it is in the cache."""
+    packing.cached_pack(section_of(case))
+
+
+def run(folder, **plain):
+    """Runs a case in the (empty) scene, its records below ``folder``; returns its experiment.State and counts as a dictionary."""
+    from yade import O
+
+    from .. import experiment, slope, worlds
+
+    case = Case(**plain)
+    s, note = section_of(case), Progress(folder)
+    world = None
+    if case.world == "soft":
+        world = worlds.Soft(case.stiffness, (s.disks.d_min, s.disks.d_max), model=case.model, damping=case.damping, step_share=case.step,
+                            verlet=-s.numerics.verlet_distance)
+    built = slope.build(s, packing.cached_pack(s), world)
+    if case.world == "soft":  # so that rows are those of the hard run
+        O.dt = experiment.ROW_SECONDS / math.ceil(experiment.ROW_SECONDS / O.dt)
+    course = experiment.Experiment(built, folder, progress=lambda stage, now, foreseen: note(now / foreseen), damping_moving=case.damping_moving)
+    course.run()
+    return {"state": asdict(course.state), "disks": built.count, "steps": O.iter - course.state.first_step, "time_step_s": O.dt,
+            "overlap_worst_ever": built.solver.overlapWorstEver}
+
+
+def measure(case: Case, folder, found) -> Outcome:
+    """What the records of a finished run say; ``found``: what :func:`run` returned. Runs are aligned by when the slope begins to move."""
+    s, state = section_of(case), found["state"]
+    series = records.read_series(folder / "series.csv")
+    times = results.characteristic_times(series, s, state)
+    t, last = series["time_s"], float(series["time_s"][-1])
+    at = lambda name, when, span=1.0: None if when is None else results.mean_of(series, name, when, span)  # noqa: E731
+    begin, end = (records.read_snapshot(folder / name) if (folder / name).exists() else None for name in ("t0.npz", "end.npz"))
+    after = t >= (times["t0"] or 0.0) - 1e-9
+    start = state["moving"] if state["moving"] is not None else times["t0"]
+    moved = np.hypot(series["centroid_x_m"] - series["centroid_x_m"][after][0], series["centroid_y_m"] - series["centroid_y_m"][after][0])
+    broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
+    values = {
+        "water_at_failure_m": at("water_m", times["t1"], 0.0),
+        "front_travel_m": None if state["front0"] is None else float(series["front_m"][-1] - state["front0"]),
+        "centroid_travel_m": float(moved[-1]), "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", times["t1"]),
+        "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", times["t1"]), "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2.0),
+        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2.0), "bonds_broken_share": broken / state["bonds_initial"] if state["bonds_initial"] else None,
+        "deposit_thickness_max_m": None, "speed_mean_max_m_per_s": float(series["speed_mean_m_per_s"].max()),
+    }
+    notes = []
+    if end is not None:
+        _, base, surface = deposit_profile(end, s)
+        values["deposit_thickness_max_m"] = float(np.nanmax(surface - base))
+    if state["moving"] is None:
+        notes.append("the slope did not begin to move")
+    elif times["t5"] is None:
+        notes.append(f"stopped at {last:.0f} s, before the mass was at rest")
+    moving = (t >= start) & (series["speed_mean_m_per_s"] > 0.1 * series["speed_mean_m_per_s"].max()) if start is not None else np.zeros(len(t), bool)
+    rest = (t > (times["t0"] or last) - 1.0) & (t <= (times["t0"] or last) + 1e-9)
+    curves = {"abscissa": t[after] - (start if start is not None else t[after][0]), "front": series["front_m"][after] - (state["front0"] or series["front_m"][after][0]),
+              "centroid": moved[after]}
+    simulated = found["steps"] * found["time_step_s"]
+    rate = state["wall_moving_s"] / (state["steps_moving"] * found["time_step_s"]) if state["steps_moving"] else state["wall_steps_s"] / simulated
+    return Outcome(
+        case, values, curves, series, *(None if n is None else (n.x, n.y, n.r) for n in (begin, end)),
+        forces={} if begin is None else forces_of(begin), overlap=_mean(series, moving if moving.any() else after),
+        overlap_rest=_mean(series, rest if rest.any() else after), cost=Cost(found["steps"], found["time_step_s"], state["wall_steps_s"], simulated, rate), notes=notes)
+
+
+def forces_of(snapshot):
+    """Contacts of a snapshot under compression: {(disk, disk or −1 − wall): normal force [N/m]}."""
+    pressed = snapshot.cn > 0
+    ends = np.sort(np.column_stack((snapshot.ci[pressed], snapshot.cj[pressed])), axis=1).tolist()
+    return dict(zip(map(tuple, ends), snapshot.cn[pressed].tolist()))
+
+
+def _mean(series, chosen):
+    return float(series["overlap_mean_rel"][chosen].mean())

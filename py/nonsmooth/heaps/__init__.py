@@ -1,0 +1,22 @@
+"""Heaps: a column that collapses and a pile, the same scene with hard and with soft contacts.
+
+::
+
+    from yade.nonsmooth import worlds
+    from yade.nonsmooth.heaps import column
+
+    c = column.Column(disks=500, aspect=2.0)
+    hard = column.run(c, worlds.Hard(time_step=c.time_step()))
+    soft = column.run(c, worlds.Soft(stiffness=1e7, diameter=c.diameters()))
+    print(hard.runout, soft.runout)
+
+* :mod:`grains`: what both scenes have in common, grains and floor;
+* :mod:`column`, :mod:`pile`: the two scenes, their parameters with ``build`` and ``run``;
+* :mod:`preparation`: disks at rest in the box, made once for both worlds;
+* :mod:`course`: the scene in a world, its release and its course until rest;
+* :mod:`measures`: front, surface, angle of repose and overlaps from places alone;
+* :mod:`study`: many runs, kept and resumed;
+* :mod:`scaling`: published laws of runout and height, and fitted exponents.
+
+All lengths are in m, and forces and energies are those of a slice 1 m thick.
+"""

@@ -1,0 +1,210 @@
+"""The course of a heap in a world: built at rest in its box, released, and followed until it rests."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+from yade import O
+
+from . import measures, preparation
+from .grains import Heap, HeapError
+
+__all__ = ["COLUMNS", "Result", "Scene", "build", "run"]
+
+#: Columns of the series; units are in the names, see :class:`Result`.
+COLUMNS = ("step", "time_s", "front_m", "front_left_m", "farthest_m", "height_m", "centroid_x_m", "centroid_y_m", "energy_kinetic_J", "energy_potential_J",
+           "connected_disks", "overlap_mean_rel", "overlap_worst_rel", "wall_s")
+
+RECORDS = 20        # to T = √(H/g)
+REST_SPEED = 0.02   # √(g d), rms speed of the connected disks at rest ...
+REST_TIME = 0.5     # T, for so long
+SETTLED_SPEED = 0.01  # √(g d), rms speed in the box before the release
+SETTLE_LIMIT = 10.0   # T
+DURATION = 15.0       # T
+WEIGHT_OVERLAP = 0.05  # diameters, largest overlap under the heap's own weight that is let through
+FRAMES = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # T
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A heap in the running scene: its parameters, its world, the disks as they were prepared, and the bodies' ids."""
+
+    heap: Heap
+    world: object
+    prepared: preparation.Prepared
+    stand: preparation.Stand
+
+    def release(self):
+        """Takes the gates away."""
+        for i in self.stand.gates:
+            O.bodies.erase(i)
+        self.stand.gates.clear()
+
+    def measure(self):
+        """What a row of the series holds, from the scene as it is, but for ``step``, ``time_s`` and ``wall_s``; and which disks are connected, bool (n,)."""
+        t = preparation.disk_table(self.stand)
+        x, y, r = t["x"], t["y"], t["r"]
+        mass = self.heap.density * math.pi * r**2
+        joined = measures.connected(x, y, r)
+        left, right = measures.fronts(x, r, joined)
+        kinetic = 0.5 * float(np.sum(mass * (t["vx"] ** 2 + t["vy"] ** 2 + 0.5 * (r * t["omega"]) ** 2)))
+        mean, worst = measures.overlap(x, y, r, self._walls(x, y), self._glued())
+        return {"front_m": right, "front_left_m": left, "farthest_m": float(np.max(x + r)), "height_m": float(np.max(measures.surface(x, y, r, joined)[1])),
+                "centroid_x_m": float(np.average(x, weights=mass)), "centroid_y_m": float(np.average(y, weights=mass)), "energy_kinetic_J": kinetic,
+                "energy_potential_J": self.heap.gravity * float(np.sum(mass * y)), "connected_disks": int(np.count_nonzero(joined)),
+                "overlap_mean_rel": mean, "overlap_worst_rel": worst}, joined
+
+    def rms_speed(self, joined=slice(None)):
+        """Root mean square of the disks' speed, in units of √(g d)."""
+        t = preparation.disk_table(self.stand)
+        return math.sqrt(np.mean((t["vx"] ** 2 + t["vy"] ** 2)[joined]) / (self.heap.gravity * self.heap.mean_diameter()))
+
+    def _walls(self, x, y):
+        """Distances of the disks from lines that are there."""
+        place, width = self.heap.place(), self.prepared.width
+        return [*([x - place] if "left" not in self.heap.gates() else []), *([place + width - x] if "right" not in self.heap.gates() else []),
+                *([y] if self.heap.base == "smooth" else [])]
+
+    def _glued(self):
+        if not self.stand.base:
+            return None
+        bodies = [O.bodies[i] for i in self.stand.base]
+        return tuple(np.array(column) for column in zip(*((b.state.pos[0], b.state.pos[1], b.shape.radius) for b in bodies)))
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A run. ``heap``: its parameters; ``world``: name; ``settings``: of the world, a dictionary.
+
+    ``width``, ``height``: L₀ and H₀ [m] at rest in the box; for a pile L₀ is half of the box.
+    ``series``: {name: array (rows,)} by :data:`COLUMNS`: step and time since the release; ``front_m``, ``front_left_m``: right and left edge of
+    the connected disks (:func:`measures.connected`), ``farthest_m``: of any disk; ``height_m``: highest point of their surface; centre of mass; energies
+    of all disks; overlaps by :func:`measures.overlap`; wall time of the steps.
+    ``x``, ``y``, ``r``: disks in the end [m], (n,); ``connected``: bool (n,). ``frames``: {time [s]: (x, y)} on the way.
+    ``rested``: it came to rest within the time given. ``steps``, ``time_step`` [s], ``wall_s``: of the course after the release.
+    """
+
+    heap: Heap
+    world: str
+    settings: dict
+    width: float
+    height: float
+    series: dict
+    x: np.ndarray
+    y: np.ndarray
+    r: np.ndarray
+    connected: np.ndarray
+    rested: bool
+    time_step: float
+    frames: dict = field(default_factory=dict)
+
+    @property
+    def aspect(self):
+        """a = H₀/L₀ at rest in the box."""
+        return self.height / self.width
+
+    @property
+    def runout(self):
+        """(L_f − L₀)/L₀; for a pile, of the mean of both sides."""
+        if "left" in self.heap.gates():
+            return 0.5 * (self.series["front_m"][-1] - self.series["front_left_m"][-1]) / self.width - 1
+        return (self.series["front_m"][-1] - self.heap.place()) / self.width - 1
+
+    @property
+    def final_height(self):
+        """H_f/L₀."""
+        return self.series["height_m"][-1] / self.width
+
+    @property
+    def steps(self):
+        """Steps since the release."""
+        return int(self.series["step"][-1])
+
+    @property
+    def wall_s(self):
+        """Wall time of these steps [s]."""
+        return float(self.series["wall_s"][-1])
+
+    def surface(self):
+        """x and height [m] of the surface in the end, see :func:`measures.surface`."""
+        return measures.surface(self.x, self.y, self.r, self.connected)
+
+    def repose(self):
+        """Angles of the left and the right flank [degrees]; of a column, the right one alone."""
+        angles = measures.repose(*self.surface())
+        return angles if "left" in self.heap.gates() else angles[1:]
+
+    def summary(self):
+        """Numbers of the run, a dictionary that JSON can hold."""
+        s, last = self.series, lambda name: float(self.series[name][-1])
+        return {"world": self.world, "settings": self.settings, "heap": self.heap.plain(), "disks": len(self.x), "width_m": self.width, "height_m": self.height,
+                "aspect": self.aspect, "front_m": last("front_m"), "farthest_m": last("farthest_m"), "runout_rel": float(self.runout),
+                "final_height_m": last("height_m"), "final_height_rel": float(self.final_height), "repose_deg": [None if math.isnan(a) else a for a in self.repose()],
+                "connected_disks": int(np.count_nonzero(self.connected)), "rested": self.rested, "time_s": last("time_s"), "fall_time_s": math.sqrt(self.height / self.heap.gravity),
+                "time_step_s": self.time_step, "steps": self.steps, "wall_s": self.wall_s, "overlap_mean_rel": float(np.mean(s["overlap_mean_rel"])),
+                "overlap_worst_rel": float(np.max(s["overlap_worst_rel"]))}
+
+
+def build(heap, world):
+    """Fills the scene anew with a heap at rest in its box, in a world of :mod:`yade.nonsmooth.worlds`; returns the :class:`Scene`.
+
+    The places are the same in both worlds. Raises PackingError, SampleError or HeapError where the disks cannot be prepared, and HeapError for springs
+    that the heap's own weight would crush.
+    """
+    ready = preparation.prepared(heap)
+    stiffness = getattr(world, "stiffness", math.inf)
+    # the weight above a disk at the bottom, ρ g H d, over its spring E R (YADE's, for a slice 1 m thick), in diameters
+    weight = heap.density * heap.gravity * ready.height / (0.5 * heap.mean_diameter())
+    if weight > WEIGHT_OVERLAP * stiffness:
+        raise HeapError(f"stiffness {stiffness:g} Pa: disks at the bottom would overlap by {100 * weight / stiffness:.2g} % of a diameter under the weight above; "
+                        f"give {weight / WEIGHT_OVERLAP:.2g} or more")
+    return Scene(heap, world, ready, preparation.put(heap, world, ready.x, ready.y, ready.r))
+
+
+def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None):
+    """Builds a heap in a world, lets it rest in its box, releases it, and follows it until it rests; returns the :class:`Result`.
+
+    ``duration``: longest course after the release, and ``frames``: times at which places are kept, both in units of T = √(H₀/g). At rest the rms speed of
+    the connected disks has been below 0.02 √(g d) for 0.5 T. ``progress``: called now and then with the largest share of the duration that is done.
+    """
+    scene = build(heap, world)
+    unit = math.sqrt(scene.prepared.height / heap.gravity)
+    every = max(1, round(unit / RECORDS / O.dt))
+    settle, speed = 0.0, math.inf
+    while True:  # springs yield under the weight first; hard disks have nothing to do
+        O.run(every, wait=True)
+        settle, speed = settle + every * O.dt / unit, scene.rms_speed()
+        if speed < SETTLED_SPEED:
+            break
+        if settle > SETTLE_LIMIT:
+            raise HeapError(f"the disks do not come to rest in their box in the {world.name} world: rms speed {speed:.2g} √(g d) after {settle:.0f} T, "
+                            f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping")
+    begin = O.iter
+    rows, kept, wall, calm = [], {}, 0.0, 0
+    waiting = sorted(frames)
+    scene.release()
+    while True:
+        steps = O.iter - begin
+        now = steps * O.dt
+        row, joined = scene.measure()
+        rows.append({"step": steps, "time_s": now, **row, "wall_s": wall})
+        while waiting and now >= (waiting[0] - 1e-9) * unit:
+            waiting.pop(0)
+            t = preparation.disk_table(scene.stand)
+            kept[now] = (t["x"], t["y"])
+        calm = calm + 1 if now > unit and scene.rms_speed(joined) < REST_SPEED else 0
+        progress(min(1.0, now / (duration * unit)))
+        if calm * every * O.dt >= REST_TIME * unit or now >= duration * unit:
+            break
+        started = time.perf_counter()
+        for _ in range(every):  # O.run(…, wait=True) looks every 40 ms whether it is done
+            O.step()
+        wall += time.perf_counter() - started
+    t = preparation.disk_table(scene.stand)
+    half = 0.5 if "left" in heap.gates() else 1.0
+    series = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
+    return Result(heap, world.name, asdict(world), half * scene.prepared.width, scene.prepared.height, series, t["x"], t["y"], t["r"], joined,
+                  calm * every * O.dt >= REST_TIME * unit, O.dt, kept)

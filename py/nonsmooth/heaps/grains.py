@@ -1,0 +1,163 @@
+"""Grains and floor of a heap: what a column and a pile have in common."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+
+from .. import packing_files
+from ..errors import UserError
+from ..laboratory.pressing import Shape
+from ..section import Material
+
+__all__ = ["BASES", "FRACTION", "Heap", "HeapError"]
+
+BASES = ("smooth", "rough")
+FRACTION = 0.82       # of the disks as they are packed, before they settle: loose enough for disks of one size
+PATH_PER_STEP = 0.05  # mean diameters, at the speed of a free fall from the top
+
+
+class HeapError(UserError, ValueError):
+    """A parameter that cannot be used; one message with key, value and what would do."""
+
+
+@dataclass(frozen=True)
+class Heap:
+    """Grains, floor and box of a heap.
+
+    ``disks``: number of disks, met within some per cent; ``diameter``: mean by number [m]; ``size_spread``: largest over smallest
+    diameter, sizes being uniform by volume in between; ``density`` [kg/m³].
+    ``friction``, ``rolling_friction`` (in units of ℓ), ``restitution``: of contacts between disks, and with the floor.
+    ``base``: "smooth", a line, or "rough", disks of the same sizes glued side by side along it, their tops at y = 0.
+    ``base_friction``: of the floor, not above ``friction``; None: the same.
+    ``wall_friction``: of sides of the box that stay.
+    ``seed``: of sizes and places. ``packing``: text file of ``x y r`` [m] to use instead; then ``disks``, ``diameter``, ``size_spread``, the shape of the
+    box and ``seed`` come from the file, except that the seed also draws the sizes of a rough base.
+    ``gravity`` [m/s²].
+    """
+
+    disks: int = 2000
+    diameter: float = 0.01
+    size_spread: float = 1.5
+    density: float = 2500.0
+    friction: float = 0.5
+    rolling_friction: float = 0.0
+    restitution: float = 0.0
+    base: str = "rough"
+    base_friction: float | None = None
+    wall_friction: float = 0.0
+    seed: int = 1
+    packing: str | None = None
+    gravity: float = 9.81
+
+    def __post_init__(self):
+        def refuse(key, remedy):
+            raise HeapError(f"{key} {getattr(self, key)!r}: {remedy}")
+
+        for key, least in (("disks", 1), ("seed", 0)):
+            value = getattr(self, key)
+            if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+                refuse(key, f"give a whole number from {least}")
+        for key in ("diameter", "density", "gravity"):
+            if not 0 < getattr(self, key) < math.inf:
+                refuse(key, "give a number above 0")
+        for key in ("friction", "rolling_friction"):
+            if not 0 <= getattr(self, key) < math.inf:
+                refuse(key, "give 0 or more")
+        if not 1 <= self.size_spread <= 8:
+            refuse("size_spread", "give largest over smallest diameter, from 1 to 8")
+        if not 0 <= self.restitution < 1:
+            refuse("restitution", "give a number from 0 to less than 1")
+        if self.base not in BASES:
+            refuse("base", f"give one of {', '.join(BASES)}")
+        if not 0 <= self.wall_friction <= self.friction:
+            refuse("wall_friction", f"give a number from 0 to friction, {self.friction:g}")
+        if self.base_friction is not None and not 0 <= self.base_friction <= self.friction:
+            refuse("base_friction", f"give a number from 0 to friction, {self.friction:g}: of two materials in contact, the smaller friction holds")
+
+    # ---- sizes ----------------------------------------------------------------------------------------
+
+    def diameters(self):
+        """Smallest and largest diameter [m]."""
+        if self.packing:
+            r = self.read().r
+            return 2 * float(r.min()), 2 * float(r.max())
+        s = self.size_spread
+        smallest = self.diameter * ((1 - 1 / s) / math.log(s) if s > 1 else 1.0)  # number density ∝ d⁻²
+        return smallest, s * smallest
+
+    def mean_diameter(self):
+        """Mean diameter by number [m]."""
+        return 2 * float(self.read().r.mean()) if self.packing else self.diameter
+
+    def box_aspect(self):
+        """Height over width of the box that the disks fill."""
+        raise NotImplementedError
+
+    def shape(self):
+        """What the disks are packed as, a :class:`~yade.nonsmooth.laboratory.pressing.Shape`."""
+        smallest, largest = self.diameters()
+        return Shape(int(self.disks), int(self.seed), smallest, largest, FRACTION, self.box_aspect(), None)
+
+    def box(self):
+        """Width and height [m] of the box that the disks fill, before they settle. Raises SampleError if it is less than four disks wide."""
+        if self.packing:
+            p = self.read()
+            return float(np.max(p.x + p.r) - np.min(p.x - p.r)), float(np.max(p.y + p.r) - np.min(p.y - p.r))
+        return tuple(map(float, self.shape().section().layers[0].points[2]))
+
+    def place(self):
+        """x [m] of the left side of the box."""
+        raise NotImplementedError
+
+    def gates(self):
+        """Sides of the box that are taken away, of "left" and "right"."""
+        raise NotImplementedError
+
+    def read(self):
+        """The packing of the file. Raises PackingError with file, line and remedy."""
+        return packing_files.read_text(self.packing)
+
+    # ---- scales of time -------------------------------------------------------------------------------
+
+    def fall_time(self):
+        """T = √(H/g) [s] of the box's height."""
+        return math.sqrt(self.box()[1] / self.gravity)
+
+    def time_step(self, path=PATH_PER_STEP):
+        """Step [s] for hard contacts: the speed √(2 g H) of a fall from the top takes a disk over ``path`` mean diameters."""
+        return path * self.mean_diameter() / math.sqrt(2 * self.gravity * self.box()[1])
+
+    # ---- materials ------------------------------------------------------------------------------------
+
+    def material(self):
+        """The disks' section.Material."""
+        return Material("grains", friction=self.friction, residual_friction=self.friction, rolling_friction=self.rolling_friction,
+                        residual_rolling_friction=self.rolling_friction, restitution=self.restitution, density=self.density, bonded=False)
+
+    def floor_material(self):
+        """The floor's section.Material."""
+        friction = self.friction if self.base_friction is None else self.base_friction
+        return replace(self.material(), name="floor", friction=friction, residual_friction=friction)
+
+    def plain(self):
+        """All parameters as JSON holds them, and for a packing file its content's checksum in place of its path."""
+        return {"kind": type(self).__name__, **asdict(self), "packing": self.read().checksum if self.packing else None}
+
+
+def sizes_along(heap, length, side):
+    """Radii [m] of disks side by side that cover ``length`` [m], drawn as the heap's are; the same from the origin on for every length.
+
+    ``side``: "left" or "right" of the origin, which differ in their draw.
+    """
+    smallest, largest = heap.diameters()
+    seed = int.from_bytes(hashlib.sha256(f"{heap.seed} {side}".encode()).digest()[:8], "big")
+    rng, found, reached = np.random.default_rng(seed), [], 0.0
+    while reached < length:
+        d = smallest * largest / (largest - rng.random() * (largest - smallest))
+        found.append(d / 2)
+        reached += d
+    return np.array(found)

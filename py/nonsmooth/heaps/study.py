@@ -1,0 +1,128 @@
+"""Many runs of columns or piles, each in a process of its own, kept in folders so that an interrupted study goes on."""
+
+from __future__ import annotations
+
+import io
+import json
+import shutil
+import time
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from .. import checkpoints, processes, records
+from ..packing_files import write_atomically
+from .column import Column
+from .grains import PATH_PER_STEP, HeapError
+from .pile import Pile
+
+__all__ = ["KINDS", "frames", "key_of", "one", "run", "world_of"]
+
+KINDS = {"column": Column, "pile": Pile}
+TOLERANCE = 1e-3
+
+
+def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, **soft):
+    """A world for a heap. ``name``: "hard" with the step that :meth:`Heap.time_step` gives for ``path``, and ``tolerance``; or "soft" with the fields of
+    :class:`yade.nonsmooth.worlds.Soft` but its diameters.
+    """
+    from .. import worlds
+
+    if name == "hard":
+        return worlds.Hard(time_step=heap.time_step(path), tolerance=tolerance)
+    if name == "soft":
+        if not soft.get("stiffness", 0) > 0:
+            raise HeapError(f"stiffness {soft.get('stiffness')!r}: the soft world needs Young's modulus in Pa, above 0")
+        return worlds.Soft(diameter=heap.diameters(), **soft)
+    raise HeapError(f"world {name!r}: give hard or soft")
+
+
+def key_of(heap, world, duration):
+    """Key of a run, to tell whether a folder holds it. ``world``: arguments of :func:`world_of`, a dictionary."""
+    return checkpoints.key_of({"heap": heap.plain(), "world": world, "duration": duration})
+
+
+def one(folder, kind, heap, world, duration):
+    """Runs a heap in the running scene; ``kind``: of :data:`KINDS`, ``heap``: its parameters, ``world``: arguments of :func:`world_of`.
+
+    Writes ``series.csv`` and ``places.npz`` to ``folder``, its share done to ``progress``, and returns the :meth:`~course.Result.summary`.
+    """
+    from . import course
+
+    folder, shown = Path(folder), [0.0]
+    made = KINDS[kind](**heap)
+
+    def progress(share):
+        if time.monotonic() - shown[0] > 1:
+            shown[0] = time.monotonic()
+            (folder / "progress").write_text(f"{share:.4f}")
+
+    result = course.run(made, world_of(made, **world), duration, progress=progress)
+    with records.SeriesWriter(folder / "series.csv", course.COLUMNS, overwrite=True) as series:
+        for row in zip(*(result.series[name].tolist() for name in course.COLUMNS)):
+            series.write(dict(zip(course.COLUMNS, row)))
+    content = io.BytesIO()
+    times = sorted(result.frames)
+    np.savez_compressed(content, time=times, x=[result.frames[t][0] for t in times], y=[result.frames[t][1] for t in times], r=result.r, x_end=result.x,
+                        y_end=result.y, connected=result.connected)
+    write_atomically(folder / "places.npz", content.getvalue())
+    return result.summary()
+
+
+def frames(folder):
+    """Places of a run below ``folder``: times [s] with the end last, a list of (x, y) for each, and radii [m]."""
+    with np.load(Path(folder) / "places.npz", allow_pickle=False) as data:
+        series = records.read_series(Path(folder) / "series.csv")
+        return [*data["time"].tolist(), float(series["time_s"][-1])], [*zip(data["x"], data["y"]), (data["x_end"], data["y_end"])], data["r"]
+
+
+def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda share: None):
+    """Runs ``cases``, {name: (heap, arguments of world_of)}, as many at a time as ``threads``, in ``out/runs/NAME``; returns {name: summary}.
+
+    ``resume``: keep runs of these parameters that have ended. ``progress``: called with the share done, now and then; runs count by disks and fall height.
+    Raises HeapError with the first failure after the others have ended.
+    """
+    home = Path(out) / "runs"
+    if not resume:
+        shutil.rmtree(home, ignore_errors=True)
+    work = {name: heap.disks * heap.box()[1] / heap.mean_diameter() for name, (heap, _) in cases.items()}
+
+    def do(name):
+        heap, world = cases[name]
+        folder, key = home / name, key_of(heap, world, duration)
+        kept = _kept(folder, key)
+        if kept is not None:
+            return kept
+        folder.mkdir(parents=True, exist_ok=True)
+        kind = next(k for k, v in KINDS.items() if type(heap) is v)
+        found = processes.call(one, folder, {"kind": kind, "heap": asdict(heap), "world": world, "duration": duration})
+        write_atomically(folder / "result.json", json.dumps({"key": key, "found": found}, indent=1).encode())
+        return found
+
+    with ThreadPoolExecutor(max(1, threads)) as pool:
+        futures = {name: pool.submit(do, name) for name in sorted(cases, key=work.get, reverse=True)}
+        left = set(futures.values())
+        while left:
+            left = wait(left, timeout=1).not_done
+            progress(sum(work[n] * (1.0 if f.done() else _share(home / n)) for n, f in futures.items()) / sum(work.values()))
+    failures = [f"{name}: {error}" for name, f in futures.items() if (error := f.exception())]
+    if failures:
+        raise HeapError(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""))
+    return {name: futures[name].result() for name in cases}
+
+
+def _kept(folder, key):
+    try:
+        content = json.loads((folder / "result.json").read_text())
+        return content["found"] if content["key"] == key else None
+    except (OSError, ValueError, KeyError):
+        return None
+
+
+def _share(folder):
+    try:
+        return float((folder / "progress").read_text())
+    except (OSError, ValueError):
+        return 0.0
