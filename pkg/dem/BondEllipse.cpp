@@ -14,16 +14,12 @@ BondPair bondPair(const Body& b1, const Body& b2)
 
 void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius)
 {
-	const State &first = *pair.first->state, &second = *pair.second->state;
-	const Vector3r point = second.pos - secondRadius * normal;
-	phys.anchor1         = first.ori.conjugate() * (point - first.pos);
-	phys.anchor2         = second.ori.conjugate() * (point - second.pos);
-	phys.axis            = first.ori.conjugate() * normal;
-	phys.restGap         = std::max(gap, Real(0));
-	phys.bonded          = true;
-	phys.yielded         = false;
-	phys.brokenMode      = NscdPhys::None;
-	phys.yieldPath       = Vector3r::Zero();
+	markPoints(phys, *pair.first->state, *pair.second->state, normal, secondRadius);
+	phys.restGap    = std::max(gap, Real(0));
+	phys.bonded     = true;
+	phys.yielded    = false;
+	phys.brokenMode = NscdPhys::None;
+	phys.yieldPath  = Vector3r::Zero();
 }
 
 NscdPhys::Mode bondMode(const NscdPhys& phys)

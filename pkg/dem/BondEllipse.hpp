@@ -14,14 +14,23 @@ struct BondPair {
 
 BondPair bondPair(const Body& b1, const Body& b2);
 
+/// Marks the points of a bond on its bodies; `Marks` has anchor1, anchor2 and axis as NscdPhys has. `normal` points from the first body to the second.
+template <class Marks> void markPoints(Marks& marks, const State& first, const State& second, const Vector3r& normal, Real secondRadius)
+{
+	const Vector3r point = second.pos - secondRadius * normal;
+	marks.anchor1        = first.ori.conjugate() * (point - first.pos);
+	marks.anchor2        = second.ori.conjugate() * (point - second.pos);
+	marks.axis           = first.ori.conjugate() * normal;
+}
+
 /// Marks the bond's points at its creation. `normal` points from the first body to the second, `gap` [m] may be negative.
 void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius);
 
 /// (d_n, d_t) of the marked point in the ellipse's axes [m]; `Place`: a State, or anything else with `pos` and `ori`.
-template <class Place> std::pair<Real, Real> bondDisplacement(const NscdPhys& phys, const Place& first, const Place& second)
+template <class Marks, class Place> std::pair<Real, Real> bondDisplacement(const Marks& marks, const Place& first, const Place& second)
 {
-	const Vector3r d = second.pos + second.ori * phys.anchor2 - first.pos - first.ori * phys.anchor1;
-	const Vector3r n = first.ori * phys.axis;
+	const Vector3r d = second.pos + second.ori * marks.anchor2 - first.pos - first.ori * marks.anchor1;
+	const Vector3r n = first.ori * marks.axis;
 	return { d.dot(n), n[0] * d[1] - n[1] * d[0] };
 }
 

@@ -43,12 +43,17 @@ bool Law2_SegmentGeom_WallPhys_SlipWeakening::go(shared_ptr<IGeom>& ig, shared_p
 	const auto normalForce = [&] { return phys.kn * (geom.penetrationDepth - (phys.bonded ? phys.restPenetration : 0)); };
 	Strengths  s           = strengths(phys, left);
 	Real       normal = normalForce(), held = s.adhesion + normal;
-	if (phys.bonded && (held < 0 || shear.norm() > s.friction * held || std::abs(phys.rollingTorque) > s.rollingArm * held)) {
+	if (phys.bonded && phys.fragile && (held < 0 || shear.norm() > s.friction * held || std::abs(phys.rollingTorque) > s.rollingArm * held)) {
 		phys.bonded = false;
 		if (geom.penetrationDepth < 0 || !geom.owned) return false;
 		s      = strengths(phys, left);
 		normal = normalForce();
 		held   = s.adhesion + normal;
+	}
+	if (held < 0) { // a ductile bond yields in tension and keeps its new length
+		phys.restPenetration = geom.penetrationDepth + s.adhesion / phys.kn;
+		normal               = -s.adhesion;
+		held                 = 0;
 	}
 	const Real sliding = s.friction * held, trial = shear.norm();
 	if (trial > sliding) {

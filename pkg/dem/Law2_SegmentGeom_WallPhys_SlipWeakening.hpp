@@ -3,10 +3,11 @@
 //
 // With δ the penetration, N = k_n (δ − δ₀), T the spring along the wall, M that about z (thresholds as eqs 2, 4 and 6, F_a = 0 without a bond):
 //     −N ≤ F_a ,   |T| ≤ μ_s (F_a + N) ,   |M| ≤ μ_r ℓ (F_a + N) .
-// A bond that reaches a threshold breaks for good (fragile, as Law2_ScGeom6D_CohFrictPhys_CohesionMoment); residual μ_s and μ_r hold from then on.
+// A fragile bond that reaches a threshold breaks for good, a ductile one yields until it has left its ellipse (BondEllipseEngine), both as in
+// Law2_ScGeom6D_CohFrictPhys_CohesionMoment; residual μ_s and μ_r hold from then on.
 // Slip is what the friction spring yields by: a contact that sticks does not slip, as in the hard law. It is summed for each disk in
 // the wall's SlipWeakeningMat, and F_a and μ_s fall with it as in SlipWeakeningPhys.
-// Sign: N > 0 presses; the normal points from the wall to the disk. Deviations from the hard law: springs; no elliptic zone; no residual tensile
+// Sign: N > 0 presses; the normal points from the wall to the disk. Deviations from the hard law: springs; no residual tensile
 // strength; a disk that passes a joint of two segments begins with relaxed springs on the next one, and a bond there stays with its segment.
 #pragma once
 

@@ -15,6 +15,7 @@ public:
 R"""(Springs of a disk at a wall with the strengths of the wall's :yref:`NscdMat` (Taboada and Estrada 2009, section 3.3), see
 :yref:`Law2_SegmentGeom_WallPhys_SlipWeakening`. :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>` is the friction of the last step.)""",
 		((bool,bonded,false,,"The contact is bonded; peak strengths hold. Breaks for good."))
+		((bool,fragile,true,,"The bond breaks where it reaches a threshold; else it yields there, and :yref:`BondEllipseEngine` breaks it."))
 		((Real,length,0,,"ℓ [m]: the disk's diameter."))
 		((Real,tensileForce,0,,"F_a of the bond, σ_ext ℓ [N]."))
 		((Real,friction,0,,"Friction μ_s of the bond [-]."))

@@ -17,6 +17,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from yade import O
+from yade.wrapper import NewtonIntegrator
 from . import scene, soft
 
 __all__ = ["Hard", "Soft"]
@@ -55,10 +56,13 @@ class Hard:
         return scene.engines(gravity=gravity, reach=self.reach, verlet=self.verlet, before=before, after=after, tolerance=self.tolerance, **self.options)
 
     def bond(self, groups=()):
-        """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step, which finds the contacts: call it
+        """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step without gravity, which finds the contacts: call it
         in a scene at rest. ``groups``: not needed here, see :meth:`Soft.bond`.
         """
+        newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
+        gravity, newton.gravity = newton.gravity, (0, 0, 0)
         O.step()
+        newton.gravity = gravity
         return scene.contact_dynamics().bond()
 
 
@@ -68,7 +72,8 @@ class Soft:
 
     ``stiffness``: Young's modulus [Pa]; ``diameter``: smallest and largest of the disks [m]; ``model``, ``damping``, ``shear_ratio``,
     ``rolling_ratio``: see :func:`yade.nonsmooth.soft.equivalent`; ``step_share``: time step in units of its stability limit;
-    ``verlet`` as in :class:`Hard`.
+    ``fragile``: bonds break where they reach a threshold (YADE's own way, and JCFpm's only one); otherwise they yield there as in the hard law, and
+    break when they leave their ellipse; ``verlet`` as in :class:`Hard`.
     """
 
     stiffness: float
@@ -79,7 +84,13 @@ class Soft:
     rolling_ratio: float = 1.0
     step_share: float = 0.5
     verlet: float = -0.6
+    fragile: bool = False
     name = "soft"
+
+    @property
+    def ductile(self):
+        """Whether bonds yield before they break."""
+        return self.model == "cohesion_moment" and not self.fragile
 
     def equivalent(self, m):
         """The :class:`yade.nonsmooth.soft.Equivalent` of a section.Material."""
@@ -99,11 +110,11 @@ class Soft:
 
     def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
         """As :meth:`Hard.engines`."""
-        return soft.engines_of(self.model, self.damping, self.rolling_ratio, gravity=gravity, verlet=self.verlet, before=before, after=after)
+        return soft.engines_of(self.model, self.damping, self.rolling_ratio, gravity=gravity, verlet=self.verlet, before=before, after=after, ductile=self.ductile)
 
     def bond(self, groups=()):
         """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), and disks to walls that are bonded; returns
         how many. See :func:`yade.nonsmooth.soft.bond` and :func:`yade.nonsmooth.soft.bond_walls`.
         """
-        made = sum(soft.bond(self.equivalent(m), ids) for m, ids in groups if m.bonded and self.model != "friction")
-        return made + soft.bond_walls([i for _, ids in groups for i in ids])
+        made = sum(soft.bond(self.equivalent(m), ids, fragile=not self.ductile) for m, ids in groups if m.bonded and self.model != "friction")
+        return made + soft.bond_walls([i for _, ids in groups for i in ids], fragile=not self.ductile)

@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from yade import O, utils
 from yade.minieigenHP import Vector3
-from yade.wrapper import CohFrictMat, CohFrictPhys, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, JCFpmMat, JCFpmPhys, NscdMat, Segment, Sphere, WallPhys
+from yade.wrapper import BondEllipseEngine, CohFrictMat, CohFrictPhys, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, JCFpmMat, JCFpmPhys, NscdMat, Segment, Sphere, WallPhys
 
 from .parameters import SoftError
 
@@ -18,7 +18,7 @@ __all__ = ["bond", "bond_walls", "bonded", "weaken"]
 MATERIALS = {"cohesion_moment": CohFrictMat, "jcfpm": JCFpmMat}
 
 
-def bond(e, ids=None):
+def bond(e, ids=None, fragile=True):
     """Bonds all pairs of disks whose gap is at most Δ ℓ (Taboada and Estrada 2009, section 2.2.2); returns how many were new.
 
     ``ids``: the bodies of one layer, as bonds exist within a layer only; without them all disks of the scene. Call it once for each
@@ -29,11 +29,14 @@ def bond(e, ids=None):
     tangensOfFrictionAngle = μ_s, maxRollPl = μ_r ℓ; in "jcfpm" FnMax = F_a, FsMax = μ_s F_a, tanFrictionAngle = μ_s. A bond over a gap
     is born without force; one of overlapping disks bears their overlap, but in "jcfpm" only what came after the contact was made.
 
+    ``fragile``: bonds break where they reach a threshold, as YADE's laws have it. Otherwise they yield there, as in the hard law, and break when
+    they leave their ellipse, which needs :func:`~yade.nonsmooth.soft.functors.engines` with ``ductile=True``; only "cohesion_moment" has such bonds.
+
     Raises SoftError for a model without bonds, for engines of another model, and for disks of another material.
     """
     if e.model not in MATERIALS:
         raise SoftError(f"model {e.model!r} has no bonds; take one of {', '.join(MATERIALS)}")
-    functor = _functor(e)
+    functor, follower = _functor(e), None if fragile else _follower(e.model)
     ids = [b.id for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else list(ids)
     for k in ids:
         if not isinstance(O.bodies[k].material, MATERIALS[e.model]):
@@ -54,19 +57,32 @@ def bond(e, ids=None):
         contact = O.interactions[a, b] if O.interactions.has(a, b, True) else utils.createInteraction(a, b)
         if not bonded(contact.phys):
             _make(e, contact, float(length), functor)
+            if follower:
+                contact.phys.fragile = False
+                follower.add(a, b, m.bond_ellipse[0] * length, m.bond_ellipse[1] * length, m.residual_friction, m.residual_rolling_friction * length)
             count += 1
     return count
 
 
-def bond_walls(ids=None):
+def _follower(model="cohesion_moment"):
+    """The engine that breaks ductile bonds; SoftError where there is none, or where the model has no such bonds."""
+    if model != "cohesion_moment":
+        raise SoftError(f"model {model!r} has fragile bonds alone; give fragile=True, or take cohesion_moment")
+    for engine in O.engines:
+        if isinstance(engine, BondEllipseEngine):
+            return engine
+    raise SoftError("O.engines has no BondEllipseEngine, which ductile bonds need; set O.engines = soft.engines(e, ductile=True) first")
+
+
+def bond_walls(ids=None, fragile=True):
     """Bonds disks to walls whose material is made for it (``bondsToAll``, as ``bonded: true`` in a section file), where the gap is at most Δ ℓ;
     returns how many were new.
 
-    ``ids``: of disks, default all. Call it after the engines are set. A bond over a gap is born without force.
+    ``ids``: of disks, default all; ``fragile`` as in :func:`bond`. Call it after the engines are set. A bond over a gap is born without force.
     """
     disks = [b for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else [O.bodies[k] for k in ids]
     centres, radii = np.array([b.state.pos for b in disks])[:, :2], np.array([b.shape.radius for b in disks])
-    count = 0
+    count, follower = 0, None if fragile else _follower()
     for wall in O.bodies:
         m = wall.material
         if not isinstance(wall.shape, Segment) or not isinstance(m, NscdMat) or not m.bondsToAll:
@@ -84,7 +100,10 @@ def bond_walls(ids=None):
             if not isinstance(contact.phys, WallPhys):
                 raise SoftError(f"body {wall.id}: contacts with walls are {type(contact.phys).__name__}; set O.engines = soft.engines(...) first")
             if not contact.phys.bonded:
-                contact.phys.bonded, contact.phys.restPenetration = True, min(contact.geom.penetrationDepth, 0.0)
+                p = contact.phys
+                p.bonded, p.restPenetration, p.fragile = True, min(contact.geom.penetrationDepth, 0.0), fragile
+                if follower:
+                    follower.add(wall.id, i, m.bondEllipseNormal * p.length, m.bondEllipseTangential * p.length, p.residualFriction, p.residualRollingArm)
                 count += 1
     return count
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from yade.wrapper import (
-    Bo1_Segment_Aabb, Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
+    BondEllipseEngine, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, Ip2_FrictMat_FrictMat_FrictPhys,
     Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, Ip2_NscdMat_FrictMat_WallPhys, JCFpmMat, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, Law2_ScGeom_FrictPhys_CundallStrack,
     Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM, Law2_SegmentGeom_WallPhys_SlipWeakening, NewtonIntegrator, NscdMat, PyRunner)
@@ -55,12 +55,13 @@ def engines(e, **options):
     return engines_of(e.model, e.damping, **{**dict(rolling_ratio=e.rolling_ratio or 1.0), **options})
 
 
-def engines_of(model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200):
+def engines_of(model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200, ductile=False):
     """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below ``Equivalent.step_limit``.
 
     ``rolling_ratio``: of walls' contacts, k_r/(k_s R²). ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``:
     springs act once disks overlap, and bonds over a gap are made by :func:`~yade.nonsmooth.soft.bonds.bond`. ``every``: steps after
-    which contacts whose bond broke get the residual strengths (:func:`~yade.nonsmooth.soft.bonds.weaken`).
+    which contacts whose bond broke get the residual strengths (:func:`~yade.nonsmooth.soft.bonds.weaken`). ``ductile``: with the engine that bonds need
+    which yield instead of breaking at once.
 
     Disks touch Segment walls through WallPhys in all models, so walls take :func:`wall_material`. A material of the disks' kind will not do:
     CohesionMoment needs rotations that a Segment's geometry has not (it is a ScGeom, not a ScGeom6D, and YADE does not check), and JCFpm
@@ -84,6 +85,7 @@ def engines_of(model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=
         *before,
         # weight is damped too, YADE's default: with forces of contacts damped alone, a disk on a wall never comes to rest
         NewtonIntegrator(damping=damping, gravity=gravity),
+        *([BondEllipseEngine(label="softBonds")] if ductile else []),
         *([residual] if laws else []),
         *after,
     ]
