@@ -29,8 +29,8 @@ def test_overlap_of_deposits():
     assert deposits.overlap(one, one) == pytest.approx(1, abs=1e-12)
     assert deposits.overlap(one, shifted) == pytest.approx(0.5, abs=0.01)  # rounded corners of the outline
     assert deposits.overlap(one, away) == 0
-    # 60 by 6 with pores closed; octagon-like disks and corners lose some of the rim
-    assert one.area == pytest.approx(360, rel=0.02)
+    # 60 by 6 with pores closed; dents between disks along the rim, and circles drawn with 16 corners, take some per cent
+    assert one.area == pytest.approx(360, rel=0.05)
 
 
 # ---- errors, work, rates --------------------------------------------------------------------------
@@ -109,12 +109,20 @@ def test_difference_and_scatter_over_seeds():
 
 def test_cost_at_equal_overlap():
     """Overlaps as 1/E and costs as √E: a hundredth of the softest's overlap takes a hundred times E, so ten times its cost."""
-    soft = [{"stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "rate": 2e-4 * math.sqrt(e)} for e in (1e8, 1e9, 1e10)]
+    soft = [{"stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "rate": 2e-4 * math.sqrt(e), "time_step_s": 10 / math.sqrt(e), "wall_s_per_step": 2e-3} for e in (1e8, 1e9, 1e10)]
     hard = {"overlap_mean_rel": 1e-4, "rate": 4.0}
     found = cost.summarise({"hard": {"moving": hard, "rest": {**hard, "overlap_mean_rel": 1e-6}}, "soft": {"moving": soft, "rest": soft}})
     assert found["soft_over_hard_wall_equal_overlap"] == pytest.approx(2e-4 * 1e5 / 4) and found["equal_overlap_extrapolated"] is False
     assert found["soft_over_hard_wall_rock_stiffness"] == pytest.approx(2e-4 * 1e5 / 4)
     assert found["states"]["rest"]["equal_overlap"] == pytest.approx(2e-4 * 1e6 / 4) and found["states"]["rest"]["equal_overlap_extrapolated"] is True
+
+
+def test_cost_of_a_stiffness_that_was_not_run():
+    """Steps as 1/√E exactly; a step takes 2 ms with the softest and 4 ms with the stiffest, and no more beyond."""
+    found = [precision.soft_rate(e, [1e9, 1e7], [1e-4, 1e-3], [4e-3, 2e-3]) for e in (1e8, 1e11, 1e6)]
+    assert [f[0] for f in found] == pytest.approx([math.sqrt(8e-6) / (1e-3 / math.sqrt(10)), 4e-3 / 1e-5, 2e-3 / (1e-3 * math.sqrt(10))])
+    assert [f[1] for f in found] == [False, True, True]
+    assert math.isnan(precision.soft_rate(math.nan, [1e9], [1e-4], [1e-3])[0])
 
 
 # ---- plans and answers ----------------------------------------------------------------------------
@@ -226,14 +234,14 @@ def test_a_run_that_fails_says_so_and_keeps_the_others(tmp_path):
 def test_a_column_in_both_worlds(tmp_path):
     options = {"aspect": 1.0}
     found = {}
-    for case in (cases.Case("hard", "", 100, 1, options=options), cases.Case("soft", "", 100, 1, 0.5, stiffness=1e8, damping=0.2, damping_moving=0.02, model="cohesion_moment", options=options)):
+    for case in (cases.Case("hard", "", 60, 1, options=options), cases.Case("soft", "", 60, 1, 0.5, stiffness=3e7, damping=0.2, damping_moving=0.02, model="cohesion_moment", options=options)):
         folder = tmp_path / case.name
         folder.mkdir()
         found[case.world] = collapses.COLUMN.measure(case, folder, collapses.run_column(folder, **dataclasses.asdict(case)))
-    # a hundred grains scatter; the travel is of the order of the height
+    # so few grains scatter; the travel is of the order of the height
     assert found["hard"].values["runout_rel"] == pytest.approx(found["soft"].values["runout_rel"], rel=0.5)
     assert found["soft"].overlap > 1e-4 > found["hard"].overlap
-    assert len(found["hard"].forces) > 50 and len(found["soft"].forces) > 50
+    assert len(found["hard"].forces) > 30 and len(found["soft"].forces) > 30
 
 
 def test_the_script_refuses_in_one_line(tmp_path):

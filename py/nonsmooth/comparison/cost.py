@@ -5,8 +5,9 @@ weight, and on the move (backstop and plane without strength, water table at 20 
 the scene is built anew from these places and velocities, with the bonds that held; it runs :data:`RELAX_SECONDS`, in which springs take up the weight, and
 is then timed. The soft step is a share of its stability limit.
 
-Overlap has one definition: mean over contacts that touch or bear a force of the overlap over the mean diameter. Soft overlaps fall as 1/E and the cost grows as √E,
-so what soft contacts cost at the overlap of the hard ones is read from straight lines between logarithms, beyond the stiffest along the last one.
+Overlap has one definition: mean over contacts that touch or bear a force of the overlap over the mean diameter. Soft overlaps fall as 1/E, so the
+stiffness of equal overlap is read from straight lines between logarithms, beyond the stiffest along the last one; the cost grows as √E with the number of steps, see
+precision.soft_rate.
 """
 
 from __future__ import annotations
@@ -186,10 +187,10 @@ def summarise(found):
     states = {}
     for state, hard in found["hard"].items():
         soft = found["soft"][state]
-        moduli, overlaps, rates = ([s[name] for s in soft] for name in ("stiffness_Pa", "overlap_mean_rel", "rate"))
-        rate, beyond = precision.loglog(hard["overlap_mean_rel"], overlaps, rates)
+        moduli, overlaps, rates, steps, walls = ([s[name] for s in soft] for name in ("stiffness_Pa", "overlap_mean_rel", "rate", "time_step_s", "wall_s_per_step"))
         modulus, _ = precision.loglog(hard["overlap_mean_rel"], overlaps, moduli)
-        rock, rock_beyond = precision.loglog(ROCK_STIFFNESS, moduli, rates)
+        rate, beyond = precision.soft_rate(modulus, moduli, steps, walls)
+        rock, rock_beyond = precision.soft_rate(ROCK_STIFFNESS, moduli, steps, walls)
         fits = [precision.power_law(moduli, values) for values in (overlaps, rates)]
         states[state] = {"equal_overlap": rate / hard["rate"], "equal_overlap_stiffness_Pa": modulus, "equal_overlap_extrapolated": beyond, "rock_stiffness": rock / hard["rate"],
                          "rock_stiffness_extrapolated": rock_beyond, "overlap_power": fits[0].power if fits[0] else None, "rate_power": fits[1].power if fits[1] else None,

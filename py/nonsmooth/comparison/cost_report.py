@@ -30,7 +30,7 @@ def write(out, told):
     factor = told["soft_over_hard_wall_equal_overlap"]
     verdict = "not known" if factor is None else f"{number(factor)} times"
     questions = [("How much longer do soft contacts take at equal mean overlap?", verdict, sentences)]
-    plot = figures.cost_and_overlap([(STATE_NAMES[state], s["hard"], s["soft"]) for state, s in told["states"].items()], folder / "cost_and_overlap.png")
+    plot = figures.cost_and_overlap([(STATE_NAMES[state], s["hard"], s["soft"], s["equal_overlap"]) for state, s in told["states"].items()], folder / "cost_and_overlap.png")
     rows = [(STATE_NAMES[state], label, number(one["time_step_s"], "s"), number(1e3 * one["wall_s_per_step"], "ms"), number(one["rate"], "s"), number(one["overlap_mean_rel"], digits=2),
              number(one["rate"] / s["hard"]["rate"]), str(one["contacts"]))
             for state, s in told["states"].items() for label, one in [("hard", s["hard"])] + [(f"soft, {modulus_label(x['stiffness_Pa'])}", x) for x in s["soft"]]]

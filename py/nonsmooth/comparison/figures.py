@@ -9,7 +9,6 @@ from matplotlib.patches import PathPatch
 
 from ..figures import style
 from ..figures.style import INK, LINES
-from . import precision
 from .cases import modulus_label
 
 __all__ = ["convergence", "cost", "cost_and_overlap", "courses", "deposits_overlaid", "force_distribution", "modes", "network", "overlaps", "work_precision"]
@@ -166,20 +165,20 @@ def cost(moduli, rates, steps, hard_rate, hard_steps, path):
 
 @style.styled
 def cost_and_overlap(panels, path):
-    """Wall time for a second of simulation against mean overlap; ``panels``: list of (title, hard, [soft, …]) of dictionaries as cost.measure_hard and measure_soft return."""
+    """Wall time for a second of simulation against mean overlap; ``panels``: list of (title, hard, [soft, …], factor) with dictionaries as cost.measure_hard and
+    measure_soft return, softest first, and soft over hard at equal overlap (None: not known)."""
     fig = style.figure(11, 4.8, layout="constrained")
-    for ax, (title, hard, soft) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
+    for ax, (title, hard, soft, factor) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
         x, y = [s["overlap_mean_rel"] for s in soft], [s["rate"] for s in soft]
         ax.plot(x, y, color=SOFT, marker=MARKS["soft"], label="soft")
         for s in soft:
             ax.annotate(modulus_label(s["stiffness_Pa"]), (s["overlap_mean_rel"], s["rate"]), xytext=(6, 4), textcoords="offset points", fontsize=8, color=SOFT)
         ax.plot([hard["overlap_mean_rel"]], [hard["rate"]], color=HARD, marker=MARKS["hard"], ms=8, ls="", label="hard")
-        if hard["overlap_mean_rel"] > 0 and len(soft) > 1:
-            rate, beyond = precision.loglog(hard["overlap_mean_rel"], x, y)
-            end = x[-1] if beyond else hard["overlap_mean_rel"]
-            ax.plot([end, hard["overlap_mean_rel"]], [y[-1] if beyond else rate, rate], color=SOFT, ls=(0, (4, 2)), lw=1.0)
+        if factor:
+            rate = factor * hard["rate"]
+            ax.plot([x[-1], hard["overlap_mean_rel"]], [y[-1], rate], color=SOFT, ls=(0, (4, 2)), lw=1.0)
             ax.plot([hard["overlap_mean_rel"]] * 2, [hard["rate"], rate], color=INK, lw=0.9)
-            ax.annotate(f"× {rate / hard['rate']:.3g}", (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])), xytext=(6, 0), textcoords="offset points")
+            ax.annotate(f"× {factor:.3g}", (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])), xytext=(6, 0), textcoords="offset points")
         ax.set_xscale("log")
         ax.set_yscale("log")
         ax.margins(x=0.15, y=0.12)

@@ -25,7 +25,7 @@ import numpy as np
 
 from . import deposits
 
-__all__ = ["Fit", "Work", "compare_work", "curve_difference", "error", "force_difference", "loglog", "parts", "power_law", "scatter"]
+__all__ = ["Fit", "Work", "compare_work", "curve_difference", "error", "force_difference", "loglog", "parts", "power_law", "scatter", "soft_rate"]
 
 POINTS = 400  # of the abscissa on which curves are compared
 
@@ -124,6 +124,23 @@ def loglog(at, x, y):
     k = int(np.clip(np.searchsorted(x, p) - 1, 0, len(x) - 2))
     value = y[k] + (y[k + 1] - y[k]) * (p - x[k]) / (x[k + 1] - x[k])
     return math.exp(value), not x[0] - 1e-9 <= p <= x[-1] + 1e-9
+
+
+def soft_rate(modulus, moduli, steps, walls):
+    """Wall time [s] for a second of simulation on soft contacts of a Young's modulus [Pa], and whether that lies outside those that were run.
+
+    ``moduli``, ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step. The step goes with the stability limit, as the inverse root of the modulus; what a
+    step takes does not depend on the modulus but through the number of contacts, so beyond the runs it is that of the nearest.
+    """
+    order = np.argsort(moduli)
+    moduli, steps, walls = (np.asarray(v, float)[order] for v in (moduli, steps, walls))
+    if not len(moduli) or not (math.isfinite(modulus) and modulus > 0):
+        return math.nan, True
+    wall = math.exp(np.interp(math.log(modulus), np.log(moduli), np.log(walls)))
+    beyond = not moduli[0] * (1 - 1e-9) <= modulus <= moduli[-1] * (1 + 1e-9)
+    nearest = int(np.argmin(np.abs(np.log(moduli / modulus))))
+    step = steps[nearest] * math.sqrt(moduli[nearest] / modulus)
+    return wall / step, beyond
 
 
 @dataclass(frozen=True)

@@ -89,10 +89,11 @@ def summarise(scenario, plan, outcomes):
 
 def _cost(hard, sweep):
     """Wall time for a second of simulation, soft over hard: at equal mean overlap while the mass moves, and at a rock's stiffness."""
-    moduli, overlaps, rates = ([f(o) for o in sweep] for f in (lambda o: o.case.stiffness, lambda o: o.overlap, lambda o: o.cost.rate))
-    rate, beyond = precision.loglog(hard.overlap, overlaps, rates)
+    moduli, overlaps, steps, walls = ([f(o) for o in sweep] for f in (lambda o: o.case.stiffness, lambda o: o.overlap, lambda o: o.cost.step_s, lambda o: o.cost.rate * o.cost.step_s))
     modulus, _ = precision.loglog(hard.overlap, overlaps, moduli)
-    rock, rock_beyond = precision.loglog(ROCK_STIFFNESS, moduli, rates)
+    rate, beyond = precision.soft_rate(modulus, moduli, steps, walls)
+    rock, rock_beyond = precision.soft_rate(ROCK_STIFFNESS, moduli, steps, walls)
+    rates = [o.cost.rate for o in sweep]
     return {"soft_over_hard_wall_equal_overlap": rate / hard.cost.rate, "stiffness_equal_overlap_Pa": modulus, "equal_overlap_extrapolated": beyond,
             "soft_over_hard_wall_rock_stiffness": rock / hard.cost.rate, "rock_stiffness_extrapolated": rock_beyond, "overlap_hard_rel": hard.overlap,
             "wall_s_per_simulated_s_hard": hard.cost.rate, "wall_s_per_simulated_s_soft": dict(zip(map("{:g}".format, moduli), rates))}
