@@ -179,8 +179,9 @@ def test_both_worlds_begin_with_the_same_places(collapse):
     ready = preparation.prepared(c)
     for r in found.values():
         x, y = r.frames[0.0]
-        # springs yield under the weight: 0.4 % of a diameter at the bottom, some 17 rows high, and a little sliding of what is pressed
-        assert np.hypot(x - ready.x, y - ready.y).max() < (0.2 if r.world == "soft" else 1e-3) * c.diameter
+        # springs yield under the weight, 0.4 % of a diameter in the lowest of 17 rows, and slide a little; hard disks creep while the first
+        # forces build up from nothing
+        assert np.hypot(x - ready.x, y - ready.y).max() < (0.2 if r.world == "soft" else 0.02) * c.diameter
 
 
 def test_pile_stands_on_both_sides():

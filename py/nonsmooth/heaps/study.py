@@ -21,7 +21,7 @@ from .pile import Pile
 __all__ = ["KINDS", "frames", "key_of", "one", "run", "world_of"]
 
 KINDS = {"column": Column, "pile": Pile}
-TOLERANCE = 1e-3
+TOLERANCE = 1e-4
 
 
 def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, **soft):
