@@ -26,11 +26,16 @@ def collapse(times, places, r, unit, path, width=None, gate=None, pdf=False):
     # what rolls far ahead of the mass would make all else small
     left = min(measures.fronts(x, r, m)[0] for (x, _), m in zip(places, joined))
     right = max(measures.fronts(x, r, m)[1] for (x, _), m in zip(places, joined))
-    top = max(float(np.max((y + r)[m])) for (_, y), m in zip(places, joined))
     span = 1.06 * (right - left)
-    heights = [max(float(np.max((y + r)[m])), 0.12 * span) for (_, y), m in zip(places, joined)]
-    fig = style.figure(8.0, min(11.0, 8.0 * 0.85 * sum(heights) / span + 0.34 * len(times) + 0.5), layout="constrained")
-    axes = np.atleast_1d(fig.subplots(len(times), 1, sharex=True, height_ratios=heights))
+    heights = [max(float(np.max((y + r)[m])), 0.1 * span) for (_, y), m in zip(places, joined)]
+    # placed by hand, in inches: the same scale and the same left edge for all
+    margin, between, below = 0.62, 0.18, 0.5
+    wide = min(7.2, (10.5 - below - between * len(times)) * span / (1.07 * sum(heights)))
+    tall = [1.07 * h / span * wide for h in heights]
+    whole = (margin + wide + 0.1, below + sum(tall) + between * len(times))
+    fig = style.figure(*whole)
+    tops = whole[1] - np.cumsum([between + h for h in tall])
+    axes = [fig.add_axes((margin / whole[0], bottom / whole[1], wide / whole[0], h / whole[1])) for bottom, h in zip(tops, tall)]
     first = places[0][0]
     colours = style.layer_colours(np.minimum(4, np.argsort(np.argsort(first, kind="stable"), kind="stable") * 5 // len(first)))
     for k, (ax, t, (x, y), mass) in enumerate(zip(axes, times, places, joined)):
@@ -41,13 +46,14 @@ def collapse(times, places, r, unit, path, width=None, gate=None, pdf=False):
         ax.axhline(0, color=style.WALL, lw=1.2)
         for g in gate or ():
             ax.axvline(g / scale, color=LINES["grey"], lw=0.9, ls=(0, (4, 3)))
-        ax.set_xlim((left - 0.02 * span) / scale, (right + 0.04 * span) / scale)
-        ax.set_ylim(-0.02 * top / scale, 1.05 * heights[k] / scale)
-        ax.set_aspect("equal")
+        ax.set_xlim((left - 0.01 * span) / scale, (left + 0.99 * span) / scale)
+        ax.set_ylim(-0.02 * heights[k] / scale, 1.05 * heights[k] / scale)
+        if k < len(times) - 1:
+            ax.set_xticklabels([])
         name = "at rest" if k == len(times) - 1 else f"t = {t / unit:.1f} T"
         ax.text(0.99, 0.93, f"{name} ({t:.2f} s)", transform=ax.transAxes, ha="right", va="top")
         ax.set_ylabel("$y/L_0$" if width else "$y$ [m]")
-    axes[-1].set_xlabel("$x/L_0$" if width else "$x$ [m]")
+    axes[-1].set_xlabel(("$x/L_0$" if width else "$x$ [m]") + f"          $T=\\sqrt{{H_0/g}}={unit:.2f}$ s")
     return style.save(fig, path, pdf)
 
 
@@ -55,7 +61,8 @@ def collapse(times, places, r, unit, path, width=None, gate=None, pdf=False):
 def runout(groups, path, pdf=False):
     """Runout and final height against the aspect ratio, on logarithmic axes, with fits and the published laws.
 
-    ``groups``: {label: {"aspect", "runout", "height": arrays (n,); "fits": {"runout", "height": pairs of scaling.Fit or None}}}. Returns ``path``.
+    ``groups``: {label: {"aspect", "runout", "height": arrays (n,); "fits": {"runout", "height": pairs of scaling.Fit or None}; "changes": {"runout",
+    "height": the aspect ratio between the two}}}. Returns ``path``.
     """
     fig = style.figure(10, 4.9, layout="constrained")
     panels = (("runout", "Runout", "$(L_f-L_0)/L_0$", scaling.RUNOUT), ("height", "Final height", "$H_f/L_0$", scaling.HEIGHT))
@@ -71,7 +78,7 @@ def runout(groups, path, pdf=False):
             ax.plot(g["aspect"], g[name], ls="none", marker=marker, ms=5, mfc="white", color=colour, label=group)
             for k, fit in enumerate(g["fits"][name]):
                 if fit is not None:
-                    change = laws[0].change
+                    change = g["changes"][name]
                     inside = g["aspect"][g["aspect"] < change] if k == 0 else g["aspect"][g["aspect"] >= change]
                     ends = np.array([inside.min(), inside.max()])
                     sure = "" if np.isnan(fit.exponent_95) else f"\\pm{fit.exponent_95:.2f}"

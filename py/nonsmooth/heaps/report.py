@@ -11,9 +11,10 @@ from ..figures import columns as figures
 from . import scaling, study
 from .grains import HeapError
 
-__all__ = ["draw_collapse", "group", "summarise", "table"]
+__all__ = ["CHANGES", "draw_collapse", "group", "summarise", "table"]
 
-CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[0].change}
+#: Aspect ratios between the two fits: where Staron and Hinch's runout and Lube et al.'s height change.
+CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[1].change}
 _VALUES = {"runout": "runout_rel", "height": "final_height_rel"}
 
 
@@ -34,7 +35,7 @@ def _fits(found):
 
 
 def summarise(found):
-    """``summary.json`` of {name: summary of a run}: the runs, and ``fits`` of runout and height below and above the change of Staron and Hinch's laws.
+    """``summary.json`` of {name: summary of a run}: the runs, and ``fits`` of runout and height below and above the aspect ratios :data:`CHANGES`.
 
     A fit has ``factor``, ``exponent`` with half of its 95 % interval, the numbers of ``points``, and ``published`` with ``off_rel``, the exponent's relative
     difference from each published one. Runs that did not come to rest are left out.
@@ -51,10 +52,10 @@ def summarise(found):
     return {"runs": found, "fits": fits, "at_rest": sum(run["rested"] for run in found.values())}
 
 
-def group(found, summary):
+def group(found):
     """A group for :func:`yade.nonsmooth.figures.columns.runout`."""
     a, values = _arrays(found)
-    return {"aspect": a, **values, "fits": _fits(found)}
+    return {"aspect": a, **values, "fits": _fits(found), "changes": CHANGES}
 
 
 def table(found, summary):
