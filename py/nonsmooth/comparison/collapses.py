@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -82,12 +83,12 @@ _RUN = {"column": run_column, "pile": run_pile}
 
 def _run(kind, folder, case):
     from .. import worlds
-    from ..heaps import course
+    from ..heaps import course, study
 
     heap, note = _heap(kind, case), Progress(folder)
     if case.world == "hard":
-        standard = worlds.Hard(time_step=heap.time_step())
-        world = worlds.Hard(time_step=case.step * standard.time_step, tolerance=case.tolerance * standard.tolerance)
+        standard = study.world_of(heap)
+        world = dataclasses.replace(standard, time_step=case.step * standard.time_step, tolerance=case.tolerance * standard.tolerance)
         care = None
     else:
         world = worlds.Soft(case.stiffness, heap.diameters(), model=case.model, damping=case.damping, step_share=case.step)
