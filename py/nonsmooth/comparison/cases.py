@@ -38,7 +38,8 @@ class Case:
     """One run. ``world``: "hard" or "soft"; ``source``: section or material of the scenario; ``disks``: their number; ``seed``: of the packing.
 
     Hard: ``step``, ``tolerance``: factors on the scenario's own. Soft: ``stiffness``: Young's modulus [Pa]; ``step``: share of the stability limit;
-    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`. ``options``: what else the scenario takes.
+    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`.
+    ``options``: what else the scenario takes.
     """
 
     world: str
@@ -116,7 +117,8 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
         chosen = sorted((*chosen, middle))
 
     def soft(stiffness, seed, moving=damping_moving):
-        return Case("soft", source, disks, seed, step_share, stiffness=stiffness, damping=damping, damping_moving=moving, model=model, options=_Options(options or {}))
+        return Case("soft", source, disks, seed, step_share, stiffness=stiffness, damping=damping, damping_moving=moving, model=model,
+                    options=_Options(options or {}))
 
     def hard(seed, step=1.0, tolerance=1.0):
         return Case("hard", source, disks, seed, step, tolerance, options=_Options(options or {}))

@@ -56,8 +56,10 @@ class Collapse:
                   "repose_deg": float(np.mean(np.abs(angles))) if angles else None, "rest_s": found["time_s"] if found["rested"] else None}
         moving = series["energy_kinetic_J"] > 0.01 * series["energy_kinetic_J"].max()
         simulated = found["steps"] * found["time_step_s"]
-        return Outcome(case, values, {"abscissa": t, "front": front, "centroid": way}, series, begin, end, forces, overlap=float(series["overlap_mean_rel"][moving].mean()),
-                       overlap_rest=float(series["overlap_mean_rel"][0]), cost=Cost(found["steps"], found["time_step_s"], found["wall_s"], simulated, found["wall_s"] / simulated),
+        return Outcome(case, values, {"abscissa": t, "front": front, "centroid": way}, series, begin, end, forces,
+                       overlap=float(series["overlap_mean_rel"][moving].mean()),
+                       overlap_rest=float(series["overlap_mean_rel"][0]), cost=Cost(found["steps"], found["time_step_s"], found["wall_s"], simulated,
+                                                                                    found["wall_s"] / simulated),
                        notes=[] if found["rested"] else ["stopped before it was at rest"])
 
 
@@ -105,8 +107,10 @@ def _run(kind, folder, case):
     result = course.run(heap, world, progress=progress)
     begin = result.frames[min(result.frames)]
     pairs = sorted(pressed["table"])
-    np.savez(folder / "record.npz", **{f"series_{name}": values for name, values in result.series.items()}, begin_x=begin[0], begin_y=begin[1], begin_r=result.r,
-             end_x=result.x, end_y=result.y, end_r=result.r, pairs=np.array(pairs, int).reshape(-1, 2), forces=np.array([pressed["table"][p] for p in pairs]))
+    np.savez(folder / "record.npz", **{f"series_{name}": values for name, values in result.series.items()}, begin_x=begin[0], begin_y=begin[1],
+             begin_r=result.r,
+             end_x=result.x, end_y=result.y, end_r=result.r, pairs=np.array(pairs, int).reshape(-1, 2),
+             forces=np.array([pressed["table"][p] for p in pairs]))
     return result.summary()
 
 

@@ -2,8 +2,8 @@
 
 **Error.** Two runs differ by what a reader of their results would see; each part is relative, so that a number says the same of all:
 
-* front and centre of mass: root mean square over time of the difference of their ways, from the moment that the mass begins to move and until both rest, in units
-  of the reference's largest way (for other experiments: their curves over their abscissa);
+* front and centre of mass: root mean square over time of the difference of their ways, from the moment that the mass begins to move and until both
+  rest, in units of the reference's largest way (for other experiments: their curves over their abscissa);
 * deposit: 1 minus the area that both cover over the area that either covers;
 * key quantities of the scenario, such as the water table at failure: the difference over the reference's value.
 
@@ -31,7 +31,10 @@ POINTS = 400  # of the abscissa on which curves are compared
 
 
 def curve_difference(abscissa, values, reference_abscissa, reference):
-    """Root mean square difference of two curves over the reference's largest change; both begin at abscissa 0, and a curve that has ended keeps its last value."""
+    """Root mean square difference of two curves over the reference's largest value.
+
+    Both begin at abscissa 0, and a curve that has ended keeps its last value.
+    """
     end = max(abscissa[-1], reference_abscissa[-1])
     if end <= 0:
         return 0.0
@@ -129,8 +132,8 @@ def loglog(at, x, y):
 def soft_rate(modulus, moduli, steps, walls):
     """Wall time [s] for a second of simulation on soft contacts of a Young's modulus [Pa], and whether that lies outside those that were run.
 
-    ``moduli``, ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step. The step goes with the stability limit, as the inverse root of the modulus; what a
-    step takes does not depend on the modulus but through the number of contacts, so beyond the runs it is that of the nearest.
+    ``moduli``, ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step. The step goes with the stability limit, as the
+    inverse root of the modulus; what a step takes depends on the modulus through the number of contacts only, so beyond the runs it is that of the nearest.
     """
     order = np.argsort(moduli)
     moduli, steps, walls = (np.asarray(v, float)[order] for v in (moduli, steps, walls))
@@ -145,7 +148,9 @@ def soft_rate(modulus, moduli, steps, walls):
 
 @dataclass(frozen=True)
 class Work:
-    """Two worlds at one accuracy: ``error`` compared at; ``hard``, ``soft``: indices of the cheapest runs that reach it; ``factor``: soft over hard in wall time.
+    """Two worlds at one accuracy.
+
+    ``error`` compared at; ``hard``, ``soft``: indices of the cheapest runs that reach it; ``factor``: soft over hard in wall time.
 
     ``at_scatter``: whether the accuracy is the scatter, below which nothing can be told.
     """
