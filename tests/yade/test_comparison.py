@@ -183,7 +183,7 @@ def compared(source, tmp_path_factory):
     """Two seeds, two stiffnesses, a few seconds of simulation each."""
     out = tmp_path_factory.mktemp("compared")
     told, questions = course.compare("slope", out, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=2, short=True,
-                                     options={"end": 2.0})
+                                     options={"end": 1.0})
     return out, told, questions
 
 
@@ -225,7 +225,7 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     gone.unlink()
     before = {path: path.stat().st_mtime_ns for path in copy.glob("runs/*/result.json")}
     again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, short=True,
-                              options={"end": 2.0}, resume=True)
+                              options={"end": 1.0}, resume=True)
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()
     values = {run["name"]: run["values"] for run in told["runs"]}
     assert {run["name"]: run["values"] for run in again["runs"]} == values  # soft runs give the same bits on one thread too
@@ -256,7 +256,7 @@ def test_the_script_refuses_in_one_line(tmp_path):
     import subprocess
 
     script = Path(os.environ["YADE_PREFIX"]).parents[1] / "scripts" / "compare_hard_soft.py"
-    for options, wanted in ((("--stiffness", "1e8"), "--stiffness"), (("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
+    for options, wanted in ((("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
                             (("--cost", "--scenario", "pile"), "--cost")):
         done = subprocess.run([script, *options, "--out", tmp_path], capture_output=True, text=True)
         assert done.returncode != 0 and wanted in done.stderr and "Traceback" not in done.stderr
