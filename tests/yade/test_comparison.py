@@ -110,12 +110,13 @@ def test_difference_and_scatter_over_seeds():
 
 def test_cost_at_equal_overlap():
     """Overlaps as 1/E and costs as √E: a hundredth of the softest's overlap takes a hundred times E, so ten times its cost."""
-    soft = [{"stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "rate": 2e-4 * math.sqrt(e), "time_step_s": 10 / math.sqrt(e),
+    soft = [{"stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "overlap_worst_rel": 1e7 / e, "rate": 2e-4 * math.sqrt(e), "time_step_s": 10 / math.sqrt(e),
              "wall_s_per_step": 2e-3} for e in (1e8, 1e9, 1e10)]
-    hard = {"overlap_mean_rel": 1e-4, "rate": 4.0}
+    hard = {"overlap_mean_rel": 1e-4, "overlap_worst_rel": 1e-2, "rate": 4.0}
     found = cost.summarise({"hard": {"moving": hard, "rest": {**hard, "overlap_mean_rel": 1e-6}}, "soft": {"moving": soft, "rest": soft}})
     assert found["soft_over_hard_wall_equal_overlap"] == pytest.approx(2e-4 * 1e5 / 4) and found["equal_overlap_extrapolated"] is False
     assert found["soft_over_hard_wall_rock_stiffness"] == pytest.approx(2e-4 * 1e5 / 4)
+    assert found["states"]["moving"]["equal_worst_overlap"] == pytest.approx(2e-4 * math.sqrt(1e9) / 4, rel=1e-6)
     assert found["states"]["rest"]["equal_overlap"] == pytest.approx(2e-4 * 1e6 / 4) and found["states"]["rest"]["equal_overlap_extrapolated"] is True
 
 

@@ -11,7 +11,7 @@ def number(value, unit="", digits=3):
         return "not known"
     scale, prefix = 1.0, ""
     if unit in ("N/m", "Pa", "N") and value:
-        scale, prefix = next(((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
+        scale, prefix = next(((f, p) for f, p in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
     text = f"{value / scale:.{digits}g}"
     if "e" in text and 1e-3 <= abs(value / scale) < 1e6:
         text = f"{value / scale:.0f}"

@@ -29,8 +29,10 @@ class ComparisonError(UserError, RuntimeError):
 
 def modulus_label(modulus):
     """Young's modulus [Pa] in words: "E = 100 MPa"."""
-    factor, prefix = next((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (0, "")) if modulus >= f)
-    return f"E = {modulus / (factor or 1):g} {prefix}Pa"
+    if modulus is None:
+        return "E not known"
+    factor, prefix = next((f, p) for f, p in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (0, "")) if modulus >= f)
+    return f"E = {modulus / (factor or 1):.3g} {prefix}Pa"
 
 
 @dataclass(frozen=True)

@@ -28,11 +28,11 @@ def write(out, told):
     plot = figures.cost_and_overlap([(STATE_NAMES[state], s["hard"], s["soft"], s["equal_overlap"]) for state, s in told["states"].items()],
                                     folder / "cost_and_overlap.png")
     rows = [(STATE_NAMES[state], label, number(one["time_step_s"], "s"), number(1e3 * one["wall_s_per_step"], "ms"), number(one["rate"], "s"),
-             number(one["overlap_mean_rel"], digits=2),
+             number(one["overlap_mean_rel"], digits=2), number(one["overlap_worst_rel"], digits=2),
              number(one["rate"] / s["hard"]["rate"]), str(one["contacts"]), number(one["mean_speed_m_per_s"], "m/s", 2))
             for state, s in told["states"].items()
             for label, one in [("hard", s["hard"]), *((f"soft, {modulus_label(x['stiffness_Pa'])}", x) for x in s["soft"])]]
-    heads = ("state", "contacts", "time step", "wall time a step", "wall time a simulated second", "mean overlap", "over hard", "touching contacts",
+    heads = ("state", "contacts", "time step", "wall time a step", "wall time a simulated second", "mean overlap", "largest overlap", "over hard", "touching contacts",
              "mean speed")
     section = report.Section("Cost and overlap", [
         "Overlaps fall as a power of the stiffness, and cost grows as another: " + "; ".join(
@@ -59,5 +59,7 @@ def _sentence(state, s):
                   f"{number(stiffest['overlap_mean_rel'], digits=2)})")
     return (f"{name[0].upper()}{name[1:]} a second of simulation takes {number(hard['rate'], 's')} of wall time with rigid disks. Soft contacts of equal "
             f"mean overlap, {number(hard['overlap_mean_rel'], digits=2)} of the mean diameter, need {modulus_label(s['equal_overlap_stiffness_Pa'])} and "
-            f"{number(s['equal_overlap'])} times as long{beyond}; at a rock's stiffness, 10 GPa, it is {number(s['rock_stiffness'])} times"
+            f"{number(s['equal_overlap'])} times as long{beyond}; at equal largest overlap, {number(hard['overlap_worst_rel'], digits=2)}, it is "
+            f"{number(s['equal_worst_overlap'])} times ({modulus_label(s['equal_worst_overlap_stiffness_Pa'])}"
+            f"{', extrapolated' if s['equal_worst_overlap_extrapolated'] else ''}), and at a rock's stiffness, 10 GPa, it is {number(s['rock_stiffness'])} times"
             + (" (extrapolated)." if s["rock_stiffness_extrapolated"] else "."))
