@@ -133,7 +133,7 @@ def test_plan_has_every_run_once():
     made = cases.plan("slope", 300, [1, 2, 3], [1e8, 1e7, 1e9])
     assert len(made.ensemble) == 3 and made.ensemble[0][1].stiffness == 1e8  # the middle one
     assert [c.stiffness for c in made.sweep] == [1e7, 1e8, 1e9]
-    assert made.numerics[-1].step < 1 and made.damping.damping_moving == made.damping.damping and made.damping.stiffness == 1e7
+    assert made.numerics[-1].step < 1 and made.damping.damping_moving == made.damping.damping and made.damping.stiffness == 1e8
     assert len(made.cases) == len({c.name for c in made.cases}) == 3 + 3 + 2 + 4 + 1  # hard, soft of the middle, other stiffnesses, numerics, damping
 
 
@@ -175,7 +175,7 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
         O.step()
         found[bool(world)] = (built.solver.bond(), layers.tolist(), [O.bodies[built.first_disk + k].shape.radius for k in range(built.count)])
         assert world is None or table["mass"].sum() == pytest.approx(2500 * math.pi * np.sum(made.r**2))
-    # bonds with the backstop are the hard world's alone, a few of some hundred
+    # the same gaps are bonded; at the backstop a few of some hundred may be the hard world's alone
     assert found[False][1:] == found[True][1:] and 0.9 * found[False][0] <= found[True][0] <= found[False][0]
 
 

@@ -7,7 +7,7 @@ The plan has four parts, all on the packing of the first seed but the first:
 * sweep: all other stiffnesses, each with its own stable step. Soft runs cost with the root of the stiffness, so one seed has to do;
 * numerics: hard runs with other time steps and tolerances, the finest of which is the reference of the hard world. The stiffest soft run is the reference
   of the soft one;
-* damping: a soft run whose damping stays what it was at rest, at the stiffness below the ensemble's, to show what damping does to the motion.
+* damping: a soft run of the ensemble's stiffness whose damping stays what it was at rest, to show what damping does to the motion.
 """
 
 from __future__ import annotations
@@ -125,10 +125,10 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
     def hard(seed, step=1.0, tolerance=1.0):
         return Case("hard", source, disks, seed, step, tolerance, options=_Options(options or {}))
 
-    first, at = seeds[0], chosen.index(middle)
+    first = seeds[0]
     return Plan(tuple((hard(seed), soft(middle, seed)) for seed in seeds), tuple(soft(e, first) for e in chosen),
                 (*(hard(first, *pair) for pair in numerics[:-1]), hard(first), *(hard(first, *pair) for pair in numerics[-1:])),
-                soft(chosen[max(0, at - 1)], first, damping) if damping_run and damping_moving not in (None, damping) else None)
+                soft(middle, first, damping) if damping_run and damping_moving not in (None, damping) else None)
 
 
 class _Options(dict):

@@ -36,6 +36,8 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
         raise ComparisonError(f"--threads {threads}: give a number above 0")
     if not getattr(experiment, "MOVING", True):
         plan_options["damping_moving"] = None
+    if stiffnesses is None and plan_options.get("ensemble") is None:
+        plan_options["ensemble"] = experiment.ENSEMBLE_STIFFNESS
     short_options = dict(numerics=HARD_NUMERICS[-1:], damping_run=False) if short else {}
     chosen = plan(source or experiment.SOURCE, disks, seeds, stiffnesses or experiment.DEFAULT_STIFFNESSES, options=options,
                   **{**plan_options, **short_options})

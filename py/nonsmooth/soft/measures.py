@@ -75,7 +75,7 @@ class Measures:
             n, t = force[0] * nx + force[1] * ny, shear[1] * nx - shear[0] * ny
             ids = (id1, id2) if id1 < id2 else (id2, id1)
             moments = isinstance(p, CohFrictPhys)
-            torque = p.moment_bending[2] if moments else 0.0
+            torque = p.moment_bending[2] if moments else getattr(p, "rollingTorque", 0.0)  # the latter at walls
             holds = bonded(p)
             if holds:
                 whole[ids] = (_mode(p, n, abs(t), abs(torque)), x, y)
@@ -169,6 +169,9 @@ def _mode(p, normal, shear, torque):
                  TORQUE: _share(torque, p.rollingAdhesion + held * p.maxRollPl)}
     elif isinstance(p, JCFpmPhys):
         parts = {TENSION: _share(-normal, p.FnMax), SHEAR: _share(shear, p.FsMax + normal * p.tanFrictionAngle)}
+    elif hasattr(p, "rollingArm"):  # a wall's
+        held = p.tensileForce + max(normal, -p.tensileForce)
+        parts = {TENSION: _share(-normal, p.tensileForce), SHEAR: _share(shear, p.friction * held), TORQUE: _share(torque, p.rollingArm * held)}
     else:
         return MIXED
     mode = max(parts, key=parts.get)
