@@ -35,8 +35,8 @@ def read_arguments():
     parser.add_argument("--source", metavar="NAME|FILE", help="section of the slope, or material of the biaxial test, instead of the scenario's own")
     parser.add_argument("--disks", type=int, metavar="N", help="about so many disks (default: the scenario's)")
     parser.add_argument("--stiffness", type=stiffnesses, metavar="PA,…", help="Young's moduli [Pa] (default: the scenario's, three decades)")
-    parser.add_argument("--ensemble-stiffness", type=arguments.positive, metavar="PA", help="the one that runs with every seed (default: the upper "
-                                                                                            "of the middle ones); others run with the first")
+    parser.add_argument("--ensemble-stiffness", type=arguments.positive, metavar="PA",
+                        help="the one that runs with every seed (default: the scenario's, or the upper middle one of --stiffness); others run with the first")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4, 5], metavar="S", help="seeds of the packings (default: 1 2 3 4 5)")
     parser.add_argument("--model", choices=("cohesion_moment", "jcfpm", "friction"), default="cohesion_moment", help="YADE's law (default: %(default)s)")
     parser.add_argument("--damping", type=float, default=0.2, metavar="L", help="of soft runs at rest, non-viscous (default: %(default)s, YADE's own)")

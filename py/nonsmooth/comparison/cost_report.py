@@ -28,12 +28,13 @@ def write(out, told):
     plot = figures.cost_and_overlap([(STATE_NAMES[state], s["hard"], s["soft"], s["equal_overlap"]) for state, s in told["states"].items()],
                                     folder / "cost_and_overlap.png")
     rows = [(STATE_NAMES[state], label, number(one["time_step_s"], "s"), number(1e3 * one["wall_s_per_step"], "ms"), number(one["rate"], "s"),
-             number(one["overlap_mean_rel"], digits=2), number(one["overlap_worst_rel"], digits=2),
+             number(one["overlap_mean_rel"], digits=2),
+             number(one["overlap_worst_rel"], digits=2),
              number(one["rate"] / s["hard"]["rate"]), str(one["contacts"]), number(one["mean_speed_m_per_s"], "m/s", 2))
             for state, s in told["states"].items()
             for label, one in [("hard", s["hard"]), *((f"soft, {modulus_label(x['stiffness_Pa'])}", x) for x in s["soft"])]]
-    heads = ("state", "contacts", "time step", "wall time a step", "wall time a simulated second", "mean overlap", "largest overlap", "over hard", "touching contacts",
-             "mean speed")
+    heads = ("state", "contacts", "time step", "wall time a step", "wall time a simulated second", "mean overlap", "largest overlap", "over hard",
+             "touching contacts", "mean speed")
     section = report.Section("Cost and overlap", [
         "Overlaps fall as a power of the stiffness, and cost grows as another: " + "; ".join(
             f"{STATE_NAMES[state]} {number(s['overlap_power'], digits=2)} and {number(s['rate_power'], digits=2)}"
