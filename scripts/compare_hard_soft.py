@@ -17,7 +17,8 @@ from yade.nonsmooth.comparison import cost, cost_report, course
 from yade.nonsmooth.laboratory import arguments
 
 
-OPTIONS = {"slope": ("end",), "biaxial": ("confining", "strain", "sides", "platens"), "column": ("aspect", "friction", "base"), "pile": ("aspect", "friction", "base")}
+OPTIONS = {"slope": ("end",), "biaxial": ("confining", "strain", "sides", "platens"), "column": ("aspect", "friction", "base"),
+           "pile": ("aspect", "friction", "base")}
 
 
 def stiffnesses(text):
@@ -34,14 +35,18 @@ def read_arguments():
     parser.add_argument("--source", metavar="NAME|FILE", help="section of the slope, or material of the biaxial test, instead of the scenario's own")
     parser.add_argument("--disks", type=int, metavar="N", help="about so many disks (default: the scenario's)")
     parser.add_argument("--stiffness", type=stiffnesses, metavar="PA,…", help="Young's moduli [Pa] (default: the scenario's, three decades)")
-    parser.add_argument("--ensemble-stiffness", type=arguments.positive, metavar="PA", help="the one that runs with every seed (default: the upper of the middle ones); others run with the first")
+    parser.add_argument("--ensemble-stiffness", type=arguments.positive, metavar="PA",
+                        help="the one that runs with every seed (default: the scenario's, or the upper middle one of --stiffness); others run with the first")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4, 5], metavar="S", help="seeds of the packings (default: 1 2 3 4 5)")
     parser.add_argument("--model", choices=("cohesion_moment", "jcfpm", "friction"), default="cohesion_moment", help="YADE's law (default: %(default)s)")
     parser.add_argument("--damping", type=float, default=0.2, metavar="L", help="of soft runs at rest, non-viscous (default: %(default)s, YADE's own)")
-    parser.add_argument("--damping-moving", type=float, default=0.02, metavar="L", help="while the mass moves, where it would brake it (default: %(default)s)")
-    parser.add_argument("--step-share", type=arguments.positive, default=0.5, metavar="S", help="time step of soft runs in units of its stability limit (default: %(default)s)")
+    parser.add_argument("--damping-moving", type=float, default=0.02, metavar="L", help="while the mass moves, where it would brake it (default: "
+                                                                                        "%(default)s)")
+    parser.add_argument("--step-share", type=arguments.positive, default=0.5, metavar="S", help="time step of soft runs in units of its stability "
+                                                                                                "limit (default: %(default)s)")
     parser.add_argument("--only-ensemble", action="store_true", help="leave out hard runs of other steps and tolerances, and the one of another damping")
-    parser.add_argument("--cost", action="store_true", help="instead, time steps of the paper's slope (20000 disks) in both worlds on all threads, one process after the other")
+    parser.add_argument("--cost", action="store_true", help="instead, time steps of the paper's slope (20000 disks) in both worlds on all threads, "
+                                                            "one process after the other")
     parser.add_argument("--steps", type=int, default=300, metavar="N", help="with --cost: steps that are timed (default: %(default)s)")
     parser.add_argument("--end", type=arguments.positive, metavar="SECONDS", help="slope: simulated time after settling, at most")
     parser.add_argument("--confining", type=arguments.positive, metavar="MPA", help="biaxial: confining pressure [MPa] (default: 1)")
@@ -63,7 +68,8 @@ def options_of(args):
     given = {name: getattr(args, name) for names in OPTIONS.values() for name in names if getattr(args, name) is not None}
     for name in given:
         if name not in taken:
-            raise errors.UserError(f"--{name} with --scenario {args.scenario}: it has no such option; leave it out, or take {', '.join('--' + n for n in taken)}")
+            raise errors.UserError(f"--{name} with --scenario {args.scenario}: it has no such option; leave it out, or take "
+                                   f"{', '.join('--' + n for n in taken)}")
     return given | ({"confining": 1e6 * given["confining"]} if "confining" in given else {})
 
 
@@ -78,7 +84,8 @@ def measure_cost(args, out):
     if args.scenario != "slope":
         raise errors.UserError(f"--cost with --scenario {args.scenario}: it is measured on the slope; leave --scenario out")
     with arguments.bar() as progress:
-        told = cost.run(out, args.source or "jiufengershan", args.disks or 20000, args.threads, args.stiffness or cost.STIFFNESSES, args.steps, args.damping,
+        told = cost.run(out, args.source or "jiufengershan", args.disks or 20000, args.threads, args.stiffness or cost.STIFFNESSES, args.steps,
+                        args.damping,
                         args.damping_moving, args.step_share, args.resume, progress, args.model)
     tell(cost_report.write(out, told))
     print(f"\nresults: {out}/report.html, summary.json, figures")
@@ -92,8 +99,10 @@ def main():
         return measure_cost(args, out)
     with arguments.bar() as progress:
         summary, questions = course.compare(
-            args.scenario, out, args.seeds, disks=args.disks, source=args.source, stiffnesses=args.stiffness, ensemble=args.ensemble_stiffness, model=args.model, damping=args.damping,
-            damping_moving=args.damping_moving, step_share=args.step_share, short=args.only_ensemble, threads=args.threads, resume=args.resume, progress=progress,
+            args.scenario, out, args.seeds, disks=args.disks, source=args.source, stiffnesses=args.stiffness, ensemble=args.ensemble_stiffness,
+            model=args.model, damping=args.damping,
+            damping_moving=args.damping_moving, step_share=args.step_share, short=args.only_ensemble, threads=args.threads, resume=args.resume,
+            progress=progress,
             options=options_of(args))
     tell(questions)
     print(f"\n{summary['wall_s']:.0f} s of wall time; results: {out}/report.html, summary.json, figures, runs/*")

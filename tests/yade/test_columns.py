@@ -1,12 +1,16 @@
 """Heaps: measures and fits on made-up data, and small columns and piles in both worlds."""
+import json
 import math
+import os
+import subprocess
 from dataclasses import asdict
 
 import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import packing, processes, records, worlds
-from yade.nonsmooth.heaps import column, course, grains, measures, pile, preparation, scaling, study
+from yade.nonsmooth.figures import columns as figures
+from yade.nonsmooth.heaps import column, course, grains, measures, pile, preparation, report, scaling, study
 
 COARSE = dict(path=0.2)
 SMALL = dict(disks=200, aspect=1.5)
@@ -179,8 +183,9 @@ def test_both_worlds_begin_with_the_same_places(collapse):
     ready = preparation.prepared(c)
     for r in found.values():
         x, y = r.frames[0.0]
-        # springs yield under the weight: 0.4 % of a diameter at the bottom, some 17 rows high, and a little sliding of what is pressed
-        assert np.hypot(x - ready.x, y - ready.y).max() < (0.2 if r.world == "soft" else 1e-3) * c.diameter
+        # springs yield under the weight, 0.4 % of a diameter in the lowest of 17 rows, and slide a little; hard disks creep while the first
+        # forces build up from nothing
+        assert np.hypot(x - ready.x, y - ready.y).max() < (0.2 if r.world == "soft" else 0.02) * c.diameter
 
 
 def test_pile_stands_on_both_sides():
@@ -232,3 +237,56 @@ def test_study_keeps_what_has_ended(tmp_path):
         study.world_of(c, "soft")
     with pytest.raises(grains.HeapError, match="world 'liquid'"):
         study.world_of(c, "liquid")
+
+
+# ---- figures, report and command --------------------------------------------------------------------
+
+def made_run(a, factor=1.0, rested=True):
+    """A run's summary as the published laws would have it."""
+    law, height = scaling.RUNOUT[0], scaling.HEIGHT[1]
+    return {"aspect": a, "runout_rel": factor * float(law(a)), "final_height_rel": float(height(a)), "rested": rested, "disks": 10, "repose_deg": [None], "time_s": 1.0,
+            "fall_time_s": 0.5, "steps": 5, "wall_s": 0.1, "overlap_worst_rel": 0.0}
+
+
+def test_report_compares_exponents_with_the_published_ones(tmp_path):
+    found = {f"a{a:g}": made_run(a, 2.0) for a in (0.5, 0.7, 1.0, 1.4, 2.8, 4.0, 8.0)} | {"moving": made_run(5.6, 9.0, rested=False)}
+    summary = report.summarise(found)
+    assert summary["at_rest"] == 7
+    below, above = summary["fits"]["runout_below"], summary["fits"]["runout_above"]
+    assert below["exponent"] == pytest.approx(1.0) and above["exponent"] == pytest.approx(0.7) and above["factor"] == pytest.approx(6.5)  # exact laws
+    assert [p["off_rel"] for p in above["published"]] == pytest.approx([0.0, 0.7 / (2 / 3) - 1], abs=1e-9)
+    assert above["points"] == 3  # the one that moves is left out
+    assert "did not come to rest" in report.table(found, summary) and "runout above a = 2: 6.50 a^(0.700" in report.table(found, summary)
+    figures.runout({"made up": report.group(found)}, tmp_path / "runout.png")
+    assert (tmp_path / "runout.png").stat().st_size > 10_000
+
+
+def command(*arguments):
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
+    environment["NONSMOOTH_BUILD"] = os.path.dirname(os.environ["YADE_PREFIX"])
+    script = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts", "column.py")
+    return subprocess.run([script, *map(str, arguments)], env=environment, text=True, capture_output=True, timeout=600)
+
+
+def test_command_writes_series_summary_and_figures(tmp_path):
+    done = command("--disks", 120, "--aspect", "0.8,1.2,1.6", "--path", 0.3, "--tolerance", 1e-3, "--base", "smooth", "--out", tmp_path, "--threads", 1)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert set(summary["runs"]) == {"a0.8-seed1", "a1.2-seed1", "a1.6-seed1"}
+    for name, run in summary["runs"].items():
+        series = records.read_series(tmp_path / "runs" / name / "series.csv")
+        assert series["front_m"][-1] == run["front_m"] and (np.diff(series["time_s"]) > 0).all()
+        assert (tmp_path / "runs" / name / "collapse.png").stat().st_size > 10_000
+    assert (tmp_path / "runout.png").stat().st_size > 10_000
+    assert summary["fits"]["runout_below"]["points"] == summary["at_rest"]
+
+
+@pytest.mark.parametrize("arguments, said", [
+    (("--world", "soft"), "stiffness None"), (("--friction", "-1"), "friction -1"), (("--packing", "none.txt"), "none.txt"), (("--disks", 20, "--aspect", "9"), "ask for more disks"),
+])
+def test_command_names_what_is_wrong(tmp_path, arguments, said):
+    done = command(*arguments, "--out", tmp_path / "out")
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    last = done.stderr.strip().splitlines()[-1]
+    assert last.startswith("error: ") and said in last
+    assert not (tmp_path / "out").exists()

@@ -29,8 +29,8 @@ def test_overlap_of_deposits():
     assert deposits.overlap(one, one) == pytest.approx(1, abs=1e-12)
     assert deposits.overlap(one, shifted) == pytest.approx(0.5, abs=0.01)  # rounded corners of the outline
     assert deposits.overlap(one, away) == 0
-    # 60 by 6 with pores closed; octagon-like disks and corners lose some of the rim
-    assert one.area == pytest.approx(360, rel=0.02)
+    # 60 by 6 with pores closed; dents between disks along the rim, and circles drawn with 16 corners, take some per cent
+    assert one.area == pytest.approx(360, rel=0.05)
 
 
 # ---- errors, work, rates --------------------------------------------------------------------------
@@ -38,7 +38,8 @@ def outcome(front, seed=1, water=10.0, world="hard", wall=10.0, **case):
     """An Outcome whose front moves linearly to ``front`` in 10 s and whose deposit is a row of disks from 0 to ``front``."""
     t = np.linspace(0, 10, 101)
     x = np.arange(0, front + 0.1)
-    return Outcome(cases.Case(world, "made up", 10, seed, **case), {"water_at_failure_m": water, "front_travel_m": front}, {"abscissa": t, "front": front * t / 10},
+    return Outcome(cases.Case(world, "made up", 10, seed, **case), {"water_at_failure_m": water, "front_travel_m": front},
+                   {"abscissa": t, "front": front * t / 10},
                    {}, None, (x, np.zeros_like(x), np.full_like(x, 0.5)), {}, 0.0, 0.0, Cost(100, 0.1, wall, 10.0, wall / 10))
 
 
@@ -109,12 +110,22 @@ def test_difference_and_scatter_over_seeds():
 
 def test_cost_at_equal_overlap():
     """Overlaps as 1/E and costs as √E: a hundredth of the softest's overlap takes a hundred times E, so ten times its cost."""
-    soft = [{"stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "rate": 2e-4 * math.sqrt(e)} for e in (1e8, 1e9, 1e10)]
-    hard = {"overlap_mean_rel": 1e-4, "rate": 4.0}
+    soft = [{"stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "overlap_worst_rel": 1e7 / e, "rate": 2e-4 * math.sqrt(e), "time_step_s": 10 / math.sqrt(e),
+             "wall_s_per_step": 2e-3} for e in (1e8, 1e9, 1e10)]
+    hard = {"overlap_mean_rel": 1e-4, "overlap_worst_rel": 1e-2, "rate": 4.0}
     found = cost.summarise({"hard": {"moving": hard, "rest": {**hard, "overlap_mean_rel": 1e-6}}, "soft": {"moving": soft, "rest": soft}})
     assert found["soft_over_hard_wall_equal_overlap"] == pytest.approx(2e-4 * 1e5 / 4) and found["equal_overlap_extrapolated"] is False
     assert found["soft_over_hard_wall_rock_stiffness"] == pytest.approx(2e-4 * 1e5 / 4)
+    assert found["states"]["moving"]["equal_worst_overlap"] == pytest.approx(2e-4 * math.sqrt(1e9) / 4, rel=1e-6)
     assert found["states"]["rest"]["equal_overlap"] == pytest.approx(2e-4 * 1e6 / 4) and found["states"]["rest"]["equal_overlap_extrapolated"] is True
+
+
+def test_cost_of_a_stiffness_that_was_not_run():
+    """Steps as 1/√E exactly; a step takes 2 ms with the softest and 4 ms with the stiffest, and no more beyond."""
+    found = [precision.soft_rate(e, [1e9, 1e7], [1e-4, 1e-3], [4e-3, 2e-3]) for e in (1e8, 1e11, 1e6)]
+    assert [f[0] for f in found] == pytest.approx([math.sqrt(8e-6) / (1e-3 / math.sqrt(10)), 4e-3 / 1e-5, 2e-3 / (1e-3 * math.sqrt(10))])
+    assert [f[1] for f in found] == [False, True, True]
+    assert math.isnan(precision.soft_rate(math.nan, [1e9], [1e-4], [1e-3])[0])
 
 
 # ---- plans and answers ----------------------------------------------------------------------------
@@ -122,11 +133,12 @@ def test_plan_has_every_run_once():
     made = cases.plan("slope", 300, [1, 2, 3], [1e8, 1e7, 1e9])
     assert len(made.ensemble) == 3 and made.ensemble[0][1].stiffness == 1e8  # the middle one
     assert [c.stiffness for c in made.sweep] == [1e7, 1e8, 1e9]
-    assert made.numerics[-1].step < 1 and made.damping.damping_moving == made.damping.damping and made.damping.stiffness == 1e7
+    assert made.numerics[-1].step < 1 and made.damping.damping_moving == made.damping.damping and made.damping.stiffness == 1e8
     assert len(made.cases) == len({c.name for c in made.cases}) == 3 + 3 + 2 + 4 + 1  # hard, soft of the middle, other stiffnesses, numerics, damping
 
 
-@pytest.mark.parametrize("change, wanted", [({"stiffnesses": [1e8]}, "--stiffness"), ({"stiffnesses": [-1, 1e8]}, "--stiffness"), ({"seeds": [1, 1]}, "--seeds"),
+@pytest.mark.parametrize("change, wanted", [({"stiffnesses": [1e8]}, "--stiffness"), ({"stiffnesses": [-1, 1e8]}, "--stiffness"),
+                                            ({"seeds": [1, 1]}, "--seeds"),
                                             ({"seeds": []}, "--seeds"), ({"damping": 1.0}, "--damping")])
 def test_lists_that_cannot_be_used(change, wanted):
     with pytest.raises(cases.ComparisonError, match=wanted):
@@ -163,7 +175,7 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
         O.step()
         found[bool(world)] = (built.solver.bond(), layers.tolist(), [O.bodies[built.first_disk + k].shape.radius for k in range(built.count)])
         assert world is None or table["mass"].sum() == pytest.approx(2500 * math.pi * np.sum(made.r**2))
-    # bonds with the backstop are the hard world's alone, a few of some hundred
+    # the same gaps are bonded; at the backstop a few of some hundred may be the hard world's alone
     assert found[False][1:] == found[True][1:] and 0.9 * found[False][0] <= found[True][0] <= found[False][0]
 
 
@@ -171,7 +183,8 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
 def compared(source, tmp_path_factory):
     """Two seeds, two stiffnesses, a few seconds of simulation each."""
     out = tmp_path_factory.mktemp("compared")
-    told, questions = course.compare("slope", out, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=2, short=True, options={"end": 2.0})
+    told, questions = course.compare("slope", out, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=2, short=True,
+                                     options={"end": 1.0})
     return out, told, questions
 
 
@@ -190,8 +203,10 @@ def test_summary_and_report(compared):
     # and the stable step goes with 1/√E: √10 times as many steps, rounded to rows
     assert soft["cost"]["steps"] / softer["cost"]["steps"] == pytest.approx(math.sqrt(10), rel=0.1)
     page = (out / "report.html").read_text()
-    assert page.index("Do both models fail") < page.index("<h2>") and "http" not in page.replace("http://www.w3.org", "") and page.count("data:image/png") >= 10
-    assert [q[0] for q in questions] == ["Do both models fail at the same water table and run out as far, within the scatter over seeds?", course.COST_QUESTION]
+    assert page.index("Do both models fail") < page.index("<h2>") and "http" not in page.replace("http://www.w3.org",
+        "") and page.count("data:image/png") >= 10
+    assert [q[0] for q in questions] == ["Do both models fail at the same water table and run out as far, within the scatter over seeds?",
+                                         course.COST_QUESTION]
 
 
 def test_series_of_both_worlds_have_the_same_columns(compared):
@@ -210,7 +225,8 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     gone = copy / "runs" / "soft-1e07Pa-seed1" / "result.json"
     gone.unlink()
     before = {path: path.stat().st_mtime_ns for path in copy.glob("runs/*/result.json")}
-    again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, short=True, options={"end": 2.0}, resume=True)
+    again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, short=True,
+                              options={"end": 1.0}, resume=True)
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()
     values = {run["name"]: run["values"] for run in told["runs"]}
     assert {run["name"]: run["values"] for run in again["runs"]} == values  # soft runs give the same bits on one thread too
@@ -226,20 +242,22 @@ def test_a_run_that_fails_says_so_and_keeps_the_others(tmp_path):
 def test_a_column_in_both_worlds(tmp_path):
     options = {"aspect": 1.0}
     found = {}
-    for case in (cases.Case("hard", "", 100, 1, options=options), cases.Case("soft", "", 100, 1, 0.5, stiffness=1e8, damping=0.2, damping_moving=0.02, model="cohesion_moment", options=options)):
+    for case in (cases.Case("hard", "", 100, 1, options=options), cases.Case("soft", "", 100, 1, 0.5, stiffness=3e7, damping=0.2, damping_moving=0.02,
+                                                                            model="cohesion_moment", options=options)):
         folder = tmp_path / case.name
         folder.mkdir()
         found[case.world] = collapses.COLUMN.measure(case, folder, collapses.run_column(folder, **dataclasses.asdict(case)))
-    # a hundred grains scatter; the travel is of the order of the height
-    assert found["hard"].values["runout_rel"] == pytest.approx(found["soft"].values["runout_rel"], rel=0.5)
+    # so few grains scatter by more than half; a column that does not spread, or flies apart, is out by far more than a factor of three
+    assert 1 / 3 < found["hard"].values["front_travel_m"] / found["soft"].values["front_travel_m"] < 3
     assert found["soft"].overlap > 1e-4 > found["hard"].overlap
-    assert len(found["hard"].forces) > 50 and len(found["soft"].forces) > 50
+    assert len(found["hard"].forces) > 30 and len(found["soft"].forces) > 30
 
 
 def test_the_script_refuses_in_one_line(tmp_path):
     import subprocess
 
     script = Path(os.environ["YADE_PREFIX"]).parents[1] / "scripts" / "compare_hard_soft.py"
-    for options, wanted in ((("--stiffness", "1e8"), "--stiffness"), (("--scenario", "biaxial", "--aspect", "2"), "--aspect"), (("--cost", "--scenario", "pile"), "--cost")):
+    for options, wanted in ((("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
+                            (("--cost", "--scenario", "pile"), "--cost")):
         done = subprocess.run([script, *options, "--out", tmp_path], capture_output=True, text=True)
         assert done.returncode != 0 and wanted in done.stderr and "Traceback" not in done.stderr

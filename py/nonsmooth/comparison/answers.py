@@ -11,7 +11,7 @@ def number(value, unit="", digits=3):
         return "not known"
     scale, prefix = 1.0, ""
     if unit in ("N/m", "Pa", "N") and value:
-        scale, prefix = next(((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
+        scale, prefix = next(((f, p) for f, p in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
     text = f"{value / scale:.{digits}g}"
     if "e" in text and 1e-3 <= abs(value / scale) < 1e6:
         text = f"{value / scale:.0f}"
@@ -41,7 +41,8 @@ def answer_same(summary, names):
         else:
             verdicts.append(q["within_scatter"])
             span = f" (95 % confidence ± {number(q['difference_95'], unit)}, same packings)" if q["difference_95"] is not None else ""
-            text += f". The difference, {number(q['difference'], unit)}{span}, is {'within' if q['within_scatter'] else 'larger than'} the scatter over seeds, {number(q['scatter'], unit)}."
+            size = "within" if q["within_scatter"] else "larger than"
+            text += f". The difference, {number(q['difference'], unit)}{span}, is {size} the scatter over seeds, {number(q['scatter'], unit)}."
         sentences.append(text)
     verdict = "not told" if None in verdicts else ("yes" if all(verdicts) else ("no" if not any(verdicts) else "in part"))
     if summary.get("deposit_overlap_fraction") is not None:
@@ -61,11 +62,13 @@ def answer_costs(summary):
         verdict = "hard" if found["factor"] > 1 else "soft"
         cheaper = found["factor"] if found["factor"] > 1 else 1 / found["factor"]
         where = "the scatter over seeds, below which errors tell nothing" if found["at_scatter"] else "the smallest that both reach"
-        sentences.append(f"At equal accuracy (error {number(found['error'])} against the finest hard run: {where}) {verdict} costs less, by a factor of {number(cheaper)}: "
+        sentences.append(f"At equal accuracy (error {number(found['error'])} against the finest hard run: {where}) {verdict} costs less, by a factor "
+                         f"of {number(cheaper)}: "
                          f"“{found['hard_label']}” against “{found['soft_label']}”.")
     own = work["against_own"]["compared"]
     if own:
-        sentences.append(f"Each against the finest run of its own world, at an error of {number(own['error'])}: a factor of {number(own['factor'])}, soft over hard.")
+        sentences.append(f"Each against the finest run of its own world, at an error of {number(own['error'])}: a factor of {number(own['factor'])}, "
+                         f"soft over hard.")
     return verdict, sentences + [s for s in answer_cost(summary) if s]
 
 
@@ -75,7 +78,8 @@ def answer_cost(summary):
     if factor is not None:
         beyond = " That stiffness was not run: the factor is extrapolated." if summary["equal_overlap_extrapolated"] else ""
         yield (f"At equal mean overlap ({number(summary['overlap_hard_rel'], digits=2)} of the mean diameter, which takes a Young's modulus of "
-               f"{number(summary['stiffness_equal_overlap_Pa'], 'Pa', 2)}) a second of simulation costs soft contacts {number(factor)} times the wall time of hard ones.{beyond}")
+               f"{number(summary['stiffness_equal_overlap_Pa'], 'Pa', 2)}) a second of simulation costs soft contacts {number(factor)} times the "
+               f"wall time of hard ones.{beyond}")
     rock = summary["soft_over_hard_wall_rock_stiffness"]
     if rock is not None:
         yield f"At a rock's stiffness, 10 GPa, {number(rock)} times" + (" (extrapolated)." if summary["rock_stiffness_extrapolated"] else ".")

@@ -16,9 +16,13 @@ def sections(out, scenario, plan, outcomes, summary):
     folder, strain = out / "figures", ("abscissa", "axial strain [%]", 100.0)
     columns = [("stress", "σ₁/σ₃ [-]", 1.0), ("volume", "volumetric strain [%]", 100.0)]
     made = [Section("Stress and volume", plots=[
-        (figures.courses(common.by_seed(plan, outcomes, common.curves), columns, strain, folder / "stress_seeds.png"), "All seeds. Stresses are running means over 0.2 % of strain."),
-        (figures.courses(common.by_stiffness(plan, outcomes, common.curves), columns, strain, folder / "stress_stiffness.png"), f"All stiffnesses, seed {plan.ensemble[0][0].seed}.")])]
-    made.append(common.course_section("Bonds", folder / "bonds.png", plan, outcomes, [("bonds_alive", "bonds that hold", 1.0)], ("strain", "axial strain [%]", 100.0)))
+        (figures.courses(common.by_seed(plan, outcomes, common.curves), columns, strain, folder / "stress_seeds.png"), "All seeds. Stresses are "
+         "running means over 0.2 % of strain."),
+        (figures.courses(common.by_stiffness(plan, outcomes, common.curves), columns, strain, folder / "stress_stiffness.png"), f"All stiffnesses, "
+         f"seed {plan.ensemble[0][0].seed}.")])]
+    made.append(common.course_section("Bonds", folder / "bonds.png", plan, outcomes, [("bonds_alive", "bonds that hold", 1.0)],
+                                      ("strain", "axial strain [%]", 100.0)))
     made.append(modes_section(folder, plan, outcomes))
-    made.append(common.force_section(folder, plan, outcomes, "Normal forces of contacts under compression, under the confining pressure before the test begins."))
+    made.append(common.force_section(folder, plan, outcomes, "Normal forces of contacts under compression, under the confining pressure before the "
+                                                             "test begins."))
     return made

@@ -12,7 +12,7 @@ import numpy as np
 from .. import records
 from ..laboratory import biaxial, materials, pressing, strength
 from ..packing_files import cache_folder
-from .cases import Case, ComparisonError
+from .cases import Case
 from .outcomes import Cost, Outcome, Quantity
 from .runs import Progress
 from .slopes import forces_of
@@ -23,6 +23,7 @@ NAME, TITLE = "biaxial", "Biaxial test"
 SOURCE, DISKS = "wwr", 1000
 #: Young's moduli [Pa]: with stresses of some MPa, contacts overlap by some per cent at the softest.
 DEFAULT_STIFFNESSES = (1e8, 1e9, 1e10, 1e11)
+ENSEMBLE_STIFFNESS = 1e10  # Pa, for all seeds: below it the sample's elastic strain up to the peak is no longer small
 CONFINING, STRAIN = 1e6, 0.06  # Pa; axial strain at the end, unless the case has others
 KEYS = ("sigma1_peak_Pa", "sigma1_residual_Pa")
 CURVES = {"stress": "σ₁ over σ₃", "volume": "volumetric strain"}
@@ -49,9 +50,8 @@ def test_of(case: Case) -> biaxial.Test:
     shape = pressing.Shape(case.disks, case.seed)
     numerics = dict(step=standard["step"] * case.step, tolerance=standard["tolerance"] * case.tolerance) if case.world == "hard" else {}
     platens = o.get("platens", standard["platens"])
-    if platens == "glued":
-        raise ComparisonError("platens glued: soft contacts with walls have no bonds; take rough or smooth")
-    return biaxial.Test(materials.load(case.source), o.get("confining", CONFINING), shape, o.get("strain", STRAIN), platens, o.get("sides", standard["sides"]),
+    return biaxial.Test(materials.load(case.source), o.get("confining", CONFINING), shape, o.get("strain", STRAIN), platens,
+                        o.get("sides", standard["sides"]),
                         o.get("inertia", standard["inertia"]), **numerics)
 
 
@@ -71,8 +71,10 @@ def run(folder, **plain):
     from yade import O
 
     s = course.state
-    return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "rate_per_s": s["rate"], "time_step_s": O.dt,
-            "steps": O.iter - s["begin"], "simulated_s": O.time - s["begin_time"], "wall_s": s["wall_steps_s"], "overlap_worst_rel": course.sample.engine.overlapWorstEver}
+    return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "rate_per_s": s["rate"],
+            "time_step_s": O.dt,
+            "steps": O.iter - s["begin"], "simulated_s": O.time - s["begin_time"], "wall_s": s["wall_steps_s"],
+            "overlap_worst_rel": course.sample.engine.overlapWorstEver}
 
 
 class _SoftSample:
@@ -107,8 +109,10 @@ class SoftCourse(biaxial.Course):
         shape, rock = test.shape, test.material
         pressed = pressing.load(shape)
         O.reset()
-        world = worlds.Soft(case.stiffness, (2 * float(pressed.r.min()), 2 * float(pressed.r.max())), model=case.model, damping=case.damping, step_share=case.step, verlet=0.1 * shape.d_min)
-        smooth = dataclasses.replace(test.platen, name="side", bonded=False, tensile_strength=0.0, friction=0.0, residual_friction=0.0, rolling_friction=0.0, residual_rolling_friction=0.0)
+        world = worlds.Soft(case.stiffness, (2 * float(pressed.r.min()), 2 * float(pressed.r.max())), model=case.model, damping=case.damping,
+                            step_share=case.step, verlet=0.1 * shape.d_min)
+        smooth = dataclasses.replace(test.platen, name="side", bonded=False, tensile_strength=0.0, friction=0.0, residual_friction=0.0,
+                                     rolling_friction=0.0, residual_rolling_friction=0.0)
         stuff, rough, side = world.material(rock), world.wall_material(test.platen), world.wall_material(smooth)
         O.materials.append((stuff, rough, side))
         walls = Walls.around(pressed.width, pressed.height, rough, side)
@@ -138,7 +142,8 @@ class SoftCourse(biaxial.Course):
         area = course._membrane() if test.sides == "flexible" else height * walls.width()
         if test.sides == "rigid" and test.platens != "smooth":
             walls.free("left", walls.state("right").mass)
-        state |= {"height": height, "area": area, "bonds": body.bonds, "begin": O.iter, "begin_time": O.time, "disks": body.count, "contacts": body.engine.contacts,
+        state |= {"height": height, "area": area, "bonds": body.bonds, "begin": O.iter, "begin_time": O.time, "disks": body.count,
+                  "contacts": body.engine.contacts,
                   "fraction": float(np.sum(math.pi * pressed.r**2)) / area}
         course.snapshot("begin")
         return course
@@ -179,10 +184,12 @@ def measure(case: Case, folder, found) -> Outcome:
     window = max(1, round(strength.PEAK_WINDOW * len(axial) / series["strain"][-1]))
     smooth = np.convolve(np.pad(axial, (window // 2, window - 1 - window // 2), "edge"), np.ones(window) / window, "valid")
     broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
-    values = {"sigma1_peak_Pa": c.peak, "sigma1_residual_Pa": c.residual, "strain_peak": c.peak_strain, "dilatancy_deg": c.dilatancy_deg if math.isfinite(c.dilatancy_deg) else None,
+    values = {"sigma1_peak_Pa": c.peak, "sigma1_residual_Pa": c.residual, "strain_peak": c.peak_strain,
+              "dilatancy_deg": c.dilatancy_deg if math.isfinite(c.dilatancy_deg) else None,
               "volumetric_strain_end": c.volumetric_end, "bonds_broken_share": broken / found["bonds"] if found["bonds"] else None}
     begin, end = (records.read_snapshot(folder / "snapshots" / f"{name}.npz") for name in ("begin", "end"))
-    return Outcome(case, values, {"abscissa": series["strain"], "stress": smooth, "volume": series["volumetric_strain"]}, series, None, None, forces_of(begin),
+    return Outcome(case, values, {"abscissa": series["strain"], "stress": smooth, "volume": series["volumetric_strain"]}, series, None, None,
+                   forces_of(begin),
                    overlap=_overlap(end), overlap_rest=_overlap(begin),
                    cost=Cost(found["steps"], found["time_step_s"], found["wall_s"], found["simulated_s"], found["wall_s"] / found["simulated_s"]))
 

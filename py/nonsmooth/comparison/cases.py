@@ -7,7 +7,7 @@ The plan has four parts, all on the packing of the first seed but the first:
 * sweep: all other stiffnesses, each with its own stable step. Soft runs cost with the root of the stiffness, so one seed has to do;
 * numerics: hard runs with other time steps and tolerances, the finest of which is the reference of the hard world. The stiffest soft run is the reference
   of the soft one;
-* damping: a soft run whose damping stays what it was at rest, at the stiffness below the ensemble's, to show what damping does to the motion.
+* damping: a soft run of the ensemble's stiffness whose damping stays what it was at rest, to show what damping does to the motion.
 """
 
 from __future__ import annotations
@@ -29,8 +29,10 @@ class ComparisonError(UserError, RuntimeError):
 
 def modulus_label(modulus):
     """Young's modulus [Pa] in words: "E = 100 MPa"."""
-    factor, prefix = next((f, p) for f, p in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (0, "")) if modulus >= f)
-    return f"E = {modulus / (factor or 1):g} {prefix}Pa"
+    if modulus is None:
+        return "E not known"
+    factor, prefix = next((f, p) for f, p in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (0, "")) if modulus >= f)
+    return f"E = {modulus / (factor or 1):.3g} {prefix}Pa"
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,8 @@ class Case:
     """One run. ``world``: "hard" or "soft"; ``source``: section or material of the scenario; ``disks``: their number; ``seed``: of the packing.
 
     Hard: ``step``, ``tolerance``: factors on the scenario's own. Soft: ``stiffness``: Young's modulus [Pa]; ``step``: share of the stability limit;
-    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`. ``options``: what else the scenario takes.
+    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`.
+    ``options``: what else the scenario takes.
     """
 
     world: str
@@ -116,15 +119,16 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
         chosen = sorted((*chosen, middle))
 
     def soft(stiffness, seed, moving=damping_moving):
-        return Case("soft", source, disks, seed, step_share, stiffness=stiffness, damping=damping, damping_moving=moving, model=model, options=_Options(options or {}))
+        return Case("soft", source, disks, seed, step_share, stiffness=stiffness, damping=damping, damping_moving=moving, model=model,
+                    options=_Options(options or {}))
 
     def hard(seed, step=1.0, tolerance=1.0):
         return Case("hard", source, disks, seed, step, tolerance, options=_Options(options or {}))
 
-    first, at = seeds[0], chosen.index(middle)
+    first = seeds[0]
     return Plan(tuple((hard(seed), soft(middle, seed)) for seed in seeds), tuple(soft(e, first) for e in chosen),
                 (*(hard(first, *pair) for pair in numerics[:-1]), hard(first), *(hard(first, *pair) for pair in numerics[-1:])),
-                soft(chosen[max(0, at - 1)], first, damping) if damping_run and damping_moving not in (None, damping) else None)
+                soft(middle, first, damping) if damping_run and damping_moving not in (None, damping) else None)
 
 
 class _Options(dict):

@@ -14,13 +14,14 @@ QUESTIONS = (("Do both models run out as far, within the scatter over seeds?", (
 def sections(out, scenario, plan, outcomes, summary):
     """The scenario's own sections; figures go to ``out/figures``."""
     folder = out / "figures"
-    floor = min(float(np.min(outcomes[plan.ensemble[0][0]].end[1])), 0.0)
-    wide = [float(np.min(outcomes[c].end[0]) if side < 0 else np.max(outcomes[c].end[0])) for side, c in ((-1, plan.ensemble[0][0]), (1, plan.ensemble[0][0]))]
-    ground = [("floor", np.array([[wide[0] - 10, floor], [wide[1] + 10, floor]]))]
+    x, y, _ = outcomes[plan.ensemble[0][0]].end
+    floor = min(float(np.min(y)), 0.0)
+    ground = [("floor", np.array([[float(np.min(x)) - 10, floor], [float(np.max(x)) + 10, floor]]))]
     made = common.deposit_section(folder, plan, outcomes, ground)
     made.append(common.motion_section(folder, plan, outcomes, "time since the release [s]"))
     energy = [("energy_kinetic_J", "kinetic energy [J/m]", 1.0), ("height_m", "height [m]", 1.0)]
-    made.append(common.course_section("Kinetic energy and height", folder / "energy.png", plan, outcomes, energy, ("time_s", "time since the release [s]", 1.0)))
+    made.append(common.course_section("Kinetic energy and height", folder / "energy.png", plan, outcomes, energy, ("time_s", "time since the release "
+                                                                                                                   "[s]", 1.0)))
     made.append(common.force_section(folder, plan, outcomes, "Normal forces of contacts under compression, at rest before the release."))
     if plan.damping is not None:
         made.append(common.damping_section(folder, plan, outcomes, "time since the release [s]"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -30,6 +31,7 @@ class Collapse:
     CURVES = {"front": "the front's way", "centroid": "the centre of mass's way", "deposit": "the deposit (1 − common area)"}
     SOURCE = ""
     DEFAULT_STIFFNESSES = (1e8, 1e9, 1e10, 1e11)  # Pa; a column of 2000 disks overlaps by some per cent at the softest
+    ENSEMBLE_STIFFNESS = 1e9  # Pa, for all seeds
 
     def __init__(self, kind, title, disks):
         self.NAME, self.TITLE, self.DISKS = kind, title, disks
@@ -55,8 +57,10 @@ class Collapse:
                   "repose_deg": float(np.mean(np.abs(angles))) if angles else None, "rest_s": found["time_s"] if found["rested"] else None}
         moving = series["energy_kinetic_J"] > 0.01 * series["energy_kinetic_J"].max()
         simulated = found["steps"] * found["time_step_s"]
-        return Outcome(case, values, {"abscissa": t, "front": front, "centroid": way}, series, begin, end, forces, overlap=float(series["overlap_mean_rel"][moving].mean()),
-                       overlap_rest=float(series["overlap_mean_rel"][0]), cost=Cost(found["steps"], found["time_step_s"], found["wall_s"], simulated, found["wall_s"] / simulated),
+        return Outcome(case, values, {"abscissa": t, "front": front, "centroid": way}, series, begin, end, forces,
+                       overlap=float(series["overlap_mean_rel"][moving].mean()),
+                       overlap_rest=float(series["overlap_mean_rel"][0]), cost=Cost(found["steps"], found["time_step_s"], found["wall_s"], simulated,
+                                                                                    found["wall_s"] / simulated),
                        notes=[] if found["rested"] else ["stopped before it was at rest"])
 
 
@@ -82,12 +86,12 @@ _RUN = {"column": run_column, "pile": run_pile}
 
 def _run(kind, folder, case):
     from .. import worlds
-    from ..heaps import course
+    from ..heaps import course, study
 
     heap, note = _heap(kind, case), Progress(folder)
     if case.world == "hard":
-        standard = worlds.Hard(time_step=heap.time_step())
-        world = worlds.Hard(time_step=case.step * standard.time_step, tolerance=case.tolerance * standard.tolerance)
+        standard = study.world_of(heap)
+        world = dataclasses.replace(standard, time_step=case.step * standard.time_step, tolerance=case.tolerance * standard.tolerance)
         care = None
     else:
         world = worlds.Soft(case.stiffness, heap.diameters(), model=case.model, damping=case.damping, step_share=case.step)
@@ -104,8 +108,10 @@ def _run(kind, folder, case):
     result = course.run(heap, world, progress=progress)
     begin = result.frames[min(result.frames)]
     pairs = sorted(pressed["table"])
-    np.savez(folder / "record.npz", **{f"series_{name}": values for name, values in result.series.items()}, begin_x=begin[0], begin_y=begin[1], begin_r=result.r,
-             end_x=result.x, end_y=result.y, end_r=result.r, pairs=np.array(pairs, int).reshape(-1, 2), forces=np.array([pressed["table"][p] for p in pairs]))
+    np.savez(folder / "record.npz", **{f"series_{name}": values for name, values in result.series.items()}, begin_x=begin[0], begin_y=begin[1],
+             begin_r=result.r,
+             end_x=result.x, end_y=result.y, end_r=result.r, pairs=np.array(pairs, int).reshape(-1, 2),
+             forces=np.array([pressed["table"][p] for p in pairs]))
     return result.summary()
 
 

@@ -16,7 +16,8 @@ WAYS = (("front", "way of the front [m]", 1.0), ("centroid", "way of the centre\
 def by_seed(plan, outcomes, pick):
     """Groups for figures.courses: hard and soft of all seeds; ``pick``: what of an Outcome is drawn."""
     label = modulus_label(plan.ensemble[0][1].stiffness)
-    return [("hard", figures.HARD, [pick(outcomes[h]) for h, _ in plan.ensemble]), (f"soft, {label}", figures.SOFT, [pick(outcomes[s]) for _, s in plan.ensemble])]
+    return [("hard", figures.HARD, [pick(outcomes[h]) for h, _ in plan.ensemble]),
+            (f"soft, {label}", figures.SOFT, [pick(outcomes[s]) for _, s in plan.ensemble])]
 
 
 def by_stiffness(plan, outcomes, pick):
@@ -41,7 +42,8 @@ def deposit_section(folder, plan, outcomes, walls):
         return []
     begin = deposits.outline(*hard.begin) if hard.begin is not None else None
     path = figures.deposits_overlaid(hard.deposit, soft.deposit, begin, walls, deposits.overlap(hard.deposit, soft.deposit), folder / "deposits.png")
-    return [Section("Deposits", plots=[(path, f"The deposits of seed {hard.case.seed}; soft with {modulus_label(soft.case.stiffness)}. Pores are closed; the overlap is the area that both cover over the "
+    return [Section("Deposits", plots=[(path, f"The deposits of seed {hard.case.seed}; soft with {modulus_label(soft.case.stiffness)}. Pores are "
+                                              f"closed; the overlap is the area that both cover over the "
                                         "area that either covers.")])]
 
 
@@ -63,7 +65,8 @@ def course_section(title, path, plan, outcomes, columns, abscissa, stiffness=Tru
 def force_section(folder, plan, outcomes, caption):
     """P(N/⟨N⟩)."""
     groups = by_stiffness(plan, outcomes, lambda o: np.array(list(o.forces.values())))
-    return Section("Force distribution", plots=[(figures.force_distribution([(label, colour, found[0]) for label, colour, found in groups], folder / "force_distribution.png"), caption)])
+    return Section("Force distribution", plots=[(figures.force_distribution([(label, colour, found[0]) for label, colour, found in groups],
+                                                                            folder / "force_distribution.png"), caption)])
 
 
 def damping_section(folder, plan, outcomes, clock):
@@ -75,7 +78,9 @@ def damping_section(folder, plan, outcomes, clock):
               (f"soft, damping {rest:g} throughout", figures.SHADES[4], [throughout.curves])]
     path = figures.courses(groups, WAYS, ("abscissa", clock, 1.0), folder / "damping.png")
     part = lambda e: f"{(1 - e) / (1 + e):.2f} for λ = {e:g}"  # noqa: E731
-    text = ["NewtonIntegrator's damping λ takes the part λ of every force that speeds a disk up, weight included, and adds it to forces that brake. A mass that slides down one slope "
-            f"and comes to rest on another then stops after (1 − λ)/(1 + λ) of its way on the second: {part(rest)}, {part(moving)}. So damping is {rest:g} at rest and "
+    text = ["NewtonIntegrator's damping λ takes the part λ of every force that speeds a disk up, weight included, and adds it to forces that brake. "
+            "A mass that slides down one slope "
+            f"and comes to rest on another then stops after (1 − λ)/(1 + λ) of its way on the second: {part(rest)}, {part(moving)}. So damping is "
+            f"{rest:g} at rest and "
             f"{moving:g} while the mass moves, with a linear passage below a tenth of its largest speed."]
     return Section("What damping does", text, [(path, f"{modulus_label(throughout.case.stiffness)}, seed {throughout.case.seed}.")])

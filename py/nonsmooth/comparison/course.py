@@ -19,11 +19,13 @@ SCENARIOS = {"slope": (slopes, slope_report), "biaxial": (biaxials, biaxial_repo
 COST_QUESTION = "Which costs less at equal accuracy, and by what factor?"
 
 
-def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, threads=1, resume=False, progress=lambda share, doing: None, short=False, options=None, **plan_options):
+def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, threads=1, resume=False, progress=lambda share, doing: None,
+            short=False, options=None, **plan_options):
     """Runs all cases that are not kept, writes ``summary.json`` and ``report.html`` into ``out``; returns the summary and the answered questions.
 
     ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``short``: neither hard runs of other numerics nor the run of another
-    damping; ``plan_options``: of cases.plan. Raises ComparisonError before anything runs for arguments that cannot be used, and after all runs have ended where one failed.
+    damping; ``plan_options``: of cases.plan. Raises ComparisonError before anything runs for arguments that cannot be used, and after all runs have
+    ended where one failed.
     """
     began, out = time.monotonic(), Path(out)
     experiment, pages = SCENARIOS[scenario]
@@ -34,8 +36,11 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
         raise ComparisonError(f"--threads {threads}: give a number above 0")
     if not getattr(experiment, "MOVING", True):
         plan_options["damping_moving"] = None
+    if stiffnesses is None and plan_options.get("ensemble") is None:
+        plan_options["ensemble"] = experiment.ENSEMBLE_STIFFNESS
     short_options = dict(numerics=HARD_NUMERICS[-1:], damping_run=False) if short else {}
-    chosen = plan(source or experiment.SOURCE, disks, seeds, stiffnesses or experiment.DEFAULT_STIFFNESSES, options=options, **{**plan_options, **short_options})
+    chosen = plan(source or experiment.SOURCE, disks, seeds, stiffnesses or experiment.DEFAULT_STIFFNESSES, options=options,
+                  **{**plan_options, **short_options})
     cases = chosen.cases
     for case in {c.seed: c for c in cases}.values():
         progress(0.0, f"packing of seed {case.seed}")
@@ -54,8 +59,11 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
 
 def _lead(chosen, experiment, told):
     hard, soft = chosen.ensemble[0]
-    rest = f"{soft.damping:g}" if soft.damping_moving in (None, soft.damping) else f"{soft.damping:g} at rest, {soft.damping_moving:g} while the mass moves"
-    return [f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and parameters with Contact Dynamics (“hard”) and with YADE's "
-            f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa where seeds are compared; "
+    constant = soft.damping_moving in (None, soft.damping)
+    rest = f"{soft.damping:g}" if constant else f"{soft.damping:g} at rest, {soft.damping_moving:g} while the mass moves"
+    return [f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and parameters with Contact "
+            f"Dynamics (“hard”) and with YADE's "
+            f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa "
+            f"where seeds are compared; "
             f"time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",
             "The scatter is the standard deviation over seeds, root mean square of both worlds'. Differences within it may be chance."]

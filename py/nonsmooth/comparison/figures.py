@@ -9,10 +9,10 @@ from matplotlib.patches import PathPatch
 
 from ..figures import style
 from ..figures.style import INK, LINES
-from . import precision
 from .cases import modulus_label
 
-__all__ = ["convergence", "cost", "cost_and_overlap", "courses", "deposits_overlaid", "force_distribution", "modes", "network", "overlaps", "work_precision"]
+__all__ = ["convergence", "cost", "cost_and_overlap", "courses", "deposits_overlaid", "force_distribution", "modes", "network", "overlaps",
+           "work_precision"]
 
 HARD, SOFT, BOTH = LINES["blue"], LINES["orange"], "#b9b9c9"
 SHADES = ("#f6c28b", "#ee9a4d", "#D55E00", "#8f3c00", "#4d1f00", "#2b1100")  # soft, from the softest to the stiffest
@@ -56,7 +56,8 @@ def deposits_overlaid(hard, soft, begin, walls, share, path):
         patch = _patch(geometry, fc=colour, ec="none", zorder=order)
         if patch is not None:
             ax.add_patch(patch)
-    handles = [Patch(color=BOTH, label=f"both: {100 * share:.0f} % of the area of either"), Patch(color=HARD, label="hard alone"), Patch(color=SOFT, label="soft alone")]
+    handles = [Patch(color=BOTH, label=f"both: {100 * share:.0f} % of the area of either"), Patch(color=HARD, label="hard alone"),
+               Patch(color=SOFT, label="soft alone")]
     if begin is not None:
         ax.add_patch(_patch(begin, fc="none", ec=INK, lw=0.9, ls=(0, (4, 2)), zorder=3))
         handles.append(Patch(fc="none", ec=INK, ls="--", label="before"))
@@ -99,7 +100,8 @@ def force_distribution(groups, path):
         if len(forces):
             density, _ = np.histogram(forces / np.mean(forces), edges, density=False)
             seen = density > 0
-            ax.plot(at[seen], (density / len(forces) / (edges[1] - edges[0]))[seen], color=colour, marker="o", ms=3, label=f"{label} ({len(forces)} contacts)")
+            ax.plot(at[seen], (density / len(forces) / (edges[1] - edges[0]))[seen], color=colour, marker="o", ms=3,
+                    label=f"{label} ({len(forces)} contacts)")
     ax.set_yscale("log")
     ax.set_xlabel("normal force over its mean, N/⟨N⟩")
     ax.set_ylabel("probability density P(N/⟨N⟩)")
@@ -118,7 +120,8 @@ def modes(groups, path):
     for k, (label, colour, counts) in enumerate(groups):
         means = [100 * float(np.mean(counts[n])) for n in names]
         spread = [100 * float(np.std(counts[n], ddof=1)) if len(counts[n]) > 1 else 0.0 for n in names]
-        ax.bar(np.arange(len(names)) + (k + 0.5) * wide - 0.4, means, 0.94 * wide, color=colour, yerr=spread if any(spread) else None, ecolor=INK, capsize=2, label=label)
+        ax.bar(np.arange(len(names)) + (k + 0.5) * wide - 0.4, means, 0.94 * wide, color=colour, yerr=spread if any(spread) else None, ecolor=INK,
+               capsize=2, label=label)
     ax.set_xticks(range(len(names)), ("tension", "shear", "torque", "several at once,\nor not known"))
     ax.set_ylabel("broken bonds [% of those made]")
     ax.legend()
@@ -152,7 +155,8 @@ def overlaps(moduli, rest, moving, hard_rest, hard_moving, path):
 def cost(moduli, rates, steps, hard_rate, hard_steps, path):
     """Wall time and number of steps for a second of simulation, against stiffness."""
     fig = style.figure(9.5, 4.2, layout="constrained")
-    for ax, values, level, label in zip(fig.subplots(1, 2), (rates, steps), (hard_rate, hard_steps), ("wall time for a second of simulation [s]", "steps in a second of simulation")):
+    for ax, values, level, label in zip(fig.subplots(1, 2), (rates, steps), (hard_rate, hard_steps),
+                                        ("wall time for a second of simulation [s]", "steps in a second of simulation")):
         ax.plot(moduli, values, color=SOFT, marker="s", label="soft")
         ax.axhline(level, color=HARD, label=f"hard: {level:.3g}")
         ax.set_xscale("log")
@@ -166,20 +170,24 @@ def cost(moduli, rates, steps, hard_rate, hard_steps, path):
 
 @style.styled
 def cost_and_overlap(panels, path):
-    """Wall time for a second of simulation against mean overlap; ``panels``: list of (title, hard, [soft, …]) of dictionaries as cost.measure_hard and measure_soft return."""
+    """Wall time for a second of simulation against mean overlap.
+
+    ``panels``: list of (title, hard, [soft, …], factor) with dictionaries as cost.measure_hard and measure_soft return, softest first, and soft over hard
+    at equal overlap (None: not known).
+    """
     fig = style.figure(11, 4.8, layout="constrained")
-    for ax, (title, hard, soft) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
+    for ax, (title, hard, soft, factor) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
         x, y = [s["overlap_mean_rel"] for s in soft], [s["rate"] for s in soft]
         ax.plot(x, y, color=SOFT, marker=MARKS["soft"], label="soft")
         for s in soft:
-            ax.annotate(modulus_label(s["stiffness_Pa"]), (s["overlap_mean_rel"], s["rate"]), xytext=(6, 4), textcoords="offset points", fontsize=8, color=SOFT)
+            ax.annotate(modulus_label(s["stiffness_Pa"]), (s["overlap_mean_rel"], s["rate"]), xytext=(6, 4), textcoords="offset points", fontsize=8,
+                        color=SOFT)
         ax.plot([hard["overlap_mean_rel"]], [hard["rate"]], color=HARD, marker=MARKS["hard"], ms=8, ls="", label="hard")
-        if hard["overlap_mean_rel"] > 0 and len(soft) > 1:
-            rate, beyond = precision.loglog(hard["overlap_mean_rel"], x, y)
-            end = x[-1] if beyond else hard["overlap_mean_rel"]
-            ax.plot([end, hard["overlap_mean_rel"]], [y[-1] if beyond else rate, rate], color=SOFT, ls=(0, (4, 2)), lw=1.0)
+        if factor:
+            rate = factor * hard["rate"]
+            ax.plot([x[-1], hard["overlap_mean_rel"]], [y[-1], rate], color=SOFT, ls=(0, (4, 2)), lw=1.0)
             ax.plot([hard["overlap_mean_rel"]] * 2, [hard["rate"], rate], color=INK, lw=0.9)
-            ax.annotate(f"× {rate / hard['rate']:.3g}", (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])), xytext=(6, 0), textcoords="offset points")
+            ax.annotate(f"× {factor:.3g}", (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])), xytext=(6, 0), textcoords="offset points")
         ax.set_xscale("log")
         ax.set_yscale("log")
         ax.margins(x=0.15, y=0.12)
@@ -193,7 +201,10 @@ def cost_and_overlap(panels, path):
 
 @style.styled
 def work_precision(panels, chance, path):
-    """Error against wall time; ``panels``: list of (title, hard, soft), each a list of (wall [s], error, label). ``chance``: scatter, NaN or None where unknown."""
+    """Error against wall time.
+
+    ``panels``: list of (title, hard, soft), each a list of (wall [s], error, label); ``chance``: scatter, NaN or None where unknown.
+    """
     fig = style.figure(11, 5.2, layout="constrained")
     for ax, (title, hard, soft) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
         for world, points, colour in (("hard", hard, HARD), ("soft", soft, SOFT)):

@@ -39,8 +39,9 @@ class Outcome:
     """One finished run.
 
     ``values``: {name of a Quantity: number or None}; ``curves``: {name: array} over ``curves["abscissa"]``, which begins at the event that runs are
-    aligned by; ``series``: the columns of series.csv; ``begin``, ``end``: (x, y, r) [m] of the disks then, or None; ``forces``: {(disk, disk or wall): normal force}
-    [N/m] of contacts under compression in the state of reference; ``overlap``: mean overlap [mean diameters] while the mass moves; ``overlap_rest``: in the state of reference.
+    aligned by; ``series``: the columns of series.csv; ``begin``, ``end``: (x, y, r) [m] of the disks then, or None; ``forces``: {(disk, disk or wall):
+    normal force} [N/m] of contacts under compression in the state of reference; ``overlap``: mean overlap [mean diameters] while the mass moves;
+    ``overlap_rest``: in the state of reference.
     """
 
     case: Case

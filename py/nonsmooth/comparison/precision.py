@@ -2,8 +2,8 @@
 
 **Error.** Two runs differ by what a reader of their results would see; each part is relative, so that a number says the same of all:
 
-* front and centre of mass: root mean square over time of the difference of their ways, from the moment that the mass begins to move and until both rest, in units
-  of the reference's largest way (for other experiments: their curves over their abscissa);
+* front and centre of mass: root mean square over time of the difference of their ways, from the moment that the mass begins to move and until both
+  rest, in units of the reference's largest way (for other experiments: their curves over their abscissa);
 * deposit: 1 minus the area that both cover over the area that either covers;
 * key quantities of the scenario, such as the water table at failure: the difference over the reference's value.
 
@@ -25,13 +25,16 @@ import numpy as np
 
 from . import deposits
 
-__all__ = ["Fit", "Work", "compare_work", "curve_difference", "error", "force_difference", "loglog", "parts", "power_law", "scatter"]
+__all__ = ["Fit", "Work", "compare_work", "curve_difference", "error", "force_difference", "loglog", "parts", "power_law", "scatter", "soft_rate"]
 
 POINTS = 400  # of the abscissa on which curves are compared
 
 
 def curve_difference(abscissa, values, reference_abscissa, reference):
-    """Root mean square difference of two curves over the reference's largest change; both begin at abscissa 0, and a curve that has ended keeps its last value."""
+    """Root mean square difference of two curves over the reference's largest value.
+
+    Both begin at abscissa 0, and a curve that has ended keeps its last value.
+    """
     end = max(abscissa[-1], reference_abscissa[-1])
     if end <= 0:
         return 0.0
@@ -126,9 +129,28 @@ def loglog(at, x, y):
     return math.exp(value), not x[0] - 1e-9 <= p <= x[-1] + 1e-9
 
 
+def soft_rate(modulus, moduli, steps, walls):
+    """Wall time [s] for a second of simulation on soft contacts of a Young's modulus [Pa], and whether that lies outside those that were run.
+
+    ``moduli``, ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step. The step goes with the stability limit, as the
+    inverse root of the modulus; what a step takes depends on the modulus through the number of contacts only, so beyond the runs it is that of the nearest.
+    """
+    order = np.argsort(moduli)
+    moduli, steps, walls = (np.asarray(v, float)[order] for v in (moduli, steps, walls))
+    if not len(moduli) or not (math.isfinite(modulus) and modulus > 0):
+        return math.nan, True
+    wall = math.exp(np.interp(math.log(modulus), np.log(moduli), np.log(walls)))
+    beyond = not moduli[0] * (1 - 1e-9) <= modulus <= moduli[-1] * (1 + 1e-9)
+    nearest = int(np.argmin(np.abs(np.log(moduli / modulus))))
+    step = steps[nearest] * math.sqrt(moduli[nearest] / modulus)
+    return wall / step, beyond
+
+
 @dataclass(frozen=True)
 class Work:
-    """Two worlds at one accuracy: ``error`` compared at; ``hard``, ``soft``: indices of the cheapest runs that reach it; ``factor``: soft over hard in wall time.
+    """Two worlds at one accuracy.
+
+    ``error`` compared at; ``hard``, ``soft``: indices of the cheapest runs that reach it; ``factor``: soft over hard in wall time.
 
     ``at_scatter``: whether the accuracy is the scatter, below which nothing can be told.
     """

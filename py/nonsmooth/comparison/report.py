@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import datetime
-import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -32,7 +31,10 @@ class Section:
 
 
 def write(path, title, lead, questions, sections, machine):
-    """Writes the page; ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as benchmark.machine.describe tells."""
+    """Writes the page.
+
+    ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as benchmark.machine.describe tells.
+    """
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters["image"] = lambda name: "data:image/png;base64," + base64.b64encode(Path(name).read_bytes()).decode()
     page = environment.get_template("report.html.j2").render(title=title, lead=lead, questions=questions, sections=sections, machine=machine,
@@ -48,7 +50,8 @@ def _percent(value):
 def common_sections(out, scenario, plan, outcomes, summary):
     """Sections that every scenario has: quantities, cost, work and precision, convergence, runs. Figures go to ``out/figures``."""
     folder = Path(out) / "figures"
-    return [_quantities(summary), _overlaps(folder, plan, outcomes, summary), _work(folder, scenario, summary), _convergence(folder, scenario, summary), _runs(plan, outcomes, summary)]
+    return [_quantities(summary), _overlaps(folder, plan, outcomes, summary), _work(folder, scenario, summary),
+            _convergence(folder, scenario, summary), _runs(plan, outcomes, summary)]
 
 
 def _quantities(summary):
@@ -56,8 +59,10 @@ def _quantities(summary):
     for q in summary["quantities"].values():
         cell = lambda w: number(q[w]["mean"], q["unit"]) + ("" if q[w]["sd"] is None else f" ± {number(q[w]['sd'], q['unit'])}")  # noqa: E731
         within = {None: "–", True: "yes", False: "no"}[q["within_scatter"]]
-        rows.append((q["means"], cell("hard"), cell("soft"), number(q["difference"], q["unit"]), "–" if q["difference_95"] is None else "± " + number(q["difference_95"], q["unit"]), within))
-    caption = (f"Means and standard deviations over seeds {', '.join(map(str, summary['seeds']))}; soft with {modulus_label(summary['ensemble_stiffness_Pa'])}. "
+        rows.append((q["means"], cell("hard"), cell("soft"), number(q["difference"], q["unit"]),
+                     "–" if q["difference_95"] is None else "± " + number(q["difference_95"], q["unit"]), within))
+    caption = (f"Means and standard deviations over seeds {', '.join(map(str, summary['seeds']))}; soft with "
+               f"{modulus_label(summary['ensemble_stiffness_Pa'])}. "
                "Differences are soft minus hard of the same packing, with their 95 % confidence (Student's t).")
     return Section("All quantities", tables=[(caption, ("quantity", "hard", "soft", "difference", "confidence", "within the scatter"), rows)])
 
@@ -65,27 +70,34 @@ def _quantities(summary):
 def _overlaps(folder, plan, outcomes, summary):
     sweep, hard = [outcomes[c] for c in plan.sweep], outcomes[plan.ensemble[0][0]]
     moduli = [o.case.stiffness for o in sweep]
-    plots = [(figures.overlaps(moduli, [o.overlap_rest for o in sweep], [o.overlap for o in sweep], hard.overlap_rest, hard.overlap, folder / "overlaps.png"),
-              "Mean overlap of the contacts that touch or bear a force, in mean diameters of the pair (the disk's at a wall), by one definition in both worlds."),
-             (figures.cost(moduli, [o.cost.rate for o in sweep], [1 / o.cost.step_s for o in sweep], hard.cost.rate, 1 / hard.cost.step_s, folder / "cost.png"),
+    plots = [(figures.overlaps(moduli, [o.overlap_rest for o in sweep], [o.overlap for o in sweep], hard.overlap_rest, hard.overlap,
+                               folder / "overlaps.png"),
+              "Mean overlap of the contacts that touch or bear a force, in mean diameters of the pair (the disk's at a wall), by one definition in "
+              "both worlds."),
+             (figures.cost(moduli, [o.cost.rate for o in sweep], [1 / o.cost.step_s for o in sweep], hard.cost.rate, 1 / hard.cost.step_s,
+                           folder / "cost.png"),
               "Cost of a second of simulation while the mass moves: steps alone, without records; one thread a run.")]
     return Section("Overlaps and cost", [*answers.answer_cost(summary),
-                                         "Wall times were taken while other runs of the comparison shared the machine; scripts/compare_hard_soft.py --cost measures them alone."], plots)
+                                         "Wall times were taken while other runs of the comparison shared the machine; scripts/compare_hard_soft.py "
+                                         "--cost measures them alone."], plots)
 
 
 def _work(folder, scenario, summary):
     work = summary["work_precision"]
-    panels = [(title, *([(p["wall_s"], p["error"], p["label"].removeprefix("soft, ").removeprefix("hard, ")) for p in work[kind][w]] for w in ("hard", "soft")))
+    short = lambda label: label.removeprefix("soft, ").removeprefix("hard, ")  # noqa: E731
+    panels = [(title, *([(p["wall_s"], p["error"], short(p["label"])) for p in work[kind][world]] for world in ("hard", "soft")))
               for kind, title in (("against_hard", "against the finest hard run"), ("against_own", "against the finest run of its own world"))]
     path = figures.work_precision(panels, work["scatter"], folder / "work_precision.png")
-    rows = [(p["label"], number(p["wall_s"], "s"), *(number(p["error"]) if math.isfinite(p["error"] or math.nan) else "–" for _ in (0,)),
+    rows = [(p["label"], number(p["wall_s"], "s"), "–" if p["error"] is None else number(p["error"]),
              ", ".join(f"{scenario.CURVES.get(n, n.removesuffix('_m').replace('_', ' '))} {number(v, digits=2)}" for n, v in p["parts"].items()))
             for w in ("hard", "soft") for p in work["against_hard"][w]]
-    text = [f"Error: root mean square of relative differences of {', '.join(scenario.CURVES.values())} and key quantities, against a reference run of the same packing. "
+    text = [f"Error: root mean square of relative differences of {', '.join(scenario.CURVES.values())} and key quantities, against a reference run "
+            f"of the same packing. "
             f"Hard runs vary by time step and tolerance, soft ones by stiffness, each with {summary['step_share']:g} of its stable step. "
-            + (f"The scatter, the median of the same error between hard runs of different seeds, is {number(work['scatter'])}." if work["scatter"] is not None else
-               "With one seed the scatter is not known.")]
-    return Section("Work and precision", text, [(path, "Error against wall time; the lower left is better. In the grey band errors are below the scatter over seeds and tell nothing.")],
+            + ("With one seed the scatter is not known." if work["scatter"] is None else
+               f"The scatter, the median of the same error between hard runs of different seeds, is {number(work['scatter'])}.")]
+    return Section("Work and precision", text, [(path, "Error against wall time; the lower left is better. In the grey band errors are below the "
+                                                       "scatter over seeds and tell nothing.")],
                    [("Errors against the finest hard run", ("run", "wall time", "error", "its parts"), rows)])
 
 
@@ -93,23 +105,29 @@ def _convergence(folder, scenario, summary):
     found = summary["convergence"]
     rows = list(found["rows"].values())
     shown = [r for name, r in found["rows"].items() if name in SHOWN or name in scenario.KEYS or name in scenario.CURVES]
-    plots = [(figures.convergence(found["stiffnesses_Pa"], [(r["means"], r["differences"], r["scatter"], r["power"], r["scale"]) for r in shown], folder / "convergence.png"),
+    plots = [(figures.convergence(found["stiffnesses_Pa"], [(r["means"], r["differences"], r["scatter"], r["power"], r["scale"]) for r in shown],
+                                  folder / "convergence.png"),
               "Relative difference of soft runs from the hard one of the same packing, against stiffness; dashed: the power of E that fits best.")]
     forces = found["forces"]
     if any(c is not None for c in forces["correlation"]):
-        plots.append((figures.network(found["stiffnesses_Pa"], forces["correlation"], list(zip(forces["hard_runs"], forces["hard_correlation"])), folder / "network.png"),
-                      "Forces at the same contacts, soft against hard, and between hard runs of different numerics: in a packing with more contacts than it needs, forces are not unique."))
+        plots.append((figures.network(found["stiffnesses_Pa"], forces["correlation"], list(zip(forces["hard_runs"], forces["hard_correlation"])),
+                                      folder / "network.png"),
+                      "Forces at the same contacts, soft against hard, and between hard runs of different numerics: in a packing with more contacts "
+                      "than it needs, forces are not unique."))
     verdict = {True: "yes", False: "no", None: "–"}
     table = [(r["means"], *(number(d, digits=2) if d is not None else "–" for d in r["differences"]), "–" if r["power"] is None else
-              f"{r['power']:.2f}" + ("" if r["power_error"] is None else f" ± {r['power_error']:.2f}"), _percent(r["scatter"]), verdict[r["stiffest_within_scatter"]]) for r in rows]
+              f"{r['power']:.2f}" + ("" if r["power_error"] is None else f" ± {r['power_error']:.2f}"), _percent(r["scatter"]),
+              verdict[r["stiffest_within_scatter"]]) for r in rows]
     heads = ("difference from hard of", *(modulus_label(e) for e in found["stiffnesses_Pa"]), "power of E", "scatter over seeds", "stiffest within it")
-    text = ["What converges has a clearly negative power of E; the mean overlap must, with about −1. What stays at the level of the scatter over seeds does not converge any "
+    text = ["What converges has a clearly negative power of E; the mean overlap must, with about −1. What stays at the level of the scatter over "
+            "seeds does not converge any "
             "further: a chaotic motion depends on details that no stiffness settles, and so do single contact forces."]
     return Section("Convergence of soft to hard", text, plots, [("Relative differences by stiffness", heads, table)])
 
 
 def _runs(plan, outcomes, summary):
-    rows = [(c.label, c.seed, o.cost.steps, number(o.cost.step_s, "s"), number(o.cost.simulated_s, "s"), number(o.cost.wall_s, "s"), number(o.cost.wall_s / o.cost.simulated_s, "s"),
+    rows = [(c.label, c.seed, o.cost.steps, number(o.cost.step_s, "s"), number(o.cost.simulated_s, "s"), number(o.cost.wall_s, "s"),
+             number(o.cost.wall_s / o.cost.simulated_s, "s"),
              number(o.overlap, digits=2), "; ".join(o.notes) or "–") for c, o in sorted(outcomes.items(), key=lambda item: item[0].name)]
     return Section("All runs", tables=[("Each run had one thread of its own; wall times are of the steps, without records.", (
         "run", "seed", "steps", "time step", "simulated", "wall time", "wall time a simulated second", "mean overlap, moving", "remarks"), rows)])

@@ -69,7 +69,7 @@ def run(function, cases, out, threads, resume=False, progress=lambda share, doin
     try:
         with ThreadPoolExecutor(max(1, threads)) as pool:
             futures = [pool.submit(_one, function, case, out) for case in cases]
-            failures = [f"{case.name}: {error}" for case, f in zip(cases, futures) if (error := f.exception())]
+            failures = [_failure(case, out, error) for case, f in zip(cases, futures) if (error := f.exception())]
     finally:
         ended.set()
         watcher.join()
@@ -86,6 +86,12 @@ def _one(function, case, out):
         found = processes.call(function, folder, asdict(case))
         keep(folder, _key(function, case), found)
     return found
+
+
+def _failure(case, out, error):
+    """One line: the last of the process's output is the exception's own."""
+    lines = [line for line in str(error).splitlines() if line.strip()]
+    return f"{case.name}: {lines[-1].strip()} (all of it: {folder_of(case, out) / 'log.txt'})"
 
 
 def _watch(folders, progress, ended):

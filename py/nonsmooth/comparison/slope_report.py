@@ -37,6 +37,7 @@ def modes_section(folder, plan, outcomes):
         return {n: o.series[f"bonds_broken_{n}"][-1] / made for n in names}
 
     broken = [(label, colour, {n: [v[n] for v in found] for n in names}) for label, colour, found in common.by_seed(plan, outcomes, share)]
-    text = ["The hard law knows how a bond broke. YADE's soft laws do not tell; here it is the threshold that the bond was nearest to when it was last seen whole, a row of the series before. "
+    text = ["The hard law knows how a bond broke. YADE's soft laws do not tell; here it is the threshold that the bond was nearest to when it was "
+            "last seen whole, a row of the series before. "
             "Bonds that used less than half of each threshold then count as not known."]
     return Section("Broken bonds by mode", text, [(figures.modes(broken, folder / "modes.png"), "Means over seeds, with standard deviations.")])

@@ -18,6 +18,7 @@ __all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "forces_of", "measure", "prepare
 
 #: Young's moduli [Pa], to a rock's. Under the slope's stress of some MPa contacts overlap by about 10 % of the radius at the softest.
 DEFAULT_STIFFNESSES = (1e7, 1e8, 1e9, 1e10)
+ENSEMBLE_STIFFNESS = 1e8  # Pa, for all seeds: contacts overlap by some tenths of a per cent, and five such runs take as long as one of the stiffest
 
 QUANTITIES = (
     Quantity("water_at_failure_m", "water table at failure (t1)", "m"),
@@ -44,7 +45,8 @@ def section_of(case: Case):
     s = section.load(case.source).with_disks(case.disks)
     n, stages = s.numerics, s.stages
     if case.world == "hard":
-        n = dataclasses.replace(n, time_step=n.time_step * case.step, tolerance=n.tolerance * case.tolerance, tolerance_moving=n.tolerance_moving * case.tolerance)
+        n = dataclasses.replace(n, time_step=n.time_step * case.step, tolerance=n.tolerance * case.tolerance,
+                                tolerance_moving=n.tolerance_moving * case.tolerance)
     if case.options.get("end") is not None:
         stages = dataclasses.replace(stages, end=dataclasses.replace(stages.end, time=case.options["end"]))
     return dataclasses.replace(s, seed=case.seed, numerics=n, stages=stages)
@@ -93,7 +95,8 @@ def measure(case: Case, folder, found) -> Outcome:
         "front_travel_m": None if state["front0"] is None else float(series["front_m"][-1] - state["front0"]),
         "centroid_travel_m": float(moved[-1]), "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", times["t1"]),
         "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", times["t1"]), "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2.0),
-        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2.0), "bonds_broken_share": broken / state["bonds_initial"] if state["bonds_initial"] else None,
+        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2.0),
+        "bonds_broken_share": broken / state["bonds_initial"] if state["bonds_initial"] else None,
         "deposit_thickness_max_m": None, "speed_mean_max_m_per_s": float(series["speed_mean_m_per_s"].max()),
     }
     notes = []
@@ -106,14 +109,16 @@ def measure(case: Case, folder, found) -> Outcome:
         notes.append(f"stopped at {last:.0f} s, before the mass was at rest")
     moving = (t >= start) & (series["speed_mean_m_per_s"] > 0.1 * series["speed_mean_m_per_s"].max()) if start is not None else np.zeros(len(t), bool)
     rest = (t > (times["t0"] or last) - 1.0) & (t <= (times["t0"] or last) + 1e-9)
-    curves = {"abscissa": t[after] - (start if start is not None else t[after][0]), "front": series["front_m"][after] - (state["front0"] or series["front_m"][after][0]),
+    curves = {"abscissa": t[after] - (start if start is not None else t[after][0]),
+              "front": series["front_m"][after] - (state["front0"] or series["front_m"][after][0]),
               "centroid": moved[after]}
     simulated = found["steps"] * found["time_step_s"]
     rate = state["wall_moving_s"] / (state["steps_moving"] * found["time_step_s"]) if state["steps_moving"] else state["wall_steps_s"] / simulated
     return Outcome(
         case, values, curves, series, *(None if n is None else (n.x, n.y, n.r) for n in (begin, end)),
         forces={} if begin is None else forces_of(begin), overlap=_mean(series, moving if moving.any() else after),
-        overlap_rest=_mean(series, rest if rest.any() else after), cost=Cost(found["steps"], found["time_step_s"], state["wall_steps_s"], simulated, rate), notes=notes)
+        overlap_rest=_mean(series, rest if rest.any() else after), cost=Cost(found["steps"], found["time_step_s"], state["wall_steps_s"], simulated,
+                                                                             rate), notes=notes)
 
 
 def forces_of(snapshot):

@@ -29,15 +29,17 @@ def clean(value):
 
 
 def estimate(hard, soft):
-    """Means, standard deviations over seeds, and the paired difference of a quantity; ``hard``, ``soft``: values (or None) of the same seeds in the same order.
+    """Means, standard deviations over seeds, and the paired difference of a quantity.
 
-    ``within_scatter``: the means differ by no more than the standard deviation over seeds (root mean square of both worlds'); None for fewer than two seeds.
+    ``hard``, ``soft``: values (or None) of the same seeds in the same order. ``within_scatter`` of the result: the means differ by no more than the
+    standard deviation over seeds (root mean square of both worlds'); None for fewer than two seeds.
     """
     number = lambda values: [v for v in values if v is not None]  # noqa: E731
     pairs = [(a, b) for a, b in zip(hard, soft) if a is not None and b is not None]
     found = {}
     for world, values in (("hard", number(hard)), ("soft", number(soft))):
-        found[world] = {"mean": float(np.mean(values)) if values else None, "sd": float(np.std(values, ddof=1)) if len(values) > 1 else None, "values": list(hard if world == "hard" else soft)}
+        found[world] = {"mean": float(np.mean(values)) if values else None, "sd": float(np.std(values, ddof=1)) if len(values) > 1 else None,
+                        "values": list(hard if world == "hard" else soft)}
     difference = Estimate.of([b - a for a, b in pairs]) if pairs else None
     found["difference"] = None if difference is None else difference.mean
     found["difference_95"] = None if difference is None or math.isnan(difference.half_width) else difference.half_width
@@ -52,7 +54,8 @@ def estimate(hard, soft):
 
 def _run(outcome, error, own):
     c = outcome.case
-    return {"name": c.name, "label": c.label, "world": c.world, "seed": c.seed, "stiffness_Pa": c.stiffness, "step_factor": c.step, "tolerance_factor": c.tolerance,
+    return {"name": c.name, "label": c.label, "world": c.world, "seed": c.seed, "stiffness_Pa": c.stiffness, "step_factor": c.step,
+            "tolerance_factor": c.tolerance,
             "values": outcome.values, "overlap_mean_rel": outcome.overlap, "overlap_rest_rel": outcome.overlap_rest, "cost": asdict(outcome.cost),
             "error_against_hard": error, "error_against_own_world": own, "notes": outcome.notes}
 
@@ -73,26 +76,32 @@ def summarise(scenario, plan, outcomes):
     numerics, sweep = [outcomes[c] for c in plan.numerics], [outcomes[c] for c in plan.sweep]
     chance = precision.scatter(hard, keys)
     work = _work(numerics, sweep, chance, keys)
+    runs = [_run(o, precision.error(o, numerics[-1], keys), precision.error(o, numerics[-1] if o.case.world == "hard" else sweep[-1], keys))
+            for o in outcomes.values()]
     summary = {
-        "scenario": scenario.NAME, "disks": plan.ensemble[0][0].disks, "seeds": [h.seed for h, _ in plan.ensemble], "stiffnesses_Pa": [c.stiffness for c in plan.sweep],
-        "ensemble_stiffness_Pa": plan.ensemble[0][1].stiffness, "damping": plan.ensemble[0][1].damping, "damping_moving": plan.ensemble[0][1].damping_moving,
+        "scenario": scenario.NAME, "disks": plan.ensemble[0][0].disks, "seeds": [h.seed for h, _ in plan.ensemble],
+        "stiffnesses_Pa": [c.stiffness for c in plan.sweep],
+        "ensemble_stiffness_Pa": plan.ensemble[0][1].stiffness, "damping": plan.ensemble[0][1].damping,
+        "damping_moving": plan.ensemble[0][1].damping_moving,
         "step_share": plan.ensemble[0][1].step, "model": plan.ensemble[0][1].model,
         "water_at_failure_hard_m": mean("water_at_failure_m", "hard"), "water_at_failure_soft_m": mean("water_at_failure_m", "soft"),
         "front_travel_hard_m": mean("front_travel_m", "hard"), "front_travel_soft_m": mean("front_travel_m", "soft"),
         "deposit_overlap_fraction": float(np.mean(deposit)) if deposit else None,
         "deposit_overlap_fraction_between_seeds": float(np.mean(between)) if between else None,
         **_cost(outcomes[plan.ensemble[0][0]], sweep), "work_precision": work, "convergence": _convergence(scenario, plan, outcomes, quantities, chance),
-        "scatter": chance, "quantities": quantities, "runs": [_run(o, precision.error(o, numerics[-1], keys), precision.error(o, numerics[-1] if o.case.world == "hard" else sweep[-1], keys)) for o in outcomes.values()],
+        "scatter": chance, "quantities": quantities, "runs": runs,
     }
     return clean(summary)
 
 
 def _cost(hard, sweep):
     """Wall time for a second of simulation, soft over hard: at equal mean overlap while the mass moves, and at a rock's stiffness."""
-    moduli, overlaps, rates = ([f(o) for o in sweep] for f in (lambda o: o.case.stiffness, lambda o: o.overlap, lambda o: o.cost.rate))
-    rate, beyond = precision.loglog(hard.overlap, overlaps, rates)
+    moduli, overlaps, steps, walls = ([f(o) for o in sweep] for f in (lambda o: o.case.stiffness, lambda o: o.overlap, lambda o: o.cost.step_s,
+                                                                      lambda o: o.cost.rate * o.cost.step_s))
     modulus, _ = precision.loglog(hard.overlap, overlaps, moduli)
-    rock, rock_beyond = precision.loglog(ROCK_STIFFNESS, moduli, rates)
+    rate, beyond = precision.soft_rate(modulus, moduli, steps, walls)
+    rock, rock_beyond = precision.soft_rate(ROCK_STIFFNESS, moduli, steps, walls)
+    rates = [o.cost.rate for o in sweep]
     return {"soft_over_hard_wall_equal_overlap": rate / hard.cost.rate, "stiffness_equal_overlap_Pa": modulus, "equal_overlap_extrapolated": beyond,
             "soft_over_hard_wall_rock_stiffness": rock / hard.cost.rate, "rock_stiffness_extrapolated": rock_beyond, "overlap_hard_rel": hard.overlap,
             "wall_s_per_simulated_s_hard": hard.cost.rate, "wall_s_per_simulated_s_soft": dict(zip(map("{:g}".format, moduli), rates))}
@@ -105,10 +114,15 @@ def _work(numerics, sweep, chance, keys):
         lists = [[o for o in group if o is not reference] for group, reference in zip((numerics, sweep), references)]
         points = [[(o.cost.wall_s, precision.error(o, reference, keys)) for o in group] for group, reference in zip(lists, references)]
         work = precision.compare_work(*points, chance)
-        found[kind] = {"hard": [{"run": o.case.name, "label": o.case.label, "wall_s": w, "error": e, "parts": precision.parts(o, references[0], keys)} for o, (w, e) in zip(lists[0], points[0])],
-                       "soft": [{"run": o.case.name, "label": o.case.label, "wall_s": w, "error": e, "parts": precision.parts(o, references[1], keys)} for o, (w, e) in zip(lists[1], points[1])],
-                       "compared": None if work is None else {"error": work.error, "at_scatter": work.at_scatter, "factor": work.factor, "hard": lists[0][work.hard].case.name,
-                                                              "soft": lists[1][work.soft].case.name, "hard_label": lists[0][work.hard].case.label, "soft_label": lists[1][work.soft].case.label}}
+        compared = None
+        if work is not None:
+            hard, soft = lists[0][work.hard].case, lists[1][work.soft].case
+            compared = {"error": work.error, "at_scatter": work.at_scatter, "factor": work.factor, "hard": hard.name, "soft": soft.name,
+                        "hard_label": hard.label, "soft_label": soft.label}
+        found[kind] = {"compared": compared} | {
+            world: [{"run": o.case.name, "label": o.case.label, "wall_s": wall, "error": error, "parts": precision.parts(o, reference, keys)}
+                    for o, (wall, error) in zip(group, own)]
+            for world, group, own, reference in zip(("hard", "soft"), lists, points, references)}
     return found
 
 
@@ -117,9 +131,11 @@ def _convergence(scenario, plan, outcomes, quantities, chance):
     reference = outcomes[plan.ensemble[0][0]]
     sweep = [outcomes[c] for c in plan.sweep]
     moduli = [o.case.stiffness for o in sweep]
-    rows = {"error": {"means": "error, all parts together", "differences": [precision.error(o, reference, scenario.KEYS) for o in sweep], "scatter": chance}}
+    rows = {"error": {"means": "error, all parts together", "differences": [precision.error(o, reference, scenario.KEYS) for o in sweep],
+                      "scatter": chance}}
     for name in precision.parts(sweep[-1], reference):
-        rows[name] = {"means": f"difference of {scenario.CURVES.get(name, name)}", "differences": [precision.parts(o, reference).get(name, math.nan) for o in sweep],
+        rows[name] = {"means": f"difference of {scenario.CURVES.get(name, name)}",
+                      "differences": [precision.parts(o, reference).get(name, math.nan) for o in sweep],
                       "scatter": _median_part(plan, outcomes, name)}
     for q in scenario.QUANTITIES:
         base, spread = reference.values.get(q.name), quantities[q.name]["hard"]["sd"]
@@ -136,7 +152,8 @@ def _convergence(scenario, plan, outcomes, quantities, chance):
     own = [precision.force_difference(outcomes[c].forces, reference.forces) for c in plan.numerics if outcomes[c] is not reference]
     return {"stiffnesses_Pa": moduli, "rows": rows,
             "forces": {"rms_over_mean": [n[0] for n in networks], "correlation": [n[1] for n in networks],
-                       "hard_runs": [outcomes[c].case.label for c in plan.numerics if outcomes[c] is not reference], "hard_rms_over_mean": [n[0] for n in own],
+                       "hard_runs": [outcomes[c].case.label for c in plan.numerics if outcomes[c] is not reference],
+                       "hard_rms_over_mean": [n[0] for n in own],
                        "hard_correlation": [n[1] for n in own]}}
 
 

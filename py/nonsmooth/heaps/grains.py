@@ -10,14 +10,13 @@ import numpy as np
 
 from .. import packing_files
 from ..errors import UserError
-from ..laboratory.pressing import Shape
 from ..section import Material
 
 __all__ = ["BASES", "FRACTION", "Heap", "HeapError"]
 
 BASES = ("smooth", "rough")
 FRACTION = 0.82       # of the disks as they are packed, before they settle: loose enough for disks of one size
-PATH_PER_STEP = 0.05  # mean diameters, at the speed of a free fall from the top
+PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top
 
 
 class HeapError(UserError, ValueError):
@@ -99,6 +98,8 @@ class Heap:
 
     def shape(self):
         """What the disks are packed as, a :class:`~yade.nonsmooth.laboratory.pressing.Shape`."""
+        from ..laboratory.pressing import Shape  # needs YADE, which the laws and measures beside this module do without
+
         smallest, largest = self.diameters()
         return Shape(int(self.disks), int(self.seed), smallest, largest, FRACTION, self.box_aspect(), None)
 

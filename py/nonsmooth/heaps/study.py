@@ -21,7 +21,7 @@ from .pile import Pile
 __all__ = ["KINDS", "frames", "key_of", "one", "run", "world_of"]
 
 KINDS = {"column": Column, "pile": Pile}
-TOLERANCE = 1e-3
+TOLERANCE = 1e-4
 
 
 def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, **soft):
@@ -33,7 +33,7 @@ def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, **soft)
     if name == "hard":
         return worlds.Hard(time_step=heap.time_step(path), tolerance=tolerance)
     if name == "soft":
-        if not soft.get("stiffness", 0) > 0:
+        if not (soft.get("stiffness") or 0) > 0:
             raise HeapError(f"stiffness {soft.get('stiffness')!r}: the soft world needs Young's modulus in Pa, above 0")
         return worlds.Soft(diameter=heap.diameters(), **soft)
     raise HeapError(f"world {name!r}: give hard or soft")
@@ -41,7 +41,8 @@ def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, **soft)
 
 def key_of(heap, world, duration):
     """Key of a run, to tell whether a folder holds it. ``world``: arguments of :func:`world_of`, a dictionary."""
-    return checkpoints.key_of({"heap": heap.plain(), "world": world, "duration": duration})
+    made = world_of(heap, **world)
+    return checkpoints.key_of({"heap": heap.plain(), "world": [made.name, asdict(made)], "duration": duration})
 
 
 def one(folder, kind, heap, world, duration):

@@ -25,8 +25,8 @@ class Measures:
     """Speeds, contacts, overlaps and broken bonds of a scene with soft contacts.
 
     ``world``: the :class:`yade.nonsmooth.worlds.Soft`; ``groups``: pairs (section.Material, ids of its disks), as :meth:`~yade.nonsmooth.worlds.Soft.bond`
-    takes them. Make it once O.engines are set. Attributes have the names, units and meaning of ContactDynamicsEngine's; what follows from the state of the disks is that at the end of
-    the last step. Overlaps are in units of the mean diameter of the pair, or of the disk's at a wall; ``contacts`` touch or bear a force.
+    takes them. Make it once O.engines are set. Attributes have the names, units and meaning of ContactDynamicsEngine's; what follows from the state of
+    the disks is that at the end of the last step. Overlaps are in units of the mean diameter of the pair, or of the disk's at a wall; ``contacts`` touch or bear a force.
 
     YADE does not tell how a bond broke. Here it is the threshold that the bond was nearest to when :meth:`look` last saw it whole, so look often; a bond that
     used less than :data:`LEAST_SHARE` of each is counted in ``brokenMixed``.

@@ -1,0 +1,100 @@
+"""Figures of heaps: profiles on the way, runout and height against the aspect ratio."""
+
+import numpy as np
+
+from ..heaps import measures, scaling
+from ..records import RecordsError
+from . import style
+from .style import LINES
+
+__all__ = ["collapse", "runout"]
+
+MARKERS = ("o", "s", "^", "D", "v", "P")
+
+
+@style.styled
+def collapse(times, places, r, unit, path, width=None, gate=None, pdf=False):
+    """Disks of a heap at several times, one below the other, to one scale, each with the outline of its connected mass.
+
+    ``times`` [s]; ``places``: (x, y) for each, arrays of shape (n,) [m]; ``r`` [m]; ``unit``: T = √(H₀/g) [s]. ``gate``: x of lines where sides stood.
+    ``width``: L₀ [m], the unit of the axes; None: metres. The last time is called the end. Returns ``path``.
+    """
+    if not len(times):
+        raise RecordsError("no places are kept: run the heap with frames")
+    scale = width or 1.0
+    joined = [measures.connected(x, y, r) for x, y in places]
+    # what rolls far ahead of the mass would make all else small
+    left = min(measures.fronts(x, r, m)[0] for (x, _), m in zip(places, joined))
+    right = max(measures.fronts(x, r, m)[1] for (x, _), m in zip(places, joined))
+    span = 1.06 * (right - left)
+    heights = [max(float(np.max((y + r)[m])), 0.1 * span) for (_, y), m in zip(places, joined)]
+    # placed by hand, in inches: the same scale and the same left edge for all
+    margin, between, below = 0.62, 0.18, 0.5
+    wide = min(7.2, (10.5 - below - between * len(times)) * span / (1.07 * sum(heights)))
+    tall = [1.07 * h / span * wide for h in heights]
+    whole = (margin + wide + 0.1, below + sum(tall) + between * len(times))
+    fig = style.figure(*whole)
+    tops = whole[1] - np.cumsum([between + h for h in tall])
+    axes = [fig.add_axes((margin / whole[0], bottom / whole[1], wide / whole[0], h / whole[1])) for bottom, h in zip(tops, tall)]
+    first = places[0][0]
+    colours = style.layer_colours(np.minimum(4, np.argsort(np.argsort(first, kind="stable"), kind="stable") * 5 // len(first)))
+    for k, (ax, t, (x, y), mass) in enumerate(zip(axes, times, places, joined)):
+        shown = type("Disks", (), dict(x=x / scale, y=y / scale, r=r / scale))
+        style.draw_disks(ax, shown, colours)
+        at, height = measures.surface(x, y, r, mass)
+        ax.plot(at / scale, height / scale, color=style.INK, lw=1.0)
+        ax.axhline(0, color=style.WALL, lw=1.2)
+        for g in gate or ():
+            ax.axvline(g / scale, color=LINES["grey"], lw=0.9, ls=(0, (4, 3)))
+        ax.set_xlim((left - 0.01 * span) / scale, (left + 0.99 * span) / scale)
+        ax.set_ylim(-0.02 * heights[k] / scale, 1.05 * heights[k] / scale)
+        if k < len(times) - 1:
+            ax.set_xticklabels([])
+        name = "at rest" if k == len(times) - 1 else f"t = {t / unit:.1f} T"
+        ax.text(0.99, 0.93, f"{name} ({t:.2f} s)", transform=ax.transAxes, ha="right", va="top")
+        ax.set_ylabel("$y/L_0$" if width else "$y$ [m]")
+    axes[-1].set_xlabel(("$x/L_0$" if width else "$x$ [m]") + f"          $T=\\sqrt{{H_0/g}}={unit:.2f}$ s")
+    return style.save(fig, path, pdf)
+
+
+@style.styled
+def runout(groups, path, pdf=False):
+    """Runout and final height against the aspect ratio, on logarithmic axes, with fits and the published laws.
+
+    ``groups``: {label: {"aspect", "runout", "height": arrays (n,); "fits": {"runout", "height": pairs of scaling.Fit or None}; "changes": {"runout",
+    "height": the aspect ratio between the two}}}. Returns ``path``.
+    """
+    fig = style.figure(10, 4.9, layout="constrained")
+    panels = (("runout", "Runout", "$(L_f-L_0)/L_0$", scaling.RUNOUT), ("height", "Final height", "$H_f/L_0$", scaling.HEIGHT))
+    for ax, (name, title, label, laws) in zip(fig.subplots(1, 2), panels):
+        every = np.concatenate([g["aspect"] for g in groups.values()])
+        low, high = 0.85 * every.min(), 1.15 * every.max()
+        for law, colour, dash in zip(laws, (LINES["orange"], LINES["green"]), ("--", ":")):
+            for k, ends in enumerate(((low, min(law.change, high)), (max(law.change, low), high))):
+                if ends[0] < ends[1]:
+                    c, n = law.pieces[k]
+                    ax.plot(ends, [c * a**n for a in ends], color=colour, ls=dash, label=law.source if k else None)
+        for (group, g), colour, marker in zip(groups.items(), (LINES["blue"], LINES["purple"], LINES["sky"], LINES["grey"]) * 3, MARKERS * 2):
+            ax.plot(g["aspect"], g[name], ls="none", marker=marker, ms=5, mfc="white", color=colour, label=group)
+            for k, fit in enumerate(g["fits"][name]):
+                if fit is not None:
+                    change = g["changes"][name]
+                    inside = g["aspect"][g["aspect"] < change] if k == 0 else g["aspect"][g["aspect"] >= change]
+                    ends = np.array([inside.min(), inside.max()])
+                    sure = "" if np.isnan(fit.exponent_95) else f"\\pm{fit.exponent_95:.2f}"
+                    ax.plot(ends, fit(ends), color=colour, lw=1.2, label=f"fit: ${fit.factor:.2f}\\,a^{{{fit.exponent:.2f}{sure}}}$")
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_major_formatter(lambda v, _: f"{v:g}")
+            axis.set_minor_formatter("")
+        ax.set_xticks([t for t in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50) if low <= t <= high])
+        lowest, highest = ax.get_ylim()
+        ax.set_yticks([t for t in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100) if lowest <= t <= highest])
+        ax.set_xlabel("aspect ratio $a=H_0/L_0$")
+        ax.set_ylabel(label)
+        ax.set_title(title, loc="left")
+        ax.grid(color="#e3e3e3", lw=0.7, which="major")
+        ax.set_axisbelow(True)
+        ax.legend(loc="upper left", fontsize=8)
+    return style.save(fig, path, pdf)

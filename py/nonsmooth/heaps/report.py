@@ -1,0 +1,83 @@
+"""What a study of columns or piles says: fitted exponents beside the published ones, as a dictionary, a table and figures."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ..figures import columns as figures
+from . import scaling, study
+from .grains import HeapError
+
+__all__ = ["CHANGES", "draw_collapse", "group", "summarise", "table"]
+
+#: Aspect ratios between the two fits: where Staron and Hinch's runout and Lube et al.'s height change.
+CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[1].change}
+_VALUES = {"runout": "runout_rel", "height": "final_height_rel"}
+
+
+def _arrays(found):
+    runs = [run for run in found.values() if run["rested"]]
+    return np.array([run["aspect"] for run in runs]), {name: np.array([run[key] for run in runs]) for name, key in _VALUES.items()}
+
+
+def _fits(found):
+    a, values = _arrays(found)
+    fits = {}
+    for name, change in CHANGES.items():
+        try:
+            fits[name] = scaling.exponents(a, values[name], change)
+        except HeapError:  # a front that did not leave the gate
+            fits[name] = (None, None)
+    return fits
+
+
+def summarise(found):
+    """``summary.json`` of {name: summary of a run}: the runs, and ``fits`` of runout and height below and above the aspect ratios :data:`CHANGES`.
+
+    A fit has ``factor``, ``exponent`` with half of its 95 % interval, the numbers of ``points``, and ``published`` with ``off_rel``, the exponent's relative
+    difference from each published one. Runs that did not come to rest are left out.
+    """
+    fits = {}
+    for name, pair in _fits(found).items():
+        laws = scaling.RUNOUT if name == "runout" else scaling.HEIGHT
+        for k, fit in enumerate(pair):
+            where = f"{name}_{'above' if k else 'below'}"
+            fits[where] = None if fit is None else {
+                "factor": fit.factor, "exponent": fit.exponent, "exponent_95": None if math.isnan(fit.exponent_95) else fit.exponent_95, "points": fit.points,
+                "change": CHANGES[name], "published": [{"source": law.source, "factor": law.pieces[k][0], "exponent": law.pieces[k][1],
+                                                        "off_rel": fit.exponent / law.pieces[k][1] - 1} for law in laws]}
+    return {"runs": found, "fits": fits, "at_rest": sum(run["rested"] for run in found.values())}
+
+
+def group(found):
+    """A group for :func:`yade.nonsmooth.figures.columns.runout`."""
+    a, values = _arrays(found)
+    return {"aspect": a, **values, "fits": _fits(found), "changes": CHANGES}
+
+
+def table(found, summary):
+    """The runs and the fits as text."""
+    lines = ["run                    disks      a   runout/L0   height/L0   repose [°]   time/T     steps   wall [s]   worst overlap"]
+    for name, r in found.items():
+        angles = " ".join("-" if a is None else f"{a:.1f}" for a in r["repose_deg"])
+        lines.append(f"{name:20s} {r['disks']:7d} {r['aspect']:6.2f} {r['runout_rel']:11.3f} {r['final_height_rel']:11.3f} {angles:>12s} {r['time_s'] / r['fall_time_s']:8.1f} "
+                     f"{r['steps']:9d} {r['wall_s']:10.1f} {r['overlap_worst_rel']:15.1e}{'' if r['rested'] else '  did not come to rest'}")
+    for where, fit in summary["fits"].items():
+        if fit:
+            sure = "" if fit["exponent_95"] is None else f" ± {fit['exponent_95']:.2f}"
+            beside = "; ".join(f"{p['source']}: {p['factor']:g} a^{p['exponent']:.3g}, {100 * p['off_rel']:+.0f} %" for p in fit["published"])
+            name, side = where.split("_")
+            lines.append(f"{name} {side} a = {fit['change']:g}: {fit['factor']:.2f} a^({fit['exponent']:.3f}{sure}), {fit['points']} runs. {beside}")
+    return "\n".join(lines)
+
+
+def draw_collapse(heap, run, folder):
+    """``collapse.png`` of a run in its folder; returns the path."""
+    folder = Path(folder)
+    times, places, r = study.frames(folder)
+    width, place = run["width_m"], heap.place()
+    gates = [x for x, side in ((place, "left"), (place + heap.box()[0], "right")) if side in heap.gates()]
+    return figures.collapse(times, places, r, run["fall_time_s"], folder / "collapse.png", width=width, gate=gates)

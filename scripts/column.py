@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Columns of grains that collapse, and piles: runout and final height against the aspect ratio, with hard or with soft contacts.
+
+  scripts/column.py [--aspect A,A,…] [--disks N] [--seeds S …] [--world hard|soft] [--out DIR] [--threads T] [--resume]
+  scripts/column.py --kind pile --aspect 1 --disks 500
+"""
+import os, sys
+if "yade" not in sys.modules:  # started as it is: hand over to the launcher
+    launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
+    os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
+
+import argparse
+import json
+from pathlib import Path
+
+from yade.nonsmooth import errors, records
+from yade.nonsmooth.figures import columns as figures
+from yade.nonsmooth.heaps import grains, report, study
+from yade.nonsmooth.laboratory import arguments
+from yade.nonsmooth.packing_files import write_atomically
+
+ASPECTS = "0.5,0.7,1,1.4,2,2.8,4,5.6,8,10"
+
+
+def numbers(text):
+    """Type of positive numbers with commas, each once."""
+    values = [arguments.positive(part) for part in text.split(",")]
+    if len(set(values)) < len(values):
+        raise argparse.ArgumentTypeError(f"{text!r}: give each number once")
+    return values
+
+
+def read_arguments():
+    usual = study.KINDS["column"]()
+    parser = argparse.ArgumentParser(prog="column.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--kind", choices=tuple(study.KINDS), default="column", help="a column that falls to one side, or a pile that loses both sides of its box (default: column)")
+    parser.add_argument("--aspect", type=numbers, default=numbers(ASPECTS), metavar="A,…", help=f"height over width of columns; of piles, over half of the width (default: {ASPECTS})")
+    parser.add_argument("--disks", type=int, default=usual.disks, metavar="N", help="disks of each (default: %(default)s)")
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings (default: 1)")
+    parser.add_argument("--diameter", type=float, default=usual.diameter, metavar="M", help="mean diameter [m] (default: %(default)g)")
+    parser.add_argument("--size-spread", type=float, default=usual.size_spread, metavar="K", help="largest over smallest diameter (default: %(default)g)")
+    parser.add_argument("--friction", type=float, default=usual.friction, metavar="MU", help="of contacts (default: %(default)g)")
+    parser.add_argument("--rolling-friction", type=float, default=usual.rolling_friction, metavar="MU", help="in units of the mean diameter of a pair (default: %(default)g)")
+    parser.add_argument("--restitution", type=float, default=usual.restitution, metavar="E", help="of impacts; not in the soft world (default: %(default)g)")
+    parser.add_argument("--base", choices=grains.BASES, default=usual.base, help="floor: a line, or glued disks (default: %(default)s)")
+    parser.add_argument("--base-friction", type=float, metavar="MU", help="of the floor (default: as --friction)")
+    parser.add_argument("--wall-friction", type=float, default=usual.wall_friction, metavar="MU", help="of the wall behind a column (default: %(default)g)")
+    parser.add_argument("--packing", metavar="FILE", help="text file of x y r [m] to use instead of an own packing; --aspect, --disks, --seeds and sizes then do nothing")
+    parser.add_argument("--world", choices=("hard", "soft"), default="hard", help="contacts (default: hard)")
+    parser.add_argument("--path", type=arguments.positive, default=grains.PATH_PER_STEP, metavar="D", help="hard: time step, as mean diameters at the speed of a free fall from the top (default: %(default)g)")
+    parser.add_argument("--tolerance", type=arguments.positive, default=study.TOLERANCE, metavar="R", help="hard: residual of a step (default: %(default)g)")
+    parser.add_argument("--stiffness", type=arguments.positive, metavar="PA", help="soft: Young's modulus [Pa]")
+    parser.add_argument("--damping", type=float, default=0.2, metavar="L", help="soft: YADE's damping of forces (default: %(default)g)")
+    parser.add_argument("--model", default="cohesion_moment", choices=("cohesion_moment", "jcfpm", "friction"), help="soft: contact model (default: %(default)s)")
+    parser.add_argument("--duration", type=arguments.positive, default=15.0, metavar="T", help="longest course, in units of √(H/g) (default: %(default)g)")
+    parser.add_argument("--out", default="out/column", metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="runs at a time (default: all cores)")
+    parser.add_argument("--resume", action="store_true", help="keep runs in DIR that have ended")
+    return parser.parse_args()
+
+
+def cases_of(args):
+    """{name: (heap, world)} of the runs asked for."""
+    shared = dict(diameter=args.diameter, size_spread=args.size_spread, friction=args.friction, rolling_friction=args.rolling_friction, restitution=args.restitution,
+                  base=args.base, base_friction=args.base_friction, wall_friction=args.wall_friction, disks=args.disks)
+    world = dict(name="hard", path=args.path, tolerance=args.tolerance) if args.world == "hard" else dict(name="soft", stiffness=args.stiffness, damping=args.damping, model=args.model)
+    kind = study.KINDS[args.kind]
+    if args.packing:
+        return {Path(args.packing).stem: (kind(**shared, packing=args.packing), world)}
+    return {f"a{a:g}-seed{s}": (kind(**shared, aspect=a, seed=s), world) for a in args.aspect for s in args.seeds}
+
+
+def main():
+    args = read_arguments()
+    out = Path(args.out)
+    cases = cases_of(args)
+    for heap, world in cases.values():  # before anything is computed
+        study.world_of(heap, **world)
+    records.check_writable(out)
+    with arguments.bar() as progress:
+        found = study.run(cases, out, args.threads, args.resume, args.duration, lambda share: progress(share, f"{len(cases)} run{'s' if len(cases) > 1 else ''}"))
+    summary = report.summarise(found)
+    write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())
+    print(report.table(found, summary))
+    drawn = [report.draw_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
+    if len({run["aspect"] for run in found.values()}) > 2 and args.kind == "column":
+        drawn.append(figures.runout({f"{args.disks} disks, {args.world}": report.group(found)}, out / "runout.png"))
+    print(f"results: {out}/summary.json, {', '.join(str(p) for p in drawn[-3:])}{' …' if len(drawn) > 3 else ''}")
+
+
+try:
+    main()
+except errors.UserError as error:
+    sys.exit(f"error: {error}")
