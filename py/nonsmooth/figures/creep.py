@@ -1,0 +1,28 @@
+"""Displacement of a wedge on a joint against time, hard and soft."""
+
+import numpy as np
+
+from .style import INK, figure, save, styled
+
+__all__ = ["creep"]
+
+
+@styled
+def creep(panels, path):
+    """Writes the figure and returns its path.
+
+    ``panels``: list of (title, curves), and ``curves`` a list of (label, colour, time [s], displacement down the joint [mm]), arrays of shape (n,).
+    Displacements below 1e-3 mm, and those up the joint, are drawn at 1e-3 mm.
+    """
+    fig = figure(9.0, 3.9, layout="constrained")
+    axes = fig.subplots(1, len(panels), sharey=True, squeeze=False)[0]
+    for ax, (title, curves) in zip(axes, panels):
+        for label, colour, time, way in curves:
+            ax.plot(time, np.maximum(way, 1e-3), color=colour, label=label)
+        ax.axhline(1, color=INK, linewidth=0.8, linestyle=(0, (4, 3)))
+        ax.text(0.985, 1.15, "1 mm", transform=ax.get_yaxis_transform(), ha="right", va="bottom", color=INK)
+        ax.set(title=title, xlabel="time [s]", yscale="log", xlim=(0, None))
+    axes[0].set_ylabel("displacement down the joint [mm]")
+    handles, labels = axes[0].get_legend_handles_labels()
+    fig.legend(handles, labels, loc="outside lower center", ncols=2)
+    return save(fig, path)
