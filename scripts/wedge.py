@@ -23,7 +23,7 @@ from yade.nonsmooth.packing_files import write_atomically
 EXAMPLES = Path(sys.argv[0]).resolve().with_name("examples")
 # (key, title of the panel, the joint and its water)
 CASES = (("dry", "dry, safety factor 1.04", dict(friction=0.60, water=0)),
-         ("water", "water rises and falls every 2 s, safety factor 1.13 to 1.01", dict(friction=0.65, water=0.5)))
+         ("water", "water rises and falls, safety factor 1.13 to 1.01", dict(friction=0.65, water=0.5)))
 # (key, label, colour, script, its numerics)
 MODELS = (("hard", "Contact Dynamics, steps of 5 ms", LINES["blue"], "hard_wedge.py", {}),
           ("soft", "springs, E = 1 GPa, damping 0.2", LINES["orange"], "soft_wedge.py", {}),

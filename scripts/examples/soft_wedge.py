@@ -35,7 +35,7 @@ O.materials.append([rock, joint])
 
 # the joint rises to the right from the toe at (0, 0)
 along, up = (math.cos(DIP), math.sin(DIP)), (-math.sin(DIP), math.cos(DIP))
-O.bodies.append(segments([(-5 * along[0], -5 * along[1]), (15 * along[0], 15 * along[1])], joint, piece=2, sense=1))
+O.bodies.append(segments([(-30 * along[0], -30 * along[1]), (15 * along[0], 15 * along[1])], joint, piece=2, sense=1))
 
 # rows of touching disks along the joint, as far as they lie between the free face and the top
 disks, wet = [], 0
