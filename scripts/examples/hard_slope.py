@@ -61,11 +61,12 @@ O.engines = [
         [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=0.1)]),
     water,
     ContactDynamicsEngine(tolerance=table.tolerance, label="contactDynamics"),
-    NewtonIntegrator(damping=0, gravity=(0, -9.81, 0), label="newton"),
+    NewtonIntegrator(damping=0, label="newton"),
 ]
 O.dt = table.dt
-O.step()  # finds the contacts
+O.step()  # finds the contacts, as yet without weight
 contactDynamics.bond()
+newton.gravity = (0, -9.81, 0)
 
 
 def bonds():

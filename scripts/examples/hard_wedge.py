@@ -61,12 +61,13 @@ O.engines = [
         [Law2_ScGeom_NscdPhys_SignoriniCoulomb()]),
     water,
     ContactDynamicsEngine(tolerance=table.tolerance, label="contactDynamics"),
-    NewtonIntegrator(damping=0, gravity=(0, -9.81, 0)),
+    NewtonIntegrator(damping=0, label="newton"),
     PyRunner(command="record()", virtPeriod=0.1, initRun=False),
 ]
 O.dt = table.dt
-O.step()  # finds the contacts
+O.step()  # finds the contacts, as yet without weight
 contactDynamics.bond()
+newton.gravity = (0, -9.81, 0)
 # ]
 
 states = [O.bodies[i].state for i in disks]

@@ -62,7 +62,7 @@ O.engines = [
         [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True), Ip2_FrictMat_FrictMat_FrictPhys()],
         [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True), Law2_ScGeom_FrictPhys_CundallStrack()]),
     water,
-    NewtonIntegrator(damping=table.damping, gravity=(0, -9.81, 0), label="newton"),
+    NewtonIntegrator(damping=table.damping, label="newton"),
 ]
 O.dt = table.dt
 O.step()  # finds the contacts, and bonds them

@@ -18,7 +18,7 @@ LESSONS = {
     "slope": ["numerics", "material", "functors, engines, bonds"],
 }
 #: what may be set inside the marks
-NAMES = {"numerics", "rock", "joint", "O.engines", "O.dt"}
+NAMES = {"numerics", "rock", "joint", "O.engines", "O.dt", "newton.gravity"}
 
 
 def source(name):
@@ -103,9 +103,9 @@ def test_hard_blocks_slide_as_coulomb_says_and_stand_below_the_friction_angle(tm
 
 
 def test_soft_blocks_slide_slower_by_the_damping(tmp_path):
-    damped, free = (rows(output("soft_incline.py", tmp_path, slope=25, seconds=1, damping=damping), "friction/tan") for damping in (0.2, 0))
-    # Without damping the contact swings for ever and the friction follows it: 1 % of g sin θ. With it a smooth block, whose contact
-    # swings too, loses λ of each component of the force and more: between 1 − λ and 1 − 2 λ of Coulomb's value.
+    damped, free = (rows(output("soft_incline.py", tmp_path, slope=25, seconds=2, damping=damping), "friction/tan") for damping in (0.2, 0))
+    # Without damping the contact swings for ever and the friction follows it, after a start without any: 1 % of g sin θ. With it a smooth
+    # block, whose contact swings too, loses λ of each component of the force and more: between 1 − λ and 1 − 2 λ of Coulomb's value.
     for ratio, _, _, acceleration, coulomb in free:
         assert acceleration == pytest.approx(coulomb, abs=0.01 * 9.81 * math.sin(math.radians(25)))
     assert 0.6 < damped[0][3] / damped[0][4] < 0.8
@@ -119,15 +119,15 @@ def test_hard_wedge_stands_still_for_a_minute_dry_and_in_changing_water(tmp_path
         text = output("hard_wedge.py", tmp_path, friction=friction, water=water, seconds=60)
         path = rows(text, "time [s]")
         assert path[-1][0] == pytest.approx(60)
-        assert max(abs(way) for _, *ways in path for way in ways) < 1  # mm: the bound
+        assert max(abs(way) for _, *ways in path for way in ways) < 0.01  # mm; 1 mm is asked for, a tolerance of 1e-6 leaves 4e-4
         assert number(text, "steps") == 12000
 
 
 def test_hard_wedge_slides_where_statics_says(tmp_path):
     text = output("hard_wedge.py", tmp_path, friction=0.55, water=0, seconds=2)
     slid = rows(text, "time [s]")[-1][1]
-    # a t²/2, a = g (sin 30° − 0.55 cos 30°); the way up the step's end adds h/t = 0.25 %, bonds that give way a little
-    assert slid == pytest.approx(1e3 * 0.5 * 9.81 * (0.5 - 0.55 * math.cos(math.pi / 6)) * 4, rel=0.02)
+    # a t²/2, a = g (sin 30° − 0.55 cos 30°); speeds of a step's end make it longer by h/t = 0.25 %, and bonds yield a little at the start
+    assert slid == pytest.approx(1e3 * 0.5 * 9.81 * (0.5 - 0.55 * math.cos(math.pi / 6)) * 4, rel=0.01)
 
 
 def test_soft_wedge_slides_when_its_weight_comes_and_creeps_as_the_water_changes(tmp_path):
@@ -139,7 +139,7 @@ def test_soft_wedge_slides_when_its_weight_comes_and_creeps_as_the_water_changes
 
 def test_beams_break_at_the_root_at_the_load_of_statics(tmp_path):
     # hard: the root yields at 1 and turns until its bond leaves its zone of 1e-3 diameters, 8 % of load later at this rate; soft: it snaps
-    for world, seconds, most in (("hard", 20, 1.10), ("soft", 5, 1.03)):
+    for world, seconds, most in (("hard", 20, 1.10), ("soft", 3, 1.03)):
         text = output(f"{world}_beam.py", tmp_path, seconds=seconds)
         assert 0.99 < number(text, "broken at the load [of that of statics]") < most
         assert number(text, "broken bonds, counted from the root") == 1
@@ -148,7 +148,7 @@ def test_beams_break_at_the_root_at_the_load_of_statics(tmp_path):
 
 
 def test_columns_run_out_alike_and_farther_the_higher_they_are(tmp_path):
-    runs = {(world, aspect): number(output(f"{world}_column.py", tmp_path, aspect=aspect, seconds=2.4), "run-out, by the column's width")
+    runs = {(world, aspect): number(output(f"{world}_column.py", tmp_path, aspect=aspect, seconds=1.8), "run-out, by the column's width")
             for world, aspect in (("hard", 0.7), ("hard", 2.0), ("soft", 0.7))}
     # the published lines for (L_f − L_0)/L_0 in two dimensions: 1.2 a (Lube) to 2.5 a (Staron and Hinch)
     assert 1.0 * 0.7 < runs["hard", 0.7] < 2.5 * 0.7
