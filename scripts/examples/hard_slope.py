@@ -27,7 +27,7 @@ RADIUS, ROWS, COLUMNS, FOOT = 0.5, 8, 36, 10.0  # disks of 1 m; the slab's lower
 DIP = math.radians(table.dip)
 
 # [ material
-rock = NscdMat(density=2500, frictionAngle=math.atan(0.8), rollingFriction=0.125, tensileStrength=table.strength)
+rock = NscdMat(density=2500, frictionAngle=math.atan(1.0), rollingFriction=0.125, tensileStrength=table.strength)
 joint = NscdMat(frictionAngle=math.atan(table.friction), wall=True)
 # ]
 O.materials.append([rock, joint])

@@ -28,8 +28,8 @@ DIP = math.radians(table.dip)
 
 # [ material
 # YADE's thresholds: normalCohesion R², shearCohesion R², normalCohesion R³/4; with μ_r = 1/8 and one radius they are the same bond
-rock = CohFrictMat(density=2500, young=table.young, poisson=0.3, frictionAngle=math.atan(0.8), momentRotationLaw=True, alphaKr=1, alphaKtw=0,
-                   etaRoll=0.25, normalCohesion=2 * table.strength / RADIUS, shearCohesion=1.6 * table.strength / RADIUS)
+rock = CohFrictMat(density=2500, young=table.young, poisson=0.3, frictionAngle=math.atan(1.0), momentRotationLaw=True, alphaKr=1, alphaKtw=0,
+                   etaRoll=0.25, normalCohesion=2 * table.strength / RADIUS, shearCohesion=2 * table.strength / RADIUS)
 joint = FrictMat(density=2500, young=table.young, poisson=0.3, frictionAngle=math.atan(table.friction))
 # ]
 O.materials.append([rock, joint])
