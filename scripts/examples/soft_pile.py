@@ -3,24 +3,26 @@
 
 soft_pile.py and hard_pile.py are twins: an ordinary YADE script with springs at the contacts, and the same with Contact Dynamics.
 They differ between the lines "# [" and "# ]" only: in the material, the functors and the engines.
-
-    NAME.py [SECONDS]
+Parameters come from a table (yade-batch), or are those below.
 """
 import os, sys
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "yade-nonsmooth")
-    os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
+    os.execv(launcher, [launcher, os.path.realpath(__file__), "--threads", "1", *sys.argv[1:]])
 
 import math
 import random
 
 from yade import utils
 
-SECONDS = float(sys.argv[1]) if len(sys.argv) > 1 else 2.5
+# friction of the disks, seconds
+utils.readParamsFromTable(friction=0.3, seconds=2.5)
+from yade.params import table
+
 WIDTH = 1.5
 
 # [ material
-rock = FrictMat(density=2500, young=2e8, poisson=0.3, frictionAngle=math.atan(0.3))
+rock = FrictMat(density=2500, young=2e8, poisson=0.3, frictionAngle=math.atan(table.friction))
 # ]
 O.materials.append(rock)
 
@@ -54,7 +56,7 @@ O.engines = [
 O.dt = 2e-4
 # ]
 
-O.run(round(SECONDS / O.dt), wait=True)
+O.run(round(table.seconds / O.dt), wait=True)
 
 states = [O.bodies[i].state for i in disks]
 mass = sum(s.mass for s in states)
@@ -64,3 +66,4 @@ print(f"steps {O.iter}")
 print(f"pile height [m] {height:.4f}")
 print(f"kinetic energy [J] {kinetic:.3e}")
 print(f"lowest disk [m] {min(s.pos[1] for s in states):.4f}")
+utils.waitIfBatch()

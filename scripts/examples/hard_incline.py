@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Blocks on an incline: prints how far and how fast each has slid, beside Coulomb's a = g (sin θ − μ cos θ).
+
+soft_incline.py and hard_incline.py are twins: an ordinary YADE script with springs at the contacts, and the same with Contact Dynamics.
+They differ between the lines "# [" and "# ]" only. A block is a disk that may not turn; each has a friction of its own.
+Parameters come from a table (yade-batch), or are those below.
+"""
+import os, sys
+if "yade" not in sys.modules:  # started as it is: hand over to the launcher
+    launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "yade-nonsmooth")
+    os.execv(launcher, [launcher, os.path.realpath(__file__), "--threads", "1", *sys.argv[1:]])
+
+import math
+
+from yade import utils
+from yade.nonsmooth.scene import disk, segments
+
+# [ numerics
+numerics = dict(dt=5e-3, tolerance=1e-6)
+# ]
+# slope [°] of the incline, seconds
+utils.readParamsFromTable(slope=25, seconds=2, **numerics)
+from yade.params import table
+
+RADIUS, G = 0.5, 9.81
+ANGLE = math.radians(table.slope)
+RATIOS = (0, 0.5, 0.9, 0.99, 1.01, 1.1)  # friction of the blocks, in units of tan θ
+
+# [ material
+def material(friction):
+    return NscdMat(density=2500, frictionAngle=math.atan(friction))
+# ]
+
+along, up = (math.cos(ANGLE), -math.sin(ANGLE)), (math.sin(ANGLE), math.cos(ANGLE))
+blocks = []
+for k, ratio in enumerate(RATIOS):  # one incline each, side by side: the lanes lie 10 m apart
+    stuff = material(ratio * math.tan(ANGLE))
+    O.materials.append(stuff)
+    x, y = 0, 10 * k
+    O.bodies.append(segments([(x - 2 * along[0], y - 2 * along[1]), (x + 50 * along[0], y + 50 * along[1])], stuff, piece=4, sense=1))
+    body = disk((x + RADIUS * up[0], y + RADIUS * up[1]), RADIUS, stuff)
+    body.state.blockedDOFs = "zXYZ"
+    blocks.append(O.bodies.append(body))
+
+# [ functors, engines, time step
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Segment_Aabb()], verletDist=0.2),
+    InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.05), Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1.05)],
+        [Ip2_NscdMat_NscdMat_NscdPhys()],
+        [Law2_ScGeom_NscdPhys_SignoriniCoulomb()]),
+    ContactDynamicsEngine(tolerance=table.tolerance),
+    NewtonIntegrator(damping=0, gravity=(0, -G, 0)),
+]
+# ]
+O.dt = table.dt
+start = [O.bodies[i].state.pos for i in blocks]
+O.run(round(table.seconds / O.dt), wait=True)
+
+print("friction/tan(slope)   slid [m]   speed [m/s]   acceleration [m/s2]   Coulomb's")
+for i, p, ratio in zip(blocks, start, RATIOS):
+    s = O.bodies[i].state
+    slid, speed = (v[0] * along[0] + v[1] * along[1] for v in (s.pos - p, s.vel))
+    print("%18.2f %11.6f %13.6f %21.4f %11.4f" % (ratio, slid, speed, speed / O.time, G * math.sin(ANGLE) * max(0, 1 - ratio)))
+print(f"steps {O.iter}")
+utils.waitIfBatch()

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""The wedge on a joint, hard and soft: runs scripts/examples/hard_wedge.py and soft_wedge.py and draws displacement against time.
+
+  scripts/wedge.py [--seconds S] [--out DIR] [--resume]
+"""
+import os, sys
+if "yade" not in sys.modules:  # started as it is: hand over to the launcher
+    launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
+    os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
+
+import argparse
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+from yade.nonsmooth import errors, records
+from yade.nonsmooth.figures.creep import creep
+from yade.nonsmooth.figures.style import LINES
+from yade.nonsmooth.packing_files import write_atomically
+
+EXAMPLES = Path(sys.argv[0]).resolve().with_name("examples")
+# (key, title of the panel, the joint and its water)
+CASES = (("dry", "dry, safety factor 1.04", dict(friction=0.60, water=0)),
+         ("water", "water rises and falls, safety factor 1.13 to 1.01", dict(friction=0.65, water=0.5)))
+# (key, label, colour, script, its numerics)
+MODELS = (("hard", "Contact Dynamics, steps of 5 ms", LINES["blue"], "hard_wedge.py", {}),
+          ("soft", "springs, E = 1 GPa, damping 0.2", LINES["orange"], "soft_wedge.py", {}),
+          ("soft_100MPa", "springs, E = 100 MPa, damping 0.2", LINES["purple"], "soft_wedge.py", dict(young=1e8, dt=1e-3)),
+          ("soft_damping_0.02", "springs, E = 1 GPa, damping 0.02", LINES["grey"], "soft_wedge.py", dict(damping=0.02)))
+
+
+class WedgeError(errors.UserError):
+    """A run of an example failed."""
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(prog="wedge.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--seconds", type=float, default=60, metavar="S", help="simulated time [s] (default: %(default)g)")
+    parser.add_argument("--out", default="out/wedge", metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument("--resume", action="store_true", help="keep the runs that DIR has already")
+    args = parser.parse_args()
+    if not 1 <= args.seconds < float("inf"):
+        parser.error(f"argument --seconds: {args.seconds:g} is too short to see a creep; give 1 or more")
+    return args
+
+
+def curve(out, key, script, parameters, resume):
+    """Arrays t [s], centroid and largest [mm] of a run, kept in ``out``/``key``.txt with its parameters in ``key``.table."""
+    table, kept, part = (out / f"{key}.{end}" for end in ("table", "txt", "part"))
+    wanted = "{}\n{}\n".format(" ".join([*parameters, "save"]), " ".join([*map(repr, parameters.values()), repr(part.name)]))
+    if not (resume and kept.exists() and table.exists() and table.read_text() == wanted):
+        write_atomically(table, wanted.encode())
+        done = subprocess.run([EXAMPLES / script], cwd=out, env={**os.environ, "YADE_BATCH": f"{table.name}:2"}, stdin=subprocess.DEVNULL, text=True,
+                              capture_output=True)
+        if done.returncode:
+            raise WedgeError(f"{script} with {table}: ended with status {done.returncode}: {done.stderr[-500:]}")
+        os.replace(part, kept)
+    return np.genfromtxt(kept, names=True)
+
+
+def main():
+    args = read_arguments()
+    out = Path(args.out)
+    records.check_writable(out)
+    panels, rows = [], []
+    with tqdm(total=len(CASES) * len(MODELS), unit="run", leave=False) as bar:
+        for case, title, joint in CASES:
+            curves = []
+            for model, label, colour, script, numerics in MODELS:
+                found = curve(out, f"{case}_{model}", script, dict(seconds=args.seconds, **joint, **numerics), args.resume)
+                late = found["t"] >= min(5, 0.5 * args.seconds)
+                rows.append(dict(case=case, model=model, displacement_mm=found["centroid"][-1], largest_mm=found["largest"].max(),
+                                 creep_mm_per_min=60 * np.polyfit(found["t"][late], found["centroid"][late], 1)[0]))
+                curves.append((label, colour, found["t"], found["centroid"]))
+                bar.update()
+            panels.append((title, curves))
+    creep(panels, out / "wedge.png")
+    write_atomically(out / "summary.json", json.dumps({"seconds": args.seconds, "runs": rows}, indent=1).encode())
+    print("case    model                displacement [mm]   largest of a disk [mm]   creep after 5 s [mm/min]")
+    for r in rows:
+        print("{case:7s} {model:20s} {displacement_mm:17.4f} {largest_mm:24.4f} {creep_mm_per_min:26.4f}".format(**r))
+    print(f"results: {out}/summary.json, wedge.png")
+
+
+try:
+    main()
+except errors.UserError as error:
+    sys.exit(f"error: {error}")
