@@ -39,6 +39,8 @@ def read_arguments():
                         help="the one that runs with every seed (default: the scenario's, or the upper middle one of --stiffness); others run with the first")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4, 5], metavar="S", help="seeds of the packings (default: 1 2 3 4 5)")
     parser.add_argument("--model", choices=("cohesion_moment", "jcfpm", "friction"), default="cohesion_moment", help="YADE's law (default: %(default)s)")
+    parser.add_argument("--bonds", choices=("ductile", "fragile"), default="ductile",
+                        help="of soft runs: yielding before they break, as in the hard law, or breaking at once (default: %(default)s)")
     parser.add_argument("--damping", type=float, default=0.2, metavar="L", help="of soft runs at rest, non-viscous (default: %(default)s, YADE's own)")
     parser.add_argument("--damping-moving", type=float, default=0.02, metavar="L", help="while the mass moves, where it would brake it (default: "
                                                                                         "%(default)s)")
@@ -101,7 +103,7 @@ def main():
         summary, questions = course.compare(
             args.scenario, out, args.seeds, disks=args.disks, source=args.source, stiffnesses=args.stiffness, ensemble=args.ensemble_stiffness,
             model=args.model, damping=args.damping,
-            damping_moving=args.damping_moving, step_share=args.step_share, short=args.only_ensemble, threads=args.threads, resume=args.resume,
+            damping_moving=args.damping_moving, step_share=args.step_share, fragile=args.bonds == "fragile", short=args.only_ensemble, threads=args.threads, resume=args.resume,
             progress=progress,
             options=options_of(args))
     tell(questions)

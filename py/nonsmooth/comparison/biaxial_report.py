@@ -25,4 +25,6 @@ def sections(out, scenario, plan, outcomes, summary):
     made.append(modes_section(folder, plan, outcomes))
     made.append(common.force_section(folder, plan, outcomes, "Normal forces of contacts under compression, under the confining pressure before the "
                                                              "test begins."))
+    if plan.fragile is not None:
+        made.append(common.bonds_section(folder, plan, outcomes, columns, strain, common.curves))
     return made

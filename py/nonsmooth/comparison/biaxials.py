@@ -27,6 +27,7 @@ ENSEMBLE_STIFFNESS = 1e10  # Pa, for all seeds: below it the sample's elastic st
 CONFINING, STRAIN = 1e6, 0.06  # Pa; axial strain at the end, unless the case has others
 KEYS = ("sigma1_peak_Pa", "sigma1_residual_Pa")
 CURVES = {"stress": "σ₁ over σ₃", "volume": "volumetric strain"}
+BONDS = True  # the kind of bonds matters
 MOVING = False  # the mass has no stage of motion with a damping of its own
 
 QUANTITIES = (
@@ -110,7 +111,7 @@ class SoftCourse(biaxial.Course):
         pressed = pressing.load(shape)
         O.reset()
         world = worlds.Soft(case.stiffness, (2 * float(pressed.r.min()), 2 * float(pressed.r.max())), model=case.model, damping=case.damping,
-                            step_share=case.step, verlet=0.1 * shape.d_min)
+                            step_share=case.step, verlet=0.1 * shape.d_min, fragile=case.fragile)
         smooth = dataclasses.replace(test.platen, name="side", bonded=False, tensile_strength=0.0, friction=0.0, residual_friction=0.0,
                                      rolling_friction=0.0, residual_rolling_friction=0.0)
         stuff, rough, side = world.material(rock), world.wall_material(test.platen), world.wall_material(smooth)

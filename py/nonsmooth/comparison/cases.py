@@ -1,12 +1,13 @@
 """One run of a comparison, and the plan: which runs answer what.
 
-The plan has four parts, all on the packing of the first seed but the first:
+The plan has five parts, all on the packing of the first seed but the first:
 
 * ensemble: every seed, hard with the section's own numerics and soft with the ensemble's stiffness, in pairs of the same packing. It tells
   difference from scatter;
 * sweep: all other stiffnesses, each with its own stable step. Soft runs cost with the root of the stiffness, so one seed has to do;
 * numerics: hard runs with other time steps and tolerances, the finest of which is the reference of the hard world. The stiffest soft run is the reference
   of the soft one;
+* bonds: a soft run whose bonds break at once where they reach a threshold, as YADE's do, instead of yielding there as in the hard law;
 * damping: a soft run of the ensemble's stiffness whose damping stays what it was at rest, to show what damping does to the motion.
 """
 
@@ -40,7 +41,8 @@ class Case:
     """One run. ``world``: "hard" or "soft"; ``source``: section or material of the scenario; ``disks``: their number; ``seed``: of the packing.
 
     Hard: ``step``, ``tolerance``: factors on the scenario's own. Soft: ``stiffness``: Young's modulus [Pa]; ``step``: share of the stability limit;
-    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`.
+    ``damping``, ``damping_moving``: non-viscous, at rest and while the mass moves (None: not told apart); ``model``: see :mod:`yade.nonsmooth.soft`;
+    ``fragile``: bonds do not yield before they break.
     ``options``: what else the scenario takes.
     """
 
@@ -54,13 +56,14 @@ class Case:
     damping: float = 0.0
     damping_moving: float | None = None
     model: str | None = None
+    fragile: bool = False
     options: dict = dataclasses.field(default_factory=dict)
 
     @property
     def name(self):
         """Name of the run's folder: what tells it from the others of a plan."""
         if self.world == "soft":
-            extra = "" if self.damping != self.damping_moving else f"-damping{self.damping:g}"
+            extra = ("" if self.damping != self.damping_moving else f"-damping{self.damping:g}") + ("-fragile" if self.fragile else "")
             return f"soft-{self.stiffness:.3g}Pa-seed{self.seed}{extra}".replace("+", "")
         return f"hard-step{self.step:g}-tolerance{self.tolerance:g}-seed{self.seed}"
 
@@ -68,7 +71,8 @@ class Case:
     def label(self):
         """The same in words, without the seed."""
         if self.world == "soft":
-            return f"soft, {modulus_label(self.stiffness)}" + (f", damping {self.damping:g} throughout" if self.damping == self.damping_moving else "")
+            constant = f", damping {self.damping:g} throughout" if self.damping == self.damping_moving else ""
+            return f"soft, {modulus_label(self.stiffness)}{constant}" + (", fragile bonds" if self.fragile else "")
         if (self.step, self.tolerance) == (1.0, 1.0):
             return "hard"
         return f"hard, step × {self.step:g}, tolerance × {self.tolerance:g}"
@@ -82,12 +86,13 @@ class Plan:
     sweep: tuple[Case, ...]
     numerics: tuple[Case, ...]
     damping: Case | None
+    fragile: Case | None = None
 
     @property
     def cases(self):
         """All of them, once each, the longest first so that threads end together."""
         pairs = [c for pair in self.ensemble for c in pair]
-        every = dict.fromkeys((*self.sweep, *self.numerics, *([self.damping] if self.damping else ()), *pairs))
+        every = dict.fromkeys((*self.sweep, *self.numerics, *(c for c in (self.damping, self.fragile) if c), *pairs))
         return sorted(every, key=_work, reverse=True)
 
 
@@ -99,11 +104,11 @@ def _work(case):
 
 
 def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, step_share=0.5, ensemble=None, numerics=HARD_NUMERICS, damping_run=True,
-         model="cohesion_moment", options=None) -> Plan:
+         model="cohesion_moment", fragile=False, bonds_run=False, options=None) -> Plan:
     """The runs of a comparison.
 
     ``stiffnesses``: Young's moduli [Pa]; ``ensemble``: the one of the ensemble (default: the upper of the middle ones); ``numerics``: pairs as
-    HARD_NUMERICS. Raises ComparisonError for lists that cannot be used.
+    HARD_NUMERICS; ``fragile``: of the soft bonds; ``bonds_run``: with one soft run of the other kind of bonds. Raises ComparisonError for lists that cannot be used.
     """
     chosen = sorted(set(map(float, stiffnesses)))
     if len(chosen) < 2 or chosen[0] <= 0:
@@ -118,8 +123,8 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
     if middle not in chosen:
         chosen = sorted((*chosen, middle))
 
-    def soft(stiffness, seed, moving=damping_moving):
-        return Case("soft", source, disks, seed, step_share, stiffness=stiffness, damping=damping, damping_moving=moving, model=model,
+    def soft(stiffness, seed, moving=damping_moving, fragile=fragile):
+        return Case("soft", source, disks, seed, step_share, stiffness=stiffness, damping=damping, damping_moving=moving, model=model, fragile=fragile,
                     options=_Options(options or {}))
 
     def hard(seed, step=1.0, tolerance=1.0):
@@ -128,7 +133,8 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
     first = seeds[0]
     return Plan(tuple((hard(seed), soft(middle, seed)) for seed in seeds), tuple(soft(e, first) for e in chosen),
                 (*(hard(first, *pair) for pair in numerics[:-1]), hard(first), *(hard(first, *pair) for pair in numerics[-1:])),
-                soft(middle, first, damping) if damping_run and damping_moving not in (None, damping) else None)
+                soft(middle, first, damping) if damping_run and damping_moving not in (None, damping) else None,
+                soft(middle, first, fragile=True) if bonds_run and not fragile and model == "cohesion_moment" else None)
 
 
 class _Options(dict):

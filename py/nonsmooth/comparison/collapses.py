@@ -31,6 +31,7 @@ class Collapse:
     CURVES = {"front": "the front's way", "centroid": "the centre of mass's way", "deposit": "the deposit (1 − common area)"}
     SOURCE = ""
     DEFAULT_STIFFNESSES = (1e8, 1e9, 1e10, 1e11)  # Pa; a column of 2000 disks overlaps by some per cent at the softest
+    BONDS = False
     ENSEMBLE_STIFFNESS = 1e9  # Pa, for all seeds
 
     def __init__(self, kind, title, disks):

@@ -8,7 +8,7 @@ from . import deposits, figures
 from .cases import modulus_label
 from .report import Section
 
-__all__ = ["by_seed", "by_stiffness", "course_section", "damping_section", "deposit_section", "force_section", "motion_section"]
+__all__ = ["bonds_section", "by_seed", "by_stiffness", "course_section", "damping_section", "deposit_section", "force_section", "motion_section"]
 
 WAYS = (("front", "way of the front [m]", 1.0), ("centroid", "way of the centre\nof mass [m]", 1.0))
 
@@ -84,3 +84,17 @@ def damping_section(folder, plan, outcomes, clock):
             f"{rest:g} at rest and "
             f"{moving:g} while the mass moves, with a linear passage below a tenth of its largest speed."]
     return Section("What damping does", text, [(path, f"{modulus_label(throughout.case.stiffness)}, seed {throughout.case.seed}.")])
+
+
+def bonds_section(folder, plan, outcomes, columns, abscissa, pick=series):
+    """The run with fragile bonds, beside the one with ductile ones, and the hard one; ``columns`` and ``abscissa`` of ``pick``."""
+    fragile = outcomes[plan.fragile]
+    usual = next(outcomes[c] for c in plan.sweep if c.stiffness == plan.fragile.stiffness)
+    groups = [("hard", figures.HARD, [pick(outcomes[plan.ensemble[0][0]])]), ("soft, ductile bonds", figures.SOFT, [pick(usual)]),
+              ("soft, fragile bonds", figures.SHADES[4], [pick(fragile)])]
+    path = figures.courses(groups, columns, abscissa, folder / "bond_kinds.png")
+    text = ["A bond of the hard law yields at its thresholds and breaks when it has left a small ellipse (half axes of some hundredths of a diameter). YADE's law has both ends of "
+            "this: fragile bonds break where they first reach a threshold, ductile ones yield and never break. Soft runs here take ductile bonds and break "
+            "them at the same ellipse (BondEllipseEngine); one run with fragile bonds shows what the difference is worth. Fragile bonds hand their load to "
+            "neighbours that are as near to their own thresholds."]
+    return Section("What brittle bonds do", text, [(path, f"{modulus_label(fragile.case.stiffness)}, seed {fragile.case.seed}.")])

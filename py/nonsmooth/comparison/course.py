@@ -23,8 +23,8 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
             short=False, options=None, **plan_options):
     """Runs all cases that are not kept, writes ``summary.json`` and ``report.html`` into ``out``; returns the summary and the answered questions.
 
-    ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``short``: neither hard runs of other numerics nor the run of another
-    damping; ``plan_options``: of cases.plan. Raises ComparisonError before anything runs for arguments that cannot be used, and after all runs have
+    ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``short``: neither hard runs of other numerics nor those of another
+    damping and of other bonds; ``plan_options``: of cases.plan. Raises ComparisonError before anything runs for arguments that cannot be used, and after all runs have
     ended where one failed.
     """
     began, out = time.monotonic(), Path(out)
@@ -38,7 +38,7 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
         plan_options["damping_moving"] = None
     if stiffnesses is None and plan_options.get("ensemble") is None:
         plan_options["ensemble"] = experiment.ENSEMBLE_STIFFNESS
-    short_options = dict(numerics=HARD_NUMERICS[-1:], damping_run=False) if short else {}
+    short_options = dict(numerics=HARD_NUMERICS[-1:], damping_run=False) if short else dict(bonds_run=experiment.BONDS)
     chosen = plan(source or experiment.SOURCE, disks, seeds, stiffnesses or experiment.DEFAULT_STIFFNESSES, options=options,
                   **{**plan_options, **short_options})
     cases = chosen.cases
@@ -65,5 +65,5 @@ def _lead(chosen, experiment, told):
             f"Dynamics (“hard”) and with YADE's "
             f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa "
             f"where seeds are compared; "
-            f"time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",
+            f"{'fragile' if soft.fragile else 'ductile'} bonds; time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",
             "The scatter is the standard deviation over seeds, root mean square of both worlds'. Differences within it may be chance."]

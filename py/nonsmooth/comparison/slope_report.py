@@ -23,6 +23,8 @@ def sections(out, scenario, plan, outcomes, summary):
     made.append(common.course_section("Kinetic energy, bonds, water", folder / "energy.png", plan, outcomes, energy, time))
     made.append(common.force_section(folder, plan, outcomes, "Normal forces of contacts under compression, at rest before the water rises (t0)."))
     made.append(modes_section(folder, plan, outcomes))
+    if plan.fragile is not None:
+        made.append(common.bonds_section(folder, plan, outcomes, [("bonds_alive", "bonds that hold", 1.0), ("front_m", "place of the front [m]", 1.0)], time))
     if plan.damping is not None:
         made.append(common.damping_section(folder, plan, outcomes, CLOCK))
     return made

@@ -18,6 +18,7 @@ __all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "forces_of", "measure", "prepare
 
 #: Young's moduli [Pa], to a rock's. Under the slope's stress of some MPa contacts overlap by about 10 % of the radius at the softest.
 DEFAULT_STIFFNESSES = (1e7, 1e8, 1e9, 1e10)
+BONDS = True  # the kind of bonds matters
 ENSEMBLE_STIFFNESS = 1e8  # Pa, for all seeds: contacts overlap by some tenths of a per cent, and five such runs take as long as one of the stiffest
 
 QUANTITIES = (
@@ -67,7 +68,7 @@ def run(folder, **plain):
     s, note = section_of(case), Progress(folder)
     world = None
     if case.world == "soft":
-        world = worlds.Soft(case.stiffness, (s.disks.d_min, s.disks.d_max), model=case.model, damping=case.damping, step_share=case.step,
+        world = worlds.Soft(case.stiffness, (s.disks.d_min, s.disks.d_max), model=case.model, damping=case.damping, step_share=case.step, fragile=case.fragile,
                             verlet=-s.numerics.verlet_distance)
     built = slope.build(s, packing.cached_pack(s), world)
     if case.world == "soft":  # so that rows are those of the hard run
