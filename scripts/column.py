@@ -83,7 +83,7 @@ def main():
     write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())
     print(report.table(found, summary))
     drawn = [report.draw_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
-    if len({run["aspect"] for run in found.values()}) > 2 and args.kind == "column":
+    if summary["at_rest"] > 2 and args.kind == "column":
         drawn.append(figures.runout({f"{args.disks} disks, {args.world}": report.group(found)}, out / "runout.png"))
     print(f"results: {out}/summary.json, {', '.join(str(p) for p in drawn[-3:])}{' …' if len(drawn) > 3 else ''}")
 

@@ -13,8 +13,8 @@ from .grains import HeapError
 
 __all__ = ["CHANGES", "draw_collapse", "group", "summarise", "table"]
 
-#: Aspect ratios between the two fits: where Staron and Hinch's runout and Lube et al.'s height change.
-CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[1].change}
+#: Aspect ratios between the two fits: where Staron and Hinch's laws change.
+CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[0].change}
 _VALUES = {"runout": "runout_rel", "height": "final_height_rel"}
 
 
