@@ -93,6 +93,7 @@ def test_exponents_of_made_up_laws():
     assert 176 <= hits < 200
     assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[0] is None  # two points fit any power law
     assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[1] is not None
+    assert scaling.exponents([0.998, 0.999, 1.0, 1.001], [1, 2, 3, 4], 2.0) == (None, None)  # seeds of one aspect ratio
     with pytest.raises(grains.HeapError, match="two or more"):
         scaling.fit([1, 1], [2, 3])
     with pytest.raises(grains.HeapError, match="above 0"):
@@ -114,6 +115,13 @@ def test_wrong_parameters_are_named(wrong, said):
 def test_a_column_that_is_too_thin_is_refused():
     with pytest.raises(Exception, match="ask for more disks, or a smaller aspect than 50"):
         column.build(column.Column(disks=200, aspect=50), worlds.Hard(time_step=1e-3))
+
+
+def test_a_small_box_takes_fewer_disks():
+    """100 disks do not fit at the usual packing fraction; the box keeps its shape."""
+    c = column.Column(disks=100, aspect=1.6)
+    ready = preparation.prepared(c)
+    assert 85 < len(ready.r) <= 100 and ready.height / ready.width == pytest.approx(1.6, rel=0.1)
 
 
 def test_springs_that_would_be_crushed_are_refused():
@@ -270,7 +278,7 @@ def command(*arguments):
 
 
 def test_command_writes_series_summary_and_figures(tmp_path):
-    done = command("--disks", 100, "--aspect", "0.8,1.2,1.6", "--path", 0.2, "--rolling-friction", 0.05, "--out", tmp_path, "--threads", 1)
+    done = command("--disks", 150, "--aspect", "0.8,1.2,1.6", "--path", 0.3, "--tolerance", 1e-3, "--out", tmp_path, "--threads", 1)
     assert done.returncode == 0, done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert set(summary["runs"]) == {"a0.8-seed1", "a1.2-seed1", "a1.6-seed1"}
