@@ -198,10 +198,10 @@ def test_both_worlds_begin_with_the_same_places(collapse):
 
 
 def test_pile_stands_on_both_sides():
-    p = pile.Pile(disks=150, aspect=1.0, friction=0.6, rolling_friction=0.05)
+    p = pile.Pile(disks=200, aspect=1.0)
     r = pile.run(p, hard(p))
     left, right = r.repose()
-    assert r.rested and 8 < left < 40 and 8 < right < 40
+    assert r.rested and 5 < left < 35 and 5 < right < 35
     assert abs(r.series["centroid_x_m"][-1]) < 0.2 * r.width  # it falls to both sides alike, but for chance
     assert r.series["front_left_m"][-1] < -r.width < r.width < r.series["front_m"][-1]
 
@@ -278,16 +278,18 @@ def command(*arguments):
 
 
 def test_command_writes_series_summary_and_figures(tmp_path):
-    done = command("--disks", 150, "--aspect", "0.8,1.2,1.6", "--path", 0.3, "--tolerance", 1e-3, "--out", tmp_path, "--threads", 1)
+    done = command("--disks", 150, "--aspect", "0.8,1.6", "--path", 0.3, "--tolerance", 1e-3, "--duration", 2, "--out", tmp_path, "--threads", 1)
     assert done.returncode == 0, done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
-    assert set(summary["runs"]) == {"a0.8-seed1", "a1.2-seed1", "a1.6-seed1"}
+    assert set(summary["runs"]) == {"a0.8-seed1", "a1.6-seed1"}
     for name, run in summary["runs"].items():
         series = records.read_series(tmp_path / "runs" / name / "series.csv")
         assert series["front_m"][-1] == run["front_m"] and (np.diff(series["time_s"]) > 0).all()
         assert (tmp_path / "runs" / name / "collapse.png").stat().st_size > 10_000
-    assert (tmp_path / "runout.png").stat().st_size > 10_000
-    assert summary["at_rest"] == 3 and summary["fits"]["runout_below"]["points"] == 3 and summary["fits"]["runout_above"] is None
+        assert 2 <= run["time_s"] / run["fall_time_s"] < 2.1  # one record later at most
+    # two aspect ratios, still moving: no fit and no figure of it
+    assert summary["at_rest"] == 0 and not any(summary["fits"].values()) and "did not come to rest" in done.stdout
+    assert not (tmp_path / "runout.png").exists()
 
 
 @pytest.mark.parametrize("arguments, said", [
