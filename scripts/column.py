@@ -80,10 +80,12 @@ def main():
     with arguments.bar() as progress:
         found = study.run(cases, out, args.threads, args.resume, args.duration, lambda share: progress(share, f"{len(cases)} run{'s' if len(cases) > 1 else ''}"))
     summary = report.summarise(found)
+    if args.kind == "column":
+        summary["exponents_by_front"] = report.by_front(found, {name: out / "runs" / name for name in found})
     write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())
     print(report.table(found, summary))
     drawn = [report.draw_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
-    if len({run["aspect"] for run in found.values()}) > 2 and args.kind == "column":
+    if any(summary["fits"].values()) and args.kind == "column":
         drawn.append(figures.runout({f"{args.disks} disks, {args.world}": report.group(found)}, out / "runout.png"))
     print(f"results: {out}/summary.json, {', '.join(str(p) for p in drawn[-3:])}{' …' if len(drawn) > 3 else ''}")
 

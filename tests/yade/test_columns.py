@@ -91,7 +91,9 @@ def test_exponents_of_made_up_laws():
         f = scaling.fit(a[:4], law(a[:4]) * np.exp(0.05 * rng.standard_normal(4)))
         hits += abs(f.exponent - 1) < f.exponent_95
     assert 176 <= hits < 200
-    assert scaling.exponents([0.5, 3, 4], [1, 2, 3], 2.0)[0] is None
+    assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[0] is None  # two points fit any power law
+    assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[1] is not None
+    assert scaling.exponents([0.998, 0.999, 1.0, 1.001], [1, 2, 3, 4], 2.0) == (None, None)  # seeds of one aspect ratio
     with pytest.raises(grains.HeapError, match="two or more"):
         scaling.fit([1, 1], [2, 3])
     with pytest.raises(grains.HeapError, match="above 0"):
@@ -113,6 +115,13 @@ def test_wrong_parameters_are_named(wrong, said):
 def test_a_column_that_is_too_thin_is_refused():
     with pytest.raises(Exception, match="ask for more disks, or a smaller aspect than 50"):
         column.build(column.Column(disks=200, aspect=50), worlds.Hard(time_step=1e-3))
+
+
+def test_a_small_box_takes_fewer_disks():
+    """100 disks do not fit at the usual packing fraction; the box keeps its shape."""
+    c = column.Column(disks=100, aspect=1.6)
+    ready = preparation.prepared(c)
+    assert 85 < len(ready.r) <= 100 and ready.height / ready.width == pytest.approx(1.6, rel=0.1)
 
 
 def test_springs_that_would_be_crushed_are_refused():
@@ -189,10 +198,10 @@ def test_both_worlds_begin_with_the_same_places(collapse):
 
 
 def test_pile_stands_on_both_sides():
-    p = pile.Pile(disks=150, aspect=1.0, friction=0.6, rolling_friction=0.05)
+    p = pile.Pile(disks=200, aspect=1.0)
     r = pile.run(p, hard(p))
     left, right = r.repose()
-    assert r.rested and 8 < left < 40 and 8 < right < 40
+    assert r.rested and 5 < left < 35 and 5 < right < 35
     assert abs(r.series["centroid_x_m"][-1]) < 0.2 * r.width  # it falls to both sides alike, but for chance
     assert r.series["front_left_m"][-1] < -r.width < r.width < r.series["front_m"][-1]
 
@@ -269,16 +278,18 @@ def command(*arguments):
 
 
 def test_command_writes_series_summary_and_figures(tmp_path):
-    done = command("--disks", 120, "--aspect", "0.8,1.2,1.6", "--path", 0.3, "--tolerance", 1e-3, "--base", "smooth", "--out", tmp_path, "--threads", 1)
+    done = command("--disks", 150, "--aspect", "0.8,1.6", "--path", 0.3, "--tolerance", 1e-3, "--duration", 2, "--out", tmp_path, "--threads", 1)
     assert done.returncode == 0, done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
-    assert set(summary["runs"]) == {"a0.8-seed1", "a1.2-seed1", "a1.6-seed1"}
+    assert set(summary["runs"]) == {"a0.8-seed1", "a1.6-seed1"}
     for name, run in summary["runs"].items():
         series = records.read_series(tmp_path / "runs" / name / "series.csv")
         assert series["front_m"][-1] == run["front_m"] and (np.diff(series["time_s"]) > 0).all()
         assert (tmp_path / "runs" / name / "collapse.png").stat().st_size > 10_000
-    assert (tmp_path / "runout.png").stat().st_size > 10_000
-    assert summary["fits"]["runout_below"]["points"] == summary["at_rest"]
+        assert 2 <= run["time_s"] / run["fall_time_s"] < 2.1  # one record later at most
+    # two aspect ratios, still moving: no fit and no figure of it
+    assert summary["at_rest"] == 0 and not any(summary["fits"].values()) and "did not come to rest" in done.stdout
+    assert not (tmp_path / "runout.png").exists()
 
 
 @pytest.mark.parametrize("arguments, said", [

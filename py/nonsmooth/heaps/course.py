@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 
 import numpy as np
 from yade import O
@@ -51,7 +52,7 @@ class Scene:
         joined = measures.connected(x, y, r)
         left, right = measures.fronts(x, r, joined)
         kinetic = 0.5 * float(np.sum(mass * (t["vx"] ** 2 + t["vy"] ** 2 + 0.5 * (r * t["omega"]) ** 2)))
-        mean, worst = measures.overlap(x, y, r, self._walls(x, y), self._glued())
+        mean, worst = measures.overlap(x, y, r, self._walls(x, y), self._glued)
         return {"front_m": right, "front_left_m": left, "farthest_m": float(np.max(x + r)), "height_m": float(np.max(measures.surface(x, y, r, joined)[1])),
                 "centroid_x_m": float(np.average(x, weights=mass)), "centroid_y_m": float(np.average(y, weights=mass)), "energy_kinetic_J": kinetic,
                 "energy_potential_J": self.heap.gravity * float(np.sum(mass * y)), "connected_disks": int(np.count_nonzero(joined)),
@@ -68,6 +69,7 @@ class Scene:
         return [*([x - place] if "left" not in self.heap.gates() else []), *([place + width - x] if "right" not in self.heap.gates() else []),
                 *([y] if self.heap.base == "smooth" else [])]
 
+    @cached_property
     def _glued(self):
         if not self.stand.base:
             return None

@@ -27,16 +27,13 @@ def gaps(x, y, r, margin):
     return i[order], j[order], gap[order]
 
 
-def connected(x, y, r, pairs=None):
-    """Which disks belong to the mass, bool (n,): the largest set that hangs together over gaps below :data:`TOUCH` mean diameters.
+def connected(x, y, r, touch=TOUCH):
+    """Which disks belong to the mass, bool (n,): the largest set that hangs together over gaps below ``touch`` mean diameters.
 
-    A disk that rolls ahead of the others by itself does not, nor one that is in the air. ``pairs``: what :func:`gaps` found with that margin or a larger
-    one, if it is there.
+    A disk that rolls ahead of the others by itself does not, nor one that is in the air.
     """
-    margin = TOUCH * 2 * np.mean(r)
-    i, j, gap = pairs if pairs is not None else gaps(x, y, r, margin)
-    keep = gap < margin
-    graph = coo_matrix((np.ones(np.count_nonzero(keep)), (i[keep], j[keep])), shape=(len(x), len(x)))
+    i, j, _ = gaps(x, y, r, touch * 2 * np.mean(r))
+    graph = coo_matrix((np.ones(len(i)), (i, j)), shape=(len(x), len(x)))
     label = connected_components(graph, directed=False)[1]
     return label == np.argmax(np.bincount(label))
 

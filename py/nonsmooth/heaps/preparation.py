@@ -19,6 +19,7 @@ STEP = 0.05        # √(d/g)
 TOLERANCE = 1e-5
 REST_SPEED = 5e-3  # √(g d), rms; the solver creeps on at about half of it
 LIMIT = 20_000     # steps
+LOOSEST = 0.7      # packing fraction, the least that is tried
 CHUNK = 200
 ROUGH_REACH, FLOOR_REACH = 6.0, 15.0  # heights of the box beside it: glued disks, and the floor; what falls from the top at once rolls 13 in 6.5 T
 
@@ -74,7 +75,7 @@ def _settle(heap):
         made = heap.read()
         x, y, r = made.x - np.min(made.x - made.r) + heap.place(), made.y - np.min(made.y - made.r), made.r
     else:
-        made = packing.cached_pack(heap.shape().section())
+        made = _packed(heap.shape().section())
         x, y, r = made.x + heap.place(), made.y, made.r
     order = np.argsort(x, kind="stable")  # neighbours in space are neighbours in memory
     fall = math.sqrt(heap.mean_diameter() / heap.gravity)
@@ -91,6 +92,18 @@ def _settle(heap):
     found = packing.Packing(t["x"], t["y"], t["r"], np.zeros(len(x)))
     O.reset()
     return found
+
+
+def _packed(section):
+    """A packing of the box; where its disks do not fit, as in small boxes, some per cent fewer."""
+    fraction = section.disks.packing_fraction
+    while True:
+        try:
+            return packing.cached_pack(replace(section, disks=replace(section.disks, packing_fraction=fraction)))
+        except packing.PackingError:
+            fraction -= 0.02
+            if fraction < LOOSEST:
+                raise
 
 
 def put(heap, world, x, y, r, still=False):

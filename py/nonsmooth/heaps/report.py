@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from ..figures import columns as figures
-from . import scaling, study
+from . import measures, scaling, study
 from .grains import HeapError
 
-__all__ = ["CHANGES", "draw_collapse", "group", "summarise", "table"]
+__all__ = ["CHANGES", "by_front", "draw_collapse", "group", "summarise", "table"]
 
-#: Aspect ratios between the two fits: where Staron and Hinch's runout and Lube et al.'s height change.
-CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[1].change}
+#: Aspect ratios between the two fits: where Staron and Hinch's laws change.
+CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[0].change}
+GAPS, SHARES = (0.005, 0.01, 0.05, 0.2, 0.5), (0.95, 0.99)  # of other fronts
 _VALUES = {"runout": "runout_rel", "height": "final_height_rel"}
 
 
@@ -50,6 +51,31 @@ def summarise(found):
                 "change": CHANGES[name], "published": [{"source": law.source, "factor": law.pieces[k][0], "exponent": law.pieces[k][1],
                                                         "off_rel": fit.exponent / law.pieces[k][1] - 1} for law in laws]}
     return {"runs": found, "fits": fits, "at_rest": sum(run["rested"] for run in found.values())}
+
+
+def by_front(found, folders):
+    """Exponents of the runout for other fronts, a list of dictionaries with ``front`` in words, ``below`` and ``above`` (None where there is no fit).
+
+    ``folders``: {name: folder of the run}. Fronts: the connected mass over other gaps than :data:`measures.TOUCH`, and the x that holds a share of the disks' area.
+    """
+    a, rows = [], []
+    for name, run in found.items():
+        if not run["rested"]:
+            continue
+        _, places, r = study.frames(folders[name])
+        (x, y), place, width = places[-1], places[0][0].min() - r[places[0][0].argmin()], run["width_m"]
+        order = np.argsort(x)
+        share = np.cumsum(r[order] ** 2) / np.sum(r**2)
+        a.append(run["aspect"])
+        rows.append([(measures.fronts(x, r, measures.connected(x, y, r, gap))[1] - place) / width - 1 for gap in GAPS]
+                    + [(x[order][np.searchsorted(share, q)] - place) / width - 1 for q in SHARES])
+    names = [f"gaps below {100 * g:g} % of a diameter" for g in GAPS] + [f"{100 * q:g} % of the mass" for q in SHARES]
+    found = []
+    for k, name in enumerate(names):
+        values = np.array([row[k] for row in rows])
+        fits = scaling.exponents(a, values, CHANGES["runout"]) if (values > 0).all() else (None, None)
+        found.append({"front": name, **{side: None if f is None else f.exponent for side, f in zip(("below", "above"), fits)}})
+    return found
 
 
 def group(found):

@@ -67,7 +67,10 @@ def fit(a, values):
 
 
 def exponents(a, values, change):
-    """Fits below and above ``change``: a pair, with None where there are less than two aspect ratios."""
+    """Fits below and above ``change``: a pair, with None where there are less than three aspect ratios.
+
+    Two would fit any power law. Aspect ratios within 5 % of each other, as those of several seeds, count as one.
+    """
     a, values = np.asarray(a, float), np.asarray(values, float)
     parts = (a < change, a >= change)
-    return tuple(fit(a[p], values[p]) if len(np.unique(a[p])) > 1 else None for p in parts)
+    return tuple(fit(a[p], values[p]) if len(np.unique(np.rint(np.log(a[p]) / 0.05))) > 2 else None for p in parts)
