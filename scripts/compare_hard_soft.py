@@ -44,7 +44,7 @@ def read_arguments():
     parser.add_argument("--damping", type=float, default=0.2, metavar="L", help="of soft runs at rest, non-viscous (default: %(default)s, YADE's own)")
     parser.add_argument("--damping-moving", type=float, default=0.02, metavar="L", help="while the mass moves, where it would brake it (default: "
                                                                                         "%(default)s)")
-    parser.add_argument("--step-share", type=arguments.positive, default=0.5, metavar="S", help="time step of soft runs in units of its stability "
+    parser.add_argument("--step-share", type=arguments.positive, default=0.8, metavar="S", help="time step of soft runs in units of its stability "
                                                                                                 "limit (default: %(default)s)")
     parser.add_argument("--only-ensemble", action="store_true", help="leave out hard runs of other steps and tolerances, and the one of another damping")
     parser.add_argument("--cost", action="store_true", help="instead, time steps of the paper's slope (20000 disks) in both worlds on all threads, "

@@ -103,7 +103,7 @@ def _work(case):
     return 1 / case.step / case.tolerance**0.3
 
 
-def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, step_share=0.5, ensemble=None, numerics=HARD_NUMERICS, damping_run=True,
+def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, step_share=0.8, ensemble=None, numerics=HARD_NUMERICS, damping_run=True,
          model="cohesion_moment", fragile=False, bonds_run=False, options=None) -> Plan:
     """The runs of a comparison.
 

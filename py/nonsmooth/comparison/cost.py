@@ -157,7 +157,7 @@ def _bond(built, order, held):
     return number
 
 
-def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping=0.2, damping_moving=0.02, step_share=0.5, resume=False,
+def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping=0.2, damping_moving=0.02, step_share=0.8, resume=False,
         progress=lambda share, doing: None, model="cohesion_moment"):
     """Makes the states that are missing and measures both worlds, one process after the other on ``threads``; returns :func:`summarise` of it.
 
