@@ -337,3 +337,62 @@ def test_the_description_has_thresholds_and_losses(model, words):
     text = str(soft.describe(parameters(model, diameter=(1, 2))))
     for word in words:
         assert word in text
+
+
+@pytest.mark.parametrize("way, force, path", [("tension", F_A, 0.02 * LENGTH), ("shear", FRICTION * F_A, 0.03 * LENGTH)])
+def test_a_ductile_bond_yields_and_breaks_where_the_hard_one_does(way, force, path):
+    """Displacement is driven; the bond bears its threshold until the marked point leaves the ellipse."""
+    rock = dataclasses.replace(ROCK, bond_ellipse=(0.02, 0.03))
+    e = soft.equivalent(rock, E, diameter=LENGTH, damping=0.5)
+    stuff = soft.material(e)
+    O.materials.append(stuff)
+    O.bodies.append(scene.disk((0, 0), RADIUS, stuff, fixed=True))
+    body = O.bodies[O.bodies.append(scene.disk((LENGTH, 0), RADIUS, stuff))]
+    O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0), ductile=True), 0.5 * e.step_limit
+    with pytest.raises(soft.SoftError, match="BondEllipseEngine"):
+        engines, O.engines = O.engines, soft.engines(e, gravity=(0, 0, 0))
+        try:
+            soft.bond(e, fragile=False)
+        finally:
+            O.engines = engines
+    assert soft.bond(e, fragile=False) == 1
+    O.engines[-2].iterPeriod = 1
+    body.state.blockedDOFs = "xyzXYZ"
+    steps = 4000
+    born, speed = body.state.pos, 1.2 * path / (steps * O.dt)
+    for _ in range(steps):
+        x, y, _ = body.state.pos  # in shear around the other disk, so that the gap stays closed
+        body.state.vel = (speed, 0, 0) if way == "tension" else (-speed * y / LENGTH, speed * x / LENGTH, 0)
+        p = contacts()[0].phys if contacts() else None
+        if p is None or p.cohesionBroken:
+            break
+        moved, borne = (body.state.pos - born).norm(), p.normalForce.norm() if way == "tension" else p.shearForce.norm()
+        O.step()
+    assert moved == pytest.approx(path, rel=2e-3)  # a step is 3e-4 of the path
+    assert borne == pytest.approx(force, rel=1e-6 if way == "tension" else 0.01)  # steps along tangents open the gap by some 1e-6, and springs are stiff
+    assert O.engines[-2].broken == 1 and O.engines[-2].count == 0
+
+
+def test_only_moments_have_ductile_bonds():
+    e = parameters("jcfpm")
+    O.materials.append(soft.material(e))
+    O.bodies.append(scene.disk((0, 0), RADIUS, O.materials[0]))
+    O.engines = soft.engines(e)
+    with pytest.raises(soft.SoftError, match="cohesion_moment"):
+        soft.bond(e, fragile=False)
+
+
+def test_ductile_bonds_are_saved(tmp_path):
+    e = parameters()
+    stuff = soft.material(e)
+    O.materials.append(stuff)
+    O.bodies.append(scene.disk((0, 0), RADIUS, stuff, fixed=True))
+    O.bodies.append(scene.disk((LENGTH, 0), RADIUS, stuff))
+    O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0), ductile=True), 0.5 * e.step_limit
+    soft.bond(e, fragile=False)
+    O.save(str(tmp_path / "pair.yade.gz"))
+    O.load(str(tmp_path / "pair.yade.gz"))
+    assert O.engines[-2].count == 1
+    O.bodies[1].state.pos = (LENGTH * 1.05, 0, 0)  # out of the ellipse at once
+    run(O.engines[-2].iterPeriod + 2)
+    assert O.engines[-2].broken == 1 and not contacts()

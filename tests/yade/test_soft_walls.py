@@ -161,3 +161,23 @@ def test_a_wall_contact_is_saved_with_its_springs(tmp_path):
     after = next(i.phys for i in O.interactions if isinstance(i.phys, WallPhys))
     assert (after.bonded, after.rollingTorque, tuple(after.shearForce), after.length) == seen
     assert math.isfinite(after.kn) and after.kn == pytest.approx(E * RADIUS)
+
+
+def test_a_ductile_bond_to_a_wall_yields_and_breaks_at_its_ellipse():
+    e = soft.equivalent(ROCK, E, diameter=LENGTH, damping=0.5)
+    disks, wall = soft.material(e), soft.wall_material(e, WALL)
+    O.materials.append([disks, wall])
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], wall, sense=1))
+    body = O.bodies[O.bodies.append(scene.disk((0.3, RADIUS), RADIUS, disks))]
+    O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0), ductile=True), 0.5 * e.step_limit
+    assert soft.bond_walls(fragile=False) == 1
+    O.engines[-2].iterPeriod = 1
+    body.state.blockedDOFs = "xyzXYZ"
+    steps = 4000
+    body.state.vel = (0, 1.2 * 0.02 * LENGTH / (steps * O.dt), 0)
+    while any(i.isReal and i.phys.bonded for i in O.interactions):
+        height, borne = body.state.pos[1] - RADIUS, next(i for i in O.interactions if i.isReal).phys.normalForce.norm()
+        O.step()
+        assert height < 0.03 * LENGTH
+    assert height == pytest.approx(0.02 * LENGTH, rel=1e-3)  # ε_n ℓ, to a step
+    assert borne == pytest.approx(F_A, rel=1e-6)

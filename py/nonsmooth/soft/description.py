@@ -12,12 +12,12 @@ _ALWAYS = (
     "rigidity: contacts yield before they reach a threshold, and disks overlap by N/k_n",
     "restitution: a spring gives speed back, less what damping takes; in the hard law e alone decides",
     "free motion: damping takes the part λ of every force that speeds a disk up, so disks fall with (1 − λ) g",
-    "walls: no elliptic zone and no residual tensile strength",
+    "walls: no residual tensile strength, and no elliptic zone where bonds are fragile",
     "residual tensile strength σ_res: a contact that is not bonded bears no tension, and the parts μ_s σ_res ℓ and μ_r ℓ σ_res ℓ of its other "
     "thresholds are missing",
 )
 _BONDED = (
-    "elliptic zone: a bond breaks when its threshold is reached, after its elastic elongation, and not after a path of ε_n ℓ or ε_t ℓ at the "
+    "elliptic zone: a fragile bond breaks when its threshold is reached, after its elastic elongation, and not after a path of ε_n ℓ or ε_t ℓ at the "
     "threshold; the energy of a break is smaller",
     "softening by steps: a contact keeps the peak friction of its broken bond until soft.weaken() is called",
 )
