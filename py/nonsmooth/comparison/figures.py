@@ -176,7 +176,7 @@ def cost_and_overlap(panels, path):
     at equal overlap (None: not known).
     """
     fig = style.figure(11, 4.8, layout="constrained")
-    for ax, (title, hard, soft, factor) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
+    for ax, (title, hard, soft, factor) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels):
         x, y = [s["overlap_mean_rel"] for s in soft], [s["rate"] for s in soft]
         ax.plot(x, y, color=SOFT, marker=MARKS["soft"], label="soft")
         for s in soft:
@@ -206,7 +206,7 @@ def work_precision(panels, chance, path):
     ``panels``: list of (title, hard, soft), each a list of (wall [s], error, label); ``chance``: scatter, NaN or None where unknown.
     """
     fig = style.figure(11, 5.2, layout="constrained")
-    for ax, (title, hard, soft) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharey=True)), panels):
+    for ax, (title, hard, soft) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels):
         for world, points, colour in (("hard", hard, HARD), ("soft", soft, SOFT)):
             points = [p for p in points if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
             ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world], ms=7, label=world)
