@@ -46,7 +46,8 @@ def read_arguments():
                                                                                         "%(default)s)")
     parser.add_argument("--step-share", type=arguments.positive, default=0.8, metavar="S", help="time step of soft runs in units of its stability "
                                                                                                 "limit (default: %(default)s)")
-    parser.add_argument("--only-ensemble", action="store_true", help="leave out hard runs of other steps and tolerances, and the one of another damping")
+    parser.add_argument("--without", nargs="+", choices=course.PARTS, default=[], metavar="PART",
+                        help="leave out: numerics (hard runs of other steps and tolerances), damping, bonds (one soft run each)")
     parser.add_argument("--cost", action="store_true", help="instead, time steps of the paper's slope (20000 disks) in both worlds on all threads, "
                                                             "one process after the other")
     parser.add_argument("--steps", type=int, default=300, metavar="N", help="with --cost: steps that are timed (default: %(default)s)")
@@ -103,7 +104,7 @@ def main():
         summary, questions = course.compare(
             args.scenario, out, args.seeds, disks=args.disks, source=args.source, stiffnesses=args.stiffness, ensemble=args.ensemble_stiffness,
             model=args.model, damping=args.damping,
-            damping_moving=args.damping_moving, step_share=args.step_share, fragile=args.bonds == "fragile", short=args.only_ensemble, threads=args.threads, resume=args.resume,
+            damping_moving=args.damping_moving, step_share=args.step_share, fragile=args.bonds == "fragile", without=args.without, threads=args.threads, resume=args.resume,
             progress=progress,
             options=options_of(args))
     tell(questions)

@@ -183,7 +183,7 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
 def compared(source, tmp_path_factory):
     """Two seeds, two stiffnesses, a few seconds of simulation each."""
     out = tmp_path_factory.mktemp("compared")
-    told, questions = course.compare("slope", out, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=2, short=True,
+    told, questions = course.compare("slope", out, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=2, without=course.PARTS,
                                      options={"end": 1.0})
     return out, told, questions
 
@@ -225,7 +225,7 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     gone = copy / "runs" / "soft-1e07Pa-seed1" / "result.json"
     gone.unlink()
     before = {path: path.stat().st_mtime_ns for path in copy.glob("runs/*/result.json")}
-    again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, short=True,
+    again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, without=course.PARTS,
                               options={"end": 1.0}, resume=True)
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()
     values = {run["name"]: run["values"] for run in told["runs"]}

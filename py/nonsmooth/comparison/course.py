@@ -11,20 +11,22 @@ from ..packing_files import write_atomically
 from . import answers, biaxial_report, biaxials, collapse_report, collapses, report, runs, slope_report, slopes, summary
 from .cases import HARD_NUMERICS, ComparisonError, plan
 
-__all__ = ["SCENARIOS", "compare"]
+__all__ = ["PARTS", "SCENARIOS", "compare"]
 
 #: Experiment and report of each scenario.
 SCENARIOS = {"slope": (slopes, slope_report), "biaxial": (biaxials, biaxial_report), "column": (collapses.COLUMN, collapse_report),
              "pile": (collapses.PILE, collapse_report)}
+#: Parts of the plan that a comparison can do without, see :mod:`cases`.
+PARTS = ("numerics", "damping", "bonds")
 COST_QUESTION = "Which costs less at equal accuracy, and by what factor?"
 
 
 def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, threads=1, resume=False, progress=lambda share, doing: None,
-            short=False, options=None, **plan_options):
+            without=(), options=None, **plan_options):
     """Runs all cases that are not kept, writes ``summary.json`` and ``report.html`` into ``out``; returns the summary and the answered questions.
 
-    ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``short``: neither hard runs of other numerics nor those of another
-    damping and of other bonds; ``plan_options``: of cases.plan. Raises ComparisonError before anything runs for arguments that cannot be used, and after all runs have
+    ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``without``: names from PARTS that
+    are left out; ``plan_options``: of cases.plan. Raises ComparisonError before anything runs for arguments that cannot be used, and after all runs have
     ended where one failed.
     """
     began, out = time.monotonic(), Path(out)
@@ -38,9 +40,10 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
         plan_options["damping_moving"] = None
     if stiffnesses is None and plan_options.get("ensemble") is None:
         plan_options["ensemble"] = experiment.ENSEMBLE_STIFFNESS
-    short_options = dict(numerics=HARD_NUMERICS[-1:], damping_run=False) if short else dict(bonds_run=experiment.BONDS)
+    parts = dict(numerics=HARD_NUMERICS[-1:] if "numerics" in without else HARD_NUMERICS, damping_run="damping" not in without,
+                 bonds_run=experiment.BONDS and "bonds" not in without)
     chosen = plan(source or experiment.SOURCE, disks, seeds, stiffnesses or experiment.DEFAULT_STIFFNESSES, options=options,
-                  **{**plan_options, **short_options})
+                  **{**plan_options, **parts})
     cases = chosen.cases
     for case in {c.seed: c for c in cases}.values():
         progress(0.0, f"packing of seed {case.seed}")
