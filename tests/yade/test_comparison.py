@@ -203,7 +203,7 @@ def test_summary_and_report(compared):
     # and the stable step goes with 1/√E: √10 times as many steps, rounded to rows
     assert soft["cost"]["steps"] / softer["cost"]["steps"] == pytest.approx(math.sqrt(10), rel=0.1)
     page = (out / "report.html").read_text()
-    assert page.index("Do both models fail") < page.index("<h2>") and "http" not in page.replace("http://www.w3.org",
+    assert page.index("Do both models fail") < page.index("<h2>") and "://" not in page.replace("http://www.w3.org",
         "") and page.count("data:image/png") >= 10
     assert [q[0] for q in questions] == ["Do both models fail at the same water table and run out as far, within the scatter over seeds?",
                                          course.COST_QUESTION]
