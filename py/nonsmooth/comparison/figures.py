@@ -61,7 +61,7 @@ def deposits_overlaid(hard, soft, begin, walls, share, path):
     if begin is not None:
         ax.add_patch(_patch(begin, fc="none", ec=INK, lw=0.9, ls=(0, (4, 2)), zorder=3))
         handles.append(Patch(fc="none", ec=INK, ls="--", label="before"))
-    style.scale_bar(ax, 0.97, 0.06, 0.15)
+    style.scale_bar(ax, 0.2, 0.06, 0.15)  # in the ground, where no deposit comes
     fig.legend(handles=handles, loc="upper center", ncol=len(handles))
     return style.save(fig, path)
 
