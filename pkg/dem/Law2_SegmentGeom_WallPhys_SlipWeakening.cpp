@@ -14,11 +14,7 @@ namespace {
 	Strengths strengths(const WallPhys& phys, Real left)
 	{
 		Strengths s { phys.bonded ? phys.tensileForce : 0, phys.bonded ? phys.friction : phys.residualFriction, phys.bonded ? phys.rollingArm : phys.residualRollingArm };
-		if (const auto* weak = phys.wallMaterial.get()) {
-			const auto weakened = [left](Real strong, Real final) { return strong > final ? final + (strong - final) * left : strong; };
-			s.adhesion          = weakened(s.adhesion, weak->weakenedTensileStrength * phys.length);
-			s.friction          = weakened(s.friction, std::tan(weak->weakenedFrictionAngle));
-		}
+		if (phys.wallMaterial) phys.wallMaterial->weaken(s.adhesion, s.friction, phys.length, left);
 		return s;
 	}
 }

@@ -11,10 +11,10 @@
 // strength; a disk that passes a joint of two segments begins with relaxed springs on the next one, and a bond there stays with its segment.
 #pragma once
 
+#include "Segment.hpp"
 #include "WallPhys.hpp"
 #include <core/Dispatching.hpp>
 #include <mutex>
-#include "Segment.hpp"
 
 namespace yade {
 

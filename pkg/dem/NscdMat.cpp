@@ -37,6 +37,13 @@ Real SlipWeakeningMat::remaining(Body::id_t id) const
 	return nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);
 }
 
+void SlipWeakeningMat::weaken(Real& adhesion, Real& friction, Real length, Real left) const
+{
+	const auto weakened = [left](Real strong, Real weak) { return strong > weak ? weak + (strong - weak) * left : strong; };
+	adhesion            = weakened(adhesion, weakenedTensileStrength * length);
+	friction            = weakened(friction, std::tan(weakenedFrictionAngle));
+}
+
 void SlipWeakeningMat::addSlip(Body::id_t id, Real distance)
 {
 	if (id >= (Body::id_t)slip.size()) slip.resize(id + 1, 0.);

@@ -37,11 +37,18 @@ not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that 
 };
 REGISTER_SERIALIZABLE(NscdMat);
 
+namespace nscd {
+	/// A residual value of a material; negative ones stand for the peak.
+	inline Real residual(Real value, Real peak) { return value < 0 ? peak : value; }
+}
+
 /// Wall whose strength is a function of slip; keeps the slip of every body along it, over all its segments.
 class SlipWeakeningMat : public NscdMat {
 public:
 	virtual ~SlipWeakeningMat() = default;
 	void validate() const override;
+	/// Lowers the adhesion [N] and the friction of a contact of length ℓ [m] whose share `left` of the strength remains, see remaining.
+	void weaken(Real& adhesion, Real& friction, Real length, Real left) const;
 	/// What is left of the strength that slip takes away, for body `id`: 1 is all, 0 is none.
 	Real remaining(Body::id_t id) const;
 	Real slipOf(Body::id_t id) const { return id < (Body::id_t)slip.size() ? slip[id] : 0; }

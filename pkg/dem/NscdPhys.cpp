@@ -20,10 +20,7 @@ void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)
 {
 	NscdPhys::updateThresholds(gap, adhesionRange);
-	const Real left      = wallMaterial->remaining(body);
-	const auto weakened  = [left](Real strong, Real weak) { return strong > weak ? weak + (strong - weak) * left : strong; };
-	adhesion             = weakened(adhesion, wallMaterial->weakenedTensileStrength * length);
-	currentFriction      = weakened(currentFriction, std::tan(wallMaterial->weakenedFrictionAngle));
+	wallMaterial->weaken(adhesion, currentFriction, length, wallMaterial->remaining(body));
 	tangensOfFrictionAngle = currentFriction;
 }
 
@@ -37,7 +34,6 @@ namespace nscd {
 		if (s1 || s2) return 2 * (s1 ? s1 : s2)->radius;
 		throw std::invalid_argument("Ip2_NscdMat_NscdMat_NscdPhys: one of two bodies in contact must be a Sphere");
 	}
-	inline Real residual(Real value, Real peak) { return value < 0 ? peak : value; }
 }
 
 void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)

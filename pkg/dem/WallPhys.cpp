@@ -15,7 +15,6 @@ void Ip2_NscdMat_FrictMat_WallPhys::go(const shared_ptr<Material>& m1, const sha
 	const auto& disk   = static_cast<const FrictMat&>(*m2);
 	const Real  radius = static_cast<const GenericSpheresContact&>(*interaction->geom).refR2;
 	const auto  paired = [radius](Real a, Real b) { return a + b > 0 ? 2 * radius * a * b / (a + b) : Real(0); };
-	const auto  or_    = [](Real value, Real peak) { return value < 0 ? peak : value; };
 
 	const auto phys          = boost::make_shared<WallPhys>();
 	phys->length             = 2 * radius;
@@ -24,9 +23,9 @@ void Ip2_NscdMat_FrictMat_WallPhys::go(const shared_ptr<Material>& m1, const sha
 	phys->kr                 = rollingRatio * phys->ks * radius * radius;
 	phys->tensileForce       = wall.tensileStrength * phys->length;
 	phys->friction           = std::tan(wall.frictionAngle);
-	phys->residualFriction   = std::tan(or_(wall.residualFrictionAngle, wall.frictionAngle));
+	phys->residualFriction   = std::tan(nscd::residual(wall.residualFrictionAngle, wall.frictionAngle));
 	phys->rollingArm         = wall.rollingFriction * phys->length;
-	phys->residualRollingArm = or_(wall.residualRollingFriction, wall.rollingFriction) * phys->length;
+	phys->residualRollingArm = nscd::residual(wall.residualRollingFriction, wall.rollingFriction) * phys->length;
 	phys->body               = interaction->getId2();
 	phys->wallMaterial       = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1);
 	phys->tangensOfFrictionAngle = phys->residualFriction;

@@ -10,11 +10,11 @@ from dataclasses import asdict
 import numpy as np
 
 from .. import records
+from ..kept_runs import Progress
 from ..laboratory import biaxial, materials, pressing, strength
 from ..packing_files import cache_folder
 from .cases import Case
 from .outcomes import Cost, Outcome, Quantity
-from .runs import Progress
 from .slopes import forces_of
 
 __all__ = ["CURVES", "DEFAULT_STIFFNESSES", "KEYS", "QUANTITIES", "measure", "prepare", "run", "test_of"]

@@ -26,5 +26,3 @@ def sections(out, scenario, plan, outcomes, summary):
     if plan.damping is not None:
         made.append(common.damping_section(folder, plan, outcomes, "time since the release [s]"))
     return made
-
-

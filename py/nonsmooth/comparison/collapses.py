@@ -7,9 +7,9 @@ import math
 
 import numpy as np
 
+from ..kept_runs import Progress
 from .cases import Case
 from .outcomes import Cost, Outcome, Quantity
-from .runs import Progress
 
 __all__ = ["COLUMN", "PILE", "Collapse"]
 

@@ -23,8 +23,8 @@ import numpy as np
 from .. import checkpoints
 from ..benchmark import machine
 from ..benchmark.course import Course
+from ..kept_runs import keep, kept
 from . import precision
-from .runs import keep, kept
 from .summary import ROCK_STIFFNESS, clean
 
 __all__ = ["STATES", "STIFFNESSES", "measure_hard", "measure_soft", "run", "summarise"]
@@ -110,7 +110,6 @@ def _found(dt, steps, walls, overlaps, contacts, speed):
     # the median of the blocks, so that what else the machine did for a moment does not count
     wall = float(np.median(walls))
     return {"time_step_s": dt, "steps": steps, "wall_s_per_step": wall, "wall_s_per_step_blocks": walls, "rate": wall / dt,
-            
             "overlap_mean_rel": float(np.mean([mean for mean, _ in overlaps])), "overlap_worst_rel": float(np.max([worst for _, worst in overlaps])),
             "contacts": contacts, "mean_speed_m_per_s": speed}
 

@@ -67,7 +67,7 @@ def deposits_overlaid(hard, soft, begin, walls, share, path):
 
 
 @style.styled
-def courses(groups, columns, abscissa, path, marks=()):
+def courses(groups, columns, abscissa, path):
     """Curves of many runs, one panel a column.
 
     ``groups``: list of (label, colour, list of {name: array}); runs of a group have one colour, the first line of it the label. ``columns``: list of (name,

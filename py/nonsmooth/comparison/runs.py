@@ -6,22 +6,17 @@ longer than alone.
 
 from __future__ import annotations
 
-import json
 import shutil
 import threading
-import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
 
 from .. import checkpoints, processes
-from ..packing_files import write_atomically
+from ..kept_runs import NOTE_SECONDS, keep, kept, share
 from .cases import ComparisonError
 
-__all__ = ["Progress", "folder_of", "found_of", "keep", "kept", "run"]
-
-NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
-
+__all__ = ["folder_of", "found_of", "run"]
 
 def folder_of(case, out) -> Path:
     """Where a case's records are."""
@@ -37,24 +32,10 @@ def found_of(function, case, out):
     return kept(folder_of(case, out), _key(function, case))
 
 
-def kept(folder, key):
-    """The result that :func:`keep` wrote, None where there is none of this key."""
-    try:
-        content = json.loads((Path(folder) / "result.json").read_text())
-        return content["found"] if content["key"] == key else None
-    except (OSError, ValueError, KeyError):
-        return None
-
-
-def keep(folder, key, found):
-    """Writes the result of a run, with a key that tells what it is of."""
-    write_atomically(Path(folder) / "result.json", json.dumps({"key": key, "found": found}, indent=1).encode())
-
-
 def run(function, cases, out, threads, resume=False, progress=lambda share, doing: None):
     """Calls ``function(folder, **case)`` for every case; returns what each returned, in their order.
 
-    ``function``: of a module of this package, see processes.call; it may write the share done with :class:`Progress`. ``resume``: keep what has finished.
+    ``function``: of a module of this package, see processes.call; it may write the share done with :class:`~yade.nonsmooth.kept_runs.Progress`. ``resume``: keep what has finished.
     ``progress``: called with the share done and what is being done. Raises ComparisonError with the first failure after all others have ended.
     """
     cases = list(cases)
@@ -96,26 +77,5 @@ def _failure(case, out, error):
 
 def _watch(folders, progress, ended):
     while not ended.wait(NOTE_SECONDS):
-        shares = [_share(folder) for folder in folders]
+        shares = [share(folder) for folder in folders]
         progress(sum(shares) / len(shares), f"{sum(s >= 1 for s in shares)} of {len(shares)} runs done")
-
-
-def _share(folder):
-    if (folder / "result.json").exists():
-        return 1.0
-    try:
-        return min(0.99, float((folder / "progress").read_text()))
-    except (OSError, ValueError):
-        return 0.0
-
-
-class Progress:
-    """Notes the share done in a run's folder, now and then."""
-
-    def __init__(self, folder):
-        self._path, self._shown = Path(folder) / "progress", 0.0
-
-    def __call__(self, share):
-        if time.monotonic() - self._shown > NOTE_SECONDS:
-            write_atomically(self._path, f"{share:.4f}".encode())
-            self._shown = time.monotonic()

@@ -10,9 +10,9 @@ import numpy as np
 
 from .. import packing, records, results, section
 from ..figures.profiles import deposit_profile
+from ..kept_runs import Progress
 from .cases import Case
 from .outcomes import Cost, Outcome, Quantity
-from .runs import Progress
 
 __all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "forces_of", "measure", "prepare", "run", "section_of"]
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import io
-import json
 import shutil
-import time
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from .. import checkpoints, processes, records
+from .. import checkpoints, kept_runs, processes, records
 from ..packing_files import write_atomically
 from .column import Column
 from .grains import PATH_PER_STEP, HeapError
@@ -52,15 +50,8 @@ def one(folder, kind, heap, world, duration):
     """
     from . import course
 
-    folder, shown = Path(folder), [0.0]
-    made = KINDS[kind](**heap)
-
-    def progress(share):
-        if time.monotonic() - shown[0] > 1:
-            shown[0] = time.monotonic()
-            (folder / "progress").write_text(f"{share:.4f}")
-
-    result = course.run(made, world_of(made, **world), duration, progress=progress)
+    folder, made = Path(folder), KINDS[kind](**heap)
+    result = course.run(made, world_of(made, **world), duration, progress=kept_runs.Progress(folder))
     with records.SeriesWriter(folder / "series.csv", course.COLUMNS, overwrite=True) as series:
         for row in zip(*(result.series[name].tolist() for name in course.COLUMNS)):
             series.write(dict(zip(course.COLUMNS, row)))
@@ -93,13 +84,13 @@ def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda shar
     def do(name):
         heap, world = cases[name]
         folder, key = home / name, key_of(heap, world, duration)
-        kept = _kept(folder, key)
+        kept = kept_runs.kept(folder, key)
         if kept is not None:
             return kept
         folder.mkdir(parents=True, exist_ok=True)
         kind = next(k for k, v in KINDS.items() if type(heap) is v)
         found = processes.call(one, folder, {"kind": kind, "heap": asdict(heap), "world": world, "duration": duration})
-        write_atomically(folder / "result.json", json.dumps({"key": key, "found": found}, indent=1).encode())
+        kept_runs.keep(folder, key, found)
         return found
 
     with ThreadPoolExecutor(max(1, threads)) as pool:
@@ -107,23 +98,8 @@ def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda shar
         left = set(futures.values())
         while left:
             left = wait(left, timeout=1).not_done
-            progress(sum(work[n] * (1.0 if f.done() else _share(home / n)) for n, f in futures.items()) / sum(work.values()))
+            progress(sum(work[n] * (1.0 if f.done() else kept_runs.share(home / n)) for n, f in futures.items()) / sum(work.values()))
     failures = [f"{name}: {error}" for name, f in futures.items() if (error := f.exception())]
     if failures:
         raise HeapError(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""))
     return {name: futures[name].result() for name in cases}
-
-
-def _kept(folder, key):
-    try:
-        content = json.loads((folder / "result.json").read_text())
-        return content["found"] if content["key"] == key else None
-    except (OSError, ValueError, KeyError):
-        return None
-
-
-def _share(folder):
-    try:
-        return float((folder / "progress").read_text())
-    except (OSError, ValueError):
-        return 0.0

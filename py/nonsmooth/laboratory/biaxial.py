@@ -22,7 +22,7 @@ from yade import O
 
 from .. import checkpoints, records, section, tables
 from ..errors import UserError
-from ..packing_files import write_atomically
+from ..kept_runs import Progress
 from . import membrane, pressing, sample
 from .walls import Walls
 
@@ -237,15 +237,7 @@ def run(folder, **plain):
     """
     test, folder = Test.of(plain), Path(folder)
     course = Course.resume(test, folder) if checkpoints.exists(folder) else Course.begin(test, folder)
-    shown = 0.0
-
-    def progress(share):
-        nonlocal shown
-        if time.monotonic() - shown > 1:
-            write_atomically(folder / "progress", f"{share:.4f}".encode())
-            shown = time.monotonic()
-
-    course.run(progress)
+    course.run(Progress(folder))
     s, engine = course.state, course.sample.engine
     steps = O.iter - s["begin"]
     return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "height_m": s["height"], "width_m": s["width"],

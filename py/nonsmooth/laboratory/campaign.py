@@ -12,9 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import processes, records
+from .. import kept_runs, processes, records
 from ..errors import UserError
-from ..packing_files import write_atomically
 from . import bands, biaxial, pressing, strength
 
 BAND_AT = "4"  # snapshot (strain in per cent) in which bands are measured: after the peak, before they have spread
@@ -78,26 +77,17 @@ def _press(shapes, home, threads, progress):
 
 
 def _one(test, folder):
-    key, path = biaxial.key_of(test), folder / "result.json"
-    try:
-        if json.loads(path.read_text())["key"] == key:
-            return
-    except (OSError, ValueError, KeyError):
-        pass
+    key = biaxial.key_of(test)
+    if kept_runs.kept(folder, key) is not None:
+        return
     found = processes.call(biaxial.run, folder, asdict(test))
     shutil.rmtree(folder / "checkpoint", ignore_errors=True)
-    write_atomically(path, json.dumps({"key": key, "test": asdict(test), "found": found}, indent=1).encode())
+    kept_runs.keep(folder, key, found, test=asdict(test))
 
 
 def _watch(folders, progress, ended):
     while not ended.wait(1.0):
-        done = 0.0
-        for folder in folders:
-            try:
-                done += 1.0 if (folder / "result.json").exists() else float((folder / "progress").read_text())
-            except (OSError, ValueError):
-                pass
-        progress(done / len(folders), f"{len(folders)} test{'s' if len(folders) > 1 else ''}")
+        progress(sum(map(kept_runs.share, folders)) / len(folders), f"{len(folders)} test{'s' if len(folders) > 1 else ''}")
 
 
 def measure(test, folder):

@@ -1,0 +1,50 @@
+"""Runs in folders of their own: how far one is, and the result that it keeps, so that a resume does not repeat it."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+
+from .packing_files import write_atomically
+
+__all__ = ["Progress", "keep", "kept", "share"]
+
+NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
+
+
+class Progress:
+    """Notes the share done in a run's folder, once in :data:`NOTE_SECONDS` at most."""
+
+    def __init__(self, folder):
+        self._path, self._shown = Path(folder) / "progress", 0.0
+
+    def __call__(self, done):
+        if time.monotonic() - self._shown > NOTE_SECONDS:
+            write_atomically(self._path, f"{done:.4f}".encode())
+            self._shown = time.monotonic()
+
+
+def share(folder):
+    """Share of a run that is done: 1 where its result is there, else what :class:`Progress` noted last, at most 0.99."""
+    folder = Path(folder)
+    if (folder / "result.json").exists():
+        return 1.0
+    try:
+        return min(0.99, float((folder / "progress").read_text()))
+    except (OSError, ValueError):
+        return 0.0
+
+
+def keep(folder, key, found, **more):
+    """Writes the result of a run, with a key that tells what it is of; ``more``: what else is to stand there."""
+    write_atomically(Path(folder) / "result.json", json.dumps({"key": key, **more, "found": found}, indent=1).encode())
+
+
+def kept(folder, key):
+    """The result that :func:`keep` wrote, None where there is none of this key."""
+    try:
+        content = json.loads((Path(folder) / "result.json").read_text())
+        return content["found"] if content["key"] == key else None
+    except (OSError, ValueError, KeyError):
+        return None
