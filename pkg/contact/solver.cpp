@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <contact/contact_blocks.hpp>
 #include <contact/law.hpp>
 #include <contact/solver.hpp>
+#include <contact/strip_schedule.hpp>
 #include <omp.h>
 #include <stdexcept>
 #include <string>
@@ -61,6 +63,12 @@ namespace {
 		Impulse     inverse;   // 1/W_nn, 1/W_tt, 1/W_rr
 	};
 
+	/// Few contacts are not worth waking threads for.
+	int threadsFor(const Problem& problem, const SolverSettings& settings)
+	{
+		return problem.contactCount() < 1000 ? 1 : std::max(1, settings.threads);
+	}
+
 	class Sweeper {
 	public:
 		Sweeper(Problem& problem, const SolverSettings& settings, Workspace& workspace);
@@ -79,13 +87,13 @@ namespace {
 		Twist twistAt(std::int32_t place) const { return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] }; }
 		Twist twist(std::int32_t body) const { return twistAt(laidOut.placeOf[body]); }
 		void  setTwists(const Row& row, const Twist& vi, const Twist& vj);
-		template <class Visit> void forEachStrip(Visit visit);
 
 		Problem&                  problem;
 		const SolverSettings&     settings;
 		const BlockKernels&       kernels;
 		const int                 threads;
 		ContactBlocks&            laidOut;
+		StripSchedule             schedule;
 		std::vector<Row>          rows;
 		std::vector<Motion>&      bodies; // by place; the last one is nobody
 		std::vector<Motion>&      bodiesBefore;
@@ -100,7 +108,7 @@ namespace {
 	        : problem(problem_)
 	        , settings(settings_)
 	        , kernels(settings_.portable ? portableKernels() : bestKernels())
-	        , threads(problem_.contactCount() < 1000 ? 1 : std::max(1, settings_.threads))
+	        , threads(threadsFor(problem_, settings_))
 	        , laidOut(workspace.laidOut)
 	        , bodies(workspace.bodies)
 	        , bodiesBefore(workspace.bodiesBefore)
@@ -122,18 +130,6 @@ namespace {
 		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
 		statistics.strips = static_cast<int>(laidOut.stripCount());
-	}
-
-	/// Calls visit(strip) for all even strips, then for all odd ones; inside a parallel region.
-	template <class Visit> void Sweeper::forEachStrip(Visit visit)
-	{
-		const long half = static_cast<long>(laidOut.order.evenStrips), count = static_cast<long>(laidOut.stripCount());
-#pragma omp for schedule(dynamic, 1)
-		for (long s = 0; s < half; ++s)
-			visit(static_cast<std::size_t>(s));
-#pragma omp for schedule(dynamic, 1)
-		for (long s = half; s < count; ++s)
-			visit(static_cast<std::size_t>(s));
 	}
 
 	/// Leaves fixed bodies alone, which several threads may visit.
@@ -160,7 +156,7 @@ namespace {
 			const Twist&       v = problem.freeVelocity[b];
 			bodies[k].v          = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
 		}
-		forEachStrip([this](std::size_t s) {
+		schedule.pass(omp_get_thread_num(), [this](std::size_t s) {
 			kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 				const Row& row = rows[k];
@@ -169,6 +165,7 @@ namespace {
 				setTwists(row, vi, vj);
 			}
 		});
+#pragma omp barrier
 	}
 
 	/// Any contact, one after the other of its three graphs.
@@ -183,10 +180,10 @@ namespace {
 		setTwists(row, vi, vj);
 	}
 
-	/// One sweep from what impulses and velocities become when they are extrapolated by beta.
+	/// One sweep from what impulses and velocities become when they are extrapolated by beta; returns without waiting for the other threads.
 	void Sweeper::sweep(double beta)
 	{
-		forEachStrip([this, beta](std::size_t s) {
+		schedule.pass(omp_get_thread_num(), [this, beta](std::size_t s) {
 			if (s < laidOut.order.evenStrips && settings.method == Method::Accelerated) {
 				// a strip in the first half is the first to touch its own bodies and those of the next one
 				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.stripCount())];
@@ -213,13 +210,13 @@ namespace {
 	/// Natural-map residual with the present velocities, summed strip by strip.
 	void Sweeper::measure()
 	{
-		const long count = static_cast<long>(sums.size());
-#pragma omp for schedule(static)
-		for (long s = 0; s < count; ++s) {
+#pragma omp barrier
+		schedule.each(omp_get_thread_num(), [this](std::size_t s) {
 			const std::size_t begin = laidOut.blockBegin[s];
 			sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
 			measureRows(s, sums[s]);
-		}
+		});
+#pragma omp barrier
 #pragma omp single
 		{
 			ResidualSums all;
@@ -332,6 +329,8 @@ namespace {
 	{
 #pragma omp parallel num_threads(threads)
 		{
+#pragma omp single
+			schedule.plan(laidOut.order.stripBegin, laidOut.order.evenStrips, omp_get_num_threads());
 			resetVelocities();
 			iterate();
 			finish();
@@ -342,7 +341,7 @@ namespace {
 		return statistics;
 	}
 
-	void check(const Problem& problem)
+	void check(const Problem& problem, int threads)
 	{
 		if (problem.freeVelocity.size() != problem.bodyCount())
 			throw std::invalid_argument("contact problem: freeVelocity has " + std::to_string(problem.freeVelocity.size()) + " entries for "
@@ -356,23 +355,30 @@ namespace {
 			if (!std::isfinite(v.x + v.y + v.w + m.x + m.y + m.w))
 				throw std::invalid_argument("contact problem: body " + std::to_string(b) + " has a velocity or mass that is not finite");
 		}
-		const auto bodies = static_cast<std::int32_t>(problem.bodyCount());
-		for (const Contact& c : problem.contacts)
-			if (const Impulse& p = problem.impulses[&c - problem.contacts.data()];
-			    c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies
-			    || !std::isfinite(
-			            c.nx + c.ny + c.leverNi + c.leverTi + c.leverNj + c.leverTj + c.biasN + c.biasT + c.biasR + c.adhesion + c.friction
-			            + c.rollingArm + c.length + p.n + p.t + p.r))
-				throw std::invalid_argument(
-				        "contact problem: contact " + std::to_string(&c - problem.contacts.data()) + " between bodies " + std::to_string(c.i)
-				        + " and " + std::to_string(c.j) + " has an index out of range or a number that is not finite");
+		const auto unusable = [bodies = static_cast<std::int32_t>(problem.bodyCount())](const Contact& c, const Impulse& p) {
+			return c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies
+			        || !std::isfinite(
+			                c.nx + c.ny + c.leverNi + c.leverTi + c.leverNj + c.leverTj + c.biasN + c.biasT + c.biasR + c.adhesion + c.friction
+			                + c.rollingArm + c.length + p.n + p.t + p.r);
+		};
+		const long count = static_cast<long>(problem.contactCount());
+		long       bad   = count; // the first one, found by threads, which must not throw
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
+		for (long k = 0; k < count; ++k)
+			if (unusable(problem.contacts[k], problem.impulses[k])) bad = std::min(bad, k);
+		if (bad < count) {
+			const Contact& c = problem.contacts[bad];
+			throw std::invalid_argument(
+			        "contact problem: contact " + std::to_string(bad) + " between bodies " + std::to_string(c.i) + " and " + std::to_string(c.j)
+			        + " has an index out of range or a number that is not finite");
+		}
 	}
 
 } // namespace
 
 SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace)
 {
-	check(problem);
+	check(problem, threadsFor(problem, settings));
 	Workspace own;
 	return Sweeper(problem, settings, workspace ? *workspace : own).run();
 }

@@ -2,6 +2,8 @@
 #include "BondEllipse.hpp"
 #include "Gravity.hpp"
 #include "NonsmoothTimeStepper.hpp"
+#include "NscdInteractionLoop.hpp"
+#include "PorePressureEngine.hpp"
 #include <chrono>
 #include <contact/problem_file.hpp>
 #include <core/TimeStepper.hpp>
@@ -23,7 +25,7 @@ void ContactDynamicsEngine::action()
 	const int  threads = threadCount();
 
 	const Real t0 = clock();
-	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads);
+	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads, readings());
 	warmStart       = seam.problem.impulses;
 	stepSolved      = scene->dt;
 	const Real t1         = clock();
@@ -39,6 +41,21 @@ void ContactDynamicsEngine::action()
 	account(seam.scatter(*scene, gravity, threads, adapts));
 	report(statistics);
 	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
+}
+
+/// What NscdInteractionLoop read in this step; null where an engine that may have changed contacts stands between, or where a script may have.
+const nscd::Readings* ContactDynamicsEngine::readings() const
+{
+	if (scene->subStepping) return nullptr;
+	const NscdInteractionLoop* loop = nullptr;
+	for (const auto& engine : scene->engines) {
+		if (engine.get() == this) break;
+		if (const auto* found = dynamic_cast<const NscdInteractionLoop*>(engine.get())) loop = found;
+		else if (!engine->dead && !dynamic_cast<const PorePressureEngine*>(engine.get()))
+			loop = nullptr;
+	}
+	const nscd::Readings* found = loop ? loop->readingsOf(scene->iter) : nullptr;
+	return found && found->ids.size() == scene->interactions->size() ? found : nullptr;
 }
 
 int ContactDynamicsEngine::threadCount() const

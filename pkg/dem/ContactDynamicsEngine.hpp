@@ -113,6 +113,7 @@ private:
 	void                                 recordBreaks();
 	void                                 report(const nonsmooth::contact::SolverStatistics& statistics);
 	int                                  threadCount() const;
+	const nscd::Readings*                readings() const;
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;

@@ -23,19 +23,23 @@ namespace {
 	}
 }
 
-void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount)
+void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount, const Readings* readings)
 {
 	relaxation = how;
 	threads    = threadCount;
 	iteration  = scene.iter;
 	gatherBodies(scene, gravity);
-	collect(scene);
-	const long count = (long)links.size();
+	if (scene.iter % tidyPeriod == 0) tidy(scene);
+	if (!readings) readAll(scene);
+	const Readings& read = readings ? *readings : own;
+	arrange(read, scene.bodies->size());
+	const long count = (long)ordered.size();
+	links.resize(count);
 	problem.contacts.resize(count);
 	problem.impulses.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k)
-		gatherContact(scene, k);
+		gatherContact(scene, read, k);
 	compact();
 }
 
@@ -101,16 +105,6 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	}
 }
 
-namespace {
-	/// The cohesive physics of an interaction, null if it has another; the usual two classes are recognised without a search.
-	NscdPhys* physOf(IPhys& phys)
-	{
-		const auto& type = typeid(phys);
-		if (type == typeid(NscdPhys) || type == typeid(SlipWeakeningPhys)) return static_cast<NscdPhys*>(&phys);
-		return dynamic_cast<NscdPhys*>(&phys);
-	}
-}
-
 /// Puts YADE's list of interactions, which new and lost contacts shuffle, into the order of body ids: whoever walks along it then meets
 /// neighbours in memory.
 void ContactSeam::tidy(Scene& scene)
@@ -127,38 +121,47 @@ void ContactSeam::tidy(Scene& scene)
 	}
 }
 
-/// Real interactions in the order of (lower id, higher id).
-void ContactSeam::collect(Scene& scene)
+void ContactSeam::readAll(Scene& scene)
 {
-	if (scene.iter % tidyPeriod == 0) tidy(scene);
-	const size_t size = scene.bodies->size();
-	bucket.assign(size + 1, 0);
+	auto&      list  = *scene.interactions;
+	const long count = (long)list.size();
+	own.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
+		if (k + (long)soon < count) {
+			const Interaction& ahead = *list[k + soon];
+			if (ahead.geom) fetch<partOfGeometry>(ahead.geom.get());
+			if (ahead.phys) fetch<partOfPhysics>(ahead.phys.get());
+		}
+		own.take(k, *list[k], iteration);
+	}
+}
+
+/// Puts what was read into the order of (lower id, higher id).
+void ContactSeam::arrange(const Readings& readings, size_t bodies)
+{
+	bucket.assign(bodies + 1, 0);
 	found.clear();
-	const auto&  interactions = *scene.interactions;
-	const size_t count        = scene.interactions->size();
-	for (size_t k = 0; k < count; ++k) {
-		if (k + soon < count) fetch<sizeof(Interaction)>(interactions[k + soon].get());
-		const auto& i = interactions[k];
-		if (!i->isReal() || !i->isActive) continue;
-		const int low = std::min(i->getId1(), i->getId2()), high = std::max(i->getId1(), i->getId2());
-		if ((size_t)high >= size || !present[low] || !present[high]) continue;
-		found.push_back({ low, high, i->getId1() > i->getId2(), i.get(), static_cast<const ScGeom*>(i->geom.get()), i->phys.get() });
+	for (size_t k = 0; k < readings.ids.size(); ++k) {
+		const auto [first, second] = readings.ids[k];
+		if (first < 0) continue;
+		const int low = std::min(first, second), high = std::max(first, second);
+		if ((size_t)high >= bodies || !present[low] || !present[high]) continue;
+		found.push_back({ low, high, int(k), first > second });
 		++bucket[low + 1];
 	}
-	for (size_t k = 0; k < size; ++k)
+	for (size_t k = 0; k < bodies; ++k)
 		bucket[k + 1] += bucket[k];
 	ordered.resize(found.size());
 	for (const Found& f : found)
 		ordered[bucket[f.low]++] = f;
 	// each bucket now ends where the next one began
 	int begin = 0;
-	for (size_t k = 0; k < size; ++k) {
+	for (size_t k = 0; k < bodies; ++k) {
 		std::sort(ordered.begin() + begin, ordered.begin() + bucket[k], [](const Found& a, const Found& b) { return a.high < b.high; });
 		begin = bucket[k];
 	}
-	links.resize(ordered.size());
-	for (size_t k = 0; k < ordered.size(); ++k)
-		links[k] = { ordered[k].interaction, ordered[k].geom };
 }
 
 /// Puts the contacts that need not be solved for aside, keeping the order of the others.
@@ -220,68 +223,64 @@ size_t ContactSeam::recall()
 	return recalled;
 }
 
-void ContactSeam::gatherContact(Scene& scene, size_t k)
+void ContactSeam::gatherContact(Scene& scene, const Readings& readings, size_t k)
 {
-	if (k + soon < links.size()) {
-		fetch<partOfGeometry>(links[k + soon].geom);
-		fetch<partOfPhysics>(ordered[k + soon].phys);
-	}
-	Link&       link = links[k];
-	const auto& geom = *link.geom;
-	link.phys        = physOf(*ordered[k].phys);
+	const Found&   ids     = ordered[k];
+	const Reading& reading = readings.contacts[ids.reading];
+	Link&          link    = links[k];
+	link                   = { reading.interaction, reading.geom, reading.phys };
 	if (!link.phys) return;
-	NscdPhys& phys = *link.phys;
-	link.bonded    = phys.bonded;
-	link.broken    = phys.brokenStep == iteration ? phys.brokenMode : int(NscdPhys::None);
-	link.slips     = phys.countsSlip();
-	const Found& ids = ordered[k];
+	link.bonded    = reading.bonded;
+	link.broken    = reading.broken;
+	link.slips     = reading.slips;
 	const int    id1 = ids.falling ? ids.high : ids.low, id2 = ids.falling ? ids.low : ids.high;
 	const Real   r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
 	const bool   s1 = r1 > 0, s2 = r2 > 0;
-	const Real   gap = -geom.penetrationDepth, h = relaxation.step;
+	const Real   gap = reading.gap, h = relaxation.step;
 	Contact      c;
 
 	// from the lower id to the higher, from a wall to a sphere
 	link.swapped     = (s1 && s2) ? ids.falling : (s1 && !s2);
-	const Vector3r n = link.swapped ? Vector3r(-geom.normal) : geom.normal;
+	const Real nx    = link.swapped ? -reading.nx : reading.nx, ny = link.swapped ? -reading.ny : reading.ny;
 	c.i              = link.swapped ? id2 : id1;
 	c.j              = link.swapped ? id1 : id2;
-	c.nx              = n[0];
-	c.ny              = n[1];
+	c.nx              = nx;
+	c.ny              = ny;
 	if (s1 && s2) {
 		c.leverTi = (link.swapped ? r2 : r1) + 0.5 * gap;
 		c.leverTj = -((link.swapped ? r1 : r2) + 0.5 * gap);
 	} else {
 		const auto     pos = [&scene](int id) -> const Vector3r& { return (*scene.bodies)[id]->state->pos; };
-		const Vector3r ri = geom.contactPoint - pos(c.i), rj = geom.contactPoint - pos(c.j);
-		c.leverNi = n[1] * ri[0] - n[0] * ri[1];
+		const Vector3r n(nx, ny, 0), ri = reading.geom->contactPoint - pos(c.i), rj = reading.geom->contactPoint - pos(c.j);
+		c.leverNi = ny * ri[0] - nx * ri[1];
 		c.leverTi = ri.dot(n);
 		// exactly none through a sphere's centre
-		c.leverNj = s1 || s2 ? 0 : n[1] * rj[0] - n[0] * rj[1];
+		c.leverNj = s1 || s2 ? 0 : ny * rj[0] - nx * rj[1];
 		c.leverTj = rj.dot(n);
 	}
 	// error of position: a bond keeps its length, a contact its gap
-	const Real error = phys.bonded ? gap - phys.restGap : gap;
-	if (!phys.bonded && gap > 0) c.biasN = gap / h;
+	const Real error = reading.bonded ? gap - reading.restGap : gap;
+	if (!reading.bonded && gap > 0) c.biasN = gap / h;
 	else
 		c.biasN = std::max(-relaxation.largestSpeed, std::min(relaxation.largestSpeed, relaxation.rate * error / h));
 	link.bias = c.biasN;
 	link.gap  = gap;
-	if (phys.restitution > 0 && !phys.bonded) {
+	if (reading.restitution > 0 && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
-		if (approach < 0 && gap + h * approach <= 0) c.biasN = phys.restitution * approach;
+		if (approach < 0 && gap + h * approach <= 0) c.biasN = reading.restitution * approach;
 	}
-	c.adhesion          = h * phys.adhesion;
-	c.friction          = phys.currentFriction;
-	c.rollingArm        = phys.currentRollingArm;
-	c.length            = phys.length;
+	c.adhesion          = h * reading.adhesion;
+	c.friction          = reading.friction;
+	c.rollingArm        = reading.rollingArm;
+	c.length            = reading.length;
 	problem.contacts[k] = c;
-	problem.impulses[k] = { h * phys.normal, h * phys.tangential, h * phys.torque };
+	problem.impulses[k] = { h * reading.normal, h * reading.tangential, h * reading.torque };
 
 	const Real closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
-	link.solved = phys.bonded || link.broken != NscdPhys::None || gap + 1.2 * h * closing <= relaxation.openGap * phys.length;
-	if (!link.solved && phys.normal != 0) {
+	link.solved = reading.bonded || link.broken != NscdPhys::None || gap + 1.2 * h * closing <= relaxation.openGap * reading.length;
+	if (!link.solved && reading.normal != 0) {
+		NscdPhys& phys = *link.phys;
 		phys.normal = phys.tangential = phys.torque = 0;
 		phys.normalForce = phys.shearForce = Vector3r::Zero();
 	}

@@ -4,10 +4,9 @@
 // order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
 #pragma once
 
-#include "NscdPhys.hpp"
+#include "ContactReading.hpp"
 #include <contact/problem.hpp>
 #include <core/Scene.hpp>
-#include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
 
@@ -51,7 +50,8 @@ struct StepSums {
 class ContactSeam {
 public:
 	/// Reads bodies and real interactions; throws std::runtime_error naming the body where the scene cannot be taken.
-	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads);
+	/// `readings`: of the scene's interactions in this step, null where there are none yet.
+	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads, const Readings* readings = nullptr);
 	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They need another solve.
 	size_t recall();
 	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
@@ -64,20 +64,20 @@ public:
 private:
 	void gatherBodies(Scene& scene, const Vector3r& gravity);
 	void tidy(Scene& scene);
-	void collect(Scene& scene);
+	void readAll(Scene& scene);
+	void arrange(const Readings& readings, size_t bodies);
 	void compact();
-	void gatherContact(Scene& scene, size_t k);
+	void gatherContact(Scene& scene, const Readings& readings, size_t k);
 	void scatterForces(Scene& scene);
 	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
+	/// A reading's place in the order of contacts.
 	struct Found {
-		int           low, high; // ids
-		bool          falling;   // from the higher id to the lower
-		Interaction*  interaction;
-		const ScGeom* geom;
-		IPhys*        phys;
+		int  low, high; // ids
+		int  reading;
+		bool falling; // from the higher id to the lower
 	};
 
 	Relaxation                             relaxation { 1, 0, 0, 0 };
@@ -90,6 +90,7 @@ private:
 	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body
 	std::vector<char>                      present;
 	std::vector<int>                       bucket;
+	Readings                               own; // where no one else has made them
 	std::vector<Found>                     found, ordered;
 	std::vector<Real>                      radius; // of spheres, negative for other shapes
 	std::vector<Real>                      mass, inertia;

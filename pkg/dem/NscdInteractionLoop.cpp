@@ -90,6 +90,7 @@ void NscdInteractionLoop::action()
 
 	const long  count = (long)list.size();
 	std::string error; // thrown after the loop, since threads may not
+	readings.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
 		if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
@@ -103,7 +104,10 @@ void NscdInteractionLoop::action()
 		if (p1.radius > 0 && p2.radius > 0) {
 			if (spheres && I->functorCache.geom.get() == spheres && !I->isReal()) {
 				const Real reach = spheres->interactionDetectionFactor * (p1.radius + p2.radius);
-				if (std::pow(reach, 2) - (p2.pos - p1.pos).squaredNorm() < 0) continue;
+				if (std::pow(reach, 2) - (p2.pos - p1.pos).squaredNorm() < 0) {
+					readings.ids[k].first = -1;
+					continue;
+				}
 			} else if (law && I->functorCache.constLaw.get() == law && I->functorCache.geom.get() == spheres && typeid(*I->phys) == typeid(NscdPhys)) {
 				auto& geom = static_cast<ScGeom&>(*I->geom);
 				auto& phys = static_cast<NscdPhys&>(*I->phys);
@@ -111,20 +115,28 @@ void NscdInteractionLoop::action()
 				const Real gap  = -geom.penetrationDepth;
 				const bool swap = I->getId1() > I->getId2();
 				if (phys.bonded) law->followBond(phys, gap, swap ? p2 : p1, swap ? p1 : p2);
-				if (law->keeps(phys, gap)) phys.updateThresholds(gap, law->adhesionRange);
-				else
+				if (law->keeps(phys, gap)) {
+					phys.updateThresholds(gap, law->adhesionRange);
+					if (I->isActive) {
+						readings.take(k, *I, geom, &phys, scene->iter);
+						continue;
+					}
+				} else
 					list.requestErase(I);
+				readings.ids[k].first = -1;
 				continue;
 			}
 		}
 		try {
 			if (!visit(I, *scene, *this)) list.requestErase(I);
+			readings.take(k, *I, scene->iter);
 		} catch (const std::exception& e) {
 #pragma omp critical
 			error = e.what();
 		}
 	}
 	if (!error.empty()) throw std::runtime_error(error);
+	readIn = scene->iter;
 }
 
 /// What the loop needs of the bodies, side by side in memory.

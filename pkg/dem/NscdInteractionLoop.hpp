@@ -3,8 +3,10 @@
 // Interactions, their geometry, their physics and the states of their bodies lie all over the memory, so the loop of 50,000 of them waits
 // for memory most of the time. This one asks for what it will need some interactions ahead, and writes a disk's contact without the
 // shear increments that soft laws need. Everything else goes through the functors as ever. Fields that both loops write have the same bits.
+// What the solver takes of a contact is read on the way, while it is at hand.
 #pragma once
 
+#include "ContactReading.hpp"
 #include <core/InteractionLoop.hpp>
 
 namespace yade {
@@ -12,6 +14,8 @@ namespace yade {
 class NscdInteractionLoop : public InteractionLoop {
 public:
 	void action() override;
+	/// Of the scene's interactions in step `iteration`, in the order of their list; null where this loop did not go through them.
+	const nscd::Readings* readingsOf(long iteration) const { return iteration == readIn ? &readings : nullptr; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
@@ -27,6 +31,8 @@ private:
 	};
 	void               gatherPlaces(int threads);
 	std::vector<Place> places; // by id
+	nscd::Readings     readings;
+	long               readIn = -1; // step
 };
 REGISTER_SERIALIZABLE(NscdInteractionLoop);
 

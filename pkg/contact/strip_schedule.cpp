@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <contact/strip_schedule.hpp>
+
+namespace nonsmooth::contact {
+
+void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers)
+{
+	const std::size_t strips = begin.empty() ? 0 : begin.size() - 1, pairs = evenStrips;
+	const auto        size  = [&](std::size_t place) { return place < strips ? begin[place + 1] - begin[place] : 0; };
+	const auto        odd   = [&](std::size_t pair) { return evenStrips + pair; };
+	const std::size_t count = std::min(pairs, static_cast<std::size_t>(std::max(1, workers)));
+
+	// pair after pair to the first worker that has not had its share, but one to each at least
+	std::vector<std::size_t> ends;
+	std::size_t              done = 0;
+	const std::size_t        all  = begin.empty() ? 0 : begin.back();
+	for (std::size_t p = 0; p < pairs; ++p) {
+		done += size(p) + size(odd(p));
+		const std::size_t worker = ends.size();
+		if (worker + 1 == count) break;
+		if (done * count >= all * (worker + 1) || pairs - (p + 1) == count - (worker + 1)) ends.push_back(p + 1);
+	}
+	if (count > 0) ends.push_back(pairs);
+
+	stretches.assign(ends.size(), {});
+	progress = std::vector<Progress>(ends.size());
+	std::size_t first = 0;
+	for (std::size_t w = 0; w < ends.size(); ++w) {
+		Stretch&          s    = stretches[w];
+		const std::size_t last = ends[w] - 1, middle = first + (last - first + 1) / 2;
+		const auto        visit = [&](std::size_t place) { s.visits.push_back(place); };
+		s.reaches               = w + 1 < ends.size();
+		visit(first);
+		for (std::size_t p = first + 1; p < middle; ++p) {
+			visit(p);
+			visit(odd(p - 1));
+		}
+		if (last > first) visit(last);
+		s.joint = s.visits.size();
+		if (odd(last) < strips) visit(odd(last));
+		for (std::size_t p = std::max(middle, first + 1); p < last; ++p) {
+			visit(p);
+			visit(odd(p - 1));
+		}
+		if (last > first) visit(odd(last - 1));
+		first = ends[w];
+	}
+}
+
+} // namespace nonsmooth::contact

@@ -1,0 +1,108 @@
+// Workers that visit side by side must leave what one pass over all even and then all odd strips leaves.
+#include <algorithm>
+#include <contact/strip_schedule.hpp>
+#include <gtest/gtest.h>
+#include <omp.h>
+
+using namespace nonsmooth::contact;
+
+namespace {
+
+std::vector<std::size_t> beginsOf(const std::vector<std::size_t>& sizes)
+{
+	std::vector<std::size_t> begin(1, 0);
+	for (const std::size_t size : sizes)
+		begin.push_back(begin.back() + size);
+	return begin;
+}
+
+/// Of a place: the strip's number from one end of the packing to the other.
+std::size_t strip(std::size_t place, std::size_t evenStrips) { return place < evenStrips ? 2 * place : 2 * (place - evenStrips) + 1; }
+
+/// A visit mixes a strip's value with its neighbours', so that what comes out tells in what order neighbours were visited.
+class Mixer {
+public:
+	explicit Mixer(std::size_t strips)
+	        : values(strips + 2, 1)
+	        , even((strips + 1) / 2)
+	{
+	}
+	void visit(std::size_t place)
+	{
+		const std::size_t s = strip(place, even) + 1;
+		// changes its own and the next strip's value, as a contact does that reaches into the next strip
+		values[s]     = values[s] * 6364136223846793005u + values[s + 1];
+		values[s + 1] = values[s + 1] * 1442695040888963407u ^ values[s];
+	}
+	std::vector<unsigned long> values;
+	std::size_t                even;
+};
+
+}
+
+TEST(StripSchedule, GivesEveryStripToOneWorkerEvenNeighboursFirst)
+{
+	for (std::size_t strips : { 1, 2, 3, 4, 5, 7, 8, 21, 80 })
+		for (int workers : { 1, 2, 3, 5, 16 }) {
+			const std::size_t even = (strips + 1) / 2;
+			StripSchedule     schedule;
+			schedule.plan(beginsOf(std::vector<std::size_t>(strips, 100)), even, workers);
+			EXPECT_EQ(schedule.workerCount(), std::min<int>(workers, even));
+			std::vector<int> seen(strips, 0);
+			for (int w = 0; w < schedule.workerCount(); ++w)
+				schedule.each(w, [&](std::size_t place) { ++seen[place]; });
+			EXPECT_EQ(seen, std::vector<int>(strips, 1)) << strips << " strips, " << workers << " workers";
+		}
+}
+
+TEST(StripSchedule, SharesTheWorkEvenly)
+{
+	std::vector<std::size_t> sizes(80, 100);
+	for (std::size_t k = 0; k < 10; ++k)
+		sizes[k] = sizes[40 + k] = 500; // one end of the packing is thicker
+	const auto    begin = beginsOf(sizes);
+	StripSchedule schedule;
+	schedule.plan(begin, 40, 2);
+	std::size_t of[2] = { 0, 0 };
+	for (int w = 0; w < 2; ++w)
+		schedule.each(w, [&](std::size_t place) { of[w] += sizes[place]; });
+	// to within one pair of strips
+	EXPECT_LE(of[0] > of[1] ? of[0] - of[1] : of[1] - of[0], 1000u);
+}
+
+TEST(StripSchedule, AnyNumberOfWorkersLeavesWhatOneLeaves)
+{
+	constexpr int passes = 200;
+	for (std::size_t strips : { 1, 2, 3, 4, 6, 7, 20, 81 }) {
+		const auto begin = beginsOf(std::vector<std::size_t>(strips, 100));
+		Mixer      plain(strips);
+		for (int p = 0; p < passes; ++p)
+			for (std::size_t place = 0; place < strips; ++place) // even strips, then odd ones
+				plain.visit(place);
+		for (int workers : { 1, 2, 3, 4, 7 }) {
+			Mixer         mixer(strips);
+			StripSchedule schedule;
+			int           made = 0;
+#pragma omp parallel num_threads(workers)
+			{
+#pragma omp single
+				{
+					made = omp_get_num_threads();
+					schedule.plan(begin, mixer.even, made);
+				}
+				for (int p = 0; p < passes; ++p)
+					schedule.pass(omp_get_thread_num(), [&](std::size_t place) { mixer.visit(place); });
+			}
+			EXPECT_EQ(mixer.values, plain.values) << strips << " strips, " << made << " workers";
+		}
+	}
+}
+
+TEST(StripSchedule, KeepsNothingOfAnEarlierPlan)
+{
+	StripSchedule schedule;
+	schedule.plan(beginsOf({ 10, 10, 10, 10 }), 2, 2);
+	schedule.plan(beginsOf({}), 0, 2);
+	EXPECT_EQ(schedule.workerCount(), 0);
+	schedule.pass(0, [](std::size_t) { FAIL() << "there is no strip"; });
+}
