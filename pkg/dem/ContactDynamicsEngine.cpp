@@ -4,6 +4,7 @@
 #include "NonsmoothTimeStepper.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "PorePressureEngine.hpp"
+#include "Threads.hpp"
 #include <chrono>
 #include <contact/problem_file.hpp>
 #include <core/TimeStepper.hpp>
@@ -22,10 +23,10 @@ void ContactDynamicsEngine::action()
 	validate();
 	const auto clock   = [] { return std::chrono::duration<Real>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
 	const auto gravity = nscd::gravityOf(*scene);
-	const int  threads = threadCount();
+	const int  threads = nscd::threadsOf(*this);
 
 	const Real t0 = clock();
-	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads, readings());
+	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads, loopBefore());
 	warmStart       = seam.problem.impulses;
 	stepSolved      = scene->dt;
 	const Real t1         = clock();
@@ -43,28 +44,20 @@ void ContactDynamicsEngine::action()
 	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
 }
 
-/// What NscdInteractionLoop read in this step; null where an engine that may have changed contacts stands between, or where a script may have.
-const nscd::Readings* ContactDynamicsEngine::readings() const
+/// The loop whose readings of this step hold; null where an engine that may have changed bodies or contacts stands between, or where a script may have.
+const NscdInteractionLoop* ContactDynamicsEngine::loopBefore() const
 {
 	if (scene->subStepping) return nullptr;
 	const NscdInteractionLoop* loop = nullptr;
 	for (const auto& engine : scene->engines) {
 		if (engine.get() == this) break;
 		if (const auto* found = dynamic_cast<const NscdInteractionLoop*>(engine.get())) loop = found;
-		else if (!engine->dead && !dynamic_cast<const PorePressureEngine*>(engine.get()))
+		else if (!engine->dead && !dynamic_cast<const PorePressureEngine*>(engine.get())) // which only adds forces
 			loop = nullptr;
 	}
-	const nscd::Readings* found = loop ? loop->readingsOf(scene->iter) : nullptr;
-	return found && found->ids.size() == scene->interactions->size() ? found : nullptr;
-}
-
-int ContactDynamicsEngine::threadCount() const
-{
-#ifdef YADE_OPENMP
-	return ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads();
-#else
-	return 1;
-#endif
+	const bool holds = loop && loop->hasRead(scene->iter) && loop->contactReadings().ids.size() == scene->interactions->size()
+	        && loop->bodyReadings().size() == scene->bodies->size();
+	return holds ? loop : nullptr;
 }
 
 void ContactDynamicsEngine::validate() const
@@ -109,7 +102,7 @@ contact::SolverSettings ContactDynamicsEngine::settings() const
 	s.tolerance     = tolerance;
 	s.maxIterations = maxIterations;
 	s.checkEvery    = checkEvery;
-	s.threads       = threadCount();
+	s.threads       = nscd::threadsOf(*this);
 	s.stopping      = contact::stoppingTestOf(stoppingTest.c_str());
 	return s;
 }

@@ -112,8 +112,7 @@ private:
 	void                                 account(const nscd::StepSums& sums);
 	void                                 recordBreaks();
 	void                                 report(const nonsmooth::contact::SolverStatistics& statistics);
-	int                                  threadCount() const;
-	const nscd::Readings*                readings() const;
+	const NscdInteractionLoop*           loopBefore() const;
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;

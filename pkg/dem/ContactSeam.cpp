@@ -1,8 +1,8 @@
 #include "ContactSeam.hpp"
+#include "NscdInteractionLoop.hpp"
 #include "Prefetch.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
-#include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
@@ -23,15 +23,16 @@ namespace {
 	}
 }
 
-void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount, const Readings* readings)
+void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount, const NscdInteractionLoop* loop)
 {
 	relaxation = how;
 	threads    = threadCount;
 	iteration  = scene.iter;
-	gatherBodies(scene, gravity);
+	if (!loop) readBodies(scene, threads, ownBodies);
+	gatherBodies(scene, gravity, loop ? loop->bodyReadings() : ownBodies);
 	if (scene.iter % tidyPeriod == 0) tidy(scene);
-	if (!readings) readAll(scene);
-	const Readings& read = readings ? *readings : own;
+	if (!loop) readContacts(scene);
+	const Readings& read = loop ? loop->contactReadings() : ownContacts;
 	arrange(read, scene.bodies->size());
 	const long count = (long)ordered.size();
 	links.resize(count);
@@ -39,13 +40,13 @@ void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation
 	problem.impulses.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k)
-		gatherContact(scene, read, k);
+		gatherContact(read, k);
 	compact();
 }
 
-void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
+void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read)
 {
-	const long size = (long)scene.bodies->size();
+	const long size = (long)read.size();
 	scene.forces.sync();
 	for (auto* v : { &problem.freeVelocity, &before, &external })
 		v->assign(size, {});
@@ -59,25 +60,18 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	int        bad = -1; // body with an unusable state; reported after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
 	for (long id = 0; id < size; ++id) {
-		if (id + (long)later < size) fetch<sizeof(Body)>((*scene.bodies)[id + later].get());
-		if (id + (long)soon < size && (*scene.bodies)[id + soon]) {
-			fetch<sizeof(State)>((*scene.bodies)[id + soon]->state.get());
-			fetch<64>((*scene.bodies)[id + soon]->shape.get());
-		}
-		const auto& body = (*scene.bodies)[id];
-		if (!body) continue;
-		const State&   s = *body->state;
-		const unsigned d = s.blockedDOFs;
+		const BodyReading& s = read[id];
+		if (!s.present) continue;
+		const unsigned d = s.blocked;
 		present[id]      = 1;
-		if (const Shape* shape = body->shape.get())
-			if (typeid(*shape) == typeid(Sphere) || dynamic_cast<const Sphere*>(shape)) radius[id] = static_cast<const Sphere*>(shape)->radius;
-		before[id]       = { s.vel[0], s.vel[1], s.angVel[2] };
+		radius[id]       = s.radius;
+		before[id]       = { s.vx, s.vy, s.spin };
 		mass[id]         = s.mass;
-		inertia[id]      = s.inertia[2];
+		inertia[id]      = s.inertia;
 		auto& w          = problem.inverseMass[id];
 		if (!(d & State::DOF_X)) w.x = 1 / s.mass;
 		if (!(d & State::DOF_Y)) w.y = 1 / s.mass;
-		if (!(d & State::DOF_RZ)) w.w = 1 / s.inertia[2];
+		if (!(d & State::DOF_RZ)) w.w = 1 / s.inertia;
 		const Vector3r &f = scene.forces.getForce(id), &m = scene.forces.getTorque(id);
 		external[id]          = { f[0], f[1], m[2] };
 		problem.positions[id] = { s.pos[0], s.pos[1] };
@@ -89,8 +83,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 
 		const bool     moves  = !w.isFixed();
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-		if (!std::isfinite(v.x + v.y + v.w + s.pos[0] + s.pos[1] + w.x + w.y + w.w) || (moves && (d & planar) != planar) || body->isClump()
-		    || body->isClumpMember())
+		if (!std::isfinite(v.x + v.y + v.w + s.pos[0] + s.pos[1] + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped)
 			bad = std::max(bad, (int)id);
 	}
 	if (bad >= 0) {
@@ -121,11 +114,11 @@ void ContactSeam::tidy(Scene& scene)
 	}
 }
 
-void ContactSeam::readAll(Scene& scene)
+void ContactSeam::readContacts(Scene& scene)
 {
 	auto&      list  = *scene.interactions;
 	const long count = (long)list.size();
-	own.resize(count);
+	ownContacts.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
 		if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
@@ -134,7 +127,7 @@ void ContactSeam::readAll(Scene& scene)
 			if (ahead.geom) fetch<partOfGeometry>(ahead.geom.get());
 			if (ahead.phys) fetch<partOfPhysics>(ahead.phys.get());
 		}
-		own.take(k, *list[k], iteration);
+		ownContacts.take(k, *list[k], iteration);
 	}
 }
 
@@ -223,7 +216,7 @@ size_t ContactSeam::recall()
 	return recalled;
 }
 
-void ContactSeam::gatherContact(Scene& scene, const Readings& readings, size_t k)
+void ContactSeam::gatherContact(const Readings& readings, size_t k)
 {
 	const Found&   ids     = ordered[k];
 	const Reading& reading = readings.contacts[ids.reading];
@@ -250,13 +243,13 @@ void ContactSeam::gatherContact(Scene& scene, const Readings& readings, size_t k
 		c.leverTi = (link.swapped ? r2 : r1) + 0.5 * gap;
 		c.leverTj = -((link.swapped ? r1 : r2) + 0.5 * gap);
 	} else {
-		const auto     pos = [&scene](int id) -> const Vector3r& { return (*scene.bodies)[id]->state->pos; };
-		const Vector3r n(nx, ny, 0), ri = reading.geom->contactPoint - pos(c.i), rj = reading.geom->contactPoint - pos(c.j);
-		c.leverNi = ny * ri[0] - nx * ri[1];
-		c.leverTi = ri.dot(n);
+		const auto  lever = [&](int id) { return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x, reading.geom->contactPoint[1] - problem.positions[id].y }; };
+		const auto  ri = lever(c.i), rj = lever(c.j);
+		c.leverNi = ny * ri.x - nx * ri.y;
+		c.leverTi = ri.x * nx + ri.y * ny;
 		// exactly none through a sphere's centre
-		c.leverNj = s1 || s2 ? 0 : ny * rj[0] - nx * rj[1];
-		c.leverTj = rj.dot(n);
+		c.leverNj = s1 || s2 ? 0 : ny * rj.x - nx * rj.y;
+		c.leverTj = rj.x * nx + rj.y * ny;
 	}
 	// error of position: a bond keeps its length, a contact its gap
 	const Real error = reading.bonded ? gap - reading.restGap : gap;

@@ -4,9 +4,14 @@
 // order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
 #pragma once
 
+#include "BodyReading.hpp"
 #include "ContactReading.hpp"
 #include <contact/problem.hpp>
 #include <core/Scene.hpp>
+
+namespace yade {
+class NscdInteractionLoop;
+}
 
 namespace yade::nscd {
 
@@ -50,8 +55,8 @@ struct StepSums {
 class ContactSeam {
 public:
 	/// Reads bodies and real interactions; throws std::runtime_error naming the body where the scene cannot be taken.
-	/// `readings`: of the scene's interactions in this step, null where there are none yet.
-	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads, const Readings* readings = nullptr);
+	/// `loop`: one whose readings of this step hold; without it they are made here.
+	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads, const NscdInteractionLoop* loop);
 	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They need another solve.
 	size_t recall();
 	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
@@ -62,12 +67,12 @@ public:
 	std::vector<Link>           links;
 
 private:
-	void gatherBodies(Scene& scene, const Vector3r& gravity);
+	void gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read);
 	void tidy(Scene& scene);
-	void readAll(Scene& scene);
+	void readContacts(Scene& scene);
 	void arrange(const Readings& readings, size_t bodies);
 	void compact();
-	void gatherContact(Scene& scene, const Readings& readings, size_t k);
+	void gatherContact(const Readings& readings, size_t k);
 	void scatterForces(Scene& scene);
 	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
@@ -90,7 +95,8 @@ private:
 	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body
 	std::vector<char>                      present;
 	std::vector<int>                       bucket;
-	Readings                               own; // where no one else has made them
+	std::vector<BodyReading>               ownBodies; // made where no loop has made them
+	Readings                               ownContacts;
 	std::vector<Found>                     found, ordered;
 	std::vector<Real>                      radius; // of spheres, negative for other shapes
 	std::vector<Real>                      mass, inertia;

@@ -1,6 +1,7 @@
 #include "NscdInteractionLoop.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "Prefetch.hpp"
+#include "Threads.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
@@ -82,8 +83,8 @@ void NscdInteractionLoop::action()
 	physDispatcher->updateScenePtr();
 	lawDispatcher->updateScenePtr();
 
-	const int threads = ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads();
-	gatherPlaces(threads);
+	const int threads = nscd::threadsOf(*this);
+	nscd::readBodies(*scene, threads, bodies);
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
 	const auto* spheres = exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors);
 	const auto* law     = exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors);
@@ -99,9 +100,9 @@ void NscdInteractionLoop::action()
 			if (ahead.geom) fetch<nscd::partOfGeometry>(ahead.geom.get());
 			if (ahead.phys) fetch<sizeof(NscdPhys)>(ahead.phys.get());
 		}
-		const shared_ptr<Interaction>& I  = list[k];
-		const Place &                  p1 = places[I->getId1()], &p2 = places[I->getId2()];
-		if (p1.radius > 0 && p2.radius > 0) {
+		const shared_ptr<Interaction>& I = list[k];
+		const auto &p1 = bodies[I->getId1()], &p2 = bodies[I->getId2()];
+		if (p1.plain && p2.plain) {
 			if (spheres && I->functorCache.geom.get() == spheres && !I->isReal()) {
 				const Real reach = spheres->interactionDetectionFactor * (p1.radius + p2.radius);
 				if (std::pow(reach, 2) - (p2.pos - p1.pos).squaredNorm() < 0) {
@@ -137,30 +138,6 @@ void NscdInteractionLoop::action()
 	}
 	if (!error.empty()) throw std::runtime_error(error);
 	readIn = scene->iter;
-}
-
-/// What the loop needs of the bodies, side by side in memory.
-void NscdInteractionLoop::gatherPlaces(int threads)
-{
-	const auto& bodies = *scene->bodies;
-	const long  count  = (long)bodies.size();
-	places.resize(count);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long id = 0; id < count; ++id) {
-		if (id + (long)later < count) fetch<sizeof(Body)>(bodies[id + later].get());
-		if (id + (long)soon < count && bodies[id + soon]) {
-			fetch<sizeof(State)>(bodies[id + soon]->state.get());
-			fetch<sizeof(Sphere)>(bodies[id + soon]->shape.get());
-		}
-		const auto& body = bodies[id];
-		Place&      p    = places[id];
-		p.radius         = -1;
-		if (!body || !body->shape || body->isClump()) continue;
-		const Shape& shape = *body->shape;
-		if (typeid(shape) == typeid(Sphere)) p.radius = static_cast<const Sphere&>(shape).radius;
-		p.pos = body->state->pos;
-		p.ori = body->state->ori;
-	}
 }
 
 } // namespace yade

@@ -6,6 +6,7 @@
 // What the solver takes of a contact is read on the way, while it is at hand.
 #pragma once
 
+#include "BodyReading.hpp"
 #include "ContactReading.hpp"
 #include <core/InteractionLoop.hpp>
 
@@ -14,8 +15,10 @@ namespace yade {
 class NscdInteractionLoop : public InteractionLoop {
 public:
 	void action() override;
-	/// Of the scene's interactions in step `iteration`, in the order of their list; null where this loop did not go through them.
-	const nscd::Readings* readingsOf(long iteration) const { return iteration == readIn ? &readings : nullptr; }
+	/// Whether this loop went through the interactions of step `iteration`, and so has readings of them, in the order of their list, and of the bodies.
+	bool                                  hasRead(long iteration) const { return iteration == readIn; }
+	const nscd::Readings&                 contactReadings() const { return readings; }
+	const std::vector<nscd::BodyReading>& bodyReadings() const { return bodies; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
@@ -24,15 +27,9 @@ of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, whic
 contact began. With periodic boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:
-	struct Place {
-		Vector3r    pos;
-		Quaternionr ori;
-		Real        radius; // negative where the body is not a sphere
-	};
-	void               gatherPlaces(int threads);
-	std::vector<Place> places; // by id
-	nscd::Readings     readings;
-	long               readIn = -1; // step
+	std::vector<nscd::BodyReading> bodies;
+	nscd::Readings                 readings;
+	long                           readIn = -1; // step
 };
 REGISTER_SERIALIZABLE(NscdInteractionLoop);
 

@@ -1,5 +1,6 @@
 #include "PlanarNewtonIntegrator.hpp"
 #include "Prefetch.hpp"
+#include "Threads.hpp"
 #include <core/Scene.hpp>
 
 namespace yade {
@@ -43,7 +44,7 @@ void PlanarNewtonIntegrator::action()
 	const long  count  = (long)bodies.size();
 	int         bad    = -1;
 	Real        moved  = 0; // 2 where a body has left its bounding box's margin, 0.5 where it has not: what the collider asks for
-#pragma omp parallel for schedule(static) num_threads(ompThreads > 0 ? std::min(ompThreads, omp_get_max_threads()) : omp_get_max_threads()) reduction(max : bad, moved)
+#pragma omp parallel for schedule(static) num_threads(nscd::threadsOf(*this)) reduction(max : bad, moved)
 	for (long id = 0; id < count; ++id) {
 		if (id + (long)nscd::later < count) nscd::fetch<sizeof(Body)>(bodies[id + nscd::later].get());
 		if (id + (long)nscd::soon < count && bodies[id + nscd::soon]) {

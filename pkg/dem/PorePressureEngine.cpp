@@ -1,5 +1,6 @@
 #include "PorePressureEngine.hpp"
 #include "Gravity.hpp"
+#include "Prefetch.hpp"
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -42,12 +43,18 @@ void PorePressureEngine::action()
 		const auto& body = (*scene->bodies)[id];
 		reference.push_back(body ? body->state->pos : Vector3r(Vector3r::Zero()));
 	}
-	for (const auto& body : *scene->bodies) {
+	const auto& bodies = *scene->bodies;
+	for (size_t id = 0; id < size; ++id) {
+		if (id + nscd::later < size) nscd::fetch<sizeof(Body)>(bodies[id + nscd::later].get());
+		if (id + nscd::soon < size && bodies[id + nscd::soon]) {
+			nscd::fetch<64>(bodies[id + nscd::soon]->state.get());
+			nscd::fetch<sizeof(Sphere)>(bodies[id + nscd::soon]->shape.get());
+		}
+		const auto& body = bodies[id];
 		if (!body || !body->isDynamic() || (mask != 0 && !body->maskOk(mask))) continue;
 		const Shape* shape = body->shape.get();
 		if (!shape || (typeid(*shape) != typeid(Sphere) && !dynamic_cast<const Sphere*>(shape))) continue;
 		const auto* sphere = static_cast<const Sphere*>(shape);
-		const auto      id  = body->getId();
 		const Vector3r& pos = body->state->pos;
 		if (!released[id] && (pos - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
 		releasedCount += released[id];

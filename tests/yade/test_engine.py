@@ -8,8 +8,8 @@ import pytest
 from yade import O
 from yade.nonsmooth import scene
 from yade.wrapper import (
-    ForceEngine, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
+    ContactDynamicsEngine, ForceEngine, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
+    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
 
 from contact_scenes import G, begin, bits, box, contacts, engine, loose_heap, material, momenta, run
 
@@ -273,6 +273,21 @@ def test_own_loop_and_integrator_have_the_bits_of_yades():
     ours, theirs = course(lambda e: e), course(plain)
     assert ours[0] > 20 and ours[4] > 0 and len(ours[3]) > 50
     assert ours == theirs
+
+
+def test_what_an_engine_between_loop_and_solver_changes_counts_in_the_same_step():
+    # the solver takes what the loop has read only where nothing that may change it stands between
+    stuff = material(0.3)
+    floor(stuff)
+    disk = free_disk(0, 0.5, stuff=stuff)
+    begin(dt=1e-3)
+    run(2)
+    at = next(k for k, e in enumerate(O.engines) if isinstance(e, ContactDynamicsEngine))
+    O.engines = O.engines[:at] + [PyRunner(iterPeriod=1, command="O.bodies[1].state.vel = (0, 2, 0)")] + O.engines[at:]
+    assert disk == 1
+    O.step()
+    # it was thrown up after the loop had read it: no reaction, and a step's weight less than the speed it was given
+    assert O.bodies[disk].state.vel[1] == pytest.approx(2 - G * O.dt, rel=1e-12)
 
 
 def test_own_integrator_leaves_clumps_to_yades():

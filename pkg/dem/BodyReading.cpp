@@ -1,0 +1,43 @@
+#include "BodyReading.hpp"
+#include "Prefetch.hpp"
+#include <pkg/common/Sphere.hpp>
+
+namespace yade::nscd {
+
+void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
+{
+	const auto& bodies = *scene.bodies;
+	const long  count  = (long)bodies.size();
+	readings.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long id = 0; id < count; ++id) {
+		if (id + (long)later < count) fetch<sizeof(Body)>(bodies[id + later].get());
+		if (id + (long)soon < count && bodies[id + soon]) {
+			fetch<sizeof(State)>(bodies[id + soon]->state.get());
+			fetch<sizeof(Sphere)>(bodies[id + soon]->shape.get());
+		}
+		const auto&  body = bodies[id];
+		BodyReading& r    = readings[id];
+		r.radius          = -1;
+		r.present         = (bool)body;
+		r.clumped = r.plain = false;
+		if (!body) continue;
+		const State& s = *body->state;
+		r.clumped      = body->isClump() || body->isClumpMember();
+		if (const Shape* shape = body->shape.get()) {
+			const bool exactly = typeid(*shape) == typeid(Sphere);
+			if (exactly || dynamic_cast<const Sphere*>(shape)) r.radius = static_cast<const Sphere*>(shape)->radius;
+			r.plain = exactly && !body->isClump();
+		}
+		r.pos     = s.pos;
+		r.ori     = s.ori;
+		r.vx      = s.vel[0];
+		r.vy      = s.vel[1];
+		r.spin    = s.angVel[2];
+		r.mass    = s.mass;
+		r.inertia = s.inertia[2];
+		r.blocked = s.blockedDOFs;
+	}
+}
+
+} // namespace yade::nscd
