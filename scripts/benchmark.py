@@ -18,7 +18,7 @@ from yade.nonsmooth import errors, records
 from yade.nonsmooth.benchmark import report, scale, states, suite
 from yade.nonsmooth.figures.scale import cost_by_size
 from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.packing_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically
 
 
 def read_arguments():

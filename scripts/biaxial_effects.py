@@ -15,7 +15,7 @@ from pathlib import Path
 from yade.nonsmooth import errors, records
 from yade.nonsmooth.figures import biaxial as figures
 from yade.nonsmooth.laboratory import arguments, effects, materials
-from yade.nonsmooth.packing_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically
 
 
 def read_arguments():

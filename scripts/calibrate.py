@@ -16,7 +16,7 @@ from pathlib import Path
 
 from yade.nonsmooth import errors, records, section
 from yade.nonsmooth.laboratory import arguments, calibration, materials
-from yade.nonsmooth.packing_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically
 
 
 def read_arguments():

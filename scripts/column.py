@@ -17,7 +17,7 @@ from yade.nonsmooth import errors, records
 from yade.nonsmooth.figures import columns as figures
 from yade.nonsmooth.heaps import grains, report, study
 from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.packing_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically
 
 ASPECTS = "0.5,0.7,1,1.4,2,2.8,4,5.6,8,10"
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from tqdm import tqdm
 from yade.nonsmooth import errors, records
 from yade.nonsmooth.laboratory import arguments, materials, wall_shear
-from yade.nonsmooth.packing_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically
 
 
 def read_arguments():

@@ -18,7 +18,7 @@ from tqdm import tqdm
 from yade.nonsmooth import errors, records
 from yade.nonsmooth.figures.creep import creep
 from yade.nonsmooth.figures.style import LINES
-from yade.nonsmooth.packing_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically
 
 EXAMPLES = Path(sys.argv[0]).resolve().with_name("examples")
 # (key, title of the panel, the joint and its water)

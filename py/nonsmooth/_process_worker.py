@@ -4,7 +4,7 @@ import json
 import sys
 from pathlib import Path
 
-from yade.nonsmooth.packing_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically
 
 folder = Path(sys.argv[-1])
 request = json.loads((folder / "request.json").read_text())

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from yade import O
 
-from .packing_files import write_atomically
+from .whole_files import write_atomically
 
 __all__ = ["exists", "key_of", "read", "write"]
 

@@ -6,7 +6,7 @@ import json
 import time
 from pathlib import Path
 
-from .packing_files import write_atomically
+from .whole_files import write_atomically
 
 __all__ = ["Progress", "keep", "kept", "share"]
 

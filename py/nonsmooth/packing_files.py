@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import io
 import os
-import tempfile
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from .errors import UserError
+from .whole_files import write_arrays, write_atomically
 
-__all__ = ["FORMAT", "Packing", "PackingError", "cache_folder", "cache_path", "load", "read_text", "save", "write_atomically",
-           "write_text"]
+__all__ = ["FORMAT", "Packing", "PackingError", "cache_folder", "cache_path", "load", "read_text", "save", "write_text"]
 
 FORMAT = 1  # of cache files and of the way packings are made; a new number makes old files unused
 
@@ -60,35 +58,9 @@ class Packing:
         return digest.hexdigest()
 
 
-def write_atomically(path, content: bytes) -> None:
-    """Write beside `path`, then rename, so that a reader never meets half a file. Raises PackingError."""
-    path = Path(path)
-    beside = None
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
-            beside = file.name
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(beside, 0o666 & ~umask)
-        os.replace(beside, path)
-    except OSError as error:
-        if beside:
-            with contextlib.suppress(OSError):
-                os.unlink(beside)
-        raise PackingError(f"{path}: cannot be written ({error.strerror}); "
-                           "give a folder that can be written and has room") from None
-
-
 def save(packing: Packing, path) -> None:
-    """Write a packing as .npz with a checksum of its content. Raises PackingError."""
-    buffer = io.BytesIO()
-    np.savez(buffer, x=packing.x, y=packing.y, r=packing.r, layer=packing.layer,
-             format=np.int64(FORMAT), checksum=np.array(packing.checksum))
-    write_atomically(path, buffer.getvalue())
+    """Write a packing as .npz with a checksum of its content. Raises WriteError."""
+    write_arrays(path, x=packing.x, y=packing.y, r=packing.r, layer=packing.layer, format=np.int64(FORMAT), checksum=np.array(packing.checksum))
 
 
 def load(path) -> Packing:

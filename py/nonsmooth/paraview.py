@@ -13,7 +13,7 @@ from xml.sax.saxutils import quoteattr
 import meshio
 import numpy as np
 
-from .packing_files import write_atomically
+from .whole_files import write_atomically
 from .records import RecordsError, read_breaks, read_snapshot
 from .tables import BREAK_MODES
 

@@ -16,7 +16,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 
 from .errors import UserError
-from .packing_files import write_atomically
+from .whole_files import write_arrays, write_atomically
 from .tables import BREAK_MODES
 
 
@@ -418,25 +418,12 @@ def _snapshot(arrays, source):
 def write_snapshot(path, **arrays):
     """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as compressed ``.npz``; returns its path.
 
-    The file is written beside its place, synced and then renamed: the place holds the old file or the whole new one.
-    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a
-    NaN, a bad index, or a file that cannot be written.
+    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN or a bad index, and
+    :class:`~yade.nonsmooth.whole_files.WriteError` for a file that cannot be written.
     """
     path = Path(path)
     snapshot = _snapshot(arrays, path)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        with open(beside, "wb") as file:
-            np.savez_compressed(file, **{f.name: getattr(snapshot, f.name) for f in fields(Snapshot)})
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(beside, path)
-    except OSError as error:
-        raise RecordsError(
-            f"{path}: cannot be written ({error.strerror}); choose a folder that exists, is writable and has space"
-        ) from error
-    finally:
-        beside.unlink(missing_ok=True) if beside.parent.is_dir() else None
+    write_arrays(path, compressed=True, **{f.name: getattr(snapshot, f.name) for f in fields(Snapshot)})
     return path
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from . import figures, paraview, records, toe, video
-from .packing_files import write_atomically
+from .whole_files import write_atomically
 
 __all__ = ["characteristic_times", "mean_of", "summarise", "draw"]
 

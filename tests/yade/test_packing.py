@@ -13,6 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 from nonsmooth import geometry, packing  # noqa: E402
 from nonsmooth.packing import Packing, PackingError  # noqa: E402
 from nonsmooth.section import FOLDER, load  # noqa: E402
+from nonsmooth.whole_files import WriteError  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -153,10 +154,10 @@ def test_npz(three, tmp_path):
 
 def test_cannot_be_written(three, tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(PackingError, match="cannot be written"):
+    with pytest.raises(WriteError, match="cannot be written"):
         packing.save(three, tmp_path / "file" / "p.npz")
     (tmp_path / "p.npz").mkdir()
-    with pytest.raises(PackingError, match="cannot be written"):
+    with pytest.raises(WriteError, match="cannot be written"):
         packing.save(three, tmp_path / "p.npz")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["file", "p.npz"]
 

@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from ..kept_runs import Progress
+from ..whole_files import write_arrays
 from .cases import Case
 from .outcomes import Cost, Outcome, Quantity
 
@@ -109,10 +110,9 @@ def _run(kind, folder, case):
     result = course.run(heap, world, progress=progress)
     begin = result.frames[min(result.frames)]
     pairs = sorted(pressed["table"])
-    np.savez(folder / "record.npz", **{f"series_{name}": values for name, values in result.series.items()}, begin_x=begin[0], begin_y=begin[1],
-             begin_r=result.r,
-             end_x=result.x, end_y=result.y, end_r=result.r, pairs=np.array(pairs, int).reshape(-1, 2),
-             forces=np.array([pressed["table"][p] for p in pairs]))
+    write_arrays(folder / "record.npz", **{f"series_{name}": values for name, values in result.series.items()}, begin_x=begin[0], begin_y=begin[1],
+                 begin_r=result.r, end_x=result.x, end_y=result.y, end_r=result.r, pairs=np.array(pairs, int).reshape(-1, 2),
+                 forces=np.array([pressed["table"][p] for p in pairs]))
     return result.summary()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 from . import figures, report
 from .answers import number
 from .cases import modulus_label

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from ..benchmark import machine
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 from . import answers, biaxial_report, biaxials, collapse_report, collapses, report, runs, slope_report, slopes, summary
 from .cases import HARD_NUMERICS, ComparisonError, plan
 

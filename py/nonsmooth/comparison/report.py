@@ -9,7 +9,7 @@ from pathlib import Path
 
 import jinja2
 
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 from . import answers, figures
 from .answers import number
 from .cases import modulus_label

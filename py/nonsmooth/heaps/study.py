@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import shutil
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import asdict
@@ -11,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import checkpoints, kept_runs, processes, records
-from ..packing_files import write_atomically
+from ..whole_files import write_arrays
 from .column import Column
 from .grains import PATH_PER_STEP, HeapError
 from .pile import Pile
@@ -55,11 +54,9 @@ def one(folder, kind, heap, world, duration):
     with records.SeriesWriter(folder / "series.csv", course.COLUMNS, overwrite=True) as series:
         for row in zip(*(result.series[name].tolist() for name in course.COLUMNS)):
             series.write(dict(zip(course.COLUMNS, row)))
-    content = io.BytesIO()
     times = sorted(result.frames)
-    np.savez_compressed(content, time=times, x=[result.frames[t][0] for t in times], y=[result.frames[t][1] for t in times], r=result.r, x_end=result.x,
-                        y_end=result.y, connected=result.connected)
-    write_atomically(folder / "places.npz", content.getvalue())
+    write_arrays(folder / "places.npz", compressed=True, time=times, x=[result.frames[t][0] for t in times], y=[result.frames[t][1] for t in times],
+                 r=result.r, x_end=result.x, y_end=result.y, connected=result.connected)
     return result.summary()
 
 

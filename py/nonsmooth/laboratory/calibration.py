@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 from . import biaxial, campaign, pressing
 
 # σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15 % of c; under half of it, 5 %.

@@ -11,7 +11,7 @@ from pathlib import Path
 import yaml
 
 from .. import section
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 from ..section_reader import SectionError, read
 
 #: Names of the paper's Table 1 and the materials of the shipped section that hold their parameters.

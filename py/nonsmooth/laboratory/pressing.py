@@ -11,7 +11,6 @@ Times are counted in t_i = √(m/p), with m the mean mass of a disk per metre an
 from __future__ import annotations
 
 import dataclasses
-import io
 import math
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -20,7 +19,8 @@ import numpy as np
 
 from .. import checkpoints, packing, processes, section
 from ..errors import UserError
-from ..packing_files import cache_folder, write_atomically
+from ..packing_files import cache_folder
+from ..whole_files import write_arrays
 
 VERSION = 1          # of the way samples are made; a new number makes old files unused
 PRESSURE = 1e6       # Pa
@@ -163,6 +163,4 @@ def make(folder, **plain):
 
 
 def _keep(shape, x, y, r, width, height):
-    content = io.BytesIO()
-    np.savez(content, x=x, y=y, r=r, width=width, height=height)
-    write_atomically(cache_path(shape), content.getvalue())
+    write_arrays(cache_path(shape), x=x, y=y, r=r, width=width, height=height)

@@ -11,7 +11,7 @@ import shutil
 from concurrent.futures import ThreadPoolExecutor
 
 from .. import processes
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 
 __all__ = ["run_cases"]
 

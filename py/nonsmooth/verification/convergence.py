@@ -9,6 +9,7 @@ import shutil
 import numpy as np
 
 from ..figures import style
+from ..whole_files import write_arrays
 from .cases import run_cases
 from .claims import Outcome, near
 from .registry import check
@@ -67,7 +68,7 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
     window = max(1, round(0.5 / time_step))  # the mean over half a second
     smooth = np.convolve(force, np.ones(window) / window, "valid")
     k = int(np.argmax(smooth))
-    np.savez(folder / "curve.npz", path=path, force=force, bonds=alive)
+    write_arrays(folder / "curve.npz", path=path, force=force, bonds=alive)
     middle = slice(k, k + window)
     return {"peak_Pa": smooth[k] / WIDTH, "path_m": float(path[middle].mean()), "work_J_per_m2": float(np.sum(force * np.diff(path, prepend=0))) / WIDTH,
             "imbalance": float(abs(above[middle].mean() - below[middle].mean())) / smooth[k], "bonds": bonds, "broken": int(bonds - alive[-1]),

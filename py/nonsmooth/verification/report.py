@@ -10,7 +10,7 @@ from pathlib import Path
 import docutils.core
 import jinja2
 
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 
 __all__ = ["write_report"]
 

@@ -10,7 +10,7 @@ import traceback
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from ..packing_files import write_atomically
+from ..whole_files import write_atomically
 from .claims import Claim, Outcome
 from .registry import Bench, Check
 
