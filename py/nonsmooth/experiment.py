@@ -36,7 +36,8 @@ __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 
 ROW_SECONDS = 0.1        # between two rows of series.csv
 FRAME_SECONDS = 0.5      # between two snapshots, for the video and the figures
-CHECKPOINT_SECONDS = 90  # of wall time
+CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
+CHECKPOINT_SHARE = 0.02  # ... and so many that they take this part of it at most
 MOVING_SPEED = 0.2       # m/s, see above
 STOPPED_SPEED = 0.02     # m/s: at rest again ...
 GOING_SPEED = 2.0        # m/s: ... without a mean speed that was ever as large
@@ -101,7 +102,7 @@ class Experiment:
         self.series = records.SeriesWriter(
             self.folder / "series.csv", self.columns, resume_from_step=O.iter if state else None, overwrite=state is None)
         self._clock = time.monotonic()
-        self._saved = self._clock
+        self._saved, self._saving = self._clock, 0.0
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         self.damping = (self.newton.damping, self.newton.damping if damping_moving is None else damping_moving)
         if state is None:
@@ -142,7 +143,7 @@ class Experiment:
                 s.frames += 1
         getattr(self, f"_{s.stage}")()
         self.progress(s.stage, O.time, self._foreseen())
-        if time.monotonic() - self._saved > CHECKPOINT_SECONDS:
+        if time.monotonic() - self._saved > max(CHECKPOINT_SECONDS, self._saving / CHECKPOINT_SHARE):
             self.checkpoint()
 
     def _begin(self):
@@ -334,12 +335,14 @@ class Experiment:
         """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole. With soft contacts the records alone."""
         now = time.monotonic()
         self.state.wall_s += now - self._clock
-        self._clock = self._saved = now
+        self._clock = now
         self.series.sync()
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
         if self.hard:
             checkpoints.write(self.folder, run_key(self.section), {
                 "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state)})
+        self._saved = time.monotonic()
+        self._saving = self._saved - now
 
 
 def run_key(section):
