@@ -24,7 +24,9 @@ public:
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
 as fast. Contacts of two :yref:`spheres<Sphere>` with :yref:`NscdPhys` are kept up to date without their functor: position, normal and overlap are those
 of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, stay as they were when the
-contact began. With periodic boundaries, callbacks or sorted interactions it is the plain loop.)""");
+contact began. :yref:`ContactDynamicsEngine` takes from it what it has read of bodies and contacts, and spares itself the way, unless an engine other than
+:yref:`PorePressureEngine` stands between the two and may have changed them: engines that only add forces are better put before this one. With periodic
+boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:
 	std::vector<nscd::BodyReading> bodies;
