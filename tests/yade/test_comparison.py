@@ -148,6 +148,9 @@ def test_lists_that_cannot_be_used(change, wanted):
 def test_numbers_for_readers():
     assert answers.number(2.034e8, "N/m") == "203 MN/m" and answers.number(None, "m") == "not known" and answers.number(0.5, "1") == "0.5"
     assert answers.number(12345.0, "m") == "12345 m"
+    # one unit for both, that of the mean
+    assert answers.spread(4.58e6, 3.59e5, "Pa") == "4.58 ± 0.36 MPa" and answers.spread(15.94, 6.1, "m") == "15.9 ± 6.1 m"
+    assert answers.spread(None, None, "m") == "not known" and answers.spread(2.0, None, "1") == "2"
 
 
 # ---- one slope, two worlds ------------------------------------------------------------------------

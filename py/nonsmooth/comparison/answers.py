@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
-__all__ = ["answer_cost", "answer_costs", "answer_same", "number"]
+__all__ = ["answer_cost", "answer_costs", "answer_same", "number", "spread"]
+
+
+def _prefix(value, unit):
+    """Factor and letter in which a value is best read."""
+    if unit not in ("N/m", "Pa", "N"):
+        return 1.0, ""
+    return next(((f, p) for f, p in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
+
+
+def _digits(value, digits):
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e" in text and 1e-3 <= abs(value) < 1e6 else text
 
 
 def number(value, unit="", digits=3):
     """A number with its unit for a reader; "not known" for None."""
     if value is None:
         return "not known"
-    scale, prefix = 1.0, ""
-    if unit in ("N/m", "Pa", "N") and value:
-        scale, prefix = next(((f, p) for f, p in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")) if abs(value) >= f), (1.0, ""))
-    text = f"{value / scale:.{digits}g}"
-    if "e" in text and 1e-3 <= abs(value / scale) < 1e6:
-        text = f"{value / scale:.0f}"
-    return text if unit in ("", "1") else f"{text} {prefix}{unit}"
+    scale, prefix = _prefix(value, unit)
+    return _digits(value / scale, digits) + ("" if unit in ("", "1") else f" {prefix}{unit}")
 
 
-def _with_spread(found, unit):
-    if found["mean"] is None:
-        return "not known"
-    return number(found["mean"], unit) + (f" ± {number(found['sd'], unit)}" if found["sd"] is not None else "")
+def spread(mean, sd, unit):
+    """Mean ± standard deviation in one unit; "not known" where the mean is None."""
+    if mean is None or sd is None:
+        return number(mean, unit)
+    scale, prefix = _prefix(mean, unit)
+    return f"{_digits(mean / scale, 3)} ± {_digits(sd / scale, 2)}" + ("" if unit in ("", "1") else f" {prefix}{unit}")
 
 
 def answer_same(summary, names):
@@ -31,7 +40,8 @@ def answer_same(summary, names):
     for name in names:
         q = summary["quantities"][name]
         unit = q["unit"]
-        text = f"{q['means'][0].upper()}{q['means'][1:]}: {_with_spread(q['hard'], unit)} hard, {_with_spread(q['soft'], unit)} soft"
+        values = [spread(q[world]["mean"], q[world]["sd"], unit) for world in ("hard", "soft")]
+        text = f"{q['means'][0].upper()}{q['means'][1:]}: {values[0]} hard, {values[1]} soft"
         known = [sum(v is not None for v in q[world]["values"]) for world in ("hard", "soft")]
         if min(known) < seeds:
             text += f" (in {known[0]} hard and {known[1]} soft runs of {seeds} it came to that)"

@@ -73,9 +73,8 @@ class Case:
         if self.world == "soft":
             constant = f", damping {self.damping:g} throughout" if self.damping == self.damping_moving else ""
             return f"soft, {modulus_label(self.stiffness)}{constant}" + (", fragile bonds" if self.fragile else "")
-        if (self.step, self.tolerance) == (1.0, 1.0):
-            return "hard"
-        return f"hard, step × {self.step:g}, tolerance × {self.tolerance:g}"
+        changed = [f"{name} × {factor:g}" for name, factor in (("step", self.step), ("tolerance", self.tolerance)) if factor != 1]
+        return ", ".join(["hard", *changed])
 
 
 @dataclass(frozen=True)

@@ -130,8 +130,7 @@ def modes(groups, path):
 
 def _log_axes(fig, xlabel, ylabel):
     ax = fig.subplots()
-    ax.set_xscale("log")
-    ax.set_yscale("log")
+    ax.set(xscale="log", yscale="log")
     ax.set_xlabel(xlabel)
     ax.set_ylabel(ylabel)
     ax.grid(color="#e3e3e3", lw=0.7)
@@ -159,8 +158,7 @@ def cost(moduli, rates, steps, hard_rate, hard_steps, path):
                                         ("wall time for a second of simulation [s]", "steps in a second of simulation")):
         ax.plot(moduli, values, color=SOFT, marker="s", label="soft")
         ax.axhline(level, color=HARD, label=f"hard: {level:.3g}")
-        ax.set_xscale("log")
-        ax.set_yscale("log")
+        ax.set(xscale="log", yscale="log")
         ax.set_xlabel("Young's modulus [Pa]")
         ax.set_ylabel(label)
         ax.grid(color="#e3e3e3", lw=0.7)
@@ -188,8 +186,7 @@ def cost_and_overlap(panels, path):
             ax.plot([x[-1], hard["overlap_mean_rel"]], [y[-1], rate], color=SOFT, ls=(0, (4, 2)), lw=1.0)
             ax.plot([hard["overlap_mean_rel"]] * 2, [hard["rate"], rate], color=INK, lw=0.9)
             ax.annotate(f"× {factor:.3g}", (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])), xytext=(6, 0), textcoords="offset points")
-        ax.set_xscale("log")
-        ax.set_yscale("log")
+        ax.set(xscale="log", yscale="log")
         ax.margins(x=0.15, y=0.12)
         ax.set_title(title)
         ax.set_xlabel("mean overlap [mean diameters]")
@@ -215,8 +212,7 @@ def work_precision(panels, chance, path):
         if chance and np.isfinite(chance):
             ax.axhspan(1e-12, chance, color="#eeeeee", zorder=0)
             ax.axhline(chance, color=LINES["grey"], ls=(0, (4, 2)), label="scatter over seeds")
-        ax.set_xscale("log")
-        ax.set_yscale("log")
+        ax.set(xscale="log", yscale="log")
         ax.margins(x=0.25)
         ax.set_title(title)
         ax.set_xlabel("wall time of the run's steps [s]")
@@ -241,11 +237,10 @@ def convergence(moduli, rows, path):
         good = np.isfinite(d) & (d > 0)
         ax.plot(np.asarray(moduli)[good], d[good], color=SOFT, marker="s", ls="")
         if power is not None and scale is not None:
-            ax.plot(moduli, scale * np.asarray(moduli) ** power, color=SOFT, lw=0.9, ls=(0, (4, 2)), label=f"∝ E^{power:.2f}")
+            ax.plot(moduli, scale * np.asarray(moduli) ** power, color=SOFT, lw=0.9, ls=(0, (4, 2)), label=rf"$\propto E^{{{power:.2f}}}$")
         if chance:
             ax.axhline(chance, color=LINES["grey"], lw=0.9, label="scatter over seeds")
-        ax.set_xscale("log")
-        ax.set_yscale("log")
+        ax.set(xscale="log", yscale="log")
         ax.set_title(title, fontsize=9)
         ax.grid(color="#e3e3e3", lw=0.7)
         if ax.get_legend_handles_labels()[0]:

@@ -11,7 +11,7 @@ import jinja2
 
 from ..whole_files import write_atomically
 from . import answers, figures
-from .answers import number
+from .answers import number, spread
 from .cases import modulus_label
 
 __all__ = ["Section", "common_sections", "write"]
@@ -57,7 +57,7 @@ def common_sections(out, scenario, plan, outcomes, summary):
 def _quantities(summary):
     rows = []
     for q in summary["quantities"].values():
-        cell = lambda w: number(q[w]["mean"], q["unit"]) + ("" if q[w]["sd"] is None else f" ± {number(q[w]['sd'], q['unit'])}")  # noqa: E731
+        cell = lambda w: spread(q[w]["mean"], q[w]["sd"], q["unit"])  # noqa: E731
         within = {None: "–", True: "yes", False: "no"}[q["within_scatter"]]
         rows.append((q["means"], cell("hard"), cell("soft"), number(q["difference"], q["unit"]),
                      "–" if q["difference_95"] is None else "± " + number(q["difference_95"], q["unit"]), within))
