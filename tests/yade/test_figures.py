@@ -143,6 +143,16 @@ def test_walls_in_all_their_forms():
         style.as_walls([("FB", [[0.0, 0.0]])])
 
 
+def test_running_mean_stays_centred():
+    x = np.linspace(0, 10, 101)
+    # of a straight line it is the line itself, also at the ends, where a window cut on one side would lean; exact but for rounding
+    np.testing.assert_allclose(style.running_mean(x, 3 * x + 1, 2.0), 3 * x + 1, rtol=1e-12)
+    # of a spike it is the spike's share of the window: 21 rows in the middle
+    spike = np.zeros(101)
+    spike[50] = 21.0
+    np.testing.assert_allclose(style.running_mean(x, spike, 2.0)[[39, 40, 50, 60, 61]], [0, 1, 1, 1, 0], atol=1e-12)
+
+
 def test_importing_needs_no_display_and_leaves_the_settings_alone(tmp_path, series):
     import matplotlib
 

@@ -11,19 +11,12 @@ from matplotlib.patches import Patch
 from . import forces, style
 
 MEGA = 1e6
+SMOOTHED = 0.2  # % of strain over which stresses are averaged for the thick curves
 SEQUENCE = ("#0072B2", "#D55E00", "#009E73", "#9E4F86", "#E0A100", "#4AA8DE", "#777777")
 
 
 def _colours(count):
     return [SEQUENCE[k % len(SEQUENCE)] for k in range(count)]
-
-
-def _smooth(strain, values, window=2e-3):
-    """Mean over the ``window`` around each row; the window shrinks towards both ends, so that it stays centred."""
-    n = len(values)
-    half = np.minimum(round(0.5 * window * n / strain[-1]), np.minimum(np.arange(n), np.arange(n)[::-1]))
-    total = np.concatenate(([0.0], np.cumsum(values)))
-    return (total[np.arange(n) + half + 1] - total[np.arange(n) - half]) / (2 * half + 1)
 
 
 @style.styled
@@ -39,7 +32,7 @@ def stress_strain(tests, path, pdf=False):
         strain = 100 * np.asarray(series["strain"])
         axial = 0.5 * (np.asarray(series["sigma1_top_Pa"]) + np.asarray(series["sigma1_bottom_Pa"]))
         top.plot(strain, axial / sigma3, color=colour, lw=0.4, alpha=0.35)
-        top.plot(strain, _smooth(strain / 100, axial) / sigma3, color=colour, label=f"{sigma3 / MEGA:g}")
+        top.plot(strain, style.running_mean(strain, axial, SMOOTHED) / sigma3, color=colour, label=f"{sigma3 / MEGA:g}")
         top.plot(100 * measured["strain_peak"], measured["sigma1_peak_Pa"] / sigma3, "o", ms=5, color=colour, mec="white", mew=0.7, zorder=5)
         begin, end = measured["residual_between_strains"]
         top.hlines(measured["sigma1_residual_Pa"] / sigma3, 100 * begin, 100 * min(end, strain[-1] / 100), color=colour, lw=1.2, ls=(0, (4, 2)))

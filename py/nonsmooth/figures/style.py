@@ -266,9 +266,11 @@ def mark_times(ax, times, labels=True, gap=0.028):
         ax.text(b, 1.035, f"$t_{{{name[1:]}}}$", transform=ax.transAxes, ha="center", va="bottom", fontsize=10.5)
 
 
-def running_mean(time, values, window):
-    """Mean of ``values`` over the ``window`` [s] centred on each time; same shape."""
+def running_mean(abscissa, values, window):
+    """Mean of ``values`` over the ``window`` centred on each place of ``abscissa``, which rises, in its units; the window shrinks towards both ends, so that
+    it stays centred. Same shape."""
+    half = np.minimum(window / 2, np.minimum(abscissa - abscissa[0], abscissa[-1] - abscissa)) + 1e-9 * window
     total = np.r_[0.0, np.cumsum(values)]
-    a = np.searchsorted(time, time - window / 2, side="left")
-    b = np.searchsorted(time, time + window / 2, side="right")
+    a = np.searchsorted(abscissa, abscissa - half, side="left")
+    b = np.searchsorted(abscissa, abscissa + half, side="right")
     return (total[b] - total[a]) / (b - a)
