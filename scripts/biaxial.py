@@ -40,7 +40,14 @@ def read_arguments():
     parser.add_argument("--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
-    return parser.parse_args()
+    args = parser.parse_args()
+    if not args.pressing_friction >= 0:
+        parser.error(f"--pressing-friction {args.pressing_friction:g}: it must be 0 or more")
+    if args.bond_first and args.pressing_friction:
+        parser.error(f"--pressing-friction {args.pressing_friction:g} with --bond-first: such a sample is not pressed; leave one out")
+    if args.diameter[0] > args.diameter[1]:
+        parser.error(f"--diameter {args.diameter[0]:g} {args.diameter[1]:g}: give the smallest first")
+    return args
 
 
 def main():

@@ -40,6 +40,10 @@ def read_arguments():
         parser.error(f"--friction {args.friction:g}: granular samples reach 6° (no friction between disks) to about 60°")
     if (args.residual_cohesion is None) != (args.residual_friction is None):
         parser.error("give both --residual-cohesion and --residual-friction, or neither")
+    if args.residual_friction is not None and not 6 < args.residual_friction <= args.friction:
+        parser.error(f"--residual-friction {args.residual_friction:g}: give more than 6° and no more than --friction")
+    if args.residual_cohesion is not None and not 0 <= args.residual_cohesion <= args.cohesion:
+        parser.error(f"--residual-cohesion {args.residual_cohesion:g}: give 0 or more, and no more than --cohesion")
     return args
 
 
@@ -59,7 +63,12 @@ def main():
     measured = section.Envelope(*map(float, (c, angle)))
     materials.save(dataclasses.replace(best, envelope=measured), path, f"Calibrated by scripts/calibrate.py for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
                                f"Samples of {args.fine} disks gave c = {1e-3 * c:.1f} kPa, φ = {angle:.2f}°.")
-    print(f"{path}: c = {1e-3 * c:.1f} kPa (wanted {args.cohesion:g}), φ = {angle:.2f}° (wanted {args.friction:g}); {report['unique']}; report: {work}/report.json")
+    print(f"{path}: c = {1e-3 * c:.1f} kPa (wanted {args.cohesion:g}), φ = {angle:.2f}° (wanted {args.friction:g}); report: {work}/report.json")
+    known = ", ".join(f"{name} to {100 * error:.0f} %" for name, error in report["parameter_error_rel"].items())
+    print(f"{report['given']}. With strengths known to {100 * calibration.SCALE:g} % and {calibration.DEGREES:g}°: {known}")
+    if not report["reached"]:
+        print(f"NOT REACHED: the best trial misses the wanted strengths by up to {max(map(abs, report['misfit_in_tolerances'])):.1f} times the tolerance of "
+              f"{100 * calibration.SCALE:g} % and {calibration.DEGREES:g}°; try another --start, or strengths that belong together", file=sys.stderr)
 
 
 try:

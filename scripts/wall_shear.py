@@ -41,6 +41,8 @@ def main():
             m = dataclasses.replace(m, bonded=True)
         if args.tensile_strength is not None:
             m = dataclasses.replace(m, tensile_strength=1e3 * args.tensile_strength)
+        if m.bonded and not m.tensile_strength > 0:
+            raise errors.UserError(f"--bonded with {name}: its tensile strength is 0, so such bonds bear nothing; add --tensile-strength KPA")
         chosen.append(m)
     found = []
     with tqdm(total=len(chosen) * len(args.seeds) * len(args.pressures), unit="test", leave=False) as bar:

@@ -11,22 +11,28 @@ import subprocess
 import time
 from pathlib import Path
 
-__all__ = ["call"]
+from .errors import UserError
+
+__all__ = ["RunError", "call"]
 
 _WORKER = Path(__file__).with_name("_process_worker.py")
+
+
+class RunError(UserError, RuntimeError):
+    """A run that ended without a result. The message is the run's own where it refused (a UserError), else its status and the last line of its output."""
 
 
 def call(function, folder, arguments, threads=1):
     """Calls ``function(folder, **arguments)`` in a process and returns what it returned, with ``wall_s`` [s] added where it has none.
 
     ``function``: of a module of this package; it returns a dictionary that JSON can hold. ``folder`` exists and is kept; the process
-    writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold; ``threads``: of the process. Raises RuntimeError with the end of the
-    process's output where it fails.
+    writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold; ``threads``: of the process. Raises RunError where it fails.
     """
     folder, began = Path(folder), time.monotonic()
     request = folder / "request.json"
     request.write_text(json.dumps({"module": function.__module__, "function": function.__name__, "arguments": arguments}))
-    (folder / "found.json").unlink(missing_ok=True)
+    for name in ("found.json", "refused.txt"):
+        (folder / name).unlink(missing_ok=True)
     # waiting threads must not spin where processes share the cores
     environment = {**os.environ, "OMP_WAIT_POLICY": "passive"} if threads == 1 else None
     with open(folder / "log.txt", "wb") as log:
@@ -35,8 +41,11 @@ def call(function, folder, arguments, threads=1):
     try:
         found = json.loads((folder / "found.json").read_text())
     except (OSError, ValueError):
-        end = (folder / "log.txt").read_text(errors="replace")[-500:]
-        raise RuntimeError(f"{folder}: the run ended with status {status} and no result: {end}") from None
+        if (folder / "refused.txt").exists():
+            raise RunError((folder / "refused.txt").read_text()) from None
+        lines = (folder / "log.txt").read_text(errors="replace").split("\n")
+        last = next((line.strip() for line in reversed(lines) if line.strip()), "no output")
+        raise RunError(f"the run ended with status {status} and no result: {last} (all of it: {folder / 'log.txt'})") from None
     return {"wall_s": time.monotonic() - began, **found}
 
 

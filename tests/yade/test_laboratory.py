@@ -9,8 +9,8 @@ from dataclasses import asdict
 import numpy as np
 import pytest
 from yade import O
-from yade.nonsmooth import records, section
-from yade.nonsmooth.laboratory import bands, biaxial, calibration, effects, materials, membrane, pressing, strength, wall_shear
+from yade.nonsmooth import errors, processes, records, section
+from yade.nonsmooth.laboratory import bands, biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, strength, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
@@ -177,13 +177,41 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
     assert report["found"][0] == pytest.approx(60e3, rel=0.021) and report["found"][1] == pytest.approx(34.0, abs=0.71)
     if wanted.with_residual:
         assert report["found"][2] == pytest.approx(6e3, abs=1.3e3) and report["found"][3] == pytest.approx(25.0, abs=0.71)
-    assert len(search.trials) <= 20
+    assert len(search.trials) <= 20 + len(search.names)
+    assert report["reached"] and len(report["trials"]) == len(search.trials)
+    # d ln c = d ln σ_ext + 0.2 d ln μ_s, dφ = 1.03 · 7° d ln μ_s in coarse samples, in units of 2 % and 0.7°; the logarithms are exact at any step
+    tells = np.array(report["sensitivity"])
+    assert tells[0, :2] == pytest.approx([50, 10], rel=1e-6) and tells[1, :2] == pytest.approx([0, 1.03 * 10], rel=1e-6, abs=1e-9)
 
     class Refuses(MadeUpRock):
         def test(self, *what):
             raise AssertionError("a trial was computed again")
 
     assert Refuses(*options, resume=True).run((600, [1, 2]), (2500, [1]), trials=(12, 8))[1]["found"] == report["found"]
+
+
+def test_uniqueness_is_the_error_that_strengths_leave():
+    # J = ((50, 10), (0, 10)): J⁻¹ = ((0.02, −0.02), (0, 0.1)), whose rows have the lengths 0.02 √2 and 0.1
+    told = calibration.uniqueness(("a", "b"), np.array([[50.0, 10.0], [0.0, 10.0]]))
+    assert told["parameter_error_rel"] == pytest.approx({"a": 0.02 * math.sqrt(2), "b": 0.1}, rel=1e-9)
+    assert abs(told["least_certain_direction"]["b"]) > 0.9
+
+
+def test_a_resumed_search_for_other_strengths_computes_its_own_trials(tmp_path):
+    wwr = materials.load("wwr")
+    first = MadeUpRock(calibration.Wanted(60e3, 34.0), wwr, tmp_path, 2, lambda text: None)
+    first.run((600, [1]), (2500, [1]))
+    computed = []
+
+    class Counted(MadeUpRock):
+        def test(self, *what):
+            computed.append(what)
+            return super().test(*what)
+
+    other = dataclasses.replace(wwr, rolling_friction=0.2, residual_rolling_friction=0.2)
+    second = Counted(calibration.Wanted(60e3, 34.0), other, tmp_path, 2, lambda text: None, resume=True)
+    second.run((600, [1]), (2500, [1]))
+    assert len(computed) == len(second.trials)
 
 
 # ---- a small test, whole --------------------------------------------------------------------------
@@ -194,6 +222,40 @@ SMALL = biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(count=150, seed=
 def test_a_sample_that_is_too_small_is_refused():
     with pytest.raises(pressing.SampleError, match="ask for more disks"):
         pressing.Shape(count=40, seed=1).section()
+
+
+def test_what_cannot_be_tested_is_refused_before_anything_runs(tmp_path):
+    small = dataclasses.replace(SMALL, shape=pressing.Shape(count=40, seed=1))
+    for tests, message in (([small], "ask for more disks"), ([dataclasses.replace(SMALL, strain=0.003)], "--strain 0.003: too short"), ([SMALL, SMALL], "give each once")):
+        with pytest.raises(errors.UserError, match=message):
+            campaign.run(tests, tmp_path, 1)
+    assert not list(tmp_path.rglob("log.txt"))
+
+
+def test_a_refusal_in_another_process_is_one_message(tmp_path):
+    missing = dataclasses.replace(SMALL, shape=pressing.Shape(count=150, seed=987654))  # nobody has pressed it
+    with pytest.raises(processes.RunError, match="there is no such sample; prepare it first$") as refused:
+        processes.call(biaxial.run, tmp_path, asdict(missing))
+    assert "\n" not in str(refused.value) and isinstance(refused.value, errors.UserError)
+    with pytest.raises(processes.RunError, match="ended with status 1 and no result: KeyError.*log.txt"):
+        processes.call(biaxial.run, tmp_path, {"no": "test"})
+
+
+def test_a_rock_without_bonds_is_tested_without_bonds(tmp_path):
+    loose = dataclasses.replace(SMALL.material, bonded=False)
+    pressing.prepare(SMALL.shape, tmp_path)
+    course = sample.Sample.build(SMALL.shape, loose, dataclasses.replace(SMALL, material=loose).platen, 1e6, tolerance=1e-4, maxIterations=1000)
+    assert course.bonds == 0 and course.engine.bonds == 0 and course.engine.contacts > 100
+
+
+def test_without_a_plateau_there_is_no_residual_envelope():
+    measured = [{"seed": 1, "confining_Pa": p, "sigma3_peak_Pa": p, "sigma1_peak_Pa": 4 * p + 4e5, "sigma3_residual_Pa": p, "sigma1_residual_Pa": 3 * p,
+                 "residual_between_strains": (0.5 * end, end)} for p, end in ((1e6, 0.1), (2e6, 0.1))]
+    whole = campaign.summarise(SMALL.material, measured, 1.0, 1)
+    assert whole["friction_residual_deg"] == pytest.approx(30.0) and whole["fit_confining_Pa"] == [1e6, 2e6]  # sin φ = (3 − 1)/(3 + 1)
+    short = campaign.summarise(SMALL.material, [{**m, "residual_between_strains": (0.015, 0.03)} for m in measured], 1.0, 1)
+    assert short["friction_peak_deg"] == whole["friction_peak_deg"]
+    assert short["friction_residual_deg"] is None and short["cohesion_residual_kPa"] is None and "no residual envelope" in short["note"]
 
 
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
@@ -245,6 +307,10 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
         assert (tmp_path / name).stat().st_size > 300
     again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
     assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
+    assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau
+    for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--bond-first", "--pressing-friction", "0.1"], "is not pressed")):
+        refused = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=100)
+        assert refused.returncode != 0 and message in refused.stderr + refused.stdout
     bad = subprocess.run([*command, "--confining", "4,x"], env=environment, text=True, capture_output=True, timeout=100)
     assert bad.returncode != 0 and "give pressures in MPa" in bad.stderr + bad.stdout
 

@@ -33,9 +33,8 @@ class Course:
         watcher.start()
         try:
             return processes.call(function, folder, arguments, threads)
-        except RuntimeError as error:
-            # the last line is the exception's own
-            raise BenchmarkError(f"{name}: {str(error).strip().splitlines()[-1]} (all of it: {folder / 'log.txt'})") from None
+        except processes.RunError as error:
+            raise BenchmarkError(f"{name}: {error}") from None
         finally:
             ended.set()
             watcher.join()

@@ -55,11 +55,11 @@ def mohr(summary, path, pdf=False):
     tests = summary["tests"]
     lowest = sorted({t["confining_Pa"] for t in tests})
     limit = lowest[max(0, min(2, len(lowest) - 2))]
-    kinds = (("peak", style.LINES["blue"], "peak"), ("residual", style.LINES["orange"], "residual"))
+    kinds = [(kind, colour) for kind, colour in (("peak", style.LINES["blue"]), ("residual", style.LINES["orange"])) if summary[f"cohesion_{kind}_kPa"] is not None]
     for ax, chosen in ((whole, tests), (close, [t for t in tests if t["confining_Pa"] <= limit])):
         far = 1.05 * max(t["sigma1_peak_Pa"] for t in chosen) / MEGA
         high = 0.0
-        for kind, colour, word in kinds:
+        for kind, colour in kinds:
             c, angle = summary[f"cohesion_{kind}_kPa"], summary[f"friction_{kind}_deg"]
             for t in chosen:
                 a, b = t[f"sigma3_{kind}_Pa"] / MEGA, t[f"sigma1_{kind}_Pa"] / MEGA
@@ -67,7 +67,7 @@ def mohr(summary, path, pdf=False):
                 ax.plot(0.5 * (a + b) + 0.5 * (b - a) * np.cos(turn), 0.5 * (b - a) * np.sin(turn), color=colour, lw=0.9, alpha=0.8)
                 high = max(high, 0.5 * (b - a))
             x = np.array([0, far])
-            ax.plot(x, 1e-3 * c + x * math.tan(math.radians(angle)), color=colour, lw=2, label=f"{word}: c′ = {c:.0f} kPa, φ′ = {angle:.1f}°")
+            ax.plot(x, 1e-3 * c + x * math.tan(math.radians(angle)), color=colour, lw=2, label=f"{kind}: c′ = {c:.0f} kPa, φ′ = {angle:.1f}°")
         ax.set(xlim=(0, far), ylim=(0, 1.6 * high), xlabel="normal stress [MPa]", ylabel="shear stress [MPa]", aspect="equal")
     whole.set_title(f"{len(tests)} tests")
     close.set_title("the lowest pressures, where cohesion shows")
@@ -87,17 +87,17 @@ def _frame(ax, *snapshots):
 def rotations(begin, panels, path, pdf=False):
     """The sample coloured by the rotation of its disks since the begin of shear (the paper's Figure 9).
 
-    ``begin``: the Snapshot then; ``panels``: list of (title, Snapshot, bands), bands as in ``summary.json``. Returns ``path``.
+    ``begin``: the Snapshot then; ``panels``: list of (title, Snapshot). Returns ``path``.
     """
-    shown = [s for _, s, _ in panels]
+    shown = [s for _, s in panels]
     ratio = max(np.ptp(s.y) for s in shown) / max(np.ptp(s.x) for s in shown)
     width = 3.4
     fig = style.figure(width * len(panels) + 0.9, width * ratio + 0.5, layout="constrained")
     axes = fig.subplots(1, len(panels), squeeze=False)[0]
-    turned = [s.angle - begin.angle for _, s, _ in panels]
+    turned = [s.angle - begin.angle for _, s in panels]
     limit = max(0.02, style.nice(float(np.quantile(np.abs(np.concatenate(turned)), 0.98))))
     scale = ScalarMappable(Normalize(-limit, limit), "RdBu_r")
-    for ax, (title, s, found), angle in zip(axes, panels, turned):
+    for ax, (title, s), angle in zip(axes, panels, turned):
         _frame(ax, s, *shown)
         style.draw_disks(ax, s, scale.to_rgba(angle), edge="#00000030", width=0.15)
         ax.set_title(title)

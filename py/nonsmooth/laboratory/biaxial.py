@@ -4,7 +4,7 @@
     σ₁ = F/W        mean over both platens,            σ₃ on the sides, held,
     ε_v = A/A₀ − 1  volumetric strain, positive in dilation.
 
-The platens reach their rate over the strain :data:`RAMP`: with v = ε̇ H the sample's inertia takes ρ H v̇ ≈ σ₃ I² (H/d)²/RAMP, half a per cent of σ₃ for
+The platens reach their rate over the strain :data:`RAMP`: with v = ε̇ H₀ the sample's inertia takes ρ H v̇ ≈ σ₃ I² (H/d)²/RAMP, half a per cent of σ₃ for
 the default I = 1e-4 and a sample 100 disks high. What remains of it, and of waves, shows as the difference between the two platens, which each
 row has. A step is :attr:`Test.step` t_i, so that a test takes the same number of steps under any pressure.
 """
@@ -106,7 +106,7 @@ class Course:
         engine, walls = body.engine, body.walls
         unit, height, width = math.sqrt(body.mass / test.confining), walls.height(), walls.width()
         state = {"unit_s": unit, "rate": test.inertia / unit, "height": height, "width": width, "area": height * width, "bonds": body.bonds, "begin": O.iter,
-                 "begin_time": O.time, "disks": body.count, "contacts": engine.contacts, "made_s": time.monotonic() - began, "wall_s": 0.0,
+                 "begin_time": O.time, "disks": body.count, "contacts": engine.contacts, "made_s": time.monotonic() - began, "wall_s": 0.0, "wall_steps_s": 0.0,
                  "sweeps": engine.totalIterations, "unconverged": engine.unconverged, "fraction": body.disks_area() / (height * width)}
         engine.tolerance, engine.maxIterations = test.tolerance, test.max_iterations
         O.dt = test.step * unit
@@ -142,7 +142,7 @@ class Course:
         per_row = max(1, round(ROW_STRAIN / (s["rate"] * O.dt)))
         taken = [strain for strain in SNAPSHOTS if strain < test.strain - 1e-9]
         while self.strain < test.strain - 1e-9:
-            sums, sweeps, worst, missed = {}, engine.totalIterations, 0.0, engine.unconverged
+            sums, sweeps, worst, missed, began = {}, engine.totalIterations, 0.0, engine.unconverged, time.perf_counter()
             for _ in range(per_row):
                 elapsed = (O.time - s["begin_time"]) * s["rate"]
                 # the speed grows linearly with the time until half of twice RAMP's strain
@@ -152,6 +152,7 @@ class Course:
                 worst = max(worst, engine.residual)
                 for name, force in walls.forces().items():
                     sums[name] = sums.get(name, 0.0) + force / per_row
+            s["wall_steps_s"] += time.perf_counter() - began
             area = self._membrane() if test.sides == "flexible" else walls.height() * walls.width()
             before = s.get("strain", 0.0)
             s["strain"], s["row_step"] = self.strain, O.iter
@@ -233,7 +234,7 @@ def key_of(test):
 def run(folder, **plain):
     """Runs the test given as plain data (see :meth:`Test.of`) in the folder, from its checkpoint if it has one; returns numbers of the course.
 
-    The share done is kept in the file ``progress``.
+    ``wall_s`` counts all but making the sample, ``wall_steps_s`` the steps alone, without records and checkpoints [s]. The share done is kept in the file ``progress``.
     """
     test, folder = Test.of(plain), Path(folder)
     course = Course.resume(test, folder) if checkpoints.exists(folder) else Course.begin(test, folder)
@@ -242,5 +243,5 @@ def run(folder, **plain):
     steps = O.iter - s["begin"]
     return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "height_m": s["height"], "width_m": s["width"],
             "rate_per_s": s["rate"], "inertial_number": test.inertia, "time_step_s": O.dt, "steps": steps, "simulated_s": O.time - s["begin_time"],
-            "wall_making_s": s["made_s"], "wall_s": s["wall_s"], "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
+            "wall_making_s": s["made_s"], "wall_s": s["wall_s"], "wall_steps_s": s["wall_steps_s"], "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
             "unconverged": engine.unconverged - s["unconverged"], "overlap_worst_rel": engine.overlapWorstEver, "residual": engine.residual}

@@ -5,13 +5,19 @@ the next, so that differences are those of the material: c, φ at the peak, and 
 proportional to σ_ext as long as σ₃/σ_ext is kept, and φ hardly depends on it; so logarithms of the parameters are used, with a Jacobian that begins
 as this guess and learns from every trial (Broyden's update). `scipy.optimize.least_squares` chooses the trials. Samples are coarse first; fine
 ones then correct what the size of the sample does.
+
+How unique the answer is, trials say that are made for it: coarse samples, one parameter changed at a time. With J the derivatives of the strengths, each in
+units of what it may miss, by the logarithms of the parameters, a parameter is known to the relative error √((JᵀJ)⁻¹)ₖₖ if each strength is known to one
+such unit; the right singular vector of the smallest singular value is the change that the strengths tell least about.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import json
 import math
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,6 +35,7 @@ SLOPES = {"tensile_strength": (1.0, 0.0, 1.0, 0.0), "friction": (0.75, 17.0, 0.0
 SCALE = 0.02                    # a misfit of 2 % counts as one
 DEGREES = 0.7                   # of angles, about the same
 COARSE = 3.0                    # what coarse samples may miss, in these units: fine ones differ from them by more
+PROBE = 0.3                     # step (of logarithms) of the trials that measure derivatives: ten times the samples' scatter of some per cent
 LEARN = 0.04                    # smallest step (of logarithms) from which the Jacobian learns; what differs after a smaller one is scatter
 
 
@@ -43,16 +50,17 @@ class Wanted:
 
     @property
     def with_residual(self):
+        """Whether residual strengths are wanted."""
         return self.residual_friction_deg is not None
 
 
 class Calibration:
-    """Searches a material; every trial is kept in ``out/trials.json`` and not computed again by a resumed search."""
+    """Searches a material; every trial is kept in ``out/trials.json`` and not computed again by a resumed search, which also goes on with the tests of a broken one."""
 
     def __init__(self, wanted, start, out, threads, say=print, resume=False, progress=lambda share, doing: None):
         """``start``: section.Material whose other parameters are kept; ``say``: called with a line of text for every trial; ``progress``: now and then
         with the share that is done of as many trials as there may be, and what is being done."""
-        self.wanted, self.start, self.out, self.threads, self.say, self.progress = wanted, start, Path(out), threads, say, progress
+        self.wanted, self.start, self.out, self.threads, self.say, self.resume, self.progress = wanted, start, Path(out), threads, say, resume, progress
         self.names = ("tensile_strength", "friction") + (("rolling_friction", "residual_share") if wanted.with_residual else ())
         self.trials = []
         self.known = json.loads((self.out / "trials.json").read_text()) if resume and (self.out / "trials.json").exists() else []
@@ -77,33 +85,47 @@ class Calibration:
 
     # ---- trials ---------------------------------------------------------------------------------
     def measure(self, x, disks, seeds):
-        """c [Pa], φ [°], c_res, φ_res of the material at ``x``, with samples of so many disks."""
-        key = [list(map(float, x)), disks, list(seeds)]
+        """c [Pa], φ [°], and where they are wanted c_res, φ_res of the material at ``x``, an array, with samples of so many disks.
+
+        Raises campaign.CampaignError and pressing.SampleError where a test fails.
+        """
+        key = self._key(x, disks, seeds)
         for trial in self.known:
             if trial["key"] == key:
                 self.trials.append(trial)
                 return np.array(trial["found"])
-        found = self.test(self.material(x), disks, seeds)
+        found = self.test(self.material(x), disks, seeds)[:len(self.jacobian)]
         self.trials.append({"key": key, "parameters": dict(zip(self.names, np.exp(x).tolist())), "disks": disks, "seeds": list(seeds), "found": found})
         write_atomically(self.out / "trials.json", json.dumps(self.trials, indent=1).encode())
         named = ", ".join(f"{name} {value:.4g}" for name, value in zip(self.names, np.exp(x)))
-        self.say(f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°, "
-                 f"c_res {1e-3 * found[2]:.1f} kPa, φ_res {found[3]:.2f}°")
+        residual = f", c_res {1e-3 * found[2]:.1f} kPa, φ_res {found[3]:.2f}°" if len(found) > 2 else ""
+        self.say(f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°{residual}")
         return np.array(found)
 
+    def _key(self, x, disks, seeds):
+        """What a trial's strengths depend on."""
+        tests = [dataclasses.asdict(test) for test in self._tests(self.material(x), disks, seeds)]
+        return hashlib.sha256(json.dumps(tests, sort_keys=True).encode()).hexdigest()
+
+    def _tests(self, material, disks, seeds):
+        return [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.1 if self.wanted.with_residual else 0.03)
+                for seed in seeds for p in PRESSURES]
+
     def test(self, material, disks, seeds):
-        """c [Pa], φ [°], c_res, φ_res of a material, from biaxial tests."""
-        tests = [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.1 if self.wanted.with_residual else 0.03)
-                 for seed in seeds for p in PRESSURES]
-        s = campaign.summarise(material, campaign.run(tests, self.out / "trial", self.threads, progress=self._show(disks * len(seeds))), 0.0, self.threads)
-        return [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"], 1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]
+        """c [Pa], φ [°], and where they are wanted c_res, φ_res of a material, a list, from biaxial tests."""
+        tests = self._tests(material, disks, seeds)
+        folder = self.out / f"trial-{hashlib.sha256(json.dumps([biaxial.key_of(t) for t in tests]).encode()).hexdigest()[:12]}"  # its checkpoints are its own
+        s = campaign.summarise(material, campaign.run(tests, folder, self.threads, self.resume, self._show(disks * len(seeds))), 0.0, self.threads)
+        shutil.rmtree(folder, ignore_errors=True)
+        found = [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"]]
+        return found + [1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]] if self.wanted.with_residual else found
 
     def _show(self, disks):
         number, before, self._done = len(self.trials) + 1, self._done, self._done + disks
         return lambda share, doing: self.progress(min(1.0, (before + share * disks) / self._whole), f"trial {number}: {doing}")
 
     def misfits(self, found):
-        """What a trial misses, in units of SCALE and DEGREES."""
+        """What a trial misses, in units of SCALE and DEGREES, an array of two or four; ``found``: as :meth:`measure` returns it."""
         w = self.wanted
         parts = [math.log(max(found[0], 1e-3 * w.cohesion) / w.cohesion) / SCALE, (found[1] - w.friction_deg) / DEGREES]
         if w.with_residual:
@@ -112,7 +134,10 @@ class Calibration:
         return np.array(parts)
 
     def search(self, disks, seeds, x, trials, enough=1.0):
-        """The best of at most ``trials`` trials from ``x`` with samples of one kind: (x, misfits); ends where no misfit exceeds ``enough``."""
+        """The best of at most ``trials`` trials from ``x`` with samples of one kind: (x, misfits); ends where no misfit exceeds ``enough``.
+
+        ``x``: logarithms of the parameters, as :attr:`names` has them. Raises as :meth:`measure` does.
+        """
         scale = np.array([1 / SCALE, 1 / DEGREES, 1 / SCALE, 1 / DEGREES])[:len(self.jacobian)]
         best = [None, None]
         low, high = (np.log([BOUNDS[name][k] for name in self.names]) for k in (0, 1))
@@ -132,18 +157,39 @@ class Calibration:
         least_squares(residuals, np.clip(x, low + 1e-6, high - 1e-6), jac=lambda at: self.jacobian * scale[:, None], bounds=(low, high), max_nfev=trials, ftol=1e-3, xtol=1e-3)
         return best[0], best[1]
 
+    def derivatives(self, disks, seeds, x):
+        """Derivatives of the strengths, in units of SCALE and DEGREES, by the logarithms of the parameters at ``x``: shape (strengths, parameters), from trials."""
+        here = self.misfits(self.measure(x, disks, seeds))
+        high = np.log([BOUNDS[name][1] for name in self.names])
+        columns = []
+        for k in range(len(x)):
+            step = PROBE if x[k] + PROBE < high[k] else -PROBE
+            beside = np.array(x, float)
+            beside[k] += step
+            columns.append((self.misfits(self.measure(beside, disks, seeds)) - here) / step)
+        return np.column_stack(columns)
+
     def run(self, coarse, fine, trials=(5, 4)):
-        """Coarse search, then a fine one from there; ``coarse``, ``fine``: (disks, seeds). Returns the material and a report, a dictionary."""
+        """Coarse search, trials for the derivatives there, then a fine search; ``coarse``, ``fine``: (disks, seeds). Returns the material and a report, a
+        dictionary. Raises as :meth:`measure` does."""
         sizes = [kind[0] * len(kind[1]) for kind in (coarse, fine)]
-        self._whole = sizes[0] * trials[0] + sizes[1] * trials[1]
+        self._whole = sizes[0] * (trials[0] + len(self.names)) + sizes[1] * trials[1]
         x, _ = self.search(*coarse, self.x0, trials[0], COARSE)
         self._done = sizes[0] * trials[0]
+        certain = uniqueness(self.names, self.derivatives(*coarse, x))
+        self._done = sizes[0] * (trials[0] + len(self.names))
         x, misfit = self.search(*fine, x, trials[1])
-        found = next(t["found"] for t in self.trials if t["key"] == [list(map(float, x)), fine[0], list(fine[1])])
-        _, singular, directions = np.linalg.svd(self.jacobian)
+        found = next(t["found"] for t in self.trials if t["key"] == self._key(x, *fine))
         material = self.material(x)
         return material, {"material": dataclasses.asdict(material), "wanted": dataclasses.asdict(self.wanted), "found": found, "misfit_in_tolerances": misfit.tolist(),
-                "trials": self.trials, "parameters": list(self.names), "sensitivity": self.jacobian.tolist(), "singular_values": singular.tolist(),
-                "least_certain_direction": dict(zip(self.names, directions[-1].tolist())),
-                "unique": "σ_ext and μ_s follow from c and φ for the given μ_r; another μ_r gives another μ_s with the same peak and another plateau"
-                if not self.wanted.with_residual else "four parameters from four strengths; see the singular values for what the strengths tell least about"}
+                          "tolerances": {"cohesion_rel": SCALE, "friction_deg": DEGREES}, "reached": bool(np.abs(misfit).max() <= 1), "trials": self.trials, **certain,
+                          "given": "σ_ext and μ_s follow from c and φ for the given μ_r; another μ_r gives another μ_s with the same peak and another plateau"
+                          if not self.wanted.with_residual else "four parameters from four strengths"}
+
+
+def uniqueness(names, derivatives):
+    """What strengths tell about parameters, a dictionary, from :meth:`Calibration.derivatives` (shape (strengths, parameters), as many of either)."""
+    _, singular, directions = np.linalg.svd(derivatives)
+    errors = np.sqrt(np.diag(np.linalg.pinv(derivatives.T @ derivatives)))
+    return {"parameters": list(names), "sensitivity": derivatives.tolist(), "singular_values": singular.tolist(),
+            "parameter_error_rel": dict(zip(names, errors.tolist())), "least_certain_direction": dict(zip(names, directions[-1].tolist()))}

@@ -37,9 +37,13 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     """Runs biaxial Tests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns what :func:`measure` says of each.
 
     ``resume``: keep tests that ended, and go on with others from their checkpoints. ``progress``: called with the share done and what is being done, now and then.
-    Raises CampaignError with the first failure after the others have ended.
+    Raises CampaignError or SampleError before anything runs where tests cannot be run or measured; CampaignError with the first failure after the
+    others have ended.
     """
     home, tests = Path(out) / "tests", list(tests)
+    for test in tests:
+        if test.strain < strength.SHORTEST:
+            raise CampaignError(f"--strain {test.strain:g}: too short to measure a peak and what follows; give {strength.SHORTEST:g} or more")
     folders = [home / name_of(test) for test in tests]
     if len(set(folders)) < len(folders):
         raise CampaignError("two tests have the same confining pressure and seed: give each once")
@@ -68,6 +72,8 @@ def _press(shapes, home, threads, progress):
     missing = sorted((s for s in shapes if not pressing.cache_path(s).exists()), key=lambda s: s.seed)
     if not missing:
         return
+    for shape in missing:
+        shape.section()  # refuses a sample that is too small, before anything runs
     progress(0.0, f"pressing {len(missing)} sample{'s' if len(missing) > 1 else ''}")
     with ThreadPoolExecutor(max(1, threads)) as pool:
         futures = [pool.submit(pressing.prepare, shape, home / f"pressing-{k}") for k, shape in enumerate(missing)]
@@ -103,7 +109,7 @@ def measure(test, folder):
             "sigma1_residual_error_Pa": c.residual_error, "sigma3_residual_Pa": c.residual_confining, "residual_between_strains": plateau,
             "dilatancy_deg": c.dilatancy_deg, "volumetric_strain_end": c.volumetric_end, "platen_difference_rel": c.imbalance,
             "bands": [None if b is None else {"angle_deg": b.angle_deg, "width_d": b.width, "rotation_rad": b.rotation, "contrast": b.contrast} for b in seen],
-            **{key: found[key] for key in ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s",
+            **{key: found[key] for key in ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s", "wall_steps_s",
                                            "sweeps_mean", "unconverged", "overlap_worst_rel")}}
 
 
@@ -116,7 +122,10 @@ def band_of(folder):
 
 
 def summarise(material, measured, wall_s, threads):
-    """``summary.json``: per test, and per material with the mean and the 95 % confidence interval over seeds (null for one seed)."""
+    """``summary.json``: per test, and per material with the mean and the 95 % confidence interval over seeds (null for one seed).
+
+    Residual strengths are null where a plateau begins before :data:`strength.SOFTENED`.
+    """
     by_seed = {}
     for m in measured:
         by_seed.setdefault(m["seed"], []).append(m)
@@ -124,13 +133,17 @@ def summarise(material, measured, wall_s, threads):
              "fit": "line closest to tangent to the circles, least squares of relative misses; confidence over seeds by Student's t"}
     if len({m["confining_Pa"] for m in measured}) < 2:
         return {**whole, "note": "one confining pressure: no envelope"}
-    for kind, unit in (("peak", "peak"), ("residual", "residual")):
+    whole["fit_confining_Pa"] = [m["confining_Pa"] for m in next(iter(by_seed.values()))]
+    for kind in ("peak", "residual"):
+        if kind == "residual" and min(m["residual_between_strains"][0] for m in measured) < strength.SOFTENED - 1e-9:
+            names = ("cohesion_residual_kPa", "cohesion_residual_95_kPa", "friction_residual_deg", "friction_residual_95_deg", "misses_residual_rel")
+            return {**whole, **dict.fromkeys(names), "note": f"no residual envelope: the strain ends before {strength.SOFTENED / strength.PLATEAU:g}"}
         fits = [strength.envelope([m[f"sigma3_{kind}_Pa"] for m in group], [m[f"sigma1_{kind}_Pa"] for m in group]) for group in by_seed.values()]
         cohesion = strength.Estimate.of([1e-3 * f.cohesion for f in fits])
         friction = strength.Estimate.of([f.friction_deg for f in fits])
-        whole |= {f"cohesion_{unit}_kPa": cohesion.mean, f"cohesion_{unit}_95_kPa": number(cohesion.half_width), f"friction_{unit}_deg": friction.mean,
-                  f"friction_{unit}_95_deg": number(friction.half_width),
-                  f"misses_{unit}_rel": np.mean([f.misses for f in fits], axis=0).tolist()}
+        whole |= {f"cohesion_{kind}_kPa": cohesion.mean, f"cohesion_{kind}_95_kPa": number(cohesion.half_width), f"friction_{kind}_deg": friction.mean,
+                  f"friction_{kind}_95_deg": number(friction.half_width),
+                  f"misses_{kind}_rel": np.mean([f.misses for f in fits], axis=0).tolist()}
     return whole
 
 

@@ -21,7 +21,10 @@ class MembraneError(UserError, RuntimeError):
 
 
 def boundary(x, y, r):
-    """Indices of the disks along the outline, once around counterclockwise."""
+    """Indices of the disks along the outline, once around counterclockwise; ``x``, ``y``, ``r`` [m]: arrays of shape (n,).
+
+    Raises MembraneError where there is no outline, or none that closes.
+    """
     places = np.column_stack((x, y))
     triangles = Delaunay(places).simplices
     a, b, c = (places[triangles[:, k]] for k in range(3))
@@ -79,7 +82,10 @@ def sides(x, y, r, bottom, top):
 
 
 def forces(x, y, r, bottom, top, pressure):
-    """Forces of the membrane [N/m], shape (n, 2), zero inside; and the area between the two chains [m²]."""
+    """Forces of the membrane [N/m], shape (n, 2), zero inside; and the area between the two chains [m²].
+
+    ``x``, ``y``, ``r`` [m]: shape (n,); ``bottom``, ``top``: heights of the platens [m]; ``pressure``: σ₃ [Pa]. Raises MembraneError, see :func:`sides`.
+    """
     total = np.zeros((len(x), 2))
     left, right = sides(x, y, r, bottom, top)
     area = 0.0

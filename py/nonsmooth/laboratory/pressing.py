@@ -105,7 +105,7 @@ def load(shape):
 def prepare(shape, folder):
     """Makes the pressed sample of a shape in a process of its own, unless it is in the cache. ``folder``: for that process's files.
 
-    Raises RuntimeError with the end of its output where it fails.
+    Raises processes.RunError where it fails.
     """
     if not cache_path(shape).exists():
         folder = Path(folder)

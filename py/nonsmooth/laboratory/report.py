@@ -17,11 +17,11 @@ def table(summary):
         lines.append(f"{t['confining_Pa'] / 1e6:9.3g} {t['seed']:5d} {t['sigma1_peak_Pa'] / 1e6:9.3f} {100 * t['strain_peak']:10.2f} {t['sigma1_residual_Pa'] / 1e6:10.3f} "
                      f"{t['dilatancy_deg']:7.1f}   {widths:11s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %")
     for kind in ("peak", "residual"):
-        if f"cohesion_{kind}_kPa" in summary:
+        if summary.get(f"cohesion_{kind}_kPa") is not None:
             dc, df = summary[f"cohesion_{kind}_95_kPa"], summary[f"friction_{kind}_95_deg"]
             lines.append(f"{kind:9s} cohesion {summary[f'cohesion_{kind}_kPa']:6.1f}{'' if dc is None else f' ± {dc:.1f}'} kPa, "
                          f"friction {summary[f'friction_{kind}_deg']:5.2f}{'' if df is None else f' ± {df:.2f}'}°")
-    return "\n".join(lines)
+    return "\n".join(lines + [summary["note"]] if "note" in summary else lines)
 
 
 def draw(out, summary):
@@ -46,7 +46,7 @@ def _pictures(test, frames, out):
     """The sample by rotation, and its forces: from snapshots by name."""
     order = [name for name in ("1", "2", "4", "end") if name in frames]
     title = lambda name: f"{'end' if name == 'end' else f'ε₁ = {name} %'}, σ₃ = {test['confining_Pa'] / 1e6:g} MPa"  # noqa: E731
-    panels = [(title(name), frames[name], test["bands"]) for name in (order[0], order[-1])]
+    panels = [(title(name), frames[name]) for name in (order[0], order[-1])]
     return [figures.rotations(frames["begin"], panels, out / "bands.png"), figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png")]
 
 

@@ -32,7 +32,8 @@ class Sample:
         """
         pressed = pressing.load(shape)
         O.reset()
-        stuff, rough = scene.material(rock), scene.material(platen, wall=True, bondsToAll=platen.bonded, layer=-1)
+        # disks of a layer below -1 are never bonded
+        stuff, rough = scene.material(rock, layer=0 if rock.bonded else -2), scene.material(platen, wall=True, bondsToAll=platen.bonded, layer=-1)
         smooth = NscdMat(frictionAngle=0.0, wall=True, layer=-1)
         O.materials.append((stuff, rough, smooth))
         walls = Walls.around(pressed.width, pressed.height, rough, smooth)

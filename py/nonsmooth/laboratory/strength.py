@@ -20,6 +20,8 @@ from scipy import optimize
 PEAK_WINDOW = 2e-3           # strain over which the stress is averaged before its maximum is taken
 DILATANCY_WINDOW = 5e-3      # strain around the peak over which the slope of the volume is taken
 PLATEAU = 0.5                # share of a test's strain from which on the residual strength is the mean
+SOFTENED = 0.04              # strain from which on the paper's tests are on their plateau (section 5.2); a mean that begins before is no residual strength
+SHORTEST = PEAK_WINDOW / (1 - PLATEAU)  # strain of a test that has both a peak and a plateau to measure
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,10 @@ class Envelope:
 
 
 def envelope(minor, major):
-    """Envelope of the circles of ``minor`` (σ₃) and ``major`` (σ₁) [Pa], arrays of two or more."""
+    """Envelope of the circles of ``minor`` (σ₃) and ``major`` (σ₁) [Pa], arrays of the same length, two or more.
+
+    Raises ValueError where all σ₃ are the same.
+    """
     minor, major = np.asarray(minor, float), np.asarray(major, float)
     if len(minor) < 2 or np.ptp(minor) == 0:
         raise ValueError(f"an envelope needs two confining pressures or more, not {sorted(set(minor.tolist()))}")
@@ -106,6 +111,7 @@ class Estimate:
 
     @classmethod
     def of(cls, values):
+        """Of one value a seed, a sequence of one or more."""
         from scipy import stats
 
         values = np.asarray(values, float)
