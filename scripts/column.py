@@ -35,12 +35,12 @@ def read_arguments():
     parser = argparse.ArgumentParser(prog="column.py", description=__doc__.splitlines()[0])
     parser.add_argument("--kind", choices=tuple(study.KINDS), default="column", help="a column that falls to one side, or a pile that loses both sides of its box (default: column)")
     parser.add_argument("--aspect", type=numbers, default=numbers(ASPECTS), metavar="A,…", help=f"height over width of columns; of piles, over half of the width (default: {ASPECTS})")
-    parser.add_argument("--disks", type=int, default=usual.disks, metavar="N", help="disks of each (default: %(default)s)")
+    parser.add_argument("--disks", type=int, default=usual.disks, metavar="N", help="disks of each; boxes of some hundred or fewer may miss it by some per cent, see the table (default: %(default)s)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings (default: 1)")
     parser.add_argument("--diameter", type=float, default=usual.diameter, metavar="M", help="mean diameter [m] (default: %(default)g)")
     parser.add_argument("--size-spread", type=float, default=usual.size_spread, metavar="K", help="largest over smallest diameter (default: %(default)g)")
     parser.add_argument("--friction", type=float, default=usual.friction, metavar="MU", help="of contacts (default: %(default)g)")
-    parser.add_argument("--rolling-friction", type=float, default=usual.rolling_friction, metavar="MU", help="in units of the mean diameter of a pair (default: %(default)g)")
+    parser.add_argument("--rolling-friction", type=float, default=usual.rolling_friction, metavar="MU", help="in units of the mean diameter of a pair; soft: with --model cohesion_moment alone (default: %(default)g)")
     parser.add_argument("--restitution", type=float, default=usual.restitution, metavar="E", help="of impacts; not in the soft world (default: %(default)g)")
     parser.add_argument("--base", choices=grains.BASES, default=usual.base, help="floor: a line, or glued disks (default: %(default)s)")
     parser.add_argument("--base-friction", type=float, metavar="MU", help="of the floor (default: as --friction)")
@@ -51,6 +51,8 @@ def read_arguments():
     parser.add_argument("--tolerance", type=arguments.positive, default=study.TOLERANCE, metavar="R", help="hard: residual of a step (default: %(default)g)")
     parser.add_argument("--stiffness", type=arguments.positive, metavar="PA", help="soft: Young's modulus [Pa]")
     parser.add_argument("--damping", type=float, default=0.2, metavar="L", help="soft: YADE's damping of forces (default: %(default)g)")
+    parser.add_argument("--damping-moving", type=float, metavar="L", help="soft: the same while the disks move, where it would brake them (default: as --damping)")
+    parser.add_argument("--step-share", type=arguments.positive, default=0.5, metavar="S", help="soft: time step in units of its stability limit (default: %(default)g)")
     parser.add_argument("--model", default="cohesion_moment", choices=("cohesion_moment", "jcfpm", "friction"), help="soft: contact model (default: %(default)s)")
     parser.add_argument("--duration", type=arguments.positive, default=15.0, metavar="T", help="longest course, in units of √(H/g) (default: %(default)g)")
     parser.add_argument("--out", default="out/column", metavar="DIR", help="folder for the results (default: %(default)s)")
@@ -63,7 +65,8 @@ def cases_of(args):
     """{name: (heap, world)} of the runs asked for."""
     shared = dict(diameter=args.diameter, size_spread=args.size_spread, friction=args.friction, rolling_friction=args.rolling_friction, restitution=args.restitution,
                   base=args.base, base_friction=args.base_friction, wall_friction=args.wall_friction, disks=args.disks)
-    world = dict(name="hard", path=args.path, tolerance=args.tolerance) if args.world == "hard" else dict(name="soft", stiffness=args.stiffness, damping=args.damping, model=args.model)
+    world = dict(name="hard", path=args.path, tolerance=args.tolerance) if args.world == "hard" else dict(
+        name="soft", stiffness=args.stiffness, damping=args.damping, damping_moving=args.damping_moving, step_share=args.step_share, model=args.model)
     kind = study.KINDS[args.kind]
     if args.packing:
         return {Path(args.packing).stem: (kind(**shared, packing=args.packing), world)}
@@ -86,7 +89,7 @@ def main():
     print(report.table(found, summary))
     drawn = [report.draw_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
     if any(summary["fits"].values()) and args.kind == "column":
-        drawn.append(figures.runout({f"{args.disks} disks, {args.world}": report.group(found)}, out / "runout.png"))
+        drawn.append(figures.runout({f"{report.counts(found)}, {args.world}": report.group(found)}, out / "runout.png"))
     print(f"results: {out}/summary.json, {', '.join(str(p) for p in drawn[-3:])}{' …' if len(drawn) > 3 else ''}")
 
 

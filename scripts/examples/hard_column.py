@@ -17,7 +17,8 @@ from yade import utils
 from yade.nonsmooth.scene import disk
 
 # [ numerics
-numerics = dict(dt=2e-3, tolerance=1e-4)
+# restitution: of impacts
+numerics = dict(dt=2e-3, tolerance=1e-4, restitution=0)
 # ]
 # aspect: height of the column by its width; friction of the disks; seed of the packing; seconds after the gate has gone
 utils.readParamsFromTable(aspect=2.0, friction=0.5, seed=1, seconds=3, **numerics)
@@ -26,7 +27,7 @@ from yade.params import table
 WIDTH, SMALL, LARGE = 1.0, 0.03, 0.05  # of the column [m]; radii [m]
 
 # [ material
-rock = NscdMat(density=2500, frictionAngle=math.atan(table.friction))
+rock = NscdMat(density=2500, frictionAngle=math.atan(table.friction), restitution=table.restitution)
 # ]
 O.materials.append(rock)
 

@@ -2,7 +2,7 @@
 """Disks fall into a box and come to rest: prints the pile's height and its kinetic energy.
 
 soft_pile.py and hard_pile.py are twins: an ordinary YADE script with springs at the contacts, and the same with Contact Dynamics.
-They differ between the lines "# [" and "# ]" only: in the material, the functors and the engines.
+They differ between the lines "# [" and "# ]" only: in the numerics, the material, the functors and the engines.
 Parameters come from a table (yade-batch), or are those below.
 """
 import os, sys
@@ -15,8 +15,11 @@ import random
 
 from yade import utils
 
+# [ numerics
+numerics = dict(dt=2e-3, tolerance=1e-4)
+# ]
 # friction of the disks, seconds
-utils.readParamsFromTable(friction=0.3, seconds=2.5)
+utils.readParamsFromTable(friction=0.3, seconds=2.5, **numerics)
 from yade.params import table
 
 WIDTH = 1.5
@@ -51,11 +54,11 @@ O.engines = [
         [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.05), Ig2_Wall_Sphere_ScGeom()],
         [Ip2_NscdMat_NscdMat_NscdPhys()],
         [Law2_ScGeom_NscdPhys_SignoriniCoulomb()]),
-    ContactDynamicsEngine(tolerance=1e-4),
+    ContactDynamicsEngine(tolerance=table.tolerance),
     NewtonIntegrator(damping=0, gravity=(0, -9.81, 0)),
 ]
-O.dt = 2e-3
 # ]
+O.dt = table.dt
 
 O.run(round(table.seconds / O.dt), wait=True)
 

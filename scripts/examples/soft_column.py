@@ -17,6 +17,7 @@ from yade import utils
 from yade.nonsmooth.scene import disk
 
 # [ numerics
+# restitution: of impacts, above 0
 numerics = dict(dt=1e-4, young=1e8, restitution=0.1, damping=0)
 # ]
 # aspect: height of the column by its width; friction of the disks; seed of the packing; seconds after the gate has gone

@@ -2,7 +2,7 @@
 """Disks fall into a box and come to rest: prints the pile's height and its kinetic energy.
 
 soft_pile.py and hard_pile.py are twins: an ordinary YADE script with springs at the contacts, and the same with Contact Dynamics.
-They differ between the lines "# [" and "# ]" only: in the material, the functors and the engines.
+They differ between the lines "# [" and "# ]" only: in the numerics, the material, the functors and the engines.
 Parameters come from a table (yade-batch), or are those below.
 """
 import os, sys
@@ -15,14 +15,17 @@ import random
 
 from yade import utils
 
+# [ numerics
+numerics = dict(dt=2e-4, young=2e8, damping=0.2)
+# ]
 # friction of the disks, seconds
-utils.readParamsFromTable(friction=0.3, seconds=2.5)
+utils.readParamsFromTable(friction=0.3, seconds=2.5, **numerics)
 from yade.params import table
 
 WIDTH = 1.5
 
 # [ material
-rock = FrictMat(density=2500, young=2e8, poisson=0.3, frictionAngle=math.atan(table.friction))
+rock = FrictMat(density=2500, young=table.young, poisson=0.3, frictionAngle=math.atan(table.friction))
 # ]
 O.materials.append(rock)
 
@@ -51,10 +54,10 @@ O.engines = [
         [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
         [Ip2_FrictMat_FrictMat_FrictPhys()],
         [Law2_ScGeom_FrictPhys_CundallStrack()]),
-    NewtonIntegrator(damping=0.2, gravity=(0, -9.81, 0)),
+    NewtonIntegrator(damping=table.damping, gravity=(0, -9.81, 0)),
 ]
-O.dt = 2e-4
 # ]
+O.dt = table.dt
 
 O.run(round(table.seconds / O.dt), wait=True)
 

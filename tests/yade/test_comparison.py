@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from yade.nonsmooth import packing, section, slope, worlds
-from yade.nonsmooth.comparison import answers, cases, collapses, cost, course, deposits, precision, runs, slopes, summary
+from yade.nonsmooth.benchmark import machine
+from yade.nonsmooth.comparison import (answers, biaxial_report, biaxials, cases, collapses, cost, cost_report, course, deposits, figures, losses, options,
+                                       precision, report, runs, slopes, summary)
 from yade.nonsmooth.comparison.outcomes import Cost, Outcome
 
 SHIPPED = Path(slopes.section.__file__).parent / "sections" / "jiufengershan.yaml"
@@ -29,6 +31,7 @@ def test_overlap_of_deposits():
     assert deposits.overlap(one, one) == pytest.approx(1, abs=1e-12)
     assert deposits.overlap(one, shifted) == pytest.approx(0.5, abs=0.01)  # rounded corners of the outline
     assert deposits.overlap(one, away) == 0
+    assert deposits.common_area(one, shifted) == pytest.approx(2 / 3 * one.area, rel=0.01) and deposits.common_area(one, away) == 0
     # 60 by 6 with pores closed; dents between disks along the rim, and circles drawn with 16 corners, take some per cent
     assert one.area == pytest.approx(360, rel=0.05)
 
@@ -77,6 +80,24 @@ def test_work_at_equal_error():
     assert precision.compare_work(hard, [(30, math.nan)]) is None
 
 
+def test_a_run_with_other_bonds_is_shown_and_not_compared(tmp_path):
+    hard = [outcome(104.0, wall=10.0), outcome(100.0, wall=40.0)]
+    soft = [outcome(110.0, world="soft", wall=w, stiffness=e) for w, e in ((30.0, 1e8), (90.0, 1e9))]
+    fragile = outcome(101.0, world="soft", wall=1.0, stiffness=1e8, fragile=True)  # the cheapest and nearest of all
+    work = summary._work(hard, soft, [fragile], math.nan, ())
+    found = work["against_hard"]
+    assert [p["label"] for p in found["soft_aside"]] == ["soft, E = 100 MPa, fragile bonds"]
+    assert found["soft_aside"][0]["error"] == pytest.approx(precision.error(fragile, hard[-1]))
+    assert found["compared"]["soft"] == soft[0].case.name and len(found["soft"]) == 2 and len(found["hard"]) == 1
+    panels = [("made up", *([(p["wall_s"], p["error"], p["label"]) for p in found[world]] for world in ("hard", "soft", "soft_aside")))]
+    assert figures.work_precision(panels, None, tmp_path / "work.png").stat().st_size > 0
+
+
+def test_the_stiffest_run_is_not_the_stiffest_that_can_be_told():
+    assert summary.stiffest_within([0.5, 0.05], 0.1) is True and summary.stiffest_within([0.05, 0.5], 0.1) is False
+    assert summary.stiffest_within([0.5, 0.05, math.nan], 0.1) is None and summary.stiffest_within([0.5], math.nan) is None
+
+
 def test_rates_and_lines_between_logarithms():
     moduli = np.array([1e7, 1e8, 1e9, 1e10])
     fit = precision.power_law(moduli, 3e3 / moduli)
@@ -120,6 +141,18 @@ def test_cost_at_equal_overlap():
     assert found["states"]["rest"]["equal_overlap"] == pytest.approx(2e-4 * 1e6 / 4) and found["states"]["rest"]["equal_overlap_extrapolated"] is True
 
 
+def test_the_report_of_cost_names_bonds_and_losses(tmp_path):
+    one = {"time_step_s": 1e-3, "wall_s_per_step": 1e-3, "overlap_mean_rel": 1e-3, "overlap_worst_rel": 1e-2, "rate": 1.0, "contacts": 10,
+           "mean_speed_m_per_s": 0.1}
+    soft = [{**one, "stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "overlap_worst_rel": 1e7 / e} for e in (1e8, 1e9)]
+    told = cost.summarise({"hard": {"moving": one, "rest": one}, "soft": {"moving": soft, "rest": soft}})
+    told |= summary.clean({"disks": 10, "threads": 1, "steps_timed": 5, "relax_s": 1.0, "model": "friction", "bonds": "no bonds", "step_share": 0.8,
+                           "model_lacks": ["moments: none"], "damping": 0.2, "damping_moving": 0.02, "machine": machine.describe()})
+    cost_report.write(tmp_path, told)
+    page = (tmp_path / "report.html").read_text()
+    assert "friction, no bonds, 0.8 of the stable" in page and "Lost with friction, beside what cohesion_moment loses: moments: none." in page
+
+
 def test_cost_of_a_stiffness_that_was_not_run():
     """Steps as 1/√E exactly; a step takes 2 ms with the softest and 4 ms with the stiffest, and no more beyond."""
     found = [precision.soft_rate(e, [1e9, 1e7], [1e-4, 1e-3], [4e-3, 2e-3]) for e in (1e8, 1e11, 1e6)]
@@ -138,11 +171,109 @@ def test_plan_has_every_run_once():
 
 
 @pytest.mark.parametrize("change, wanted", [({"stiffnesses": [1e8]}, "--stiffness"), ({"stiffnesses": [-1, 1e8]}, "--stiffness"),
-                                            ({"seeds": [1, 1]}, "--seeds"),
-                                            ({"seeds": []}, "--seeds"), ({"damping": 1.0}, "--damping")])
+                                            ({"stiffnesses": [math.nan, 1e8]}, "--stiffness"), ({"stiffnesses": [1e8, math.inf]}, "--stiffness"),
+                                            ({"seeds": [1, 1]}, "--seeds"), ({"seeds": [-1]}, "--seeds -1"),
+                                            ({"seeds": []}, "--seeds"), ({"damping": 1.0}, "--damping"), ({"damping_moving": -0.1}, "--damping-moving"),
+                                            ({"step_share": 1.5}, "--step-share 1.5"), ({"ensemble": -1e9}, "--ensemble-stiffness")])
 def test_lists_that_cannot_be_used(change, wanted):
     with pytest.raises(cases.ComparisonError, match=wanted):
         cases.plan(**{"source": "slope", "disks": 300, "seeds": [1, 2], "stiffnesses": [1e8, 1e9], **change})
+
+
+@pytest.mark.parametrize("change, wanted", [({"stiffnesses": [-1e8]}, "--stiffness -1e\\+08"), ({"disks": 0}, "--disks 0"), ({"steps": 0}, "--steps 0"),
+                                            ({"damping": 2.0}, "--damping 2"), ({"step_share": 0.0}, "--step-share 0")])
+def test_cost_refuses_before_it_measures(tmp_path, change, wanted):
+    with pytest.raises(cases.ComparisonError, match=wanted):
+        cost.run(tmp_path, **{"source": "jiufengershan", "disks": 300, "threads": 1, "stiffnesses": [1e8], **change})
+    assert not list(tmp_path.iterdir())
+
+
+def test_options_and_their_defaults():
+    slope_, biaxial, measured = (options.read("", words) for words in ([], ["--scenario", "biaxial", "--confining", "2"], ["--cost"]))
+    assert (slope_.seeds, slope_.model, slope_.bonds, slope_.damping, slope_.damping_moving) == ([1, 2, 3, 4, 5], "cohesion_moment", "ductile", 0.2, 0.02)
+    assert (slope_.step_share, slope_.without, slope_.disks, slope_.stiffness, slope_.steps) == (0.8, [], None, None, None)
+    assert biaxial.damping_moving is None and options.scenario_options(biaxial) == {"confining": 2e6}
+    assert measured.steps == 300 and measured.damping_moving == 0.02 and measured.seeds is None
+
+
+@pytest.mark.parametrize("words, wanted", [
+    ("--cost --bonds fragile --seeds 1 2", "--seeds 1 2, --bonds fragile with --cost"), ("--cost --without damping", "--without damping"),
+    ("--cost --end 3", "--end 3"), ("--cost --aspect 2", "--aspect 2"), ("--cost --confining 2", "--confining 2"),
+    ("--cost --ensemble-stiffness 1e9", "--ensemble-stiffness 1e\\+09"), ("--cost --scenario pile", "--cost with --scenario pile"),
+    ("--scenario column --source wwr", "--source wwr with --scenario column"), ("--scenario pile --bonds ductile", "--bonds ductile"),
+    ("--scenario biaxial --damping-moving 0.1", "--damping-moving 0.1 with --scenario biaxial"), ("--steps 30", "--steps 30 with --scenario slope"),
+    ("--scenario slope --sides rigid", "--sides rigid"), ("--cost --disks 0", "--disks 0"), ("--disks -5", "--disks -5"), ("--threads 0", "--threads 0"),
+    ("--cost --steps 4", "--steps 4: give 5"), ("--stiffness 1e8,nan", "--stiffness 1e\\+08,nan"), ("--end inf", "--end inf"),
+    ("--model jcfpm --bonds fragile", "--bonds fragile with --model jcfpm"), ("--model friction --bonds ductile", "has no bonds")])
+def test_options_that_do_not_apply(words, wanted):
+    with pytest.raises(cases.ComparisonError, match=wanted):
+        options.read("", words.split())
+
+
+def soft_case(model="cohesion_moment", source="", disks=300, **more):
+    return cases.Case("soft", source, disks, 1, 0.8, stiffness=1e9, damping=0.2, damping_moving=0.02, model=model, **more)
+
+
+@pytest.mark.parametrize("experiment, source", [(slopes, "jiufengershan"), (biaxials, "wwr")])
+def test_what_the_report_says_of_bonds_and_losses(experiment, source):
+    assert losses.of_case(experiment, soft_case(source=source)) == ("ductile bonds", [])
+    assert losses.of_case(experiment, soft_case(source=source, fragile=True)) == ("fragile bonds", [])
+    bonds, lost = losses.of_case(experiment, soft_case("jcfpm", source))
+    assert bonds.startswith("fragile bonds") and any(line.startswith("moments") for line in lost)
+    bonds, lost = losses.of_case(experiment, soft_case("friction", source))
+    assert bonds.startswith("no bonds") and [line.split(":")[0] for line in lost] == ["bonds", "moments"]
+    told = course.lacks({"model": "friction", "model_lacks": lost})
+    assert len(told) == 2 and told[0].startswith("Lost with friction") and "bonds" in told[0]
+
+
+def test_columns_have_no_bonds_to_lose():
+    assert losses.of_case(collapses.COLUMN, soft_case()) == ("no bonds between disks in either world", [])
+    assert losses.of_case(collapses.PILE, soft_case("friction")) == ("no bonds between disks in either world", [])
+
+
+def test_springs_too_weak_for_a_tall_column_are_refused_at_once():
+    def sweep(aspect):
+        return cases.plan("", collapses.COLUMN.DISKS, [1], collapses.COLUMN.DEFAULT_STIFFNESSES, options={"aspect": aspect}).sweep
+
+    course.check_stiffnesses(collapses.COLUMN, sweep(2.0))
+    with pytest.raises(cases.ComparisonError, match="--stiffness 1e\\+08: .* as --stiffness 1e\\+09,1e\\+10,1e\\+11"):
+        course.check_stiffnesses(collapses.COLUMN, sweep(6.0))
+    course.check_stiffnesses(slopes, [soft_case()])  # others have no such limit
+
+
+def test_a_biaxial_test_needs_the_wall_time_of_its_steps_and_a_plateau(tmp_path):
+    with pytest.raises(cases.ComparisonError, match="wall_steps_s.*--resume"):
+        biaxials.measure(soft_case(source="wwr"), tmp_path, {"wall_s": 1.0})
+    for strain in (0.001, 1.0, math.nan):
+        with pytest.raises(cases.ComparisonError, match="--strain"):
+            biaxials.test_of(soft_case(source="wwr", options={"strain": strain}))
+
+
+def test_every_experiment_says_what_its_overlap_is():
+    for experiment, _ in course.SCENARIOS.values():
+        assert experiment.OVERLAP.startswith("Mean overlap of") and len(experiment.OVERLAP_WHEN) == 2 and experiment.COST_WHEN
+    assert "1 %" in collapses.COLUMN.OVERLAP
+
+
+def test_the_report_of_a_biaxial_test(tmp_path):
+    """Made-up tests: overlaps are told as they were taken, the mean speed is drawn, and the run with fragile bonds is marked."""
+    made = cases.plan("wwr", 100, [1, 2], [1e8, 1e9], damping_moving=None, bonds_run=True)
+    strain = np.linspace(0, 0.06, 50)
+    outcomes = {}
+    for k, case in enumerate(made.cases):
+        series = {"strain": strain, "bonds_alive": np.linspace(100, 40, 50), "speed_mean_m_per_s": np.full(50, 1e-3)}
+        series |= {f"bonds_broken_{mode}": np.linspace(0, 15, 50) for mode in ("tension", "shear", "torque", "mixed")}
+        outcomes[case] = Outcome(case, {"sigma1_peak_Pa": 4e6 + 1e4 * k}, {"abscissa": strain, "stress": 4 + 0.1 * k + strain, "volume": strain}, series, None,
+                                 None, {(0, 1): 1.0, (1, 2): 2.0 + k, (2, 3): 1.5}, 1e-3, 2e-3, Cost(100, 1e-3, 10.0 + k, 0.1, 100.0))
+    told = summary.summarise(biaxials, made, outcomes)
+    assert told["deposit_overlap_m2"] is None and told["convergence"]["rows"]["overlap"]["means"] == "mean overlap, before the test"
+    assert [p["run"] for p in told["work_precision"]["against_own"]["soft_aside"]] == [made.fragile.name]
+    (tmp_path / "figures").mkdir()
+    sections = [*biaxial_report.sections(tmp_path, biaxials, made, outcomes, told), *report.common_sections(tmp_path, biaxials, made, outcomes, told)]
+    by_title = {s.title: s for s in sections}
+    assert "no kinetic energy" in by_title["Motion"].text[0] and by_title["Overlaps and cost"].plots[0][1].startswith(biaxials.OVERLAP)
+    assert "of the test" in by_title["Overlaps and cost"].plots[1][1] and "The open mark" in by_title["Work and precision"].text[0]
+    assert by_title["All runs"].tables[0][1][-2] == "mean overlap, at its end"
 
 
 def test_numbers_for_readers():
@@ -199,6 +330,11 @@ def test_summary_and_report(compared):
         assert key in told
     # the same packing, which has hardly moved
     assert 0.7 < told["deposit_overlap_fraction"] <= 1
+    areas = list(told["deposit_overlap_m2_by_seed"].values())
+    assert list(told["deposit_overlap_m2_by_seed"]) == ["1", "2"] and min(areas) > 0 and told["deposit_overlap_m2"] == pytest.approx(np.mean(areas))
+    assert told["bonds"] == "ductile bonds" and told["model_lacks"] == []
+    # processes take longer than their steps
+    assert told["runs_wall_s"] > sum(run["cost"]["wall_s"] for run in told["runs"])
     by_name = {run["name"]: run for run in told["runs"]}
     soft, softer = (by_name[f"soft-{e}Pa-seed1"] for e in ("1e08", "1e07"))
     # springs under one load yield as 1/E; twofold slack, since the mass moves in other ways
@@ -206,6 +342,7 @@ def test_summary_and_report(compared):
     # and the stable step goes with 1/√E: √10 times as many steps, rounded to rows
     assert soft["cost"]["steps"] / softer["cost"]["steps"] == pytest.approx(math.sqrt(10), rel=0.1)
     page = (out / "report.html").read_text()
+    assert "ductile bonds; time step" in page and "this sitting took" in page and slopes.OVERLAP.split("(")[0] in page.replace("&#39;", "'")
     assert page.index("Do both models fail") < page.index("<h2>") and "://" not in page.replace("http://www.w3.org",
         "") and page.count("data:image/png") >= 10
     assert [q[0] for q in questions] == ["Do both models fail at the same water table and run out as far, within the scatter over seeds?",
@@ -233,6 +370,9 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()
     values = {run["name"]: run["values"] for run in told["runs"]}
     assert {run["name"]: run["values"] for run in again["runs"]} == values  # soft runs give the same bits on one thread too
+    # kept runs count with what they took
+    noted = [json.loads(path.read_text())["found"]["process_wall_s"] for path in copy.glob("runs/*/result.json")]
+    assert again["runs_wall_s"] == pytest.approx(sum(noted)) and again["runs_wall_s"] > again["wall_s"]
 
 
 def test_a_run_that_fails_says_so_and_keeps_the_others(tmp_path):
@@ -256,11 +396,24 @@ def test_a_column_in_both_worlds(tmp_path):
     assert len(found["hard"].forces) > 30 and len(found["soft"].forces) > 30
 
 
+def test_the_limit_of_stiffness_is_that_of_the_heap():
+    """What passes before anything runs stands later; and what is refused is not far below: disks settle by some per cent of the box."""
+    from yade.nonsmooth.heaps import column, grains
+    from yade.nonsmooth.heaps import course as heap_course
+
+    heap, least = column.Column(disks=100, aspect=1.0), collapses.COLUMN.least_stiffness(soft_case(disks=100, options={"aspect": 1.0}))
+    heap_course.build(heap, worlds.Soft(least, heap.diameters()))
+    with pytest.raises(grains.HeapError, match="overlap"):
+        heap_course.build(heap, worlds.Soft(0.8 * least, heap.diameters()))
+
+
 def test_the_script_refuses_in_one_line(tmp_path):
     import subprocess
 
     script = Path(os.environ["YADE_PREFIX"]).parents[1] / "scripts" / "compare_hard_soft.py"
-    for options, wanted in ((("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
-                            (("--cost", "--scenario", "pile"), "--cost")):
-        done = subprocess.run([script, *options, "--out", tmp_path], capture_output=True, text=True)
+    for words, wanted in ((("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
+                          (("--cost", "--scenario", "pile"), "--cost"),
+                          (("--scenario", "column", "--aspect", "6"), "--stiffness 1e+08"),
+                          (("--scenario", "biaxial", "--source", "no-such-rock"), "no-such-rock")):
+        done = subprocess.run([script, *words, "--out", tmp_path], capture_output=True, text=True)
         assert done.returncode != 0 and wanted in done.stderr and "Traceback" not in done.stderr

@@ -5,12 +5,13 @@ import re
 import subprocess
 
 import pytest
+from yade import utils
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 EXAMPLES = os.path.join(ROOT, "scripts", "examples")
 #: lesson: titles of its marked blocks
 LESSONS = {
-    "pile": ["material", "functors, engines, time step"],
+    "pile": ["numerics", "material", "functors, engines, time step"],
     "incline": ["numerics", "material", "functors, engines, time step"],
     "column": ["numerics", "material", "functors, engines, time step"],
     "wedge": ["numerics", "material: bonds of 10 MPa, so that nothing breaks", "functors, engines, bonds"],
@@ -43,23 +44,40 @@ def test_twins_differ_between_the_marks_only(lesson):
         assert "ContactDynamicsEngine" not in outside[0]
 
 
-@pytest.mark.parametrize("name", sorted(name for name in os.listdir(EXAMPLES) if name.endswith(".table")))
-def test_tables_set_parameters_that_the_scripts_have(name):
-    lesson = name[:-len(".table")]
-    columns = next(line for line in source(name).splitlines() if line and not line.startswith("#")).split()
-    call = re.search(r"utils\.readParamsFromTable\((.*)\)", source(f"hard_{lesson}.py")).group(1)
-    assert set(columns) - {"description"} <= set(re.findall(r"(\w+)=", call))
+def parameters_of(name):
+    """Parameters that a table may set: those in ``readParamsFromTable``, and those in ``numerics``; two sets."""
+    call = re.search(r"utils\.readParamsFromTable\((.*), \*\*numerics\)", source(name)).group(1)
+    numerics = re.search(r"^numerics = dict\((.*)\)", source(name), re.M).group(1)
+    return tuple(set(re.findall(r"(\w+)=", text)) for text in (call, numerics))
+
+
+@pytest.mark.parametrize("lesson", LESSONS)
+def test_every_lesson_has_a_table_that_yade_reads_and_numerics_to_set(lesson):
+    (shared, hard), (same, soft) = (parameters_of(f"{world}_{lesson}.py") for world in ("hard", "soft"))
+    assert shared == same
+    # what doc/lessons.rst says tables may set; restitution has a meaning in both worlds of the column, whose springs are viscous
+    both = {"restitution"} if lesson == "column" else set()
+    assert hard == {"dt", "tolerance"} | both and soft == {"dt", "young", "damping"} | both
+    lines = utils.TableParamReader(os.path.join(EXAMPLES, f"{lesson}.table")).paramDict()
+    assert len(lines) >= 2
+    for values in lines.values():
+        assert set(values) - {"description"} <= shared
+
+
+def launched(name, folder, line):
+    """What an example prints with a line of a table, "FILE:NUMBER", handed over as yade-batch does."""
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
+    environment |= dict(NONSMOOTH_BUILD=os.path.dirname(os.environ["YADE_PREFIX"]), YADE_BATCH=line)
+    done = subprocess.run([os.path.join(EXAMPLES, name)], cwd=folder, env=environment, text=True, capture_output=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 def output(name, folder, **parameters):
     """What an example prints with these parameters, given as yade-batch gives them: a line of a table."""
     table = folder / "one.table"
     table.write_text("{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(str, parameters.values())])))
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    environment |= dict(NONSMOOTH_BUILD=os.path.dirname(os.environ["YADE_PREFIX"]), YADE_BATCH=f"{table}:2")
-    done = subprocess.run([os.path.join(EXAMPLES, name)], cwd=folder, env=environment, text=True, capture_output=True, timeout=600)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return launched(name, folder, f"{table}:2")
 
 
 def number(text, key):
@@ -75,6 +93,38 @@ def rows(text, first):
         except ValueError:
             break
     return found
+
+
+def test_a_line_of_a_shipped_table_rules_a_run(tmp_path):
+    """doc/lessons.rst: YADE_BATCH=incline.table:4 is the slope of 25°, YADE_BATCH=incline.table:5 that of 35°."""
+    for line, degrees in ((4, 25), (5, 35)):
+        blocks = rows(launched("hard_incline.py", tmp_path, f"{os.path.join(EXAMPLES, 'incline.table')}:{line}"), "friction/tan")
+        assert blocks[0][4] == pytest.approx(9.81 * math.sin(math.radians(degrees)), abs=1e-4)  # four digits are printed
+
+
+def test_numerics_of_the_pile_come_from_a_table(tmp_path):
+    steps = {(world, dt): number(output(f"{world}_pile.py", tmp_path, seconds=0.1, dt=dt, **more), "steps")
+             for world, dt, more in (("hard", 4e-3, dict(tolerance=1e-3)), ("soft", 1e-4, dict(young=1e8, damping=0.1)))}
+    assert steps == {("hard", 4e-3): 25, ("soft", 1e-4): 1000}
+
+
+def test_restitution_of_the_hard_column_comes_from_a_table(tmp_path):
+    runs = [output("hard_column.py", tmp_path, aspect=0.4, seconds=0.3, restitution=e) for e in (0, 0.5)]
+    assert len({re.search(r"0\.10 s.*", text).group() for text in runs}) == 2  # the collapse is another one
+
+
+def test_yade_batch_runs_the_lines_of_a_table(tmp_path):
+    table = tmp_path / "short.table"
+    table.write_text("description slope seconds\ngentle 15 0.1\nsteep 35 0.1\n")
+    environment = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_BATCH")}
+    batch = os.path.join(os.environ["YADE_PREFIX"], "bin", "yade-batch")
+    done = subprocess.run([batch, "-j1", "--log", "short.@.log", str(table), os.path.join(EXAMPLES, "hard_incline.py")], cwd=tmp_path, env=environment, text=True,
+                          capture_output=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    logs = [path.read_text(errors="replace") for path in sorted(tmp_path.glob("short.*.log"))]
+    assert len(logs) == 2
+    for text, degrees in zip(logs, (15, 35)):
+        assert rows(text, "friction/tan")[0][4] == pytest.approx(9.81 * math.sin(math.radians(degrees)), abs=1e-4)
 
 
 def test_twins_make_the_same_pile(tmp_path):

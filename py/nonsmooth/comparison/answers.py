@@ -57,6 +57,8 @@ def answer_same(summary, names):
     verdict = "not told" if None in verdicts else ("yes" if all(verdicts) else ("no" if not any(verdicts) else "in part"))
     if summary.get("deposit_overlap_fraction") is not None:
         text = f"Deposits of the same packing cover each other by {number(100 * summary['deposit_overlap_fraction'])} % of the area that either covers"
+        if summary.get("deposit_overlap_m2") is not None:
+            text += f" ({number(summary['deposit_overlap_m2'], 'm²')} in common)"
         between = summary.get("deposit_overlap_fraction_between_seeds")
         text += f"; hard deposits of different seeds by {number(100 * between)} %." if between is not None else "."
         sentences.append(text)

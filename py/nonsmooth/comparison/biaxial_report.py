@@ -1,4 +1,4 @@
-"""What the report says of biaxial tests: stress and volume against strain, strengths, bonds, contact forces."""
+"""What the report says of biaxial tests: stress and volume against strain, strengths, bonds, speeds, contact forces."""
 
 from __future__ import annotations
 
@@ -22,6 +22,10 @@ def sections(out, scenario, plan, outcomes, summary):
          f"seed {plan.ensemble[0][0].seed}.")])]
     made.append(common.course_section("Bonds", folder / "bonds.png", plan, outcomes, [("bonds_alive", "bonds that hold", 1.0)],
                                       ("strain", "axial strain [%]", 100.0)))
+    speeds = common.course_section("Motion", folder / "speed.png", plan, outcomes, [("speed_mean_m_per_s", "mean speed of disks [m/s]", 1.0)],
+                                   ("strain", "axial strain [%]", 100.0))
+    speeds.text.append("The series of a biaxial test holds no kinetic energy; the mean speed of its disks shows when the sample moves more than its platens.")
+    made.append(speeds)
     made.append(modes_section(folder, plan, outcomes))
     made.append(common.force_section(folder, plan, outcomes, "Normal forces of contacts under compression, under the confining pressure before the "
                                                              "test begins."))

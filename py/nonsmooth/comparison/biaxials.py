@@ -13,11 +13,11 @@ from .. import records
 from ..kept_runs import Progress
 from ..laboratory import biaxial, materials, pressing, strength
 from ..packing_files import cache_folder
-from .cases import Case
+from .cases import Case, ComparisonError
 from .outcomes import Cost, Outcome, Quantity
 from .slopes import forces_of
 
-__all__ = ["CURVES", "DEFAULT_STIFFNESSES", "KEYS", "QUANTITIES", "measure", "prepare", "run", "test_of"]
+__all__ = ["CURVES", "DEFAULT_STIFFNESSES", "KEYS", "QUANTITIES", "disks_of", "measure", "prepare", "run", "test_of"]
 
 NAME, TITLE = "biaxial", "Biaxial test"
 SOURCE, DISKS = "wwr", 1000
@@ -29,6 +29,11 @@ KEYS = ("sigma1_peak_Pa", "sigma1_residual_Pa")
 CURVES = {"stress": "σ₁ over σ₃", "volume": "volumetric strain"}
 BONDS = True  # the kind of bonds matters
 MOVING = False  # the mass has no stage of motion with a damping of its own
+OVERLAP = ("Mean overlap of the contacts between disks that bear a force or a bond, in mean diameters of the pair, read from snapshots; a bond over a gap "
+           "counts as 0.")
+OVERLAP_WHEN = ("before the test", "at its end")
+COST_WHEN = "of the test"
+SHORTEST = strength.PEAK_WINDOW / (1 - strength.PLATEAU)  # axial strain of a test that has both a peak and a plateau to measure
 
 QUANTITIES = (
     Quantity("sigma1_peak_Pa", "peak strength σ₁", "Pa"),
@@ -46,14 +51,25 @@ SOFT_COLUMNS = tuple(name for name in biaxial.COLUMNS if name not in ("iteration
 
 
 def test_of(case: Case) -> biaxial.Test:
-    """The laboratory's test of a case; for a hard run with its step and tolerance."""
+    """The laboratory's test of a case; for a hard run with its step and tolerance.
+
+    Raises ComparisonError for a strain that gives no strengths, SectionError for a material that cannot be used.
+    """
     o, standard = case.options, {f.name: f.default for f in dataclasses.fields(biaxial.Test)}
+    strain = o.get("strain", STRAIN)
+    if not SHORTEST <= strain < 1:
+        raise ComparisonError(f"--strain {strain:g}: give the axial strain at the end, from {SHORTEST:g}, which has a peak and a plateau, to less than 1")
     shape = pressing.Shape(case.disks, case.seed)
     numerics = dict(step=standard["step"] * case.step, tolerance=standard["tolerance"] * case.tolerance) if case.world == "hard" else {}
     platens = o.get("platens", standard["platens"])
-    return biaxial.Test(materials.load(case.source), o.get("confining", CONFINING), shape, o.get("strain", STRAIN), platens,
-                        o.get("sides", standard["sides"]),
+    return biaxial.Test(materials.load(case.source), o.get("confining", CONFINING), shape, strain, platens, o.get("sides", standard["sides"]),
                         o.get("inertia", standard["inertia"]), **numerics)
+
+
+def disks_of(case: Case):
+    """Material of the disks, in a list, and their smallest and largest diameter [m]. Raises as :func:`test_of`."""
+    test = test_of(case)
+    return [test.material], (test.shape.d_min, test.shape.d_max)
 
 
 def prepare(case: Case):
@@ -74,7 +90,7 @@ def run(folder, **plain):
     s = course.state
     return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "rate_per_s": s["rate"],
             "time_step_s": O.dt,
-            "steps": O.iter - s["begin"], "simulated_s": O.time - s["begin_time"], "wall_s": s["wall_steps_s"],
+            "steps": O.iter - s["begin"], "simulated_s": O.time - s["begin_time"], "wall_steps_s": s["wall_steps_s"],
             "overlap_worst_rel": course.sample.engine.overlapWorstEver}
 
 
@@ -177,7 +193,12 @@ class SoftCourse(biaxial.Course):
 
 
 def measure(case: Case, folder, found) -> Outcome:
-    """What the records of a finished test say; tests are compared along their strain."""
+    """What the records of a finished test say; tests are compared along their strain.
+
+    Raises ComparisonError for a test that was kept without the wall time of its steps.
+    """
+    if "wall_steps_s" not in found:  # as of versions that counted rows and snapshots of hard tests as well
+        raise ComparisonError(f"{folder}: its result.json has no wall_steps_s, the wall time of steps alone; remove the folder and go on with --resume")
     test = test_of(case)
     series = records.read_series(folder / "series.csv")
     c = strength.curve(series, (strength.PLATEAU * test.strain, test.strain))
@@ -192,7 +213,8 @@ def measure(case: Case, folder, found) -> Outcome:
     return Outcome(case, values, {"abscissa": series["strain"], "stress": smooth, "volume": series["volumetric_strain"]}, series, None, None,
                    forces_of(begin),
                    overlap=_overlap(end), overlap_rest=_overlap(begin),
-                   cost=Cost(found["steps"], found["time_step_s"], found["wall_s"], found["simulated_s"], found["wall_s"] / found["simulated_s"]))
+                   cost=Cost(found["steps"], found["time_step_s"], found["wall_steps_s"], found["simulated_s"],
+                             found["wall_steps_s"] / found["simulated_s"]))
 
 
 def _overlap(snapshot):

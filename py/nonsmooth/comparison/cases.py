@@ -14,11 +14,12 @@ The plan has five parts, all on the packing of the first seed but the first:
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 
 from ..errors import UserError
 
-__all__ = ["Case", "ComparisonError", "Plan", "modulus_label", "plan"]
+__all__ = ["Case", "ComparisonError", "Plan", "check_soft", "moduli_of", "modulus_label", "plan"]
 
 #: Time step and tolerance of hard runs, as multiples of the section's, coarse to fine; the last is the reference.
 HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))
@@ -34,6 +35,26 @@ def modulus_label(modulus):
         return "E not known"
     factor, prefix = next((f, p) for f, p in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (0, "")) if modulus >= f)
     return f"E = {modulus / (factor or 1):.3g} {prefix}Pa"
+
+
+def moduli_of(stiffnesses, least=1):
+    """Young's moduli [Pa], sorted, each once. Raises ComparisonError for one that is no number above 0, and for fewer than ``least``."""
+    chosen = sorted(set(map(float, stiffnesses)))
+    told = ", ".join(f"{e:g}" for e in chosen) or "nothing"
+    if not all(0 < e < math.inf for e in chosen):
+        raise ComparisonError(f"--stiffness {told}: give Young's moduli above 0 [Pa]")
+    if len(chosen) < least:
+        raise ComparisonError(f"--stiffness {told}: give {least} Young's moduli or more, or nothing can be said of their effect")
+    return chosen
+
+
+def check_soft(damping, damping_moving, step_share):
+    """Raises ComparisonError for dampings (``damping_moving`` may be None) and a share of the stable step that soft runs cannot have."""
+    for key, value in (("--damping", damping), ("--damping-moving", damping_moving)):
+        if value is not None and not 0 <= value < 1:
+            raise ComparisonError(f"{key} {value:g}: give a number from 0 to less than 1")
+    if not 0 < step_share <= 1:
+        raise ComparisonError(f"--step-share {step_share:g}: give a number above 0, and no more than 1, the stability limit")
 
 
 @dataclass(frozen=True)
@@ -107,17 +128,15 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
     """The runs of a comparison.
 
     ``stiffnesses``: Young's moduli [Pa]; ``ensemble``: the one of the ensemble (default: the upper of the middle ones); ``numerics``: pairs as
-    HARD_NUMERICS; ``fragile``: of the soft bonds; ``bonds_run``: with one soft run of the other kind of bonds. Raises ComparisonError for lists that cannot be used.
+    HARD_NUMERICS; ``fragile``: of the soft bonds; ``bonds_run``: with one soft run of the other kind of bonds. Raises ComparisonError for lists and
+    numbers that cannot be used.
     """
-    chosen = sorted(set(map(float, stiffnesses)))
-    if len(chosen) < 2 or chosen[0] <= 0:
-        raise ComparisonError(f"--stiffness {', '.join(f'{e:g}' for e in chosen) or 'nothing'}: give two Young's moduli above 0 or more, "
-                              "or nothing can be said of their effect")
-    if not seeds or len(set(seeds)) < len(seeds):
-        raise ComparisonError(f"--seeds {' '.join(map(str, seeds))}: give each seed once, and one at least")
-    for key, value in (("--damping", damping), ("--damping-moving", damping_moving)):
-        if value is not None and not 0 <= value < 1:
-            raise ComparisonError(f"{key} {value:g}: give a number from 0 to less than 1")
+    chosen = moduli_of(stiffnesses, 2)
+    if not seeds or len(set(seeds)) < len(seeds) or min(seeds) < 0:
+        raise ComparisonError(f"--seeds {' '.join(map(str, seeds)) or 'nothing'}: give whole numbers from 0, each once, and one at least")
+    check_soft(damping, damping_moving, step_share)
+    if ensemble is not None and not 0 < ensemble < math.inf:
+        raise ComparisonError(f"--ensemble-stiffness {ensemble:g}: give a Young's modulus above 0 [Pa]")
     middle = float(ensemble) if ensemble is not None else chosen[len(chosen) // 2]
     if middle not in chosen:
         chosen = sorted((*chosen, middle))

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 
 import numpy as np
 
+from ..heaps import measures
 from ..kept_runs import Progress
 from ..whole_files import write_arrays
 from .cases import Case
 from .outcomes import Cost, Outcome, Quantity
 
 __all__ = ["COLUMN", "PILE", "Collapse"]
-
-SLOW_FRACTION = 0.1  # of the largest speed: below it the damping goes from the value on the move to the one at rest, as on the slope
 
 QUANTITIES = (
     Quantity("runout_rel", "runout (L_f − L_0)/L_0", "1"),
@@ -34,10 +32,28 @@ class Collapse:
     DEFAULT_STIFFNESSES = (1e8, 1e9, 1e10, 1e11)  # Pa; a column of 2000 disks overlaps by some per cent at the softest
     BONDS = False
     ENSEMBLE_STIFFNESS = 1e9  # Pa, for all seeds
+    OVERLAP = (f"Mean overlap of pairs with a gap below {100 * measures.NEAR:g} % of their mean diameter, walls and glued disks too, in mean diameters (the "
+               "disk's at a wall), from places alone; a pair with a gap counts as 0.")
+    OVERLAP_WHEN = ("at rest in the box", "while moving")
+    COST_WHEN = "after the release"
 
     def __init__(self, kind, title, disks):
         self.NAME, self.TITLE, self.DISKS = kind, title, disks
         self.run = _RUN[kind]
+
+    def disks_of(self, case: Case):
+        """Material of the disks, in a list, and their smallest and largest diameter [m]. Raises HeapError for parameters that cannot be used."""
+        heap = _heap(self.NAME, case)
+        return [heap.material()], heap.diameters()
+
+    def least_stiffness(self, case: Case):
+        """Young's modulus [Pa] with which disks at the bottom overlap by as much as heaps.course.build lets through, under the weight of disks as high as
+        the box. They settle by some per cent, so what stands here does there. Raises SampleError for a box that is too narrow.
+        """
+        from ..heaps.course import WEIGHT_OVERLAP
+
+        heap = _heap(self.NAME, case)
+        return heap.density * heap.gravity * heap.box()[1] / (0.5 * heap.mean_diameter()) / WEIGHT_OVERLAP
 
     def prepare(self, case: Case):
         """Makes the disks at rest in their box, unless they are in the cache."""
@@ -94,20 +110,16 @@ def _run(kind, folder, case):
     if case.world == "hard":
         standard = study.world_of(heap)
         world = dataclasses.replace(standard, time_step=case.step * standard.time_step, tolerance=case.tolerance * standard.tolerance)
-        care = None
     else:
         world = worlds.Soft(case.stiffness, heap.diameters(), model=case.model, damping=case.damping, step_share=case.step)
-        care = _Damping(case)
     pressed = {}
 
     def progress(share):
         if not pressed:
             pressed["table"] = _contacts(world)
-        if care is not None:
-            care()
         note(share)
 
-    result = course.run(heap, world, progress=progress)
+    result = course.run(heap, world, progress=progress, damping_moving=None if case.world == "hard" else case.damping_moving)
     begin = result.frames[min(result.frames)]
     pairs = sorted(pressed["table"])
     write_arrays(folder / "record.npz", **{f"series_{name}": values for name, values in result.series.items()}, begin_x=begin[0], begin_y=begin[1],
@@ -123,26 +135,6 @@ def _contacts(world):
 
     table = tables.contacts(scene.contact_dynamics() if world.name == "hard" else Measures(world))
     return {(min(a, b), max(a, b)): n for a, b, n in zip(table["id1"].tolist(), table["id2"].tolist(), table["normal"].tolist()) if n > 0}
-
-
-class _Damping:
-    """Sets the integrator's damping by the speed of the disks; call it now and then."""
-
-    def __init__(self, case):
-        from yade import O
-        from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
-
-        self.case, self.fastest, self._tables = case, 0.0, ContactDynamicsEngine()
-        self._newton = lambda: next(e for e in O.engines if isinstance(e, NewtonIntegrator))
-
-    def __call__(self):
-        from .. import tables
-
-        t = tables.bodies(self._tables)
-        speed = math.sqrt(float(np.mean(t["vx"] ** 2 + t["vy"] ** 2)))
-        self.fastest = max(self.fastest, speed)
-        flowing = min(1.0, speed / (SLOW_FRACTION * self.fastest)) if self.fastest > 0 else 1.0
-        self._newton().damping = (1 - flowing) * self.case.damping + flowing * self.case.damping_moving
 
 
 COLUMN = Collapse("column", "Collapse of a column", 2000)

@@ -24,11 +24,13 @@ from .. import checkpoints
 from ..benchmark import machine
 from ..benchmark.course import Course
 from ..kept_runs import keep, kept
-from . import precision
+from . import losses, precision, slopes
+from .cases import Case, ComparisonError, check_soft, moduli_of
 from .summary import ROCK_STIFFNESS, clean
 
-__all__ = ["STATES", "STIFFNESSES", "measure_hard", "measure_soft", "run", "summarise"]
+__all__ = ["DISKS", "STATES", "STIFFNESSES", "measure_hard", "measure_soft", "run", "summarise"]
 
+SOURCE, DISKS = "jiufengershan", 20000  # the paper's slope
 STATES = ("moving", "rest")
 STIFFNESSES = (1e7, 1e8, 1e9, 1e10)  # Pa
 RELAX_SECONDS = 1.0  # of simulation, soft
@@ -160,10 +162,17 @@ def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping
         progress=lambda share, doing: None, model="cohesion_moment"):
     """Makes the states that are missing and measures both worlds, one process after the other on ``threads``; returns :func:`summarise` of it.
 
-    Raises benchmark.states.BenchmarkError where a measurement fails.
+    ``stiffnesses``: Young's moduli [Pa]; ``steps``: that are timed, :data:`LOOKS` or more. Raises ComparisonError before anything runs for numbers that
+    cannot be used, and benchmark.states.BenchmarkError where a measurement fails.
     """
     from ..benchmark import states
 
+    stiffnesses = moduli_of(stiffnesses)
+    check_soft(damping, damping_moving, step_share)
+    for key, value, least in (("--disks", disks, 1), ("--threads", threads, 1), ("--steps", steps, LOOKS)):
+        if value < least:
+            raise ComparisonError(f"{key} {value}: give {least} or more")
+    bonds, lost = losses.of_case(slopes, Case("soft", source, disks, 1, step_share, stiffness=stiffnesses[0], damping=damping, model=model))
     subject = {"source": source, "disks": disks}
     made = not states.exist(source, disks)
     per_thousand = disks / 1000
@@ -189,10 +198,10 @@ def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping
         found["soft"][state] = [{"stiffness_Pa": e, **once(f"soft-{e:g}-{state}".replace("+", ""), soft_s[e], measure_soft, {
             **subject, "state": state, "stiffness": e, "steps": steps, "damping": damping_moving if state == "moving" else damping,
             "step_share": step_share, "model": model})}
-            for e in sorted(stiffnesses)]
+            for e in stiffnesses]
     return summarise(found) | clean({"scenario": "slope", "disks": disks, "threads": threads, "source": source, "damping": damping,
                                      "damping_moving": damping_moving, "step_share": step_share,
-                                     "model": model, "steps_timed": steps, "relax_s": RELAX_SECONDS, "machine": machine.describe()})
+                                     "model": model, "bonds": bonds, "model_lacks": lost, "steps_timed": steps, "relax_s": RELAX_SECONDS, "machine": machine.describe()})
 
 
 def summarise(found):

@@ -9,6 +9,7 @@ from ..whole_files import write_atomically
 from . import figures, report
 from .answers import number
 from .cases import modulus_label
+from .course import lacks
 
 __all__ = ["write"]
 
@@ -43,10 +44,10 @@ def write(out, told):
                 "overlap of the hard run.")],
         [(f"{told['disks']} disks, {told['threads']} threads, {told['steps_timed']} steps timed after {told['relax_s']:g} s of simulation in which "
           f"soft contacts take up their load.", heads, rows)])
-    lead = [f"The slope of {told['disks']} disks with the same places, velocities and bonds in both worlds, every process alone on {told['threads']} "
+    lead = [f"The slope of {told['disks']} disks with the same places and velocities in both worlds, every process alone on {told['threads']} "
             f"thread{'s' if told['threads'] > 1 else ''}. Soft: "
-            f"{told['model']}, {told['step_share']:g} of the stable time step, non-viscous damping {told['damping']:g} at rest and "
-            f"{told['damping_moving']:g} on the move."]
+            f"{told['model']}, {told['bonds']}, {told['step_share']:g} of the stable time step, non-viscous damping {told['damping']:g} at rest and "
+            f"{told['damping_moving']:g} on the move.", *lacks(told)]
     report.write(out / "report.html", "Hard against soft: cost at equal overlap", lead, questions, [section], told["machine"])
     return questions
 

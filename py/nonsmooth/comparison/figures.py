@@ -138,13 +138,13 @@ def _log_axes(fig, xlabel, ylabel):
 
 
 @style.styled
-def overlaps(moduli, rest, moving, hard_rest, hard_moving, path):
-    """Mean overlaps [mean diameters] against stiffness [Pa], the hard run's as lines (drawn at 1e-12 where they are less)."""
+def overlaps(moduli, rest, moving, hard_rest, hard_moving, path, when=("at rest", "while moving")):
+    """Mean overlaps [mean diameters] against stiffness [Pa], the hard run's as lines (drawn at 1e-12 where they are less); ``when``: names of both states."""
     fig = style.figure(7.5, 4.8, layout="constrained")
     ax = _log_axes(fig, "Young's modulus [Pa]", "mean overlap [mean diameters]")
-    for values, dash, mark, name in ((moving, "-", "s", "while moving"), (rest, (0, (4, 2)), "o", "at rest")):
+    for values, dash, mark, name in ((moving, "-", "s", when[1]), (rest, (0, (4, 2)), "o", when[0])):
         ax.plot(moduli, values, color=SOFT, ls=dash, marker=mark, label=f"soft, {name}")
-    for value, dash, name in ((hard_moving, "-", "while moving"), (hard_rest, (0, (4, 2)), "at rest")):
+    for value, dash, name in ((hard_moving, "-", when[1]), (hard_rest, (0, (4, 2)), when[0])):
         ax.axhline(max(value, 1e-12), color=HARD, ls=dash, label=f"hard, {name}: {value:.1e}")
     ax.legend()
     return style.save(fig, path)
@@ -200,13 +200,17 @@ def cost_and_overlap(panels, path):
 def work_precision(panels, chance, path):
     """Error against wall time.
 
-    ``panels``: list of (title, hard, soft), each a list of (wall [s], error, label); ``chance``: scatter, NaN or None where unknown.
+    ``panels``: list of (title, hard, soft, aside), each but the title a list of (wall [s], error, label); ``aside``: soft runs with open marks;
+    ``chance``: scatter, NaN or None where unknown.
     """
     fig = style.figure(11, 5.2, layout="constrained")
-    for ax, (title, hard, soft) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels):
-        for world, points, colour in (("hard", hard, HARD), ("soft", soft, SOFT)):
+    for ax, (title, hard, soft, aside) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels):
+        for world, points, colour, name in (("hard", hard, HARD, "hard"), ("soft", soft, SOFT, "soft"), ("soft", aside, SOFT, "soft, other bonds")):
             points = [p for p in points if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
-            ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world], ms=7, label=world)
+            if not points:
+                continue
+            ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world] if name == world else "D", ms=7,
+                    mfc=colour if name == world else "none", label=name)
             for wall, value, label in points:
                 ax.annotate(label, (wall, value), xytext=(6, 5 if world == "hard" else -11), textcoords="offset points", fontsize=7.5, color=colour)
         if chance and np.isfinite(chance):
@@ -218,7 +222,7 @@ def work_precision(panels, chance, path):
         ax.set_xlabel("wall time of the run's steps [s]")
         ax.grid(color="#e3e3e3", lw=0.7, which="both")
         ax.legend(loc="best")
-        values = [p[1] for p in (*hard, *soft) if p[1]] + ([chance] if chance and np.isfinite(chance) else [])
+        values = [p[1] for p in (*hard, *soft, *aside) if p[1]] + ([chance] if chance and np.isfinite(chance) else [])
         if values:
             ax.set_ylim(0.4 * min(values), 2.5 * max(values))
     fig.axes[0].set_ylabel("error (see text)")

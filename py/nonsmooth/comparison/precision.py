@@ -31,9 +31,10 @@ POINTS = 400  # of the abscissa on which curves are compared
 
 
 def curve_difference(abscissa, values, reference_abscissa, reference):
-    """Root mean square difference of two curves over the reference's largest value.
+    """Root mean square difference of two curves over the reference's largest value; NaN where that is 0.
 
-    Both begin at abscissa 0, and a curve that has ended keeps its last value.
+    ``abscissa``, ``values``: of shape (n,), ascending; ``reference_abscissa``, ``reference``: of shape (m,), in the same units. Both begin at abscissa 0,
+    and a curve that has ended keeps its last value.
     """
     end = max(abscissa[-1], reference_abscissa[-1])
     if end <= 0:
@@ -45,7 +46,10 @@ def curve_difference(abscissa, values, reference_abscissa, reference):
 
 
 def parts(one, reference, key_quantities=()):
-    """The parts of the error of an Outcome against another: {name: number}; those that cannot be told are left out."""
+    """The parts of the error of an Outcome against another: {name: number}, relative; those that cannot be told are left out.
+
+    ``key_quantities``: names of Outcome.values that count as well.
+    """
     found = {}
     for name in one.curves:
         if name != "abscissa" and name in reference.curves:
@@ -60,21 +64,21 @@ def parts(one, reference, key_quantities=()):
 
 
 def error(one, reference, key_quantities=()):
-    """Root mean square of the :func:`parts`; NaN without any."""
+    """Root mean square of the :func:`parts`, a relative number; NaN without any."""
     values = list(parts(one, reference, key_quantities).values())
     return math.sqrt(sum(v * v for v in values) / len(values)) if values else math.nan
 
 
 def scatter(outcomes, key_quantities=()):
-    """Median of the errors of all pairs (both ways round); NaN for fewer than two."""
+    """Median of the errors of all pairs of ``outcomes``, a list of Outcome (both ways round); NaN for fewer than two."""
     found = [error(a, b, key_quantities) for a, b in itertools.permutations(outcomes, 2)]
     return float(np.median(found)) if found else math.nan
 
 
 def force_difference(one, reference):
-    """Of normal forces at the same contacts, both {pair: force}: root mean square difference over the reference's mean, and the coefficient of correlation.
+    """Of normal forces [N/m] at the same contacts, both {pair: force}: root mean square difference over the reference's mean, and the coefficient of correlation.
 
-    Contacts that only one of them has count with a zero in the other.
+    Contacts that only one of them has count with a zero in the other. NaN, NaN for fewer than three contacts.
     """
     pairs = sorted(set(one) | set(reference))
     if not one or not reference or len(pairs) < 3:
@@ -98,7 +102,10 @@ class Fit:
 
 
 def power_law(x, y):
-    """Least squares of the logarithms of positive ``x``, ``y``; None where fewer than two points of different x are left."""
+    """:class:`Fit` to ``x``, ``y``, both of shape (n,), by least squares of the logarithms; values that are not positive are left out.
+
+    None where fewer than two points of different x are left.
+    """
     x, y = np.asarray(x, float), np.asarray(y, float)
     good = np.isfinite(x) & np.isfinite(y) & (x > 0) & (y > 0)
     x, y = np.log(x[good]), np.log(y[good])
@@ -115,7 +122,7 @@ def power_law(x, y):
 def loglog(at, x, y):
     """y at ``at``, straight lines between the logarithms; and whether that lies outside the points, along the last line there.
 
-    ``x``, ``y``: positive, two points of different x or more, else (NaN, True).
+    ``at``: a number; ``x``, ``y``: of shape (n,), positive, two points of different x or more, else (NaN, True).
     """
     order = np.argsort(x, kind="stable")
     x, y = np.log(np.asarray(x, float)[order]), np.log(np.asarray(y, float)[order])
@@ -132,8 +139,9 @@ def loglog(at, x, y):
 def soft_rate(modulus, moduli, steps, walls):
     """Wall time [s] for a second of simulation on soft contacts of a Young's modulus [Pa], and whether that lies outside those that were run.
 
-    ``moduli``, ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step. The step goes with the stability limit, as the
-    inverse root of the modulus; what a step takes depends on the modulus through the number of contacts only, so beyond the runs it is that of the nearest.
+    ``moduli`` [Pa], ``steps`` [s], ``walls`` [s]: of the runs their moduli, time steps and wall times a step, each of shape (n,). The step goes with the
+    stability limit, as the inverse root of the modulus; what a step takes depends on the modulus through the number of contacts only, so beyond the runs
+    it is that of the nearest.
     """
     order = np.argsort(moduli)
     moduli, steps, walls = (np.asarray(v, float)[order] for v in (moduli, steps, walls))
@@ -163,7 +171,7 @@ class Work:
 
 
 def compare_work(hard, soft, floor=0.0):
-    """:class:`Work` of two lists of (wall time, error), ``floor``: the scatter (NaN: none); None where a world has no run that counts."""
+    """:class:`Work` of two lists of (wall time [s], error), ``floor``: the scatter (NaN: none); None where a world has no run that counts."""
     hard, soft = ([(float(w), float(e)) for w, e in points] for points in (hard, soft))
     known = [[e for w, e in points if math.isfinite(e) and w > 0] for points in (hard, soft)]
     if not all(known):

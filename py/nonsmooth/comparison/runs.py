@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import shutil
 import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
@@ -17,6 +18,7 @@ from ..kept_runs import NOTE_SECONDS, keep, kept, share
 from .cases import ComparisonError
 
 __all__ = ["folder_of", "found_of", "run"]
+
 
 def folder_of(case, out) -> Path:
     """Where a case's records are."""
@@ -33,10 +35,11 @@ def found_of(function, case, out):
 
 
 def run(function, cases, out, threads, resume=False, progress=lambda share, doing: None):
-    """Calls ``function(folder, **case)`` for every case; returns what each returned, in their order.
+    """Calls ``function(folder, **case)`` for every case; returns what each returned, in their order, with ``process_wall_s``: wall time of its process [s].
 
-    ``function``: of a module of this package, see processes.call; it may write the share done with :class:`~yade.nonsmooth.kept_runs.Progress`. ``resume``: keep what has finished.
-    ``progress``: called with the share done and what is being done. Raises ComparisonError with the first failure after all others have ended.
+    ``function``: of a module of this package, see processes.call; it may write the share done with :class:`~yade.nonsmooth.kept_runs.Progress`.
+    ``resume``: keep what has finished. ``progress``: called with the share done and what is being done. Raises ComparisonError with the first failure
+    after all others have ended.
     """
     cases = list(cases)
     for case in cases:
@@ -63,16 +66,18 @@ def run(function, cases, out, threads, resume=False, progress=lambda share, doin
 def _one(function, case, out):
     found = found_of(function, case, out)
     if found is None:
-        folder = folder_of(case, out)
+        folder, began = folder_of(case, out), time.monotonic()
         found = processes.call(function, folder, asdict(case))
+        found["process_wall_s"] = time.monotonic() - began
         keep(folder, _key(function, case), found)
     return found
 
 
 def _failure(case, out, error):
-    """One line: the last of the process's output is the exception's own."""
-    lines = [line for line in str(error).splitlines() if line.strip()]
-    return f"{case.name}: {lines[-1].strip()} (all of it: {folder_of(case, out) / 'log.txt'})"
+    """One line: the last of the error's own; with the place of the log, where it does not name it."""
+    line = next((line.strip() for line in reversed(str(error).splitlines()) if line.strip()), type(error).__name__)
+    log = folder_of(case, out) / "log.txt"
+    return f"{case.name}: {line}" + ("" if str(log) in line else f" (all of it: {log})")
 
 
 def _watch(folders, progress, ended):

@@ -14,7 +14,7 @@ from ..kept_runs import Progress
 from .cases import Case
 from .outcomes import Cost, Outcome, Quantity
 
-__all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "forces_of", "measure", "prepare", "run", "section_of"]
+__all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "disks_of", "forces_of", "measure", "prepare", "run", "section_of"]
 
 #: Young's moduli [Pa], to a rock's. Under the slope's stress of some MPa contacts overlap by about 10 % of the radius at the softest.
 DEFAULT_STIFFNESSES = (1e7, 1e8, 1e9, 1e10)
@@ -39,6 +39,9 @@ NAME, TITLE = "slope", "Rain-triggered rock slope"
 SOURCE, DISKS = "jiufengershan", 3000
 KEYS = ("water_at_failure_m",)  # quantities that are parts of the error, besides curves and deposit
 CURVES = {"front": "the front's way", "centroid": "the centre of mass's way", "deposit": "the deposit (1 − common area)"}
+OVERLAP = "Mean overlap of the contacts that touch or bear a force, at walls too, in mean diameters of the pair (the disk's at a wall)."
+OVERLAP_WHEN = ("at rest, before the water rises", "while moving")
+COST_WHEN = "while the mass moves"
 
 
 def section_of(case: Case):
@@ -51,6 +54,12 @@ def section_of(case: Case):
     if case.options.get("end") is not None:
         stages = dataclasses.replace(stages, end=dataclasses.replace(stages.end, time=case.options["end"]))
     return dataclasses.replace(s, seed=case.seed, numerics=n, stages=stages)
+
+
+def disks_of(case: Case):
+    """Materials of the disks, and their smallest and largest diameter [m]. Raises SectionError for a section that cannot be used."""
+    s = section_of(case)
+    return [s.materials[layer.material] for layer in s.layers], (s.disks.d_min, s.disks.d_max)
 
 
 def prepare(case: Case):

@@ -10,7 +10,7 @@ import numpy as np
 from ..laboratory.strength import Estimate
 from . import deposits, precision
 
-__all__ = ["ROCK_STIFFNESS", "clean", "estimate", "summarise"]
+__all__ = ["ROCK_STIFFNESS", "clean", "estimate", "stiffest_within", "summarise"]
 
 ROCK_STIFFNESS = 1e10  # Pa
 
@@ -52,6 +52,12 @@ def estimate(hard, soft):
     return found
 
 
+def stiffest_within(differences, scatter):
+    """Whether the last of ``differences``, that of the stiffest run, is no larger than ``scatter``; None where either is not known (NaN)."""
+    last = differences[-1]
+    return last <= scatter if math.isfinite(last) and math.isfinite(scatter) else None
+
+
 def _run(outcome, error, own):
     c = outcome.case
     return {"name": c.name, "label": c.label, "world": c.world, "seed": c.seed, "stiffness_Pa": c.stiffness, "step_factor": c.step,
@@ -63,19 +69,21 @@ def _run(outcome, error, own):
 def summarise(scenario, plan, outcomes):
     """The summary as a dictionary.
 
-    ``scenario``: module with QUANTITIES, KEYS (names of key quantities) and NAME; ``plan``: a cases.Plan; ``outcomes``: {Case: Outcome} of all its cases.
+    ``scenario``: an experiment, see :mod:`outcomes`; ``plan``: a cases.Plan; ``outcomes``: {Case: Outcome} of all its cases.
     """
     keys = scenario.KEYS
     pairs = [(outcomes[h], outcomes[s]) for h, s in plan.ensemble]
     hard, soft = ([p[k] for p in pairs] for k in (0, 1))
     quantities = {q.name: {"means": q.means, "unit": q.unit, **estimate([o.values.get(q.name) for o in hard], [o.values.get(q.name) for o in soft])}
                   for q in scenario.QUANTITIES}
-    deposit = [deposits.overlap(a.deposit, b.deposit) for a, b in pairs if a.deposit is not None and b.deposit is not None]
+    both = [(a, b) for a, b in pairs if a.deposit is not None and b.deposit is not None]
+    deposit = [deposits.overlap(a.deposit, b.deposit) for a, b in both]
+    common = {str(a.case.seed): deposits.common_area(a.deposit, b.deposit) for a, b in both}
     between = [deposits.overlap(a.deposit, b.deposit) for k, a in enumerate(hard) for b in hard[k + 1:] if a.deposit is not None and b.deposit is not None]
     mean = lambda name, world: quantities[name][world]["mean"] if name in quantities else None  # noqa: E731
     numerics, sweep = [outcomes[c] for c in plan.numerics], [outcomes[c] for c in plan.sweep]
     chance = precision.scatter(hard, keys)
-    work = _work(numerics, sweep, chance, keys)
+    work = _work(numerics, sweep, [outcomes[plan.fragile]] if plan.fragile else [], chance, keys)
     runs = [_run(o, precision.error(o, numerics[-1], keys), precision.error(o, numerics[-1] if o.case.world == "hard" else sweep[-1], keys))
             for o in outcomes.values()]
     summary = {
@@ -87,6 +95,7 @@ def summarise(scenario, plan, outcomes):
         "water_at_failure_hard_m": mean("water_at_failure_m", "hard"), "water_at_failure_soft_m": mean("water_at_failure_m", "soft"),
         "front_travel_hard_m": mean("front_travel_m", "hard"), "front_travel_soft_m": mean("front_travel_m", "soft"),
         "deposit_overlap_fraction": float(np.mean(deposit)) if deposit else None,
+        "deposit_overlap_m2": float(np.mean(list(common.values()))) if common else None, "deposit_overlap_m2_by_seed": common,
         "deposit_overlap_fraction_between_seeds": float(np.mean(between)) if between else None,
         **_cost(outcomes[plan.ensemble[0][0]], sweep), "work_precision": work, "convergence": _convergence(scenario, plan, outcomes, quantities, chance),
         "scatter": chance, "quantities": quantities, "runs": runs,
@@ -95,7 +104,7 @@ def summarise(scenario, plan, outcomes):
 
 
 def _cost(hard, sweep):
-    """Wall time for a second of simulation, soft over hard: at equal mean overlap while the mass moves, and at a rock's stiffness."""
+    """Wall time for a second of simulation (see Cost.rate), soft over hard: at equal mean overlap (Outcome.overlap), and at a rock's stiffness."""
     moduli, overlaps, steps, walls = ([f(o) for o in sweep] for f in (lambda o: o.case.stiffness, lambda o: o.overlap, lambda o: o.cost.step_s,
                                                                       lambda o: o.cost.rate * o.cost.step_s))
     modulus, _ = precision.loglog(hard.overlap, overlaps, moduli)
@@ -107,8 +116,13 @@ def _cost(hard, sweep):
             "wall_s_per_simulated_s_hard": hard.cost.rate, "wall_s_per_simulated_s_soft": dict(zip(map("{:g}".format, moduli), rates))}
 
 
-def _work(numerics, sweep, chance, keys):
-    """Work and precision of both worlds, against the finest hard run, and each against the finest of its own."""
+def _work(numerics, sweep, aside, chance, keys):
+    """Work and precision of both worlds, against the finest hard run, and each against the finest of its own.
+
+    ``aside``: soft outcomes that are shown but not compared.
+    """
+    point = lambda o, reference: {"run": o.case.name, "label": o.case.label, "wall_s": o.cost.wall_s, "error": precision.error(o, reference, keys),  # noqa: E731
+                                  "parts": precision.parts(o, reference, keys)}
     found = {"scatter": chance, "reference_hard": numerics[-1].case.name, "reference_soft": sweep[-1].case.name}
     for kind, references in (("against_hard", (numerics[-1], numerics[-1])), ("against_own", (numerics[-1], sweep[-1]))):
         lists = [[o for o in group if o is not reference] for group, reference in zip((numerics, sweep), references)]
@@ -120,9 +134,8 @@ def _work(numerics, sweep, chance, keys):
             compared = {"error": work.error, "at_scatter": work.at_scatter, "factor": work.factor, "hard": hard.name, "soft": soft.name,
                         "hard_label": hard.label, "soft_label": soft.label}
         found[kind] = {"compared": compared} | {
-            world: [{"run": o.case.name, "label": o.case.label, "wall_s": wall, "error": error, "parts": precision.parts(o, reference, keys)}
-                    for o, (wall, error) in zip(group, own)]
-            for world, group, own, reference in zip(("hard", "soft"), lists, points, references)}
+            world: [point(o, reference) for o in group] for world, group, reference in zip(("hard", "soft", "soft_aside"), (*lists, aside),
+                                                                                           (*references, references[1]))}
     return found
 
 
@@ -142,12 +155,11 @@ def _convergence(scenario, plan, outcomes, quantities, chance):
         if base:
             differences = [math.nan if o.values.get(q.name) is None else abs(o.values[q.name] / base - 1) for o in sweep]
             rows[q.name] = {"means": q.means, "differences": differences, "scatter": math.nan if spread is None else spread / abs(base)}
-    rows["overlap"] = {"means": "mean overlap at rest", "differences": [o.overlap_rest for o in sweep], "scatter": math.nan}
+    rows["overlap"] = {"means": f"mean overlap, {scenario.OVERLAP_WHEN[0]}", "differences": [o.overlap_rest for o in sweep], "scatter": math.nan}
     for row in rows.values():
         fit = precision.power_law(moduli, row["differences"])
-        above = [d > row["scatter"] for d in row["differences"] if math.isfinite(d)] if math.isfinite(row["scatter"]) else []
         row |= {"power": fit.power if fit else None, "power_error": fit.power_error if fit else None, "scale": fit.scale if fit else None,
-                "stiffest_within_scatter": (not above[-1]) if above else None}
+                "stiffest_within_scatter": stiffest_within(row["differences"], row["scatter"])}
     networks = [precision.force_difference(o.forces, reference.forces) for o in sweep]
     own = [precision.force_difference(outcomes[c].forces, reference.forces) for c in plan.numerics if outcomes[c] is not reference]
     return {"stiffnesses_Pa": moduli, "rows": rows,

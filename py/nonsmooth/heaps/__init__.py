@@ -7,7 +7,7 @@
 
     c = column.Column(disks=500, aspect=2.0)
     hard = column.run(c, worlds.Hard(time_step=c.time_step()))
-    soft = column.run(c, worlds.Soft(stiffness=1e7, diameter=c.diameters()))
+    soft = column.run(c, worlds.Soft(stiffness=1e9, diameter=c.diameters()))
     print(hard.runout, soft.runout)
 
 * :mod:`grains`: what both scenes have in common, grains and floor;

@@ -9,11 +9,12 @@ from functools import cached_property
 
 import numpy as np
 from yade import O
+from yade.wrapper import NewtonIntegrator
 
 from . import measures, preparation
 from .grains import Heap, HeapError
 
-__all__ = ["COLUMNS", "Result", "Scene", "build", "run"]
+__all__ = ["COLUMNS", "Result", "Scene", "build", "check_damping", "run"]
 
 #: Columns of the series; units are in the names, see :class:`Result`.
 COLUMNS = ("step", "time_s", "front_m", "front_left_m", "farthest_m", "height_m", "centroid_x_m", "centroid_y_m", "energy_kinetic_J", "energy_potential_J",
@@ -27,6 +28,7 @@ SETTLE_LIMIT = 10.0   # T
 DURATION = 15.0       # T
 WEIGHT_OVERLAP = 0.05  # diameters, largest overlap under the heap's own weight that is let through
 FRAMES = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # T
+SLOW_FRACTION = 0.1  # of the largest rms speed since the release: below it the damping of soft contacts goes over to its value at rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +81,7 @@ class Scene:
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """A run. ``heap``: its parameters; ``world``: name; ``settings``: of the world, a dictionary.
+    """A run. ``heap``: its parameters; ``world``: name; ``settings``: of the world, a dictionary, with ``damping_moving`` if that was given.
 
     ``width``, ``height``: L₀ and H₀ [m] at rest in the box; for a pile L₀ is half of the box.
     ``series``: {name: array (rows,)} by :data:`COLUMNS`: step and time since the release; ``front_m``, ``front_left_m``: right and left edge of
@@ -142,7 +144,8 @@ class Result:
     def summary(self):
         """Numbers of the run, a dictionary that JSON can hold."""
         s, last = self.series, lambda name: float(self.series[name][-1])
-        return {"world": self.world, "settings": self.settings, "heap": self.heap.plain(), "disks": len(self.x), "width_m": self.width, "height_m": self.height,
+        return {"world": self.world, "settings": self.settings, "heap": self.heap.plain(), "disks": len(self.x),
+                "disks_asked": None if self.heap.packing else int(self.heap.disks), "width_m": self.width, "height_m": self.height,
                 "aspect": self.aspect, "front_m": last("front_m"), "farthest_m": last("farthest_m"), "runout_rel": float(self.runout),
                 "final_height_m": last("height_m"), "final_height_rel": float(self.final_height), "repose_deg": [None if math.isnan(a) else a for a in self.repose()],
                 "connected_disks": int(np.count_nonzero(self.connected)), "rested": self.rested, "time_s": last("time_s"), "fall_time_s": math.sqrt(self.height / self.heap.gravity),
@@ -154,8 +157,10 @@ def build(heap, world):
     """Fills the scene anew with a heap at rest in its box, in a world of :mod:`yade.nonsmooth.worlds`; returns the :class:`Scene`.
 
     The places are the same in both worlds. Raises PackingError, SampleError or HeapError where the disks cannot be prepared, and HeapError for springs
-    that the heap's own weight would crush.
+    that the heap's own weight would crush and for a soft model without the rolling resistance that the grains have.
     """
+    if world.name == "soft":
+        heap.check_model(world.model)
     ready = preparation.prepared(heap)
     stiffness = getattr(world, "stiffness", math.inf)
     # the weight above a disk at the bottom, ρ g H d, over its spring E R (YADE's, for a slice 1 m thick), in diameters
@@ -166,12 +171,40 @@ def build(heap, world):
     return Scene(heap, world, ready, preparation.put(heap, world, ready.x, ready.y, ready.r))
 
 
-def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None):
+def check_damping(world, moving):
+    """Raises HeapError for a damping on the move that cannot be used in a world; None is none of its own."""
+    if moving is None:
+        return
+    if world.name != "soft":
+        raise HeapError(f"damping_moving {moving!r}: {world.name} contacts have no damping; leave it out, or take the soft world")
+    if not 0 <= moving < 1:
+        raise HeapError(f"damping_moving {moving!r}: give a number from 0 to less than 1")
+
+
+class _Damping:
+    """The integrator's damping by the disks' speed: the value at rest, and another on the move. Call it now and then after the release."""
+
+    def __init__(self, scene, moving):
+        self._scene, self._rest, self._moving, self._fastest = scene, scene.world.damping, moving, 0.0
+        self._newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
+
+    def __call__(self):
+        speed = self._scene.rms_speed()
+        self._fastest = max(self._fastest, speed)
+        flowing = min(1.0, speed / (SLOW_FRACTION * self._fastest)) if self._fastest > 0 else 1.0
+        self._newton.damping = (1 - flowing) * self._rest + flowing * self._moving
+
+
+def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None, damping_moving=None):
     """Builds a heap in a world, lets it rest in its box, releases it, and follows it until it rests; returns the :class:`Result`.
 
     ``duration``: longest course after the release, and ``frames``: times at which places are kept, both in units of T = √(H₀/g). At rest the rms speed of
     the connected disks has been below 0.02 √(g d) for 0.5 T. ``progress``: called now and then with the largest share of the duration that is done.
+    ``damping_moving``: of soft contacts, the integrator's damping while the disks move, in place of the world's own, to which it returns in proportion
+    below a tenth of their largest speed; None: the world's own throughout. Raises what :func:`build` raises, and HeapError for a damping_moving that
+    cannot be used and for disks that do not come to rest in their box.
     """
+    check_damping(world, damping_moving)
     scene = build(heap, world)
     unit = math.sqrt(scene.prepared.height / heap.gravity)
     every = max(1, round(unit / RECORDS / O.dt))
@@ -188,6 +221,8 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     rows, kept, wall, calm = [], {}, 0.0, 0
     waiting = sorted(frames)
     scene.release()
+    adapt = _Damping(scene, damping_moving) if damping_moving is not None else lambda: None
+    settings = asdict(world) | ({"damping_moving": damping_moving} if damping_moving is not None else {})
     while True:
         steps = O.iter - begin
         now = steps * O.dt
@@ -201,6 +236,7 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
         progress(min(1.0, now / (duration * unit)))
         if calm * every * O.dt >= REST_TIME * unit or now >= duration * unit:
             break
+        adapt()
         started = time.perf_counter()
         for _ in range(every):  # O.run(…, wait=True) looks every 40 ms whether it is done
             O.step()
@@ -208,5 +244,5 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     t = preparation.disk_table(scene.stand)
     half = 0.5 if "left" in heap.gates() else 1.0
     series = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
-    return Result(heap, world.name, asdict(world), half * scene.prepared.width, scene.prepared.height, series, t["x"], t["y"], t["r"], joined,
+    return Result(heap, world.name, settings, half * scene.prepared.width, scene.prepared.height, series, t["x"], t["y"], t["r"], joined,
                   calm * every * O.dt >= REST_TIME * unit, O.dt, kept)

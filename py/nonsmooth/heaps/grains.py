@@ -11,6 +11,7 @@ import numpy as np
 from .. import packing_files
 from ..errors import UserError
 from ..section import Material
+from ..soft.parameters import ROLLING_MODELS
 
 __all__ = ["BASES", "FRACTION", "Heap", "HeapError"]
 
@@ -27,8 +28,8 @@ class HeapError(UserError, ValueError):
 class Heap:
     """Grains, floor and box of a heap.
 
-    ``disks``: number of disks, met within some per cent; ``diameter``: mean by number [m]; ``size_spread``: largest over smallest
-    diameter, sizes being uniform by volume in between; ``density`` [kg/m³].
+    ``disks``: number of disks; boxes of some hundred disks or fewer may miss it by some per cent, and a run says how many it has. ``diameter``: mean by
+    number [m]; ``size_spread``: largest over smallest diameter, sizes being uniform by volume in between; ``density`` [kg/m³].
     ``friction``, ``rolling_friction`` (in units of ℓ), ``restitution``: of contacts between disks, and with the floor.
     ``base``: "smooth", a line, or "rough", disks of the same sizes glued side by side along it, their tops at y = 0.
     ``base_friction``: of the floor, not above ``friction``; None: the same.
@@ -143,6 +144,12 @@ class Heap:
         """The floor's section.Material."""
         friction = self.friction if self.base_friction is None else self.base_friction
         return replace(self.material(), name="floor", friction=friction, residual_friction=friction)
+
+    def check_model(self, model):
+        """Raises HeapError for a soft contact ``model`` that has no rolling resistance where the grains have some: it would be dropped in silence."""
+        if self.rolling_friction > 0 and model not in ROLLING_MODELS:
+            raise HeapError(f"rolling_friction {self.rolling_friction:g} with model {model!r}: contacts of this model do not resist rolling; take model "
+                            f"{', '.join(ROLLING_MODELS)}, which without bonds, as here, is friction with rolling, or rolling_friction 0")
 
     def plain(self):
         """All parameters as JSON holds them, and for a packing file its content's checksum in place of its path."""

@@ -11,7 +11,7 @@ from ..figures import columns as figures
 from . import measures, scaling, study
 from .grains import HeapError
 
-__all__ = ["CHANGES", "by_front", "draw_collapse", "group", "summarise", "table"]
+__all__ = ["CHANGES", "by_front", "counts", "draw_collapse", "group", "summarise", "table"]
 
 #: Aspect ratios between the two fits: where Staron and Hinch's laws change.
 CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[0].change}
@@ -36,7 +36,8 @@ def _fits(found):
 
 
 def summarise(found):
-    """``summary.json`` of {name: summary of a run}: the runs, and ``fits`` of runout and height below and above the aspect ratios :data:`CHANGES`.
+    """``summary.json`` of {name: summary of a run}: the runs, each with the ``disks`` that it has, ``disks_fewest`` of all of them, and ``fits`` of runout
+    and height below and above the aspect ratios :data:`CHANGES`.
 
     A fit has ``factor``, ``exponent`` with half of its 95 % interval, the numbers of ``points``, and ``published`` with ``off_rel``, the exponent's relative
     difference from each published one. Runs that did not come to rest are left out.
@@ -50,7 +51,13 @@ def summarise(found):
                 "factor": fit.factor, "exponent": fit.exponent, "exponent_95": None if math.isnan(fit.exponent_95) else fit.exponent_95, "points": fit.points,
                 "change": CHANGES[name], "published": [{"source": law.source, "factor": law.pieces[k][0], "exponent": law.pieces[k][1],
                                                         "off_rel": fit.exponent / law.pieces[k][1] - 1} for law in laws]}
-    return {"runs": found, "fits": fits, "at_rest": sum(run["rested"] for run in found.values())}
+    return {"runs": found, "fits": fits, "at_rest": sum(run["rested"] for run in found.values()), "disks_fewest": min(run["disks"] for run in found.values())}
+
+
+def counts(found):
+    """How many disks the runs have, in words: "2000 disks", or the fewest and the most."""
+    fewest, most = (pick(run["disks"] for run in found.values()) for pick in (min, max))
+    return f"{fewest} disks" if fewest == most else f"{fewest} to {most} disks"
 
 
 def by_front(found, folders):
@@ -91,6 +98,9 @@ def table(found, summary):
         angles = " ".join("-" if a is None else f"{a:.1f}" for a in r["repose_deg"])
         lines.append(f"{name:20s} {r['disks']:7d} {r['aspect']:6.2f} {r['runout_rel']:11.3f} {r['final_height_rel']:11.3f} {angles:>12s} {r['time_s'] / r['fall_time_s']:8.1f} "
                      f"{r['steps']:9d} {r['wall_s']:10.1f} {r['overlap_worst_rel']:15.1e}{'' if r['rested'] else '  did not come to rest'}")
+    short = [f"{name} has {r['disks']} of {r['disks_asked']}" for name, r in found.items() if r["disks"] < (r.get("disks_asked") or 0)]
+    if short:
+        lines.append(f"fewer disks than asked for, as their boxes are small: {', '.join(short)}")
     for where, fit in summary["fits"].items():
         if fit:
             sure = "" if fit["exponent_95"] is None else f" ± {fit['exponent_95']:.2f}"

@@ -21,36 +21,47 @@ KINDS = {"column": Column, "pile": Pile}
 TOLERANCE = 1e-4
 
 
-def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, **soft):
+def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, damping_moving=None, **soft):
     """A world for a heap. ``name``: "hard" with the step that :meth:`Heap.time_step` gives for ``path``, and ``tolerance``; or "soft" with the fields of
-    :class:`yade.nonsmooth.worlds.Soft` but its diameters.
+    :class:`yade.nonsmooth.worlds.Soft` but its diameters. ``damping_moving``: no part of the world, but checked here; see :func:`course.run`.
+
+    Raises HeapError or SoftError for values that cannot be used, and HeapError for a model without the rolling resistance that the grains have.
     """
     from .. import worlds
+    from . import course
 
     if name == "hard":
-        return worlds.Hard(time_step=heap.time_step(path), tolerance=tolerance)
-    if name == "soft":
+        made = worlds.Hard(time_step=heap.time_step(path), tolerance=tolerance)
+    elif name == "soft":
         if not (soft.get("stiffness") or 0) > 0:
             raise HeapError(f"stiffness {soft.get('stiffness')!r}: the soft world needs Young's modulus in Pa, above 0")
-        return worlds.Soft(diameter=heap.diameters(), **soft)
-    raise HeapError(f"world {name!r}: give hard or soft")
+        made = worlds.Soft(diameter=heap.diameters(), **soft)
+        if not 0 < made.step_share <= 1:
+            raise HeapError(f"step_share {made.step_share!r}: the time step in units of its stability limit; give a number above 0, to 1 at most")
+        made.equivalent(heap.material())  # refuses values that no soft contact has
+        heap.check_model(made.model)
+    else:
+        raise HeapError(f"world {name!r}: give hard or soft")
+    course.check_damping(made, damping_moving)
+    return made
 
 
 def key_of(heap, world, duration):
     """Key of a run, to tell whether a folder holds it. ``world``: arguments of :func:`world_of`, a dictionary."""
-    made = world_of(heap, **world)
-    return checkpoints.key_of({"heap": heap.plain(), "world": [made.name, asdict(made)], "duration": duration})
+    made, moving = world_of(heap, **world), world.get("damping_moving")
+    told = {"heap": heap.plain(), "world": [made.name, asdict(made)], "duration": duration}
+    return checkpoints.key_of(told if moving is None else told | {"damping_moving": moving})
 
 
 def one(folder, kind, heap, world, duration):
-    """Runs a heap in the running scene; ``kind``: of :data:`KINDS`, ``heap``: its parameters, ``world``: arguments of :func:`world_of`.
+    """Runs a heap in the running scene; ``kind``: of :data:`KINDS`, ``heap``: its parameters, ``world``: arguments of :func:`world_of`, a dictionary.
 
     Writes ``series.csv`` and ``places.npz`` to ``folder``, its share done to ``progress``, and returns the :meth:`~course.Result.summary`.
     """
     from . import course
 
     folder, made = Path(folder), KINDS[kind](**heap)
-    result = course.run(made, world_of(made, **world), duration, progress=kept_runs.Progress(folder))
+    result = course.run(made, world_of(made, **world), duration, progress=kept_runs.Progress(folder), damping_moving=world.get("damping_moving"))
     with records.SeriesWriter(folder / "series.csv", course.COLUMNS, overwrite=True) as series:
         for row in zip(*(result.series[name].tolist() for name in course.COLUMNS)):
             series.write(dict(zip(course.COLUMNS, row)))

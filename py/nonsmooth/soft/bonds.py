@@ -79,9 +79,12 @@ def bond_walls(ids=None, fragile=True):
     returns how many were new.
 
     ``ids``: of disks, default all; ``fragile`` as in :func:`bond`. Call it after the engines are set. A bond over a gap is born without force.
+
+    Raises SoftError for ductile bonds (``fragile=False``) without a BondEllipseEngine in O.engines, and where the engines make other contacts with
+    walls than WallPhys.
     """
     disks = [b for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else [O.bodies[k] for k in ids]
-    centres, radii = np.array([b.state.pos for b in disks])[:, :2], np.array([b.shape.radius for b in disks])
+    centres, radii = np.array([b.state.pos for b in disks]).reshape(-1, 3)[:, :2], np.array([b.shape.radius for b in disks])
     count, follower = 0, None if fragile else _follower()
     for wall in O.bodies:
         m = wall.material

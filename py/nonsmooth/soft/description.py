@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from .parameters import Equivalent
@@ -21,6 +22,25 @@ _BONDED = (
     "threshold; the energy of a break is smaller",
     "softening by steps: a contact keeps the peak friction of its broken bond until soft.weaken() is called",
 )
+#: Attributes of the disks' material: what they are, unit, in the hard law. JCFpmMat.frictionAngle is that of a bond, see :func:`describe`.
+_ATTRIBUTES = {
+    "density": ("density", "kg/m³", "ρ"),
+    "young": ("Young's modulus", "Pa", "rigid"),
+    "poisson": ("shear over normal stiffness", "", "rigid"),
+    "frictionAngle": ("friction angle without a bond", "rad", "atan of the residual μ_s"),
+    "residualFrictionAngle": ("friction angle without a bond", "rad", "atan of the residual μ_s"),
+    "normalCohesion": ("tensile strength", "Pa", "σ_ext ℓ/R², R = ℓ/2"),
+    "shearCohesion": ("shear strength", "Pa", "μ_s σ_ext ℓ/R²"),
+    "tensileStrength": ("tensile strength", "Pa", "σ_ext ℓ/(π R²), R = ℓ/2"),
+    "cohesion": ("shear strength", "Pa", "μ_s σ_ext ℓ/(π R²)"),
+    "etaRoll": ("rolling arm over R without a bond", "", "2 times the residual μ_r"),
+    "etaTwist": ("twisting arm over R", "", "plane: no twist"),
+    "alphaKr": ("rolling stiffness over k_s R²", "", "rigid"),
+    "alphaKtw": ("twisting stiffness over k_s R²", "", "plane: no twist"),
+    "momentRotationLaw": ("contacts resist rolling", "", "they do"),
+    "fragile": ("bonds break at a threshold", "", "they yield first; see bond(…, fragile=False)"),
+    "isCohesive": ("disks may be bonded", "", "bonded"),
+}
 _LOST = {
     "cohesion_moment": (
         *_BONDED,
@@ -35,7 +55,7 @@ _LOST = {
     ),
     "friction": (
         "bonds: no tension, shear or torque threshold from cohesion; friction is the residual one from the start",
-        "moments: contacts do not resist rolling (the residual value of μ_r)",
+        "moments: contacts do not resist rolling (the residual value of μ_r); cohesion_moment without bonds is friction with rolling",
     ),
 }
 
@@ -53,7 +73,10 @@ class Description(NamedTuple):
 
 
 def describe(e: Equivalent) -> Description:
-    """Parameters at the mean diameter, for a contact of two equal disks, with those of the hard law beside them; and what is lost."""
+    """Parameters at the mean diameter, for a contact of two equal disks, with those of the hard law beside them; and what is lost.
+
+    Every attribute that :func:`~yade.nonsmooth.soft.functors.material` sets has a row; YADE's angles are in rad, the law's friction is a coefficient.
+    """
     m, length = e.material, e.length
     kn, ks, kr = e.stiffnesses(0.5 * length, 0.5 * length)
     tension, shear, torque = e.thresholds(length)
@@ -65,7 +88,6 @@ def describe(e: Equivalent) -> Description:
         ("quantity", "in YADE", "value", "hard law"),
         ("contact law", law, "-", "Law2_ScGeom_NscdPhys_SignoriniCoulomb"),
         ("mean diameter ℓ", "-", f"{length:.6g} m", "ℓ"),
-        ("Young's modulus", "young", f"{e.young:.6g} Pa", "rigid"),
         ("normal stiffness", "kn", f"{kn:.6g} N/m", "rigid"),
         ("shear stiffness", "ks", f"{ks:.6g} N/m", "rigid"),
         ("rolling stiffness", "kr", f"{kr:.6g} N m" if kr else "none", "rigid"),
@@ -75,8 +97,6 @@ def describe(e: Equivalent) -> Description:
     ]
     if e.model != "friction":
         rows.append(("friction of a bond", "tanFrictionAngle" if e.model == "jcfpm" else "tangensOfFrictionAngle", f"{m.friction:.6g}", "μ_s"))
-    rows.append(("friction without a bond", "frictionAngle of the material" if e.model != "jcfpm" else "residualFrictionAngle of the material",
-                 f"{m.residual_friction:.6g}", "residual μ_s"))
     if e.model == "cohesion_moment":
         rows += [("rolling arm of a bond", "maxRollPl", f"{m.rolling_friction * length:.6g} m", "μ_r ℓ"),
                  ("rolling arm without a bond", "maxRollPl", f"{m.residual_rolling_friction * length:.6g} m", "residual μ_r ℓ")]
@@ -86,6 +106,13 @@ def describe(e: Equivalent) -> Description:
                   f"F_a ε_n ℓ = {tension * m.bond_ellipse[0] * length:.3g} J")]
     rows += [("restitution of elastic disks", f"damping {e.damping:g}", f"{e.restitution:.3g}", f"e = {m.restitution:g}"),
              ("largest stable time step", "O.dt", f"{e.step_limit:.3g} s", "no such limit")]
+    kind = {"cohesion_moment": "CohFrictMat", "jcfpm": "JCFpmMat", "friction": "FrictMat"}[e.model]
+    for name, value in e.attributes().items():
+        what, unit, law_has = _ATTRIBUTES[name]
+        if (e.model, name) == ("jcfpm", "frictionAngle"):
+            what, law_has = "friction angle of a bond", "atan μ_s"
+        shown = str(value) if isinstance(value, bool) else f"{value:.6g} {unit}".rstrip()
+        rows.append((what, f"{kind}.{name}", shown + (f" (atan {math.tan(value):.6g})" if unit == "rad" else ""), law_has))
     return Description(tuple(rows), _ALWAYS + _LOST[e.model])
 
 

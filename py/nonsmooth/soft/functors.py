@@ -19,23 +19,12 @@ __all__ = ["engines", "engines_of", "material", "wall_material"]
 def material(e, **others):
     """The material of disks for the :class:`~yade.nonsmooth.soft.Equivalent` ``e``, not yet in the scene; ``others``: further attributes.
 
-    It rules contacts that are not bonded: its friction is the residual one. Strengths are such that YADE's own formulae give the bond's
-    thresholds at the mean diameter, normalCohesion = σ_ext ℓ/R² and tensileStrength = σ_ext ℓ/(π R²) with R = ℓ/2. At other
-    diameters they do not, since YADE multiplies by min(R)² and the law by ℓ; :func:`~yade.nonsmooth.soft.bonds.bond` sets each contact.
+    Its values are those of :meth:`~yade.nonsmooth.soft.Equivalent.attributes`. It rules contacts that are not bonded: its friction is the residual
+    one. Its strengths give the bond's thresholds at the mean diameter. At other diameters they do not, since YADE multiplies by min(R)² and the
+    law by ℓ; :func:`~yade.nonsmooth.soft.bonds.bond` sets each contact.
     """
-    m = e.material
-    values = dict(density=m.density, young=e.young, poisson=e.shear_ratio, frictionAngle=math.atan(m.residual_friction))
-    stress = 4 * e.thresholds(e.length)[0] / e.length**2
-    if e.model == "cohesion_moment":
-        # YADE's arm is η min(R), the law's μ_r ℓ
-        values |= dict(normalCohesion=stress, shearCohesion=m.friction * stress, etaRoll=2 * m.residual_rolling_friction, etaTwist=0,
-                       alphaKr=e.rolling_ratio, alphaKtw=0, momentRotationLaw=True, fragile=True, isCohesive=m.bonded)
-        return CohFrictMat(**{**values, **others})
-    if e.model == "jcfpm":
-        values |= dict(tensileStrength=stress / math.pi, cohesion=m.friction * stress / math.pi, frictionAngle=math.atan(m.friction),
-                       residualFrictionAngle=math.atan(m.residual_friction))
-        return JCFpmMat(**{**values, **others})
-    return FrictMat(**{**values, **others})
+    kind = {"cohesion_moment": CohFrictMat, "jcfpm": JCFpmMat, "friction": FrictMat}[e.model]
+    return kind(**{**e.attributes(), **others})
 
 
 def wall_material(e, wall, **others):

@@ -14,10 +14,12 @@ import numpy as np
 from ..errors import UserError
 from ..section import Material
 
-__all__ = ["MODELS", "Equivalent", "SoftError", "equivalent"]
+__all__ = ["MODELS", "ROLLING_MODELS", "Equivalent", "SoftError", "equivalent"]
 
 #: YADE's models: its cohesive law with moments, its rock model without them, springs with friction alone.
 MODELS = ("cohesion_moment", "jcfpm", "friction")
+#: Those whose contacts resist rolling, with a bond and without.
+ROLLING_MODELS = ("cohesion_moment",)
 
 
 class SoftError(UserError, ValueError):
@@ -80,7 +82,26 @@ class Equivalent:
             return 0.0, max(0.0, m.residual_friction * normal), 0.0
         tension = m.tensile_strength * length if m.bonded else 0.0
         held = max(0.0, tension + normal)
-        return tension, m.friction * held, m.rolling_friction * length * held if self.model == "cohesion_moment" else 0.0
+        return tension, m.friction * held, m.rolling_friction * length * held if self.model in ROLLING_MODELS else 0.0
+
+    def attributes(self) -> dict:
+        """{name: value} of the disks' material in YADE (CohFrictMat, JCFpmMat or FrictMat), in its units: rad, Pa, kg/m³, bool, else [-].
+
+        It rules contacts that are not bonded, so frictionAngle is the arc tangent of the residual friction; a JCFpmMat has both angles. Strengths are
+        such that YADE's own formulae give the bond's thresholds at the mean diameter, normalCohesion = σ_ext ℓ/R² and tensileStrength =
+        σ_ext ℓ/(π R²) with R = ℓ/2.
+        """
+        m = self.material
+        values = dict(density=m.density, young=self.young, poisson=self.shear_ratio, frictionAngle=math.atan(m.residual_friction))
+        stress = 4 * self.thresholds(self.length)[0] / self.length**2
+        if self.model == "cohesion_moment":
+            # YADE's arm is η min(R), the law's μ_r ℓ
+            return values | dict(normalCohesion=stress, shearCohesion=m.friction * stress, etaRoll=2 * m.residual_rolling_friction, etaTwist=0,
+                                 alphaKr=self.rolling_ratio, alphaKtw=0, momentRotationLaw=True, fragile=True, isCohesive=m.bonded)
+        if self.model == "jcfpm":
+            return values | dict(tensileStrength=stress / math.pi, cohesion=m.friction * stress / math.pi, frictionAngle=math.atan(m.friction),
+                                 residualFrictionAngle=math.atan(m.residual_friction))
+        return values
 
 
 def equivalent(material: Material, stiffness: float, model: str = "cohesion_moment", *, diameter, shear_ratio: float = 0.3,
