@@ -100,8 +100,9 @@ def main():
         value = summary[name]
         print(f"  {name:28s} {'-' if value is None else f'{value:.4g}'}")
     if summary.get("water_at_failure_over_passive"):
-        print(f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water; "
-              f"the slope failed at {summary['water_at_failure_over_passive']:.2f} of that")
+        print(f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water "
+              f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
+              f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop")
     print(f"results: {out}/summary.json, series.csv, {', '.join(p.name for p in made)}")
 
 

@@ -76,14 +76,18 @@ def _difference(a, b):
     return None if a is None or b is None else a - b
 
 
-def _passive(section, packing_fraction, water):
-    """What the toe's passive strength says about the failure, see toe.py; nothing where the rock's envelope or the water's wall is not given."""
+def _passive(section, packing_fraction, water, force):
+    """What the toe's passive strength says about the failure, see toe.py; nothing where the rock's envelope or the water's wall is not given.
+
+    ``water`` [m], ``force`` [N/m]: height of the table and normal force on the backstop at failure, None where there was none.
+    """
     envelope = section.materials[section.layers[0].material].envelope
     if envelope is None or section.water is None or section.water.wall is None:
         return {}
     found = toe.passive(section, envelope.cohesion, envelope.friction_deg, packing_fraction or section.disks.packing_fraction)
     return {"water_passive_m": found.water_m, "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
-            "passive_resistance_dry_N_per_m": found.resistance_dry}
+            "passive_resistance_dry_N_per_m": found.resistance_dry, "passive_force_N_per_m": found.push_N_per_m,
+            "fb_force_at_failure_over_passive": force / found.push_N_per_m if force is not None and found.push_N_per_m else None}
 
 
 def summarise(folder, section, state, threads=None) -> dict:
@@ -147,7 +151,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         rise = summary["fb_force_at_failure_N_per_m"] - summary["fb_force_dry_N_per_m"]
         drop = summary["dp_shear_dry_N_per_m"] - summary["dp_shear_at_failure_N_per_m"]
         summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
-    summary |= _passive(section, state["packing_fraction"], summary["water_at_failure_m"])
+    summary |= _passive(section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"])
     clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
     write_atomically(folder / "summary.json", (json.dumps(clean, indent=1) + "\n").encode())
     return clean

@@ -3,7 +3,7 @@ import dataclasses
 import math
 
 import pytest
-from yade.nonsmooth import section, toe
+from yade.nonsmooth import results, section, toe
 
 SHIPPED = section.load("jiufengershan")
 BETA = math.radians(21)
@@ -33,3 +33,14 @@ def test_a_toe_that_never_or_always_fails_has_no_height():
     assert toe.passive(SHIPPED, 0.0, 15.0, 0.84).water_m is None
     with pytest.raises(ValueError, match="no slab"):
         toe.passive(dataclasses.replace(SHIPPED, water=None), 88e3, 38.5, 0.84)
+
+
+def test_a_run_is_set_beside_its_toe_by_height_and_by_force():
+    envelope = SHIPPED.materials["rock"].envelope
+    found = toe.passive(SHIPPED, envelope.cohesion, envelope.friction_deg, 0.84)
+    told = results._passive(SHIPPED, 0.84, 20.0, 200e6)
+    assert told["water_passive_m"] == found.water_m and told["passive_force_N_per_m"] == found.push_N_per_m
+    assert told["water_at_failure_over_passive"] == pytest.approx(20.0 / found.water_m, rel=1e-12)  # rounding
+    assert told["fb_force_at_failure_over_passive"] == pytest.approx(200e6 / found.push_N_per_m, rel=1e-12)
+    stood = results._passive(SHIPPED, 0.84, None, None)
+    assert stood["water_at_failure_over_passive"] is None and stood["fb_force_at_failure_over_passive"] is None
