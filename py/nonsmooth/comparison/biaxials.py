@@ -33,7 +33,6 @@ OVERLAP = ("Mean overlap of the contacts between disks that bear a force or a bo
            "counts as 0.")
 OVERLAP_WHEN = ("before the test", "at its end")
 COST_WHEN = "of the test"
-SHORTEST = strength.PEAK_WINDOW / (1 - strength.PLATEAU)  # axial strain of a test that has both a peak and a plateau to measure
 
 QUANTITIES = (
     Quantity("sigma1_peak_Pa", "peak strength σ₁", "Pa"),
@@ -57,8 +56,8 @@ def test_of(case: Case) -> biaxial.Test:
     """
     o, standard = case.options, {f.name: f.default for f in dataclasses.fields(biaxial.Test)}
     strain = o.get("strain", STRAIN)
-    if not SHORTEST <= strain < 1:
-        raise ComparisonError(f"--strain {strain:g}: give the axial strain at the end, from {SHORTEST:g}, which has a peak and a plateau, to less than 1")
+    if not strength.SHORTEST <= strain < 1:
+        raise ComparisonError(f"--strain {strain:g}: give the axial strain at the end, from {strength.SHORTEST:g}, which has a peak and a plateau, to less than 1")
     shape = pressing.Shape(case.disks, case.seed)
     numerics = dict(step=standard["step"] * case.step, tolerance=standard["tolerance"] * case.tolerance) if case.world == "hard" else {}
     platens = o.get("platens", standard["platens"])

@@ -14,7 +14,6 @@ such unit; the right singular vector of the smallest singular value is the chang
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import json
 import math
 import shutil
@@ -24,6 +23,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
+from .. import checkpoints
 from ..whole_files import write_atomically
 from . import biaxial, campaign, pressing
 
@@ -89,7 +89,7 @@ class Calibration:
 
         Raises campaign.CampaignError and pressing.SampleError where a test fails.
         """
-        key = self._key(x, disks, seeds)
+        key = self._key(self.material(x), disks, seeds)
         for trial in self.trials + self.known:
             if trial["key"] == key:
                 if trial not in self.trials:
@@ -103,10 +103,9 @@ class Calibration:
         self.say(f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°{residual}")
         return np.array(found)
 
-    def _key(self, x, disks, seeds):
+    def _key(self, material, disks, seeds):
         """What a trial's strengths depend on."""
-        tests = [dataclasses.asdict(test) for test in self._tests(self.material(x), disks, seeds)]
-        return hashlib.sha256(json.dumps(tests, sort_keys=True).encode()).hexdigest()
+        return checkpoints.key_of({"tests": [dataclasses.asdict(test) for test in self._tests(material, disks, seeds)]})
 
     def _tests(self, material, disks, seeds):
         return [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.1 if self.wanted.with_residual else 0.03)
@@ -114,9 +113,9 @@ class Calibration:
 
     def test(self, material, disks, seeds):
         """c [Pa], φ [°], and where they are wanted c_res, φ_res of a material, a list, from biaxial tests."""
-        tests = self._tests(material, disks, seeds)
-        folder = self.out / f"trial-{hashlib.sha256(json.dumps([biaxial.key_of(t) for t in tests]).encode()).hexdigest()[:12]}"  # its checkpoints are its own
-        s = campaign.summarise(material, campaign.run(tests, folder, self.threads, self.resume, self._show(disks * len(seeds))), 0.0, self.threads)
+        folder = self.out / f"trial-{self._key(material, disks, seeds)[:12]}"  # its checkpoints are its own
+        measured = campaign.run(self._tests(material, disks, seeds), folder, self.threads, self.resume, self._show(disks * len(seeds)))
+        s = campaign.summarise(material, measured, 0.0, self.threads)
         shutil.rmtree(folder, ignore_errors=True)
         found = [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"]]
         return found + [1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]] if self.wanted.with_residual else found
@@ -180,8 +179,8 @@ class Calibration:
         certain = uniqueness(self.names, self.derivatives(*coarse, x))
         self._done = sizes[0] * (trials[0] + len(self.names))
         x, misfit = self.search(*fine, x, trials[1])
-        found = next(t["found"] for t in self.trials if t["key"] == self._key(x, *fine))
         material = self.material(x)
+        found = next(t["found"] for t in self.trials if t["key"] == self._key(material, *fine))
         return material, {"material": dataclasses.asdict(material), "wanted": dataclasses.asdict(self.wanted), "found": found, "misfit_in_tolerances": misfit.tolist(),
                           "tolerances": {"cohesion_rel": SCALE, "friction_deg": DEGREES}, "reached": bool(np.abs(misfit).max() <= 1), "trials": self.trials, **certain,
                           "given": "σ_ext and μ_s follow from c and φ for the given μ_r; another μ_r gives another μ_s with the same peak and another plateau"
