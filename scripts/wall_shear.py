@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Sliding tests of a packing on a wall (Taboada and Estrada 2009, section 3.3): friction and cohesion of DP, FB and SS in Table 1.
 
-  scripts/wall_shear.py [--material NAME|FILE …] [--pressures MPA,MPA,…] [--seeds S …] [--out DIR]
+  scripts/wall_shear.py [--material NAME|FILE …] [--pressures MPA,MPA,…] [--seeds S …] [--out DIR] [--threads T] [--resume]
 """
 import os, sys
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
@@ -13,8 +13,8 @@ import dataclasses
 import json
 from pathlib import Path
 
-from tqdm import tqdm
 from yade.nonsmooth import errors, records
+from yade.nonsmooth.figures import wall_shear as figures
 from yade.nonsmooth.laboratory import arguments, materials, wall_shear
 from yade.nonsmooth.whole_files import write_atomically
 
@@ -26,7 +26,9 @@ def read_arguments():
     parser.add_argument("--tensile-strength", type=float, metavar="KPA", help="of these bonds, instead of the material's [kPa]")
     parser.add_argument("--pressures", type=arguments.pressures(2), default=[0.25, 0.5, 1, 2], metavar="MPA,…", help="normal stresses [MPa] (default: 0.25,0.5,1,2)")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2], metavar="S", help="seeds of the packings (default: 1 2)")
-    parser.add_argument("--out", default="out/wall_shear", metavar="DIR", help="folder for summary.json (default: %(default)s)")
+    parser.add_argument("--out", default="out/wall_shear", metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="slides at a time (default: all cores)")
+    parser.add_argument("--resume", action="store_true", help="keep slides in DIR that have ended")
     return parser.parse_args()
 
 
@@ -44,18 +46,19 @@ def main():
         if m.bonded and not m.tensile_strength > 0:
             raise errors.UserError(f"--bonded with {name}: its tensile strength is 0, so such bonds bear nothing; add --tensile-strength KPA")
         chosen.append(m)
-    found = []
-    with tqdm(total=len(chosen) * len(args.seeds) * len(args.pressures), unit="test", leave=False) as bar:
-        for m in chosen:
-            for seed in args.seeds:
-                one, slides = wall_shear.strength_of(m, [1e6 * p for p in args.pressures], seed, bar.update)
-                found.append({**one, "slides": [dataclasses.asdict(s) for s in slides]})
+    groups = [[wall_shear.Test(m, 1e6 * p, seed) for p in args.pressures] for m in chosen for seed in args.seeds]
+    with arguments.bar() as progress:
+        slides = wall_shear.run([t for group in groups for t in group], out, args.threads, args.resume, progress)
+    n = len(args.pressures)
+    found = [wall_shear.strength_of(group, slides[k * n : (k + 1) * n]) for k, group in enumerate(groups)]
     write_atomically(out / "summary.json", json.dumps({"tests": found}, indent=1).encode())
     print("wall       seed   peak: friction  φ [°]   cohesion [kPa]   residual: friction  φ [°]   cohesion [kPa]   covered")
     for f in found:
         print(f"{f['material']:10s} {f['seed']:4d} {f['friction_peak']:16.3f} {f['friction_peak_deg']:6.1f} {f['cohesion_peak_kPa']:16.1f} {f['friction_residual']:20.3f} "
               f"{f['friction_residual_deg']:6.1f} {f['cohesion_residual_kPa']:16.1f} {f['coverage']:9.2f}")
-    print(f"results: {out}/summary.json")
+    series = {t.name: records.read_series(out / "tests" / t.name / "series.csv") for group in groups for t in group}
+    made = figures.slides([(f, [series[t.name] for t in group]) for group, f in zip(groups, found)], out / "wall_shear.png")
+    print(f"results: {out}/summary.json, tests/*/series.csv, {made}")
 
 
 try:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .whole_files import write_atomically
 
-__all__ = ["Progress", "keep", "kept", "share"]
+__all__ = ["Progress", "forget", "keep", "kept", "share"]
 
 NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
 
@@ -36,9 +36,15 @@ def share(folder):
         return 0.0
 
 
-def keep(folder, key, found, **more):
-    """Writes the result of a run, with a key that tells what it is of; ``more``: what else is to stand there."""
-    write_atomically(Path(folder) / "result.json", json.dumps({"key": key, **more, "found": found}, indent=1).encode())
+def keep(folder, key, found):
+    """Writes the result of a run, with a key that tells what it is of."""
+    write_atomically(Path(folder) / "result.json", json.dumps({"key": key, "found": found}, indent=1).encode())
+
+
+def forget(folder):
+    """Removes the result of an earlier run, and how far it was."""
+    for name in ("result.json", "progress"):
+        (Path(folder) / name).unlink(missing_ok=True)
 
 
 def kept(folder, key):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import errors, processes, records, section
+from yade.nonsmooth.figures import wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import bands, biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, strength, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
@@ -146,13 +147,30 @@ def test_a_bad_material_is_one_message(tmp_path, text, message):
 @pytest.mark.parametrize("name, peak, residual", [("fb", 0.7, 0.5), ("ss", 0.2, 0.2)])
 def test_a_wall_has_the_strength_of_its_contacts(name, peak, residual):
     m = materials.load(name)
-    found, slides = wall_shear.strength_of(m, [0.5e6, 2e6], 1)
+    tests = [wall_shear.Test(m, p) for p in (0.5e6, 2e6)]
+    found = wall_shear.strength_of(tests, [wall_shear.slide(t) for t in tests])
     # all contacts slip at once, so the sum obeys eq. 4 to the solver's tolerance of 1e-4
     assert found["friction_peak"] == pytest.approx(peak, rel=1e-3) and found["friction_residual"] == pytest.approx(residual, rel=1e-3)
     cohesion = 1e-3 * peak * m.tensile_strength * found["coverage"] if m.bonded else 0.0
     assert found["cohesion_peak_kPa"] == pytest.approx(cohesion, abs=0.5) and found["cohesion_residual_kPa"] == pytest.approx(0, abs=0.5)
     if m.bonded:
         assert 0.75 < found["coverage"] < 1.0  # disks cover most of a line, but not all
+
+
+def test_slides_run_side_by_side_and_are_kept(tmp_path):
+    """Processes of their own give what the scene here gives, to the bit; a resume keeps them; the figure takes their series."""
+    tests = [wall_shear.Test(materials.load("dp"), p) for p in (0.5e6, 2e6)]
+    found = wall_shear.run(tests, tmp_path, threads=2)
+    assert found[0] == wall_shear.slide(tests[0])
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
+    assert wall_shear.run(tests, tmp_path, threads=2, resume=True) == found
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+    series = [records.read_series(tmp_path / "tests" / t.name / "series.csv") for t in tests]
+    late = series[0]["slip_m"] > 0.16
+    assert series[0]["shear_Pa"][late].mean() == pytest.approx(found[0].shear_residual, rel=1e-9)  # sums in another order
+    assert wall_shear_figure.slides([(wall_shear.strength_of(tests, found), series)], tmp_path / "slides.png").stat().st_size > 10_000
+    with pytest.raises(wall_shear.SlideError, match="dp-0.5MPa-seed1: two slides of one name"):
+        wall_shear.run([tests[0], tests[0]], tmp_path, threads=1)
 
 
 # ---- calibration ----------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 from ..errors import UserError
 
-__all__ = ["Case", "ComparisonError", "Plan", "check_soft", "moduli_of", "modulus_label", "plan"]
+__all__ = ["Case", "ComparisonError", "Plan", "check_soft", "moduli_of", "modulus_label", "plan", "work_of"]
 
 #: Time step and tolerance of hard runs, as multiples of the section's, coarse to fine; the last is the reference.
 HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))
@@ -110,14 +110,13 @@ class Plan:
 
     @property
     def cases(self):
-        """All of them, once each, the longest first so that threads end together."""
+        """All of them, once each."""
         pairs = [c for pair in self.ensemble for c in pair]
-        every = dict.fromkeys((*self.sweep, *self.numerics, *(c for c in (self.damping, self.fragile) if c), *pairs))
-        return sorted(every, key=_work, reverse=True)
+        return list(dict.fromkeys((*self.sweep, *self.numerics, *(c for c in (self.damping, self.fragile) if c), *pairs)))
 
 
-def _work(case):
-    """Wall time to be expected, in units of the hard run's: a guess that only orders runs."""
+def work_of(case):
+    """Wall time to be expected, in units of the hard run's: a guess, for the order of runs and the progress bar."""
     if case.world == "soft":
         return (case.stiffness / 3e8) ** 0.5
     return 1 / case.step / case.tolerance**0.3

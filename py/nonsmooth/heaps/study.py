@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import shutil
-from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from .. import checkpoints, kept_runs, processes, records
+from .. import checkpoints, kept_runs, records, side_by_side
 from ..whole_files import write_arrays
 from .column import Column
 from .grains import PATH_PER_STEP, HeapError
@@ -84,30 +82,9 @@ def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda shar
     ``resume``: keep runs of these parameters that have ended. ``progress``: called with the share done, now and then; runs count by disks and fall height.
     Raises HeapError with the first failure after the others have ended.
     """
-    home = Path(out) / "runs"
-    if not resume:
-        shutil.rmtree(home, ignore_errors=True)
-    work = {name: heap.disks * heap.box()[1] / heap.mean_diameter() for name, (heap, _) in cases.items()}
-
-    def do(name):
-        heap, world = cases[name]
-        folder, key = home / name, key_of(heap, world, duration)
-        kept = kept_runs.kept(folder, key)
-        if kept is not None:
-            return kept
-        folder.mkdir(parents=True, exist_ok=True)
+    made = []
+    for name, (heap, world) in cases.items():
         kind = next(k for k, v in KINDS.items() if type(heap) is v)
-        found = processes.call(one, folder, {"kind": kind, "heap": asdict(heap), "world": world, "duration": duration})
-        kept_runs.keep(folder, key, found)
-        return found
-
-    with ThreadPoolExecutor(max(1, threads)) as pool:
-        futures = {name: pool.submit(do, name) for name in sorted(cases, key=work.get, reverse=True)}
-        left = set(futures.values())
-        while left:
-            left = wait(left, timeout=1).not_done
-            progress(sum(work[n] * (1.0 if f.done() else kept_runs.share(home / n)) for n, f in futures.items()) / sum(work.values()))
-    failures = [f"{name}: {error}" for name, f in futures.items() if (error := f.exception())]
-    if failures:
-        raise HeapError(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""))
-    return {name: futures[name].result() for name in cases}
+        arguments = {"kind": kind, "heap": asdict(heap), "world": world, "duration": duration}
+        made.append(side_by_side.Run(name, Path(out) / "runs" / name, one, arguments, key_of(heap, world, duration), heap.disks * heap.box()[1] / heap.mean_diameter()))
+    return dict(zip(cases, side_by_side.run(made, threads, resume, HeapError, progress=lambda share, ended: progress(share))))

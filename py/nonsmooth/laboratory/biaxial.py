@@ -23,7 +23,7 @@ from yade import O
 from .. import checkpoints, records, section, tables
 from ..errors import UserError
 from ..kept_runs import Progress
-from . import membrane, pressing, sample
+from . import materials, membrane, pressing, sample
 from .walls import Walls
 
 RAMP = 0.002               # strain in which the platens reach their speed
@@ -64,16 +64,13 @@ class Test:
     max_iterations: int = 1000
 
     def __post_init__(self):
-        # what was measured before, and what walls do, rule nothing here; so they are not part of a test
-        object.__setattr__(self, "material", replace(self.material, slip_weakening=None, envelope=None))
+        object.__setattr__(self, "material", materials.bare(self.material))
 
     @classmethod
     def of(cls, plain):
         """From the plain data that `asdict` makes of a test."""
         plain = dict(plain)
-        m = dict(plain.pop("material"))
-        m["bond_ellipse"] = tuple(m["bond_ellipse"])
-        return cls(material=section.Material(**m), shape=pressing.Shape(**plain.pop("shape")), **plain)
+        return cls(material=materials.of(plain.pop("material")), shape=pressing.Shape(**plain.pop("shape")), **plain)
 
     @property
     def platen(self):

@@ -5,14 +5,13 @@ from __future__ import annotations
 import json
 import math
 import shutil
-import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from .. import kept_runs, processes, records
+from .. import records, side_by_side
 from ..errors import UserError
 from . import bands, biaxial, pressing, strength
 
@@ -47,23 +46,11 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     folders = [home / name_of(test) for test in tests]
     if len(set(folders)) < len(folders):
         raise CampaignError("two tests have the same confining pressure and seed: give each once")
-    for folder in folders:
-        if not resume:
-            shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True, exist_ok=True)
     _press({test.shape for test in tests}, home, threads, progress)
-    ended = threading.Event()
-    watcher = threading.Thread(target=_watch, args=(folders, progress, ended), daemon=True)
-    watcher.start()
-    try:
-        with ThreadPoolExecutor(max(1, threads)) as pool:
-            futures = [pool.submit(_one, test, folder) for test, folder in zip(tests, folders)]
-            failures = [f"{folder.name}: {error}" for folder, f in zip(folders, futures) if (error := f.exception())]
-    finally:
-        ended.set()
-        watcher.join()
-    if failures:
-        raise CampaignError(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else ""))
+    made = [side_by_side.Run(folder.name, folder, biaxial.run, asdict(test), biaxial.key_of(test)) for test, folder in zip(tests, folders)]
+    side_by_side.run(made, threads, resume, CampaignError, progress=lambda share, ended: progress(share, f"{len(made)} test{'s' if len(made) > 1 else ''}"), go_on=True)
+    for folder in folders:
+        shutil.rmtree(folder / "checkpoint", ignore_errors=True)
     return [measure(test, folder) for test, folder in zip(tests, folders)]
 
 
@@ -80,20 +67,6 @@ def _press(shapes, home, threads, progress):
         failures = [str(error) for f in futures if (error := f.exception())]
     if failures:
         raise CampaignError(f"a sample could not be made: {failures[0]}")
-
-
-def _one(test, folder):
-    key = biaxial.key_of(test)
-    if kept_runs.kept(folder, key) is not None:
-        return
-    found = processes.call(biaxial.run, folder, asdict(test))
-    shutil.rmtree(folder / "checkpoint", ignore_errors=True)
-    kept_runs.keep(folder, key, found, test=asdict(test))
-
-
-def _watch(folders, progress, ended):
-    while not ended.wait(1.0):
-        progress(sum(map(kept_runs.share, folders)) / len(folders), f"{len(folders)} test{'s' if len(folders) > 1 else ''}")
 
 
 def measure(test, folder):

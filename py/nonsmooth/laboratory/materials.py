@@ -36,6 +36,16 @@ def load(name_or_path):
     return material
 
 
+def bare(material):
+    """The material without what rules nothing in a test: what was measured before, and the weakening of walls by slip."""
+    return dataclasses.replace(material, slip_weakening=None, envelope=None)
+
+
+def of(plain):
+    """A bare material from the plain data that `asdict` makes of it."""
+    return section.Material(**{**plain, "bond_ellipse": tuple(plain["bond_ellipse"])})
+
+
 def save(material, path, comment=""):
     """Writes a material file; ``comment``: text for its head."""
     plain = {k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening") and v is not None}

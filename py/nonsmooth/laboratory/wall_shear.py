@@ -12,12 +12,17 @@ share of the line that disks cover, is what makes the two adhesions "approximate
 
 from __future__ import annotations
 
-import dataclasses
 import math
+from collections import Counter
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
-from .. import section
+from .. import checkpoints, packing, records, section, side_by_side
+from ..errors import UserError
+from ..kept_runs import Progress
+from . import materials
 
 BLOCK_STRENGTH = 1e9  # Pa, of the block's own bonds
 BLOCK_BONDS = 0.15    # ℓ; a disk that the block does not hold could roll between it and the wall
@@ -30,9 +35,51 @@ LENGTH, HEIGHT = 50.0, 6.0  # mean diameters
 TOLERANCE = 1e-4      # a bonded beam converges slowly
 
 
-@dataclasses.dataclass(frozen=True)
+COLUMNS = ("step", "slip_m", "normal_Pa", "shear_Pa")
+
+
+class SlideError(UserError, RuntimeError):
+    """Slides that could not be run; the message says which and why."""
+
+
+@dataclass(frozen=True)
+class Test:
+    """What determines a slide: the wall's ``material``, the normal stress ``pressure`` [Pa], and the ``seed`` of the block, with disks of ``d_min`` to
+    ``d_max`` [m]."""
+
+    __test__ = False  # no test of pytest's
+
+    material: section.Material
+    pressure: float
+    seed: int = 1
+    d_min: float = 1.0
+    d_max: float = 4.0
+
+    def __post_init__(self):
+        object.__setattr__(self, "material", materials.bare(self.material))
+
+    @property
+    def name(self):
+        """Name of its folder."""
+        return f"{self.material.name}-{self.pressure / 1e6:g}MPa-seed{self.seed}"
+
+    @property
+    def extent(self):
+        """Length and height of the block [m]."""
+        d = math.sqrt(self.d_min * self.d_max)
+        return LENGTH * d, HEIGHT * d
+
+    def block(self):
+        """A section with one layer, the block: what `packing.pack` fills."""
+        shipped, (width, height) = section.load("jiufengershan"), self.extent
+        corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
+        return replace(shipped, layers=(section.Layer("block", "rock", corners),), seed=self.seed, source="the block",
+                       disks=section.Disks(self.d_min, self.d_max, "uniform_by_volume", shipped.disks.packing_fraction))
+
+
+@dataclass(frozen=True)
 class Slide:
-    """One test: stresses [Pa] at the peak and after slip, and the share of the wall that bonded disks cover."""
+    """What a test found: stresses [Pa] at the peak and after slip, and the share of the wall that bonded disks cover."""
 
     normal_peak: float
     shear_peak: float
@@ -42,29 +89,23 @@ class Slide:
     disks: int
 
 
-def slide(material, pressure, seed, d_min=1.0, d_max=4.0):
-    """A sliding test of the wall ``material`` (section.Material) under ``pressure`` [Pa]; fills the scene anew."""
+def slide(test, record=lambda row: None):
+    """Does a Test; fills the scene anew. ``record``: called with a row of :data:`COLUMNS`, a dictionary, for each step of the slip. Returns a Slide."""
     from yade import O
 
-    from .. import packing, scene
+    from .. import scene
 
-    d = math.sqrt(d_min * d_max)
-    shipped = section.load("jiufengershan")
-    rock = shipped.materials["rock"]
-    width, height = LENGTH * d, HEIGHT * d
-    corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
-    block = dataclasses.replace(shipped, layers=(section.Layer("block", "rock", corners),), seed=seed, source="the block",
-                                disks=section.Disks(d_min, d_max, "uniform_by_volume", shipped.disks.packing_fraction))
-    made = packing.cached_pack(block)
+    block, material, pressure, (width, height) = test.block(), test.material, test.pressure, test.extent
+    rock, made = block.materials["rock"], packing.cached_pack(block)
     O.reset()
-    strong = dataclasses.replace(rock, tensile_strength=BLOCK_STRENGTH, bond_creation_distance=BLOCK_BONDS, friction=1.0, residual_friction=1.0, rolling_friction=1.0, residual_rolling_friction=1.0)
+    strong = replace(rock, tensile_strength=BLOCK_STRENGTH, bond_creation_distance=BLOCK_BONDS, friction=1.0, residual_friction=1.0, rolling_friction=1.0, residual_rolling_friction=1.0)
     stuff, wall = scene.material(strong), scene.material(material, wall=True, bondsToAll=material.bonded, layer=-1)
     glue = scene.material(strong, wall=True, bondsToAll=True, layer=-1)
     O.materials.append((stuff, wall, glue))
     base, plate = (O.bodies.append(scene.segments(ends, what, sense=1))[0] for ends, what in (
         (((-width, 0), (3 * width, 0)), wall), (((3 * width, height), (-width, height)), glue)))
     O.bodies.append([scene.disk((float(made.x[k]), float(made.y[k])), float(made.r[k]), stuff) for k in np.argsort(made.x, kind="stable")])
-    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * d_min, tolerance=TOLERANCE, maxIterations=1000)
+    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * test.d_min, tolerance=TOLERANCE, maxIterations=1000)
     O.dt = STEP
     mass = rock.density * float(np.sum(math.pi * made.r**2))
     load, state = pressure * width, O.bodies[plate].state
@@ -81,7 +122,7 @@ def slide(material, pressure, seed, d_min=1.0, d_max=4.0):
         step((k + 1) / PRESSING)
     bonded = [2 * _radius(O, i, base) for i in O.interactions if base in (i.id1, i.id2) and i.isReal and i.phys.bonded]
     pulled, peak, late = 0.0, (0.0, 0.0), []
-    end = 0.04 * d_max  # twice the largest ellipse of 0.02
+    end = 0.04 * test.d_max  # twice the largest ellipse of 0.02
     while pulled < 2 * end:
         v = SPEED * min(1.0, pulled / 1e-3 + 0.05)
         O.bodies[base].state.vel = (v, 0, 0)
@@ -89,6 +130,7 @@ def slide(material, pressure, seed, d_min=1.0, d_max=4.0):
         pulled += v * O.dt
         force = O.forces.f(base)
         normal, shear = -force[1], -force[0]
+        record({"step": O.iter, "slip_m": pulled, "normal_Pa": normal / width, "shear_Pa": shear / width})
         if pulled < PEAK_SLIP and shear > peak[1]:
             peak = (normal, shear)
         if pulled > end:
@@ -102,17 +144,44 @@ def _radius(O, interaction, wall):
     return O.bodies[other].shape.radius
 
 
-def strength_of(material, pressures, seed, progress=lambda: None):
-    """Friction and cohesion of a wall material from slides under ``pressures`` [Pa]: a dictionary for ``summary.json``, and the slides."""
-    slides = []
-    for pressure in pressures:
-        slides.append(slide(material, pressure, seed))
-        progress()
-    found = {"material": material.name, "seed": seed, "pressures_Pa": list(pressures), "coverage": float(np.mean([s.coverage for s in slides])),
-             "disks": slides[0].disks}
+def run_one(folder, **plain):
+    """Does the Test given as plain data, writes its ``series.csv`` into the folder, and returns its Slide as a dictionary."""
+    test, note, folder = Test(**{**plain, "material": materials.of(plain["material"])}), Progress(folder), Path(folder)
+    with records.SeriesWriter(folder / "series.csv", COLUMNS, overwrite=True) as series:
+
+        def record(row):
+            series.write(row)
+            note(row["slip_m"] / (0.08 * test.d_max))
+
+        return asdict(slide(test, record))
+
+
+def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
+    """Does Tests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns their Slides. ``resume``: keep those that have ended.
+
+    ``progress``: called with the share done and what is being done. Raises SlideError before anything runs where two have one name, and with the first
+    failure after the others have ended.
+    """
+    tests = list(tests)
+    twice = sorted(name for name, number in Counter(t.name for t in tests).items() if number > 1)
+    if twice:
+        raise SlideError(f"{', '.join(twice)}: two slides of one name; give each seed once, and each wall, under a file name of its own")
+    for seed in sorted({t.seed for t in tests}):
+        progress(0.0, f"packing of seed {seed}")
+        packing.cached_pack(next(t for t in tests if t.seed == seed).block())
+    made = [side_by_side.Run(t.name, Path(out) / "tests" / t.name, run_one, asdict(t), checkpoints.key_of(asdict(t))) for t in tests]
+    found = side_by_side.run(made, threads, resume, SlideError, progress=lambda share, ended: progress(share, f"{ended} of {len(made)} slides done"))
+    names = Slide.__dataclass_fields__
+    return [Slide(**{name: one[name] for name in names}) for one in found]
+
+
+def strength_of(tests, slides):
+    """Friction and cohesion of a wall from the Slides of Tests of one material and one block: a dictionary for ``summary.json``."""
+    found = {"material": tests[0].material.name, "seed": tests[0].seed, "pressures_Pa": [t.pressure for t in tests], "coverage": float(np.mean([s.coverage for s in slides])),
+             "disks": slides[0].disks, "slides": [asdict(s) for s in slides]}
     for kind in ("peak", "residual"):
         normal, shear = (np.array([getattr(s, f"{what}_{kind}") for s in slides]) for what in ("normal", "shear"))
         slope, cohesion = np.polyfit(normal, shear, 1)
         found |= {f"friction_{kind}": float(slope), f"friction_{kind}_deg": math.degrees(math.atan(slope)), f"cohesion_{kind}_kPa": 1e-3 * float(cohesion),
                   f"misfit_{kind}_rel": float(np.max(np.abs(slope * normal + cohesion - shear) / shear))}
-    return found, slides
+    return found

@@ -1,0 +1,73 @@
+"""Runs side by side: each in a YADE process and a folder of its own, as many at a time as there are threads; what has ended is kept for a resume.
+
+Each process has one thread, so wall times of all runs are on the same footing; those of runs that share a machine's memory with others are a little
+longer than alone.
+"""
+
+from __future__ import annotations
+
+import shutil
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import kept_runs, processes
+
+__all__ = ["Run", "run"]
+
+LOOK_SECONDS = 1.0  # between two looks at how far the runs are
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run. ``name``: for messages; ``folder``: of its records; ``function``, ``arguments``: see processes.call; the function may note the share done
+    with kept_runs.Progress. ``key``: tells its result from that of other arguments; ``work``: what it costs beside the others, in any unit.
+    """
+
+    name: str
+    folder: Path
+    function: Callable
+    arguments: dict
+    key: str
+    work: float = 1.0
+
+
+def run(runs, threads, resume=False, error=processes.RunError, advice="", progress=lambda share, ended: None, go_on=False):
+    """Does all Runs, the costly ones first so that threads end together. Returns what their functions returned, in the order of ``runs``, each with
+    ``process_wall_s``: wall time of its process [s].
+
+    ``resume``: keep what has ended; ``go_on``: keep also what halted runs have written, since their function goes on from it. All else in the folders
+    is removed. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, with the
+    first failure (in the order of ``runs``) and the ``advice`` after the others have ended.
+    """
+    runs = list(runs)
+    known = {r.folder: kept_runs.kept(r.folder, r.key) if resume else None for r in runs}
+    for r in runs:
+        if known[r.folder] is None:
+            if not (resume and go_on):
+                shutil.rmtree(r.folder, ignore_errors=True)
+            r.folder.mkdir(parents=True, exist_ok=True)
+            kept_runs.forget(r.folder)
+    whole = sum(r.work for r in runs)
+    with ThreadPoolExecutor(max(1, threads)) as pool:
+        futures = {r.folder: pool.submit(_one, r, known[r.folder]) for r in sorted(runs, key=lambda r: -r.work)}
+        left = set(futures.values())
+        while left:
+            left = wait(left, timeout=LOOK_SECONDS).not_done
+            progress(sum(r.work * kept_runs.share(r.folder) for r in runs) / whole, sum(f.done() for f in futures.values()))
+    failures = [f"{r.name}: {failed}" for r in runs if (failed := futures[r.folder].exception())]
+    if failures:
+        raise error(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else "") + advice)
+    return [futures[r.folder].result() for r in runs]
+
+
+def _one(r, known):
+    if known is not None:
+        return known
+    began = time.monotonic()
+    found = processes.call(r.function, r.folder, r.arguments)
+    found["process_wall_s"] = time.monotonic() - began
+    kept_runs.keep(r.folder, r.key, found)
+    return found

@@ -1,0 +1,67 @@
+"""Runs side by side: what is kept, what is removed, in what order they run, and what a failure says. The processes are made up."""
+
+import json
+
+import pytest
+
+from yade.nonsmooth import errors, kept_runs, processes, side_by_side
+
+
+class MadeUpError(errors.UserError):
+    pass
+
+
+@pytest.fixture
+def called(monkeypatch):
+    """Names of the folders whose function was called, in order; a folder named "bad" fails."""
+    names = []
+
+    def call(function, folder, arguments, threads=1):
+        names.append(folder.name)
+        if folder.name == "bad":
+            raise processes.RunError("no such rock")
+        return {"double": 2 * arguments["value"]}
+
+    monkeypatch.setattr(processes, "call", call)
+    return names
+
+
+def made(home, *names, key="k", work=None):
+    return [side_by_side.Run(name, home / name, print, {"value": k}, key, (work or {}).get(name, 1.0)) for k, name in enumerate(names)]
+
+
+def test_the_costly_ones_run_first_and_results_keep_their_order(tmp_path, called):
+    found = side_by_side.run(made(tmp_path, "a", "b", "c", work={"b": 5.0}), 1)
+    assert called == ["b", "a", "c"] and [one["double"] for one in found] == [0, 2, 4]
+    assert all(one["process_wall_s"] >= 0 for one in found)
+    assert json.loads((tmp_path / "c" / "result.json").read_text())["found"] == found[2]
+
+
+def test_a_resume_keeps_what_has_ended_with_the_same_key(tmp_path, called):
+    side_by_side.run(made(tmp_path, "a", "b"), 2)
+    shares = []
+    kept_runs.Progress(tmp_path / "b")(0.5)
+    side_by_side.run([*made(tmp_path, "a"), *made(tmp_path, "b", key="other")], 1, resume=True, progress=lambda share, ended: shares.append((share, ended)))
+    assert sorted(called[:2]) == ["a", "b"] and called[2:] == ["b"] and shares[-1] == (1.0, 2)
+    assert kept_runs.kept(tmp_path / "b", "other") is not None and kept_runs.kept(tmp_path / "b", "k") is None
+    side_by_side.run(made(tmp_path, "a"), 1)
+    assert called[3:] == ["a"]  # without resume all is done again
+
+
+@pytest.mark.parametrize("resume, go_on, left", [(True, True, True), (True, False, False), (False, True, False)])
+def test_what_a_halted_run_wrote_stays_only_for_a_function_that_goes_on(tmp_path, called, resume, go_on, left):
+    (tmp_path / "a").mkdir()
+    for name in ("checkpoint", "result.json"):
+        (tmp_path / "a" / name).write_text("{}")
+    kept_runs.Progress(tmp_path / "a")(0.7)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(processes, "call", lambda function, folder, arguments: {"share": kept_runs.share(folder)})
+        found = side_by_side.run(made(tmp_path, "a"), 1, resume=resume, go_on=go_on)
+    assert found[0]["share"] == 0.0  # an earlier result or share is none of this run's
+    assert (tmp_path / "a" / "checkpoint").exists() == left
+
+
+def test_a_failure_is_told_after_the_others_have_ended(tmp_path, called):
+    with pytest.raises(MadeUpError, match=r"^bad: no such rock; go on$"):
+        side_by_side.run(made(tmp_path, "bad", "a"), 1, error=MadeUpError, advice="; go on")
+    assert called == ["bad", "a"] and kept_runs.kept(tmp_path / "a", "k") is not None
