@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
 import os
 from pathlib import Path
 
-from yade import O
+from yade import O, config
 
 from .whole_files import write_atomically
 
-__all__ = ["exists", "key_of", "read", "write"]
+__all__ = ["engines_key", "exists", "key_of", "read", "write"]
 
 
 def key_of(plain):
     """Key of plain data (what JSON can hold), to tell whether a checkpoint belongs to a run."""
     return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()
+
+
+@functools.cache
+def engines_key():
+    """Key of the engines as they were built: what they have computed and a cache keeps is another build's, perhaps by its last bits, once they change."""
+    return hashlib.sha256(Path(config.libDir, "nonsmooth_engines.so").read_bytes()).hexdigest()
 
 
 def exists(folder):

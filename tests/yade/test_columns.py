@@ -1,4 +1,5 @@
 """Heaps: measures and fits on made-up data, and small columns and piles in both worlds."""
+import dataclasses
 import json
 import math
 import os
@@ -261,6 +262,15 @@ def test_packing_from_a_file(tmp_path):
     assert ready.x == pytest.approx([0.5, 0.5, 1.5, 1.5, 2.5, 2.5], abs=1e-6) and ready.y == pytest.approx([0.5, 1.5] * 3, abs=1e-6)
     with pytest.raises(packing.PackingError, match="there|cannot be read"):
         column.build(column.Column(packing=str(tmp_path / "none.txt")), worlds.Hard(time_step=1e-3))
+
+
+def test_places_that_other_engines_have_found_are_not_taken(monkeypatch):
+    """Their bits may differ, and a fall grows the difference."""
+    c = column.Column(**SMALL)
+    here = preparation.cache_path(c)
+    assert preparation.cache_path(dataclasses.replace(c, restitution=0.5)) == here != preparation.cache_path(dataclasses.replace(c, seed=2))
+    monkeypatch.setattr(preparation.checkpoints, "engines_key", lambda: "others")
+    assert preparation.cache_path(c) != here
 
 
 def test_same_bits_twice_on_any_number_of_threads(tmp_path):

@@ -56,9 +56,9 @@ def section_of(source, disks):
 
 def key_of(chosen):
     """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
-    code = [Path(config.libDir, "nonsmooth_engines.so"), Path(__file__), *(Path(m.__file__) for m in (scene, slope, experiment, packing, soft_contacts))]
+    code = [Path(__file__), *(Path(m.__file__) for m in (scene, slope, experiment, packing, soft_contacts))]
     return checkpoints.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed,
-                               "yade": config.version, "code": [hashlib.sha256(path.read_bytes()).hexdigest() for path in code]})
+                               "yade": config.version, "engines": checkpoints.engines_key(), "code": [hashlib.sha256(path.read_bytes()).hexdigest() for path in code]})
 
 
 def folder_of(chosen) -> Path:

@@ -49,8 +49,9 @@ class Stand:
 
 
 def cache_path(heap):
-    """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them."""
-    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")}
+    """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them;
+    the engines do, so that a run has the same bits with and without a cache from earlier builds."""
+    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")} | {"engines": checkpoints.engines_key()}
     return packing_files.cache_folder("heaps") / f"{checkpoints.key_of(plain)[:32]}-v{VERSION}.npz"
 
 
