@@ -142,6 +142,14 @@ def test_a_bad_material_is_one_message(tmp_path, text, message):
         materials.load("granite")
 
 
+def test_samples_that_other_engines_have_pressed_are_not_taken(monkeypatch):
+    shape = pressing.Shape(300, 1)
+    here = pressing.cache_path(shape)
+    assert here == pressing.cache_path(pressing.Shape(300, 1)) != pressing.cache_path(pressing.Shape(300, 2))
+    monkeypatch.setattr(pressing.checkpoints, "engines_key", lambda: "others")
+    assert pressing.cache_path(shape) != here
+
+
 # ---- walls ----------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("name, peak, residual", [("fb", 0.7, 0.5), ("ss", 0.2, 0.2)])
@@ -183,6 +191,14 @@ class MadeUpRock(calibration.Calibration):
         share = m.residual_tensile_strength / m.tensile_strength
         return [coarse * 0.9 * m.tensile_strength * m.friction**0.2, coarse * (45 + 7 * math.log(m.friction) + 3 * math.log(10 * m.rolling_friction)),
                 0.5 * share * m.tensile_strength, 30 + 3 * math.log(m.friction) + 6 * math.log(10 * m.rolling_friction)]
+
+
+def test_last_bits_do_not_make_another_rock(tmp_path):
+    """Processors differ by some 1e-16 in exponentials and linear algebra; a trial is the same on all of them."""
+    search = MadeUpRock(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 1)
+    x = search.x0 + 0.123
+    assert search.material(x) == search.material(x * (1 + 1e-14)) != search.material(x + 1e-3)
+    assert search.parameters(np.log([83846.4621, 0.246826])) == {"tensile_strength": 83850.0, "friction": 0.2468}
 
 
 @pytest.mark.parametrize("wanted", [calibration.Wanted(60e3, 34.0), calibration.Wanted(60e3, 34.0, 6e3, 25.0)])

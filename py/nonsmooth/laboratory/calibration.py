@@ -35,6 +35,7 @@ SLOPES = {"tensile_strength": (1.0, 0.0, 1.0, 0.0), "friction": (0.75, 17.0, 0.0
 SCALE = 0.02                    # a misfit of 2 % counts as one
 DEGREES = 0.7                   # of angles, about the same
 COARSE = 3.0                    # what coarse samples may miss, in these units: fine ones differ from them by more
+DIGITS = 4                      # of a trial's parameters: the last bits of exponentials and of linear algebra are a processor's own, and a test grows them
 PROBE = 0.3                     # step (of logarithms) of the trials that measure derivatives: ten times the samples' scatter of some per cent
 LEARN = 0.04                    # smallest step (of logarithms) from which the Jacobian learns; what differs after a smaller one is scatter
 
@@ -75,9 +76,13 @@ class Calibration:
         return np.array([SLOPES[name] for name in self.names], float).T[:4 if self.wanted.with_residual else 2]
 
     # ---- parameters -----------------------------------------------------------------------------
+    def parameters(self, x):
+        """The parameters exp(x), a dictionary, to :data:`DIGITS` digits."""
+        return {name: float(f"{value:.{DIGITS}g}") for name, value in zip(self.names, np.exp(x).tolist())}
+
     def material(self, x):
-        """The start material with the parameters exp(x)."""
-        v = dict(zip(self.names, np.exp(x).tolist()))
+        """The start material with the :meth:`parameters` of x."""
+        v = self.parameters(x)
         friction, rolling = v["friction"], v.get("rolling_friction", self.start.rolling_friction)
         return dataclasses.replace(
             self.start, name="calibrated", tensile_strength=v["tensile_strength"], residual_tensile_strength=v.get("residual_share", self.share) * v["tensile_strength"],
@@ -96,9 +101,9 @@ class Calibration:
                     self.trials.append(trial)
                 return np.array(trial["found"])
         found = self.test(self.material(x), disks, seeds)[:len(self.jacobian)]
-        self.trials.append({"key": key, "parameters": dict(zip(self.names, np.exp(x).tolist())), "disks": disks, "seeds": list(seeds), "found": found})
+        self.trials.append({"key": key, "parameters": self.parameters(x), "disks": disks, "seeds": list(seeds), "found": found})
         write_atomically(self.out / "trials.json", json.dumps(self.trials, indent=1).encode())
-        named = ", ".join(f"{name} {value:.4g}" for name, value in zip(self.names, np.exp(x)))
+        named = ", ".join(f"{name} {value:g}" for name, value in self.parameters(x).items())
         residual = f", c_res {1e-3 * found[2]:.1f} kPa, φ_res {found[3]:.2f}°" if len(found) > 2 else ""
         self.say(f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°{residual}")
         return np.array(found)
@@ -163,9 +168,9 @@ class Calibration:
         high = np.log([BOUNDS[name][1] for name in self.names])
         columns = []
         for k in range(len(x)):
-            step = PROBE if x[k] + PROBE < high[k] else -PROBE
             beside = np.array(x, float)
-            beside[k] += step
+            beside[k] += PROBE if x[k] + PROBE < high[k] else -PROBE
+            step = math.log(self.parameters(beside)[self.names[k]] / self.parameters(x)[self.names[k]])  # as it was made
             columns.append((self.misfits(self.measure(beside, disks, seeds)) - here) / step)
         return np.column_stack(columns)
 

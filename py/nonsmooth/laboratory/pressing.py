@@ -86,8 +86,9 @@ class Pressed:
 
 
 def cache_path(shape):
-    """Where the pressed sample of a shape is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/samples."""
-    return cache_folder("samples") / f"{checkpoints.key_of(asdict(shape))[:32]}-v{VERSION}.npz"
+    """Where the pressed sample of a shape is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/samples. Other engines press their own, so that a test has the
+    same bits with and without a cache from earlier builds."""
+    return cache_folder("samples") / f"{checkpoints.key_of(asdict(shape) | {'engines': checkpoints.engines_key()})[:32]}-v{VERSION}.npz"
 
 
 def load(shape):
