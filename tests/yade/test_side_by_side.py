@@ -49,14 +49,13 @@ def test_a_resume_keeps_what_has_ended_with_the_same_key(tmp_path, called):
 
 
 @pytest.mark.parametrize("resume, go_on, left", [(True, True, True), (True, False, False), (False, True, False)])
-def test_what_a_halted_run_wrote_stays_only_for_a_function_that_goes_on(tmp_path, called, resume, go_on, left):
+def test_what_a_halted_run_wrote_stays_only_for_a_function_that_goes_on(tmp_path, monkeypatch, resume, go_on, left):
     (tmp_path / "a").mkdir()
     for name in ("checkpoint", "result.json"):
         (tmp_path / "a" / name).write_text("{}")
     kept_runs.Progress(tmp_path / "a")(0.7)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(processes, "call", lambda function, folder, arguments: {"share": kept_runs.share(folder)})
-        found = side_by_side.run(made(tmp_path, "a"), 1, resume=resume, go_on=go_on)
+    monkeypatch.setattr(processes, "call", lambda function, folder, arguments: {"share": kept_runs.share(folder)})
+    found = side_by_side.run(made(tmp_path, "a"), 1, resume=resume, go_on=go_on)
     assert found[0]["share"] == 0.0  # an earlier result or share is none of this run's
     assert (tmp_path / "a" / "checkpoint").exists() == left
 
