@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.patches import Patch
 from matplotlib.path import Path as Outline
 from matplotlib.patches import PathPatch
+from matplotlib.transforms import Bbox
 
 from ..figures import style
 from ..figures.style import INK, LINES
@@ -204,15 +205,14 @@ def work_precision(panels, chance, path):
     ``chance``: scatter, NaN or None where unknown.
     """
     fig = style.figure(11, 5.2, layout="constrained")
-    for ax, (title, hard, soft, aside) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels):
+    panes = list(zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels))
+    for ax, (title, hard, soft, aside) in panes:
         for world, points, colour, name in (("hard", hard, HARD, "hard"), ("soft", soft, SOFT, "soft"), ("soft", aside, SOFT, "soft, other bonds")):
             points = [p for p in points if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
             if not points:
                 continue
             ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world] if name == world else "D", ms=7,
                     mfc=colour if name == world else "none", label=name)
-            for wall, value, label in points:
-                ax.annotate(label, (wall, value), xytext=(6, 5 if world == "hard" else -11), textcoords="offset points", fontsize=7.5, color=colour)
         if chance and np.isfinite(chance):
             ax.axhspan(1e-12, chance, color="#eeeeee", zorder=0)
             ax.axhline(chance, color=LINES["grey"], ls=(0, (4, 2)), label="scatter over seeds")
@@ -226,7 +226,30 @@ def work_precision(panels, chance, path):
         if values:
             ax.set_ylim(0.4 * min(values), 2.5 * max(values))
     fig.axes[0].set_ylabel("error (see text)")
+    fig.draw_without_rendering()  # now places are final
+    for ax, (_, hard, soft, aside) in panes:
+        _name_points(ax, [(p, HARD) for p in hard] + [(p, SOFT) for p in (*soft, *aside)], chance)
     return style.save(fig, path)
+
+
+def _name_points(ax, named, level=None):
+    """Writes the labels of ``named``, pairs ((x, y, label), colour), beside their points, clear of points, other labels, the legend and the line at ``level``."""
+    named = [(p, colour) for p, colour in named if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
+    taken = [Bbox.from_extents(x - 5, y - 5, x + 5, y + 5) for x, y in ax.transData.transform([p[:2] for p, _ in named])] + [ax.get_legend().get_window_extent()]
+    if level and np.isfinite(level):
+        y = ax.transData.transform((ax.get_xlim()[0], level))[1]
+        taken.append(Bbox.from_extents(ax.bbox.xmin, y - 1, ax.bbox.xmax, y + 1))
+    away = {"left": 7, "right": -7, "bottom": 2, "top": -2}
+    for (x, y, label), colour in named:
+        text = None
+        for ha, va in (("left", "bottom"), ("left", "top"), ("right", "bottom"), ("right", "top"), ("left", "bottom")):  # the first again where none is free
+            if text:
+                text.remove()
+            text = ax.annotate(label, (x, y), xytext=(away[ha], away[va]), textcoords="offset points", fontsize=7.5, color=colour, ha=ha, va=va)
+            box = text.get_window_extent()
+            if box.count_overlaps(taken) == 0 and ax.bbox.xmin < box.xmin and box.xmax < ax.bbox.xmax:
+                break
+        taken.append(box)
 
 
 @style.styled
