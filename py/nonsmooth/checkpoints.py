@@ -20,10 +20,14 @@ def key_of(plain):
     return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()
 
 
-@functools.cache
 def engines_key():
     """Key of the engines as they were built: what they have computed and a cache keeps is another build's, perhaps by its last bits, once they change."""
-    return hashlib.sha256(Path(config.libDir, "nonsmooth_engines.so").read_bytes()).hexdigest()
+    return _digest(Path(config.libDir, "nonsmooth_engines.so"))
+
+
+@functools.cache
+def _digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def exists(folder):
