@@ -12,7 +12,7 @@ from yade import O, config
 
 from .whole_files import write_atomically
 
-__all__ = ["engines_key", "exists", "key_of", "read", "write"]
+__all__ = ["digest", "engines_key", "exists", "key_of", "read", "write"]
 
 
 def key_of(plain):
@@ -22,11 +22,12 @@ def key_of(plain):
 
 def engines_key():
     """Key of the engines as they were built: what they have computed and a cache keeps is another build's, perhaps by its last bits, once they change."""
-    return _digest(Path(config.libDir, "nonsmooth_engines.so"))
+    return digest(Path(config.libDir, "nonsmooth_engines.so"))
 
 
 @functools.cache
-def _digest(path):
+def digest(path):
+    """SHA-256 of a file's bytes; a Path is read once in a process."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import shutil
 import time
+from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from pathlib import Path
 
 from . import kept_runs, processes
 
-__all__ = ["Run", "run"]
+__all__ = ["Run", "check", "run"]
 
 LOOK_SECONDS = 1.0  # between two looks at how far the runs are
 
@@ -34,22 +35,31 @@ class Run:
     work: float = 1.0
 
 
+def check(runs, error=processes.RunError, advice=""):
+    """Raises ``error``, a class, with the ``advice`` where Runs share a folder: each would take the other's records for its own."""
+    twice = [folder for folder, number in Counter(r.folder for r in runs).items() if number > 1]
+    if twice:
+        raise error(f"{', '.join(sorted(folder.name for folder in twice))}: two runs of one name{advice}")
+
+
 def run(runs, threads, resume=False, error=processes.RunError, advice="", progress=lambda share, ended: None, go_on=False):
     """Does all Runs, the costly ones first so that threads end together. Returns what their functions returned, in the order of ``runs``, each with
     ``process_wall_s``: wall time of its process [s].
 
     ``resume``: keep what has ended; ``go_on``: keep also what halted runs have written, since their function goes on from it. All else in the folders
-    is removed. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, with the
-    first failure (in the order of ``runs``) and the ``advice`` after the others have ended.
+    is removed. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, before
+    anything runs where Runs share a folder, and with the first failure (in the order of ``runs``) and the ``advice`` after the others have ended.
     """
     runs = list(runs)
+    check(runs, error)
     known = {r.folder: kept_runs.kept(r.folder, r.key) if resume else None for r in runs}
     for r in runs:
         if known[r.folder] is None:
-            if not (resume and go_on):
+            if resume and go_on:
+                kept_runs.forget(r.folder)
+            else:
                 shutil.rmtree(r.folder, ignore_errors=True)
             r.folder.mkdir(parents=True, exist_ok=True)
-            kept_runs.forget(r.folder)
     whole = sum(r.work for r in runs)
     with ThreadPoolExecutor(max(1, threads)) as pool:
         futures = {r.folder: pool.submit(_one, r, known[r.folder]) for r in sorted(runs, key=lambda r: -r.work)}

@@ -177,7 +177,7 @@ def test_slides_run_side_by_side_and_are_kept(tmp_path):
     late = series[0]["slip_m"] > 0.16
     assert series[0]["shear_Pa"][late].mean() == pytest.approx(found[0].shear_residual, rel=1e-9)  # sums in another order
     assert wall_shear_figure.slides([(wall_shear.strength_of(tests, found), series)], tmp_path / "slides.png").stat().st_size > 10_000
-    with pytest.raises(wall_shear.SlideError, match="dp-0.5MPa-seed1: two slides of one name"):
+    with pytest.raises(wall_shear.SlideError, match="dp-0.5MPa-seed1: two runs of one name; give each seed once"):
         wall_shear.run([tests[0], tests[0]], tmp_path, threads=1)
 
 
@@ -260,7 +260,7 @@ def test_a_sample_that_is_too_small_is_refused():
 
 def test_what_cannot_be_tested_is_refused_before_anything_runs(tmp_path):
     small = dataclasses.replace(SMALL, shape=pressing.Shape(count=40, seed=1))
-    for tests, message in (([small], "ask for more disks"), ([dataclasses.replace(SMALL, strain=0.003)], "--strain 0.003: too short"), ([SMALL, SMALL], "give each once")):
+    for tests, message in (([small], "ask for more disks"), ([dataclasses.replace(SMALL, strain=0.003)], "--strain 0.003: too short"), ([SMALL, SMALL], "two runs of one name; give each confining pressure and seed once")):
         with pytest.raises(errors.UserError, match=message):
             campaign.run(tests, tmp_path, 1)
     assert not list(tmp_path.rglob("log.txt"))

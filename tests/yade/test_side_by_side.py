@@ -64,3 +64,11 @@ def test_a_failure_is_told_after_the_others_have_ended(tmp_path, called):
     with pytest.raises(MadeUpError, match=r"^bad: no such rock; go on$"):
         side_by_side.run(made(tmp_path, "bad", "a"), 1, error=MadeUpError, advice="; go on")
     assert called == ["bad", "a"] and kept_runs.kept(tmp_path / "a", "k") is not None
+
+
+def test_two_runs_of_one_folder_are_refused_before_any_runs(tmp_path, called):
+    with pytest.raises(MadeUpError, match=r"^a, b: two runs of one name; rename$"):
+        side_by_side.check(made(tmp_path, "b", "a", "c", "a", "b"), MadeUpError, "; rename")
+    with pytest.raises(MadeUpError, match="^a: two runs of one name"):
+        side_by_side.run(made(tmp_path, "a", "b", "a"), 1, error=MadeUpError)
+    assert called == [] and not (tmp_path / "a").exists()

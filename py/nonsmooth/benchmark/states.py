@@ -8,7 +8,6 @@ contacts in the place of the rigid ones at rest, after a second in which gaps ha
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import os
 import shutil
 import tempfile
@@ -58,7 +57,7 @@ def key_of(chosen):
     """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
     code = [Path(__file__), *(Path(m.__file__) for m in (scene, slope, experiment, packing, soft_contacts))]
     return checkpoints.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed,
-                               "yade": config.version, "engines": checkpoints.engines_key(), "code": [hashlib.sha256(path.read_bytes()).hexdigest() for path in code]})
+                               "yade": config.version, "engines": checkpoints.engines_key(), "code": [checkpoints.digest(path) for path in code]})
 
 
 def folder_of(chosen) -> Path:

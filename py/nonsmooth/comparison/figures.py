@@ -205,10 +205,10 @@ def work_precision(panels, chance, path):
     ``chance``: scatter, NaN or None where unknown.
     """
     fig = style.figure(11, 5.2, layout="constrained")
+    panels = [(title, *(_drawable(points) for points in groups)) for title, *groups in panels]
     panes = list(zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels))
     for ax, (title, hard, soft, aside) in panes:
         for world, points, colour, name in (("hard", hard, HARD, "hard"), ("soft", soft, SOFT, "soft"), ("soft", aside, SOFT, "soft, other bonds")):
-            points = [p for p in points if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
             if not points:
                 continue
             ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world] if name == world else "D", ms=7,
@@ -222,7 +222,7 @@ def work_precision(panels, chance, path):
         ax.set_xlabel("wall time of the run's steps [s]")
         ax.grid(color="#e3e3e3", lw=0.7, which="both")
         ax.legend(loc="best")
-        values = [p[1] for p in (*hard, *soft, *aside) if p[1]] + ([chance] if chance and np.isfinite(chance) else [])
+        values = [p[1] for p in (*hard, *soft, *aside)] + ([chance] if chance and np.isfinite(chance) else [])
         if values:
             ax.set_ylim(0.4 * min(values), 2.5 * max(values))
     fig.axes[0].set_ylabel("error (see text)")
@@ -232,9 +232,13 @@ def work_precision(panels, chance, path):
     return style.save(fig, path)
 
 
+def _drawable(points):
+    """Those with an error that a logarithm has."""
+    return [p for p in points if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
+
+
 def _name_points(ax, named, level=None):
     """Writes the labels of ``named``, pairs ((x, y, label), colour), beside their points, clear of points, other labels, the legend and the line at ``level``."""
-    named = [(p, colour) for p, colour in named if p[1] is not None and np.isfinite(p[1]) and p[1] > 0]
     taken = [Bbox.from_extents(x - 5, y - 5, x + 5, y + 5) for x, y in ax.transData.transform([p[:2] for p, _ in named])] + [ax.get_legend().get_window_extent()]
     if level and np.isfinite(level):
         y = ax.transData.transform((ax.get_xlim()[0], level))[1]

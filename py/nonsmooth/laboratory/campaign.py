@@ -44,10 +44,9 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
         if test.strain < strength.SHORTEST:
             raise CampaignError(f"--strain {test.strain:g}: too short to measure a peak and what follows; give {strength.SHORTEST:g} or more")
     folders = [home / name_of(test) for test in tests]
-    if len(set(folders)) < len(folders):
-        raise CampaignError("two tests have the same confining pressure and seed: give each once")
-    _press({test.shape for test in tests}, home, threads, progress)
     made = [side_by_side.Run(folder.name, folder, biaxial.run, asdict(test), biaxial.key_of(test)) for test, folder in zip(tests, folders)]
+    side_by_side.check(made, CampaignError, "; give each confining pressure and seed once")
+    _press({test.shape for test in tests}, home, threads, progress)
     side_by_side.run(made, threads, resume, CampaignError, progress=lambda share, ended: progress(share, f"{len(made)} test{'s' if len(made) > 1 else ''}"), go_on=True)
     for folder in folders:
         shutil.rmtree(folder / "checkpoint", ignore_errors=True)

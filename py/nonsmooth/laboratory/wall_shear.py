@@ -13,7 +13,6 @@ share of the line that disks cover, is what makes the two adhesions "approximate
 from __future__ import annotations
 
 import math
-from collections import Counter
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -69,6 +68,11 @@ class Test:
         d = math.sqrt(self.d_min * self.d_max)
         return LENGTH * d, HEIGHT * d
 
+    @property
+    def way(self):
+        """Slip at the end [m]; over its second half, beyond twice the ellipse of the largest bond (0.02 d_max), the residual is taken."""
+        return 0.08 * self.d_max
+
     def block(self):
         """A section with one layer, the block: what `packing.pack` fills."""
         shipped, (width, height) = section.load("jiufengershan"), self.extent
@@ -122,8 +126,7 @@ def slide(test, record=lambda row: None):
         step((k + 1) / PRESSING)
     bonded = [2 * _radius(O, i, base) for i in O.interactions if base in (i.id1, i.id2) and i.isReal and i.phys.bonded]
     pulled, peak, late = 0.0, (0.0, 0.0), []
-    end = 0.04 * test.d_max  # twice the largest ellipse of 0.02
-    while pulled < 2 * end:
+    while pulled < test.way:
         v = SPEED * min(1.0, pulled / 1e-3 + 0.05)
         O.bodies[base].state.vel = (v, 0, 0)
         step(1.0)
@@ -133,7 +136,7 @@ def slide(test, record=lambda row: None):
         record({"step": O.iter, "slip_m": pulled, "normal_Pa": normal / width, "shear_Pa": shear / width})
         if pulled < PEAK_SLIP and shear > peak[1]:
             peak = (normal, shear)
-        if pulled > end:
+        if pulled > 0.5 * test.way:
             late.append((normal, shear))
     residual = np.mean(late, axis=0)
     return Slide(peak[0] / width, peak[1] / width, residual[0] / width, residual[1] / width, float(sum(bonded)) / width, len(made))
@@ -151,7 +154,7 @@ def run_one(folder, **plain):
 
         def record(row):
             series.write(row)
-            note(row["slip_m"] / (0.08 * test.d_max))
+            note(row["slip_m"] / test.way)
 
         return asdict(slide(test, record))
 
@@ -163,13 +166,11 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     failure after the others have ended.
     """
     tests = list(tests)
-    twice = sorted(name for name, number in Counter(t.name for t in tests).items() if number > 1)
-    if twice:
-        raise SlideError(f"{', '.join(twice)}: two slides of one name; give each seed once, and each wall, under a file name of its own")
+    made = [side_by_side.Run(t.name, Path(out) / "tests" / t.name, run_one, asdict(t), checkpoints.key_of(asdict(t))) for t in tests]
+    side_by_side.check(made, SlideError, "; give each seed once, and each wall, under a file name of its own")
     for seed in sorted({t.seed for t in tests}):
         progress(0.0, f"packing of seed {seed}")
         packing.cached_pack(next(t for t in tests if t.seed == seed).block())
-    made = [side_by_side.Run(t.name, Path(out) / "tests" / t.name, run_one, asdict(t), checkpoints.key_of(asdict(t))) for t in tests]
     found = side_by_side.run(made, threads, resume, SlideError, progress=lambda share, ended: progress(share, f"{ended} of {len(made)} slides done"))
     names = Slide.__dataclass_fields__
     return [Slide(**{name: one[name] for name in names}) for one in found]
