@@ -34,17 +34,19 @@ def read_arguments():
     parser.add_argument("--inertia", type=arguments.positive, default=1e-4, metavar="I", help="inertial number of the loading (default: %(default)g)")
     parser.add_argument("--step", type=arguments.positive, default=0.1, help="time step in √(m/σ₃) (default: %(default)s)")
     parser.add_argument("--tolerance", type=arguments.positive, default=1e-5, help="of the solver's residual (default: %(default)g)")
-    parser.add_argument("--pressing-friction", type=float, default=0.0, metavar="MU", help="friction of contacts while the sample is pressed (default: 0)")
-    parser.add_argument("--bond-first", action="store_true", help="as a slope is made: bond the disks as they were packed, then let the pressure grow")
+    parser.add_argument("--sample", choices=("packed", "pressed"), help="packed: bond the disks as they were packed, as a slope is made, then let the pressure grow (default of bonded "
+                        "materials); pressed: press them until they carry, then bond")
+    parser.add_argument("--pressing-friction", type=float, metavar="MU", help="friction of contacts while a sample is pressed (default: 0)")
     parser.add_argument("--bond-distance", type=arguments.positive, metavar="L", help="largest gap that is bonded, in mean diameters, instead of the material's")
     parser.add_argument("--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
     args = parser.parse_args()
-    if not args.pressing_friction >= 0:
-        parser.error(f"--pressing-friction {args.pressing_friction:g}: it must be 0 or more")
-    if args.bond_first and args.pressing_friction:
-        parser.error(f"--pressing-friction {args.pressing_friction:g} with --bond-first: such a sample is not pressed; leave one out")
+    if args.pressing_friction is not None:
+        if not args.pressing_friction >= 0:
+            parser.error(f"--pressing-friction {args.pressing_friction:g}: it must be 0 or more")
+        if args.sample != "pressed":
+            parser.error(f"--pressing-friction {args.pressing_friction:g}: only a sample that is pressed has it; add --sample pressed, or leave it out")
     if args.diameter[0] > args.diameter[1]:
         parser.error(f"--diameter {args.diameter[0]:g} {args.diameter[1]:g}: give the smallest first")
     return args
@@ -56,7 +58,8 @@ def main():
     records.check_writable(out)
     if args.bond_distance is not None:
         material = dataclasses.replace(material, bond_creation_distance=args.bond_distance)
-    friction = None if args.bond_first else args.pressing_friction
+    pressed = args.sample == "pressed" or args.sample is None and not material.bonded
+    friction = args.pressing_friction or 0.0 if pressed else None
     tests = [biaxial.Test(material, 1e6 * p, pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, friction), args.strain,
                           args.platens, args.sides, args.inertia, args.step, args.tolerance)
              for seed in args.seeds for p in sorted(args.confining)]

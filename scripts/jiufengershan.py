@@ -23,7 +23,7 @@ def arguments():
     parser = argparse.ArgumentParser(prog="jiufengershan.py", description=__doc__.splitlines()[0])
     parser.add_argument("--section", default="jiufengershan", metavar="FILE", help="a section file, or the name of a shipped one")
     parser.add_argument("--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own")
-    parser.add_argument("--rock", metavar="NAME|FILE", help="material of the layers instead of the section's: wwr, as biaxial.py tests it, or a material file, as calibrate.py writes it")
+    parser.add_argument("--rock", metavar="NAME|FILE", help="material of the layers instead of the section's: wwr-sparse, bonded over small gaps only, or a material file, as calibrate.py writes it")
     parser.add_argument("--disks", type=int, metavar="N", help="about N disks instead of the section's: all diameters are scaled")
     parser.add_argument("--out", default="out/jiufengershan", metavar="DIR", help="folder for the results (default: %(default)s)")
     parser.add_argument("--threads", type=int, metavar="T", help="threads (default: all cores)")

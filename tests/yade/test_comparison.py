@@ -214,7 +214,7 @@ def soft_case(model="cohesion_moment", source="", disks=300, **more):
     return cases.Case("soft", source, disks, 1, 0.8, stiffness=1e9, damping=0.2, damping_moving=0.02, model=model, **more)
 
 
-@pytest.mark.parametrize("experiment, source", [(slopes, "jiufengershan"), (biaxials, "wwr")])
+@pytest.mark.parametrize("experiment, source", [(slopes, "jiufengershan"), (biaxials, "wwr-sparse")])
 def test_what_the_report_says_of_bonds_and_losses(experiment, source):
     assert losses.of_case(experiment, soft_case(source=source)) == ("ductile bonds", [])
     assert losses.of_case(experiment, soft_case(source=source, fragile=True)) == ("fragile bonds", [])

@@ -59,6 +59,24 @@ def test_curve_measures_peak_plateau_and_dilatancy():
     assert c.imbalance == pytest.approx(1.01 / 0.99 - 1, rel=1e-9)
 
 
+def test_a_peak_is_a_mean_over_strain_and_not_over_rows():
+    """Platens that take up their speed make rows that cover little strain; here the first ten cover 0.01 %, all others 0.01 % each."""
+    strain = np.concatenate((np.arange(1, 11) * 1e-5, np.arange(2, 101) * 1e-4))
+    stress = np.where(strain < 5.5e-4, 8.0, 2.0)  # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
+    begin, mean = strength.running_mean(strain, stress, 2e-3)
+    assert mean[0] == pytest.approx(3.5, rel=1e-12) and begin[0] == 0 and begin[-1] == pytest.approx(0.008)  # rounding
+    assert mean[-1] == pytest.approx(2.0, rel=1e-12) and len(begin) == 90
+    c = strength.curve({"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": stress, "sigma1_bottom_Pa": stress,
+                        "sigma3_left_Pa": 0 * strain, "sigma3_right_Pa": 0 * strain}, (0.005, 0.01))
+    assert (c.peak, c.peak_strain, c.residual) == pytest.approx((3.5, 1e-3, 2.0), rel=1e-12)
+
+
+def test_the_shortest_test_can_be_measured():
+    end = strength.SHORTEST - 1e-9  # a test ends once it is as near
+    short = {name: np.interp(np.linspace(1, 40, 40) / 40 * end, made_curve()["strain"], values) for name, values in made_curve().items()}
+    assert strength.curve(short, (strength.PLATEAU * strength.SHORTEST, strength.SHORTEST)).peak > 0
+
+
 def test_a_curve_without_a_plateau_is_refused():
     short = {name: values[:300] for name, values in made_curve().items()}
     with pytest.raises(ValueError, match="before the plateau"):
@@ -250,7 +268,7 @@ def test_a_resumed_search_for_other_strengths_computes_its_own_trials(tmp_path):
 
 # ---- a small test, whole --------------------------------------------------------------------------
 
-SMALL = biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82), strain=0.03, sides="rigid", tolerance=1e-4, step=0.2)
+SMALL = biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82, friction=0.0), strain=0.03, sides="rigid", tolerance=1e-4, step=0.2)
 
 
 def test_a_sample_that_is_too_small_is_refused():
@@ -342,7 +360,7 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
     assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
     assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau
-    for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--bond-first", "--pressing-friction", "0.1"], "is not pressed")):
+    for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--pressing-friction", "0.1"], "add --sample pressed"), (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed")):
         refused = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=100)
         assert refused.returncode != 0 and message in refused.stderr + refused.stdout
     bad = subprocess.run([*command, "--confining", "4,x"], env=environment, text=True, capture_output=True, timeout=100)

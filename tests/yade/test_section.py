@@ -105,7 +105,7 @@ def test_with_disks_scales_diameters(section, count):
 
 
 def test_with_rock_changes_the_layers_alone(section):
-    wwr = section.materials["wwr"]
+    wwr = section.materials["wwr-sparse"]
     other = section.with_rock(wwr)
     assert other.materials["rock"] == dataclasses.replace(wwr, name="rock")
     assert all(other.materials[k] == m for k, m in section.materials.items() if k != "rock")
@@ -173,7 +173,7 @@ BAD = {
     "text for a number": (dict(gravity="fast"), "gravity: 'fast' is text", "m/s²"),
     "true for a number": (dict(gravity=True), "gravity: True is true or false", "m/s²"),
     "count": (dict(disks__count=2.5), "disks.count: 2.5", "1 or more"),
-    "unknown material": (dict(walls__1__material="steel"), "walls[FB].material: 'steel' is not defined", "rock, wwr, dp, fb, ss"),
+    "unknown material": (dict(walls__1__material="steel"), "walls[FB].material: 'steel' is not defined", "rock, wwr-sparse, dp, fb, ss"),
     "name taken": (dict(layers__2__name="L1"), "layers[L1].name: 'L1' is taken", "own name"),
     "no density": (dict(materials__rock__density=None), "no density", "kg/m³"),
     "no strength": (dict(materials__fb__tensile_strength=None), "without tensile_strength", "bonded: false"),
@@ -207,7 +207,7 @@ def test_bad_values(case, refused):
 
 def test_line_of_a_number_that_replaces_a_borrowed_one(refused):
     text = TEXT.replace("bond_creation_distance: 0.015", "bond_creation_distance: much")
-    assert f"line {1 + text[:text.index('distance: much')].count(chr(10))}: materials.wwr.bond_creation_distance" in refused(text)
+    assert f"line {1 + text[:text.index('distance: much')].count(chr(10))}: materials.wwr-sparse.bond_creation_distance" in refused(text)
 
 
 def test_line_number(refused):

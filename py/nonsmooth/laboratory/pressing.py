@@ -1,6 +1,7 @@
-"""Samples as they are before a test: disks packed dense and pressed on all sides until they carry.
+"""Samples as they are before a test: disks packed dense, and where it is asked for pressed on all sides until they carry.
 
-The sample is packed just short of touching, uniform by volume as the slope is (Taboada and Estrada 2009, sections 3.2.2 and 5.1), and pressed between
+The sample is packed just short of touching, uniform by volume as the slope is (Taboada and Estrada 2009, sections 3.2.2 and 5.1). Left so, it is bonded as
+it was packed, like the slope. To be bonded under pressure instead, it is pressed between
 four smooth walls without gravity and without rolling resistance; without friction too, unless it is asked for, which gives the densest isotropic state
 that the packing allows. Rigid disks without cohesion know no stress of their own: under any pressure they come to rest in the same places. So a
 sample is pressed once, under a pressure whose value sets the unit of time only, and kept in the cache beside the packings.
@@ -43,7 +44,7 @@ class SampleError(UserError, RuntimeError):
 class Shape:
     """A sample: about ``count`` disks of ``d_min`` to ``d_max`` [m], packed to ``fraction``, ``aspect`` times as high as wide.
 
-    ``friction``: of the disks while they are pressed; None: not pressed at all, the disks stay as they were packed, just short of touching.
+    ``friction``: of the disks while they are pressed; None (the default): not pressed at all, the disks stay as they were packed, just short of touching.
     """
 
     count: int
@@ -52,7 +53,7 @@ class Shape:
     d_max: float = 4.0
     fraction: float = 0.848
     aspect: float = 2.0
-    friction: float | None = 0.0
+    friction: float | None = None
 
     @property
     def mean_square(self):

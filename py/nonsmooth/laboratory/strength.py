@@ -45,28 +45,41 @@ def curve(series, plateau):
     ``plateau``: strains between which the residual strength is the mean. Raises ValueError where the test ends before the plateau has begun.
     """
     strain = np.asarray(series["strain"], float)
-    if strain[-1] < plateau[0] + PEAK_WINDOW:
+    if strain[-1] < plateau[0] + PEAK_WINDOW - 1e-8:
         raise ValueError(f"the test ended at a strain of {strain[-1]:.4f}, before the plateau, which begins at {plateau[0]:g}")
     top, bottom = (np.asarray(series[f"sigma1_{name}_Pa"], float) for name in ("top", "bottom"))
     axial = 0.5 * (top + bottom)
     lateral = 0.5 * (np.asarray(series["sigma3_left_Pa"], float) + np.asarray(series["sigma3_right_Pa"], float))
-    step = strain[-1] / len(strain)
-    n = max(1, round(PEAK_WINDOW / step))
-    smooth = np.convolve(axial, np.ones(n) / n, "valid")
-    k = int(np.argmax(smooth))
-    at = slice(k, k + n)
+    begin, mean = running_mean(strain, axial, PEAK_WINDOW)
+    k = int(np.argmax(mean))
+    middle = begin[k] + PEAK_WINDOW / 2
+    at = np.abs(strain - middle) <= PEAK_WINDOW / 2 + 1e-12
     late = (strain >= plateau[0]) & (strain <= plateau[1] + 1e-9)
     blocks = [b.mean() for b in np.array_split(axial[late], 5)]
-    middle = strain[at].mean()
     around = np.abs(strain - middle) <= DILATANCY_WINDOW / 2
-    slope = np.polyfit(strain[around], np.asarray(series["volumetric_strain"], float)[around], 1)[0] if around.sum() > 2 else math.nan
+    # rows stand closer while the platens take up their speed; a row counts for the strain that it covers
+    weight = np.sqrt(np.diff(strain, prepend=0.0)[around])
+    slope = np.polyfit(strain[around], np.asarray(series["volumetric_strain"], float)[around], 1, w=weight)[0] if around.sum() > 2 else math.nan
     gap = lambda where: abs(top[where].mean() / bottom[where].mean() - 1)  # noqa: E731
     return Curve(
-        peak=float(smooth[k]), peak_strain=float(middle), peak_confining=float(lateral[at].mean()), residual=float(axial[late].mean()),
+        peak=float(mean[k]), peak_strain=float(middle), peak_confining=float(lateral[at].mean()), residual=float(axial[late].mean()),
         residual_error=float(np.std(blocks, ddof=1) / math.sqrt(len(blocks))), residual_confining=float(lateral[late].mean()),
         # sin ψ = dε_v / (2 dε₁ + dε_v) in plane strain
         dilatancy_deg=math.degrees(math.asin(max(-1.0, min(1.0, slope / (2 + slope))))), imbalance=float(max(gap(at), gap(late))),
         volumetric_end=float(series["volumetric_strain"][-1]))
+
+
+def running_mean(strain, values, window):
+    """Means of ``values`` over ``window`` of strain: (the strains at which the windows begin, the means), arrays of m.
+
+    ``strain``, ``values``: arrays of n, a row's strain at its end and the mean over what it covers; rows may cover more or less strain. Windows begin
+    where rows do and are whole; none (m = 0) where ``strain`` ends before the first.
+    """
+    strain, values = np.asarray(strain, float), np.asarray(values, float)
+    edges = np.concatenate(([0.0], strain))
+    work = np.concatenate(([0.0], np.cumsum(values * np.diff(edges))))
+    begin = edges[edges <= edges[-1] - window + 1e-12]
+    return begin, (np.interp(begin + window, edges, work) - np.interp(begin, edges, work)) / window
 
 
 @dataclass(frozen=True)
