@@ -30,7 +30,7 @@ def read_arguments():
     parser.add_argument("--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings; several give confidence intervals")
     parser.add_argument("--platens", choices=("smooth", "rough", "glued"), default="rough", help="friction of the platens (default: %(default)s)")
     parser.add_argument("--sides", choices=("rigid", "flexible"), default="flexible", help="lateral boundaries (default: %(default)s)")
-    parser.add_argument("--strain", type=arguments.positive, default=0.1, help="axial strain at the end (default: %(default)s)")
+    parser.add_argument("--strain", type=arguments.positive, default=0.15, help="axial strain at the end (default: %(default)s)")
     parser.add_argument("--inertia", type=arguments.positive, default=1e-4, metavar="I", help="inertial number of the loading (default: %(default)g)")
     parser.add_argument("--step", type=arguments.positive, default=0.1, help="time step in √(m/σ₃) (default: %(default)s)")
     parser.add_argument("--tolerance", type=arguments.positive, default=1e-5, help="of the solver's residual (default: %(default)g)")

@@ -113,7 +113,7 @@ class Calibration:
         return checkpoints.key_of({"tests": [dataclasses.asdict(test) for test in self._tests(material, disks, seeds)]})
 
     def _tests(self, material, disks, seeds):
-        return [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain=0.1 if self.wanted.with_residual else 0.03)
+        return [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), **({} if self.wanted.with_residual else {"strain": 0.03}))
                 for seed in seeds for p in PRESSURES]
 
     def test(self, material, disks, seeds):
