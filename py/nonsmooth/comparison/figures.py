@@ -205,6 +205,7 @@ def work_precision(panels, chance, path):
     ``chance``: scatter, NaN or None where unknown.
     """
     fig = style.figure(11, 5.2, layout="constrained")
+    chance = chance if chance and np.isfinite(chance) else None
     panels = [(title, *(_drawable(points) for points in groups)) for title, *groups in panels]
     panes = list(zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels))
     for ax, (title, hard, soft, aside) in panes:
@@ -213,7 +214,7 @@ def work_precision(panels, chance, path):
                 continue
             ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world] if name == world else "D", ms=7,
                     mfc=colour if name == world else "none", label=name)
-        if chance and np.isfinite(chance):
+        if chance:
             ax.axhspan(1e-12, chance, color="#eeeeee", zorder=0)
             ax.axhline(chance, color=LINES["grey"], ls=(0, (4, 2)), label="scatter over seeds")
         ax.set(xscale="log", yscale="log")
@@ -222,7 +223,7 @@ def work_precision(panels, chance, path):
         ax.set_xlabel("wall time of the run's steps [s]")
         ax.grid(color="#e3e3e3", lw=0.7, which="both")
         ax.legend(loc="best")
-        values = [p[1] for p in (*hard, *soft, *aside)] + ([chance] if chance and np.isfinite(chance) else [])
+        values = [p[1] for p in (*hard, *soft, *aside)] + ([chance] if chance else [])
         if values:
             ax.set_ylim(0.4 * min(values), 2.5 * max(values))
     fig.axes[0].set_ylabel("error (see text)")
@@ -240,7 +241,7 @@ def _drawable(points):
 def _name_points(ax, named, level=None):
     """Writes the labels of ``named``, pairs ((x, y, label), colour), beside their points, clear of points, other labels, the legend and the line at ``level``."""
     taken = [Bbox.from_extents(x - 5, y - 5, x + 5, y + 5) for x, y in ax.transData.transform([p[:2] for p, _ in named])] + [ax.get_legend().get_window_extent()]
-    if level and np.isfinite(level):
+    if level:
         y = ax.transData.transform((ax.get_xlim()[0], level))[1]
         taken.append(Bbox.from_extents(ax.bbox.xmin, y - 1, ax.bbox.xmax, y + 1))
     away = {"left": 7, "right": -7, "bottom": 2, "top": -2}
@@ -280,6 +281,7 @@ def convergence(moduli, rows, path):
         ax.set_visible(False)
     for ax in axes[max(0, len(rows) - across):len(rows)]:
         ax.set_xlabel("Young's modulus [Pa]")
+        ax.tick_params(labelbottom=True)  # above an empty place of the grid too, where the shared axis would leave them to that
     for ax in axes[::across]:
         ax.set_ylabel("relative difference")
     return style.save(fig, path)
