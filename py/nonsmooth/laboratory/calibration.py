@@ -86,7 +86,7 @@ class Calibration:
         friction, rolling = v["friction"], v.get("rolling_friction", self.start.rolling_friction)
         return dataclasses.replace(
             self.start, name="calibrated", tensile_strength=v["tensile_strength"], residual_tensile_strength=v.get("residual_share", self.share) * v["tensile_strength"],
-            friction=friction, residual_friction=friction, rolling_friction=rolling, residual_rolling_friction=rolling)
+            friction=friction, residual_friction=friction, rolling_friction=rolling, residual_rolling_friction=rolling, envelope=None)
 
     # ---- trials ---------------------------------------------------------------------------------
     def measure(self, x, disks, seeds):
