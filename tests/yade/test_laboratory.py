@@ -355,6 +355,7 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert len(summary["tests"]) == 2 and 20 < summary["friction_peak_deg"] < 55  # a sample of 150 disks is no material
+    assert all(len(t[key]) == 2 for t in summary["tests"] for key in ("bands", "bands_late"))
     for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
         assert (tmp_path / name).stat().st_size > 300
     again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)

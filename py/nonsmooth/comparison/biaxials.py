@@ -201,8 +201,7 @@ def measure(case: Case, folder, found) -> Outcome:
     test = test_of(case)
     series = records.read_series(folder / "series.csv")
     c = strength.curve(series, (strength.PLATEAU * test.strain, test.strain))
-    axial = 0.5 * (series["sigma1_top_Pa"] + series["sigma1_bottom_Pa"]) / test.confining
-    begins, stress = strength.running_mean(series["strain"], axial, strength.PEAK_WINDOW)
+    begins, stress = strength.running_mean(series["strain"], strength.axial_stress(series) / test.confining, strength.PEAK_WINDOW)
     strain = begins + strength.PEAK_WINDOW / 2
     volume = np.interp(strain, series["strain"], series["volumetric_strain"])
     broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))

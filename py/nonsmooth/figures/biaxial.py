@@ -8,10 +8,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
+from ..laboratory import strength
 from . import forces, style
 
 MEGA = 1e6
-SMOOTHED = 0.2  # % of strain over which stresses are averaged for the thick curves
 SEQUENCE = ("#0072B2", "#D55E00", "#009E73", "#9E4F86", "#E0A100", "#4AA8DE", "#777777")
 
 
@@ -24,15 +24,15 @@ def stress_strain(tests, path, pdf=False):
     """Axial stress over σ₃ and volumetric strain against axial strain (the paper's Figure 10).
 
     ``tests``: list of (σ₃ [Pa], series, measured): columns of `laboratory.biaxial.COLUMNS`, and the test's dictionary of ``summary.json``.
-    Thin: rows; thick: mean over 0.2 % of strain; dots: peaks; dashes: the mean on the plateau. Returns ``path``.
+    Thin: rows; thick: the means over 0.2 % of strain whose largest is the peak; dots: peaks; dashes: the mean on the plateau. Returns ``path``.
     """
     fig = style.figure(7.6, 7.4, layout="constrained")
     top, bottom = fig.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
     for (sigma3, series, measured), colour in zip(tests, _colours(len(tests))):
-        strain = 100 * np.asarray(series["strain"])
-        axial = 0.5 * (np.asarray(series["sigma1_top_Pa"]) + np.asarray(series["sigma1_bottom_Pa"]))
+        strain, axial = 100 * np.asarray(series["strain"]), strength.axial_stress(series)
+        begin, mean = strength.running_mean(series["strain"], axial, strength.PEAK_WINDOW)
         top.plot(strain, axial / sigma3, color=colour, lw=0.4, alpha=0.35)
-        top.plot(strain, style.running_mean(strain, axial, SMOOTHED) / sigma3, color=colour, label=f"{sigma3 / MEGA:g}")
+        top.plot(100 * (begin + strength.PEAK_WINDOW / 2), mean / sigma3, color=colour, label=f"{sigma3 / MEGA:g}")
         top.plot(100 * measured["strain_peak"], measured["sigma1_peak_Pa"] / sigma3, "o", ms=5, color=colour, mec="white", mew=0.7, zorder=5)
         begin, end = measured["residual_between_strains"]
         top.hlines(measured["sigma1_residual_Pa"] / sigma3, 100 * begin, 100 * min(end, strain[-1] / 100), color=colour, lw=1.2, ls=(0, (4, 2)))

@@ -29,6 +29,7 @@ from . import biaxial, campaign, pressing
 
 # σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15 % of c; under half of it, 5 %.
 PRESSURES = (0.5, 3.0, 12.0, 48.0)
+PEAK_STRAIN = 0.03  # at the end of tests of which only the peak is wanted
 BOUNDS = {"tensile_strength": (1e2, 1e9), "friction": (0.02, 2.0), "rolling_friction": (0.005, 0.6), "residual_share": (0.01, 1.0)}
 # first derivatives by logarithms: of ln c, φ [°], ln c_res, φ_res [°]; those of friction measured on 5,000 disks with μ_s from 0.21 to 0.3
 SLOPES = {"tensile_strength": (1.0, 0.0, 1.0, 0.0), "friction": (0.75, 17.0, 0.0, 12.0), "rolling_friction": (0.2, 4.0, 0.0, 5.0), "residual_share": (0.0, 0.0, 1.0, 0.0)}
@@ -113,8 +114,8 @@ class Calibration:
         return checkpoints.key_of({"tests": [dataclasses.asdict(test) for test in self._tests(material, disks, seeds)]})
 
     def _tests(self, material, disks, seeds):
-        return [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), **({} if self.wanted.with_residual else {"strain": 0.03}))
-                for seed in seeds for p in PRESSURES]
+        strain = biaxial.Test.strain if self.wanted.with_residual else PEAK_STRAIN
+        return [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain) for seed in seeds for p in PRESSURES]
 
     def test(self, material, disks, seeds):
         """c [Pa], φ [°], and where they are wanted c_res, φ_res of a material, a list, from biaxial tests."""

@@ -15,7 +15,8 @@ from .. import records, side_by_side
 from ..errors import UserError
 from . import bands, biaxial, pressing, strength
 
-BAND_AT = "4"  # snapshot (strain in per cent) in which bands are measured: after the peak, before they have spread
+# snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
+BANDS_AT = {"bands": "1", "bands_late": "4"}
 
 
 class CampaignError(UserError, RuntimeError):
@@ -75,22 +76,22 @@ def measure(test, folder):
     series = records.read_series(folder / "series.csv")
     plateau = (strength.PLATEAU * test.strain, test.strain)
     c = strength.curve(series, plateau)
-    seen = band_of(folder)
     return {"confining_Pa": test.confining, "seed": test.shape.seed, "disks": found["disks"], "bonds": found["bonds"], "packing_fraction": found["packing_fraction"],
             "sigma1_peak_Pa": c.peak, "strain_peak": c.peak_strain, "sigma3_peak_Pa": c.peak_confining, "sigma1_residual_Pa": c.residual,
             "sigma1_residual_error_Pa": c.residual_error, "sigma3_residual_Pa": c.residual_confining, "residual_between_strains": plateau,
             "dilatancy_deg": c.dilatancy_deg, "volumetric_strain_end": c.volumetric_end, "platen_difference_rel": c.imbalance,
-            "bands": [None if b is None else {"angle_deg": b.angle_deg, "width_d": b.width, "rotation_rad": b.rotation, "contrast": b.contrast} for b in seen],
+            **{key: bands_of(folder, snapshot) for key, snapshot in BANDS_AT.items()},
             **{key: found[key] for key in ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s", "wall_steps_s",
                                            "sweeps_mean", "unconverged", "overlap_worst_rel")}}
 
 
-def band_of(folder):
-    """Shear bands of a test, see :func:`bands.find`."""
+def bands_of(folder, snapshot):
+    """Shear bands of a test in a snapshot, by name, or at its end where it ended before; a list of two dictionaries, None where there is none (see :func:`bands.find`)."""
     begin = records.read_snapshot(folder / "snapshots" / "begin.npz")
-    path = folder / "snapshots" / f"{BAND_AT}.npz"
-    late = records.read_snapshot(path if path.exists() else folder / "snapshots" / "end.npz")
-    return bands.find(late.x, late.y, late.r, late.angle - begin.angle)
+    path = folder / "snapshots" / f"{snapshot}.npz"
+    s = records.read_snapshot(path if path.exists() else folder / "snapshots" / "end.npz")
+    return [None if b is None else {"angle_deg": b.angle_deg, "width_d": b.width, "rotation_rad": b.rotation, "contrast": b.contrast}
+            for b in bands.find(s.x, s.y, s.r, s.angle - begin.angle)]
 
 
 def summarise(material, measured, wall_s, threads):

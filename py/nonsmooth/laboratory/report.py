@@ -11,11 +11,11 @@ from .campaign import name_of_result
 
 def table(summary):
     """Rows of text: one a test, then the envelopes."""
-    lines = [" σ₃ [MPa]  seed   σ₁ peak  at ε₁ [%]   residual   ψ [°]   bands [d]     I        platens differ"]
+    lines = [" σ₃ [MPa]  seed   σ₁ peak  at ε₁ [%]   residual   ψ [°]   bands [d] at 1 %, 4 %     I        platens differ"]
     for t in summary["tests"]:
-        widths = ", ".join("-" if b is None else f"{b['width_d']:.1f}" for b in t["bands"])
+        widths = "  ".join(", ".join("-" if b is None else f"{b['width_d']:.1f}" for b in t[key]) for key in ("bands", "bands_late"))
         lines.append(f"{t['confining_Pa'] / 1e6:9.3g} {t['seed']:5d} {t['sigma1_peak_Pa'] / 1e6:9.3f} {100 * t['strain_peak']:10.2f} {t['sigma1_residual_Pa'] / 1e6:10.3f} "
-                     f"{t['dilatancy_deg']:7.1f}   {widths:11s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %")
+                     f"{t['dilatancy_deg']:7.1f}   {widths:23s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %")
     for kind in ("peak", "residual"):
         if summary.get(f"cohesion_{kind}_kPa") is not None:
             dc, df = summary[f"cohesion_{kind}_95_kPa"], summary[f"friction_{kind}_95_deg"]

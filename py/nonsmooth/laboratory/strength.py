@@ -48,7 +48,7 @@ def curve(series, plateau):
     if strain[-1] < plateau[0] + PEAK_WINDOW - 1e-8:
         raise ValueError(f"the test ended at a strain of {strain[-1]:.4f}, before the plateau, which begins at {plateau[0]:g}")
     top, bottom = (np.asarray(series[f"sigma1_{name}_Pa"], float) for name in ("top", "bottom"))
-    axial = 0.5 * (top + bottom)
+    axial = axial_stress(series)
     lateral = 0.5 * (np.asarray(series["sigma3_left_Pa"], float) + np.asarray(series["sigma3_right_Pa"], float))
     begin, mean = running_mean(strain, axial, PEAK_WINDOW)
     k = int(np.argmax(mean))
@@ -67,6 +67,11 @@ def curve(series, plateau):
         # sin ψ = dε_v / (2 dε₁ + dε_v) in plane strain
         dilatancy_deg=math.degrees(math.asin(max(-1.0, min(1.0, slope / (2 + slope))))), imbalance=float(max(gap(at), gap(late))),
         volumetric_end=float(series["volumetric_strain"][-1]))
+
+
+def axial_stress(series):
+    """σ₁ [Pa] of a test's rows, an array: mean of both platens."""
+    return 0.5 * (np.asarray(series["sigma1_top_Pa"], float) + np.asarray(series["sigma1_bottom_Pa"], float))
 
 
 def running_mean(strain, values, window):
