@@ -59,7 +59,7 @@ if(NOT engine_sources)
 endif()
 set(NONSMOOTH_UNITY_BATCH 4 CACHE STRING "How many sources with YADE's headers are compiled as one")
 add_library(nonsmooth_engines SHARED ${engine_sources})
-target_link_libraries(nonsmooth_engines PRIVATE nonsmooth_contact nonsmooth_yade)
+target_link_libraries(nonsmooth_engines PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_yade)
 set_target_properties(nonsmooth_engines PROPERTIES PREFIX ""
     UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE "${NONSMOOTH_UNITY_BATCH}")
 

@@ -3,10 +3,10 @@
 find_package(GTest REQUIRED)
 find_package(ZLIB REQUIRED) # reads tests/data
 include(GoogleTest)
-file(GLOB contact_tests CONFIGURE_DEPENDS tests/contact/*.cpp)
+file(GLOB contact_tests CONFIGURE_DEPENDS tests/contact/*.cpp tests/neighbours/*.cpp)
 if(contact_tests)
     add_executable(contact_tests ${contact_tests})
-    target_link_libraries(contact_tests PRIVATE nonsmooth_contact nonsmooth_flags GTest::gtest GTest::gtest_main ZLIB::ZLIB)
+    target_link_libraries(contact_tests PRIVATE nonsmooth_contact nonsmooth_neighbours nonsmooth_flags GTest::gtest GTest::gtest_main ZLIB::ZLIB)
     target_include_directories(contact_tests PRIVATE tests/contact)
     gtest_discover_tests(contact_tests DISCOVERY_TIMEOUT 60 PROPERTIES LABELS contact TIMEOUT 600)
 endif()

@@ -1,5 +1,6 @@
 #include "NscdInteractionLoop.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
+#include "PlanarGridCollider.hpp"
 #include "Prefetch.hpp"
 #include "Threads.hpp"
 #include <core/Scene.hpp>
@@ -84,7 +85,7 @@ void NscdInteractionLoop::action()
 	lawDispatcher->updateScenePtr();
 
 	const int threads = nscd::threadsOf(*this);
-	nscd::readBodies(*scene, threads, bodies);
+	const auto& places  = readBodies();
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
 	const auto* spheres = exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors);
 	const auto* law     = exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors);
@@ -101,7 +102,7 @@ void NscdInteractionLoop::action()
 			if (ahead.phys) fetch<sizeof(NscdPhys)>(ahead.phys.get());
 		}
 		const shared_ptr<Interaction>& I = list[k];
-		const auto &p1 = bodies[I->getId1()], &p2 = bodies[I->getId2()];
+		const auto &p1 = places[I->getId1()], &p2 = places[I->getId2()];
 		if (p1.plain && p2.plain) {
 			if (spheres && I->functorCache.geom.get() == spheres && !I->isReal()) {
 				const Real reach = spheres->interactionDetectionFactor * (p1.radius + p2.radius);
@@ -137,7 +138,26 @@ void NscdInteractionLoop::action()
 		}
 	}
 	if (!error.empty()) throw std::runtime_error(error);
+	unreal.clear();
+	for (long k = 0; k < count; ++k)
+		if (readings.ids[k].first < 0 && !list[k]->isReal()) unreal.emplace_back(list[k]->getId1(), list[k]->getId2());
 	readIn = scene->iter;
+}
+
+/// What the collider has just read, or a reading of its own.
+const std::vector<nscd::BodyReading>& NscdInteractionLoop::readBodies()
+{
+	const PlanarGridCollider* collider = nullptr;
+	for (const auto& engine : scene->engines) {
+		if (engine.get() == this) break;
+		if (!engine->dead) collider = dynamic_cast<const PlanarGridCollider*>(engine.get());
+	}
+	if (collider && !scene->subStepping && collider->hasRead(scene->iter)) bodies = &collider->bodyReadings();
+	else {
+		nscd::readBodies(*scene, nscd::threadsOf(*this), ownBodies);
+		bodies = &ownBodies;
+	}
+	return *bodies;
 }
 
 } // namespace yade

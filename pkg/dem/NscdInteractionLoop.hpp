@@ -18,7 +18,9 @@ public:
 	/// Whether this loop went through the interactions of step `iteration`, and so has readings of them, in the order of their list, and of the bodies.
 	bool                                  hasRead(long iteration) const { return iteration == readIn; }
 	const nscd::Readings&                 contactReadings() const { return readings; }
-	const std::vector<nscd::BodyReading>& bodyReadings() const { return bodies; }
+	const std::vector<nscd::BodyReading>& bodyReadings() const { return *bodies; }
+	/// Pairs of bodies whose interactions were not real after that step, in the order of the list.
+	const std::vector<std::pair<Body::id_t, Body::id_t>>& unrealPairs() const { return unreal; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
@@ -29,9 +31,13 @@ contact began. :yref:`ContactDynamicsEngine` takes from it what it has read of b
 boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:
-	std::vector<nscd::BodyReading> bodies;
-	nscd::Readings                 readings;
-	long                           readIn = -1; // step
+	const std::vector<nscd::BodyReading>& readBodies();
+
+	const std::vector<nscd::BodyReading>*          bodies = nullptr; // own, or those of the collider
+	std::vector<nscd::BodyReading>                 ownBodies;
+	nscd::Readings                                 readings;
+	std::vector<std::pair<Body::id_t, Body::id_t>> unreal;
+	long                                           readIn = -1; // step
 };
 REGISTER_SERIALIZABLE(NscdInteractionLoop);
 

@@ -9,8 +9,8 @@ import numpy as np
 from yade import O, utils
 from yade.wrapper import (
     Body, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ContactDynamicsEngine, ForceResetter, Ig2_Segment_Sphere_ScGeom,
-    Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, Ip2_NscdMat_NscdMat_NscdPhys, Law2_ScGeom_NscdPhys_SignoriniCoulomb,
-    NscdInteractionLoop, NscdMat, PlanarNewtonIntegrator, Segment, SlipWeakeningMat)
+    Ig2_Sphere_Sphere_ScGeom, Ip2_NscdMat_NscdMat_NscdPhys, Law2_ScGeom_NscdPhys_SignoriniCoulomb,
+    NscdInteractionLoop, NscdMat, PlanarGridCollider, PlanarNewtonIntegrator, Segment, SlipWeakeningMat)
 from yade.minieigenHP import Quaternion, Vector3
 
 __all__ = ["contact_dynamics", "disk", "engines", "material", "segments", "wall_material"]
@@ -106,7 +106,7 @@ def engines(gravity=(0, -9.81, 0), reach=0.05, verlet=0.1, before=(), after=(), 
     solver = ContactDynamicsEngine(label=label, **options)
     return [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + reach), Bo1_Segment_Aabb()], verletDist=verlet),
+        PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + reach), Bo1_Segment_Aabb()], verletDist=verlet),
         NscdInteractionLoop(
             [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + reach),
              Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + reach)],

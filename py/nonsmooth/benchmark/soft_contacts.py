@@ -23,7 +23,6 @@ YOUNG, POISSON, FRICTION, DAMPING = 2e8, 0.3, 0.3, 0.2
 def soften(built):
     """Puts soft contacts in the place of the rigid ones of ``built``, the Slope in the scene; forces begin at zero."""
     gravity = built.section.gravity
-    margin = next(e for e in O.engines if isinstance(e, InsertionSortCollider)).verletDist
     density = built.section.materials[built.section.layers[0].material].density
     O.interactions.clear()
     O.materials.append(FrictMat(young=YOUNG, poisson=POISSON, frictionAngle=math.atan(FRICTION), density=density, label="soft"))
@@ -36,7 +35,7 @@ def soften(built):
         body.state.inertia = Vector3(1, 1, 1) * (0.4 * body.state.mass * r**2)
     O.engines = [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=margin),
+        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=-built.section.numerics.verlet_distance),
         InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Segment_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
                         [Law2_ScGeom_FrictPhys_CundallStrack()]),
         NewtonIntegrator(damping=DAMPING, gravity=(0, -gravity, 0)),

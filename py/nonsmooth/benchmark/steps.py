@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from yade import O
-from yade.wrapper import ContactDynamicsEngine, ForceResetter, InsertionSortCollider, InteractionLoop, NewtonIntegrator, PorePressureEngine
+from yade.wrapper import Collider, ContactDynamicsEngine, ForceResetter, InteractionLoop, NewtonIntegrator, PorePressureEngine
 
 from . import states
 from .statistics import spread
@@ -15,7 +15,7 @@ __all__ = ["STAGES", "TimedSteps", "measure"]
 
 #: Stages of a step in their order; "other" is what no stage has.
 STAGES = ("reset", "collider", "interactions", "pore_pressure", "gather", "solve", "scatter", "integrator", "other")
-STAGE_OF = {ForceResetter: "reset", InsertionSortCollider: "collider", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
+STAGE_OF = {ForceResetter: "reset", Collider: "collider", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
             NewtonIntegrator: "integrator"}  # by the class of the engine or one it is derived from ...
 SOLVER_STAGES = ("gather", "solve", "scatter")  # ... but for ContactDynamicsEngine, which has three
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists

@@ -1,0 +1,290 @@
+#include "PlanarGridCollider.hpp"
+#include "NscdInteractionLoop.hpp"
+#include "Threads.hpp"
+#include <boost/make_shared.hpp>
+#include <core/Scene.hpp>
+#include <pkg/common/Bo1_Aabb.hpp>
+#include <pkg/common/Sphere.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((PlanarGridCollider));
+
+namespace {
+	using nonsmooth::neighbours::Box;
+	using nonsmooth::neighbours::Disk;
+
+	/// The loop that visited every interaction of the last step and noted which are not real; null where another may have been at work.
+	const NscdInteractionLoop* loopOf(const Scene& scene)
+	{
+		for (const auto& engine : scene.engines)
+			if (const auto* loop = dynamic_cast<const NscdInteractionLoop*>(engine.get()))
+				if (loop->hasRead(scene.iter - 1)) return loop;
+		return nullptr;
+	}
+
+	/// How far a box reaches around a disk that it can touch: Ig2 functors know contacts with a wall up to (factor − 1) times the diameter.
+	Real reachAround(Real factor, Real radius) { return (2 * factor - 1) * radius; }
+
+	bool within(const Box& box, const Disk& d, Real out)
+	{
+		return d.x >= box.xMin - out && d.x <= box.xMax + out && d.y >= box.yMin - out && d.y <= box.yMax + out;
+	}
+}
+
+void PlanarGridCollider::action()
+{
+	if (scene->isPeriodic) throw std::runtime_error("PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
+	if (!std::isfinite(verletDist))
+		throw std::runtime_error("PlanarGridCollider: verletDist = " + boost::lexical_cast<string>(verletDist) + ": give a length [m], or a negative number of smallest radii");
+	threads = nscd::threadsOf(*this);
+	scene->interactions->iterColliderLastRun = -1;
+	scene->forces.addMaxId(scene->bodies->size());
+	const bool anew = changed();
+	nscd::readBodies(*scene, threads, bodies);
+	readIn          = scene->iter;
+	const long size = (long)bodies.size();
+	disks.resize(size);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long id = 0; id < size; ++id) {
+		const auto& b = bodies[id];
+		disks[id]     = b.present && b.plain ? Disk { b.pos[0], b.pos[1], b.radius } : Disk { 0, 0, -1 };
+	}
+	if (anew) listSides();
+	boundSides();
+
+	const NscdInteractionLoop* loop = anew ? nullptr : loopOf(*scene);
+	if (loop) eraseUnreal(*loop);
+	else
+		forget();
+	if (anew || moved()) search();
+	takeDisks();
+	takeSides();
+}
+
+/// Whether lists of an earlier step are of no use: there are none, or what they depend on is different.
+bool PlanarGridCollider::changed()
+{
+	Real wanted = 1;
+	for (const auto& functor : boundDispatcher->functors)
+		if (const auto* sphere = dynamic_cast<const Bo1_Sphere_Aabb*>(functor.get()))
+			if (sphere->aabbEnlargeFactor > 0) wanted = sphere->aabbEnlargeFactor;
+	auto&      all = *scene->bodies;
+	const bool is  = !begun || wanted != factor || verletDist != verletDistOfLists || reference.size() != all.size() || scene->doSort || scene->interactions->dirty
+	        || !all.checkedByCollider;
+	factor            = wanted;
+	verletDistOfLists = verletDist;
+	begun             = true;
+	scene->doSort = scene->interactions->dirty = false;
+	if (!all.checkedByCollider) {
+		if (all.enableRedirection) all.updateRealBodies();
+		all.checkedByCollider = true;
+		all.insertedBodies.clear();
+		all.erasedBodies.clear();
+	}
+	return is;
+}
+
+/// The bodies that are no disks, without their boxes.
+void PlanarGridCollider::listSides()
+{
+	sides.clear();
+	sidePairs.clear();
+	boundDispatcher->scene = scene;
+	boundDispatcher->updateScenePtr();
+	for (const auto& b : *scene->bodies) {
+		if (!b || !b->shape || !b->isBounded() || bodies[b->getId()].plain) continue;
+		b->shape->boundFunctor = boundDispatcher->getFunctor1D(b->shape);
+		if (b->shape->boundFunctor) sides.push_back({ b->getId(), {}, {} });
+	}
+}
+
+void PlanarGridCollider::boundSides()
+{
+	for (Side& side : sides) {
+		const auto& b = Body::byId(side.id, scene);
+		b->shape->boundFunctor->go(b->shape, b->bound, b->state->se3, b.get());
+		side.box = { b->bound->min[0], b->bound->min[1], b->bound->max[0], b->bound->max[1] };
+	}
+}
+
+/// Erases all that is not real and trusts none of what was noted, so that every pair within reach is looked up in O.interactions.
+void PlanarGridCollider::forget()
+{
+	scene->interactions->conditionalyEraseNonReal(*this, scene);
+	std::fill(known.begin(), known.end(), 0);
+	for (SidePair& pair : sidePairs)
+		pair.known = false;
+}
+
+/// Erases what the loop found not to be real; with a body that is no disk an interaction may stay potential.
+void PlanarGridCollider::eraseUnreal(const NscdInteractionLoop& loop)
+{
+	for (auto [a, b] : loop.unrealPairs()) {
+		if (a > b) std::swap(a, b);
+		if (disks[a].r < 0 || disks[b].r < 0) {
+			const auto pair = sidePairOf(a, b);
+			if (!pair || !pair->known) eraseIfUnreal(a, b);
+			continue;
+		}
+		eraseIfUnreal(a, b);
+		const auto begin = pairs.second.begin() + pairs.begin[a], end = pairs.second.begin() + pairs.begin[a + 1], at = std::lower_bound(begin, end, b);
+		if (at != end && *at == b) known[at - pairs.second.begin()] = 0;
+	}
+}
+
+/// The noted pair of two bodies one of which is no disk; null where there is none.
+PlanarGridCollider::SidePair* PlanarGridCollider::sidePairOf(Body::id_t a, Body::id_t b)
+{
+	if (disks[a].r >= 0) std::swap(a, b);
+	const auto side = std::lower_bound(sides.begin(), sides.end(), a, [](const Side& s, Body::id_t id) { return s.id < id; });
+	if (side == sides.end() || side->id != a) return nullptr;
+	const std::pair<int, int> wanted { int(side - sides.begin()), b };
+	const auto at = std::lower_bound(sidePairs.begin(), sidePairs.end(), wanted, [](const SidePair& p, const auto& w) { return std::make_pair(p.side, p.disk) < w; });
+	return at != sidePairs.end() && at->side == wanted.first && at->disk == b ? &*at : nullptr;
+}
+
+void PlanarGridCollider::eraseIfUnreal(Body::id_t a, Body::id_t b)
+{
+	const auto& found = scene->interactions->find(a, b);
+	if (found && !found->isReal()) scene->interactions->erase(a, b, found->linIx);
+}
+
+/// Whether two bodies may have come nearer than the margin since pairs were looked up.
+bool PlanarGridCollider::moved() const
+{
+	const Real half = 0.5 * margin;
+	for (const Side& s : sides)
+		for (const Real d : { s.box.xMin - s.reference.xMin, s.box.yMin - s.reference.yMin, s.box.xMax - s.reference.xMax, s.box.yMax - s.reference.yMax })
+			if (std::abs(d) > half) return true;
+	const long size     = (long)disks.size();
+	Real       farthest = 0;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : farthest)
+	for (long id = 0; id < size; ++id) {
+		const Real x = disks[id].x - reference[id].x, y = disks[id].y - reference[id].y;
+		farthest     = std::max(farthest, disks[id].r != reference[id].r ? std::numeric_limits<Real>::infinity() : x * x + y * y);
+	}
+	return farthest > half * half;
+}
+
+/// Looks pairs up, and keeps what is known of those that were there before.
+void PlanarGridCollider::search()
+{
+	++searches;
+	if (verletDist < 0) {
+		Real smallest = std::numeric_limits<Real>::infinity();
+		for (const Disk& d : disks)
+			if (d.r > 0) smallest = std::min(smallest, Real(d.r));
+		margin = std::isfinite(smallest) ? -verletDist * smallest : 0;
+	} else
+		margin = verletDist;
+	reference = disks;
+	std::swap(pairs, before);
+	std::swap(known, knownBefore);
+	grid.build(disks, { factor, margin });
+	grid.pairs(threads, pairs);
+	known.assign(pairs.second.size(), 0);
+	const long size = (long)std::min(disks.size(), before.begin.empty() ? 0 : before.begin.size() - 1);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long i = 0; i < size; ++i)
+		for (int k = pairs.begin[i], b = before.begin[i]; k < pairs.begin[i + 1] && b < before.begin[i + 1];) {
+			if (pairs.second[k] == before.second[b]) known[k++] = knownBefore[b++];
+			else if (pairs.second[k] < before.second[b])
+				++k;
+			else
+				++b;
+		}
+	searchSides();
+	candidates = int(pairs.second.size() + sidePairs.size());
+}
+
+void PlanarGridCollider::searchSides()
+{
+	std::vector<SidePair> old;
+	old.swap(sidePairs);
+	std::vector<int> disksNear;
+	// the grid's reach is `factor` times the radius; boxes reach farther by (factor - 1) times the largest
+	Real largest = 0;
+	for (const Disk& d : disks)
+		largest = std::max(largest, Real(d.r));
+	const Real more = (factor - 1) * largest;
+	for (size_t s = 0; s < sides.size(); ++s) {
+		Box& box           = sides[s].box;
+		sides[s].reference = box;
+		grid.near({ box.xMin - more, box.yMin - more, box.xMax + more, box.yMax + more }, disksNear);
+		for (const int disk : disksNear)
+			if (within(box, disks[disk], reachAround(factor, disks[disk].r) + margin)) sidePairs.push_back({ int(s), disk, false });
+	}
+	const auto key = [](const SidePair& p) { return std::make_pair(p.side, p.disk); };
+	auto       now = sidePairs.begin();
+	for (const SidePair& pair : old) {
+		while (now != sidePairs.end() && key(*now) < key(pair))
+			++now;
+		if (now != sidePairs.end() && key(*now) == key(pair)) now->known = pair.known;
+		else if (pair.known)
+			eraseIfUnreal(sides[pair.side].id, pair.disk);
+	}
+}
+
+/// Gives O.interactions the pairs of disks that have come within reach.
+void PlanarGridCollider::takeDisks()
+{
+	near.resize(threads);
+	for (auto& part : near)
+		part.clear();
+	const long size = (long)disks.size();
+#pragma omp parallel num_threads(threads)
+	{
+#ifdef YADE_OPENMP
+		auto& part = near[omp_get_thread_num()];
+#else
+		auto& part = near[0];
+#endif
+#pragma omp for schedule(static)
+		for (long i = 0; i < size; ++i) {
+			const Disk a = disks[i];
+			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
+				const Disk& b = disks[pairs.second[k]];
+				const Real  x = b.x - a.x, y = b.y - a.y, far = factor * (a.r + b.r);
+				// the functor decides, with rounding of its own
+				const bool inReach = x * x + y * y <= far * far * (1 + 1e-9);
+				if (!inReach) known[k] = 0;
+				else if (!known[k])
+					part.emplace_back(int(i), k);
+			}
+		}
+	}
+	for (const auto& part : near) // threads have stretches of the list, one after the other
+		for (const auto& [i, k] : part) {
+			insert(i, pairs.second[k]);
+			known[k] = 1;
+		}
+}
+
+void PlanarGridCollider::takeSides()
+{
+	for (SidePair& pair : sidePairs) {
+		if (pair.known || !within(sides[pair.side].box, disks[pair.disk], reachAround(factor, disks[pair.disk].r))) continue;
+		insert(std::min(sides[pair.side].id, pair.disk), std::max(sides[pair.side].id, pair.disk));
+		pair.known = true;
+	}
+}
+
+void PlanarGridCollider::insert(Body::id_t a, Body::id_t b)
+{
+	if (mayCollide(Body::byId(a, scene).get(), Body::byId(b, scene).get()) && !scene->interactions->found(a, b))
+		scene->interactions->insert(boost::make_shared<Interaction>(a, b));
+}
+
+vector<Body::id_t> PlanarGridCollider::probeBoundingVolume(const Bound& bound)
+{
+	const Box          box { bound.min[0], bound.min[1], bound.max[0], bound.max[1] };
+	vector<Body::id_t> found;
+	for (size_t id = 0; id < disks.size(); ++id)
+		if (disks[id].r >= 0 && within(box, disks[id], factor * disks[id].r)) found.push_back(Body::id_t(id));
+	for (const Side& s : sides)
+		if (s.box.xMin <= box.xMax && s.box.xMax >= box.xMin && s.box.yMin <= box.yMax && s.box.yMax >= box.yMin) found.push_back(s.id);
+	return found;
+}
+
+} // namespace yade

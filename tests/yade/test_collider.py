@@ -1,0 +1,205 @@
+"""PlanarGridCollider: the same contacts as with YADE's own collider and loop, and none that brute force would not find."""
+import math
+import random
+
+import pytest
+from yade import O
+from yade.nonsmooth import scene
+from yade.wrapper import Box, Body, Bo1_Box_Aabb, Bo1_Sphere_Aabb, Collider, InsertionSortCollider, InteractionLoop, PlanarGridCollider, Sphere
+
+from contact_scenes import begin, bits, box, engine, loose_heap, material, run
+
+REACH = 0.05
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.reset()
+
+
+def collider():
+    return next(e for e in O.engines if isinstance(e, Collider))
+
+
+def gas(count=150, side=30.0, speed=40.0, seed=3):
+    """Disks of sizes one to ten that fly about in a box, by up to their own size a step; returns their ids."""
+    dice = random.Random(seed)
+    stuff = material(0.3, restitution=1.0)
+    box(stuff, side, side)
+    ids = []
+    while len(ids) < count:
+        r = 0.2 * 10 ** dice.uniform(0, 1) if len(ids) % 9 == 0 else 0.2 * dice.uniform(1, 2)
+        x, y = dice.uniform(r, side - r), dice.uniform(r, side - r)
+        if all(math.hypot(x - O.bodies[i].state.pos[0], y - O.bodies[i].state.pos[1]) > r + O.bodies[i].shape.radius for i in ids):
+            ids.append(O.bodies.append(scene.disk((x, y), r, stuff)))
+            turn = dice.uniform(0, 2 * math.pi)
+            O.bodies[ids[-1]].state.vel = (speed * math.cos(turn), speed * math.sin(turn), 0)
+    begin(gravity=(0, 0, 0), dt=5e-3, reach=REACH, verlet=0.3, tolerance=1e-6, maxIterations=2000)
+    return ids
+
+
+def near(ids):
+    """Pairs of disks within reach, by brute force."""
+    rows = [(i, O.bodies[i].state.pos[0], O.bodies[i].state.pos[1], O.bodies[i].shape.radius) for i in ids]
+    return {(i, j) for k, (i, x, y, r) in enumerate(rows) for j, u, v, s in rows[k + 1:] if math.hypot(x - u, y - v) <= (1 + REACH) * (r + s)}
+
+
+def disk_pairs(real=True):
+    """Pairs of disks that have an interaction that is real, or potential."""
+    both = lambda i: isinstance(O.bodies[i.id1].shape, Sphere) and isinstance(O.bodies[i.id2].shape, Sphere)  # noqa: E731
+    return {(min(i.id1, i.id2), max(i.id1, i.id2)) for i in O.interactions.all() if i.isReal == real and both(i)}
+
+
+def step(ids):
+    """A step; returns the pairs within reach at its beginning, by brute force."""
+    expected = near(ids)
+    O.step()
+    return expected
+
+
+def test_disks_have_the_contacts_that_brute_force_finds():
+    ids = gas()
+    seen = set()
+    for _ in range(150):
+        expected = step(ids)
+        assert disk_pairs() == expected
+        seen |= expected
+    assert len(seen) > 300 and 20 < collider().searches < 151  # contacts came and went; and pairs were kept over some steps
+
+
+def test_bodies_that_vanish_and_appear_are_noticed():
+    ids = gas(count=80)
+    for k in range(60):
+        if k % 10 == 5:
+            O.bodies.erase(ids.pop(k % len(ids)))
+        if k % 10 == 7:
+            x, y, _ = O.bodies[ids[0]].state.pos
+            ids.append(O.bodies.append(scene.disk((x + 0.3, y), 0.1, O.bodies[ids[0]].material)))  # on top of another
+        expected = step(ids)
+        assert disk_pairs() == expected
+
+
+def test_interactions_that_a_script_erases_come_back():
+    stuff = material(0.3)
+    a, b = (O.bodies.append(scene.disk((x, 0), 0.5, stuff)) for x in (0, 1.01))
+    begin(gravity=(0, 0, 0))
+    run(2)
+    assert O.interactions.has(a, b, True)
+    O.interactions.erase(a, b)
+    run(1)
+    assert O.interactions.has(a, b, True)
+    O.interactions.clear()
+    run(1)
+    assert O.interactions.has(a, b, True)
+
+
+def test_masks_are_heeded():
+    stuff = material(0.3)
+    a, b = (O.bodies.append(scene.disk((x, 0), 0.5, stuff)) for x in (0, 0.98))
+    O.bodies[a].mask, O.bodies[b].mask = 1, 2
+    begin(gravity=(0, 0, 0))
+    run(3)
+    assert len(O.interactions.all()) == 0
+
+
+def test_potential_interactions_exist_with_walls_alone():
+    gas(count=60)
+    before, potential = set(), 0
+    for _ in range(100):
+        O.step()
+        apart = disk_pairs(real=False)
+        assert apart <= before  # what came apart in this step; the next one erases it
+        before = disk_pairs()
+        potential += len([i for i in O.interactions.all() if not i.isReal]) - len(apart)
+    assert potential > 0
+
+
+def swapped(kind_of_collider=None, kind_of_loop=None):
+    """Puts YADE's own engines in the place of ours."""
+    engines = list(O.engines)
+    for k, e in enumerate(engines):
+        if kind_of_collider and isinstance(e, Collider):
+            engines[k] = kind_of_collider(e.boundDispatcher.functors, verletDist=e.verletDist)
+        if kind_of_loop and isinstance(e, InteractionLoop):
+            engines[k] = kind_of_loop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors)
+    O.engines = engines
+
+
+@pytest.mark.parametrize("scene_of", ["gas", "heap"])
+def test_every_pair_of_colliders_and_loops_has_the_same_bits(scene_of):
+    def course(*kinds):
+        O.reset()
+        if scene_of == "gas":
+            gas(count=100)
+        else:
+            stuff = material(0.3, rolling=0.1)
+            box(stuff, 9, 6)
+            loose_heap(stuff)
+            begin(dt=4e-3, tolerance=1e-8)
+        swapped(*kinds)
+        run(250)
+        return bits(), engine().totalIterations
+
+    ours = course()
+    assert ours[1] > 250
+    assert course(InsertionSortCollider) == ours
+    assert course(None, InteractionLoop) == ours
+    assert course(InsertionSortCollider, InteractionLoop) == ours
+
+
+def test_the_margin_changes_no_bit():
+    found = []
+    for margin in (0.0, 0.05, 3.0, -1.0):
+        O.reset()
+        gas(count=100)
+        collider().verletDist = margin
+        run(120)
+        found.append((bits(), collider().searches))
+    assert len({b for b, _ in found}) == 1
+    assert found[0][1] == 120 and found[2][1] < found[1][1] <= 120
+
+
+def test_a_loaded_scene_goes_on_with_the_same_bits(tmp_path):
+    gas(count=100)
+    run(60)
+    O.save(str(tmp_path / "gas.yade.gz"))
+    run(60)
+    whole = bits()
+    O.load(str(tmp_path / "gas.yade.gz"))
+    run(60)
+    assert bits() == whole
+
+
+def test_moving_bodies_of_other_shapes_keep_their_contacts():
+    stuff = material(0.3)
+    plate = Body()
+    plate.shape = Box(extents=(1, 0.5, 1))
+    plate.material = stuff
+    O.bodies.append(plate)
+    plate.dynamic = False
+    plate.state.vel = (5, 0, 0)  # passes over disks that rest
+    ids = [O.bodies.append(scene.disk((3 + 1.2 * k, 0.99), 0.5, stuff)) for k in range(4)]
+    begin(gravity=(0, 0, 0), dt=5e-3)
+    from yade.wrapper import Ig2_Box_Sphere_ScGeom
+    O.engines = [PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05) if isinstance(e, Collider) else e for e in O.engines]
+    loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
+    loop.geomDispatcher.functors = list(loop.geomDispatcher.functors) + [Ig2_Box_Sphere_ScGeom()]
+    met = set()
+    for _ in range(320):
+        O.step()
+        for i in O.interactions:
+            met |= {i.id1, i.id2} & set(ids)
+    assert met == set(ids) and len([i for i in O.interactions.all() if 0 in (i.id1, i.id2)]) < 4  # those behind the plate are forgotten
+
+
+@pytest.mark.parametrize("spoil, words", [(lambda: setattr(O, "periodic", True), ("periodic", "InsertionSortCollider")),
+                                          (lambda: setattr(collider(), "verletDist", math.nan), ("verletDist", "nan"))])
+def test_refuses_what_it_cannot_do(spoil, words):
+    O.bodies.append(scene.disk((0, 0), 0.5, material()))
+    begin(gravity=(0, 0, 0))
+    spoil()
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    assert all(word in str(error.value) for word in words)
