@@ -53,13 +53,16 @@ void PlanarGridCollider::action()
 	if (anew) listSides();
 	boundSides();
 
-	const NscdInteractionLoop* loop = anew ? nullptr : loopOf(*scene);
+	// nobody else adds or removes interactions during a step; a script may have, between two
+	const bool                 touched = scene->interactions->size() != sizeLeft;
+	const NscdInteractionLoop* loop    = anew || touched ? nullptr : loopOf(*scene);
 	if (loop) eraseUnreal(*loop);
 	else
 		forget();
 	if (anew || moved()) search();
 	takeDisks();
 	takeSides();
+	sizeLeft = scene->interactions->size();
 }
 
 /// Whether lists of an earlier step are of no use: there are none, or what they depend on is different.

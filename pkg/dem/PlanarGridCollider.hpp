@@ -64,6 +64,7 @@ private:
 
 	int                                       threads = 1;
 	bool                                      begun   = false;
+	size_t                                    sizeLeft = 0; // of O.interactions at the end of the last run
 	Real                                      factor = 1, margin = 0; // reach of disks in sums of radii; of the search beyond it [m]
 	Real                                      verletDistOfLists = 0; // the attribute as it was when they were made
 	std::vector<nscd::BodyReading>            bodies;

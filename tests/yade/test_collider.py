@@ -93,6 +93,10 @@ def test_interactions_that_a_script_erases_come_back():
     O.interactions.clear()
     run(1)
     assert O.interactions.has(a, b, True)
+    O.interactions.erase(a, b)
+    O.interactions.eraseNonReal()
+    run(1)
+    assert O.interactions.has(a, b, True)
 
 
 def test_masks_are_heeded():
