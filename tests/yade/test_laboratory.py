@@ -358,6 +358,7 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     assert all(len(t[key]) == 2 for t in summary["tests"] for key in ("bands", "bands_late"))
     for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
         assert (tmp_path / name).stat().st_size > 300
+    assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.5MPa-seed1", "4MPa-seed1"]
     again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
     assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
     assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau

@@ -62,11 +62,14 @@ def _press(shapes, home, threads, progress):
     for shape in missing:
         shape.section()  # refuses a sample that is too small, before anything runs
     progress(0.0, f"pressing {len(missing)} sample{'s' if len(missing) > 1 else ''}")
+    folders = [home / f"pressing-{k}" for k in range(len(missing))]
     with ThreadPoolExecutor(max(1, threads)) as pool:
-        futures = [pool.submit(pressing.prepare, shape, home / f"pressing-{k}") for k, shape in enumerate(missing)]
+        futures = [pool.submit(pressing.prepare, shape, folder) for shape, folder in zip(missing, folders)]
         failures = [str(error) for f in futures if (error := f.exception())]
     if failures:
         raise CampaignError(f"a sample could not be made: {failures[0]}")
+    for folder in folders:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def measure(test, folder):
