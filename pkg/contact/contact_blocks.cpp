@@ -6,14 +6,20 @@
 namespace nonsmooth::contact {
 namespace {
 
-	/// Whether the short formulas of the blocks hold: no rows coupled but T and Γ, no bias but the normal one.
-	bool isSimple(const Problem& problem, const Contact& c)
+	/// What the short formulas of the blocks ask of a body.
+	enum BodyTrait : std::uint8_t { moves = 1, turns = 2, plain = 4 };
+
+	std::uint8_t traitsOf(const InverseMass& m, const Twist& freeVelocity)
 	{
-		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
 		// a wall that turns enters the velocities through levers too
-		const bool still = (mi.w != 0 || problem.freeVelocity[c.i].w == 0) && (mj.w != 0 || problem.freeVelocity[c.j].w == 0);
-		return still && mi.x == mi.y && mj.x == mj.y && c.biasT == 0 && c.biasR == 0 && (mi.w == 0 || c.leverNi == 0)
-		        && (mj.w == 0 || c.leverNj == 0);
+		const bool isPlain = m.x == m.y && (m.w != 0 || freeVelocity.w == 0);
+		return (m.isFixed() ? 0 : moves) | (m.w != 0 ? turns : 0) | (isPlain ? plain : 0);
+	}
+
+	/// Whether the short formulas of the blocks hold: no rows coupled but T and Γ, no bias but the normal one.
+	bool isSimple(const Contact& c, std::uint8_t i, std::uint8_t j)
+	{
+		return (i & j & plain) && c.biasT == 0 && c.biasR == 0 && (!(i & turns) || c.leverNi == 0) && (!(j & turns) || c.leverNj == 0);
 	}
 
 	/// A block that is still being filled.
@@ -24,21 +30,22 @@ namespace {
 	};
 
 	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
-	void fill(const Problem& problem, const SweepOrder& order, std::size_t strip, bool blocks, ContactBlocks::Strip& result)
+	void fill(const Problem& problem, const SweepOrder& order, const std::vector<std::uint8_t>& traits, std::size_t strip, bool blocks, ContactBlocks::Strip& result)
 	{
 		constexpr std::size_t mostOpen = 16;
 		result.contactOf.clear();
 		result.others.clear();
 		std::vector<Open>     open;
-		const auto movable = [&](std::int32_t b) { return problem.inverseMass[b].isFixed() ? ContactBlocks::none : b; };
+		open.reserve(mostOpen);
 		for (std::size_t k = order.stripBegin[strip]; k < order.stripBegin[strip + 1]; ++k) {
 			const std::int32_t index = order.order[k];
 			const Contact&     c     = problem.contacts[index];
-			if (!blocks || !isSimple(problem, c)) {
+			const std::uint8_t ti = traits[c.i], tj = traits[c.j];
+			if (!blocks || !isSimple(c, ti, tj)) {
 				result.others.push_back(index);
 				continue;
 			}
-			const std::int32_t i = movable(c.i), j = movable(c.j);
+			const std::int32_t i = ti & moves ? c.i : ContactBlocks::none, j = tj & moves ? c.j : ContactBlocks::none;
 			const auto         fits = [&](const Open& o) {
 				for (int b = 0; b < 2 * o.filled; ++b)
 					if (o.bodies[b] != ContactBlocks::none && (o.bodies[b] == i || o.bodies[b] == j)) return false;
@@ -98,9 +105,13 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 	const auto        nobody = static_cast<std::int32_t>(problem.bodyCount());
 	auto&             parts  = result.scratch;
 	parts.resize(strips);
+	auto& traits = result.traits;
+	traits.resize(problem.bodyCount());
+	for (std::size_t b = 0; b < problem.bodyCount(); ++b)
+		traits[b] = traitsOf(problem.inverseMass[b], problem.freeVelocity[b]);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(strips); ++s)
-		fill(problem, order, s, blocks, parts[s]);
+		fill(problem, order, traits, s, blocks, parts[s]);
 
 	result.placeOf.resize(problem.bodyCount());
 	for (std::size_t k = 0; k < order.bodies.size(); ++k)
@@ -121,7 +132,8 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 		std::copy(part.others.begin(), part.others.end(), result.others.begin() + result.otherBegin[s]);
 		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + result.blockBegin[s] * lanes);
 		for (std::size_t b = result.blockBegin[s]; b < result.blockBegin[s + 1]; ++b) {
-			Block block {};
+			Block& block = result.blocks[b]; // written where it stays
+			block        = Block {};
 			for (int l = 0; l < int(lanes); ++l) {
 				const std::int32_t index = result.contactOf[b * lanes + l];
 				block.i[l] = block.j[l] = nobody;
@@ -129,7 +141,6 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 				fillLane(block, l, problem, index, result.placeOf);
 				result.inverseLength[b].v[l] = 1 / problem.contacts[index].length;
 			}
-			result.blocks[b] = block;
 		}
 	}
 }

@@ -25,7 +25,8 @@ struct ContactBlocks {
 	struct Strip {
 		std::vector<std::int32_t> contactOf, others;
 	};
-	std::vector<Strip> scratch;
+	std::vector<Strip>        scratch;
+	std::vector<std::uint8_t> traits; // of bodies
 };
 
 /// Lays out the contacts' data in `result`, whose memory is used again; impulses come from problem.impulses, projected on their thresholds.

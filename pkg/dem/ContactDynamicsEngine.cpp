@@ -3,7 +3,6 @@
 #include "Gravity.hpp"
 #include "NonsmoothTimeStepper.hpp"
 #include "NscdInteractionLoop.hpp"
-#include "PorePressureEngine.hpp"
 #include "Threads.hpp"
 #include <chrono>
 #include <contact/problem_file.hpp>
@@ -26,7 +25,7 @@ void ContactDynamicsEngine::action()
 	const int  threads = nscd::threadsOf(*this);
 
 	const Real t0 = clock();
-	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads, loopBefore());
+	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, openGap }, threads, NscdInteractionLoop::before(*this));
 	warmStart       = seam.problem.impulses;
 	stepSolved      = scene->dt;
 	const Real t1         = clock();
@@ -38,26 +37,10 @@ void ContactDynamicsEngine::action()
 		statistics.iterations += before;
 	}
 	const Real t2         = clock();
-	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
+	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
 	account(seam.scatter(*scene, gravity, threads, adapts));
 	report(statistics);
 	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
-}
-
-/// The loop whose readings of this step hold; null where an engine that may have changed bodies or contacts stands between, or where a script may have.
-const NscdInteractionLoop* ContactDynamicsEngine::loopBefore() const
-{
-	if (scene->subStepping) return nullptr;
-	const NscdInteractionLoop* loop = nullptr;
-	for (const auto& engine : scene->engines) {
-		if (engine.get() == this) break;
-		if (const auto* found = dynamic_cast<const NscdInteractionLoop*>(engine.get())) loop = found;
-		else if (!engine->dead && !dynamic_cast<const PorePressureEngine*>(engine.get())) // which only adds forces
-			loop = nullptr;
-	}
-	const bool holds = loop && loop->hasRead(scene->iter) && loop->contactReadings().ids.size() == scene->interactions->size()
-	        && loop->bodyReadings().size() == scene->bodies->size();
-	return holds ? loop : nullptr;
 }
 
 void ContactDynamicsEngine::validate() const

@@ -112,7 +112,6 @@ private:
 	void                                 account(const nscd::StepSums& sums);
 	void                                 recordBreaks();
 	void                                 report(const nonsmooth::contact::SolverStatistics& statistics);
-	const NscdInteractionLoop*           loopBefore() const;
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;

@@ -134,27 +134,27 @@ void ContactSeam::readContacts(Scene& scene)
 /// Puts what was read into the order of (lower id, higher id).
 void ContactSeam::arrange(const Readings& readings, size_t bodies)
 {
+	const auto taken = [&](const ReadIds& ids) {
+		return ids.first >= 0 && (size_t)std::max(ids.first, ids.second) < bodies && present[ids.first] && present[ids.second];
+	};
 	bucket.assign(bodies + 1, 0);
-	found.clear();
-	for (size_t k = 0; k < readings.ids.size(); ++k) {
-		const auto [first, second] = readings.ids[k];
-		if (first < 0) continue;
-		const int low = std::min(first, second), high = std::max(first, second);
-		if ((size_t)high >= bodies || !present[low] || !present[high]) continue;
-		found.push_back({ low, high, int(k), first > second });
-		++bucket[low + 1];
-	}
+	for (const ReadIds& ids : readings.ids)
+		if (taken(ids)) ++bucket[std::min(ids.first, ids.second) + 1];
 	for (size_t k = 0; k < bodies; ++k)
 		bucket[k + 1] += bucket[k];
-	ordered.resize(found.size());
-	for (const Found& f : found)
-		ordered[bucket[f.low]++] = f;
-	// each bucket now ends where the next one began
-	int begin = 0;
-	for (size_t k = 0; k < bodies; ++k) {
-		std::sort(ordered.begin() + begin, ordered.begin() + bucket[k], [](const Found& a, const Found& b) { return a.high < b.high; });
-		begin = bucket[k];
+	ordered.resize(bucket[bodies]);
+	for (size_t k = 0; k < readings.ids.size(); ++k) {
+		const ReadIds& ids = readings.ids[k];
+		if (!taken(ids)) continue;
+		const int low = std::min(ids.first, ids.second), high = std::max(ids.first, ids.second);
+		ordered[bucket[low]++] = { low, high, int(k), ids.first > ids.second };
 	}
+	// each bucket now ends where the next one began
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < (long)bodies; ++k)
+		std::sort(
+		        ordered.begin() + (k > 0 ? bucket[k - 1] : 0), ordered.begin() + bucket[k],
+		        [](const Found& a, const Found& b) { return a.high < b.high; });
 }
 
 /// Puts the contacts that need not be solved for aside, keeping the order of the others.
@@ -281,51 +281,36 @@ void ContactSeam::gatherContact(const Readings& readings, size_t k)
 
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
 {
-	threads          = threadCount;
-	const Real h     = relaxation.step;
-	const long count = (long)links.size();
+	threads                     = threadCount;
+	const Real            h     = relaxation.step;
+	const size_t          count = links.size(), chunksC = (count + sumChunk - 1) / sumChunk, chunksB = (before.size() + sumChunk - 1) / sumChunk;
+	std::vector<StepSums> parts(chunksC + chunksB);
+	std::vector<char>     slip(chunksC, 0);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < count; ++k) {
-		const Contact& c    = problem.contacts[k];
-		const Impulse& p    = problem.impulses[k];
-		if (k + (long)soon < count) fetch<partOfPhysics>(links[k + soon].phys);
-		NscdPhys& phys = *links[k].phys;
-		phys.normal         = p.n / h;
-		phys.tangential     = p.t / h;
-		phys.torque         = p.r / h;
-		const Real sign     = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
-		phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
-		phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
-		phys.yielded        = false;
-		if (!phys.bonded) continue;
-		const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-		constexpr Real close = 1 - 1e-9;
-		if (c.adhesion > 0 && p.n <= -close * c.adhesion && u.n + c.biasN > 0) {
-			phys.yielded = true;
-			phys.yieldPath[0] += std::max(Real(0), h * u.n);
+	for (long part = 0; part < (long)chunksC; ++part) {
+		const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
+		for (size_t k = begin; k < end; ++k) {
+			if (k + soon < count) fetch<partOfPhysics>(links[k + soon].phys);
+			scatterContact(k);
+			slip[part] |= links[k].slips;
 		}
-		if (std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)) phys.yieldPath[1] += std::abs(h * u.t);
-		if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) phys.yieldPath[2] += std::abs(h * u.r) * 0.5 * c.length;
+		// while they are at hand
+		sumContacts(begin, end, parts[part]);
+		if (rates) rateContacts(begin, end, parts[part]);
 	}
 	scatterForces(scene);
 
 	// slip goes into materials that many contacts share, so one after the other
-	for (long k = 0; k < count; ++k) {
-		const Contact& c = problem.contacts[k];
-		if (!links[k].slips || problem.impulses[k].n + c.adhesion <= 0) continue;
-		links[k].phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
-	}
+	for (size_t part = 0; part < chunksC; ++part)
+		for (size_t k = part * sumChunk; slip[part] && k < std::min((part + 1) * sumChunk, count); ++k) {
+			const Contact& c = problem.contacts[k];
+			if (!links[k].slips || problem.impulses[k].n + c.adhesion <= 0) continue;
+			links[k].phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
+		}
 
-	const size_t          chunksC = (links.size() + sumChunk - 1) / sumChunk, chunksB = (before.size() + sumChunk - 1) / sumChunk;
-	std::vector<StepSums> parts(chunksC + chunksB);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (long)parts.size(); ++k) {
-		if ((size_t)k < chunksC) {
-			sumContacts(k * sumChunk, std::min((k + 1) * sumChunk, links.size()), parts[k]);
-			if (rates) rateContacts(k * sumChunk, std::min((k + 1) * sumChunk, links.size()), parts[k]);
-		} else
-			sumBodies(gravity, (k - chunksC) * sumChunk, std::min((k - chunksC + 1) * sumChunk, before.size()), parts[k]);
-	}
+	for (long k = 0; k < (long)chunksB; ++k)
+		sumBodies(gravity, k * sumChunk, std::min((k + 1) * sumChunk, before.size()), parts[chunksC + k]);
 	StepSums total;
 	for (const StepSums& s : parts) {
 		total.sliding += s.sliding;
@@ -353,6 +338,31 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		total.bodies += s.bodies;
 	}
 	return total;
+}
+
+/// Writes a contact's reactions into its interaction, and what a bond has yielded.
+void ContactSeam::scatterContact(size_t k)
+{
+	const Real     h    = relaxation.step;
+	const Contact& c    = problem.contacts[k];
+	const Impulse& p    = problem.impulses[k];
+	NscdPhys&      phys = *links[k].phys;
+	phys.normal         = p.n / h;
+	phys.tangential     = p.t / h;
+	phys.torque         = p.r / h;
+	const Real sign     = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
+	phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
+	phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
+	phys.yielded        = false;
+	if (!phys.bonded) return;
+	const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+	constexpr Real close = 1 - 1e-9;
+	if (c.adhesion > 0 && p.n <= -close * c.adhesion && u.n + c.biasN > 0) {
+		phys.yielded = true;
+		phys.yieldPath[0] += std::max(Real(0), h * u.n);
+	}
+	if (std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)) phys.yieldPath[1] += std::abs(h * u.t);
+	if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) phys.yieldPath[2] += std::abs(h * u.r) * 0.5 * c.length;
 }
 
 /// O.forces gets the sum of the step's contact forces on every body, walls included.

@@ -73,6 +73,7 @@ private:
 	void arrange(const Readings& readings, size_t bodies);
 	void compact();
 	void gatherContact(const Readings& readings, size_t k);
+	void scatterContact(size_t k);
 	void scatterForces(Scene& scene);
 	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
@@ -97,7 +98,7 @@ private:
 	std::vector<int>                       bucket;
 	std::vector<BodyReading>               ownBodies; // made where no loop has made them
 	Readings                               ownContacts;
-	std::vector<Found>                     found, ordered;
+	std::vector<Found>                     ordered;
 	std::vector<Real>                      radius; // of spheres, negative for other shapes
 	std::vector<Real>                      mass, inertia;
 };

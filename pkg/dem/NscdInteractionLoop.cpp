@@ -1,6 +1,7 @@
 #include "NscdInteractionLoop.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "PlanarGridCollider.hpp"
+#include "PorePressureEngine.hpp"
 #include "Prefetch.hpp"
 #include "Threads.hpp"
 #include <core/Scene.hpp>
@@ -72,6 +73,30 @@ namespace {
 	}
 }
 
+const NscdInteractionLoop* NscdInteractionLoop::before(const Engine& engine)
+{
+	const Scene& scene = *engine.scene;
+	if (scene.subStepping) return nullptr;
+	const NscdInteractionLoop* loop = nullptr;
+	for (const auto& other : scene.engines) {
+		if (other.get() == &engine) break;
+		if (const auto* found = dynamic_cast<const NscdInteractionLoop*>(other.get())) loop = found;
+		else if (!other->dead && !dynamic_cast<const PorePressureEngine*>(other.get())) // which only adds forces
+			loop = nullptr;
+	}
+	const bool holds = loop && loop->hasRead(scene.iter) && loop->contactReadings().ids.size() == scene.interactions->size()
+	        && loop->bodyReadings().size() == scene.bodies->size();
+	return holds ? loop : nullptr;
+}
+
+const NscdInteractionLoop* NscdInteractionLoop::ofLastStep(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (const auto* loop = dynamic_cast<const NscdInteractionLoop*>(engine.get()))
+			if (loop->hasRead(scene.iter - 1)) return loop;
+	return nullptr;
+}
+
 void NscdInteractionLoop::action()
 {
 	auto& list = *scene->interactions;
@@ -85,7 +110,10 @@ void NscdInteractionLoop::action()
 	lawDispatcher->updateScenePtr();
 
 	const int threads = nscd::threadsOf(*this);
-	const auto& places  = readBodies();
+	const auto* collider = colliderBefore();
+	if (!collider) nscd::readBodies(*scene, threads, ownBodies);
+	bodies              = collider ? &collider->bodyReadings() : &ownBodies;
+	const auto& places  = *bodies;
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
 	const auto* spheres = exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors);
 	const auto* law     = exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors);
@@ -117,7 +145,8 @@ void NscdInteractionLoop::action()
 				const Real gap  = -geom.penetrationDepth;
 				const bool swap = I->getId1() > I->getId2();
 				if (phys.bonded) law->followBond(phys, gap, swap ? p2 : p1, swap ? p1 : p2);
-				if (law->keeps(phys, gap)) {
+				const bool wanted = !collider || phys.bonded || phys.brokenStep == scene->iter || collider->wants(I->getId1(), I->getId2(), p1.radius + p2.radius + gap);
+				if (wanted && law->keeps(phys, gap)) {
 					phys.updateThresholds(gap, law->adhesionRange);
 					if (I->isActive) {
 						readings.take(k, *I, geom, &phys, scene->iter);
@@ -144,20 +173,15 @@ void NscdInteractionLoop::action()
 	readIn = scene->iter;
 }
 
-/// What the collider has just read, or a reading of its own.
-const std::vector<nscd::BodyReading>& NscdInteractionLoop::readBodies()
+/// The collider whose readings of this step hold; null where another engine may have changed bodies since, or a script.
+const PlanarGridCollider* NscdInteractionLoop::colliderBefore() const
 {
 	const PlanarGridCollider* collider = nullptr;
 	for (const auto& engine : scene->engines) {
 		if (engine.get() == this) break;
 		if (!engine->dead) collider = dynamic_cast<const PlanarGridCollider*>(engine.get());
 	}
-	if (collider && !scene->subStepping && collider->hasRead(scene->iter)) bodies = &collider->bodyReadings();
-	else {
-		nscd::readBodies(*scene, nscd::threadsOf(*this), ownBodies);
-		bodies = &ownBodies;
-	}
-	return *bodies;
+	return collider && !scene->subStepping && collider->hasRead(scene->iter) ? collider : nullptr;
 }
 
 } // namespace yade

@@ -12,9 +12,16 @@
 
 namespace yade {
 
+class PlanarGridCollider;
+
 class NscdInteractionLoop : public InteractionLoop {
 public:
 	void action() override;
+	/// The loop of the engine's scene whose readings hold for `engine` in this step: null where an engine that may have changed bodies or contacts stands
+	/// between the two, or where a script may have.
+	static const NscdInteractionLoop* before(const Engine& engine);
+	/// The loop that visited every interaction in the step before this one; null where another may have been at work.
+	static const NscdInteractionLoop* ofLastStep(const Scene& scene);
 	/// Whether this loop went through the interactions of step `iteration`, and so has readings of them, in the order of their list, and of the bodies.
 	bool                                  hasRead(long iteration) const { return iteration == readIn; }
 	const nscd::Readings&                 contactReadings() const { return readings; }
@@ -31,7 +38,7 @@ contact began. :yref:`ContactDynamicsEngine` takes from it what it has read of b
 boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:
-	const std::vector<nscd::BodyReading>& readBodies();
+	const PlanarGridCollider* colliderBefore() const;
 
 	const std::vector<nscd::BodyReading>*          bodies = nullptr; // own, or those of the collider
 	std::vector<nscd::BodyReading>                 ownBodies;

@@ -4,7 +4,6 @@
 #include <boost/make_shared.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Bo1_Aabb.hpp>
-#include <pkg/common/Sphere.hpp>
 
 namespace yade {
 
@@ -13,28 +12,17 @@ YADE_PLUGIN((PlanarGridCollider));
 namespace {
 	using nonsmooth::neighbours::Box;
 	using nonsmooth::neighbours::Disk;
+	using nonsmooth::neighbours::isNear;
 
-	/// The loop that visited every interaction of the last step and noted which are not real; null where another may have been at work.
-	const NscdInteractionLoop* loopOf(const Scene& scene)
-	{
-		for (const auto& engine : scene.engines)
-			if (const auto* loop = dynamic_cast<const NscdInteractionLoop*>(engine.get()))
-				if (loop->hasRead(scene.iter - 1)) return loop;
-		return nullptr;
-	}
-
-	/// How far a box reaches around a disk that it can touch: Ig2 functors know contacts with a wall up to (factor − 1) times the diameter.
-	Real reachAround(Real factor, Real radius) { return (2 * factor - 1) * radius; }
-
-	bool within(const Box& box, const Disk& d, Real out)
-	{
-		return d.x >= box.xMin - out && d.x <= box.xMax + out && d.y >= box.yMin - out && d.y <= box.yMax + out;
-	}
+	/// How far, in radii, a box reaches around a disk that it can touch: Ig2 functors know contacts with a wall up to (factor − 1) times the diameter.
+	Real reachAround(Real factor) { return 2 * factor - 1; }
 }
 
 void PlanarGridCollider::action()
 {
 	if (scene->isPeriodic) throw std::runtime_error("PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
+	if (!(sureReach >= 0))
+		throw std::runtime_error("PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach) + ": give a gap in units of ℓ that is not negative");
 	if (!std::isfinite(verletDist))
 		throw std::runtime_error("PlanarGridCollider: verletDist = " + boost::lexical_cast<string>(verletDist) + ": give a length [m], or a negative number of smallest radii");
 	threads = nscd::threadsOf(*this);
@@ -45,21 +33,24 @@ void PlanarGridCollider::action()
 	readIn          = scene->iter;
 	const long size = (long)bodies.size();
 	disks.resize(size);
+	velocities.resize(size);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long id = 0; id < size; ++id) {
-		const auto& b = bodies[id];
-		disks[id]     = b.present && b.plain ? Disk { b.pos[0], b.pos[1], b.radius } : Disk { 0, 0, -1 };
+		const auto& b  = bodies[id];
+		disks[id]      = b.present && b.plain ? Disk { b.pos[0], b.pos[1], b.radius } : Disk { 0, 0, -1 };
+		velocities[id] = { b.vx, b.vy };
 	}
 	if (anew) listSides();
 	boundSides();
 
 	// nobody else adds or removes interactions during a step; a script may have, between two
 	const bool                 touched = scene->interactions->size() != sizeLeft;
-	const NscdInteractionLoop* loop    = anew || touched ? nullptr : loopOf(*scene);
+	const NscdInteractionLoop* loop    = anew || touched ? nullptr : NscdInteractionLoop::ofLastStep(*scene);
 	if (loop) eraseUnreal(*loop);
 	else
 		forget();
 	if (anew || moved()) search();
+	findFastest();
 	takeDisks();
 	takeSides();
 	sizeLeft = scene->interactions->size();
@@ -73,11 +64,10 @@ bool PlanarGridCollider::changed()
 		if (const auto* sphere = dynamic_cast<const Bo1_Sphere_Aabb*>(functor.get()))
 			if (sphere->aabbEnlargeFactor > 0) wanted = sphere->aabbEnlargeFactor;
 	auto&      all = *scene->bodies;
-	const bool is  = !begun || wanted != factor || verletDist != verletDistOfLists || reference.size() != all.size() || scene->doSort || scene->interactions->dirty
+	const bool is  = wanted != factor || verletDist != verletDistOfLists || reference.size() != all.size() || scene->doSort || scene->interactions->dirty
 	        || !all.checkedByCollider;
 	factor            = wanted;
 	verletDistOfLists = verletDist;
-	begun             = true;
 	scene->doSort = scene->interactions->dirty = false;
 	if (!all.checkedByCollider) {
 		if (all.enableRedirection) all.updateRealBodies();
@@ -153,38 +143,61 @@ void PlanarGridCollider::eraseIfUnreal(Body::id_t a, Body::id_t b)
 	if (found && !found->isReal()) scene->interactions->erase(a, b, found->linIx);
 }
 
-/// Whether two bodies may have come nearer than the margin since pairs were looked up.
-bool PlanarGridCollider::moved() const
+/// D and D' of all regions.
+void PlanarGridCollider::boundSpeeds()
 {
-	const Real half = 0.5 * margin;
+	regions.differences(threads, velocities, rates);
+	if (listed() < factor) regions.largestAround(rates, widestRates);
+	else
+		widestRates.assign(rates.size(), 0); // all within the reach are wanted, slow or fast
+}
+
+/// Whether pairs may be wanted that are not in the list.
+bool PlanarGridCollider::moved()
+{
 	for (const Side& s : sides)
 		for (const Real d : { s.box.xMin - s.reference.xMin, s.box.yMin - s.reference.yMin, s.box.xMax - s.reference.xMax, s.box.yMax - s.reference.yMax })
-			if (std::abs(d) > half) return true;
-	const long size     = (long)disks.size();
-	Real       farthest = 0;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : farthest)
+			if (!(std::abs(d) <= farPath)) return true;
+	const long size  = (long)disks.size();
+	bool       other = false;
+	paths.resize(size);
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
 	for (long id = 0; id < size; ++id) {
-		const Real x = disks[id].x - reference[id].x, y = disks[id].y - reference[id].y;
-		farthest     = std::max(farthest, disks[id].r != reference[id].r ? std::numeric_limits<Real>::infinity() : x * x + y * y);
+		paths[id] = { disks[id].x - reference[id].x, disks[id].y - reference[id].y };
+		other     = other || disks[id].r != reference[id].r || (regions.of(int(id)) >= 0 && !(std::max(std::abs(paths[id].x), std::abs(paths[id].y)) <= farPath));
 	}
-	return farthest > half * half;
+	if (other) return true;
+	boundSpeeds();
+	regions.differences(threads, paths, spreads);
+	for (int s = 0; s < regions.count(); ++s)
+		if (!(spreads[s] + foresight * scene->dt * widestRates[s] <= allowances[s])) return true;
+	return false;
 }
 
 /// Looks pairs up, and keeps what is known of those that were there before.
 void PlanarGridCollider::search()
 {
 	++searches;
-	if (verletDist < 0) {
-		Real smallest = std::numeric_limits<Real>::infinity();
-		for (const Disk& d : disks)
-			if (d.r > 0) smallest = std::min(smallest, Real(d.r));
-		margin = std::isfinite(smallest) ? -verletDist * smallest : 0;
-	} else
-		margin = verletDist;
-	reference = disks;
 	std::swap(pairs, before);
 	std::swap(known, knownBefore);
-	grid.build(disks, { factor, margin });
+	Real smallest = std::numeric_limits<Real>::max(), largest = 0;
+	for (const Disk& d : disks)
+		if (d.r > 0) {
+			smallest = std::min(smallest, d.r);
+			largest  = std::max(largest, d.r);
+		}
+	const Real farthest = largest > 0 ? 2 * factor * largest : 1;
+	const Real margin   = largest > 0 && verletDist < 0 ? -verletDist * smallest : std::max(Real(0), verletDist);
+	farPath = farthest / 4;
+	regions.build(disks, farthest + 2 * farPath);
+	boundSpeeds();
+	allowances.resize(regions.count());
+	for (int s = 0; s < regions.count(); ++s)
+		allowances[s] = margin + scene->dt * (ahead * rates[s] + foresight * widestRates[s]);
+	for (size_t id = 0; id < disks.size(); ++id)
+		if (regions.of(int(id)) >= 0) disks[id].margin = allowances[regions.of(int(id))];
+	reference = disks;
+	grid.build(disks, listed() * (1 + 1e-8)); // more than rounding takes away
 	grid.pairs(threads, pairs);
 	known.assign(pairs.second.size(), 0);
 	const long size = (long)std::min(disks.size(), before.begin.empty() ? 0 : before.begin.size() - 1);
@@ -206,17 +219,11 @@ void PlanarGridCollider::searchSides()
 	std::vector<SidePair> old;
 	old.swap(sidePairs);
 	std::vector<int> disksNear;
-	// the grid's reach is `factor` times the radius; boxes reach farther by (factor - 1) times the largest
-	Real largest = 0;
-	for (const Disk& d : disks)
-		largest = std::max(largest, Real(d.r));
-	const Real more = (factor - 1) * largest;
 	for (size_t s = 0; s < sides.size(); ++s) {
-		Box& box           = sides[s].box;
-		sides[s].reference = box;
-		grid.near({ box.xMin - more, box.yMin - more, box.xMax + more, box.yMax + more }, disksNear);
+		sides[s].reference = sides[s].box;
+		grid.near(sides[s].box, reachAround(factor), 2 * farPath, disksNear);
 		for (const int disk : disksNear)
-			if (within(box, disks[disk], reachAround(factor, disks[disk].r) + margin)) sidePairs.push_back({ int(s), disk, false });
+			sidePairs.push_back({ int(s), disk, false });
 	}
 	const auto key = [](const SidePair& p) { return std::make_pair(p.side, p.disk); };
 	auto       now = sidePairs.begin();
@@ -229,7 +236,45 @@ void PlanarGridCollider::searchSides()
 	}
 }
 
-/// Gives O.interactions the pairs of disks that have come within reach.
+/// Finds how fast each disk is against those near it, where that decides which pairs are wanted.
+void PlanarGridCollider::findFastest()
+{
+	const long size = (long)disks.size();
+	fastest.assign(size, 0);
+	if (1 + sureReach >= factor) return;
+	fastestOf.resize(threads);
+	for (auto& part : fastestOf) // there may be fewer threads than asked for
+		part.assign(size, 0);
+#pragma omp parallel num_threads(threads)
+	{
+#ifdef YADE_OPENMP
+		auto& part = fastestOf[omp_get_thread_num()];
+#else
+		auto& part = fastestOf[0];
+#endif
+#pragma omp for schedule(static)
+		for (long i = 0; i < size; ++i)
+			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
+				const int  j   = pairs.second[k];
+				const Real far = factor * (disks[i].r + disks[j].r), dx = disks[j].x - disks[i].x, dy = disks[j].y - disks[i].y;
+				const Real apart = dx * dx + dy * dy, x = velocities[j].x - velocities[i].x, y = velocities[j].y - velocities[i].y, square = x * x + y * y;
+				if (square <= std::min(part[i], part[j])) continue;
+				// by itself it must be wanted, so that it does not matter when pairs were looked up
+				const Real wanted = (1 + sureReach) * (disks[i].r + disks[j].r) + foresight * scene->dt * std::sqrt(square);
+				if (apart > far * far || apart > wanted * wanted) continue;
+				part[i] = std::max(part[i], square);
+				part[j] = std::max(part[j], square);
+			}
+#pragma omp for schedule(static)
+		for (long i = 0; i < size; ++i) {
+			for (const auto& p : fastestOf)
+				fastest[i] = std::max(fastest[i], p[i]);
+			fastest[i] = std::sqrt(fastest[i]);
+		}
+	}
+}
+
+/// Gives O.interactions the pairs of disks that have come within reach and are wanted.
 void PlanarGridCollider::takeDisks()
 {
 	near.resize(threads);
@@ -248,11 +293,11 @@ void PlanarGridCollider::takeDisks()
 			const Disk a = disks[i];
 			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
 				const Disk& b = disks[pairs.second[k]];
-				const Real  x = b.x - a.x, y = b.y - a.y, far = factor * (a.r + b.r);
+				const Real  x = b.x - a.x, y = b.y - a.y, far = factor * (a.r + b.r), square = x * x + y * y;
 				// the functor decides, with rounding of its own
-				const bool inReach = x * x + y * y <= far * far * (1 + 1e-9);
+				const bool inReach = square <= far * far * (1 + 1e-9);
 				if (!inReach) known[k] = 0;
-				else if (!known[k])
+				else if (!known[k] && wants(int(i), pairs.second[k], std::sqrt(square)))
 					part.emplace_back(int(i), k);
 			}
 		}
@@ -267,7 +312,8 @@ void PlanarGridCollider::takeDisks()
 void PlanarGridCollider::takeSides()
 {
 	for (SidePair& pair : sidePairs) {
-		if (pair.known || !within(sides[pair.side].box, disks[pair.disk], reachAround(factor, disks[pair.disk].r))) continue;
+		const Disk& d = disks[pair.disk];
+		if (pair.known || !isNear(sides[pair.side].box, d.x, d.y, reachAround(factor) * d.r)) continue;
 		insert(std::min(sides[pair.side].id, pair.disk), std::max(sides[pair.side].id, pair.disk));
 		pair.known = true;
 	}
@@ -284,7 +330,7 @@ vector<Body::id_t> PlanarGridCollider::probeBoundingVolume(const Bound& bound)
 	const Box          box { bound.min[0], bound.min[1], bound.max[0], bound.max[1] };
 	vector<Body::id_t> found;
 	for (size_t id = 0; id < disks.size(); ++id)
-		if (disks[id].r >= 0 && within(box, disks[id], factor * disks[id].r)) found.push_back(Body::id_t(id));
+		if (disks[id].r >= 0 && isNear(box, disks[id].x, disks[id].y, factor * disks[id].r)) found.push_back(Body::id_t(id));
 	for (const Side& s : sides)
 		if (s.box.xMin <= box.xMax && s.box.xMax >= box.xMin && s.box.yMin <= box.yMax && s.box.yMax >= box.yMin) found.push_back(s.id);
 	return found;

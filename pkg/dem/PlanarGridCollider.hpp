@@ -1,13 +1,23 @@
 // YADE's collider for disks in the plane: a grid in the place of sorted bounds.
 //
 // Fast disks leave the boxes of a sorting collider after one or two steps, and every sort then goes through all boxes, all interactions, and all pairs whose
-// boxes have crossed. Here pairs that can meet before anything has moved by half of a margin are looked up in a grid, and from then on only
-// their distances are followed; O.interactions gets a pair when it comes within reach and loses it when it has left, so that it holds contacts and
+// boxes have crossed. Here pairs that can meet before disks near each other have moved by a margin against each other are looked up in a grid, and from then
+// on only their distances are followed; O.interactions gets a pair when it comes within reach and loses it when it has left, so that it holds contacts and
 // no candidates. Which contacts there are is the same, to the last bit, as with a sorting collider and the same reach.
+//
+// The reach has to be what the fastest disks may go in a step, which most never do. With `sureReach` a pair beyond that has an interaction only while one of
+// the two is as fast against a disk near it as the gap asks for: for itself, and for the speed that it may be given within the step.
+//
+// When pairs are looked up anew. With c the factor of the sure reach, D_s the largest difference of velocities in square s and the eight around it (Regions), and
+// D'_s the largest D of these nine, the margin of disks in s is a_s = verletDist + h (ahead D_s + foresight D'_s), and pairs are
+// noted whose distance is below c (r_i + r_j) + min(a_s(i), a_s(j)). With S_s the largest difference of paths since then, a pair that was not noted is now at least
+// c (r_i + r_j) + a_s - S_s apart, and it is not wanted before that is less than c (r_i + r_j) + foresight h D'_s, with today's h and D': so the list holds while
+// S_s + foresight h D'_s <= a_s in all squares. Squares are wide enough that disks which meet have been in neighbouring ones until a disk has gone `farPath`.
 #pragma once
 
 #include "BodyReading.hpp"
 #include <neighbours/disk_grid.hpp>
+#include <neighbours/regions.hpp>
 #include <pkg/common/Collider.hpp>
 
 namespace yade {
@@ -18,12 +28,17 @@ class PlanarGridCollider : public Collider {
 public:
 	void               action() override;
 	vector<Body::id_t> probeBoundingVolume(const Bound& bound) override;
-	void               invalidatePersistentData() override { begun = false; }
+	void               invalidatePersistentData() override { reference.clear(); }
 	/// For InteractionContainer::conditionalyEraseNonReal: none that is not real is kept.
 	bool shouldBeErased(Body::id_t, Body::id_t, Scene*) const { return true; }
 	/// Whether the bodies were read in step `iteration`.
 	bool                                  hasRead(long iteration) const { return iteration == readIn; }
 	const std::vector<nscd::BodyReading>& bodyReadings() const { return bodies; }
+	/// Whether two disks that far apart [m], within the reach, should have an interaction in this step.
+	bool wants(Body::id_t a, Body::id_t b, Real distance) const
+	{
+		return distance <= (1 + sureReach) * (disks[a].r + disks[b].r) + foresight * scene->dt * std::max(fastest[a], fastest[b]);
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PlanarGridCollider,Collider,
 R"""(Collider for disks (:yref:`spheres<Sphere>` in the x-y plane) of any sizes, with bodies of other shapes among them: the place and the list of functors of an
@@ -31,7 +46,8 @@ R"""(Collider for disks (:yref:`spheres<Sphere>` in the x-y plane) of any sizes,
 in sums of radii, within which two disks have an interaction: give it the value of :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`. A pair of disks is in
 O.interactions while it is within that reach, or as long as its contact lives; potential interactions exist only with bodies that are no spheres, near their
 bounding boxes. Disks get no :yref:`Body.bound`. Pairs of bodies that are no spheres are not looked for. Periodic scenes are refused.)""",
-		((Real,verletDist,-0.7,,"Margin [m] by which pairs are looked up beyond their reach; negative: in smallest radii. It changes the speed alone: more pairs to follow against fewer searches."))
+		((Real,verletDist,-0.7,,"Margin [m] by which pairs are looked up beyond their reach and what they may go in a few steps; negative: in smallest radii. It changes the speed alone: more pairs to follow against fewer searches."))
+		((Real,sureReach,std::numeric_limits<Real>::max(),,"Gap [ℓ] up to which disks always have an interaction; beyond it, within the reach, only while one of them is so fast against a disk near it that it may come as near in two steps. Not below bondCreationDistance and :yref:`ContactDynamicsEngine.openGap`. By default all within the reach have one."))
 		((long,searches,0,(Attr::readonly|Attr::noSave),"Number of searches so far."))
 		((int,candidates,0,(Attr::readonly|Attr::noSave),"Pairs whose distance is followed."))
 	);
@@ -53,26 +69,37 @@ private:
 	void      boundSides();
 	void      forget();
 	void      eraseUnreal(const NscdInteractionLoop& loop);
-	bool      moved() const;
+	bool      moved();
+	Real      listed() const { return std::min(factor, 1 + sureReach); }
 	void      search();
 	void      searchSides();
+	void      boundSpeeds();
+	void      findFastest();
 	void      takeDisks();
 	void      takeSides();
 	void      insert(Body::id_t a, Body::id_t b);
 	void      eraseIfUnreal(Body::id_t a, Body::id_t b);
 	SidePair* sidePairOf(Body::id_t a, Body::id_t b);
 
+	static constexpr Real foresight = 2; // steps in which a pair beyond the sure reach may come to be within it
+	static constexpr Real ahead     = 4; // steps for which pairs are looked up, as fast as they are then
+
 	int                                       threads = 1;
-	bool                                      begun   = false;
 	size_t                                    sizeLeft = 0; // of O.interactions at the end of the last run
-	Real                                      factor = 1, margin = 0; // reach of disks in sums of radii; of the search beyond it [m]
+	Real                                      factor = 1; // reach of disks in sums of radii
 	Real                                      verletDistOfLists = 0; // the attribute as it was when they were made
 	std::vector<nscd::BodyReading>            bodies;
 	long                                      readIn = -1; // step
-	std::vector<nonsmooth::neighbours::Disk>  disks, reference; // by body, now and when pairs were looked up
+	std::vector<nonsmooth::neighbours::Disk>  disks, reference; // by body, now and when pairs were looked up; none where that must be done anew
 	nonsmooth::neighbours::DiskGrid           grid;
 	nonsmooth::neighbours::Pairs              pairs, before;
 	std::vector<char>                         known, knownBefore; // by pair: it is in O.interactions, or may not be
+	std::vector<Real>                         fastest; // by body: largest speed of a disk against those near it [m/s]
+	std::vector<std::vector<Real>>            fastestOf; // the same of the pairs of each thread
+	std::vector<nonsmooth::neighbours::Vector> velocities, paths; // by body, paths since pairs were looked up
+	nonsmooth::neighbours::Regions            regions;
+	std::vector<Real>                         rates, widestRates, spreads, allowances; // D, D', S, a by region
+	Real                                      farPath = 0; // of a disk or a box, in any direction
 	std::vector<Side>                         sides;
 	std::vector<SidePair>                     sidePairs; // by side, then disk
 	std::vector<std::vector<std::pair<int, int>>> near; // by thread: pairs that came within reach, the lower body and the pair

@@ -1,9 +1,9 @@
 #include "PorePressureEngine.hpp"
 #include "Gravity.hpp"
-#include "Prefetch.hpp"
+#include "NscdInteractionLoop.hpp"
+#include "Threads.hpp"
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
-#include <pkg/common/Sphere.hpp>
 
 namespace yade {
 
@@ -36,30 +36,21 @@ void PorePressureEngine::action()
 	releasedCount           = 0;
 	totalForce              = Vector3r::Zero();
 
-	const size_t size = scene->bodies->size();
+	const NscdInteractionLoop* loop = NscdInteractionLoop::before(*this);
+	if (!loop) nscd::readBodies(*scene, nscd::threadsOf(*this), ownReadings);
+	const auto&  bodies = loop ? loop->bodyReadings() : ownReadings;
+	const size_t size   = bodies.size();
 	released.resize(size, 0);
 	wet.assign(size, 0);
-	for (size_t id = reference.size(); id < size; ++id) {
-		const auto& body = (*scene->bodies)[id];
-		reference.push_back(body ? body->state->pos : Vector3r(Vector3r::Zero()));
-	}
-	const auto& bodies = *scene->bodies;
+	for (size_t id = reference.size(); id < size; ++id)
+		reference.push_back(bodies[id].present ? bodies[id].pos : Vector3r(Vector3r::Zero()));
 	for (size_t id = 0; id < size; ++id) {
-		if (id + nscd::later < size) nscd::fetch<sizeof(Body)>(bodies[id + nscd::later].get());
-		if (id + nscd::soon < size && bodies[id + nscd::soon]) {
-			nscd::fetch<64>(bodies[id + nscd::soon]->state.get());
-			nscd::fetch<sizeof(Sphere)>(bodies[id + nscd::soon]->shape.get());
-		}
-		const auto& body = bodies[id];
-		if (!body || !body->isDynamic() || (mask != 0 && !body->maskOk(mask))) continue;
-		const Shape* shape = body->shape.get();
-		if (!shape || (typeid(*shape) != typeid(Sphere) && !dynamic_cast<const Sphere*>(shape))) continue;
-		const auto* sphere = static_cast<const Sphere*>(shape);
-		const Vector3r& pos = body->state->pos;
-		if (!released[id] && (pos - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
+		const auto& b = bodies[id];
+		if (!b.present || b.blocked == State::DOF_ALL || b.radius < 0 || (mask != 0 && !(*scene->bodies)[id]->maskOk(mask))) continue;
+		if (!released[id] && (b.pos - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
 		releasedCount += released[id];
-		if (released[id] || height <= 0 || (pos - planePoint).dot(normal) >= height) continue;
-		const Vector3r force = slope * (volumeFactor * Mathr::PI * sphere->radius * sphere->radius * thickness);
+		if (released[id] || height <= 0 || (b.pos - planePoint).dot(normal) >= height) continue;
+		const Vector3r force = slope * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
 		scene->forces.addForce(id, force);
 		wet[id] = 1;
 		++wetCount;

@@ -96,22 +96,24 @@ def segments(vertices, material, piece=None, sense=0, closed=False):
     return bodies
 
 
-def engines(gravity=(0, -9.81, 0), reach=0.05, verlet=0.1, before=(), after=(), label="contactDynamics", **options):
+def engines(gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=0.1, before=(), after=(), label="contactDynamics", **options):
     """The list O.engines of a Contact Dynamics simulation.
 
-    ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``verlet``: the collider's margin
-    [m] (negative: in smallest radii); ``before``: engines that add forces, e.g. PorePressureEngine; ``after``: engines after
-    the integrator; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
+    ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``far``: the same for disks that are fast
+    enough to come so near in two steps, where that is more; ``verlet``: the collider's margin [m] (negative: in smallest radii); ``before``:
+    engines that add forces, e.g. PorePressureEngine; ``after``: engines after the integrator; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
     """
     solver = ContactDynamicsEngine(label=label, **options)
+    far = max(reach, far or 0)
+    sure = {"sureReach": reach} if far > reach else {}
     return [
         ForceResetter(),
-        PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + reach), Bo1_Segment_Aabb()], verletDist=verlet),
+        PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + far), Bo1_Segment_Aabb()], verletDist=verlet, **sure),
         NscdInteractionLoop(
-            [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + reach),
-             Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + reach)],
+            [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + far),
+             Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + far)],
             [Ip2_NscdMat_NscdMat_NscdPhys()],
-            [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=reach)]),
+            [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=far)]),
         *before,
         solver,
         PlanarNewtonIntegrator(damping=0, gravity=gravity),

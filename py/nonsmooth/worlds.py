@@ -28,13 +28,14 @@ class Hard:
     """Contact Dynamics.
 
     ``time_step`` [s]; ``tolerance``: of the solver's residual, relative; ``reach``: gap up to which contacts are known beforehand, in
-    mean diameters; ``verlet``: the collider's margin [m], negative: in smallest radii; ``options``: further attributes of
-    ContactDynamicsEngine.
+    mean diameters; ``far``: the same for disks that are fast enough, None: not more; ``verlet``: the collider's margin [m], negative: in
+    smallest radii; ``options``: further attributes of ContactDynamicsEngine.
     """
 
     time_step: float
     tolerance: float = 1e-5
     reach: float = 0.05
+    far: float | None = None
     verlet: float = -0.6
     options: dict = field(default_factory=dict)
     name = "hard"
@@ -53,7 +54,8 @@ class Hard:
 
     def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
         """The list O.engines; ``before``: engines that add forces, ``after``: engines after the integrator."""
-        return scene.engines(gravity=gravity, reach=self.reach, verlet=self.verlet, before=before, after=after, tolerance=self.tolerance, **self.options)
+        return scene.engines(
+            gravity=gravity, reach=self.reach, far=self.far, verlet=self.verlet, before=before, after=after, tolerance=self.tolerance, **self.options)
 
     def bond(self, groups=()):
         """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step without gravity, which finds the contacts: call it

@@ -5,7 +5,7 @@ import random
 import pytest
 from yade import O
 from yade.nonsmooth import scene
-from yade.wrapper import Box, Body, Bo1_Box_Aabb, Bo1_Sphere_Aabb, Collider, InsertionSortCollider, InteractionLoop, PlanarGridCollider, Sphere
+from yade.wrapper import Box, Body, Bo1_Box_Aabb, Bo1_Sphere_Aabb, Collider, Ig2_Box_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, PlanarGridCollider, Sphere
 
 from contact_scenes import begin, bits, box, engine, loose_heap, material, run
 
@@ -23,7 +23,7 @@ def collider():
     return next(e for e in O.engines if isinstance(e, Collider))
 
 
-def gas(count=150, side=30.0, speed=40.0, seed=3):
+def gas(count=150, side=30.0, speed=40.0, seed=3, far=None):
     """Disks of sizes one to ten that fly about in a box, by up to their own size a step; returns their ids."""
     dice = random.Random(seed)
     stuff = material(0.3, restitution=1.0)
@@ -36,7 +36,7 @@ def gas(count=150, side=30.0, speed=40.0, seed=3):
             ids.append(O.bodies.append(scene.disk((x, y), r, stuff)))
             turn = dice.uniform(0, 2 * math.pi)
             O.bodies[ids[-1]].state.vel = (speed * math.cos(turn), speed * math.sin(turn), 0)
-    begin(gravity=(0, 0, 0), dt=5e-3, reach=REACH, verlet=0.3, tolerance=1e-6, maxIterations=2000)
+    begin(gravity=(0, 0, 0), dt=5e-3, reach=REACH, far=far, verlet=0.3, tolerance=1e-6, maxIterations=2000)
     return ids
 
 
@@ -44,6 +44,21 @@ def near(ids):
     """Pairs of disks within reach, by brute force."""
     rows = [(i, O.bodies[i].state.pos[0], O.bodies[i].state.pos[1], O.bodies[i].shape.radius) for i in ids]
     return {(i, j) for k, (i, x, y, r) in enumerate(rows) for j, u, v, s in rows[k + 1:] if math.hypot(x - u, y - v) <= (1 + REACH) * (r + s)}
+
+
+def near_or_fast(ids, far):
+    """Pairs of disks within ``far`` that are within reach, or may be in two steps by the speed of one of them against a disk that it may meet so soon."""
+    rows = [(i, *tuple(O.bodies[i].state.pos)[:2], O.bodies[i].shape.radius, *tuple(O.bodies[i].state.vel)[:2]) for i in ids]
+    fastest, gaps = dict.fromkeys(ids, 0.0), {}
+    for k, (i, x, y, r, vx, vy) in enumerate(rows):
+        for j, u, v, s, wx, wy in rows[k + 1:]:
+            gap = math.hypot(x - u, y - v) - (r + s)
+            if gap > far * (r + s):
+                continue
+            gaps[i, j], speed = (gap, r + s), math.hypot(vx - wx, vy - wy)
+            for one in (i, j) if gap <= REACH * (r + s) + 2 * O.dt * speed else ():
+                fastest[one] = max(fastest[one], speed)
+    return {(i, j) for (i, j), (gap, length) in gaps.items() if gap <= REACH * length + 2 * O.dt * max(fastest[i], fastest[j])}
 
 
 def disk_pairs(real=True):
@@ -67,6 +82,46 @@ def test_disks_have_the_contacts_that_brute_force_finds():
         assert disk_pairs() == expected
         seen |= expected
     assert len(seen) > 300 and 20 < collider().searches < 151  # contacts came and went; and pairs were kept over some steps
+
+
+def test_far_disks_have_contacts_while_they_are_fast():
+    far, seen = 1.5, set()
+    ids = gas(far=far)
+    for _ in range(100):
+        expected, close = near_or_fast(ids, far), near(ids)
+        O.step()
+        assert disk_pairs() == expected
+        seen |= expected - close
+    assert len(seen) > 100
+    for i in ids:
+        O.bodies[i].state.vel = (0, 0, 0)
+    expected = step(ids)  # the slow have those within reach alone
+    assert disk_pairs() == expected
+
+
+@pytest.mark.parametrize("speed", [5.0, 40.0])
+def test_leaving_far_slow_disks_out_changes_no_bit(speed):
+    found = []
+    for sure in (REACH, 1.5):
+        O.reset()
+        gas(far=1.5, speed=speed)
+        collider().sureReach = sure
+        run(150)
+        found.append((engine().bodyTable(), len(O.interactions)))
+    assert found[0][0] == found[1][0]
+    assert found[0][1] < found[1][1]
+
+
+def test_a_disk_that_is_hit_meets_the_next_one_in_the_same_step():
+    stuff = material(0.3, restitution=1.0)
+    for x, v in ((0, 60.0), (1.1, 0), (2.3, 0)):
+        O.bodies.append(scene.disk((x, 0), 0.5, stuff))
+        O.bodies[-1].state.vel = (v, 0, 0)
+    begin(gravity=(0, 0, 0), dt=5e-3, reach=REACH, far=0.6)
+    O.step()  # 0.3 m are enough to hit the second, whose gap to the third is 0.2 m
+    assert disk_pairs() == {(0, 1), (1, 2)}
+    run(5)
+    assert engine().overlapWorst < 1e-6
 
 
 def test_bodies_that_vanish_and_appear_are_noticed():
@@ -155,18 +210,18 @@ def test_every_pair_of_colliders_and_loops_has_the_same_bits(scene_of):
 
 def test_the_margin_changes_no_bit():
     found = []
-    for margin in (0.0, 0.05, 3.0, -1.0):
+    for margin in (0.0, 0.5, 3.0, -1.0):
         O.reset()
-        gas(count=100)
+        gas(count=100, speed=8.0)  # slow enough that the margin decides when pairs are looked up
         collider().verletDist = margin
         run(120)
         found.append((bits(), collider().searches))
     assert len({b for b, _ in found}) == 1
-    assert found[0][1] == 120 and found[2][1] < found[1][1] <= 120
+    assert 5 < found[2][1] < found[1][1] < found[0][1] < 120
 
 
 def test_a_loaded_scene_goes_on_with_the_same_bits(tmp_path):
-    gas(count=100)
+    gas(count=100, far=1.5)
     run(60)
     O.save(str(tmp_path / "gas.yade.gz"))
     run(60)
@@ -186,7 +241,6 @@ def test_moving_bodies_of_other_shapes_keep_their_contacts():
     plate.state.vel = (5, 0, 0)  # passes over disks that rest
     ids = [O.bodies.append(scene.disk((3 + 1.2 * k, 0.99), 0.5, stuff)) for k in range(4)]
     begin(gravity=(0, 0, 0), dt=5e-3)
-    from yade.wrapper import Ig2_Box_Sphere_ScGeom
     O.engines = [PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05) if isinstance(e, Collider) else e for e in O.engines]
     loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
     loop.geomDispatcher.functors = list(loop.geomDispatcher.functors) + [Ig2_Box_Sphere_ScGeom()]
@@ -199,7 +253,8 @@ def test_moving_bodies_of_other_shapes_keep_their_contacts():
 
 
 @pytest.mark.parametrize("spoil, words", [(lambda: setattr(O, "periodic", True), ("periodic", "InsertionSortCollider")),
-                                          (lambda: setattr(collider(), "verletDist", math.nan), ("verletDist", "nan"))])
+                                          (lambda: setattr(collider(), "verletDist", math.nan), ("verletDist", "nan")),
+                                          (lambda: setattr(collider(), "sureReach", -0.1), ("sureReach", "-0.1", "not negative"))])
 def test_refuses_what_it_cannot_do(spoil, words):
     O.bodies.append(scene.disk((0, 0), 0.5, material()))
     begin(gravity=(0, 0, 0))
