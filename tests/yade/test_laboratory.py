@@ -295,7 +295,7 @@ def test_a_refusal_in_another_process_is_one_message(tmp_path):
 
 def test_a_rock_without_bonds_is_tested_without_bonds(tmp_path):
     loose = dataclasses.replace(SMALL.material, bonded=False)
-    pressing.prepare(SMALL.shape, tmp_path)
+    pressing.prepare(SMALL.shape, tmp_path / "pressing")
     course = sample.Sample.build(SMALL.shape, loose, dataclasses.replace(SMALL, material=loose).platen, 1e6, tolerance=1e-4, maxIterations=1000)
     assert course.bonds == 0 and course.engine.bonds == 0 and course.engine.contacts > 100
 

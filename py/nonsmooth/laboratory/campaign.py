@@ -68,8 +68,6 @@ def _press(shapes, home, threads, progress):
         failures = [str(error) for f in futures if (error := f.exception())]
     if failures:
         raise CampaignError(f"a sample could not be made: {failures[0]}")
-    for folder in folders:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def measure(test, folder):

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import shutil
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -105,7 +106,8 @@ def load(shape):
 
 
 def prepare(shape, folder):
-    """Makes the pressed sample of a shape in a process of its own, unless it is in the cache. ``folder``: for that process's files.
+    """Makes the pressed sample of a shape in a process of its own, unless it is in the cache. ``folder``: of that process's files alone; it
+    is left only by a failure.
 
     Raises processes.RunError where it fails.
     """
@@ -113,6 +115,7 @@ def prepare(shape, folder):
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
         processes.call(make, folder, asdict(shape))
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def make(folder, **plain):
