@@ -42,7 +42,7 @@ def write_atomically(path, content: bytes) -> None:
                            "give a folder that can be written and has room") from None
 
 
-def write_arrays(path, compressed=False, **arrays) -> None:
+def write_arrays(path, /, compressed=False, **arrays) -> None:
     """Writes arrays as .npz, see write_atomically; ``compressed``: smaller, and slower to write. Raises WriteError."""
     content = io.BytesIO()
     (np.savez_compressed if compressed else np.savez)(content, **arrays)

@@ -54,6 +54,12 @@ def test_quick_check_holds(name, quick_run):
     assert result.claims and not failed, "\n".join(failed)
 
 
+def test_strength_of_a_bonded_sample_converges(tmp_path):
+    result, = runner.run_checks([ALL["strength-convergence"]], tmp_path, quick=True)
+    assert not result.error
+    assert len(result.claims) == 6 and all(c.passed for c in result.claims), [c.what for c in result.claims if not c.passed]
+
+
 @pytest.mark.parametrize("name", [c.name for c in ALL.values() if module_of(c) in OURS])
 def test_derivation_is_sound_markup(name):
     docutils.core.publish_parts(ALL[name].derivation, writer_name="html5", settings_overrides={"halt_level": 2, "report_level": 2})
