@@ -91,7 +91,7 @@ def main():
         return
     state = {**dataclasses.asdict(run.state), "overlap_worst_ever": run.slope.solver.overlapWorstEver}
     summary = results.summarise(out, s, state, threads=args.threads or os.cpu_count())
-    made, notes = results.draw(out, s, summary, O.dt)
+    made, notes = results.draw(out, s, summary)
     for note in notes:
         print(note)
     print(f"\n{'finished' if summary['finished'] else 'stopped (go on with --resume)'} at {O.time:.1f} s of simulated time, "

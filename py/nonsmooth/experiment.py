@@ -11,6 +11,8 @@ Everything that decides the course stands in :class:`State`, which goes into che
   table then goes on rising;
 * still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of ``tolerance``, since
   nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a bond or two that bear all they can;
+* a step is ``numerics.time_step``, or as short as the speeds of contacts want it (NonsmoothTimeStepper, where the section gives a ``path``);
+* rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their distance in time;
 * with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the integrator's damping (``damping_moving``);
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
@@ -35,7 +37,7 @@ from .figures.profiles import front_of
 __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 
 ROW_SECONDS = 0.1        # between two rows of series.csv
-FRAME_SECONDS = 0.5      # between two snapshots, for the video and the figures
+FRAME_ROWS = 5           # between two snapshots, for the video and the figures
 CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
 CHECKPOINT_SHARE = 0.02  # ... and so many that they take this part of it at most
 MOVING_SPEED = 0.2       # m/s, see above
@@ -97,8 +99,6 @@ class Experiment:
         self.progress = progress or (lambda *_: None)
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
-        self.row_steps = max(1, round(ROW_SECONDS / O.dt))
-        self.frame_steps = self.row_steps * max(1, round(FRAME_SECONDS / ROW_SECONDS))
         self.series = records.SeriesWriter(
             self.folder / "series.csv", self.columns, resume_from_step=O.iter if state else None, overwrite=state is None)
         self._clock = time.monotonic()
@@ -112,14 +112,15 @@ class Experiment:
     def run(self, end=None):
         """Runs until the experiment is over, or until ``end`` [s] of simulated time."""
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
-            # to the next multiple of row_steps, so that rows fall on the same steps after a resume
-            steps, began = self.row_steps - O.iter % self.row_steps, time.perf_counter()
-            for _ in range(steps):
+            # to a multiple of ROW_SECONDS, so that rows fall on the same steps after a resume
+            row = math.floor((O.time + 0.5 * O.dt) / ROW_SECONDS) + 1
+            first, began = O.iter, time.perf_counter()
+            while O.time < row * ROW_SECONDS - 0.5 * O.dt:
                 if self.state.stage == "settle":
                     self.newton.gravity = self._gravity(O.time)
                 O.step()
-            self._count(steps, time.perf_counter() - began)
-            self._advance()
+            self._count(O.iter - first, time.perf_counter() - began)
+            self._advance(row)
         self.checkpoint()
         self.series.close()
 
@@ -130,7 +131,7 @@ class Experiment:
             s.wall_moving_s += seconds
             s.steps_moving += steps
 
-    def _advance(self):
+    def _advance(self, row):
         solver, s = self.slope.solver, self.state
         disks = tables.bodies(solver)
         self._inside(disks)
@@ -138,7 +139,7 @@ class Experiment:
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
         if s.stage != "settle":
             self.series.write(self._row(disks))
-            if O.iter % self.frame_steps == 0:
+            if row % FRAME_ROWS == 0:
                 self.snapshot(self.folder / "snapshots" / f"{O.iter:08d}.npz")
                 s.frames += 1
         getattr(self, f"_{s.stage}")()

@@ -122,7 +122,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     summary = {
         "section": section.name, "finished": finished, "disks": int(len(start.x)) if start is not None else None,
         "contacts_initial": state["contacts_initial"], "bonds_initial": state["bonds_initial"],
-        "packing_fraction": state["packing_fraction"], "time_step_s": section.numerics.time_step,
+        "packing_fraction": state["packing_fraction"], "time_step_s": section.numerics.time_step, "path_rel": section.numerics.path,
         "steps": int(series["step"][-1] - state["first_step"]), "simulated_s": last - (state["settled"] or 0.0),
         "wall_s": state["wall_s"], "wall_packing_s": state["wall_packing_s"], "threads": threads,
         "iterations_mean": float(np.mean(series["iterations"])),
@@ -162,15 +162,16 @@ def _nearest(frames, time):
     return min(frames, key=lambda item: abs(item[0] - time))[1]
 
 
-def draw(folder, section, summary, time_step, progress=None) -> tuple[list[Path], list[str]]:
+def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
     """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
     folder = Path(folder)
     series = records.read_series(folder / "series.csv")
     times = summary["times_s"]
     made, notes = [], []
-    # files of steps beyond the series are left from before a resume
-    files = [p for p in sorted((folder / "snapshots").glob("*.npz")) if int(p.stem) <= int(series["step"][-1])]
-    frames = [(int(p.stem) * time_step, p) for p in files]
+    time_of = dict(zip(series["step"].astype(int).tolist(), series["time_s"].tolist()))
+    # files of steps that the series has not are left from before a resume
+    frames = [(time_of[int(p.stem)], p) for p in sorted((folder / "snapshots").glob("*.npz")) if int(p.stem) in time_of]
+    files = [p for _, p in frames]
     start, end = folder / "t0.npz", folder / "end.npz"
     if start.exists():
         first = records.read_snapshot(start)

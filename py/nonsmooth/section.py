@@ -208,13 +208,16 @@ class Stages:
 
 @dataclass(frozen=True)
 class Numerics:
-    """`time_step` [s], relative `tolerance`, and `tolerance_moving` while the slope moves, `max_iterations` a step, `verlet_distance` in smallest radii."""
+    """`time_step` [s], at most so long that disks in contact go the `path` against each other in mean diameters (None: always as long); relative
+    `tolerance`, and `tolerance_moving` while the slope moves, `max_iterations` a step, `verlet_distance` in smallest radii.
+    """
 
     time_step: float
     tolerance: float
     tolerance_moving: float
     max_iterations: int
     verlet_distance: float
+    path: float | None = None
 
 
 @dataclass(frozen=True)

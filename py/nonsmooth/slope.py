@@ -9,7 +9,7 @@ import numpy as np
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import PorePressureEngine
+from yade.wrapper import NonsmoothTimeStepper, PorePressureEngine
 
 from . import scene, worlds
 from .soft.measures import Measures
@@ -20,6 +20,9 @@ __all__ = ["Slope", "build", "find", "hard", "order_of"]
 PIECE = 8.0
 # Contacts are known early enough for disks that approach each other at this speed [m/s]; the fastest of the paper's slope reach 50 m/s.
 FASTEST_APPROACH = 60.0
+REACH = 0.05  # gap [ℓ] up to which they are known in any case
+SHORTEST_STEP = 0.1  # of a section's time step, however fast its disks are
+STEP_GROWTH = 1.2    # one bond that is torn apart shortens a step, and should not shorten the next dozen
 
 
 @dataclass
@@ -74,9 +77,9 @@ def _walls(section, world):
 def hard(section) -> worlds.Hard:
     """The world of rigid disks with the section's numerics."""
     n = section.numerics
-    # bonds are made where contacts are known, so these must reach further than Δ; and a disk must be known a step before it hits another
-    reach = max(FASTEST_APPROACH * n.time_step / section.disks.d_min, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
-    return worlds.Hard(n.time_step, n.tolerance, reach, -n.verlet_distance, {"maxIterations": n.max_iterations})
+    # bonds are made where contacts are known, so these must reach further than Δ
+    reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
+    return worlds.Hard(n.time_step, n.tolerance, reach, FASTEST_APPROACH * n.time_step / section.disks.d_min, -n.verlet_distance, {"maxIterations": n.max_iterations})
 
 
 def order_of(section, packing) -> np.ndarray:
@@ -104,6 +107,10 @@ def build(section, packing, world=None) -> Slope:
             label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*section.normal, 0),
             gradient=Vector3(*w.gradient, 0), releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
     O.engines = world.engines(gravity=(0, -section.gravity, 0), before=before)
+    n = section.numerics
+    if world.name == "hard" and n.path:
+        O.engines = [NonsmoothTimeStepper(label="timeStepper", smallest=SHORTEST_STEP * n.time_step, largest=n.time_step, path=n.path,
+                                          growth=STEP_GROWTH), *O.engines]
     O.dt = world.step_for(rocks)
     built = find(section, walls, ids[0], len(ids))
     if world.name == "soft":

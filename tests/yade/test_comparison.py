@@ -19,7 +19,7 @@ from yade.nonsmooth.comparison.outcomes import Cost, Outcome
 SHIPPED = Path(slopes.section.__file__).parent / "sections" / "jiufengershan.yaml"
 # The shipped section with short stages and a looser solve, so that a run takes seconds.
 QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 1.2",
-         "dry: 3.0": "dry: 0.3", "tolerance: 2e-6": "tolerance: 1e-3", "max_iterations: 300": "max_iterations: 40"}
+         "dry: 3.0": "dry: 0.3", "tolerance: 1e-6": "tolerance: 1e-3", "max_iterations: 300": "max_iterations: 40"}
 
 
 # ---- deposits -------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ import subprocess
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -19,7 +20,7 @@ END = "3"       # s: gravity's ramp, the dry rest, and some of the water's rise
 
 # The shipped section with short stages and a looser solve, so that a run takes seconds.
 QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 1.5",
-         "dry: 3.0": "dry: 0.5", "tolerance: 2e-6": "tolerance: 1e-4", "max_iterations: 300": "max_iterations: 60"}
+         "dry: 3.0": "dry: 0.5", "tolerance: 1e-6": "tolerance: 1e-4", "max_iterations: 300": "max_iterations: 60"}
 
 
 @pytest.fixture(scope="module")
@@ -150,6 +151,23 @@ def test_a_slope_that_stands_still_is_solved_more_tightly(section, tmp_path):
     run(section, tmp_path / "wet", end="7.5")
     wet = records.read_series(tmp_path / "wet" / "series.csv")
     assert (wet["tolerance"] >= 1e-4).all()
+
+
+def test_fast_disks_shorten_steps_and_rows_keep_their_distance(section, tmp_path):
+    from yade.nonsmooth import records
+
+    short = tmp_path / "short.yaml"
+    short.write_text(section.read_text().replace("path: 0.1 ", "path: 1e-4 "))
+    run(short, tmp_path / "whole")
+    series = records.read_series(tmp_path / "whole" / "series.csv")
+    steps_a_second = np.diff(series["step"]) / np.diff(series["time_s"])
+    assert steps_a_second.min() > 99 and steps_a_second.max() > 120  # 100 with the section's longest step of 10 ms
+    tenths = series["time_s"] / 0.1
+    assert np.abs(tenths - np.round(tenths)).max() <= 0.5 * 1e-2 / 0.1 + 1e-6  # half a step
+    assert len(set(np.round(tenths))) == len(tenths)
+    run(short, tmp_path / "broken", end="1.8")
+    run(short, tmp_path / "broken", "--resume")
+    assert (tmp_path / "broken" / "series.csv").read_bytes() == (tmp_path / "whole" / "series.csv").read_bytes()
 
 
 def test_bonds_can_be_made_after_gravity_has_grown(section, unbroken, tmp_path):

@@ -155,6 +155,12 @@ def test_numbers_as_in_yaml_1_2_and_water_variants(tmp_path):
     assert s.water.height(np.array([-1.0, 5.0, 99.0])).tolist() == [1.0, 3.5, 6.0]
 
 
+def test_without_a_path_all_steps_are_as_long(section, tmp_path):
+    path = tmp_path / "s.yaml"
+    path.write_text(changed(numerics__path=None))
+    assert load(path).numerics.path is None and section.numerics.path > 0
+
+
 def test_dry_section(tmp_path):
     path = tmp_path / "s.yaml"
     path.write_text(changed(water=None, stages__water=None))
@@ -193,6 +199,7 @@ BAD = {
     "bent plane": (dict(water__plane="SS"), "SS is not straight", "straight wall"),
     "rate and points": (dict(water__table={"rate": 1.0, "points": [[0, 0]]}), "water.table: has 2 entries", "either"),
     "times falling": (dict(water__table={"points": [[0, 0], [5, 1], [4, 2]]}), "water.table.points[2]", "rising order"),
+    "no path": (dict(numerics__path=0.0), "numerics.path: 0.0", "left out, all steps are as long"),
     "hold": (dict(stages__water={"hold": "maybe"}), "stages.water.hold: 'maybe'", "motion, never"),
 }
 

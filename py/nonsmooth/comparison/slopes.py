@@ -49,7 +49,7 @@ def section_of(case: Case):
     s = section.load(case.source).with_disks(case.disks)
     n, stages = s.numerics, s.stages
     if case.world == "hard":
-        n = dataclasses.replace(n, time_step=n.time_step * case.step, tolerance=n.tolerance * case.tolerance,
+        n = dataclasses.replace(n, time_step=n.time_step * case.step, path=n.path and n.path * case.step, tolerance=n.tolerance * case.tolerance,
                                 tolerance_moving=n.tolerance_moving * case.tolerance)
     if case.options.get("end") is not None:
         stages = dataclasses.replace(stages, end=dataclasses.replace(stages.end, time=case.options["end"]))
