@@ -81,7 +81,7 @@ class State:
     wall_packing_s: float = 0.0
     wall_steps_s: float = 0.0  # of wall_s: steps alone, without records ...
     wall_moving_s: float = 0.0  # ... and of these, the ones of the water stage
-    steps_moving: int = 0
+    moving_s: float = 0.0  # ... and how much they simulated
     first_step: int = 0
 
 
@@ -114,22 +114,22 @@ class Experiment:
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
             # to a multiple of ROW_SECONDS, so that rows fall on the same steps after a resume
             row = math.floor((O.time + 0.5 * O.dt) / ROW_SECONDS) + 1
-            first, began = O.iter, time.perf_counter()
+            first, began = O.time, time.perf_counter()
             while O.time < row * ROW_SECONDS - 0.5 * O.dt:
                 if self.state.stage == "settle":
                     self.newton.gravity = self._gravity(O.time)
                 O.step()
-            self._count(O.iter - first, time.perf_counter() - began)
+            self._count(O.time - first, time.perf_counter() - began)
             self._advance(row)
         self.checkpoint()
         self.series.close()
 
-    def _count(self, steps, seconds):
+    def _count(self, simulated, seconds):
         s = self.state
         s.wall_steps_s += seconds
         if s.moving is not None:
             s.wall_moving_s += seconds
-            s.steps_moving += steps
+            s.moving_s += simulated
 
     def _advance(self, row):
         solver, s = self.slope.solver, self.state

@@ -68,10 +68,10 @@ def measure(folder, source, disks, state, steps, dump=False):
     solver = timed.solver
     if solver is None:
         return {**timed.run(steps, warm_up=0).summary(), "contacts": O.interactions.countReal(), "time_step_s": O.dt, "steps": steps}
-    sweeps, unconverged = solver.totalIterations, solver.unconverged
+    sweeps, unconverged, begun = solver.totalIterations, solver.unconverged, O.time
     timed.run(steps, warm_up=0)
     if dump:
         solver.dump(str(Path(folder) / "step.h5"))
     return {**timed.summary(), "sweeps_mean": (solver.totalIterations - sweeps) / steps, "unconverged": solver.unconverged - unconverged,
             "contacts": solver.contacts, "candidates": solver.candidates, "bonds": solver.bonds, "mean_speed_m_per_s": solver.meanSpeed,
-            "tolerance": solver.tolerance, "time_step_s": O.dt, "steps": steps}
+            "tolerance": solver.tolerance, "time_step_s": (O.time - begun) / steps, "steps": steps}

@@ -48,11 +48,10 @@ def measure_hard(folder, source, disks, state, steps):
     for _ in range(WARM_UP):
         O.step()
     solver = scene.contact_dynamics()
-    sweeps, began = solver.totalIterations, O.iter
-    walls, overlaps = _timed(steps, solver)
-    steps = O.iter - began
-    return _found(O.dt, steps, walls, overlaps, solver.contacts, solver.meanSpeed) | {
-        "tolerance": solver.tolerance, "sweeps_mean": (solver.totalIterations - sweeps) / steps}
+    sweeps = solver.totalIterations
+    walls, overlaps, made, simulated = _timed(steps, solver)
+    return _found(simulated / made, made, walls, overlaps, solver.contacts, solver.meanSpeed) | {
+        "tolerance": solver.tolerance, "sweeps_mean": (solver.totalIterations - sweeps) / made}
 
 
 def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_share, relax=RELAX_SECONDS, model="cohesion_moment"):
@@ -88,24 +87,24 @@ def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_s
         O.step()
         if k % 100 == 0:
             (Path(folder) / "progress").write_text(f"{0.9 * k / relax_steps:.3f}")
-    began = O.iter
-    walls, overlaps = _timed(steps, built.solver)
-    return _found(O.dt, O.iter - began, walls, overlaps, built.solver.contacts, built.solver.meanSpeed) | {
+    walls, overlaps, made, simulated = _timed(steps, built.solver)
+    return _found(simulated / made, made, walls, overlaps, built.solver.contacts, built.solver.meanSpeed) | {
         "bonds_made": bonds, "bonds_before": len(held), "state_time_s": time_s}
 
 
 def _timed(steps, solver):
-    """Makes ``steps`` steps in LOOKS blocks; returns the mean wall time a step [s] of each block, and the mean and the largest overlap after each."""
+    """Makes ``steps`` steps in LOOKS blocks; returns the mean wall time a step [s] of each block, the mean and the largest overlap after each, the number
+    of steps, and the time that they simulated [s]."""
     from yade import O
 
-    part, walls, overlaps = max(1, steps // LOOKS), [], []
+    part, walls, overlaps, first, begun = max(1, steps // LOOKS), [], [], O.iter, O.time
     for _ in range(LOOKS):
         began = time.perf_counter()
         for _ in range(part):
             O.step()
         walls.append((time.perf_counter() - began) / part)
         overlaps.append((solver.overlapMean, solver.overlapWorst))
-    return walls, overlaps
+    return walls, overlaps, O.iter - first, O.time - begun
 
 
 def _found(dt, steps, walls, overlaps, contacts, speed):

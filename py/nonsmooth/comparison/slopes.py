@@ -11,7 +11,7 @@ import numpy as np
 from .. import packing, records, results, section
 from ..figures.profiles import deposit_profile
 from ..kept_runs import Progress
-from .cases import Case
+from .cases import Case, ComparisonError
 from .outcomes import Cost, Outcome, Quantity
 
 __all__ = ["DEFAULT_STIFFNESSES", "QUANTITIES", "disks_of", "forces_of", "measure", "prepare", "run", "section_of"]
@@ -84,13 +84,15 @@ def run(folder, **plain):
         O.dt = experiment.ROW_SECONDS / math.ceil(experiment.ROW_SECONDS / O.dt)
     course = experiment.Experiment(built, folder, progress=lambda stage, now, foreseen: note(now / foreseen), damping_moving=case.damping_moving)
     course.run()
-    return {"state": asdict(course.state), "disks": built.count, "steps": O.iter - course.state.first_step, "time_step_s": O.dt,
+    return {"state": asdict(course.state), "disks": built.count, "steps": O.iter - course.state.first_step, "simulated_s": O.time,
             "overlap_worst_ever": built.solver.overlapWorstEver}
 
 
 def measure(case: Case, folder, found) -> Outcome:
     """What the records of a finished run say; ``found``: what :func:`run` returned. Runs are aligned by when the slope begins to move."""
     s, state = section_of(case), found["state"]
+    if "simulated_s" not in found:  # as of versions whose steps were all as long
+        raise ComparisonError(f"{folder}: its result.json has no simulated_s; remove the folder and go on with --resume")
     series = records.read_series(folder / "series.csv")
     times = results.characteristic_times(series, s, state)
     t, last = series["time_s"], float(series["time_s"][-1])
@@ -122,12 +124,12 @@ def measure(case: Case, folder, found) -> Outcome:
     curves = {"abscissa": t[after] - (start if start is not None else t[after][0]),
               "front": series["front_m"][after] - (state["front0"] or series["front_m"][after][0]),
               "centroid": moved[after]}
-    simulated = found["steps"] * found["time_step_s"]
-    rate = state["wall_moving_s"] / (state["steps_moving"] * found["time_step_s"]) if state["steps_moving"] else state["wall_steps_s"] / simulated
+    simulated = found["simulated_s"]
+    rate = state["wall_moving_s"] / state["moving_s"] if state["moving_s"] else state["wall_steps_s"] / simulated
     return Outcome(
         case, values, curves, series, *(None if n is None else (n.x, n.y, n.r) for n in (begin, end)),
         forces={} if begin is None else forces_of(begin), overlap=_mean(series, moving if moving.any() else after),
-        overlap_rest=_mean(series, rest if rest.any() else after), cost=Cost(found["steps"], found["time_step_s"], state["wall_steps_s"], simulated,
+        overlap_rest=_mean(series, rest if rest.any() else after), cost=Cost(found["steps"], simulated / found["steps"], state["wall_steps_s"], simulated,
                                                                              rate), notes=notes)
 
 
