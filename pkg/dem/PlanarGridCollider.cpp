@@ -3,6 +3,7 @@
 #include "Threads.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Scene.hpp>
+#include <neighbours/thread_part.hpp>
 #include <pkg/common/Bo1_Aabb.hpp>
 
 namespace yade {
@@ -13,6 +14,7 @@ namespace {
 	using nonsmooth::neighbours::Box;
 	using nonsmooth::neighbours::Disk;
 	using nonsmooth::neighbours::isNear;
+	using nonsmooth::neighbours::partOfThread;
 
 	/// How far, in radii, a box reaches around a disk that it can touch: Ig2 functors know contacts with a wall up to (factor − 1) times the diameter.
 	Real reachAround(Real factor) { return 2 * factor - 1; }
@@ -241,17 +243,13 @@ void PlanarGridCollider::findFastest()
 {
 	const long size = (long)disks.size();
 	fastest.assign(size, 0);
-	if (1 + sureReach >= factor) return;
+	if (!(listed() < factor)) return;
 	fastestOf.resize(threads);
 	for (auto& part : fastestOf) // there may be fewer threads than asked for
 		part.assign(size, 0);
 #pragma omp parallel num_threads(threads)
 	{
-#ifdef YADE_OPENMP
-		auto& part = fastestOf[omp_get_thread_num()];
-#else
-		auto& part = fastestOf[0];
-#endif
+		auto& part = partOfThread(fastestOf);
 #pragma omp for schedule(static)
 		for (long i = 0; i < size; ++i)
 			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
@@ -260,7 +258,7 @@ void PlanarGridCollider::findFastest()
 				const Real apart = dx * dx + dy * dy, x = velocities[j].x - velocities[i].x, y = velocities[j].y - velocities[i].y, square = x * x + y * y;
 				if (square <= std::min(part[i], part[j])) continue;
 				// by itself it must be wanted, so that it does not matter when pairs were looked up
-				const Real wanted = (1 + sureReach) * (disks[i].r + disks[j].r) + foresight * scene->dt * std::sqrt(square);
+				const Real wanted = wantedWithin(int(i), j, std::sqrt(square));
 				if (apart > far * far || apart > wanted * wanted) continue;
 				part[i] = std::max(part[i], square);
 				part[j] = std::max(part[j], square);
@@ -283,11 +281,7 @@ void PlanarGridCollider::takeDisks()
 	const long size = (long)disks.size();
 #pragma omp parallel num_threads(threads)
 	{
-#ifdef YADE_OPENMP
-		auto& part = near[omp_get_thread_num()];
-#else
-		auto& part = near[0];
-#endif
+		auto& part = partOfThread(near);
 #pragma omp for schedule(static)
 		for (long i = 0; i < size; ++i) {
 			const Disk a = disks[i];

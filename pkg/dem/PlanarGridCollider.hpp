@@ -37,7 +37,7 @@ public:
 	/// Whether two disks that far apart [m], within the reach, should have an interaction in this step.
 	bool wants(Body::id_t a, Body::id_t b, Real distance) const
 	{
-		return distance <= (1 + sureReach) * (disks[a].r + disks[b].r) + foresight * scene->dt * std::max(fastest[a], fastest[b]);
+		return distance <= wantedWithin(a, b, std::max(fastest[a], fastest[b]));
 	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PlanarGridCollider,Collider,
@@ -64,6 +64,11 @@ private:
 		int  disk;
 		bool known;
 	};
+	/// Distance [m] up to which two disks are wanted that may come nearer at that speed [m/s].
+	Real wantedWithin(Body::id_t a, Body::id_t b, Real speed) const
+	{
+		return (1 + sureReach) * (disks[a].r + disks[b].r) + foresight * scene->dt * speed;
+	}
 	bool      changed();
 	void      listSides();
 	void      boundSides();

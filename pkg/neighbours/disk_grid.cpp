@@ -2,9 +2,7 @@
 #include "bucket_sort.hpp"
 #include <algorithm>
 #include <limits>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include <neighbours/thread_part.hpp>
 
 namespace nonsmooth::neighbours {
 
@@ -96,11 +94,7 @@ void DiskGrid::pairs(int threads, Pairs& found)
 		const long   n   = (long)own.entries.size();
 #pragma omp parallel num_threads(threads)
 		{
-#ifdef _OPENMP
-			auto& part = parts[omp_get_thread_num()];
-#else
-			auto& part = parts[0];
-#endif
+			auto& part = partOfThread(parts);
 #pragma omp for schedule(static)
 			for (long k = 0; k < n; ++k) {
 				const Entry& e = own.entries[k];
