@@ -77,7 +77,7 @@ namespace {
 	private:
 		void  resetVelocities();
 		void  iterate();
-		void  sweep(double beta);
+		void  sweep(const std::vector<double>& betas);
 		void  sweepRow(std::size_t row, double beta);
 		void  measure();
 		void  measureRows(std::size_t strip, ResidualSums& sums) const;
@@ -180,10 +180,11 @@ namespace {
 		setTwists(row, vi, vj);
 	}
 
-	/// One sweep from what impulses and velocities become when they are extrapolated by beta; returns without waiting for the other threads.
-	void Sweeper::sweep(double beta)
+	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it; returns without waiting for the other threads.
+	void Sweeper::sweep(const std::vector<double>& betas)
 	{
-		schedule.pass(omp_get_thread_num(), [this, beta](std::size_t s) {
+		schedule.passes(omp_get_thread_num(), static_cast<int>(betas.size()), [this, &betas](std::size_t s, int pass) {
+			const double beta = betas[pass];
 			if (s < laidOut.order.evenStrips && settings.method == Method::Accelerated) {
 				// a strip in the first half is the first to touch its own bodies and those of the next one
 				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.stripCount())];
@@ -276,25 +277,24 @@ namespace {
 		for (long b = 0; b < count; ++b)
 			bodiesBefore[b] = bodies[b];
 		measure();
-		RestartRule rule(residual.rms, settings.checkEvery);
+		RestartRule         rule(residual.rms, settings.checkEvery);
+		std::vector<double> betas; // of the sweeps until the next look at the residual
 		while (!solved(1) && iteration < settings.maxIterations) {
-			sweep(beta);
-			++iteration;
-			bool restart = false;
-			if (iteration % settings.checkEvery == 0 || iteration == settings.maxIterations) {
-				measure();
-				restart = rule.asks(residual.rms);
-			}
-			if (!accelerated) continue;
-			if (restart) {
-				++restarts;
-				theta = 1;
-				beta  = 0;
-			} else {
+			betas.resize(std::min(settings.checkEvery, settings.maxIterations - iteration));
+			for (double& b : betas) {
+				b = beta;
+				if (!accelerated) continue;
 				const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
 				beta              = (theta - 1) / next;
 				theta             = next;
 			}
+			sweep(betas);
+			iteration += static_cast<int>(betas.size());
+			measure();
+			if (!rule.asks(residual.rms) || !accelerated) continue;
+			++restarts;
+			theta = 1;
+			beta  = 0;
 		}
 #pragma omp single
 		{

@@ -3,9 +3,16 @@
 
 namespace nonsmooth::contact {
 
+namespace {
+	// Passes at once: no more than whose strips share a cache with those of other workers, and no fewer than pay for the unequal shares that a triangle
+	// makes, which is kept small beside a stretch.
+	constexpr std::size_t deepest = 10, shallowest = 4, pairsADepth = 8;
+}
+
 void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers)
 {
-	const std::size_t strips = begin.empty() ? 0 : begin.size() - 1, pairs = evenStrips;
+	strips = begin.empty() ? 0 : begin.size() - 1;
+	pairs  = evenStrips;
 	const auto        size  = [&](std::size_t place) { return place < strips ? begin[place + 1] - begin[place] : 0; };
 	const auto        odd   = [&](std::size_t pair) { return evenStrips + pair; };
 	const std::size_t count = std::min(pairs, static_cast<std::size_t>(std::max(1, workers)));
@@ -24,9 +31,12 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 
 	stretches.assign(ends.size(), {});
 	progress = std::vector<Progress>(ends.size());
-	std::size_t first = 0;
+	std::size_t first = 0, shortest = pairs;
 	for (std::size_t w = 0; w < ends.size(); ++w) {
 		Stretch&          s    = stretches[w];
+		s.first                = first;
+		s.end                  = ends[w];
+		shortest               = std::min(shortest, ends[w] - first);
 		const std::size_t last = ends[w] - 1, middle = first + (last - first + 1) / 2;
 		const auto        visit = [&](std::size_t place) { s.visits.push_back(place); };
 		s.reaches               = w + 1 < ends.size();
@@ -45,6 +55,8 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 		if (last > first) visit(odd(last - 1));
 		first = ends[w];
 	}
+	const std::size_t fits = std::min(deepest, shortest / pairsADepth);
+	depth                  = fits < shallowest ? 1 : static_cast<int>(fits);
 }
 
 } // namespace nonsmooth::contact

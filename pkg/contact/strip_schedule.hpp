@@ -8,8 +8,18 @@
 // stretch, which gives two rules: that odd strip is visited after the neighbour's first even one of the same pass, and an even first strip
 // after the last odd strip that the worker before visited in the pass before. A worker visits its first strip at the beginning of a pass and its
 // last one in the middle, so each may be half a pass ahead of the other before it waits.
+//
+// Several passes at once: a strip's next visit has to wait for the strips beside it alone. Where a stretch is long, a worker therefore makes a few
+// passes together, each two strips behind the one before (a wavefront), so that what the first fetches from memory is in the cache for all of them.
+// Strips near the end of a stretch cannot be visited that way without the neighbour's next passes, so every pass stops a pair of strips short of the one
+// before it, at both ends. That leaves a triangle across each end, which the worker before it visits last:
+//
+//     pass 3          o o o o o o - - - - - - o o o o       o: wavefronts of the two workers
+//     pass 2      o o o o o o o o - - - - o o o o o o       -: the triangle between them
+//     pass 1    o o o o o o o o o o - - o o o o o o o o
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <emmintrin.h>
@@ -28,6 +38,9 @@ public:
 	/// other threads do nothing. It does not wait for the others at its end.
 	template <class Visit> void pass(int worker, Visit visit);
 
+	/// As many passes: calls visit(strip, pass) with passes counted from 0, several at once where stretches are long enough.
+	template <class Visit> void passes(int worker, int count, Visit visit);
+
 	/// Calls visit(strip) for the same strips, in any order with those of others.
 	template <class Visit> void each(int worker, Visit visit) const;
 
@@ -36,6 +49,7 @@ public:
 private:
 	/// Places of the strips as SweepOrder has them: even strips first.
 	struct Stretch {
+		std::size_t              first, end; // pairs
 		std::vector<std::size_t> visits;
 		std::size_t              joint;   // how many of them come before the one that reaches into the next stretch
 		bool                     reaches; // whether there is such a one
@@ -55,6 +69,10 @@ private:
 				std::this_thread::yield();
 	}
 
+	template <class Visit> void together(int worker, int first, int count, Visit visit);
+
+	std::size_t           strips = 0, pairs = 0;
+	int                   depth = 1; // passes to be made at once
 	std::vector<Stretch>  stretches;
 	std::vector<Progress> progress;
 };
@@ -72,6 +90,47 @@ template <class Visit> void StripSchedule::pass(int worker, Visit visit)
 		if (k == 0) mine.begun.store(pass + 1, std::memory_order_release);
 		if (own.reaches && k == own.joint) mine.joined.store(pass + 1, std::memory_order_release);
 	}
+}
+
+template <class Visit> void StripSchedule::passes(int worker, int count, Visit visit)
+{
+	for (int k = 0; k < count; k += depth)
+		if (depth > 1) together(worker, k, std::min(depth, count - k), visit);
+		else
+			pass(worker, [&](std::size_t strip) { visit(strip, k); });
+}
+
+/// Passes first … first + count − 1 at once.
+template <class Visit> void StripSchedule::together(int worker, int first, int count, Visit visit)
+{
+	if (worker >= workerCount()) return;
+	Progress&  mine = progress[worker];
+	const long turn = mine.passes++, begin = stretches[worker].first, end = stretches[worker].end, all = pairs;
+	const bool open = begin == 0, closed = end == all; // where there is no neighbour, nothing is left out
+	const auto odd  = [&](long pair, int k) {
+		if (pairs + pair < strips) visit(pairs + pair, first + k);
+	};
+	const auto from = [&](long k) { return open ? 0 : begin + k; };
+	const auto to   = [&](long k) { return closed ? all : end - k; };
+	if (worker > 0) await(progress[worker - 1].joined, turn);
+	for (long front = begin; front < end + count; ++front) {
+		for (int k = 0; k < count; ++k) {
+			const long pair = front - k;
+			if (pair >= from(k) && pair < to(k)) visit(pair, first + k);
+			if (pair > from(k) && (pair < to(k) || (closed && pair == all))) odd(pair - 1, k);
+		}
+		// the neighbour's triangle reaches as far as the last pass's first pair
+		if (front == begin + 2 * (count - 1)) mine.begun.store(turn + 1, std::memory_order_release);
+	}
+	if (closed) return;
+	await(progress[worker + 1].begun, turn + 1);
+	for (int k = 0; k < count; ++k) {
+		for (long pair = end - k; pair < end + k; ++pair)
+			visit(pair, first + k);
+		for (long pair = end - k - 1; pair < end + k; ++pair)
+			odd(pair, k);
+	}
+	mine.joined.store(turn + 1, std::memory_order_release);
 }
 
 template <class Visit> void StripSchedule::each(int worker, Visit visit) const

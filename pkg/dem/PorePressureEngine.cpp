@@ -23,6 +23,14 @@ Real PorePressureEngine::heightAt(Real time) const
 	return heights[k - 1] + (heights[k] - heights[k - 1]) * (time - times[k - 1]) / (times[k] - times[k - 1]);
 }
 
+boost::python::object PorePressureEngine::bodyTable() const
+{
+	std::string rows; // bytes
+	for (int id = 0; id < (int)std::max(wet.size(), released.size()); ++id)
+		rows.append({ char(isWet(id)), char(isReleased(id)) });
+	return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(rows.data(), rows.size())));
+}
+
 void PorePressureEngine::action()
 {
 	const Vector3r gravity  = nscd::gravityOf(*scene);

@@ -23,6 +23,7 @@ public:
 	}
 	bool isReleased(int id) const { return id < (int)released.size() && released[id] != 0; }
 	bool isWet(int id) const { return id < (int)wet.size() && wet[id] != 0; }
+	boost::python::object bodyTable() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PorePressureEngine,GlobalEngine,
 R"""(Pore water as a volume force on the spheres below a water table that stays parallel to a plane (Taboada and Estrada 2009, section 3.4,
@@ -51,6 +52,7 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		.def("heightAt",&PorePressureEngine::heightAt,(boost::python::arg("time")),"Height of the water table [m] at a time [s].")
 		.def("isWet",&PorePressureEngine::isWet,(boost::python::arg("id")),"Does water act on this body?")
 		.def("isReleased",&PorePressureEngine::isReleased,(boost::python::arg("id")),"Has this body been released for good?")
+		.def("bodyTable",&PorePressureEngine::bodyTable,"Two bytes a body, by id: whether water acts on it, and whether it has been released for good; see nonsmooth.tables.water.")
 		.def("forgetReleases",&PorePressureEngine::forgetReleases,"Count ways downslope anew from the present positions.")
 	);
 	// clang-format on

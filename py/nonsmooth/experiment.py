@@ -324,8 +324,7 @@ class Experiment:
         t = tables.bodies(built.solver)
         first, count = built.first_disk, built.count
         arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
-        arrays["wet"] = np.array([water.isWet(first + k) for k in range(count)] if water else np.zeros(count), bool)
-        arrays["released"] = np.array([water.isReleased(first + k) for k in range(count)] if water else np.zeros(count), bool)
+        arrays["wet"], arrays["released"] = tables.water(water, first, count)
         if contacts:
             wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
             arrays.update(tables.loaded_contacts(built.solver, first, wall_numbers))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts"]
+__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts", "water"]
 
 _BODY = ("id", "x", "y", "r", "angle", "vx", "vy", "omega")
 _BREAK = ("step", "time", "id1", "id2", "mode", "x", "y")
@@ -64,3 +64,15 @@ def breaks(engine) -> dict[str, np.ndarray]:
     for name in ("step", "id1", "id2", "mode"):
         table[name] = table[name].astype(int)
     return table
+
+
+def water(engine, first, count) -> tuple[np.ndarray, np.ndarray]:
+    """Whether water acts on the bodies ``first`` to ``first + count - 1``, and whether they have been released for good: bool arrays of shape (count,).
+
+    ``engine``: the PorePressureEngine; all false for bodies that it has not met yet, and where it is None.
+    """
+    found = np.zeros((count, 2), bool)
+    if engine is not None:
+        rows = np.frombuffer(engine.bodyTable(), dtype=bool).reshape(-1, 2)[first:first + count]
+        found[:len(rows)] = rows
+    return found[:, 0].copy(), found[:, 1].copy()

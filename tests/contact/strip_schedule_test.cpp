@@ -27,9 +27,10 @@ public:
 	        , even((strips + 1) / 2)
 	{
 	}
-	void visit(std::size_t place)
+	void visit(std::size_t place, int pass = 0)
 	{
 		const std::size_t s = strip(place, even) + 1;
+		values[s] += pass;
 		// changes its own and the next strip's value, as a contact does that reaches into the next strip
 		values[s]     = values[s] * 6364136223846793005u + values[s + 1];
 		values[s + 1] = values[s + 1] * 1442695040888963407u ^ values[s];
@@ -96,6 +97,50 @@ TEST(StripSchedule, AnyNumberOfWorkersLeavesWhatOneLeaves)
 			EXPECT_EQ(mixer.values, plain.values) << strips << " strips, " << made << " workers";
 		}
 	}
+}
+
+// one worker has 8 pairs for each of 10 passes at 160 strips, and no room for a wavefront of 4 below 64
+TEST(StripSchedule, PassesAtOnceLeaveWhatOneAfterTheOtherLeaves)
+{
+	for (std::size_t strips : { 5, 63, 64, 65, 161, 400, 401 })
+		for (int passes : { 1, 3, 10, 34 }) {
+			const auto begin = beginsOf(std::vector<std::size_t>(strips, 100));
+			Mixer      plain(strips);
+			for (int p = 0; p < passes; ++p)
+				for (std::size_t place = 0; place < strips; ++place)
+					plain.visit(place, p);
+			for (int workers : { 1, 2, 3, 5 }) {
+				Mixer         mixer(strips);
+				StripSchedule schedule;
+				int           made = 0;
+#pragma omp parallel num_threads(workers)
+				{
+#pragma omp single
+					{
+						made = omp_get_num_threads();
+						schedule.plan(begin, mixer.even, made);
+					}
+					schedule.passes(omp_get_thread_num(), passes, [&](std::size_t place, int p) { mixer.visit(place, p); });
+				}
+				EXPECT_EQ(mixer.values, plain.values) << strips << " strips, " << made << " workers, " << passes << " passes";
+			}
+		}
+}
+
+// the reason for it: between two visits of a strip lie few others, not all
+TEST(StripSchedule, PassesAtOnceComeBackToAStripSoon)
+{
+	constexpr std::size_t strips = 1000;
+	StripSchedule         schedule;
+	schedule.plan(beginsOf(std::vector<std::size_t>(strips, 100)), strips / 2, 1);
+	std::vector<long> last(strips, -1);
+	long              visits = 0, longest = 0;
+	schedule.passes(0, 10, [&](std::size_t place, int) {
+		if (last[place] >= 0) longest = std::max(longest, visits - last[place]);
+		last[place] = visits++;
+	});
+	EXPECT_EQ(visits, 10 * long(strips));
+	EXPECT_EQ(longest, 22); // a pair of strips for each of ten passes, and one more, as the next pass comes a place later
 }
 
 TEST(StripSchedule, KeepsNothingOfAnEarlierPlan)

@@ -175,4 +175,24 @@ TEST(Threads, SameBitsForOneAndTwo)
 	}
 }
 
+// one thread makes ten sweeps of so many strips at once, two make seven, sixteen have no room for more than one
+TEST(Threads, SameBitsForSweepsAtOnce)
+{
+	const Problem  wide = lattice(400, 100).problem;
+	SolverSettings s;
+	s.tolerance     = 1e-300; // never met
+	s.maxIterations = 25;
+	std::vector<Problem>          solved;
+	std::vector<SolverStatistics> statistics;
+	for (const int threads : { 16, 1, 2 }) {
+		s.threads = threads;
+		solved.push_back(wide);
+		statistics.push_back(solve(solved.back(), s));
+		EXPECT_GE(statistics.back().strips, 160);
+		EXPECT_EQ(statistics.back().residual.rms, statistics[0].residual.rms) << threads;
+		EXPECT_EQ(std::memcmp(solved.back().impulses.data(), solved[0].impulses.data(), wide.contactCount() * sizeof(Impulse)), 0) << threads;
+		EXPECT_EQ(std::memcmp(solved.back().velocities.data(), solved[0].velocities.data(), wide.bodyCount() * sizeof(Twist)), 0) << threads;
+	}
+}
+
 } // namespace

@@ -179,7 +179,8 @@ def test_cost_by_size_is_measured_and_drawn(measured, tmp_path):
     assert [s["disks"] for s in found["sizes"]] == [pytest.approx(350, abs=4), pytest.approx(500, abs=4)]  # counts of layers are rounded
     for s in found["sizes"]:
         assert all(math.isfinite(value) and value >= 0 for _, value in numbers(s))
-        assert s["solve_ns_per_contact_and_sweep"] > 0 and s["packing_s"] > 0 and s["step_ms"]["median"] > 0
+        assert s["sweep_ns_per_contact"]["1"]["median"] > 0 and s["packing_s"] > 0 and s["step_ms"]["median"] > 0
+        assert s["cold_start"]["sweeps"] > 10 and s["steps"] == 100
         assert 1 < s["candidates"] / s["disks"] < 6
     assert (tmp_path / "scale.png").stat().st_size > 1000
     bad = run("--scale", "500,x", "--out", tmp_path)

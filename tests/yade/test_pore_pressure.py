@@ -1,10 +1,11 @@
 """Water in the slope: forces below the table, the table's height in time, release after D_c, save and load."""
 import math
 
+import numpy as np
 import pytest
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import scene
+from yade.nonsmooth import scene, tables
 from yade.wrapper import NewtonIntegrator, PorePressureEngine, SlipWeakeningMat
 
 from contact_scenes import G, begin, contacts, material, run
@@ -107,6 +108,9 @@ def test_release_is_for_good_after_the_distance_downslope():
     run(10)
     assert w.isReleased(mover) and not w.isReleased(other)
     assert w.releasedCount == 1 and w.wetCount == 1 and not w.isWet(mover)
+    wet, released = tables.water(w, mover, 2)
+    assert list(wet) == [False, True] and list(released) == [True, False]
+    assert not np.any(tables.water(w, other + 1, 2)) and not np.any(tables.water(None, mover, 2))
     O.bodies[mover].state.vel = -1.0 * DOWN
     O.bodies[other].state.vel = -1.0 * DOWN
     run(900)

@@ -11,21 +11,27 @@ def cost_by_size(sizes, path, pdf=False):
     ``sizes``: list of dictionaries as benchmark.scale.measure returns them. Dashed: proportional to the number of disks. Returns ``path``.
     """
     disks = [s["disks"] for s in sizes]
+    of_sweep = lambda n: [s["sweep_ns_per_contact"][n]["median"] for s in sizes]  # noqa: E731
+    threads = sorted(sizes[0]["sweep_ns_per_contact"], key=int)
     panels = (
-        ("A step", "time [ms]", [s["step_ms"]["median"] for s in sizes], True),
-        ("A sweep, for each contact", "time [ns]", [s["solve_ns_per_contact_and_sweep"] for s in sizes], False),
-        ("Memory, for each disk", "memory [kB]", [1e-3 * s["bytes_per_disk"] for s in sizes], False),
-        ("Packing", "time [s]", [s["packing_s"] for s in sizes], True),
+        ("A step", "time [ms]", {"": [s["step_ms"]["median"] for s in sizes]}, True),
+        ("A sweep, for each contact", "time [ns]", {"1 thread" if n == "1" else f"{n} threads": of_sweep(n) for n in threads}, False),
+        ("Memory, for each contact", "memory [kB]", {"all": [1e-3 * s["bytes_per_contact"] for s in sizes],
+                                                     "bodies and interactions of YADE": [1e-3 * s["bytes_per_contact_scene"] for s in sizes]}, False),
+        ("Packing", "time [s]", {"": [s["packing_s"] for s in sizes]}, True),
     )
     fig = style.figure(10, 6.6, layout="constrained")
-    for ax, (title, label, values, grows) in zip(fig.subplots(2, 2, sharex=True).flat, panels):
+    for ax, (title, label, curves, grows) in zip(fig.subplots(2, 2, sharex=True).flat, panels):
         ax.set_xscale("log")
-        ax.plot(disks, values, color=LINES["blue"], marker="o")
+        for colour, (name, values) in zip((LINES["blue"], LINES["orange"]), curves.items()):
+            ax.plot(disks, values, color=colour, marker="o", label=name)
         if grows:
             ax.set_yscale("log")
+            values = next(iter(curves.values()))
             ax.plot(disks, [values[0] * n / disks[0] for n in disks], color=LINES["grey"], ls=(0, (4, 3)), lw=0.9)
         else:
-            ax.set_ylim(0, 1.15 * max(values))
+            ax.set_ylim(0, 1.25 * max(max(values) for values in curves.values()))
+            ax.legend(loc="lower left", frameon=False)
         ax.set_title(title, loc="left")
         ax.set_ylabel(label)
         ax.grid(color="#e3e3e3", lw=0.7)
