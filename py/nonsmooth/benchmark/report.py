@@ -85,6 +85,6 @@ def scale_table(found) -> str:
              f"{1e-3 * s['bytes_per_contact']:.2f}", f"{1e-3 * s['bytes_per_contact_scene']:.2f}", _with_quartiles(s["step_ms"]),
              _number(s["sweeps_mean"]), _with_quartiles(s["sweep_ns_per_contact"]["1"]), _with_quartiles(s["sweep_ns_per_contact"][threads]),
              str(s["cold_start"]["sweeps"]) if "cold_start" in s else "-") for s in found["sizes"]]
-    heads = ("disks", "contacts", "packing [s]", "building [s]", "kB a contact", "of which YADE", "step [ms]", "sweeps", "ns a contact and sweep",
+    heads = ("disks", "contacts", "packing [s]", "building [s]", "kB a contact", "without the solver", "step [ms]", "sweeps", "ns a contact and sweep",
              f"{threads} threads", "cold sweeps to 1e-4")
     return tabulate(rows, heads, disable_numparse=True)

@@ -19,11 +19,12 @@ from .course import Course
 from .statistics import spread
 from .steps import TimedSteps
 
-__all__ = ["SIZES", "measure", "run"]
+__all__ = ["SIZES", "measure", "measure_sweeps", "run"]
 
 SIZES = (5000, 20_000, 100_000, 1_000_000)
+PROBLEM = "step.h5"
 LOADING, STEPS = 60, 40  # steps before those that are timed, and those
-REPEATS = 5              # timings of a sweep
+REPEATS = 9              # timings of a sweep
 COLD_CONTACTS = 500_000  # of the largest problem that is solved from zero impulses as far as cold_start asks
 
 
@@ -33,8 +34,11 @@ def _resident():
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
-def measure(folder, source, disks, threads, steps=STEPS):
-    """One size; a function for processes.call. Raises section.SectionError or packing.PackingError where the disks do not go in."""
+def measure(folder, source, disks, steps=STEPS):
+    """One size; a function for processes.call. Leaves its last contact problem in ``folder/step.h5``.
+
+    Raises section.SectionError or packing.PackingError where the disks do not go in.
+    """
     chosen = states.section_of(source, disks)
     numerics = dataclasses.replace(chosen.numerics, time_step=chosen.numerics.time_step * chosen.scale, tolerance=chosen.numerics.tolerance_moving)
     chosen = dataclasses.replace(chosen, numerics=numerics)
@@ -53,7 +57,7 @@ def measure(folder, source, disks, threads, steps=STEPS):
               "bytes_per_contact_scene": scene / solver.candidates}
     return {"disks": len(packed), "candidates": solver.candidates, "bonds": bonds, "packing_s": packing_s, "building_s": building_s, **memory,
             **timed.summary(), "sweeps_mean": (solver.totalIterations - begun) / steps, "time_step_s": O.dt, "steps": LOADING + steps,
-            **_sweeps(solver, Path(folder) / "step.h5", threads)}
+            **_dumped(solver, Path(folder) / PROBLEM)}
 
 
 def _scene_alone(solver):
@@ -64,22 +68,35 @@ def _scene_alone(solver):
     return _resident()
 
 
-def _sweeps(solver, dumped, threads):
-    """Sweeps of the present contact problem, as sweeps.measure has them, and from zero impulses, see cold_start."""
-    solver.dump(str(dumped))
-    problem = contact.load(dumped)
-    dumped.unlink()
-    count = len(problem.length)
-    time_of = lambda threads: spread([1e9 * sweeps.sweep_seconds(problem, "best", threads) / count for _ in range(REPEATS)])  # noqa: E731
-    found = {"sweep_ns_per_contact": {str(n): time_of(n) for n in sorted({1, threads})}}
-    if count <= COLD_CONTACTS:
-        found["cold_start"] = cold_start.solve_cold(problem)
-    return found
+def _dumped(solver, path):
+    """Writes the present contact problem; what it takes from zero impulses, see cold_start."""
+    solver.dump(str(path))
+    problem = contact.load(path)
+    return {"cold_start": cold_start.solve_cold(problem)} if len(problem.length) <= COLD_CONTACTS else {}
+
+
+def measure_sweeps(folder, problems, threads):
+    """Times the sweeps of the problems' files in turns, so that a slow moment of the machine does not count for one of them alone; a function for
+    processes.call. Returns {"sweeps": [{threads: spread of ns for each contact} for each file]}."""
+    loaded = [contact.load(path) for path in problems]
+    counts = sorted({1, threads})
+    found = [{str(n): [] for n in counts} for _ in loaded]
+    for _ in range(REPEATS):
+        for problem, times in zip(loaded, found):
+            for n in counts:
+                times[str(n)].append(1e9 * sweeps.sweep_seconds(problem, "best", n) / len(problem.length))
+    return {"sweeps": [{n: spread(values) for n, values in times.items()} for times in found]}
 
 
 def run(out, source, sizes, threads, progress=lambda share, doing: None):
     """Measures all sizes, one after the other; returns a dictionary that JSON can hold. Raises states.BenchmarkError with the first failure."""
-    seconds = {size: 5 + 3e-3 * size for size in sizes}
-    course = Course(out, sum(seconds.values()), progress)
+    sizes = sorted(sizes)
+    seconds, of_sweeps = {size: 10 + 1e-3 * size for size in sizes}, 5 + 1e-4 * sum(sizes)
+    course = Course(out, sum(seconds.values()) + of_sweeps, progress)
+    found = [course.call(f"scale-{size}", seconds[size], measure, {"source": source, "disks": size}, threads) for size in sizes]
+    problems = [course.home / f"scale-{size}" / PROBLEM for size in sizes]
+    timed = course.call("scale-sweeps", of_sweeps, measure_sweeps, {"problems": [str(path) for path in problems], "threads": threads}, threads)
+    for path in problems:
+        path.unlink()  # the largest has half a gigabyte
     return {"machine": machine.describe(), "section": source, "threads": threads,
-            "sizes": [course.call(f"scale-{size}", seconds[size], measure, {"source": source, "disks": size, "threads": threads}, threads) for size in sorted(sizes)]}
+            "sizes": [{**one, "sweep_ns_per_contact": times} for one, times in zip(found, timed["sweeps"])]}

@@ -22,7 +22,7 @@ from .. import contact, scene
 from ..scene import contact_dynamics as engine
 
 __all__ = ["DISKS", "FLOOR", "G", "H", "LEFT", "MU", "RIGHT", "Balance", "Dump", "balance", "build", "dump_step", "engine", "impulses_of", "load",
-           "pair_keys", "relative_velocities", "velocities_of", "warm_start", "with_radius_levers"]
+           "pair_keys", "relative_velocities", "step_problem", "velocities_of", "warm_start", "with_radius_levers"]
 
 DISKS, FLOOR, LEFT, RIGHT = 5000, 5000, 5001, 5002  # number of disks; ids of the walls, in our scene and, less one, in LMGC90
 WIDTH, HEIGHT = 409.59035, 91.2221                   # of the box [m]
@@ -111,6 +111,16 @@ def dump_step(path) -> contact.ContactProblem:
     """The contact problem of the scene's last step."""
     engine().dump(str(path))
     return contact.load(path)
+
+
+def step_problem(folder):
+    """LMGC90's step, our contact problem for it, and LMGC90's forces as impulses of that, shape (c, 3). Leaves no scene, and ``folder/step.h5``."""
+    dump = load()
+    build(dump, tolerance=1e-3)
+    O.step()
+    problem = dump_step(Path(folder) / "step.h5")
+    O.reset()
+    return dump, problem, impulses_of(dump, problem)[0]
 
 
 def pair_keys(pairs) -> np.ndarray:

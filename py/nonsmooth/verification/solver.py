@@ -17,16 +17,6 @@ METHODS = (("accelerated", "accelerated"), ("gaussSeidel", "plain Gauss-Seidel")
 WAYS = (("accelerated", "accelerated", 10), ("accelerated, looked at every 50", "accelerated", 50), ("plain Gauss-Seidel", "gaussSeidel", 10))
 
 
-def _problem(bench):
-    """The packing's step as a contact problem, LMGC90's forces as its impulses, and the dump."""
-    dump = lp.load()
-    lp.build(dump, tolerance=1e-3)
-    O.step()
-    problem = lp.dump_step(bench.folder / "step.h5")
-    O.reset()
-    return dump, problem, lp.impulses_of(dump, problem)[0]
-
-
 @check("Sweeps to a residual, from a cold start and from known forces", subject=SUBJECT, seconds=50, quick=20)
 def sweeps_to_a_residual(bench):
     """News crosses about one contact a sweep, so plain Gauss-Seidel needs as many sweeps as a diffusion across the packing, some 30 disks
@@ -46,7 +36,7 @@ def sweeps_to_a_residual(bench):
     10 sweeps, which is the default, noise makes it do so hundreds of times on the way to 1e-6 from a cold start. With a look every 50 it
     hardly does. Plain Gauss-Seidel reached 1e-6 after 76,500 sweeps when this was tried."""
     cap = 5000 if bench.quick else 20000
-    dump, problem, known = _problem(bench)
+    dump, problem, known = lp.step_problem(bench.folder)
     rows, found = [], {}
     for start_name, start in (("cold", "cold"), ("LMGC90's forces", known)):
         for way, method, every in WAYS:
@@ -168,7 +158,7 @@ def stopping_tests_by_name(bench):
     the natural map, which are relatives: they weigh the same misses as velocities or as impulses, so a factor of 5 either way is expected.
     In large packings Maxm is some 16 to 30 times Quad, so stopping at Maxm < 1e-4 leaves a residual about so much smaller."""
     tolerance, cap = 1e-4, 20000
-    dump, problem, _ = _problem(bench)
+    dump, problem, _ = lp.step_problem(bench.folder)
     rows, claims, sweeps, left = [], [], {}, {}
     methods = METHODS[:1] if bench.quick else METHODS
     for method, method_name in methods:
