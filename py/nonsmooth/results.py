@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import json
 import math
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -191,7 +192,9 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     made.append(figures.energy(series, folder / "energy.png", times=times))
     made.append(figures.solver(series, folder / "solver.png", times=times))
     if files:
-        made.append(paraview.write_run(folder, section, frames))
-        path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, progress=progress)
+        with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
+            written = beside.submit(paraview.write_run, folder, section, frames)
+            path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, progress=progress)
+            made.append(written.result())
         (made if path else notes).append(path or note)
     return [Path(p) for p in made], notes

@@ -33,8 +33,8 @@ def sweep_seconds(problem, path, threads):
             raise RuntimeError(f"a solve made {solved.iterations} sweeps instead of {sweeps}: no contact of the problem acts, so its sweeps cannot be timed")
         return solved.seconds
 
-    few = min(solve(FEW), solve(FEW))  # one that was interrupted would make the sweeps too short, or even negative
-    return (solve(MANY) - few) / (MANY - FEW)
+    # the better of two, since what a large solve does once (layout, memory anew) takes as long as many sweeps, and not always as long
+    return (min(solve(MANY), solve(MANY)) - min(solve(FEW), solve(FEW))) / (MANY - FEW)
 
 
 def bandwidth(size):
