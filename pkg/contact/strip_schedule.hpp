@@ -104,25 +104,26 @@ template <class Visit> void StripSchedule::passes(int worker, int count, Visit v
 template <class Visit> void StripSchedule::together(int worker, int first, int count, Visit visit)
 {
 	if (worker >= workerCount()) return;
-	Progress&  mine = progress[worker];
-	const long turn = mine.passes++, begin = stretches[worker].first, end = stretches[worker].end, all = pairs;
-	const bool open = begin == 0, closed = end == all; // where there is no neighbour, nothing is left out
-	const auto odd  = [&](long pair, int k) {
+	const Stretch& own  = stretches[worker];
+	Progress&      mine = progress[worker];
+	const long     turn = mine.passes++, begin = own.first, end = own.end;
+	const auto     odd  = [&](long pair, int k) {
 		if (pairs + pair < strips) visit(pairs + pair, first + k);
 	};
-	const auto from = [&](long k) { return open ? 0 : begin + k; };
-	const auto to   = [&](long k) { return closed ? all : end - k; };
+	// where there is no neighbour, nothing is left out
+	const auto from = [&](long k) { return worker > 0 ? begin + k : begin; };
+	const auto to   = [&](long k) { return own.reaches ? end - k : end; };
 	if (worker > 0) await(progress[worker - 1].joined, turn);
 	for (long front = begin; front < end + count; ++front) {
 		for (int k = 0; k < count; ++k) {
 			const long pair = front - k;
 			if (pair >= from(k) && pair < to(k)) visit(pair, first + k);
-			if (pair > from(k) && (pair < to(k) || (closed && pair == all))) odd(pair - 1, k);
+			if (pair > from(k) && (pair < to(k) || (!own.reaches && pair == end))) odd(pair - 1, k);
 		}
 		// the neighbour's triangle reaches as far as the last pass's first pair
 		if (front == begin + 2 * (count - 1)) mine.begun.store(turn + 1, std::memory_order_release);
 	}
-	if (closed) return;
+	if (!own.reaches) return;
 	await(progress[worker + 1].begun, turn + 1);
 	for (int k = 0; k < count; ++k) {
 		for (long pair = end - k; pair < end + k; ++pair)

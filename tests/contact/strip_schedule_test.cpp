@@ -39,6 +39,24 @@ public:
 	std::size_t                even;
 };
 
+/// Expects that workers leave the values of `plain` where each of them calls make(schedule, worker, mixer).
+template <class Make> void expectSame(const Mixer& plain, std::size_t strips, int workers, Make make)
+{
+	Mixer         mixer(strips);
+	StripSchedule schedule;
+	int           made = 0;
+#pragma omp parallel num_threads(workers)
+	{
+#pragma omp single
+		{
+			made = omp_get_num_threads();
+			schedule.plan(beginsOf(std::vector<std::size_t>(strips, 100)), mixer.even, made);
+		}
+		make(schedule, omp_get_thread_num(), mixer);
+	}
+	EXPECT_EQ(mixer.values, plain.values) << strips << " strips, " << made << " workers";
+}
+
 }
 
 TEST(StripSchedule, GivesEveryStripToOneWorkerEvenNeighboursFirst)
@@ -75,27 +93,15 @@ TEST(StripSchedule, AnyNumberOfWorkersLeavesWhatOneLeaves)
 {
 	constexpr int passes = 200;
 	for (std::size_t strips : { 1, 2, 3, 4, 6, 7, 20, 81 }) {
-		const auto begin = beginsOf(std::vector<std::size_t>(strips, 100));
-		Mixer      plain(strips);
+		Mixer plain(strips);
 		for (int p = 0; p < passes; ++p)
 			for (std::size_t place = 0; place < strips; ++place) // even strips, then odd ones
 				plain.visit(place);
-		for (int workers : { 1, 2, 3, 4, 7 }) {
-			Mixer         mixer(strips);
-			StripSchedule schedule;
-			int           made = 0;
-#pragma omp parallel num_threads(workers)
-			{
-#pragma omp single
-				{
-					made = omp_get_num_threads();
-					schedule.plan(begin, mixer.even, made);
-				}
+		for (int workers : { 1, 2, 3, 4, 7 })
+			expectSame(plain, strips, workers, [](StripSchedule& schedule, int worker, Mixer& mixer) {
 				for (int p = 0; p < passes; ++p)
-					schedule.pass(omp_get_thread_num(), [&](std::size_t place) { mixer.visit(place); });
-			}
-			EXPECT_EQ(mixer.values, plain.values) << strips << " strips, " << made << " workers";
-		}
+					schedule.pass(worker, [&](std::size_t place) { mixer.visit(place); });
+			});
 	}
 }
 
@@ -104,26 +110,15 @@ TEST(StripSchedule, PassesAtOnceLeaveWhatOneAfterTheOtherLeaves)
 {
 	for (std::size_t strips : { 5, 63, 64, 65, 161, 400, 401 })
 		for (int passes : { 1, 3, 10, 34 }) {
-			const auto begin = beginsOf(std::vector<std::size_t>(strips, 100));
-			Mixer      plain(strips);
+			SCOPED_TRACE(std::to_string(passes) + " passes");
+			Mixer plain(strips);
 			for (int p = 0; p < passes; ++p)
 				for (std::size_t place = 0; place < strips; ++place)
 					plain.visit(place, p);
-			for (int workers : { 1, 2, 3, 5 }) {
-				Mixer         mixer(strips);
-				StripSchedule schedule;
-				int           made = 0;
-#pragma omp parallel num_threads(workers)
-				{
-#pragma omp single
-					{
-						made = omp_get_num_threads();
-						schedule.plan(begin, mixer.even, made);
-					}
-					schedule.passes(omp_get_thread_num(), passes, [&](std::size_t place, int p) { mixer.visit(place, p); });
-				}
-				EXPECT_EQ(mixer.values, plain.values) << strips << " strips, " << made << " workers, " << passes << " passes";
-			}
+			for (int workers : { 1, 2, 3, 5 })
+				expectSame(plain, strips, workers, [passes](StripSchedule& schedule, int worker, Mixer& mixer) {
+					schedule.passes(worker, passes, [&](std::size_t place, int p) { mixer.visit(place, p); });
+				});
 		}
 }
 

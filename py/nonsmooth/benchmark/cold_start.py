@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-import numpy as np
-
-from yade import O
-
 from .. import contact
 from ..verification import lmgc90_packing
+from ..verification.lmgc90_packing import carried
 
 __all__ = ["carried", "lmgc90", "measure", "solve_cold"]
 
 LOOSE, TIGHT = 1e-4, 1e-7  # residuals of the solve and of what it is compared with
 SWEEPS = 50_000            # at most; a slope whose bonds share the load may not get to the tight one
-
-
-def carried(problem, impulse):
-    """Downward impulse on the bodies that cannot move [N s], for impulses of shape (c, 3)."""
-    fixed = ~np.any(problem.inverse_mass, axis=1)
-    return float(-lmgc90_packing.body_impulses(problem, impulse)[fixed, 1].sum())
 
 
 def solve_cold(problem):
@@ -40,8 +29,5 @@ def measure(folder, problem):
 
 def lmgc90(folder):
     """LMGC90's packing at rest (tests/data); a function for processes.call. Raises FileNotFoundError where it is missing."""
-    # the step itself need not be solved, its problem is what is wanted
-    solver = lmgc90_packing.build(lmgc90_packing.load(), tolerance=1e3)
-    O.step()
-    solver.dump(str(Path(folder) / "step.h5"))
-    return measure(folder, Path(folder) / "step.h5")
+    _, problem, _ = lmgc90_packing.step_problem(folder)
+    return solve_cold(problem)

@@ -53,8 +53,8 @@ def measure(folder, source, disks, steps=STEPS):
     timed = TimedSteps().run(0, warm_up=LOADING)
     begun = solver.totalIterations
     timed.run(steps, warm_up=0)
-    memory = {"bytes_per_disk": (_resident() - before) / len(packed), "bytes_per_contact": (_resident() - before) / solver.candidates,
-              "bytes_per_contact_scene": scene / solver.candidates}
+    grown = _resident() - before
+    memory = {"bytes_per_disk": grown / len(packed), "bytes_per_contact": grown / solver.candidates, "bytes_per_contact_scene": scene / solver.candidates}
     return {"disks": len(packed), "candidates": solver.candidates, "bonds": bonds, "packing_s": packing_s, "building_s": building_s, **memory,
             **timed.summary(), "sweeps_mean": (solver.totalIterations - begun) / steps, "time_step_s": O.dt, "steps": LOADING + steps,
             **_dumped(solver, Path(folder) / PROBLEM)}

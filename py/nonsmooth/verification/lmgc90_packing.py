@@ -21,7 +21,7 @@ from yade.wrapper import NscdMat
 from .. import contact, scene
 from ..scene import contact_dynamics as engine
 
-__all__ = ["DISKS", "FLOOR", "G", "H", "LEFT", "MU", "RIGHT", "Balance", "Dump", "balance", "build", "dump_step", "engine", "impulses_of", "load",
+__all__ = ["DISKS", "FLOOR", "G", "H", "LEFT", "MU", "RIGHT", "Balance", "Dump", "balance", "build", "carried", "dump_step", "engine", "impulses_of", "load",
            "pair_keys", "relative_velocities", "step_problem", "velocities_of", "warm_start", "with_radius_levers"]
 
 DISKS, FLOOR, LEFT, RIGHT = 5000, 5000, 5001, 5002  # number of disks; ids of the walls, in our scene and, less one, in LMGC90
@@ -171,6 +171,12 @@ def body_impulses(problem: contact.ContactProblem, impulse) -> np.ndarray:
     np.add.at(sums, j, np.c_[force, l[:, 2] * n + l[:, 3] * t + r])
     np.add.at(sums, i, -np.c_[force, l[:, 0] * n + l[:, 1] * t + r])
     return sums
+
+
+def carried(problem, impulse) -> float:
+    """Downward impulse on the bodies that cannot move [N s], for impulses of shape (c, 3); of any problem."""
+    fixed = ~np.any(problem.inverse_mass, axis=1)
+    return float(-body_impulses(problem, impulse)[fixed, 1].sum())
 
 
 def velocities_of(problem: contact.ContactProblem, impulse) -> np.ndarray:

@@ -68,19 +68,16 @@ class Sweeps:
         """Relative velocities (c, 3), bias included."""
         return np.einsum("rcd,cd->cr", self.rows[0], v[self.i]) + np.einsum("rcd,cd->cr", self.rows[1], v[self.j]) + self.problem.bias
 
-    def project(self, p):
-        """Impulses moved onto their graphs' admissible sets, normal first."""
+    def project(self, p, pressing=None):
+        """Impulses moved onto their graphs' admissible sets, normal first. Thresholds are those of the normal impulses ``pressing`` (c,) or of the new ones."""
         q = self.problem
         n = np.maximum(p[:, 0], -q.adhesion)
-        limits = np.maximum(0, np.column_stack([q.friction, q.rolling_arm]) * (q.adhesion + n)[:, None])
+        limits = np.maximum(0, np.column_stack([q.friction, q.rolling_arm]) * (q.adhesion + (n if pressing is None else pressing))[:, None])
         return np.column_stack([n, np.clip(p[:, 1:], -limits, limits)])
 
     def residual(self, p, v):
         """Natural map, rms over the rms impulse, as contact.residual has it. The thresholds are those of the present normal impulse."""
-        q = self.problem
-        moved = p - self.inverse * self.relative(v)
-        limits = np.maximum(0, np.column_stack([q.friction, q.rolling_arm]) * (q.adhesion + p[:, 0])[:, None])
-        image = np.column_stack([np.maximum(moved[:, 0], -q.adhesion), np.clip(moved[:, 1:], -limits, limits)])
+        image = self.project(p - self.inverse * self.relative(v), pressing=p[:, 0])
         return float(np.linalg.norm((p - image) * self.units) / max(np.linalg.norm(p * self.units), 1e-300))
 
     def sweep(self, p, v, relaxation=1.0, backward=False):
@@ -182,8 +179,8 @@ def gradient(s, p, v):
     x = np.random.default_rng(1).standard_normal(p.shape)
     root = np.sqrt(s.inverse)
     for _ in range(50):
-        x /= np.linalg.norm(x)
-        x, largest = _symmetric(s, root, x), np.linalg.norm(_symmetric(s, root, x))
+        x = _symmetric(s, root, x / np.linalg.norm(x))
+        largest = np.linalg.norm(x)
 
     def step(p, v):
         p[:] = s.project(p - s.inverse * s.relative(v) / largest)
