@@ -48,6 +48,8 @@ struct BlockKernels {
 	const char* name;
 	/// One Gauss-Seidel visit of every contact, from impulses extrapolated by beta (velocities must be so already).
 	void (*sweep)(Block* blocks, std::size_t count, Motion* bodies, double beta);
+	/// The same, and fetches from memory meanwhile what follows `ahead`: a cache line for every block.
+	void (*sweepAndFetch)(Block* blocks, std::size_t count, Motion* bodies, double beta, const Block* ahead);
 	/// v += M⁻¹ Hᵀ P.
 	void (*apply)(const Block* blocks, std::size_t count, Motion* bodies);
 	/// Natural-map residual; one `inverseLength` a block.

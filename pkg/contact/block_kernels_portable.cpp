@@ -4,7 +4,7 @@ namespace nonsmooth::contact {
 
 const BlockKernels& portableKernels()
 {
-	static const BlockKernels kernels { "portable", sweepBlocks, applyBlocks, measureBlocks, extrapolateBodies };
+	static const BlockKernels kernels { "portable", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
 	return kernels;
 }
 

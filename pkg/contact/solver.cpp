@@ -63,6 +63,8 @@ namespace {
 		Impulse     inverse;   // 1/W_nn, 1/W_tt, 1/W_rr
 	};
 
+	constexpr std::size_t lastCache = 32 << 20; // bytes; of a common processor, and no more than a hint
+
 	/// Few contacts are not worth waking threads for.
 	int threadsFor(const Problem& problem, const SolverSettings& settings)
 	{
@@ -80,7 +82,9 @@ namespace {
 		void  sweep(const std::vector<double>& betas);
 		void  sweepRow(std::size_t row, double beta);
 		void  measure();
+		void  measureStrip(std::size_t strip);
 		void  measureRows(std::size_t strip, ResidualSums& sums) const;
+		void  sumUp();
 		void  measureChanges();
 		bool  solved(double slack) const;
 		void  finish();
@@ -93,6 +97,7 @@ namespace {
 		const BlockKernels&       kernels;
 		const int                 threads;
 		ContactBlocks&            laidOut;
+		bool                      outgrowsCache; // whether blocks have to be fetched from memory in every sweep
 		StripSchedule             schedule;
 		std::vector<Row>          rows;
 		std::vector<Motion>&      bodies; // by place; the last one is nobody
@@ -114,6 +119,7 @@ namespace {
 	        , bodiesBefore(workspace.bodiesBefore)
 	{
 		layOut(problem, threads, laidOut, !settings.reference);
+		outgrowsCache = laidOut.blocks.size() * sizeof(Block) > lastCache;
 		rows.resize(laidOut.others.size());
 		sums.resize(laidOut.stripCount());
 		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.stripCount());
@@ -180,17 +186,29 @@ namespace {
 		setTwists(row, vi, vj);
 	}
 
-	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it; returns without waiting for the other threads.
+	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it, and the residual after the last one, strip by
+	/// strip while it is at hand.
 	void Sweeper::sweep(const std::vector<double>& betas)
 	{
-		schedule.passes(omp_get_thread_num(), static_cast<int>(betas.size()), [this, &betas](std::size_t s, int pass) {
+		const int sweeps = static_cast<int>(betas.size());
+		schedule.passes(omp_get_thread_num(), sweeps + 1, [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
+			if (pass == sweeps) {
+				measureStrip(s);
+				return;
+			}
 			const double beta = betas[pass];
 			if (s < laidOut.order.evenStrips && settings.method == Method::Accelerated) {
 				// a strip in the first half is the first to touch its own bodies and those of the next one
 				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.stripCount())];
 				kernels.extrapolate(bodies.data() + first, bodiesBefore.data() + first, last - first, beta);
 			}
-			kernels.sweep(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data(), beta);
+			Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
+			const std::size_t count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
+			if (ahead.parts > 0 && outgrowsCache) {
+				const std::size_t begin = laidOut.blockBegin[ahead.strip], next = laidOut.blockBegin[ahead.strip + 1] - begin;
+				kernels.sweepAndFetch(blocks, count, bodies.data(), beta, laidOut.blocks.data() + begin + next * ahead.part / ahead.parts);
+			} else
+				kernels.sweep(blocks, count, bodies.data(), beta);
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 				sweepRow(k, beta);
 		});
@@ -208,15 +226,25 @@ namespace {
 		}
 	}
 
-	/// Natural-map residual with the present velocities, summed strip by strip.
+	/// Natural-map residual of a strip with the present velocities.
+	void Sweeper::measureStrip(std::size_t s)
+	{
+		const std::size_t begin = laidOut.blockBegin[s];
+		sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
+		measureRows(s, sums[s]);
+	}
+
+	/// Natural-map residual with the present velocities.
 	void Sweeper::measure()
 	{
 #pragma omp barrier
-		schedule.each(omp_get_thread_num(), [this](std::size_t s) {
-			const std::size_t begin = laidOut.blockBegin[s];
-			sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
-			measureRows(s, sums[s]);
-		});
+		schedule.each(omp_get_thread_num(), [this](std::size_t s) { measureStrip(s); });
+		sumUp();
+	}
+
+	/// The residual from those of the strips.
+	void Sweeper::sumUp()
+	{
 #pragma omp barrier
 #pragma omp single
 		{
@@ -290,7 +318,7 @@ namespace {
 			}
 			sweep(betas);
 			iteration += static_cast<int>(betas.size());
-			measure();
+			sumUp();
 			if (!rule.asks(residual.rms) || !accelerated) continue;
 			++restarts;
 			theta = 1;

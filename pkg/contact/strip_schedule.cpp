@@ -4,9 +4,9 @@
 namespace nonsmooth::contact {
 
 namespace {
-	// Passes at once: no more than whose strips share a cache with those of other workers, and no fewer than pay for the unequal shares that a triangle
-	// makes, which is kept small beside a stretch.
-	constexpr std::size_t deepest = 10, shallowest = 4, pairsADepth = 8;
+	// Passes at once: no more than whose strips share a cache with those of other workers (ten sweeps and a look at the residual), and no fewer than pay
+	// for the unequal shares that a triangle makes, which is kept small beside a stretch.
+	constexpr std::size_t deepest = 11, shallowest = 4, pairsADepth = 8;
 }
 
 void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers)

@@ -38,7 +38,14 @@ public:
 	/// other threads do nothing. It does not wait for the others at its end.
 	template <class Visit> void pass(int worker, Visit visit);
 
-	/// As many passes: calls visit(strip, pass) with passes counted from 0, several at once where stretches are long enough.
+	/// One of `parts` equal parts of a strip that the first of several passes visits soon, and that is likely not in the cache yet: the visits
+	/// before it may each fetch one. None where `parts` is 0.
+	struct Ahead {
+		std::size_t strip = 0;
+		int         part = 0, parts = 0;
+	};
+
+	/// As many passes: calls visit(strip, pass, ahead) with passes counted from 0, several at once where stretches are long enough.
 	template <class Visit> void passes(int worker, int count, Visit visit);
 
 	/// Calls visit(strip) for the same strips, in any order with those of others.
@@ -97,7 +104,7 @@ template <class Visit> void StripSchedule::passes(int worker, int count, Visit v
 	for (int k = 0; k < count; k += depth)
 		if (depth > 1) together(worker, k, std::min(depth, count - k), visit);
 		else
-			pass(worker, [&](std::size_t strip) { visit(strip, k); });
+			pass(worker, [&](std::size_t strip) { visit(strip, k, Ahead {}); });
 }
 
 /// Passes first … first + count − 1 at once.
@@ -107,8 +114,8 @@ template <class Visit> void StripSchedule::together(int worker, int first, int c
 	const Stretch& own  = stretches[worker];
 	Progress&      mine = progress[worker];
 	const long     turn = mine.passes++, begin = own.first, end = own.end;
-	const auto     odd  = [&](long pair, int k) {
-		if (pairs + pair < strips) visit(pairs + pair, first + k);
+	const auto     odd  = [&](long pair, int k, const Ahead& ahead = {}) {
+		if (pairs + pair < strips) visit(pairs + pair, first + k, ahead);
 	};
 	// where there is no neighbour, nothing is left out
 	const auto from = [&](long k) { return worker > 0 ? begin + k : begin; };
@@ -117,8 +124,11 @@ template <class Visit> void StripSchedule::together(int worker, int first, int c
 	for (long front = begin; front < end + count; ++front) {
 		for (int k = 0; k < count; ++k) {
 			const long pair = front - k;
-			if (pair >= from(k) && pair < to(k)) visit(pair, first + k);
-			if (pair > from(k) && (pair < to(k) || (!own.reaches && pair == end))) odd(pair - 1, k);
+			// what the first pass visits when the front has moved on
+			const int   parts = front + 1 < end ? count : 0;
+			const Ahead even { static_cast<std::size_t>(front + 1), k, parts }, uneven { pairs + front, k, parts };
+			if (pair >= from(k) && pair < to(k)) visit(pair, first + k, even);
+			if (pair > from(k) && (pair < to(k) || (!own.reaches && pair == end))) odd(pair - 1, k, uneven);
 		}
 		// the neighbour's triangle reaches as far as the last pass's first pair
 		if (front == begin + 2 * (count - 1)) mine.begun.store(turn + 1, std::memory_order_release);
@@ -127,7 +137,7 @@ template <class Visit> void StripSchedule::together(int worker, int first, int c
 	await(progress[worker + 1].begun, turn + 1);
 	for (int k = 0; k < count; ++k) {
 		for (long pair = end - k; pair < end + k; ++pair)
-			visit(pair, first + k);
+			visit(pair, first + k, Ahead {});
 		for (long pair = end - k - 1; pair < end + k; ++pair)
 			odd(pair, k);
 	}

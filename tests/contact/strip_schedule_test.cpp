@@ -117,7 +117,7 @@ TEST(StripSchedule, PassesAtOnceLeaveWhatOneAfterTheOtherLeaves)
 					plain.visit(place, p);
 			for (int workers : { 1, 2, 3, 5 })
 				expectSame(plain, strips, workers, [passes](StripSchedule& schedule, int worker, Mixer& mixer) {
-					schedule.passes(worker, passes, [&](std::size_t place, int p) { mixer.visit(place, p); });
+					schedule.passes(worker, passes, [&](std::size_t place, int p, const StripSchedule::Ahead&) { mixer.visit(place, p); });
 				});
 		}
 }
@@ -130,12 +130,39 @@ TEST(StripSchedule, PassesAtOnceComeBackToAStripSoon)
 	schedule.plan(beginsOf(std::vector<std::size_t>(strips, 100)), strips / 2, 1);
 	std::vector<long> last(strips, -1);
 	long              visits = 0, longest = 0;
-	schedule.passes(0, 10, [&](std::size_t place, int) {
+	schedule.passes(0, 10, [&](std::size_t place, int, const StripSchedule::Ahead&) {
 		if (last[place] >= 0) longest = std::max(longest, visits - last[place]);
 		last[place] = visits++;
 	});
 	EXPECT_EQ(visits, 10 * long(strips));
 	EXPECT_EQ(longest, 22); // a pair of strips for each of ten passes, and one more, as the next pass comes a place later
+}
+
+// so that the first pass does not wait for memory: a strip is announced in parts, each once, shortly before its first visit
+TEST(StripSchedule, PassesAtOnceSayWhatTheFirstOneVisitsNext)
+{
+	constexpr int    strips = 1000, passes = 10, all = (1 << passes) - 1;
+	StripSchedule    schedule;
+	schedule.plan(beginsOf(std::vector<std::size_t>(strips, 100)), strips / 2, 1);
+	std::vector<int>  announced(strips, 0); // a bit for each part
+	std::vector<long> last(strips, 0);
+	int               whole  = 0;
+	long              visits = 0, longest = 0;
+	schedule.passes(0, passes, [&](std::size_t place, int pass, const StripSchedule::Ahead& ahead) {
+		if (pass == 0 && announced[place] == all) {
+			++whole;
+			longest = std::max(longest, visits - last[place]);
+		}
+		if (ahead.parts > 0) {
+			EXPECT_EQ(ahead.parts, passes);
+			EXPECT_EQ(announced[ahead.strip] & 1 << ahead.part, 0) << "strip " << ahead.strip << ", part " << ahead.part;
+			announced[ahead.strip] |= 1 << ahead.part;
+			last[ahead.strip] = visits;
+		}
+		++visits;
+	});
+	EXPECT_EQ(whole, strips - 2 * passes - 1); // not those before which some passes have not begun, and not the very last
+	EXPECT_LE(longest, 4);                     // visits since its last part
 }
 
 TEST(StripSchedule, KeepsNothingOfAnEarlierPlan)
