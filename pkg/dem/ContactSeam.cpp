@@ -3,6 +3,7 @@
 #include "Prefetch.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
+#include <neighbours/bucket_sort.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
@@ -16,6 +17,14 @@ namespace {
 	constexpr long   tidyPeriod = 100; // steps
 	constexpr Real   unseen     = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
 	constexpr size_t sumChunk = 1024; // fixed, so that sums do not depend on the number of threads
+
+	size_t chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
+
+	void forgetReactions(NscdPhys& phys)
+	{
+		phys.normal = phys.tangential = phys.torque = 0;
+		phys.normalForce = phys.shearForce = Vector3r::Zero();
+	}
 
 	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
 	{
@@ -34,14 +43,27 @@ void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation
 	if (!loop) readContacts(scene);
 	const Readings& read = loop ? loop->contactReadings() : ownContacts;
 	arrange(read, scene.bodies->size());
-	const long count = (long)ordered.size();
-	links.resize(count);
-	problem.contacts.resize(count);
-	problem.impulses.resize(count);
+	divide(read);
+	const size_t count = ordered.size(), solved = solvedBefore.back();
+	problem.contacts.resize(solved);
+	problem.impulses.resize(solved);
+	links.resize(solved);
+	leftContacts.resize(count - solved);
+	leftLinks.resize(count - solved);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < count; ++k)
-		gatherContact(read, k);
-	compact();
+	for (long part = 0; part < (long)chunksOf(count); ++part) {
+		const size_t begin = part * sumChunk;
+		size_t       in = solvedBefore[part], left = begin - in;
+		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k)
+			if (ordered[k].solved) {
+				problem.impulses[in] = gatherContact(read, ordered[k], problem.contacts[in], links[in]);
+				++in;
+			} else {
+				const Impulse p = gatherContact(read, ordered[k], leftContacts[left], leftLinks[left]);
+				if (p.n != 0) forgetReactions(*leftLinks[left].phys);
+				++left;
+			}
+	}
 }
 
 void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read)
@@ -137,54 +159,52 @@ void ContactSeam::arrange(const Readings& readings, size_t bodies)
 	const auto taken = [&](const ReadIds& ids) {
 		return ids.first >= 0 && (size_t)std::max(ids.first, ids.second) < bodies && present[ids.first] && present[ids.second];
 	};
-	bucket.assign(bodies + 1, 0);
-	for (const ReadIds& ids : readings.ids)
-		if (taken(ids)) ++bucket[std::min(ids.first, ids.second) + 1];
-	for (size_t k = 0; k < bodies; ++k)
-		bucket[k + 1] += bucket[k];
-	ordered.resize(bucket[bodies]);
-	for (size_t k = 0; k < readings.ids.size(); ++k) {
-		const ReadIds& ids = readings.ids[k];
-		if (!taken(ids)) continue;
-		const int low = std::min(ids.first, ids.second), high = std::max(ids.first, ids.second);
-		ordered[bucket[low]++] = { low, high, int(k), ids.first > ids.second };
-	}
-	// each bucket now ends where the next one began
+	const auto each = [&](auto take) {
+		for (size_t k = 0; k < readings.ids.size(); ++k) {
+			const ReadIds& ids = readings.ids[k];
+			if (!taken(ids)) continue;
+			const int low = std::min(ids.first, ids.second), high = std::max(ids.first, ids.second);
+			take(low, Found { low, high, int(k), ids.first > ids.second, true });
+		}
+	};
+	nonsmooth::neighbours::sortIntoBuckets(bodies, each, bucket, ordered);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < (long)bodies; ++k)
-		std::sort(
-		        ordered.begin() + (k > 0 ? bucket[k - 1] : 0), ordered.begin() + bucket[k],
-		        [](const Found& a, const Found& b) { return a.high < b.high; });
+		std::sort(ordered.begin() + bucket[k], ordered.begin() + bucket[k + 1], [](const Found& a, const Found& b) { return a.high < b.high; });
 }
 
-/// Puts the contacts that need not be solved for aside, keeping the order of the others.
-void ContactSeam::compact()
+/// Tells the contacts that need not be solved for from the others, and counts these, so that each can be gathered where it stays.
+void ContactSeam::divide(const Readings& readings)
 {
-	size_t kept = 0;
-	leftContacts.clear();
-	leftLinks.clear();
-	for (size_t k = 0; k < links.size(); ++k) {
-		if (!links[k].phys) {
-			const Interaction& i = *links[k].interaction;
-			throw std::runtime_error(
-			        "ContactDynamicsEngine: interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2()) + " has a "
-			        + i.phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+	const size_t count = ordered.size();
+	long         bad   = (long)count; // the first one of another physics, reported after the loop
+	solvedBefore.assign(chunksOf(count) + 1, 0);
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
+	for (long part = 0; part < (long)chunksOf(count); ++part)
+		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
+			const Reading& reading = readings.contacts[ordered[k].reading];
+			if (!reading.phys) bad = std::min(bad, (long)k);
+			ordered[k].solved = mustBeSolved(reading, ordered[k]);
+			solvedBefore[part + 1] += ordered[k].solved;
 		}
-		if (!links[k].solved) {
-			leftContacts.push_back(problem.contacts[k]);
-			leftLinks.push_back(links[k]);
-			continue;
-		}
-		if (kept != k) {
-			links[kept]            = links[k];
-			problem.contacts[kept] = problem.contacts[k];
-			problem.impulses[kept] = problem.impulses[k];
-		}
-		++kept;
+	if (bad < (long)count) {
+		const Interaction& i = *readings.contacts[ordered[bad].reading].interaction;
+		throw std::runtime_error(
+		        "ContactDynamicsEngine: interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2()) + " has a "
+		        + i.phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
 	}
-	links.resize(kept);
-	problem.contacts.resize(kept);
-	problem.impulses.resize(kept);
+	for (size_t part = 1; part < solvedBefore.size(); ++part)
+		solvedBefore[part] += solvedBefore[part - 1];
+}
+
+/// A contact is left out where it is open and will not close in the step.
+bool ContactSeam::mustBeSolved(const Reading& reading, const Found& ids) const
+{
+	const Real widest = relaxation.openGap * reading.length;
+	if (!reading.phys || reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
+	const Contact c       = frameOf(reading, ids);
+	const Real    closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
+	return reading.gap + 1.2 * relaxation.step * closing <= widest;
 }
 
 /// A body that is hit in the step may reach others that nothing approached before.
@@ -201,7 +221,6 @@ size_t ContactSeam::recall()
 	size_t left = 0;
 	for (size_t k = 0; k < leftLinks.size(); ++k) {
 		if (gapAfter(k) < 0) {
-			leftLinks[k].solved = true;
 			links.push_back(leftLinks[k]);
 			problem.contacts.push_back(leftContacts[k]);
 			problem.impulses.push_back({});
@@ -216,74 +235,76 @@ size_t ContactSeam::recall()
 	return recalled;
 }
 
-void ContactSeam::gatherContact(const Readings& readings, size_t k)
+/// Bodies, directions and levers: from the lower id to the higher, from a wall to a sphere.
+Contact ContactSeam::frameOf(const Reading& reading, const Found& ids) const
 {
-	const Found&   ids     = ordered[k];
-	const Reading& reading = readings.contacts[ids.reading];
-	Link&          link    = links[k];
-	link                   = { reading.interaction, reading.geom, reading.phys };
-	if (!link.phys) return;
-	link.bonded    = reading.bonded;
-	link.broken    = reading.broken;
-	link.slips     = reading.slips;
-	const int    id1 = ids.falling ? ids.high : ids.low, id2 = ids.falling ? ids.low : ids.high;
-	const Real   r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
-	const bool   s1 = r1 > 0, s2 = r2 > 0;
-	const Real   gap = reading.gap, h = relaxation.step;
-	Contact      c;
-
-	// from the lower id to the higher, from a wall to a sphere
-	link.swapped     = (s1 && s2) ? ids.falling : (s1 && !s2);
-	const Real nx    = link.swapped ? -reading.nx : reading.nx, ny = link.swapped ? -reading.ny : reading.ny;
-	c.i              = link.swapped ? id2 : id1;
-	c.j              = link.swapped ? id1 : id2;
-	c.nx              = nx;
-	c.ny              = ny;
+	const int  id1 = ids.falling ? ids.high : ids.low, id2 = ids.falling ? ids.low : ids.high;
+	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
+	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = isSwapped(ids);
+	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
+	Contact    c;
+	c.i  = swapped ? id2 : id1;
+	c.j  = swapped ? id1 : id2;
+	c.nx = nx;
+	c.ny = ny;
 	if (s1 && s2) {
-		c.leverTi = (link.swapped ? r2 : r1) + 0.5 * gap;
-		c.leverTj = -((link.swapped ? r1 : r2) + 0.5 * gap);
-	} else {
-		const auto  lever = [&](int id) { return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x, reading.geom->contactPoint[1] - problem.positions[id].y }; };
-		const auto  ri = lever(c.i), rj = lever(c.j);
-		c.leverNi = ny * ri.x - nx * ri.y;
-		c.leverTi = ri.x * nx + ri.y * ny;
-		// exactly none through a sphere's centre
-		c.leverNj = s1 || s2 ? 0 : ny * rj.x - nx * rj.y;
-		c.leverTj = rj.x * nx + rj.y * ny;
+		c.leverTi = (swapped ? r2 : r1) + 0.5 * reading.gap;
+		c.leverTj = -((swapped ? r1 : r2) + 0.5 * reading.gap);
+		return c;
 	}
+	const auto lever = [&](int id) { return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x, reading.geom->contactPoint[1] - problem.positions[id].y }; };
+	const auto ri = lever(c.i), rj = lever(c.j);
+	c.leverNi = ny * ri.x - nx * ri.y;
+	c.leverTi = ri.x * nx + ri.y * ny;
+	// exactly none through a sphere's centre
+	c.leverNj = s1 || s2 ? 0 : ny * rj.x - nx * rj.y;
+	c.leverTj = rj.x * nx + rj.y * ny;
+	return c;
+}
+
+/// Whether a contact runs against its interaction's own order of bodies.
+bool ContactSeam::isSwapped(const Found& ids) const
+{
+	const bool s1 = radius[ids.falling ? ids.high : ids.low] > 0, s2 = radius[ids.falling ? ids.low : ids.high] > 0;
+	return (s1 && s2) ? ids.falling : (s1 && !s2);
+}
+
+/// Fills in a contact and its link; returns the impulses of the step before.
+Impulse ContactSeam::gatherContact(const Readings& readings, const Found& ids, Contact& result, Link& link) const
+{
+	const Reading& reading = readings.contacts[ids.reading];
+	const Real     gap = reading.gap, h = relaxation.step;
+	link         = { reading.interaction, reading.geom, reading.phys };
+	link.bonded  = reading.bonded;
+	link.broken  = reading.broken;
+	link.slips   = reading.slips;
+	link.swapped = isSwapped(ids);
+	link.gap     = gap;
+	Contact c    = frameOf(reading, ids);
 	// error of position: a bond keeps its length, a contact its gap
 	const Real error = reading.bonded ? gap - reading.restGap : gap;
 	if (!reading.bonded && gap > 0) c.biasN = gap / h;
 	else
 		c.biasN = std::max(-relaxation.largestSpeed, std::min(relaxation.largestSpeed, relaxation.rate * error / h));
 	link.bias = c.biasN;
-	link.gap  = gap;
 	if (reading.restitution > 0 && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
 		if (approach < 0 && gap + h * approach <= 0) c.biasN = reading.restitution * approach;
 	}
-	c.adhesion          = h * reading.adhesion;
-	c.friction          = reading.friction;
-	c.rollingArm        = reading.rollingArm;
-	c.length            = reading.length;
-	problem.contacts[k] = c;
-	problem.impulses[k] = { h * reading.normal, h * reading.tangential, h * reading.torque };
-
-	const Real closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
-	link.solved = reading.bonded || link.broken != NscdPhys::None || gap + 1.2 * h * closing <= relaxation.openGap * reading.length;
-	if (!link.solved && reading.normal != 0) {
-		NscdPhys& phys = *link.phys;
-		phys.normal = phys.tangential = phys.torque = 0;
-		phys.normalForce = phys.shearForce = Vector3r::Zero();
-	}
+	c.adhesion   = h * reading.adhesion;
+	c.friction   = reading.friction;
+	c.rollingArm = reading.rollingArm;
+	c.length     = reading.length;
+	result       = c;
+	return { h * reading.normal, h * reading.tangential, h * reading.torque };
 }
 
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
 {
 	threads                     = threadCount;
 	const Real            h     = relaxation.step;
-	const size_t          count = links.size(), chunksC = (count + sumChunk - 1) / sumChunk, chunksB = (before.size() + sumChunk - 1) / sumChunk;
+	const size_t          count = links.size(), chunksC = chunksOf(count), chunksB = chunksOf(before.size());
 	std::vector<StepSums> parts(chunksC + chunksB);
 	std::vector<char>     slip(chunksC, 0);
 #pragma omp parallel for schedule(static) num_threads(threads)

@@ -34,7 +34,6 @@ struct Link {
 	bool         swapped = false; // runs against the interaction's own order
 	bool         bonded  = false;
 	bool         slips   = false; // on a wall that counts slip
-	bool         solved  = false; // takes part in the solve
 };
 
 /// What a step did, summed in a fixed order.
@@ -67,24 +66,28 @@ public:
 	std::vector<Link>           links;
 
 private:
-	void gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read);
-	void tidy(Scene& scene);
-	void readContacts(Scene& scene);
-	void arrange(const Readings& readings, size_t bodies);
-	void compact();
-	void gatherContact(const Readings& readings, size_t k);
-	void scatterContact(size_t k);
-	void scatterForces(Scene& scene);
-	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
-	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
-	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
-
 	/// A reading's place in the order of contacts.
 	struct Found {
 		int  low, high; // ids
 		int  reading;
 		bool falling; // from the higher id to the lower
+		bool solved;  // takes part in the solve
 	};
+
+	void gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read);
+	void tidy(Scene& scene);
+	void readContacts(Scene& scene);
+	void arrange(const Readings& readings, size_t bodies);
+	void divide(const Readings& readings);
+	bool mustBeSolved(const Reading& reading, const Found& ids) const;
+	bool isSwapped(const Found& ids) const;
+	nonsmooth::contact::Contact frameOf(const Reading& reading, const Found& ids) const;
+	nonsmooth::contact::Impulse gatherContact(const Readings& readings, const Found& ids, nonsmooth::contact::Contact& result, Link& link) const;
+	void scatterContact(size_t k);
+	void scatterForces(Scene& scene);
+	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
+	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
+	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	Relaxation                             relaxation { 1, 0, 0, 0 };
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
@@ -99,6 +102,7 @@ private:
 	std::vector<BodyReading>               ownBodies; // made where no loop has made them
 	Readings                               ownContacts;
 	std::vector<Found>                     ordered;
+	std::vector<size_t>                    solvedBefore; // contacts to be solved before each chunk of `ordered`, and all
 	std::vector<Real>                      radius; // of spheres, negative for other shapes
 	std::vector<Real>                      mass, inertia;
 };

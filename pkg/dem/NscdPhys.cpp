@@ -10,11 +10,13 @@ YADE_PLUGIN((NscdPhys)(SlipWeakeningPhys)(Ip2_NscdMat_NscdMat_NscdPhys));
 
 void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 {
-	const bool touching    = gap <= adhesionRange * length;
-	adhesion               = bonded ? tensileForce : (touching ? residualTensileForce : 0);
-	currentFriction        = bonded ? friction : residualFriction;
-	currentRollingArm      = bonded ? rollingArm : residualRollingArm;
-	tangensOfFrictionAngle = currentFriction;
+	// most keep theirs, and what is not written need not go back to memory
+	const auto set      = [](Real& threshold, Real value) { if (threshold != value) threshold = value; };
+	const bool touching = gap <= adhesionRange * length;
+	set(adhesion, bonded ? tensileForce : (touching ? residualTensileForce : 0));
+	set(currentFriction, bonded ? friction : residualFriction);
+	set(currentRollingArm, bonded ? rollingArm : residualRollingArm);
+	set(tangensOfFrictionAngle, currentFriction);
 }
 
 void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)

@@ -40,13 +40,13 @@ def write(folder, key, content):
     """Saves the scene and ``content`` (what JSON can hold) below ``folder``."""
     folder = Path(folder) / "checkpoint"
     folder.mkdir(parents=True, exist_ok=True)
-    name = f"scene-{O.iter:08d}.yade.gz"
+    name = f"scene-{O.iter:08d}.yade"  # as gzip it would take half the room and three times as long
     part = folder / f".part-{name}"
     O.save(str(part), quiet=True)
     os.replace(part, folder / name)
     head = {"format": 1, "scene": name, "size": (folder / name).stat().st_size, "step": O.iter, "key": key}
     write_atomically(folder / "checkpoint.json", json.dumps({**head, **content}, indent=1).encode())
-    for old in folder.glob("scene-*.yade.gz"):
+    for old in folder.glob("scene-*.yade*"):
         if old.name != name:
             old.unlink()
 

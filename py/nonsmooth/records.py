@@ -416,14 +416,15 @@ def _snapshot(arrays, source):
 
 
 def write_snapshot(path, **arrays):
-    """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as compressed ``.npz``; returns its path.
+    """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as ``.npz``; returns its path.
 
     Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN or a bad index, and
     :class:`~yade.nonsmooth.whole_files.WriteError` for a file that cannot be written.
     """
     path = Path(path)
     snapshot = _snapshot(arrays, path)
-    write_arrays(path, compressed=True, **{f.name: getattr(snapshot, f.name) for f in fields(Snapshot)})
+    # not compressed: a fifth of the room is not worth most of the time, as coordinates hardly shrink
+    write_arrays(path, **{f.name: getattr(snapshot, f.name) for f in fields(Snapshot)})
     return path
 
 

@@ -99,7 +99,7 @@ def test_resume_without_a_checkpoint(tmp_path):
 def test_truncated_checkpoint_is_refused_and_nothing_is_lost(section, unbroken, tmp_path):
     out = tmp_path / "copy"
     shutil.copytree(unbroken, out)
-    scene = next((out / "checkpoint").glob("scene-*.yade.gz"))
+    scene = next((out / "checkpoint").glob("scene-*.yade"))
     scene.write_bytes(scene.read_bytes()[:1000])
     before = (out / "series.csv").read_bytes()
     message = refused("--section", section, "--disks", DISKS, "--out", out, "--resume")
