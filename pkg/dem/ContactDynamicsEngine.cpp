@@ -3,6 +3,7 @@
 #include "Gravity.hpp"
 #include "NonsmoothTimeStepper.hpp"
 #include "NscdInteractionLoop.hpp"
+#include "PythonBytes.hpp"
 #include "Threads.hpp"
 #include <chrono>
 #include <contact/problem_file.hpp>
@@ -232,14 +233,6 @@ boost::python::dict ContactDynamicsEngine::energies() const
 	return d;
 }
 
-namespace nscd {
-	inline boost::python::object asBytes(const std::vector<double>& rows)
-	{
-		return boost::python::object(boost::python::handle<>(
-		        PyBytes_FromStringAndSize(reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(double))));
-	}
-}
-
 boost::python::object ContactDynamicsEngine::bodyTable() const
 {
 	std::vector<double> rows;
@@ -254,7 +247,7 @@ boost::python::object ContactDynamicsEngine::bodyTable() const
 	return nscd::asBytes(rows);
 }
 
-boost::python::object ContactDynamicsEngine::breakTable() const { return nscd::asBytes({ breakLog.begin(), breakLog.end() }); }
+boost::python::object ContactDynamicsEngine::breakTable() const { return nscd::asBytes<double>({ breakLog.begin(), breakLog.end() }); }
 
 boost::python::object ContactDynamicsEngine::contactTable() const
 {

@@ -1,6 +1,7 @@
 #include "PorePressureEngine.hpp"
 #include "Gravity.hpp"
 #include "NscdInteractionLoop.hpp"
+#include "PythonBytes.hpp"
 #include "Threads.hpp"
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
@@ -25,10 +26,10 @@ Real PorePressureEngine::heightAt(Real time) const
 
 boost::python::object PorePressureEngine::bodyTable() const
 {
-	std::string rows; // bytes
+	std::vector<char> rows;
 	for (int id = 0; id < (int)std::max(wet.size(), released.size()); ++id)
-		rows.append({ char(isWet(id)), char(isReleased(id)) });
-	return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(rows.data(), rows.size())));
+		rows.insert(rows.end(), { char(isWet(id)), char(isReleased(id)) });
+	return nscd::asBytes(rows);
 }
 
 void PorePressureEngine::action()
