@@ -44,9 +44,9 @@ MUTANTS = (
            (("dem/ContactSeam.cpp", "c.biasN = gap / h;", "c.biasN = nonsmooth::mutant::gap ? 0 : gap / h;"),),
            ("landing", "restitution-head-on", "cradle")),
     Mutant("warm-start", "the warm start is not rescaled when the time step changes",
-           (("dem/ContactSeam.cpp", "problem.impulses[k] = { h * reading.normal, h * reading.tangential, h * reading.torque };",
+           (("dem/ContactSeam.cpp", "return { h * reading.normal, h * reading.tangential, h * reading.torque };",
              "const Real was = nonsmooth::mutant::warmStart ? nonsmooth::mutant::stepBefore : h;\n"
-             "\tproblem.impulses[k] = { was * reading.normal, was * reading.tangential, was * reading.torque };"),
+             "\treturn { was * reading.normal, was * reading.tangential, was * reading.torque };"),
             ("dem/ContactSeam.cpp", "\tscatterForces(scene);", "\tscatterForces(scene);\n\tnonsmooth::mutant::stepBefore = h;")),
            ("changed-time-step",)),
     Mutant("slippery", "contacts have half of their friction",
