@@ -54,15 +54,18 @@ void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation
 	for (long part = 0; part < (long)chunksOf(count); ++part) {
 		const size_t begin = part * sumChunk;
 		size_t       in = solvedBefore[part], left = begin - in;
-		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k)
-			if (ordered[k].solved) {
-				problem.impulses[in] = gatherContact(read, ordered[k], problem.contacts[in], links[in]);
+		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k) {
+			const Found&   ids     = ordered[k];
+			const Reading& reading = read.contacts[ids.reading];
+			if (ids.solved) {
+				problem.impulses[in] = gatherContact(reading, ids, problem.contacts[in], links[in]);
 				++in;
 			} else {
-				const Impulse p = gatherContact(read, ordered[k], leftContacts[left], leftLinks[left]);
-				if (p.n != 0) forgetReactions(*leftLinks[left].phys);
+				gatherContact(reading, ids, leftContacts[left], leftLinks[left]);
+				if (reading.normal != 0) forgetReactions(*reading.phys);
 				++left;
 			}
+		}
 	}
 }
 
@@ -201,7 +204,7 @@ void ContactSeam::divide(const Readings& readings)
 bool ContactSeam::mustBeSolved(const Reading& reading, const Found& ids) const
 {
 	const Real widest = relaxation.openGap * reading.length;
-	if (!reading.phys || reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
+	if (reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
 	const Contact c       = frameOf(reading, ids);
 	const Real    closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
 	return reading.gap + 1.2 * relaxation.step * closing <= widest;
@@ -240,7 +243,7 @@ Contact ContactSeam::frameOf(const Reading& reading, const Found& ids) const
 {
 	const int  id1 = ids.falling ? ids.high : ids.low, id2 = ids.falling ? ids.low : ids.high;
 	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
-	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = isSwapped(ids);
+	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? ids.falling : s1 && !s2;
 	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
 	Contact    c;
 	c.i  = swapped ? id2 : id1;
@@ -262,25 +265,17 @@ Contact ContactSeam::frameOf(const Reading& reading, const Found& ids) const
 	return c;
 }
 
-/// Whether a contact runs against its interaction's own order of bodies.
-bool ContactSeam::isSwapped(const Found& ids) const
-{
-	const bool s1 = radius[ids.falling ? ids.high : ids.low] > 0, s2 = radius[ids.falling ? ids.low : ids.high] > 0;
-	return (s1 && s2) ? ids.falling : (s1 && !s2);
-}
-
 /// Fills in a contact and its link; returns the impulses of the step before.
-Impulse ContactSeam::gatherContact(const Readings& readings, const Found& ids, Contact& result, Link& link) const
+Impulse ContactSeam::gatherContact(const Reading& reading, const Found& ids, Contact& result, Link& link) const
 {
-	const Reading& reading = readings.contacts[ids.reading];
-	const Real     gap = reading.gap, h = relaxation.step;
+	const Real gap = reading.gap, h = relaxation.step;
+	Contact    c = frameOf(reading, ids);
 	link         = { reading.interaction, reading.geom, reading.phys };
 	link.bonded  = reading.bonded;
 	link.broken  = reading.broken;
 	link.slips   = reading.slips;
-	link.swapped = isSwapped(ids);
+	link.swapped = c.i != (ids.falling ? ids.high : ids.low);
 	link.gap     = gap;
-	Contact c    = frameOf(reading, ids);
 	// error of position: a bond keeps its length, a contact its gap
 	const Real error = reading.bonded ? gap - reading.restGap : gap;
 	if (!reading.bonded && gap > 0) c.biasN = gap / h;

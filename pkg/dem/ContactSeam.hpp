@@ -80,9 +80,8 @@ private:
 	void arrange(const Readings& readings, size_t bodies);
 	void divide(const Readings& readings);
 	bool mustBeSolved(const Reading& reading, const Found& ids) const;
-	bool isSwapped(const Found& ids) const;
 	nonsmooth::contact::Contact frameOf(const Reading& reading, const Found& ids) const;
-	nonsmooth::contact::Impulse gatherContact(const Readings& readings, const Found& ids, nonsmooth::contact::Contact& result, Link& link) const;
+	nonsmooth::contact::Impulse gatherContact(const Reading& reading, const Found& ids, nonsmooth::contact::Contact& result, Link& link) const;
 	void scatterContact(size_t k);
 	void scatterForces(Scene& scene);
 	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
