@@ -7,13 +7,13 @@ namespace nonsmooth::contact {
 namespace {
 
 	/// What the short formulas of the blocks ask of a body.
-	enum BodyTrait : std::uint8_t { moves = 1, turns = 2, plain = 4 };
+	enum BodyTrait : std::uint8_t { turns = 1, plain = 2 };
 
 	std::uint8_t traitsOf(const InverseMass& m, const Twist& freeVelocity)
 	{
 		// a wall that turns enters the velocities through levers too
 		const bool isPlain = m.x == m.y && (m.w != 0 || freeVelocity.w == 0);
-		return (m.isFixed() ? 0 : moves) | (m.w != 0 ? turns : 0) | (isPlain ? plain : 0);
+		return (m.w != 0 ? turns : 0) | (isPlain ? plain : 0);
 	}
 
 	/// Whether the short formulas of the blocks hold: no rows coupled but T and Γ, no bias but the normal one.
@@ -30,7 +30,7 @@ namespace {
 	};
 
 	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
-	void fill(const Problem& problem, const SweepOrder& order, const std::vector<std::uint8_t>& traits, std::size_t strip, bool blocks, ContactBlocks::Strip& result)
+	void fill(const SweepOrder& order, const std::vector<std::uint8_t>& simple, std::size_t strip, ContactBlocks::Strip& result)
 	{
 		constexpr std::size_t mostOpen = 16;
 		result.contactOf.clear();
@@ -39,16 +39,14 @@ namespace {
 		open.reserve(mostOpen);
 		for (std::size_t k = order.stripBegin[strip]; k < order.stripBegin[strip + 1]; ++k) {
 			const std::int32_t index = order.order[k];
-			const Contact&     c     = problem.contacts[index];
-			const std::uint8_t ti = traits[c.i], tj = traits[c.j];
-			if (!blocks || !isSimple(c, ti, tj)) {
+			if (!simple[index]) {
 				result.others.push_back(index);
 				continue;
 			}
-			const std::int32_t i = ti & moves ? c.i : ContactBlocks::none, j = tj & moves ? c.j : ContactBlocks::none;
-			const auto         fits = [&](const Open& o) {
+			const auto [i, j] = order.pairs[index];
+			const auto fits   = [&, i = i, j = j](const Open& o) {
 				for (int b = 0; b < 2 * o.filled; ++b)
-					if (o.bodies[b] != ContactBlocks::none && (o.bodies[b] == i || o.bodies[b] == j)) return false;
+					if (o.bodies[b] != MovablePair::none && (o.bodies[b] == i || o.bodies[b] == j)) return false;
 				return true;
 			};
 			std::size_t at = 0;
@@ -66,6 +64,16 @@ namespace {
 			o.bodies[2 * o.filled + 1]                  = j;
 			if (++o.filled == int(lanes)) open.erase(open.begin() + at);
 		}
+	}
+
+	void fetch(const Problem& problem, std::int32_t index)
+	{
+		if (index == ContactBlocks::none) return;
+		const char* const contact = reinterpret_cast<const char*>(&problem.contacts[index]);
+		__builtin_prefetch(contact);
+		__builtin_prefetch(contact + sizeof(Contact) / 2);
+		__builtin_prefetch(contact + sizeof(Contact) - 1);
+		__builtin_prefetch(&problem.impulses[index]);
 	}
 
 	void fillLane(Block& block, int l, const Problem& problem, std::int32_t index, const std::vector<std::int32_t>& placeOf)
@@ -100,22 +108,32 @@ namespace {
 void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks)
 {
 	const SweepOrder& order = result.order;
-	arrange(problem, result.order);
+	arrange(problem, threads, result.order);
 	const std::size_t strips = order.stripCount();
 	const auto        nobody = static_cast<std::int32_t>(problem.bodyCount());
+	const long        bodyCount = static_cast<long>(problem.bodyCount()), contactCount = static_cast<long>(problem.contactCount());
 	auto&             parts  = result.scratch;
 	parts.resize(strips);
-	auto& traits = result.traits;
-	traits.resize(problem.bodyCount());
-	for (std::size_t b = 0; b < problem.bodyCount(); ++b)
-		traits[b] = traitsOf(problem.inverseMass[b], problem.freeVelocity[b]);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-	for (long s = 0; s < static_cast<long>(strips); ++s)
-		fill(problem, order, traits, s, blocks, parts[s]);
-
+	result.traits.resize(problem.bodyCount());
+	result.simple.resize(problem.contactCount());
 	result.placeOf.resize(problem.bodyCount());
-	for (std::size_t k = 0; k < order.bodies.size(); ++k)
-		result.placeOf[order.bodies[k]] = static_cast<std::int32_t>(k);
+#pragma omp parallel num_threads(threads)
+	{
+#pragma omp for schedule(static)
+		for (long b = 0; b < bodyCount; ++b) {
+			result.traits[b]                = traitsOf(problem.inverseMass[b], problem.freeVelocity[b]);
+			result.placeOf[order.bodies[b]] = static_cast<std::int32_t>(b);
+		}
+#pragma omp for schedule(static)
+		for (long k = 0; k < contactCount; ++k) {
+			const Contact& c = problem.contacts[k];
+			result.simple[k] = blocks && isSimple(c, result.traits[c.i], result.traits[c.j]);
+		}
+#pragma omp for schedule(dynamic, 1)
+		for (long s = 0; s < static_cast<long>(strips); ++s)
+			fill(order, result.simple, s, parts[s]);
+	}
+
 	result.blockBegin.assign(1, 0);
 	result.otherBegin.assign(1, 0);
 	for (const ContactBlocks::Strip& part : parts) {
@@ -124,7 +142,7 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 	}
 	result.blocks.resize(result.blockBegin.back());
 	result.contactOf.resize(result.blocks.size() * lanes);
-	result.inverseLength.assign(result.blocks.size(), InverseLength {});
+	result.inverseLength.resize(result.blocks.size());
 	result.others.resize(result.otherBegin.back());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(strips); ++s) {
@@ -134,8 +152,12 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 		for (std::size_t b = result.blockBegin[s]; b < result.blockBegin[s + 1]; ++b) {
 			Block& block = result.blocks[b]; // written where it stays
 			block        = Block {};
+			result.inverseLength[b] = InverseLength {};
 			for (int l = 0; l < int(lanes); ++l) {
 				const std::int32_t index = result.contactOf[b * lanes + l];
+				// contacts lie in the order of their finding, so no processor guesses which one is next
+				constexpr std::size_t ahead = 4 * lanes;
+				if (b * lanes + l + ahead < result.blockBegin[s + 1] * lanes) fetch(problem, result.contactOf[b * lanes + l + ahead]);
 				block.i[l] = block.j[l] = nobody;
 				if (index == ContactBlocks::none) continue;
 				fillLane(block, l, problem, index, result.placeOf);

@@ -26,7 +26,7 @@ struct ContactBlocks {
 		std::vector<std::int32_t> contactOf, others;
 	};
 	std::vector<Strip>        scratch;
-	std::vector<std::uint8_t> traits; // of bodies
+	std::vector<std::uint8_t> traits, simple; // of bodies, of contacts
 };
 
 /// Lays out the contacts' data in `result`, whose memory is used again; impulses come from problem.impulses, projected on their thresholds.

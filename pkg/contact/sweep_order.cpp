@@ -7,98 +7,139 @@ namespace nonsmooth::contact {
 namespace {
 
 	constexpr std::size_t contactsAStrip = 512; // wanted: a strip's rows and bodies stay in a second-level cache
+	constexpr int         colourCount    = 64;
 
-	/// Strip of every contact and of every body (-1: it cannot move); returns how many strips there are.
-	std::int32_t cut(const Problem& problem, std::vector<std::int32_t>& of, std::vector<std::int32_t>& ofBody)
+	/// How a packing is cut into strips.
+	struct Cut {
+		int          axis  = 0;
+		double       low   = 0, scale = 0; // strips per metre
+		std::int32_t count = 1;
+	};
+
+	/// The bodies that can move, contact by contact: what the order rests on, without the numbers that come with it in memory.
+	void pairUp(const Problem& problem, int threads, std::vector<MovablePair>& pairs)
 	{
-		of.assign(problem.contactCount(), 0);
-		ofBody.resize(problem.bodyCount());
-		for (std::size_t b = 0; b < problem.bodyCount(); ++b)
-			ofBody[b] = problem.inverseMass[b].isFixed() ? -1 : 0;
-		if (problem.positions.size() != problem.bodyCount() || problem.contactCount() < 2 * contactsAStrip) return 1;
-		const auto movable = [&](std::int32_t b) { return !problem.inverseMass[b].isFixed(); };
+		pairs.resize(problem.contactCount());
+		const auto movable = [&](std::int32_t b) { return problem.inverseMass[b].isFixed() ? MovablePair::none : b; };
+		const long count   = static_cast<long>(pairs.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k)
+			pairs[k] = { movable(problem.contacts[k].i), movable(problem.contacts[k].j) };
+	}
 
-		double low[2] = { HUGE_VAL, HUGE_VAL }, high[2] = { -HUGE_VAL, -HUGE_VAL }, longest[2] = { 0, 0 };
-		for (std::size_t b = 0; b < problem.bodyCount(); ++b) {
+	Cut cutOf(const Problem& problem, int threads, const std::vector<MovablePair>& pairs)
+	{
+		if (problem.positions.size() != problem.bodyCount() || pairs.size() < 2 * contactsAStrip) return {};
+		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL, longestX = 0, longestY = 0;
+		const long bodyCount = static_cast<long>(problem.bodyCount()), contactCount = static_cast<long>(pairs.size());
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY) reduction(max : highX, highY)
+		for (long b = 0; b < bodyCount; ++b) {
 			if (problem.inverseMass[b].isFixed()) continue;
-			const double x[2] = { problem.positions[b].x, problem.positions[b].y };
-			for (int a = 0; a < 2; ++a) {
-				low[a]  = std::min(low[a], x[a]);
-				high[a] = std::max(high[a], x[a]);
+			const Point& x = problem.positions[b];
+			lowX           = std::min(lowX, x.x);
+			lowY           = std::min(lowY, x.y);
+			highX          = std::max(highX, x.x);
+			highY          = std::max(highY, x.y);
+		}
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : longestX, longestY)
+		for (long k = 0; k < contactCount; ++k) {
+			if (pairs[k].i == MovablePair::none || pairs[k].j == MovablePair::none) continue;
+			const Point &a = problem.positions[pairs[k].i], &b = problem.positions[pairs[k].j];
+			longestX = std::max(longestX, std::abs(a.x - b.x));
+			longestY = std::max(longestY, std::abs(a.y - b.y));
+		}
+		const int    axis   = highX - lowX >= highY - lowY ? 0 : 1;
+		const double low    = axis == 0 ? lowX : lowY, extent = axis == 0 ? highX - lowX : highY - lowY, longest = axis == 0 ? longestX : longestY;
+		if (!(extent > 0)) return {};
+		const double most = std::min(double(pairs.size() / contactsAStrip), std::floor(extent / (longest * 1.000001 + 1e-300)));
+		if (!(most >= 2)) return {};
+		return { axis, low, std::floor(most) / extent, static_cast<std::int32_t>(most) };
+	}
+
+	/// Strip of every body, -1 for those that can't move, and the order of the bodies that follows.
+	void sortBodies(const Problem& problem, const Cut& cut, SweepOrder& result)
+	{
+		auto& strips = result.scratch.stripOfBody;
+		auto& next   = result.scratch.next;
+		strips.resize(problem.bodyCount());
+		result.bodyBegin.assign(cut.count + 1, 0);
+		for (std::size_t b = 0; b < problem.bodyCount(); ++b) {
+			strips[b] = -1;
+			if (problem.inverseMass[b].isFixed()) continue;
+			strips[b] = 0;
+			if (cut.count > 1) {
+				const Point& x = problem.positions[b];
+				strips[b]      = std::min(cut.count - 1, static_cast<std::int32_t>(((cut.axis == 0 ? x.x : x.y) - cut.low) * cut.scale));
 			}
+			++result.bodyBegin[strips[b] + 1];
 		}
-		const int  axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
-		const auto at   = [&](std::int32_t b) { return axis == 0 ? problem.positions[b].x : problem.positions[b].y; };
-		for (const Contact& c : problem.contacts)
-			if (movable(c.i) && movable(c.j)) longest[axis] = std::max(longest[axis], std::abs(at(c.i) - at(c.j)));
-		const double extent = high[axis] - low[axis];
-		if (!(extent > 0)) return 1;
-		const double most = std::min(double(problem.contactCount() / contactsAStrip), std::floor(extent / (longest[axis] * 1.000001 + 1e-300)));
-		if (!(most >= 2)) return 1;
-		const auto   count = static_cast<std::int32_t>(most);
-		const double scale = count / extent;
-		const auto   strip = [&](std::int32_t b) { return std::min(count - 1, static_cast<std::int32_t>((at(b) - low[axis]) * scale)); };
+		for (std::int32_t s = 0; s < cut.count; ++s)
+			result.bodyBegin[s + 1] += result.bodyBegin[s];
+		next.assign(result.bodyBegin.begin(), result.bodyBegin.end());
+		result.bodies.resize(problem.bodyCount());
 		for (std::size_t b = 0; b < problem.bodyCount(); ++b)
-			if (ofBody[b] >= 0) ofBody[b] = strip(static_cast<std::int32_t>(b));
-		for (std::size_t k = 0; k < problem.contactCount(); ++k) {
-			const Contact&     c = problem.contacts[k];
-			const std::int32_t i = ofBody[c.i], j = ofBody[c.j];
-			of[k]                = i < 0 ? std::max(j, 0) : (j < 0 ? i : std::min(i, j));
+			result.bodies[strips[b] >= 0 ? next[strips[b]]++ : next[cut.count]++] = static_cast<std::int32_t>(b);
+	}
+
+	/// Counting sort by (place of the strip, colour); stable, so the contacts' own order decides the rest.
+	void sortContacts(std::int32_t strips, int threads, SweepOrder& result)
+	{
+		auto& [bucketOf, stripOfBody, colours, used, next] = result.scratch;
+		const std::int32_t even                            = (strips + 1) / 2;
+		const auto         stripAt = [&bodies = stripOfBody](std::int32_t b) { return b == MovablePair::none ? -1 : bodies[b]; };
+		const long         count   = static_cast<long>(result.pairs.size());
+		bucketOf.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k) {
+			const std::int32_t i = stripAt(result.pairs[k].i), j = stripAt(result.pairs[k].j);
+			const std::int32_t strip = i < 0 ? std::max(j, 0) : (j < 0 ? i : std::min(i, j));
+			bucketOf[k]              = (strip % 2 == 0 ? strip / 2 : even + strip / 2) * colourCount + result.scratch.colours[k];
 		}
-		return count;
+		next.assign(colourCount * strips + 1, 0);
+		for (const std::int32_t bucket : bucketOf)
+			++next[bucket + 1];
+		for (std::size_t k = 1; k < next.size(); ++k)
+			next[k] += next[k - 1];
+		result.evenStrips = even;
+		result.stripBegin.clear();
+		for (std::int32_t s = 0; s <= strips; ++s)
+			result.stripBegin.push_back(next[s * colourCount]);
+		result.order.resize(count);
+		for (long k = 0; k < count; ++k)
+			result.order[next[bucketOf[k]]++] = static_cast<std::int32_t>(k);
 	}
 
 } // namespace
 
-void colour(const std::vector<Contact>& contacts, const std::vector<InverseMass>& inverseMass, std::vector<std::uint8_t>& colours, std::vector<std::uint64_t>& used)
+void colour(const std::vector<MovablePair>& pairs, std::size_t bodyCount, std::vector<std::uint8_t>& colours, std::vector<std::uint64_t>& used)
 {
-	constexpr int last = 63;
-	used.assign(inverseMass.size(), 0);
-	colours.resize(contacts.size());
-	for (std::size_t k = 0; k < contacts.size(); ++k) {
-		const Contact& c     = contacts[k];
-		const bool     moveI = !inverseMass[c.i].isFixed(), moveJ = !inverseMass[c.j].isFixed();
-		const auto     taken = (moveI ? used[c.i] : 0) | (moveJ ? used[c.j] : 0);
-		const int      best  = ~taken == 0 ? last : __builtin_ctzll(~taken);
-		const auto     bit   = std::uint64_t(1) << best;
-		if (moveI) used[c.i] |= bit;
-		if (moveJ) used[c.j] |= bit;
+	constexpr int last = colourCount - 1;
+	used.assign(bodyCount, 0);
+	colours.resize(pairs.size());
+	for (std::size_t k = 0; k < pairs.size(); ++k) {
+		const auto [i, j] = pairs[k];
+		const auto taken  = (i != MovablePair::none ? used[i] : 0) | (j != MovablePair::none ? used[j] : 0);
+		const int  best   = ~taken == 0 ? last : __builtin_ctzll(~taken);
+		const auto bit    = std::uint64_t(1) << best;
+		if (i != MovablePair::none) used[i] |= bit;
+		if (j != MovablePair::none) used[j] |= bit;
 		colours[k] = static_cast<std::uint8_t>(best);
 	}
 }
 
-void arrange(const Problem& problem, SweepOrder& result)
+void arrange(const Problem& problem, int threads, SweepOrder& result)
 {
-	auto& [stripOf, stripOfBody, colours, used, next] = result.scratch;
-	const std::int32_t count                         = cut(problem, stripOf, stripOfBody);
-	colour(problem.contacts, problem.inverseMass, colours, used);
-	const std::size_t even = (count + 1) / 2;
-	result.evenStrips      = even;
-
-	// counting sort by (place of the strip, colour); stable, so the contacts' own order decides the rest
-	const auto place = [even](std::int32_t strip) { return strip % 2 == 0 ? strip / 2 : static_cast<std::int32_t>(even) + strip / 2; };
-	constexpr std::size_t colourCount = 64;
-	next.assign(colourCount * count + 1, 0);
-	for (std::size_t k = 0; k < problem.contactCount(); ++k)
-		++next[place(stripOf[k]) * colourCount + colours[k] + 1];
-	for (std::size_t k = 1; k < next.size(); ++k)
-		next[k] += next[k - 1];
-	result.stripBegin.clear();
-	for (std::int32_t k = 0; k <= count; ++k)
-		result.stripBegin.push_back(next[k * colourCount]);
-	result.order.resize(problem.contactCount());
-	for (std::size_t k = 0; k < problem.contactCount(); ++k)
-		result.order[next[place(stripOf[k]) * colourCount + colours[k]]++] = static_cast<std::int32_t>(k);
-
-	result.bodyBegin.assign(count + 1, 0);
-	for (const std::int32_t strip : stripOfBody)
-		if (strip >= 0) ++result.bodyBegin[strip + 1];
-	for (std::int32_t k = 0; k < count; ++k)
-		result.bodyBegin[k + 1] += result.bodyBegin[k];
-	next.assign(result.bodyBegin.begin(), result.bodyBegin.end());
-	result.bodies.resize(problem.bodyCount());
-	for (std::size_t b = 0; b < problem.bodyCount(); ++b)
-		result.bodies[stripOfBody[b] >= 0 ? next[stripOfBody[b]]++ : next[count]++] = static_cast<std::int32_t>(b);
+	pairUp(problem, threads, result.pairs);
+	const Cut cut = cutOf(problem, threads, result.pairs);
+	// each of the two goes from one contact or body to the next, but they do not need each other
+#pragma omp parallel sections num_threads(threads)
+	{
+#pragma omp section
+		colour(result.pairs, problem.bodyCount(), result.scratch.colours, result.scratch.used);
+#pragma omp section
+		sortBodies(problem, cut, result);
+	}
+	sortContacts(cut.count, threads, result);
 }
 
 } // namespace nonsmooth::contact

@@ -41,10 +41,10 @@ Problem crowded()
 }
 
 /// Each contact once, and no movable body in two strips that are swept at the same time.
-SweepOrder arranged(const Problem& p)
+SweepOrder arranged(const Problem& p, int threads = 1)
 {
 	SweepOrder result;
-	arrange(p, result);
+	arrange(p, threads, result);
 	return result;
 }
 
@@ -52,7 +52,11 @@ std::vector<std::uint8_t> coloursOf(const std::vector<Contact>& contacts, const 
 {
 	std::vector<std::uint8_t>  colours;
 	std::vector<std::uint64_t> used;
-	colour(contacts, inverse, colours, used);
+	std::vector<MovablePair>   pairs;
+	const auto                 movable = [&](std::int32_t b) { return inverse[b].isFixed() ? MovablePair::none : b; };
+	for (const Contact& c : contacts)
+		pairs.push_back({ movable(c.i), movable(c.j) });
+	colour(pairs, inverse.size(), colours, used);
 	return colours;
 }
 
@@ -148,7 +152,12 @@ TEST(SweepOrder, FixedBodiesAreFreeAndTheLastColourIsShared)
 
 TEST(SweepOrder, SameInputSameOrder)
 {
-	EXPECT_EQ(arranged(lattice(60, 20).problem).order, arranged(lattice(60, 20).problem).order);
+	const SweepOrder one = arranged(lattice(60, 20).problem), again = arranged(lattice(60, 20).problem), two = arranged(lattice(60, 20).problem, 2);
+	for (const SweepOrder* other : { &again, &two }) {
+		EXPECT_EQ(one.order, other->order);
+		EXPECT_EQ(one.bodies, other->bodies);
+		EXPECT_EQ(one.stripBegin, other->stripBegin);
+	}
 }
 
 TEST(Threads, SameBitsForOneAndTwo)
