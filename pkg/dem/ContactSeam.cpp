@@ -302,17 +302,25 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	const size_t          count = links.size(), chunksC = chunksOf(count), chunksB = chunksOf(before.size());
 	std::vector<StepSums> parts(chunksC + chunksB);
 	std::vector<char>     slip(chunksC, 0);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long part = 0; part < (long)chunksC; ++part) {
-		const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
-		for (size_t k = begin; k < end; ++k) {
-			if (k + soon < count) fetch<partOfPhysics>(links[k + soon].phys);
-			scatterContact(k);
-			slip[part] |= links[k].slips;
+#pragma omp parallel num_threads(threads)
+	{
+		// by one thread, since a sum depends on its order; the others go on, and take more of what follows
+#pragma omp single nowait
+		sumReactions();
+#pragma omp for schedule(dynamic, 1)
+		for (long part = 0; part < (long)chunksC; ++part) {
+			const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
+			for (size_t k = begin; k < end; ++k) {
+				if (k + soon < count) fetch<partOfPhysics>(links[k + soon].phys);
+				scatterContact(k);
+				slip[part] |= links[k].slips;
+			}
+			// while they are at hand, and beside the sums of other threads no earlier than in the end
+			StepSums sums;
+			sumContacts(begin, end, sums);
+			if (rates) rateContacts(begin, end, sums);
+			parts[part] = sums;
 		}
-		// while they are at hand
-		sumContacts(begin, end, parts[part]);
-		if (rates) rateContacts(begin, end, parts[part]);
 	}
 	scatterForces(scene);
 
@@ -381,8 +389,8 @@ void ContactSeam::scatterContact(size_t k)
 	if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) phys.yieldPath[2] += std::abs(h * u.r) * 0.5 * c.length;
 }
 
-/// O.forces gets the sum of the step's contact forces on every body, walls included.
-void ContactSeam::scatterForces(Scene& scene)
+/// The sum of the contacts' impulses on every body, walls included.
+void ContactSeam::sumReactions()
 {
 	reaction.assign(before.size(), {});
 	for (size_t k = 0; k < links.size(); ++k) {
@@ -397,6 +405,11 @@ void ContactSeam::scatterForces(Scene& scene)
 		rj.y += fy;
 		rj.w += c.leverNj * p.n + c.leverTj * p.t + p.r;
 	}
+}
+
+/// O.forces gets them as the step's mean forces.
+void ContactSeam::scatterForces(Scene& scene)
+{
 	const Real h = relaxation.step;
 	for (size_t id = 0; id < reaction.size(); ++id) {
 		const Twist& r = reaction[id];
@@ -414,7 +427,9 @@ void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
 		const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
 		const Impulse  u    = contact::relativeVelocity(c, vi, vj);
 		const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
-		sums.contactRate    = std::max(sums.contactRate, (wall ? std::abs(u.n) : std::hypot(vj.x - vi.x, vj.y - vi.y)) / c.length);
+		const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
+		// a length is only looked at where it may be the largest
+		if (wall || !(dx * dx + dy * dy < (1 - 1e-9) * most * most)) sums.contactRate = std::max(sums.contactRate, (wall ? std::abs(u.n) : std::hypot(dx, dy)) / c.length);
 		if (!links[k].phys->bonded) continue;
 		const NscdPhys& phys = *links[k].phys;
 		sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / phys.ellipseNormal, std::abs(u.t) / phys.ellipseTangential));

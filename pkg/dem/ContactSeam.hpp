@@ -83,6 +83,7 @@ private:
 	nonsmooth::contact::Contact frameOf(const Reading& reading, const Found& ids) const;
 	nonsmooth::contact::Impulse gatherContact(const Reading& reading, const Found& ids, nonsmooth::contact::Contact& result, Link& link) const;
 	void scatterContact(size_t k);
+	void sumReactions();
 	void scatterForces(Scene& scene);
 	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
