@@ -5,12 +5,11 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-import os
 from pathlib import Path
 
 from yade import O, config
 
-from .whole_files import write_atomically
+from .whole_files import beside, write_atomically
 
 __all__ = ["digest", "engines_key", "exists", "key_of", "read", "write"]
 
@@ -39,11 +38,9 @@ def exists(folder):
 def write(folder, key, content):
     """Saves the scene and ``content`` (what JSON can hold) below ``folder``."""
     folder = Path(folder) / "checkpoint"
-    folder.mkdir(parents=True, exist_ok=True)
     name = f"scene-{O.iter:08d}.yade"  # as gzip it would take half the room and three times as long
-    part = folder / f".part-{name}"
-    O.save(str(part), quiet=True)
-    os.replace(part, folder / name)
+    with beside(folder / name) as part:
+        O.save(str(part), quiet=True)
     head = {"format": 1, "scene": name, "size": (folder / name).stat().st_size, "step": O.iter, "key": key}
     write_atomically(folder / "checkpoint.json", json.dumps({**head, **content}, indent=1).encode())
     for old in folder.glob("scene-*.yade*"):

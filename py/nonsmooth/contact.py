@@ -11,7 +11,6 @@ format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy, h5py and this pr
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +18,7 @@ import h5py
 import numpy as np
 
 from .errors import UserError
+from .whole_files import beside
 
 __all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "VelocityChanges", "load", "residual", "save", "solve", "velocity_changes"]
 
@@ -128,9 +128,8 @@ def save(path, problem: ContactProblem) -> Path:
     """Writes a problem beside and renames; returns the path."""
     path = Path(path)
     check(problem)
-    part = path.with_name(path.name + ".part")
     try:
-        with h5py.File(part, "w") as file:
+        with beside(path) as part, h5py.File(part, "w") as file:
             file.attrs["format"], file.attrs["time_step"] = np.int32(FORMAT), float(problem.time_step)
             for name in _BODIES:
                 file[f"bodies/{name}"] = getattr(problem, name)
@@ -139,7 +138,6 @@ def save(path, problem: ContactProblem) -> Path:
             for name in _CONTACTS:
                 file[f"contacts/{name}"] = getattr(problem, name)
             file["contacts/body"] = np.asarray(problem.body, np.int32)
-        os.replace(part, path)
     except OSError as error:
         raise ProblemError(f"{path}: the contact problem cannot be written ({error})") from None
     return path

@@ -13,7 +13,7 @@ from xml.sax.saxutils import quoteattr
 import meshio
 import numpy as np
 
-from .whole_files import write_atomically
+from .whole_files import beside, write_atomically
 from .records import RecordsError, read_breaks, read_snapshot
 from .tables import BREAK_MODES
 
@@ -23,13 +23,11 @@ __all__ = ["write_breaks", "write_collection", "write_contacts", "write_disks", 
 def _write(path, points, cells, point_data=None, cell_data=None):
     """A .vtu file in the plane z = 0, written beside and renamed; empty sets are written as one without cells."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".part-{path.name}")
     flat = np.column_stack([points, np.zeros(len(points))])
     mesh = meshio.Mesh(flat, cells, point_data=point_data or {}, cell_data={k: [v] for k, v in (cell_data or {}).items()})
     try:
-        mesh.write(part, file_format="vtu", binary=True)
-        os.replace(part, path)
+        with beside(path) as part:
+            mesh.write(part, file_format="vtu", binary=True)
     except OSError as error:
         raise RecordsError(f"{path}: cannot be written ({error.strerror}); is the disk full?") from error
     return path

@@ -1,6 +1,5 @@
 """A video of the avalanche from its snapshots (Animation S1 of the paper), by matplotlib and ffmpeg."""
 
-import os
 from pathlib import Path
 
 import matplotlib
@@ -10,6 +9,7 @@ from matplotlib.patches import Patch
 
 from .figures import style
 from .records import RecordsError, read_snapshot
+from .whole_files import beside
 
 FORCES = (
     ("dp_normal_effective_N_per_m", "$N'_{DP}$  effective normal force on DP", "blue"),
@@ -132,7 +132,6 @@ def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size
         raise RecordsError("there are no snapshots to make a video of; let the run write some first")
     if not FFMpegWriter.isAvailable():
         return None, "no video: ffmpeg is not installed (apt install ffmpeg)"
-    beside = path.with_name(f".{path.stem}.{os.getpid()}.part.mp4")
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(style.RC)
@@ -145,7 +144,7 @@ def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size
                         "-vf", "tpad=stop_mode=clone:stop_duration=1.5", "-movflags", "+faststart"],
         )  # fmt: skip
         try:
-            with writer.saving(frames.fig, str(beside), dpi=100):
+            with beside(path) as part, writer.saving(frames.fig, str(part), dpi=100):
                 for done, name in enumerate(paths, start=1):
                     snapshot = read_snapshot(name)
                     if len(snapshot.x) != len(sample[0].x):
@@ -156,14 +155,10 @@ def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size
                     writer.add(frames.show(snapshot))
                     if progress:
                         progress(done, len(paths))
-            os.replace(beside, path)
         except (OSError, RuntimeError) as error:
-            return None, f"no video: ffmpeg failed ({error})"
+            return None, f"no video: ffmpeg failed, or there is no place for it ({error})"
         except Exception as error:  # subprocess.CalledProcessError carries ffmpeg's words
             if isinstance(error, RecordsError) or not hasattr(error, "returncode"):
                 raise
             return None, f"no video: ffmpeg failed ({str(getattr(error, 'stderr', None) or error)[-300:]})"
-        finally:
-            if beside.exists():
-                beside.unlink()
     return path, None

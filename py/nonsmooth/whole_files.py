@@ -5,39 +5,45 @@ from __future__ import annotations
 import contextlib
 import io
 import os
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 from .errors import UserError
 
-__all__ = ["WriteError", "write_arrays", "write_atomically"]
+__all__ = ["WriteError", "beside", "write_arrays", "write_atomically"]
 
 
 class WriteError(UserError, OSError):
     """A file that cannot be written; the message says which, why and what helps."""
 
 
+@contextlib.contextmanager
+def beside(path):
+    """A path in the same folder and with the same suffix to write to: it takes the place of ``path`` when the block ends, and goes if the block raises.
+
+    The folder is made if need be. Raises OSError, and what the block raises.
+    """
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".part-{os.getpid()}-{path.name}")
+    try:
+        yield part
+        os.replace(part, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            part.unlink()
+        raise
+
+
 def write_atomically(path, content: bytes) -> None:
     """Write beside `path`, then rename, so that a reader never meets half a file. Raises WriteError."""
-    path = Path(path)
-    beside = None
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
-            beside = file.name
+        with beside(path) as part, part.open("wb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(beside, 0o666 & ~umask)
-        os.replace(beside, path)
     except OSError as error:
-        if beside:
-            with contextlib.suppress(OSError):
-                os.unlink(beside)
         raise WriteError(f"{path}: cannot be written ({error.strerror}); "
                            "give a folder that can be written and has room") from None
 

@@ -210,7 +210,7 @@ def test_a_video_that_fails_leaves_the_old_one(tmp_path, frames):
     with pytest.raises(RecordsError, match="other.npz.*one run"):
         video.write_mp4([frames[0], frames[1], other, frames[2], frames[3], frames[4]], SECTION, old, 10)
     assert old.read_text() == "old" and not list(tmp_path.glob(".*"))
-    path, note = video.write_mp4(frames, SECTION, tmp_path / "nowhere" / "v.mp4", 10)
+    path, note = video.write_mp4(frames, SECTION, old / "v.mp4", 10)  # a file, and no folder
     assert path is None and "ffmpeg failed" in note
     with pytest.raises(RecordsError, match="no snapshots"):
         video.write_mp4([], SECTION, old, 10)
