@@ -74,6 +74,10 @@ private:
 		bool solved;  // takes part in the solve
 	};
 
+	/// Contacts or bodies that one thread takes at a time; fixed, so that sums do not depend on the number of threads.
+	static constexpr size_t sumChunk = 1024;
+	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
+
 	void gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read);
 	void tidy(Scene& scene);
 	void readContacts(Scene& scene);

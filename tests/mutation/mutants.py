@@ -47,7 +47,7 @@ MUTANTS = (
            (("dem/ContactSeam.cpp", "return { h * reading.normal, h * reading.tangential, h * reading.torque };",
              "const Real was = nonsmooth::mutant::warmStart ? nonsmooth::mutant::stepBefore : h;\n"
              "\treturn { was * reading.normal, was * reading.tangential, was * reading.torque };"),
-            ("dem/ContactSeam.cpp", "\tscatterForces(scene);", "\tscatterForces(scene);\n\tnonsmooth::mutant::stepBefore = h;")),
+            ("dem/ContactSeamScatter.cpp", "\tscatterForces(scene);", "\tscatterForces(scene);\n\tnonsmooth::mutant::stepBefore = h;")),
            ("changed-time-step",)),
     Mutant("slippery", "contacts have half of their friction",
            (("dem/ContactSeam.cpp", "= reading.friction;", "= nonsmooth::mutant::share * reading.friction;"),),

@@ -1,0 +1,202 @@
+// What a step's solution means for YADE: reactions and forces written back, and the sums over contacts and bodies.
+#include "ContactSeam.hpp"
+#include "Prefetch.hpp"
+#include <algorithm>
+#include <contact/law.hpp>
+
+namespace yade::nscd {
+
+namespace contact = nonsmooth::contact;
+using contact::Contact;
+using contact::Impulse;
+using contact::Twist;
+
+StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
+{
+	threads                     = threadCount;
+	const Real            h     = relaxation.step;
+	const size_t          count = links.size(), chunksC = chunksOf(count), chunksB = chunksOf(before.size());
+	std::vector<StepSums> parts(chunksC + chunksB);
+	std::vector<char>     slip(chunksC, 0);
+#pragma omp parallel num_threads(threads)
+	{
+		// by one thread, since a sum depends on its order; the others go on, and take more of what follows
+#pragma omp single nowait
+		sumReactions();
+#pragma omp for schedule(dynamic, 1)
+		for (long part = 0; part < (long)chunksC; ++part) {
+			const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
+			for (size_t k = begin; k < end; ++k) {
+				if (k + soon < count) fetch<partOfPhysics>(links[k + soon].phys);
+				scatterContact(k);
+				slip[part] |= links[k].slips;
+			}
+			// while they are at hand, and beside the sums of other threads no earlier than in the end
+			StepSums sums;
+			sumContacts(begin, end, sums);
+			if (rates) rateContacts(begin, end, sums);
+			parts[part] = sums;
+		}
+	}
+	scatterForces(scene);
+
+	// slip goes into materials that many contacts share, so one after the other
+	for (size_t part = 0; part < chunksC; ++part)
+		for (size_t k = part * sumChunk; slip[part] && k < std::min((part + 1) * sumChunk, count); ++k) {
+			const Contact& c = problem.contacts[k];
+			if (!links[k].slips || problem.impulses[k].n + c.adhesion <= 0) continue;
+			links[k].phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
+		}
+
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < (long)chunksB; ++k)
+		sumBodies(gravity, k * sumChunk, std::min((k + 1) * sumChunk, before.size()), parts[chunksC + k]);
+	StepSums total;
+	for (const StepSums& s : parts) {
+		total.sliding += s.sliding;
+		total.rolling += s.rolling;
+		total.debonding += s.debonding;
+		total.impact += s.impact;
+		total.correction += s.correction;
+		total.overlap += s.overlap;
+		total.worstOverlap = std::max(total.worstOverlap, s.worstOverlap);
+		total.contactRate = std::max(total.contactRate, s.contactRate);
+		total.bondRate    = std::max(total.bondRate, s.bondRate);
+		total.touching += s.touching;
+		total.bonds += s.bonds;
+		for (int m = 0; m < 5; ++m)
+			total.broken[m] += s.broken[m];
+		total.kinetic += s.kinetic;
+		total.potential += s.potential;
+		total.external += s.external;
+		total.wallWork += s.wallWork;
+		total.mass += s.mass;
+		total.speed += s.speed;
+		total.largestSpeed = std::max(total.largestSpeed, s.largestSpeed);
+		total.centre += s.centre;
+		total.momentum += s.momentum;
+		total.bodies += s.bodies;
+	}
+	return total;
+}
+
+/// Writes a contact's reactions into its interaction, and what a bond has yielded.
+void ContactSeam::scatterContact(size_t k)
+{
+	const Real     h    = relaxation.step;
+	const Contact& c    = problem.contacts[k];
+	const Impulse& p    = problem.impulses[k];
+	NscdPhys&      phys = *links[k].phys;
+	phys.normal         = p.n / h;
+	phys.tangential     = p.t / h;
+	phys.torque         = p.r / h;
+	const Real sign     = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
+	phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
+	phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
+	phys.yielded        = false;
+	if (!phys.bonded) return;
+	const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+	constexpr Real close = 1 - 1e-9;
+	if (c.adhesion > 0 && p.n <= -close * c.adhesion && u.n + c.biasN > 0) {
+		phys.yielded = true;
+		phys.yieldPath[0] += std::max(Real(0), h * u.n);
+	}
+	if (std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)) phys.yieldPath[1] += std::abs(h * u.t);
+	if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) phys.yieldPath[2] += std::abs(h * u.r) * 0.5 * c.length;
+}
+
+/// The sum of the contacts' impulses on every body, walls included.
+void ContactSeam::sumReactions()
+{
+	reaction.assign(before.size(), {});
+	for (size_t k = 0; k < links.size(); ++k) {
+		const Contact& c = problem.contacts[k];
+		const Impulse& p = problem.impulses[k];
+		const Real     fx = c.nx * p.n - c.ny * p.t, fy = c.ny * p.n + c.nx * p.t;
+		Twist &        ri = reaction[c.i], &rj = reaction[c.j];
+		ri.x -= fx;
+		ri.y -= fy;
+		ri.w -= c.leverNi * p.n + c.leverTi * p.t + p.r;
+		rj.x += fx;
+		rj.y += fy;
+		rj.w += c.leverNj * p.n + c.leverTj * p.t + p.r;
+	}
+}
+
+/// O.forces gets them as the step's mean forces.
+void ContactSeam::scatterForces(Scene& scene)
+{
+	const Real h = relaxation.step;
+	for (size_t id = 0; id < reaction.size(); ++id) {
+		const Twist& r = reaction[id];
+		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
+		scene.forces.addForce(id, Vector3r(r.x / h, r.y / h, 0));
+		scene.forces.addTorque(id, Vector3r(0, 0, r.w / h));
+	}
+}
+
+/// How fast contacts turn and bonds cross their ellipses at the end of the step.
+void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
+{
+	for (size_t k = begin; k < end; ++k) {
+		const Contact& c = problem.contacts[k];
+		const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+		const Impulse  u    = contact::relativeVelocity(c, vi, vj);
+		const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
+		const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
+		// a length is only looked at where it may be the largest
+		if (wall || !(dx * dx + dy * dy < (1 - 1e-9) * most * most)) sums.contactRate = std::max(sums.contactRate, (wall ? std::abs(u.n) : std::hypot(dx, dy)) / c.length);
+		if (!links[k].phys->bonded) continue;
+		const NscdPhys& phys = *links[k].phys;
+		sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / phys.ellipseNormal, std::abs(u.t) / phys.ellipseTangential));
+	}
+}
+
+void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
+{
+	for (size_t k = begin; k < end; ++k) {
+		const Contact&  c    = problem.contacts[k];
+		const Impulse&  p    = problem.impulses[k];
+		const Impulse   u0   = contact::relativeVelocity(c, before[c.i], before[c.j]);
+		const Impulse   u1   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
+		const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
+		(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
+		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
+		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
+		if (p.n > 0 && links[k].bias < 0) sums.correction -= p.n * links[k].bias;
+		const Real overlap = std::max(Real(0), -links[k].gap) / c.length;
+		sums.overlap += overlap;
+		sums.worstOverlap = std::max(sums.worstOverlap, overlap);
+		sums.touching += (p.n != 0 || links[k].gap <= 0);
+		sums.bonds += links[k].bonded;
+		if (links[k].broken != NscdPhys::None) ++sums.broken[links[k].broken];
+	}
+}
+
+void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
+{
+	for (size_t id = begin; id < end; ++id) {
+		if (!present[id]) continue;
+		const Twist &v0 = before[id], &v1 = problem.velocities[id], &r = reaction[id], &f = external[id];
+		const auto&  w  = problem.inverseMass[id];
+		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
+		const Real half = 0.5 * relaxation.step, x = v0.x + v1.x, y = v0.y + v1.y, a = v0.w + v1.w;
+		sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));
+		if (w.isFixed()) continue;
+		sums.external += half * ((w.x > 0 ? f.x * x : 0) + (w.y > 0 ? f.y * y : 0) + (w.w > 0 ? f.w * a : 0));
+		// energies at the beginning of the step, like the positions they belong to
+		sums.kinetic += 0.5 * (mass[id] * (v0.x * v0.x + v0.y * v0.y) + inertia[id] * v0.w * v0.w);
+		const Vector3r at(problem.positions[id].x, problem.positions[id].y, 0);
+		sums.potential -= mass[id] * gravity.dot(at);
+		sums.mass += mass[id];
+		sums.centre += mass[id] * at;
+		sums.momentum += mass[id] * Vector3r(v1.x, v1.y, 0);
+		const Real speed = std::hypot(v1.x, v1.y);
+		sums.speed += speed;
+		sums.largestSpeed = std::max(sums.largestSpeed, speed);
+		++sums.bodies;
+	}
+}
+
+} // namespace yade::nscd
