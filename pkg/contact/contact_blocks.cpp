@@ -66,6 +66,7 @@ namespace {
 		}
 	}
 
+	/// Asks for a contact, which lies across two or three cache lines, and its impulses.
 	void fetch(const Problem& problem, std::int32_t index)
 	{
 		if (index == ContactBlocks::none) return;

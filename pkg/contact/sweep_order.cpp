@@ -84,16 +84,18 @@ namespace {
 	/// Counting sort by (place of the strip, colour); stable, so the contacts' own order decides the rest.
 	void sortContacts(std::int32_t strips, int threads, SweepOrder& result)
 	{
-		auto& [bucketOf, stripOfBody, colours, used, next] = result.scratch;
-		const std::int32_t even                            = (strips + 1) / 2;
-		const auto         stripAt = [&bodies = stripOfBody](std::int32_t b) { return b == MovablePair::none ? -1 : bodies[b]; };
-		const long         count   = static_cast<long>(result.pairs.size());
+		auto&              scratch  = result.scratch;
+		auto&              bucketOf = scratch.bucketOf;
+		auto&              next     = scratch.next;
+		const std::int32_t even     = (strips + 1) / 2;
+		const auto         stripAt  = [&scratch](std::int32_t b) { return b == MovablePair::none ? -1 : scratch.stripOfBody[b]; };
+		const long         count    = static_cast<long>(result.pairs.size());
 		bucketOf.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 		for (long k = 0; k < count; ++k) {
 			const std::int32_t i = stripAt(result.pairs[k].i), j = stripAt(result.pairs[k].j);
 			const std::int32_t strip = i < 0 ? std::max(j, 0) : (j < 0 ? i : std::min(i, j));
-			bucketOf[k]              = (strip % 2 == 0 ? strip / 2 : even + strip / 2) * colourCount + result.scratch.colours[k];
+			bucketOf[k]              = (strip % 2 == 0 ? strip / 2 : even + strip / 2) * colourCount + scratch.colours[k];
 		}
 		next.assign(colourCount * strips + 1, 0);
 		for (const std::int32_t bucket : bucketOf)

@@ -49,6 +49,8 @@ struct StepSums {
 	Real     mass = 0, speed = 0, largestSpeed = 0;
 	Vector3r centre = Vector3r::Zero(), momentum = Vector3r::Zero();
 	int      bodies = 0;
+
+	void add(const StepSums& other);
 };
 
 class ContactSeam {

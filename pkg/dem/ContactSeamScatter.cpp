@@ -11,6 +11,33 @@ using contact::Contact;
 using contact::Impulse;
 using contact::Twist;
 
+void StepSums::add(const StepSums& other)
+{
+	sliding += other.sliding;
+	rolling += other.rolling;
+	debonding += other.debonding;
+	impact += other.impact;
+	correction += other.correction;
+	overlap += other.overlap;
+	worstOverlap = std::max(worstOverlap, other.worstOverlap);
+	contactRate = std::max(contactRate, other.contactRate);
+	bondRate    = std::max(bondRate, other.bondRate);
+	touching += other.touching;
+	bonds += other.bonds;
+	for (int m = 0; m < 5; ++m)
+		broken[m] += other.broken[m];
+	kinetic += other.kinetic;
+	potential += other.potential;
+	external += other.external;
+	wallWork += other.wallWork;
+	mass += other.mass;
+	speed += other.speed;
+	largestSpeed = std::max(largestSpeed, other.largestSpeed);
+	centre += other.centre;
+	momentum += other.momentum;
+	bodies += other.bodies;
+}
+
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
 {
 	threads                     = threadCount;
@@ -31,8 +58,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 				scatterContact(k);
 				slip[part] |= links[k].slips;
 			}
-			// while they are at hand, and beside the sums of other threads no earlier than in the end
-			StepSums sums;
+			StepSums sums; // by themselves, since `parts` shares cache lines between threads
 			sumContacts(begin, end, sums);
 			if (rates) rateContacts(begin, end, sums);
 			parts[part] = sums;
@@ -52,31 +78,8 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	for (long k = 0; k < (long)chunksB; ++k)
 		sumBodies(gravity, k * sumChunk, std::min((k + 1) * sumChunk, before.size()), parts[chunksC + k]);
 	StepSums total;
-	for (const StepSums& s : parts) {
-		total.sliding += s.sliding;
-		total.rolling += s.rolling;
-		total.debonding += s.debonding;
-		total.impact += s.impact;
-		total.correction += s.correction;
-		total.overlap += s.overlap;
-		total.worstOverlap = std::max(total.worstOverlap, s.worstOverlap);
-		total.contactRate = std::max(total.contactRate, s.contactRate);
-		total.bondRate    = std::max(total.bondRate, s.bondRate);
-		total.touching += s.touching;
-		total.bonds += s.bonds;
-		for (int m = 0; m < 5; ++m)
-			total.broken[m] += s.broken[m];
-		total.kinetic += s.kinetic;
-		total.potential += s.potential;
-		total.external += s.external;
-		total.wallWork += s.wallWork;
-		total.mass += s.mass;
-		total.speed += s.speed;
-		total.largestSpeed = std::max(total.largestSpeed, s.largestSpeed);
-		total.centre += s.centre;
-		total.momentum += s.momentum;
-		total.bodies += s.bodies;
-	}
+	for (const StepSums& s : parts)
+		total.add(s);
 	return total;
 }
 
@@ -144,8 +147,10 @@ void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
 		const Impulse  u    = contact::relativeVelocity(c, vi, vj);
 		const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
 		const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
-		// a length is only looked at where it may be the largest
-		if (wall || !(dx * dx + dy * dy < (1 - 1e-9) * most * most)) sums.contactRate = std::max(sums.contactRate, (wall ? std::abs(u.n) : std::hypot(dx, dy)) / c.length);
+		if (wall)
+			sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
+		else if (!(dx * dx + dy * dy < (1 - 1e-9) * most * most)) // hypot, which is slow, only where it may be the largest
+			sums.contactRate = std::max(sums.contactRate, std::hypot(dx, dy) / c.length);
 		if (!links[k].phys->bonded) continue;
 		const NscdPhys& phys = *links[k].phys;
 		sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / phys.ellipseNormal, std::abs(u.t) / phys.ellipseTangential));

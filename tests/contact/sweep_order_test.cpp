@@ -52,11 +52,10 @@ std::vector<std::uint8_t> coloursOf(const std::vector<Contact>& contacts, const 
 {
 	std::vector<std::uint8_t>  colours;
 	std::vector<std::uint64_t> used;
-	std::vector<MovablePair>   pairs;
-	const auto                 movable = [&](std::int32_t b) { return inverse[b].isFixed() ? MovablePair::none : b; };
-	for (const Contact& c : contacts)
-		pairs.push_back({ movable(c.i), movable(c.j) });
-	colour(pairs, inverse.size(), colours, used);
+	Problem                    p;
+	p.contacts    = contacts;
+	p.inverseMass = inverse;
+	colour(arranged(p).pairs, inverse.size(), colours, used);
 	return colours;
 }
 
