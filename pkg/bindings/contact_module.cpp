@@ -119,6 +119,15 @@ py::dict dictOf(const VelocityChanges& c)
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// Ways through the sweep that this processor can go, the fastest first.
+std::vector<std::string> kernelNames()
+{
+	std::vector<std::string> names;
+	for (const BlockKernels* kernels : availableKernels())
+		names.push_back(kernels->name);
+	return names;
+}
+
 py::dict solveArrays(
         const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery, int threads, const std::string& stopping,
         const std::string& path)
@@ -128,16 +137,21 @@ py::dict solveArrays(
 	if (method != "accelerated" && method != "gaussSeidel")
 		throw py::value_error("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
 	if (!(tolerance > 0)) throw py::value_error("tolerance = " + std::to_string(tolerance) + ": it must be positive");
-	if (path != "best" && path != "portable" && path != "reference")
-		throw py::value_error("path = '" + path + "': it must be 'best', 'portable' or 'reference'");
+	for (const BlockKernels* kernels : availableKernels())
+		if (path == kernels->name) s.kernels = kernels;
+	s.reference = path == "reference";
+	if (!s.kernels && !s.reference && path != "best") {
+		std::string names;
+		for (const std::string& name : kernelNames())
+			names += "'" + name + "', ";
+		throw py::value_error("path = '" + path + "': it must be 'best', " + names + "or 'reference'");
+	}
 	if (maxIterations < 0 || checkEvery < 1 || threads < 1) throw py::value_error("max_iterations, check_every and threads must be positive");
 	s.method        = method == "gaussSeidel" ? Method::GaussSeidel : Method::Accelerated;
 	s.tolerance     = tolerance;
 	s.maxIterations = maxIterations;
 	s.checkEvery    = checkEvery;
 	s.threads       = threads;
-	s.portable      = path == "portable";
-	s.reference     = path == "reference";
 	try {
 		s.stopping = stoppingTestOf(stopping.c_str());
 	} catch (const std::invalid_argument& error) {
@@ -200,6 +214,6 @@ PYBIND11_MODULE(_nonsmooth_contact, m)
 	m.def("velocity_changes", &changesOf);
 	m.def("stream_seconds", &streamSeconds);
 	m.attr("bytes_per_contact") = double(sizeof(Block)) / lanes;
-	m.attr("best_path")         = bestKernels().name;
+	m.attr("kernels")           = kernelNames();
 	m.attr("compiler")          = NONSMOOTH_COMPILER;
 }

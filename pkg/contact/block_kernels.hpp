@@ -1,8 +1,9 @@
 // Four contacts at a time: the data and the inner loops of a sweep.
 //
 // A block holds four contacts that share no body that moves, as lanes of vectors of four doubles; a body's motion is one such vector too.
-// The loops (block_kernels.inc) are written once and compiled twice: lane after lane for any processor, and four lanes at once for AVX2;
-// which runs is decided on the machine. Neither fuses multiplications with additions nor reorders a sum, so both give the same bits.
+// The loops (block_kernels.inc) are written once and compiled thrice: lane after lane for any processor, four lanes at once for AVX2, and for AVX-512
+// the eight of two blocks where these share no body; which runs is decided on the machine. None fuses multiplications with additions or
+// reorders a sum, so all give the same bits.
 //
 // Only "simple" contacts fit in: bodies with one mass for x and y, no lever along the normal where a body can turn, no bias but the
 // normal one. That is every contact between disks, or between a disk and a wall that does not turn.
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace nonsmooth::contact {
 
@@ -32,6 +34,7 @@ struct alignas(32) Block {
 	Lanes         n, t, r;                    // impulses P_k
 	Lanes         beforeN, beforeT, beforeR;  // P_{k−1}
 	unsigned char movesI, movesJ;             // bit l: the body of lane l can move
+	bool          withNext;                   // it and the next block may be visited at once: all lanes are full, all bodies move, none is in both
 };
 
 /// 1/ℓ of a block's contacts, 0 in an empty lane.
@@ -58,8 +61,7 @@ struct BlockKernels {
 	void (*extrapolate)(Motion* bodies, Motion* before, std::size_t count, double beta);
 };
 
-const BlockKernels& portableKernels();
-/// Those for AVX2 where this processor has it, else the portable ones.
-const BlockKernels& bestKernels();
+/// All that this processor can run, the fastest first and the portable ones last.
+const std::vector<const BlockKernels*>& availableKernels();
 
 } // namespace nonsmooth::contact

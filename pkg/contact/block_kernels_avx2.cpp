@@ -7,7 +7,7 @@ namespace nonsmooth::contact {
 const BlockKernels& avx2Kernels();
 const BlockKernels& avx2Kernels()
 {
-	static const BlockKernels kernels { "AVX2", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
+	static const BlockKernels kernels { "avx2", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
 	return kernels;
 }
 

@@ -2,22 +2,25 @@
 
 namespace nonsmooth::contact {
 
-const BlockKernels& portableKernels()
+#ifdef NONSMOOTH_AVX
+const BlockKernels& avx2Kernels();   // block_kernels_avx2.cpp
+const BlockKernels& avx512Kernels(); // block_kernels_avx512.cpp
+#endif
+
+const std::vector<const BlockKernels*>& availableKernels()
 {
-	static const BlockKernels kernels { "portable", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
+	static const BlockKernels portable { "portable", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
+	static const auto         kernels = [] {
+		std::vector<const BlockKernels*> found;
+#ifdef NONSMOOTH_AVX
+		// the first processors with AVX-512 slow down for it and have no VBMI2
+		if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vbmi2")) found.push_back(&avx512Kernels());
+		if (__builtin_cpu_supports("avx2")) found.push_back(&avx2Kernels());
+#endif
+		found.push_back(&portable);
+		return found;
+	}();
 	return kernels;
-}
-
-#ifdef NONSMOOTH_AVX2
-const BlockKernels& avx2Kernels(); // block_kernels_avx2.cpp
-#endif
-
-const BlockKernels& bestKernels()
-{
-#ifdef NONSMOOTH_AVX2
-	if (__builtin_cpu_supports("avx2")) return avx2Kernels();
-#endif
-	return portableKernels();
 }
 
 } // namespace nonsmooth::contact

@@ -104,6 +104,27 @@ namespace {
 		block.movesJ |= (mj.isFixed() ? 0u : 1u) << l;
 	}
 
+	/// Whether two blocks may be visited at once, see Block::withNext.
+	bool goTogether(const Block& a, const Block& b)
+	{
+		constexpr unsigned all = (1u << lanes) - 1;
+		if ((a.movesI & a.movesJ & b.movesI & b.movesJ) != all) return false;
+		using Ids = std::int32_t __attribute__((vector_size(16)));
+		const auto idsOf = [](const std::int32_t* id) { return Ids { id[0], id[1], id[2], id[3] }; };
+		const Ids  i = idsOf(a.i), j = idsOf(a.j);
+		Ids        shared {};
+		for (std::size_t l = 0; l < lanes; ++l)
+			shared |= (i == b.i[l]) | (j == b.i[l]) | (i == b.j[l]) | (j == b.j[l]);
+		return !(shared[0] | shared[1] | shared[2] | shared[3]);
+	}
+
+	/// Pairs up neighbours, from the first on.
+	void pairUp(Block* blocks, std::size_t count)
+	{
+		for (std::size_t k = 0; k + 1 < count; ++k)
+			if ((blocks[k].withNext = goTogether(blocks[k], blocks[k + 1]))) ++k;
+	}
+
 } // namespace
 
 void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks)
@@ -165,6 +186,7 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 				result.inverseLength[b].v[l] = 1 / problem.contacts[index].length;
 			}
 		}
+		pairUp(result.blocks.data() + result.blockBegin[s], result.blockBegin[s + 1] - result.blockBegin[s]);
 	}
 }
 

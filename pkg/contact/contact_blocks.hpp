@@ -1,5 +1,5 @@
-// A contact problem laid out for sweeping: in strips, and inside a strip in blocks of four contacts that share no movable body, followed
-// by the few contacts that do not fit into blocks.
+// A contact problem laid out for sweeping: in strips, and inside a strip in blocks of four contacts that share no movable body (nor do most blocks
+// with the next one, which Block::withNext says), followed by the few contacts that do not fit into blocks.
 #pragma once
 
 #include <contact/block_kernels.hpp>

@@ -2,7 +2,7 @@
 
 namespace nonsmooth::contact {
 
-#ifdef NONSMOOTH_AVX2
+#ifdef NONSMOOTH_AVX
 // as wide as the loops that are held against it, else instructions and not memory would set the rate in a cache
 __attribute__((target_clones("avx2", "default")))
 #endif

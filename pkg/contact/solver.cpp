@@ -112,7 +112,7 @@ namespace {
 	Sweeper::Sweeper(Problem& problem_, const SolverSettings& settings_, Workspace& workspace)
 	        : problem(problem_)
 	        , settings(settings_)
-	        , kernels(settings_.portable ? portableKernels() : bestKernels())
+	        , kernels(settings_.kernels ? *settings_.kernels : *availableKernels().front())
 	        , threads(threadsFor(problem_, settings_))
 	        , laidOut(workspace.laidOut)
 	        , bodies(workspace.bodies)

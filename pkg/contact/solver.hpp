@@ -28,7 +28,7 @@ struct SolverSettings {
 	int    checkEvery    = 10; // sweeps between two residuals
 	int    threads       = 1;
 	StoppingTest stopping = StoppingTest::NaturalMap;
-	bool   portable      = false; // instructions of every processor only; the bits are the same
+	const BlockKernels* kernels = nullptr; // of availableKernels(); null: the first; the bits are the same
 	bool   reference     = false; // contact after contact as law.hpp has it, none in blocks: what blocks are measured against
 };
 

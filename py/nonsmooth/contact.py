@@ -20,7 +20,7 @@ import numpy as np
 from .errors import UserError
 from .whole_files import beside
 
-__all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "VelocityChanges", "load", "residual", "save", "solve", "velocity_changes"]
+__all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "VelocityChanges", "load", "paths", "residual", "save", "solve", "velocity_changes"]
 
 FORMAT = 1
 
@@ -154,8 +154,8 @@ def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_ite
 
     ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses of shape (c, 3).
     ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's tests, "Quad", "Maxm", "QM/16".
-    ``path``: the loops of the sweep: "best" (four contacts at a time, by the fastest instructions of this processor), "portable" (instructions of every
-    processor; the same bits) or "reference" (contact after contact, by the general formulas; the same solution to within the tolerance).
+    ``path``: the loops of the sweep: "best" (four or eight contacts at a time, by the fastest instructions of this processor), one of :func:`paths`
+    with the same bits, or "reference" (contact after contact, by the general formulas; the same solution to within the tolerance).
     Raises ValueError for settings without sense.
     """
     import _nonsmooth_contact
@@ -166,6 +166,13 @@ def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_ite
         start = problem.warm_start if start == "warm" else np.zeros_like(problem.warm_start)
     found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, tolerance, max_iterations, check_every, threads, stopping, path)
     return Solution(**{name: found[name] for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative", "seconds")})
+
+
+def paths() -> tuple:
+    """Names for :func:`solve`'s ``path`` on this processor: what it has of "avx512" and "avx2", the fastest first, then "portable" and "reference"."""
+    import _nonsmooth_contact
+
+    return (*_nonsmooth_contact.kernels, "reference")
 
 
 def residual(problem: ContactProblem, impulse=None) -> Residual:

@@ -29,7 +29,7 @@ void sweep(benchmark::State& state, Path path)
 	SolverSettings settings;
 	settings.tolerance = 1e-300; // never met
 	settings.threads   = static_cast<int>(state.range(0));
-	settings.portable  = path == Path::Portable;
+	settings.kernels   = path == Path::Portable ? availableKernels().back() : nullptr;
 	settings.reference = path == Path::Reference;
 	try {
 		Workspace workspace;

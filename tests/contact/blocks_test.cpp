@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <contact/contact_blocks.hpp>
 #include <contact/residual.hpp>
-#include <cstring>
 #include <gtest/gtest.h>
 
 using namespace nonsmooth::contact;
@@ -50,22 +49,68 @@ TEST(Blocks, HoldEveryContactOnceAndNoBodyTwice)
 	EXPECT_LT(empty, p.contactCount() / 10) << "a tenth of the lanes idle at most";
 }
 
-TEST(Blocks, PortableAndBestInstructionsGiveTheSameBits)
+TEST(Blocks, AreVisitedTogetherOnlyWithoutABodyInBoth)
 {
+	const Problem p = mixed();
+	ContactBlocks b;
+	layOut(p, 2, b);
+	const auto bodiesOf = [](const Block& k) {
+		std::vector<int> bodies(k.i, k.i + lanes);
+		bodies.insert(bodies.end(), k.j, k.j + lanes);
+		return bodies;
+	};
+	std::size_t together = 0;
+	for (std::size_t s = 0; s < b.stripCount(); ++s)
+		for (std::size_t k = b.blockBegin[s]; k < b.blockBegin[s + 1]; ++k) {
+			if (!b.blocks[k].withNext) continue;
+			ASSERT_LT(k + 1, b.blockBegin[s + 1]) << "the last block of a strip has no next";
+			EXPECT_FALSE(b.blocks[k + 1].withNext) << "block " << k + 1 << " belongs to the one before";
+			std::vector<int> bodies = bodiesOf(b.blocks[k]), more = bodiesOf(b.blocks[k + 1]);
+			bodies.insert(bodies.end(), more.begin(), more.end());
+			std::sort(bodies.begin(), bodies.end());
+			EXPECT_EQ(std::adjacent_find(bodies.begin(), bodies.end()), bodies.end()) << "block " << k;
+			EXPECT_NE(bodies.back(), int(p.bodyCount())) << "an empty lane in block " << k;
+			together += 2;
+		}
+	// colours of some twenty blocks each: all but their ends, and the contacts with walls
+	EXPECT_GT(together, b.blocks.size() * 3 / 4);
+}
+
+TEST(Blocks, AllInstructionsGiveTheSameBits)
+{
+	ASSERT_STREQ(availableKernels().back()->name, "portable");
 	for (const Method method : { Method::GaussSeidel, Method::Accelerated }) {
-		Problem        a = mixed(), b = a;
+		Problem        portable = mixed();
 		SolverSettings s;
 		s.method        = method;
 		s.maxIterations = 150;
 		s.tolerance     = 1e-12;
-		s.portable      = true;
-		const auto x    = solve(a, s);
-		s.portable      = false;
-		const auto y    = solve(b, s);
-		EXPECT_EQ(x.iterations, y.iterations);
-		EXPECT_EQ(x.residual.rms, y.residual.rms);
-		EXPECT_EQ(0, std::memcmp(a.impulses.data(), b.impulses.data(), a.impulses.size() * sizeof(Impulse)));
-		EXPECT_EQ(0, std::memcmp(a.velocities.data(), b.velocities.data(), a.velocities.size() * sizeof(Twist)));
+		s.kernels       = availableKernels().back();
+		const auto x    = solve(portable, s);
+		for (const BlockKernels* kernels : availableKernels()) {
+			Problem other = mixed();
+			s.kernels     = kernels;
+			const auto y  = solve(other, s);
+			EXPECT_EQ(x.iterations, y.iterations) << kernels->name;
+			EXPECT_EQ(x.residual.rms, y.residual.rms) << kernels->name;
+			EXPECT_TRUE(sameBits(portable.impulses, other.impulses)) << kernels->name;
+			EXPECT_TRUE(sameBits(portable.velocities, other.velocities)) << kernels->name;
+		}
+	}
+}
+
+TEST(Blocks, FetchingAheadChangesNoBit)
+{
+	for (const BlockKernels* kernels : availableKernels()) {
+		ContactBlocks one;
+		layOut(mixed(), 1, one);
+		ContactBlocks       other  = one;
+		std::vector<Motion> bodies(mixed().bodyCount() + 1), same(bodies.size());
+		for (std::size_t b = 0; b + 1 < bodies.size(); ++b)
+			bodies[b].v = same[b].v = Lanes { 0.01 * double(b % 7), -0.02 * double(b % 5), 0, 1e-4 };
+		kernels->sweep(one.blocks.data(), one.blocks.size(), bodies.data(), 0);
+		kernels->sweepAndFetch(other.blocks.data(), other.blocks.size(), same.data(), 0, one.blocks.data());
+		EXPECT_TRUE(sameBits(bodies, same)) << kernels->name;
 	}
 }
 

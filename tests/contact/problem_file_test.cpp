@@ -1,7 +1,6 @@
 // A contact problem survives the file, bit for bit; files that are not one are refused with their name.
 #include "problems.hpp"
 #include <contact/problem_file.hpp>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -34,11 +33,6 @@ protected:
 	}
 };
 
-template <class T> bool same(const std::vector<T>& a, const std::vector<T>& b)
-{
-	return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 TEST_F(ProblemFile, KeepsEveryBit)
 {
 	RecordedProblem out { lattice(12, 5).problem, {}, step };
@@ -49,19 +43,19 @@ TEST_F(ProblemFile, KeepsEveryBit)
 	write(path, out);
 	const RecordedProblem in = read(path);
 	EXPECT_EQ(in.timeStep, step);
-	EXPECT_TRUE(same(in.warmStart, out.warmStart));
-	EXPECT_TRUE(same(in.problem.impulses, out.problem.impulses));
-	EXPECT_TRUE(same(in.problem.velocities, out.problem.velocities));
-	EXPECT_TRUE(same(in.problem.freeVelocity, out.problem.freeVelocity));
-	EXPECT_TRUE(same(in.problem.inverseMass, out.problem.inverseMass));
-	EXPECT_TRUE(same(in.problem.positions, out.problem.positions));
+	EXPECT_TRUE(sameBits(in.warmStart, out.warmStart));
+	EXPECT_TRUE(sameBits(in.problem.impulses, out.problem.impulses));
+	EXPECT_TRUE(sameBits(in.problem.velocities, out.problem.velocities));
+	EXPECT_TRUE(sameBits(in.problem.freeVelocity, out.problem.freeVelocity));
+	EXPECT_TRUE(sameBits(in.problem.inverseMass, out.problem.inverseMass));
+	EXPECT_TRUE(sameBits(in.problem.positions, out.problem.positions));
 	ASSERT_EQ(in.problem.contactCount(), out.problem.contactCount());
 
 	// and so a solve of what was read gives the same bits
 	Problem again  = in.problem;
 	again.impulses = in.warmStart;
 	solve(again, s);
-	EXPECT_TRUE(same(again.impulses, out.problem.impulses));
+	EXPECT_TRUE(sameBits(again.impulses, out.problem.impulses));
 	EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 

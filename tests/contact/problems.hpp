@@ -4,6 +4,7 @@
 #include <cmath>
 #include <contact/problem.hpp>
 #include <contact/solver.hpp>
+#include <cstring>
 #include <map>
 #include <random>
 #include <stdexcept>
@@ -12,6 +13,11 @@
 namespace nonsmooth::contact::testing {
 
 constexpr double pi = 3.14159265358979323846, gravity = 9.81, step = 5e-3;
+
+template <class T> bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
+{
+	return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
 
 struct Disk {
 	double x, y, r;

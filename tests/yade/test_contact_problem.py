@@ -1,5 +1,6 @@
 """One step's contact problem, taken out of YADE, solved again without it."""
 
+import functools
 import os
 import subprocess
 import sys
@@ -55,13 +56,17 @@ def test_solved_again_it_gives_the_same_bits(dumped):
 
 def test_each_path_solves_and_an_unknown_one_is_refused(dumped):
     problem = contact.load(dumped)
-    best, portable, reference = (contact.solve(problem, tolerance=1e-8, max_iterations=20000, start="cold", path=p) for p in ("best", "portable", "reference"))
-    assert np.array_equal(best.impulse, portable.impulse) and np.array_equal(best.velocity, portable.velocity)
+    solve = functools.partial(contact.solve, problem, tolerance=1e-8, max_iterations=20000, start="cold")
+    best, reference = solve(path="best"), solve(path="reference")
+    assert contact.paths()[-2:] == ("portable", "reference")
+    for path in contact.paths()[:-1]:
+        other = solve(path=path)
+        assert np.array_equal(best.impulse, other.impulse) and np.array_equal(best.velocity, other.velocity), path
     assert reference.converged and contact.residual(problem, reference.impulse).relative < 1.001e-8  # summed in another order
     assert 0 < best.seconds < 60
     # forces with friction are not unique, the motion is: a heap at rest moves in neither
     assert np.abs(reference.velocity - best.velocity).max() < 1e-5 * 9.81 * problem.time_step
-    with pytest.raises(ValueError, match="path = 'fast': it must be 'best', 'portable' or 'reference'"):
+    with pytest.raises(ValueError, match="path = 'fast': it must be 'best', .*'portable', or 'reference'"):
         contact.solve(problem, path="fast")
 
 

@@ -17,7 +17,7 @@ def describe() -> dict:
     import _nonsmooth_contact
 
     return {"cpu": _cpu_model(), "cores": os.cpu_count(), "caches": _caches(), "memory_GB": _memory(), "compiler": _nonsmooth_contact.compiler,
-            "best_path": _nonsmooth_contact.best_path, "system": platform.platform(), "python": platform.python_version(), "yade": config.version,
+            "best_path": _nonsmooth_contact.kernels[0], "system": platform.platform(), "python": platform.python_version(), "yade": config.version,
             "load_average": list(os.getloadavg()), "date": datetime.datetime.now().astimezone().isoformat(timespec="seconds")}
 
 

@@ -1,0 +1,15 @@
+// Compiled with -mavx512f (CMakeLists.txt); empty elsewhere.
+#ifdef __AVX512F__
+#include "block_kernels.inc"
+
+namespace nonsmooth::contact {
+
+const BlockKernels& avx512Kernels();
+const BlockKernels& avx512Kernels()
+{
+	static const BlockKernels kernels { "avx512", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
+	return kernels;
+}
+
+} // namespace nonsmooth::contact
+#endif
