@@ -182,6 +182,8 @@ def test_cost_by_size_is_measured_and_drawn(measured, tmp_path):
         assert s["sweep_ns_per_contact"]["1"]["median"] > 0 and s["packing_s"] > 0 and s["step_ms"]["median"] > 0
         assert s["cold_start"]["sweeps"] > 10 and s["steps"] == 100
         assert 1 < s["candidates"] / s["disks"] < 6
+        # soft disks have contacts inside their layers only, until the slope is loaded; some kB each, whatever the interpreter took before
+        assert 0.1 * s["candidates"] < s["soft_memory"]["contacts"] < s["candidates"] and 500 < s["soft_memory"]["bytes_per_disk"] < 50_000
     assert (tmp_path / "scale.png").stat().st_size > 1000
     bad = run("--scale", "500,x", "--out", tmp_path)
     assert bad.returncode != 0 and "give numbers of disks" in bad.stderr + bad.stdout

@@ -1,7 +1,8 @@
 """How cost grows with size: slopes from thousands to a million disks, each packed, bonded and loaded by its weight in a process of its own.
 
 These slopes are not settled, which would take hours for the largest. The time step shrinks with the diameters, so that contacts are known as many
-diameters ahead as in the section itself; the tolerance is that of the moving slope.
+diameters ahead as in the section itself; the tolerance is that of the moving slope. What memory such a slope takes in YADE's own hands, with bonded soft contacts
+(CohFrictMat) and an InsertionSortCollider, is measured beside it.
 """
 
 from __future__ import annotations
@@ -13,19 +14,21 @@ from pathlib import Path
 
 from yade import O
 
-from .. import contact, packing, slope
+from .. import contact, packing, packing_files, slope, worlds
 from . import cold_start, machine, states, sweeps
 from .course import Course
 from .statistics import spread
 from .steps import TimedSteps
 
-__all__ = ["SIZES", "measure", "measure_sweeps", "run"]
+__all__ = ["SIZES", "measure", "measure_soft_memory", "measure_sweeps", "run"]
 
 SIZES = (5000, 20_000, 100_000, 1_000_000)
-PROBLEM = "step.h5"
+PROBLEM, PACKING = "step.h5", "packing.npz"
 LOADING, STEPS = 60, 40  # steps before those that are timed, and those
 REPEATS = 9              # timings of a sweep
 COLD_CONTACTS = 500_000  # of the largest problem that is solved from zero impulses as far as cold_start asks
+SOFT_DISKS = 100_000     # of the largest slope of soft contacts: their bonds are made in Python
+SOFT_YOUNG = 1e9         # Pa; of no influence on memory
 
 
 def _resident():
@@ -35,7 +38,7 @@ def _resident():
 
 
 def measure(folder, source, disks, steps=STEPS):
-    """One size; a function for processes.call. Leaves its last contact problem in ``folder/step.h5``.
+    """One size; a function for processes.call. Leaves its packing and its last contact problem in ``folder``.
 
     Raises section.SectionError or packing.PackingError where the disks do not go in.
     """
@@ -45,6 +48,7 @@ def measure(folder, source, disks, steps=STEPS):
     began = time.perf_counter()
     packed = packing.pack(chosen)  # not from the cache: how long it takes is asked
     packing_s = time.perf_counter() - began
+    packing_files.save(packed, Path(folder) / PACKING)
     before, began = _resident(), time.perf_counter()
     solver = slope.build(chosen, packed).solver
     scene = _scene_alone(solver) - before
@@ -75,6 +79,20 @@ def _dumped(solver, path):
     return {"cold_start": cold_start.solve_cold(problem)} if len(problem.length) <= COLD_CONTACTS else {}
 
 
+def measure_soft_memory(folder, source, disks, packed):
+    """Memory for each disk of a slope with bonded soft contacts, the file ``packed`` its packing; a function for processes.call."""
+    chosen, packed = states.section_of(source, disks), packing_files.load(packed)
+    before = _resident()
+    # fragile bonds are YADE's own; others need an engine of ours
+    world = worlds.Soft(stiffness=SOFT_YOUNG, diameter=(chosen.disks.d_min, chosen.disks.d_max), verlet=-chosen.numerics.verlet_distance, fragile=True)
+    built = slope.build(chosen, packed, world)
+    O.step()
+    built.solver.bond()
+    O.step()  # and no more: bonds that break would leave fewer contacts in the same memory
+    grown, contacts = _resident() - before, O.interactions.countReal()
+    return {"contacts": contacts, "bytes_per_disk": grown / len(packed)}
+
+
 def measure_sweeps(folder, problems, threads):
     """Times the sweeps of the problems' files in turns, so that a slow moment of the machine does not count for one of them alone; a function for
     processes.call. Returns {"sweeps": [{threads: spread of ns for each contact} for each file]}."""
@@ -91,12 +109,16 @@ def measure_sweeps(folder, problems, threads):
 def run(out, source, sizes, threads, progress=lambda share, doing: None):
     """Measures all sizes, one after the other; returns a dictionary that JSON can hold. Raises states.BenchmarkError with the first failure."""
     sizes = sorted(sizes)
-    seconds, of_sweeps = {size: 10 + 1e-3 * size for size in sizes}, 5 + 1e-4 * sum(sizes)
-    course = Course(out, sum(seconds.values()) + of_sweeps, progress)
+    softened = [size for size in sizes if size <= SOFT_DISKS]
+    seconds, of_soft, of_sweeps = {size: 10 + 1e-3 * size for size in sizes}, {size: 5 + 3e-4 * size for size in softened}, 5 + 1e-4 * sum(sizes)
+    course = Course(out, sum(seconds.values()) + sum(of_soft.values()) + of_sweeps, progress)
     found = [course.call(f"scale-{size}", seconds[size], measure, {"source": source, "disks": size}, threads) for size in sizes]
-    problems = [course.home / f"scale-{size}" / PROBLEM for size in sizes]
+    problems, packed = ([course.home / f"scale-{size}" / name for size in sizes] for name in (PROBLEM, PACKING))
+    for one, size, file in zip(found, softened, packed):  # both begin with the smallest
+        one["soft_memory"] = course.call(
+            f"scale-soft-{size}", of_soft[size], measure_soft_memory, {"source": source, "disks": size, "packed": str(file)}, threads)
     timed = course.call("scale-sweeps", of_sweeps, measure_sweeps, {"problems": [str(path) for path in problems], "threads": threads}, threads)
-    for path in problems:
+    for path in (*problems, *packed):
         path.unlink()  # the largest has half a gigabyte
     return {"machine": machine.describe(), "section": source, "threads": threads,
             "sizes": [{**one, "sweep_ns_per_contact": times} for one, times in zip(found, timed["sweeps"])]}
