@@ -29,7 +29,7 @@ def read_arguments():
     parser.add_argument("--disks", type=int, default=20000, metavar="N", help="disks of the slope (default: %(default)s)")
     parser.add_argument("--section", default="jiufengershan", metavar="FILE", help="a section file with walls DP and FB, or the name of a shipped one")
     parser.add_argument("--scale", type=sizes, nargs="?", const=scale.SIZES, metavar="N,…",
-                        help=f"instead, how cost grows with size: numbers of disks (default: {','.join(map(str, scale.SIZES))}; the last one takes most of an hour)")
+                        help=f"instead, how cost grows with size: numbers of disks (default: {','.join(map(str, scale.SIZES))}; the last one takes 10 to 20 minutes)")
     args = parser.parse_args()
     if args.threads < 1:
         parser.error(f"--threads {args.threads}: give a whole number from 1")
