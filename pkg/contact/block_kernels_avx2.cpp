@@ -4,10 +4,9 @@
 
 namespace nonsmooth::contact {
 
-const BlockKernels& avx2Kernels();
 const BlockKernels& avx2Kernels()
 {
-	static const BlockKernels kernels { "avx2", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
+	static const BlockKernels kernels = kernelsOf("avx2");
 	return kernels;
 }
 

@@ -4,10 +4,9 @@
 
 namespace nonsmooth::contact {
 
-const BlockKernels& avx512Kernels();
 const BlockKernels& avx512Kernels()
 {
-	static const BlockKernels kernels { "avx512", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
+	static const BlockKernels kernels = kernelsOf("avx512");
 	return kernels;
 }
 

@@ -2,15 +2,10 @@
 
 namespace nonsmooth::contact {
 
-#ifdef NONSMOOTH_AVX
-const BlockKernels& avx2Kernels();   // block_kernels_avx2.cpp
-const BlockKernels& avx512Kernels(); // block_kernels_avx512.cpp
-#endif
-
 const std::vector<const BlockKernels*>& availableKernels()
 {
-	static const BlockKernels portable { "portable", sweepBlocks, sweepBlocksAndFetch, applyBlocks, measureBlocks, extrapolateBodies };
-	static const auto         kernels = [] {
+	static const BlockKernels portable = kernelsOf("portable");
+	static const auto         kernels  = [] {
 		std::vector<const BlockKernels*> found;
 #ifdef NONSMOOTH_AVX
 		// the first processors with AVX-512 slow down for it and have no VBMI2

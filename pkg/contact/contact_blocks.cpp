@@ -118,8 +118,8 @@ namespace {
 		return !(shared[0] | shared[1] | shared[2] | shared[3]);
 	}
 
-	/// Pairs up neighbours, from the first on.
-	void pairUp(Block* blocks, std::size_t count)
+	/// Marks neighbours that may be visited at once, from the first on.
+	void markTogether(Block* blocks, std::size_t count)
 	{
 		for (std::size_t k = 0; k + 1 < count; ++k)
 			if ((blocks[k].withNext = goTogether(blocks[k], blocks[k + 1]))) ++k;
@@ -186,7 +186,7 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 				result.inverseLength[b].v[l] = 1 / problem.contacts[index].length;
 			}
 		}
-		pairUp(result.blocks.data() + result.blockBegin[s], result.blockBegin[s + 1] - result.blockBegin[s]);
+		markTogether(result.blocks.data() + result.blockBegin[s], result.blockBegin[s + 1] - result.blockBegin[s]);
 	}
 }
 

@@ -86,6 +86,6 @@ def scale_table(found) -> str:
              f"{1e-3 * s['bytes_per_disk']:.2f}", f"{1e-3 * s['soft_memory']['bytes_per_disk']:.2f}" if "soft_memory" in s else "-", _with_quartiles(s["step_ms"]),
              _number(s["sweeps_mean"]), _with_quartiles(s["sweep_ns_per_contact"]["1"]), _with_quartiles(s["sweep_ns_per_contact"][threads]),
              str(s["cold_start"]["sweeps"]) if "cold_start" in s else "-") for s in found["sizes"]]
-    heads = ("disks", "contacts", "packing [s]", "building [s]", "kB a contact", "without the solver", "kB a disk", "with soft contacts", "step [ms]", "sweeps", "ns a contact and sweep",
-             f"{threads} threads", "cold sweeps to 1e-4")
+    heads = ("disks", "contacts", "packing [s]", "building [s]", "kB a contact", "without the solver", "kB a disk", "with soft contacts", "step [ms]",
+             "sweeps", "ns a contact and sweep", f"{threads} threads", "cold sweeps to 1e-4")
     return tabulate(rows, heads, disable_numparse=True)

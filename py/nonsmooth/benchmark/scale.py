@@ -80,7 +80,10 @@ def _dumped(solver, path):
 
 
 def measure_soft_memory(folder, source, disks, packed):
-    """Memory for each disk of a slope with bonded soft contacts, the file ``packed`` its packing; a function for processes.call."""
+    """Memory for each disk of a slope with bonded soft contacts, the file ``packed`` its packing, before it is loaded; a function for processes.call.
+
+    Returns {"contacts", "bytes_per_disk"}.
+    """
     chosen, packed = states.section_of(source, disks), packing_files.load(packed)
     before = _resident()
     # fragile bonds are YADE's own; others need an engine of ours
@@ -109,16 +112,21 @@ def measure_sweeps(folder, problems, threads):
 def run(out, source, sizes, threads, progress=lambda share, doing: None):
     """Measures all sizes, one after the other; returns a dictionary that JSON can hold. Raises states.BenchmarkError with the first failure."""
     sizes = sorted(sizes)
-    softened = [size for size in sizes if size <= SOFT_DISKS]
-    seconds, of_soft, of_sweeps = {size: 10 + 1e-3 * size for size in sizes}, {size: 5 + 3e-4 * size for size in softened}, 5 + 1e-4 * sum(sizes)
+    seconds, of_soft = {size: 10 + 1e-3 * size for size in sizes}, {size: 5 + 3e-4 * size for size in sizes if size <= SOFT_DISKS}
+    of_sweeps = 5 + 1e-4 * sum(sizes)
     course = Course(out, sum(seconds.values()) + sum(of_soft.values()) + of_sweeps, progress)
-    found = [course.call(f"scale-{size}", seconds[size], measure, {"source": source, "disks": size}, threads) for size in sizes]
-    problems, packed = ([course.home / f"scale-{size}" / name for size in sizes] for name in (PROBLEM, PACKING))
-    for one, size, file in zip(found, softened, packed):  # both begin with the smallest
-        one["soft_memory"] = course.call(
-            f"scale-soft-{size}", of_soft[size], measure_soft_memory, {"source": source, "disks": size, "packed": str(file)}, threads)
+    found, problems = [], []
+    for size in sizes:
+        home, asked = course.home / f"scale-{size}", {"source": source, "disks": size}
+        found.append(course.call(home.name, seconds[size], measure, asked, threads))
+        problems.append(home / PROBLEM)
+        packed = home / PACKING
+        if size in of_soft:
+            found[-1]["soft_memory"] = course.call(
+                f"scale-soft-{size}", of_soft[size], measure_soft_memory, {**asked, "packed": str(packed)}, threads)
+        packed.unlink()
     timed = course.call("scale-sweeps", of_sweeps, measure_sweeps, {"problems": [str(path) for path in problems], "threads": threads}, threads)
-    for path in (*problems, *packed):
+    for path in problems:
         path.unlink()  # the largest has half a gigabyte
     return {"machine": machine.describe(), "section": source, "threads": threads,
             "sizes": [{**one, "sweep_ns_per_contact": times} for one, times in zip(found, timed["sweeps"])]}
