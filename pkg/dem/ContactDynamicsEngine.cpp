@@ -4,7 +4,7 @@
 #include "NonsmoothTimeStepper.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "PythonBytes.hpp"
-#include "Threads.hpp"
+#include "YadeFeatures.hpp"
 #include <chrono>
 #include <contact/problem_file.hpp>
 #include <core/TimeStepper.hpp>

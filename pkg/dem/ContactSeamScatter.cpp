@@ -149,8 +149,8 @@ void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
 		const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
 		if (wall)
 			sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
-		else if (!(dx * dx + dy * dy < (1 - 1e-9) * most * most)) // hypot, which is slow, only where it may be the largest
-			sums.contactRate = std::max(sums.contactRate, std::hypot(dx, dy) / c.length);
+		else if (!(dx * dx + dy * dy < (1 - 1e-9) * most * most)) // the root, which is slow, only where it may be the largest
+			sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
 		if (!links[k].phys->bonded) continue;
 		const NscdPhys& phys = *links[k].phys;
 		sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / phys.ellipseNormal, std::abs(u.t) / phys.ellipseTangential));
@@ -197,7 +197,7 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		sums.mass += mass[id];
 		sums.centre += mass[id] * at;
 		sums.momentum += mass[id] * Vector3r(v1.x, v1.y, 0);
-		const Real speed = std::hypot(v1.x, v1.y);
+		const Real speed = std::sqrt(v1.x * v1.x + v1.y * v1.y); // not hypot, whose last bit is the C library's own
 		sums.speed += speed;
 		sums.largestSpeed = std::max(sums.largestSpeed, speed);
 		++sums.bodies;

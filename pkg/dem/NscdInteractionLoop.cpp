@@ -3,7 +3,7 @@
 #include "PlanarGridCollider.hpp"
 #include "PorePressureEngine.hpp"
 #include "Prefetch.hpp"
-#include "Threads.hpp"
+#include "YadeFeatures.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>

@@ -1,6 +1,6 @@
 #include "PlanarGridCollider.hpp"
 #include "NscdInteractionLoop.hpp"
-#include "Threads.hpp"
+#include "YadeFeatures.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Scene.hpp>
 #include <neighbours/thread_part.hpp>
@@ -315,7 +315,7 @@ void PlanarGridCollider::takeSides()
 
 void PlanarGridCollider::insert(Body::id_t a, Body::id_t b)
 {
-	if (mayCollide(Body::byId(a, scene).get(), Body::byId(b, scene).get()) && !scene->interactions->found(a, b))
+	if (nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene)) && !scene->interactions->found(a, b))
 		scene->interactions->insert(boost::make_shared<Interaction>(a, b));
 }
 

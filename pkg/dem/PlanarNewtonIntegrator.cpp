@@ -1,6 +1,6 @@
 #include "PlanarNewtonIntegrator.hpp"
 #include "Prefetch.hpp"
-#include "Threads.hpp"
+#include "YadeFeatures.hpp"
 #include <core/Scene.hpp>
 
 namespace yade {

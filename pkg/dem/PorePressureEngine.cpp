@@ -2,7 +2,7 @@
 #include "Gravity.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "PythonBytes.hpp"
-#include "Threads.hpp"
+#include "YadeFeatures.hpp"
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 

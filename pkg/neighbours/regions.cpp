@@ -62,7 +62,7 @@ void Regions::differences(int threads, const std::vector<Vector>& vectors, std::
 				const Extent& o = extents[other];
 				e = { std::min(e.xMin, o.xMin), std::min(e.yMin, o.yMin), std::max(e.xMax, o.xMax), std::max(e.yMax, o.yMax) };
 			}
-			found[s] = std::hypot(e.xMax - e.xMin, e.yMax - e.yMin);
+			found[s] = std::sqrt((e.xMax - e.xMin) * (e.xMax - e.xMin) + (e.yMax - e.yMin) * (e.yMax - e.yMin));
 		}
 	}
 }

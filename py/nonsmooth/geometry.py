@@ -3,6 +3,9 @@
 Shapely (1.8 of Debian 12 and 2.x of Debian 13) does the work; here is only what it has no
 name for. Vertices are arrays or tuples of shape (n, 2); a polygon is not closed by repeating
 its first vertex.
+
+What a packing depends on has the same bits with every version of Shapely, GEOS and the C library: places come from the given vertices, lengths from
+square roots (`hypot` is not specified to the last bit), sums from `fsum`.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 from shapely.validation import explain_validity
 
-__all__ = ["Edges", "area_inside", "edges", "invalid_reason", "outline", "parts",
+__all__ = ["Edges", "area", "area_inside", "distance", "edges", "invalid_reason", "outline", "parts",
            "straight", "uncovered"]
 
 
@@ -35,11 +38,43 @@ def parts(shape) -> list[Polygon]:
     return [p for part in getattr(shape, "geoms", ()) for p in parts(part)]
 
 
+def distance(x, y):
+    """√(x² + y²) of arrays."""
+    return np.sqrt(np.square(x) + np.square(y))
+
+
+def area(vertices) -> float:
+    """Area [m²] of a simple polygon, vertices (n, 2)."""
+    v = np.asarray(vertices, float)
+    w = np.roll(v, -1, axis=0)
+    return 0.5 * abs(math.fsum((v[:, 0] * w[:, 1]).tolist() + (-v[:, 1] * w[:, 0]).tolist()))
+
+
 def outline(polygons, tolerance: float) -> MultiPolygon:
-    """Union of `polygons` (shapely, [m]), slits narrower than `tolerance` [m] closed, without idle vertices."""
+    """Union of `polygons` (shapely, [m]), slits narrower than `tolerance` [m] closed, without idle vertices.
+
+    Versions of GEOS begin rings elsewhere and differ in last bits. So a vertex that lies within 3 `tolerance` of one of the polygons' own is that one,
+    others are rounded to `tolerance`/64, and every ring begins at its leftmost, lowest vertex.
+    """
     closed = unary_union([p.buffer(tolerance, join_style=2) for p in polygons])
     closed = closed.buffer(-tolerance, join_style=2).simplify(2 * tolerance)
-    return MultiPolygon(parts(closed))
+    given = np.array(sorted({tuple(v[:2]) for p in polygons for ring in (p.exterior, *p.interiors) for v in ring.coords}))
+    exact = [Polygon(_exact(p.exterior, given, tolerance), sorted(_exact(hole, given, tolerance) for hole in p.interiors)) for p in parts(closed)]
+    return MultiPolygon(sorted(exact, key=lambda p: list(p.exterior.coords)))
+
+
+def _exact(ring, given, tolerance):
+    """Vertices (tuples) of a ring, moved to those `given` (n, 2) or to a grid, from the leftmost on."""
+    found = []
+    for v in np.asarray(ring.coords)[:-1, :2]:
+        away = distance(*(given - v).T)
+        nearest = int(np.argmin(away))
+        grid = tolerance / 64
+        place = tuple(given[nearest].tolist()) if away[nearest] <= 3 * tolerance else tuple((np.rint(v / grid) * grid).tolist())
+        if not found or found[-1] != place:
+            found.append(place)
+    first = found.index(min(found))
+    return found[first:] + found[:first]
 
 
 def straight(vertices, tolerance: float) -> bool:
@@ -95,7 +130,7 @@ def edges(region) -> Edges:
         for ring in (polygon.exterior, *polygon.interiors):
             v = np.asarray(ring.coords)[:-1, :2]
             along = np.roll(v, -1, axis=0) - v
-            size = np.hypot(along[:, 0], along[:, 1])
+            size = distance(along[:, 0], along[:, 1])
             t = along / size[:, None]
             before = np.roll(t, 1, axis=0)
             convex = before[:, 0] * t[:, 1] - before[:, 1] * t[:, 0] >= 0

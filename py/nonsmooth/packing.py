@@ -74,9 +74,7 @@ def _draw(section, rng):
     """Places (uniform in each layer), radii and layer numbers, before overlaps are removed."""
     counts = section.disk_counts()
     polygons = [layer.polygon for layer in section.layers]
-    corners = np.asarray(section.outline.minimum_rotated_rectangle.exterior.coords)[:4]
-    origin, u, v = corners[0], corners[1] - corners[0], corners[3] - corners[0]
-    box = math.hypot(*u) * math.hypot(*v)
+    origin, u, v, box = _box(section.outline)
     sampler = qmc.Halton(3, scramble=True, seed=rng)
     xs, ys, qs = ([np.empty(0)] * len(counts) for _ in range(3))
     while any(len(q) < n for q, n in zip(qs, counts)):
@@ -93,9 +91,19 @@ def _draw(section, rng):
     return x, y, np.concatenate(radii), np.repeat(np.arange(len(counts)), counts)
 
 
+def _box(region):
+    """The box around a region along its longest edge: a corner, its sides (vectors) [m], and its area [m²]."""
+    table = geometry.edges(region)
+    t = table.direction[np.argmax(table.length)]
+    n = np.array((-t[1], t[0]))
+    along, off = (table.start[:, 0] * a[0] + table.start[:, 1] * a[1] for a in (t, n))
+    size, width = along.max() - along.min(), off.max() - off.min()
+    return along.min() * t + off.min() * n, size * t, width * n, size * width
+
+
 def _close_pairs(x, y, r, margin):
     """Pairs (i, j) with a gap below `margin`, sorted; size classes keep the search narrow."""
-    group = np.floor(np.log2(r / r.min()) + 1e-9).astype(int)
+    group = np.frexp(r / r.min())[1]
     places = np.column_stack((x, y))
     members = [np.flatnonzero(group == g) for g in np.unique(group)]
     trees = [cKDTree(places[m]) for m in members]
@@ -109,7 +117,7 @@ def _close_pairs(x, y, r, margin):
                 near = tree.sparse_distance_matrix(trees[b], reach, output_type="ndarray")
                 i, j = near["i"], near["j"]
             i, j = m[i], members[b][j]
-            keep = np.hypot(x[i] - x[j], y[i] - y[j]) < r[i] + r[j] + margin
+            keep = geometry.distance(x[i] - x[j], y[i] - y[j]) < r[i] + r[j] + margin
             found_i.append(np.minimum(i, j)[keep])
             found_j.append(np.maximum(i, j)[keep])
     i, j = np.concatenate(found_i), np.concatenate(found_j)
@@ -143,7 +151,7 @@ def _edge_overlaps(x, y, r, disks, walls, table):
     if corner.any():
         cx = dx - np.where(after, length, 0) * t[:, 0]
         cy = dy - np.where(after, length, 0) * t[:, 1]
-        dist = np.maximum(np.hypot(cx, cy), 1e-12)
+        dist = np.maximum(geometry.distance(cx, cy), 1e-12)
         nx, ny = np.where(corner, cx / dist, nx), np.where(corner, cy / dist, ny)
         overlap = np.where(corner, np.where(after & (off > 0), r[disks] - dist, 0), overlap)
     return np.maximum(overlap, 0), nx, ny
@@ -246,7 +254,7 @@ def overlaps(packing: Packing, region=None) -> Overlaps:
     x, y, r = packing.x, packing.y, packing.r
     i, j = _close_pairs(x, y, r, 0.02 * 2 * r.max())
     size = r[i] + r[j]
-    gap = np.hypot(x[i] - x[j], y[i] - y[j]) / size - 1
+    gap = geometry.distance(x[i] - x[j], y[i] - y[j]) / size - 1
     near = np.maximum(-gap[gap < 0.02], 0)
     worst = near.max(initial=0)
     if region is not None:

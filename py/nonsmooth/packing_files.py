@@ -16,7 +16,7 @@ from .whole_files import write_arrays, write_atomically
 
 __all__ = ["FORMAT", "Packing", "PackingError", "cache_folder", "cache_path", "load", "read_text", "save", "write_text"]
 
-FORMAT = 1  # of cache files and of the way packings are made; a new number makes old files unused
+FORMAT = 2  # of cache files and of the way packings are made; a new number makes old files unused
 
 
 class PackingError(UserError, ValueError):

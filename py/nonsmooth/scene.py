@@ -13,6 +13,8 @@ from yade.wrapper import (
     NscdInteractionLoop, NscdMat, PlanarGridCollider, PlanarNewtonIntegrator, Segment, SlipWeakeningMat)
 from yade.minieigenHP import Quaternion, Vector3
 
+from . import geometry
+
 __all__ = ["contact_dynamics", "disk", "engines", "material", "segments", "wall_material"]
 
 
@@ -72,7 +74,7 @@ def segments(vertices, material, piece=None, sense=0, closed=False):
         raise ValueError(f"a wall needs two vertices or more, not {len(points)}")
     cut = [points[0]]
     for a, b in zip(points[:-1], points[1:]):
-        length = float(np.hypot(*(b - a)))
+        length = float(geometry.distance(*(b - a)))
         if not length > 0:
             raise ValueError(f"two neighbouring vertices of a wall coincide at ({a[0]:g}, {a[1]:g})")
         count = max(1, math.ceil(length / piece - 1e-9)) if piece else 1
@@ -81,7 +83,7 @@ def segments(vertices, material, piece=None, sense=0, closed=False):
     for k, (a, b) in enumerate(zip(cut[:-1], cut[1:])):
         angle = math.atan2(b[1] - a[1], b[0] - a[0])
         following = cut[k + 2] if k + 2 < len(cut) else (cut[1] if closed else None)
-        shape = Segment(halfLength=0.5 * float(np.hypot(*(b - a))), sense=sense, hasPrevious=closed or k > 0)
+        shape = Segment(halfLength=0.5 * float(geometry.distance(*(b - a))), sense=sense, hasPrevious=closed or k > 0)
         if following is not None:
             turn = math.atan2(following[1] - b[1], following[0] - b[0]) - angle
             shape.nextDirection = Vector3(math.cos(turn), math.sin(turn), 0)

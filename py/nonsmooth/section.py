@@ -116,7 +116,7 @@ class Layer:
     @property
     def area(self) -> float:
         """Area [m²]."""
-        return self.polygon.area
+        return geometry.area(self.vertices)
 
 
 @dataclass(frozen=True)
@@ -268,7 +268,7 @@ class Section:
         if self.water:
             return self.water.dip
         pieces = np.vstack([np.diff(wall.points, axis=0) for wall in self.walls])
-        dx, dy = pieces[np.argmax(np.hypot(*pieces.T))]
+        dx, dy = pieces[np.argmax(geometry.distance(*pieces.T))]
         return _dip(dx, dy)
 
     @property
@@ -293,9 +293,9 @@ class Section:
 
     @cached_property
     def _borders(self) -> tuple[float, ...]:
-        """Length [m] of each layer's share of the outline."""
+        """Length [m] of each layer's share of the outline, to six digits: the next ones depend on the version of GEOS."""
         rim = self.outline.boundary.buffer(10 * self.tolerance)
-        return tuple(layer.polygon.exterior.intersection(rim).length for layer in self.layers)
+        return tuple(float(f"{layer.polygon.exterior.intersection(rim).length:.6g}") for layer in self.layers)
 
     def disk_areas(self) -> tuple[float, ...]:
         """Area of disks [m²] in each layer that gives the packing fraction in the bulk.
