@@ -8,7 +8,7 @@
 set -euo pipefail
 
 ROOT=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
-for step in common packages yade build; do
+for step in common packages yade estimate build; do
     # shellcheck source=/dev/null
     . "$ROOT/scripts/setup/$step.sh"
 done
@@ -24,6 +24,7 @@ mkdir -p "$(cache_dir)" || die "the cache folder $(cache_dir) cannot be made"
 exec 9>"$(cache_dir)/lock"
 flock -n 9 || { note "waiting for another set-up to end"; flock 9; }
 
+setup_estimate
 packages_install "${PACKAGES_PROJECT[@]}"
 packages_install_known "${PACKAGES_ORACLE[@]}"
 yade_provide

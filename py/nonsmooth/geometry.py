@@ -53,11 +53,12 @@ def area(vertices) -> float:
 def outline(polygons, tolerance: float) -> MultiPolygon:
     """Union of `polygons` (shapely, [m]), slits narrower than `tolerance` [m] closed, without idle vertices.
 
-    Versions of GEOS begin rings elsewhere and differ in last bits. So a vertex that lies within 3 `tolerance` of one of the polygons' own is that one,
-    others are rounded to `tolerance`/64, and every ring begins at its leftmost, lowest vertex.
+    Versions of GEOS begin rings elsewhere, differ in last bits, and simplify differently. So a vertex that lies within 3 `tolerance` of one of the
+    polygons' own is that one, others are rounded to `tolerance`/64, every ring begins at its leftmost, lowest vertex, and from there on vertices go that
+    lie within 2 `tolerance` of the line through their neighbours.
     """
     closed = unary_union([p.buffer(tolerance, join_style=2) for p in polygons])
-    closed = closed.buffer(-tolerance, join_style=2).simplify(2 * tolerance)
+    closed = closed.buffer(-tolerance, join_style=2)
     given = np.array(sorted({tuple(v[:2]) for p in polygons for ring in (p.exterior, *p.interiors) for v in ring.coords}))
     exact = [Polygon(_exact(p.exterior, given, tolerance), sorted(_exact(hole, given, tolerance) for hole in p.interiors)) for p in parts(closed)]
     return MultiPolygon(sorted(exact, key=lambda p: list(p.exterior.coords)))
@@ -71,10 +72,16 @@ def _exact(ring, given, tolerance):
         nearest = int(np.argmin(away))
         grid = tolerance / 64
         place = tuple(given[nearest].tolist()) if away[nearest] <= 3 * tolerance else tuple((np.rint(v / grid) * grid).tolist())
-        if not found or found[-1] != place:
+        if place not in (found[-1:] + found[:1]):
             found.append(place)
     first = found.index(min(found))
-    return found[first:] + found[:first]
+    found, k = found[first:] + found[:first], 1
+    while k < len(found) and len(found) > 3:
+        if straight((found[k - 1], found[k], found[(k + 1) % len(found)]), 2 * tolerance):
+            del found[k]
+        else:
+            k += 1
+    return found
 
 
 def straight(vertices, tolerance: float) -> bool:

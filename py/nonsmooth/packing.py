@@ -75,10 +75,12 @@ def _draw(section, rng):
     counts = section.disk_counts()
     polygons = [layer.polygon for layer in section.layers]
     origin, u, v, box = _box(section.outline)
-    sampler = qmc.Halton(3, scramble=True, seed=rng)
+    # shifted (Cranley and Patterson 1976) and not scrambled: versions of SciPy scramble differently
+    sampler, shift = qmc.Halton(3, scramble=False), rng.random(3)
     xs, ys, qs = ([np.empty(0)] * len(counts) for _ in range(3))
     while any(len(q) < n for q, n in zip(qs, counts)):
-        h = sampler.random(int(1.1 * sum(counts) * box / section.area) + 100)
+        h = sampler.random(int(1.1 * sum(counts) * box / section.area) + 100) + shift
+        h -= h >= 1
         px, py = (origin + h[:, :1] * u + h[:, 1:2] * v).T
         for k, polygon in enumerate(polygons):
             here = geometry.contains(polygon, px, py)

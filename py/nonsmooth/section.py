@@ -257,7 +257,7 @@ class Section:
     @property
     def area(self) -> float:
         """Area of all layers [m²]."""
-        return sum(layer.area for layer in self.layers)
+        return math.fsum(layer.area for layer in self.layers)  # not sum, which Python 3.12 made another sum
 
     @cached_property
     def dip(self) -> float:
@@ -321,7 +321,7 @@ class Section:
             raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1")
         m = self.disks.mean_square
         phi = self.disks.packing_fraction
-        strip = phi * BORDER_STRIP * math.sqrt(m) * sum(self._borders)
+        strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
         full = count * math.pi / 4 * m
         s = (math.sqrt(strip**2 + 4 * full * phi * self.area) - strip) / (2 * full)
         disks = dataclasses.replace(self.disks, d_min=self.disks.d_min * s, d_max=self.disks.d_max * s,

@@ -64,12 +64,20 @@ yade_sources() {
     printf '%s\n' "$folder"
 }
 
+yade_python() { /usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])'; }
+
+# Where the slim YADE is or will be.
+yade_slim_prefix() {
+    local key
+    key=$(printf '%s\n' "$YADE_VERSION" "$(yade_python)" "${YADE_OPTIONS[@]}" | sha256sum | cut -c1-10)
+    printf '%s/yade-%s-%s\n' "$(cache_dir)" "$YADE_VERSION" "$key"
+}
+
 # Builds the slim YADE into the cache, keyed by version and options; prints its prefix.
 yade_slim() {
-    local python key prefix build sources start
-    python=$(/usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-    key=$(printf '%s\n' "$YADE_VERSION" "$python" "${YADE_OPTIONS[@]}" | sha256sum | cut -c1-10)
-    prefix=$(cache_dir)/yade-$YADE_VERSION-$key
+    local python prefix build sources start
+    python=$(yade_python)
+    prefix=$(yade_slim_prefix)
     if [ -f "$prefix/.complete" ]; then printf '%s\n' "$prefix"; return; fi
 
     packages_install "${PACKAGES_YADE_BUILD[@]}"
@@ -97,16 +105,23 @@ yade_slim() {
 # The version a yade program says it has, or nothing.
 yade_version() { "$1" --version 2>/dev/null | grep -oE '[0-9]{4}\.[0-9]+[.0-9a-z]*' | head -n 1; }
 
+# Whether Debian's own YADE has the version that the headers are of.
+yade_stock_fits() {
+    local candidate
+    [ "$(yade_version /usr/bin/yade)" = "$YADE_VERSION" ] && return
+    candidate=$(apt-cache policy yade 2>/dev/null | awk '/Candidate:/ { print $2 }')
+    [ "${candidate%-*}" = "$YADE_VERSION" ]
+}
+
 yade_provide() {
-    local candidate program
+    local program
     if [ -n "${YADE_PREFIX:-}" ]; then
         program=$YADE_PREFIX/bin/yade
         [ -x "$program" ] || die "YADE_PREFIX=$YADE_PREFIX holds no bin/yade"
         [ "$(yade_version "$program")" = "$YADE_VERSION" ] ||
             die "YADE_PREFIX=$YADE_PREFIX holds YADE $(yade_version "$program"), but the headers at hand are of $YADE_VERSION: unset YADE_PREFIX to have $YADE_VERSION built"
     else
-        candidate=$(apt-cache policy yade 2>/dev/null | awk '/Candidate:/ { print $2 }')
-        if [ "$(yade_version /usr/bin/yade)" = "$YADE_VERSION" ] || [ "${candidate%-*}" = "$YADE_VERSION" ]; then
+        if yade_stock_fits; then
             packages_install "${PACKAGES_YADE_STOCK[@]}"
             YADE_PREFIX=/usr
         else
