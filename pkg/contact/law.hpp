@@ -8,7 +8,7 @@
 // and each velocity is shifted by a bias b:
 //     N-graph:  0 ≤ (U^n + b_n)  ⟂  (N + F_a) ≥ 0 ,   T- and Γ-graphs in U^t + b_t and w + b_r .
 //   open gap g > 0        b_n = g / h        the gap may close, not more
-//   overlap or bond       b_n = κ (g − g₀)/h relaxes the error of position with the rate κ
+//   overlap or bond       b_n = 0            errors of position are taken back by displacements, see solver.hpp
 //   impact                b_n = e U^n_before Newton's restitution
 // Each graph "x ∈ K, −u ∈ N_K(x)" is the fixed point x = proj_K(x − ρ u) for every ρ > 0; the residual of a solution is
 // the distance from that fixed point with ρ the inverse diagonal of the Delassus operator (natural map).

@@ -55,6 +55,30 @@ namespace {
 		int    looks = 0, patience = 1, mostPatience; // looks since and between comparisons
 	};
 
+	/// The β of one sweep after the other; all 0 for plain Gauss-Seidel.
+	class Extrapolation {
+	public:
+		explicit Extrapolation(Method method)
+		        : accelerated(method == Method::Accelerated)
+		{
+		}
+
+		double next()
+		{
+			const double now = beta;
+			if (accelerated) {
+				const double after = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
+				beta               = (theta - 1) / after;
+				theta              = after;
+			}
+			return now;
+		}
+
+	private:
+		bool   accelerated;
+		double theta = 1, beta = 0;
+	};
+
 	/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
 	struct Row {
 		Contact     contact;   // names bodies by their places
@@ -73,13 +97,17 @@ namespace {
 
 	class Sweeper {
 	public:
-		Sweeper(Problem& problem, const SolverSettings& settings, Workspace& workspace);
+		/// `laidOut`: the workspace holds the blocks of this very problem.
+		Sweeper(Problem& problem, const SolverSettings& settings, Workspace& workspace, bool isLaidOut = false);
 		SolverStatistics run();
+		void             correct(const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
 
 	private:
 		void  resetVelocities();
 		void  iterate();
-		void  sweep(const std::vector<double>& betas);
+		void  sweep(const std::vector<double>& betas, bool measured = true);
+		void  applyImpulses();
+		void  takeErrors(const std::vector<PositionError>& errors);
 		void  sweepRow(std::size_t row, double beta);
 		void  measure();
 		void  measureStrip(std::size_t strip);
@@ -109,7 +137,7 @@ namespace {
 		SolverStatistics          statistics;
 	};
 
-	Sweeper::Sweeper(Problem& problem_, const SolverSettings& settings_, Workspace& workspace)
+	Sweeper::Sweeper(Problem& problem_, const SolverSettings& settings_, Workspace& workspace, bool isLaidOut)
 	        : problem(problem_)
 	        , settings(settings_)
 	        , kernels(settings_.kernels ? *settings_.kernels : *availableKernels().front())
@@ -118,7 +146,7 @@ namespace {
 	        , bodies(workspace.bodies)
 	        , bodiesBefore(workspace.bodiesBefore)
 	{
-		layOut(problem, threads, laidOut, !settings.reference);
+		if (!isLaidOut) layOut(problem, threads, laidOut, !settings.reference);
 		outgrowsCache = laidOut.blocks.size() * sizeof(Block) > lastCache;
 		rows.resize(laidOut.others.size());
 		sums.resize(laidOut.stripCount());
@@ -162,6 +190,12 @@ namespace {
 			const Twist&       v = problem.freeVelocity[b];
 			bodies[k].v          = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
 		}
+		applyImpulses();
+	}
+
+	/// Adds M⁻¹ Hᵀ P.
+	void Sweeper::applyImpulses()
+	{
 		schedule.pass(omp_get_thread_num(), [this](std::size_t s) {
 			kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
@@ -186,12 +220,12 @@ namespace {
 		setTwists(row, vi, vj);
 	}
 
-	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it, and the residual after the last one, strip by
-	/// strip while it is at hand.
-	void Sweeper::sweep(const std::vector<double>& betas)
+	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it, and if `measured` the residual after the last one,
+	/// strip by strip while it is at hand.
+	void Sweeper::sweep(const std::vector<double>& betas, bool measured)
 	{
 		const int sweeps = static_cast<int>(betas.size());
-		schedule.passes(omp_get_thread_num(), sweeps + 1, [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
+		schedule.passes(omp_get_thread_num(), sweeps + measured, [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
 			if (pass == sweeps) {
 				measureStrip(s);
 				return;
@@ -297,10 +331,9 @@ namespace {
 	/// Sweeps until the residual holds; every thread runs through it with its own copies of the scalars.
 	void Sweeper::iterate()
 	{
-		const bool accelerated = settings.method == Method::Accelerated;
-		double     theta = 1, beta = 0;
-		int        restarts = 0, iteration = 0;
-		const long count = static_cast<long>(bodies.size());
+		Extrapolation extrapolation(settings.method);
+		int           restarts = 0, iteration = 0;
+		const long    count = static_cast<long>(bodies.size());
 #pragma omp for schedule(static)
 		for (long b = 0; b < count; ++b)
 			bodiesBefore[b] = bodies[b];
@@ -309,20 +342,14 @@ namespace {
 		std::vector<double> betas; // of the sweeps until the next look at the residual
 		while (!solved(1) && iteration < settings.maxIterations) {
 			betas.resize(std::min(settings.checkEvery, settings.maxIterations - iteration));
-			for (double& b : betas) {
-				b = beta;
-				if (!accelerated) continue;
-				const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
-				beta              = (theta - 1) / next;
-				theta             = next;
-			}
+			for (double& b : betas)
+				b = extrapolation.next();
 			sweep(betas);
 			iteration += static_cast<int>(betas.size());
 			sumUp();
-			if (!rule.asks(residual.rms) || !accelerated) continue;
+			if (!rule.asks(residual.rms) || settings.method != Method::Accelerated) continue;
 			++restarts;
-			theta = 1;
-			beta  = 0;
+			extrapolation = Extrapolation(settings.method);
 		}
 #pragma omp single
 		{
@@ -369,6 +396,72 @@ namespace {
 		return statistics;
 	}
 
+	/// Makes displacements of velocities: nothing has moved, and contacts ask for their errors along the normal alone.
+	void Sweeper::takeErrors(const std::vector<PositionError>& errors)
+	{
+		constexpr double without = 1e100; // a bond holds whatever it costs
+		const long       count   = static_cast<long>(laidOut.blocks.size());
+#pragma omp for schedule(static)
+		for (long b = 0; b < count; ++b) {
+			Block& k   = laidOut.blocks[b];
+			k.friction = k.rollingArm = k.t = k.r = k.beforeT = k.beforeR = Lanes {};
+			for (std::size_t l = 0; l < lanes; ++l)
+				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
+					k.biasN[l]    = errors[index].error;
+					k.adhesion[l] = errors[index].held ? without : 0;
+					k.n[l] = k.beforeN[l] = projectNormal(errors[index].impulse, k.adhesion[l]);
+				}
+		}
+		const long rowCount = static_cast<long>(rows.size());
+#pragma omp for schedule(static)
+		for (long k = 0; k < rowCount; ++k) {
+			const PositionError& e = errors[laidOut.others[k]];
+			Contact&             c = rows[k].contact;
+			c.biasN                = e.error;
+			c.adhesion             = e.held ? without : 0;
+			c.biasT = c.biasR = c.friction = c.rollingArm = 0;
+			rows[k].p = rows[k].before = { projectNormal(e.impulse, c.adhesion), 0, 0 };
+		}
+		const long bodyCount = static_cast<long>(problem.bodyCount());
+#pragma omp for schedule(static)
+		for (long k = 0; k < bodyCount; ++k)
+			bodies[k].v = Lanes { 0, 0, 0, problem.inverseMass[laidOut.order.bodies[k]].x };
+		applyImpulses();
+#pragma omp for schedule(static)
+		for (long k = 0; k < bodyCount; ++k)
+			bodiesBefore[k] = bodies[k];
+	}
+
+	void Sweeper::correct(const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result)
+	{
+		result.displacements.resize(problem.bodyCount());
+		result.impulses.resize(problem.contactCount());
+		Extrapolation       extrapolation(settings.method);
+		std::vector<double> betas(sweeps);
+		for (double& b : betas)
+			b = extrapolation.next();
+#pragma omp parallel num_threads(threads)
+		{
+#pragma omp single
+			schedule.plan(laidOut.order.stripBegin, laidOut.order.evenStrips, omp_get_num_threads());
+			takeErrors(errors);
+			sweep(betas, false);
+#pragma omp barrier
+			const long bodyCount = static_cast<long>(problem.bodyCount());
+#pragma omp for schedule(static)
+			for (long b = 0; b < bodyCount; ++b)
+				result.displacements[b] = twist(b);
+			const long blockCount = static_cast<long>(laidOut.blocks.size());
+#pragma omp for schedule(static)
+			for (long b = 0; b < blockCount; ++b)
+				for (std::size_t l = 0; l < lanes; ++l)
+					if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) result.impulses[index] = laidOut.blocks[b].n[l];
+#pragma omp single
+			for (std::size_t k = 0; k < rows.size(); ++k)
+				result.impulses[laidOut.others[k]] = rows[k].p.n;
+		}
+	}
+
 	void check(const Problem& problem, int threads)
 	{
 		if (problem.freeVelocity.size() != problem.bodyCount())
@@ -403,6 +496,16 @@ namespace {
 	}
 
 } // namespace
+
+void correctPositions(
+        Problem& problem, const SolverSettings& settings, Workspace& workspace, const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result)
+{
+	const ContactBlocks& blocks = workspace.laidOut;
+	if (errors.size() != problem.contactCount() || blocks.order.order.size() != problem.contactCount() || blocks.placeOf.size() != problem.bodyCount())
+		throw std::invalid_argument("correctPositions: " + std::to_string(errors.size()) + " errors for " + std::to_string(problem.contactCount())
+		                            + " contacts, of which the last solve laid out " + std::to_string(blocks.order.order.size()));
+	Sweeper(problem, settings, workspace, true).correct(errors, sweeps, result);
+}
 
 SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace)
 {

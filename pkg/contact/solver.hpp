@@ -10,6 +10,11 @@
 // restarts cost most there. A residual of twice the smallest one since the last restart restarts at once, and halves the distance.
 // Contacts lie in blocks of four (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result
 // independent of the number of threads and of the processor; sums are added in a fixed order.
+//
+// Errors of position are taken back by displacements that leave no velocity behind (split impulses). For bodies'
+// displacements D and pseudo-impulses Q with D = M⁻¹ Hᵀ Q, a few sweeps of the same blocks, extrapolated as above, move towards
+//     0 ≤ (D^n + e) ⟂ Q ≥ 0 ,     and for a bond that holds    D^n + e = 0 ,
+// with e the error at the end of the step, as far as it is to be taken back; normals alone act. The sweeps begin with the Q of the step before.
 #pragma once
 
 #include <contact/contact_blocks.hpp>
@@ -46,6 +51,24 @@ struct Workspace {
 	ContactBlocks       laidOut;
 	std::vector<Motion> bodies, bodiesBefore;
 };
+
+/// What one contact asks of the positions at the end of a step [m]: its bodies draw apart by −error where that is negative, and by no more than they
+/// must; they may draw together by `error` where it is positive. With `held` they do so in any case.
+struct PositionError {
+	double error   = 0;
+	bool   held    = false;
+	double impulse = 0; // Q to begin with [kg m], that of the step before: what lies deep in a packing takes several steps
+};
+
+struct PositionCorrection {
+	std::vector<Twist>  displacements; // of bodies [m, m, rad]
+	std::vector<double> impulses;      // Q of contacts [kg m]
+};
+
+/// Displacements of the bodies that take the errors back, one error a contact. To be called after a solve with the same problem, settings and workspace,
+/// on whose blocks it sweeps. Throws std::invalid_argument where a size does not fit.
+void correctPositions(
+        Problem& problem, const SolverSettings& settings, Workspace& workspace, const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
 
 /// Solves in place: reads problem.impulses as warm start, writes problem.impulses and problem.velocities.
 /// Throws std::invalid_argument where a size does not fit or a number is not finite.

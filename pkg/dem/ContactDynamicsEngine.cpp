@@ -37,6 +37,7 @@ void ContactDynamicsEngine::action()
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;
 	}
+	seam.correct(settings(), workspace, correctionSweeps);
 	const Real t2         = clock();
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
 	account(seam.scatter(*scene, gravity, threads, adapts));
@@ -69,6 +70,7 @@ void ContactDynamicsEngine::validate() const
 	if (!(scene->dt > 0) || !std::isfinite(scene->dt)) fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");
 	if (!(tolerance > 0)) fail("tolerance = " + boost::lexical_cast<string>(tolerance) + ": it must be positive");
 	if (maxIterations < 1) fail("maxIterations = " + std::to_string(maxIterations) + ": it must be at least 1");
+	if (correctionSweeps < 0) fail("correctionSweeps = " + std::to_string(correctionSweeps) + ": it must be 0 or more");
 	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
 	if (!(relaxationRate >= 0 && relaxationRate <= 1)) fail("relaxationRate = " + boost::lexical_cast<string>(relaxationRate) + ": it must be from 0 to 1");
 	if (method != "accelerated" && method != "gaussSeidel") fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
@@ -97,7 +99,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	potentialEnergy = s.potential;
 	if (std::isnan(energyStart)) energyStart = kineticEnergy + potentialEnergy;
 	// energies belong to the beginning of the step, the sums to the steps before it
-	energyError = kineticEnergy + potentialEnergy - energyStart - externalWork - wallWork + slidingLoss + rollingLoss + debondingLoss + impactLoss;
+	energyError = kineticEnergy + potentialEnergy - energyStart - externalWork - wallWork - correctionEnergy + slidingLoss + rollingLoss + debondingLoss + impactLoss;
 	externalWork += s.external;
 	wallWork += s.wallWork;
 	slidingLoss += s.sliding;

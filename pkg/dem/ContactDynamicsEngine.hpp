@@ -6,8 +6,9 @@
 //     solve      v⁺ = v_free + M⁻¹ Hᵀ P with (P, H v⁺) on the graphs of contact/law.hpp, nonlinear Gauss-Seidel
 //     scatter    reactions P/h into the interactions and O.forces, energies, slip
 //     NewtonIntegrator(damping=0) then does v⁺ = v + h (M⁻¹ F + g) and x⁺ = x + h v⁺ (θ = 1)
-// Positions: an open gap may close but not more, an overlap or a bond's error is taken back by the share κ a step. Both stand in the
-// normal bias, so no overlap adds up; what kinetic energy that costs is counted (correctionEnergy).
+// Positions: an open gap may close but not more, which stands in the normal bias. An overlap or a bond's error at the end of the step is taken back by the
+// share κ, by displacements that leave no velocity behind (contact/solver.hpp):  x ← x + D  before the integrator moves it. Where D would change the angular
+// momentum (Σ m D × v), pairs of tangential impulses keep it. No overlap adds up, and the energy that it costs is counted (correctionEnergy).
 #pragma once
 
 #include "ContactSeam.hpp"
@@ -49,8 +50,9 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning."))
 		((string,method,"accelerated",,"'accelerated' (Gauss-Seidel inside Nesterov's extrapolation) or 'gaussSeidel' (plain)."))
 		((int,checkEvery,10,,"Sweeps between two residuals."))
-		((Real,relaxationRate,0.2,,"Share κ of an overlap or of a bond's error of length that one step takes back [-]."))
+		((Real,relaxationRate,0.2,,"Share κ of an overlap or of a bond's error of length that one step takes back, by displacements that leave no velocity behind [-]."))
 		((Real,correctionSpeed,1,,"Largest speed of that correction [m/s]."))
+		((int,correctionSweeps,10,,"Sweeps in which these displacements are found; what they leave is taken back by later steps."))
 		((Real,openGap,0.05,,"A contact whose gap is wider [ℓ], and would stay so at 1.2 times its present speed of approach, is left out of the step's solve, unless the solution would close it after all."))
 		((int,iterations,0,(Attr::readonly|Attr::noSave),"Sweeps of the last step."))
 		((Real,residual,0,(Attr::readonly|Attr::noSave),"Residual of the last step [-]."))
@@ -80,8 +82,8 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,slidingLoss,0,Attr::readonly,"Energy dissipated by sliding so far [J]."))
 		((Real,rollingLoss,0,Attr::readonly,"Energy dissipated by rolling so far [J]."))
 		((Real,debondingLoss,0,Attr::readonly,"Energy dissipated by contacts in tension so far [J]."))
-		((Real,impactLoss,0,Attr::readonly,"Energy dissipated by impact so far, less correctionEnergy [J]."))
-		((Real,correctionEnergy,0,Attr::readonly,"Energy given so far by taking back overlaps [J]."))
+		((Real,impactLoss,0,Attr::readonly,"Energy dissipated by impact so far [J]."))
+		((Real,correctionEnergy,0,Attr::readonly,"Energy given so far by taking back overlaps and bonds' errors [J]."))
 		((Real,energyStart,NaN,(Attr::readonly|Attr::hidden),"Kinetic and potential energy when the balance began [J]."))
 		((Real,energyError,0,(Attr::readonly|Attr::noSave),"What the balance of all these misses [J]."))
 		((Real,meanSpeed,0,(Attr::readonly|Attr::noSave),"Mean speed of moving bodies at the end of the last step [m/s]."))

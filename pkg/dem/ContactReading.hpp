@@ -15,7 +15,7 @@ struct Reading {
 	NscdPhys*     phys; // null where the interaction has another physics
 	Real          nx, ny, gap; // along the interaction's own order of bodies
 	Real          restGap, restitution, adhesion, friction, rollingArm, length;
-	Real          normal, tangential, torque; // of the last step
+	Real          normal, tangential, torque, correction; // of the last step
 	int           broken; // NscdPhys::brokenMode if the bond broke in this step
 	bool          bonded, slips;
 };
@@ -36,11 +36,11 @@ inline NscdPhys* physOf(IPhys& phys)
 /// Reads a real interaction in step `iteration`.
 inline Reading read(Interaction& interaction, const ScGeom& geom, NscdPhys* phys, long iteration)
 {
-	if (!phys) return { &interaction, &geom, nullptr, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, NscdPhys::None, false, false };
+	if (!phys) return { &interaction, &geom, nullptr, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, NscdPhys::None, false, false };
 	return { &interaction,          &geom,           phys,
 		 geom.normal[0],        geom.normal[1],  -geom.penetrationDepth,
 		 phys->restGap,         phys->restitution, phys->adhesion, phys->currentFriction, phys->currentRollingArm, phys->length,
-		 phys->normal,          phys->tangential, phys->torque,
+		 phys->normal,          phys->tangential, phys->torque, phys->correction,
 		 phys->brokenStep == iteration ? phys->brokenMode : int(NscdPhys::None),
 		 phys->bonded,          phys->countsSlip() };
 }

@@ -19,7 +19,7 @@ namespace {
 
 	void forgetReactions(NscdPhys& phys)
 	{
-		phys.normal = phys.tangential = phys.torque = 0;
+		phys.normal = phys.tangential = phys.torque = phys.correction = 0;
 		phys.normalForce = phys.shearForce = Vector3r::Zero();
 	}
 
@@ -273,12 +273,9 @@ Impulse ContactSeam::gatherContact(const Reading& reading, const Found& ids, Con
 	link.slips   = reading.slips;
 	link.swapped = c.i != (ids.falling ? ids.high : ids.low);
 	link.gap     = gap;
-	// error of position: a bond keeps its length, a contact its gap
-	const Real error = reading.bonded ? gap - reading.restGap : gap;
+	link.correction = reading.correction;
+	link.rest    = reading.bonded ? reading.restGap : 0;
 	if (!reading.bonded && gap > 0) c.biasN = gap / h;
-	else
-		c.biasN = std::max(-relaxation.largestSpeed, std::min(relaxation.largestSpeed, relaxation.rate * error / h));
-	link.bias = c.biasN;
 	if (reading.restitution > 0 && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;

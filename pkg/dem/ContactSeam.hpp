@@ -6,7 +6,7 @@
 
 #include "BodyReading.hpp"
 #include "ContactReading.hpp"
-#include <contact/problem.hpp>
+#include <contact/solver.hpp>
 #include <core/Scene.hpp>
 
 namespace yade {
@@ -15,7 +15,7 @@ class NscdInteractionLoop;
 
 namespace yade::nscd {
 
-/// How errors of position enter the velocities, see contact/law.hpp.
+/// How errors of position are dealt with, see contact/law.hpp and contact/solver.hpp.
 struct Relaxation {
 	Real step;         // h [s]
 	Real rate;         // κ, share of an overlap or bond error that one step takes back
@@ -29,7 +29,8 @@ struct Link {
 	const ScGeom* geom    = nullptr;
 	NscdPhys*    phys    = nullptr;
 	Real         gap     = 0; // at the beginning of the step [m]
-	Real         bias    = 0; // b_n without restitution [m/s]
+	Real         rest    = 0; // of that, what a bond keeps [m]
+	Real         correction = 0; // NscdPhys::correction of the step before [kg m]
 	int          broken  = 0; // NscdPhys::brokenMode if the bond broke in this step
 	bool         swapped = false; // runs against the interaction's own order
 	bool         bonded  = false;
@@ -40,12 +41,12 @@ struct Link {
 struct StepSums {
 	// contacts
 	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
-	Real correction = 0;                                      // energy given by relaxing errors of position [J]
 	Real overlap = 0, worstOverlap = 0;                       // sum and maximum over contacts, in units of ℓ
 	Real contactRate = 0, bondRate = 0;                       // [1/s], see NonsmoothTimeStepper
 	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 	// bodies
 	Real     kinetic = 0, potential = 0, external = 0, wallWork = 0; // [J]; external and wallWork during the step
+	Real     correction = 0; // energy that bodies got by taking back errors of position [J]
 	Real     mass = 0, speed = 0, largestSpeed = 0;
 	Vector3r centre = Vector3r::Zero(), momentum = Vector3r::Zero();
 	int      bodies = 0;
@@ -60,6 +61,8 @@ public:
 	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads, const NscdInteractionLoop* loop);
 	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They need another solve.
 	size_t recall();
+	/// After the last solve: finds how far bodies are to be displaced to take back overlaps and bonds' errors of length; scatter moves them.
+	void correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace, int sweeps);
 	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
 	/// `rates`: also how fast contacts and bonds change, for the choice of the next step.
 	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads, bool rates);
@@ -91,6 +94,9 @@ private:
 	void scatterContact(size_t k);
 	void sumReactions();
 	void scatterForces(Scene& scene);
+	void turnBack(long k);
+	void displace(Scene& scene) const;
+	bool yieldsInTension(size_t k, const nonsmooth::contact::Impulse& u) const;
 	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
@@ -103,6 +109,9 @@ private:
 	std::vector<nonsmooth::contact::Twist> before; // velocities at the beginning of the step
 	std::vector<nonsmooth::contact::Twist> external; // force and torque of other engines [N, N m]
 	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body
+	std::vector<nonsmooth::contact::PositionError> errors;        // of contacts
+	nonsmooth::contact::PositionCorrection         correction;    // none where there are no displacements
+	std::vector<nonsmooth::contact::Twist>         turning;       // of bodies: impulses that keep the angular momentum, see turnBack [N s]
 	std::vector<char>                      present;
 	std::vector<int>                       bucket;
 	std::vector<BodyReading>               ownBodies; // made where no loop has made them

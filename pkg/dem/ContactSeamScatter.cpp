@@ -17,7 +17,6 @@ void StepSums::add(const StepSums& other)
 	rolling += other.rolling;
 	debonding += other.debonding;
 	impact += other.impact;
-	correction += other.correction;
 	overlap += other.overlap;
 	worstOverlap = std::max(worstOverlap, other.worstOverlap);
 	contactRate = std::max(contactRate, other.contactRate);
@@ -30,12 +29,89 @@ void StepSums::add(const StepSums& other)
 	potential += other.potential;
 	external += other.external;
 	wallWork += other.wallWork;
+	correction += other.correction;
 	mass += other.mass;
 	speed += other.speed;
 	largestSpeed = std::max(largestSpeed, other.largestSpeed);
 	centre += other.centre;
 	momentum += other.momentum;
 	bodies += other.bodies;
+}
+
+namespace {
+	// ℓ; a touching contact may overlap by this much. Were it pushed back to nothing, half of all contacts would stand open by a trifle, others in every step, and
+	// the solver would have to find the reactions of a packing at rest anew each time.
+	constexpr Real slight = 1e-5;
+}
+
+/// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
+bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
+{
+	constexpr Real close = 1 - 1e-9;
+	const Contact& c     = problem.contacts[k];
+	return links[k].bonded && c.adhesion > 0 && problem.impulses[k].n <= -close * c.adhesion && u.n > 0;
+}
+
+void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
+{
+	const Real h = relaxation.step, most = h * relaxation.largestSpeed;
+	const long count = (long)links.size();
+	bool       any   = false;
+	errors.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
+	for (long k = 0; k < count; ++k) {
+		const Contact& c   = problem.contacts[k];
+		const Impulse  u   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		auto&          e   = errors[k];
+		e.impulse          = links[k].correction;
+		e.held             = links[k].bonded && !yieldsInTension(k, u);
+		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
+		const Real off = links[k].gap - (e.held ? links[k].rest : -slight * c.length), was = e.held ? off : std::min(Real(0), off);
+		e.error        = off + h * u.n - (1 - relaxation.rate) * was;
+		if (!e.held && e.error >= 0) continue;
+		e.error = std::max(-most, std::min(most, e.error));
+		any     = any || e.error != 0;
+	}
+	correction.displacements.clear();
+	turning.assign(before.size(), {});
+	if (!any || sweeps == 0) return;
+	contact::correctPositions(problem, settings, workspace, errors, sweeps, correction);
+	for (long k = 0; k < count; ++k)
+		if (correction.impulses[k] != 0) turnBack(k);
+}
+
+/// Two bodies that are drawn together or apart while they pass each other would change their angular momentum, Σ m D × v: a pair of tangential impulses takes
+/// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step.
+void ContactSeam::turnBack(long k)
+{
+	const Contact& c    = problem.contacts[k];
+	const auto     free = [this](int body) { return problem.inverseMass[body].x > 0 && problem.inverseMass[body].x == problem.inverseMass[body].y; };
+	if (!free(c.i) || !free(c.j)) return; // what holds a body takes its angular momentum
+	const auto &vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+	const auto &di = correction.displacements[c.i], &dj = correction.displacements[c.j];
+	const Real  passing  = -c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y);
+	const auto &xi = problem.positions[c.i], &xj = problem.positions[c.j];
+	const Real  distance = c.nx * (xj.x + dj.x - xi.x - di.x) + c.ny * (xj.y + dj.y - xi.y - di.y);
+	if (!(distance > 0)) return;
+	const Real p = -correction.impulses[k] * passing / distance;
+	turning[c.i].x += c.ny * p;
+	turning[c.i].y -= c.nx * p;
+	turning[c.j].x -= c.ny * p;
+	turning[c.j].y += c.nx * p;
+}
+
+/// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.
+void ContactSeam::displace(Scene& scene) const
+{
+	const long size = (long)correction.displacements.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long id = 0; id < size; ++id) {
+		const Twist& d = correction.displacements[id];
+		if (!present[id] || (d.x == 0 && d.y == 0 && d.w == 0)) continue;
+		State& s = *(*scene.bodies)[id]->state;
+		s.pos += Vector3r(d.x, d.y, 0);
+		if (d.w != 0) s.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * s.ori).normalized();
+	}
 }
 
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
@@ -65,6 +141,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		}
 	}
 	scatterForces(scene);
+	displace(scene);
 
 	// slip goes into materials that many contacts share, so one after the other
 	for (size_t part = 0; part < chunksC; ++part)
@@ -93,6 +170,8 @@ void ContactSeam::scatterContact(size_t k)
 	phys.normal         = p.n / h;
 	phys.tangential     = p.t / h;
 	phys.torque         = p.r / h;
+	const Real q        = correction.displacements.empty() ? 0 : correction.impulses[k];
+	if (phys.correction != q) phys.correction = q;
 	const Real sign     = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
 	phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
 	phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
@@ -100,7 +179,7 @@ void ContactSeam::scatterContact(size_t k)
 	if (!phys.bonded) return;
 	const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 	constexpr Real close = 1 - 1e-9;
-	if (c.adhesion > 0 && p.n <= -close * c.adhesion && u.n + c.biasN > 0) {
+	if (yieldsInTension(k, u)) {
 		phys.yielded = true;
 		phys.yieldPath[0] += std::max(Real(0), h * u.n);
 	}
@@ -131,7 +210,9 @@ void ContactSeam::scatterForces(Scene& scene)
 {
 	const Real h = relaxation.step;
 	for (size_t id = 0; id < reaction.size(); ++id) {
-		const Twist& r = reaction[id];
+		Twist r = reaction[id];
+		r.x += turning[id].x;
+		r.y += turning[id].y;
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
 		scene.forces.addForce(id, Vector3r(r.x / h, r.y / h, 0));
 		scene.forces.addTorque(id, Vector3r(0, 0, r.w / h));
@@ -169,7 +250,6 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 		(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
 		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
 		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
-		if (p.n > 0 && links[k].bias < 0) sums.correction -= p.n * links[k].bias;
 		const Real overlap = std::max(Real(0), -links[k].gap) / c.length;
 		sums.overlap += overlap;
 		sums.worstOverlap = std::max(sums.worstOverlap, overlap);
@@ -194,10 +274,18 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		sums.kinetic += 0.5 * (mass[id] * (v0.x * v0.x + v0.y * v0.y) + inertia[id] * v0.w * v0.w);
 		const Vector3r at(problem.positions[id].x, problem.positions[id].y, 0);
 		sums.potential -= mass[id] * gravity.dot(at);
+		// what errors of position cost: the way of the weight, and what the pairs of impulses give
+		Twist v2 = v1;
+		if (!correction.displacements.empty()) {
+			const Twist &d = correction.displacements[id], &p = turning[id];
+			v2.x += w.x * p.x;
+			v2.y += w.y * p.y;
+			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y)) - mass[id] * gravity.dot(Vector3r(d.x, d.y, 0));
+		}
 		sums.mass += mass[id];
 		sums.centre += mass[id] * at;
-		sums.momentum += mass[id] * Vector3r(v1.x, v1.y, 0);
-		const Real speed = std::sqrt(v1.x * v1.x + v1.y * v1.y); // not hypot, whose last bit is the C library's own
+		sums.momentum += mass[id] * Vector3r(v2.x, v2.y, 0);
+		const Real speed = std::sqrt(v2.x * v2.x + v2.y * v2.y); // not hypot, whose last bit is the C library's own
 		sums.speed += speed;
 		sums.largestSpeed = std::max(sums.largestSpeed, speed);
 		++sums.bodies;

@@ -31,6 +31,7 @@ R"""(Contact of two :yref:`NscdMats<NscdMat>`: reactions of the last step, thres
 		((Real,currentRollingArm,0,(Attr::readonly|Attr::noSave),"μ_r ℓ in force [m]."))
 		((Real,restGap,0,(Attr::readonly|Attr::hidden),"Gap [m] that a bond keeps unless it yields in tension."))
 		((Real,restitution,0,,"Coefficient of restitution."))
+		((Real,correction,0,(Attr::readonly|Attr::hidden),"Pseudo-impulse of the last correction of positions [kg m], from which the next one starts."))
 		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did."))
 		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque, 4 mixed."))
 		((bool,bonded,false,,"A bond holds."))

@@ -40,6 +40,17 @@ def box(stuff, width, height):
     return O.bodies.append(scene.segments([(0, height), (0, 0), (width, 0), (width, height)], stuff, piece=2))
 
 
+def floor(stuff):
+    return O.bodies.append(scene.segments([(-20, 0), (20, 0)], stuff))[0]
+
+
+def free_disk(x=0.0, y=0.0, velocity=(0, 0, 0), stuff=None, **more):
+    """A disk of 1 m in diameter; returns its id."""
+    disk = O.bodies.append(scene.disk((x, y), 0.5, stuff or material(**more)))
+    O.bodies[disk].state.vel = velocity
+    return disk
+
+
 def loose_heap(stuff, columns=8, rows=8, seed=5, radius=(0.3, 0.5)):
     """Disks on a wide lattice above a floor, radii and places at random; returns their ids."""
     dice = random.Random(seed)

@@ -11,7 +11,7 @@ from yade.wrapper import (
     ContactDynamicsEngine, ForceEngine, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
     Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
 
-from contact_scenes import G, begin, bits, box, contacts, engine, loose_heap, material, momenta, run
+from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, loose_heap, material, momenta, run
 
 
 @pytest.fixture(autouse=True)
@@ -22,16 +22,6 @@ def clean():
     O.reset()
 
 
-def free_disk(x=0.0, y=0.0, velocity=(0, 0, 0), stuff=None, **more):
-    disk = O.bodies.append(scene.disk((x, y), 0.5, stuff or material(**more)))
-    O.bodies[disk].state.vel = velocity
-    return disk
-
-
-def floor(stuff, dofs=None):
-    return O.bodies.append(scene.segments([(-20, 0), (20, 0)], stuff))[0]
-
-
 # ---- balance of forces and momentum ---------------------------------------------------------------
 
 def test_loosely_solved_stack_does_not_creep():
@@ -40,11 +30,14 @@ def test_loosely_solved_stack_does_not_creep():
     disks = [O.bodies.append(scene.disk((0, 0.5 + k), 0.5, stuff)) for k in range(50)]
     begin(dt=5e-3, tolerance=1e-4, maxIterations=2000)
     run(500)
-    weight, loads, top = sum(O.bodies[d].state.mass * G for d in disks), [], O.bodies[disks[-1]].state
+    weight, loads, top, heights = sum(O.bodies[d].state.mass * G for d in disks), [], O.bodies[disks[-1]].state, []
     for _ in range(1000):
         O.step()
         loads.append(-O.forces.f(wall)[1] / weight)
-        assert top.pos[1] == pytest.approx(49.5, abs=5e-4)  # m, in 7.5 s; observed 1e-4
+        heights.append(top.pos[1])
+    # each of 50 contacts may overlap by 1e-5 of a diameter, and by as much again that the solver leaves
+    assert 49.5 - 2 * 50 * 1e-5 < min(heights) and max(heights) < 49.5 + 1e-5
+    assert sum(heights[-300:]) / 300 == pytest.approx(sum(heights[:300]) / 300, abs=3e-4)  # m, in 3.5 s; observed 1e-4
     # a residual of 1e-4 leaves long waves of ± 4 % in a chain of 50 (its condition number is 4e3), but no bias
     assert sum(loads) / len(loads) == pytest.approx(1, abs=1e-3)
     assert 0.85 < min(loads) and max(loads) < 1.15
