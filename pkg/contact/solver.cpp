@@ -102,9 +102,9 @@ namespace {
 		std::vector<Row>          rows;
 		std::vector<Motion>&      bodies; // by place; the last one is nobody
 		std::vector<Motion>&      bodiesBefore;
-		std::vector<ResidualSums> sums;                 // one a strip
+		std::vector<ResidualSums> sums;                 // one a part of the order
 		Residual                  residual;
-		std::vector<ChangeSums>   changeSums; // one a strip
+		std::vector<ChangeSums>   changeSums; // one a part of the order
 		VelocityChanges           changes;
 		SolverStatistics          statistics;
 	};
@@ -121,8 +121,8 @@ namespace {
 		layOut(problem, threads, laidOut, !settings.reference);
 		outgrowsCache = laidOut.blocks.size() * sizeof(Block) > lastCache;
 		rows.resize(laidOut.others.size());
-		sums.resize(laidOut.stripCount());
-		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.stripCount());
+		sums.resize(laidOut.partCount());
+		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.partCount());
 		bodies.resize(problem.bodyCount() + 1);
 		bodiesBefore.resize(problem.bodyCount() + 1);
 		for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -135,7 +135,7 @@ namespace {
 		}
 		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
-		statistics.strips = static_cast<int>(laidOut.stripCount());
+		statistics.strips = static_cast<int>(laidOut.order.stripCount());
 	}
 
 	/// Leaves fixed bodies alone, which several threads may visit.
@@ -199,7 +199,7 @@ namespace {
 			const double beta = betas[pass];
 			if (s < laidOut.order.evenStrips && settings.method == Method::Accelerated) {
 				// a strip in the first half is the first to touch its own bodies and those of the next one
-				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.stripCount())];
+				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.order.stripCount())];
 				kernels.extrapolate(bodies.data() + first, bodiesBefore.data() + first, last - first, beta);
 			}
 			Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
@@ -358,7 +358,7 @@ namespace {
 #pragma omp parallel num_threads(threads)
 		{
 #pragma omp single
-			schedule.plan(laidOut.order.stripBegin, laidOut.order.evenStrips, omp_get_num_threads());
+			schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
 			resetVelocities();
 			iterate();
 			finish();

@@ -11,8 +11,9 @@ namespace {
 
 void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers)
 {
-	strips = begin.empty() ? 0 : begin.size() - 1;
-	pairs  = evenStrips;
+	strips   = begin.size() < 2 ? 0 : begin.size() - 2;
+	pairs    = evenStrips;
+	leftOver = strips > 0 && begin.back() > begin[strips];
 	const auto        size  = [&](std::size_t place) { return place < strips ? begin[place + 1] - begin[place] : 0; };
 	const auto        odd   = [&](std::size_t pair) { return evenStrips + pair; };
 	const std::size_t count = std::min(pairs, static_cast<std::size_t>(std::max(1, workers)));
@@ -20,7 +21,7 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 	// pair after pair to the first worker that has not had its share, but one to each at least
 	std::vector<std::size_t> ends;
 	std::size_t              done = 0;
-	const std::size_t        all  = begin.empty() ? 0 : begin.back();
+	const std::size_t        all  = strips > 0 ? begin[strips] : 0;
 	for (std::size_t p = 0; p < pairs; ++p) {
 		done += size(p) + size(odd(p));
 		const std::size_t worker = ends.size();
@@ -56,7 +57,7 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 		first = ends[w];
 	}
 	const std::size_t fits = std::min(deepest, shortest / pairsADepth);
-	depth                  = fits < shallowest ? 1 : static_cast<int>(fits);
+	depth                  = leftOver || fits < shallowest ? 1 : static_cast<int>(fits);
 }
 
 } // namespace nonsmooth::contact

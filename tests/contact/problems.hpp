@@ -137,4 +137,32 @@ inline Scene lattice(int columns, int rows)
 	return scene;
 }
 
+/// The same below a platen as wide as it, which moves down only: one body, with the disks of the uppermost layer.
+inline Problem underPlaten(int columns, int rows)
+{
+	const Scene  scene = lattice(columns, rows);
+	Problem      p     = scene.problem;
+	const auto   body  = static_cast<std::int32_t>(p.bodyCount());
+	const double mass = 2 * scene.density * columns, x = 0.5 * columns, y = 0.5 + (rows - 1) * std::sqrt(0.75) + 0.5; // 2 m of rock
+	p.inverseMass.push_back({ 0, 1 / mass, 0 });
+	p.freeVelocity.push_back({ 0, -gravity * step, 0 });
+	p.positions.push_back({ x, y });
+	for (std::size_t k = scene.disks.size() - columns; k < scene.disks.size(); ++k) {
+		const Disk& d = scene.disks[k];
+		Contact     c;
+		c.i          = body;
+		c.j          = static_cast<std::int32_t>(k);
+		c.nx         = 0;
+		c.ny         = -1;
+		c.leverNi    = x - d.x;
+		c.leverTj    = -d.r;
+		c.friction   = scene.friction;
+		c.rollingArm = scene.rolling * 2 * d.r;
+		c.length     = 2 * d.r;
+		p.contacts.push_back(c);
+		p.impulses.emplace_back();
+	}
+	return p;
+}
+
 } // namespace nonsmooth::contact::testing
