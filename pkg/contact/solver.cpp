@@ -2,11 +2,10 @@
 #include <cmath>
 #include <contact/contact_blocks.hpp>
 #include <contact/law.hpp>
+#include <contact/problem_check.hpp>
 #include <contact/solver.hpp>
 #include <contact/strip_schedule.hpp>
 #include <omp.h>
-#include <stdexcept>
-#include <string>
 
 namespace nonsmooth::contact {
 namespace {
@@ -68,7 +67,7 @@ namespace {
 	/// Few contacts are not worth waking threads for.
 	int threadsFor(const Problem& problem, const SolverSettings& settings)
 	{
-		return problem.contactCount() < 1000 ? 1 : std::max(1, settings.threads);
+		return problem.contactCount() < 1000 ? 1 : settings.threads;
 	}
 
 	class Sweeper {
@@ -369,43 +368,11 @@ namespace {
 		return statistics;
 	}
 
-	void check(const Problem& problem, int threads)
-	{
-		if (problem.freeVelocity.size() != problem.bodyCount())
-			throw std::invalid_argument("contact problem: freeVelocity has " + std::to_string(problem.freeVelocity.size()) + " entries for "
-			                            + std::to_string(problem.bodyCount()) + " bodies");
-		if (problem.impulses.size() != problem.contactCount())
-			throw std::invalid_argument("contact problem: impulses has " + std::to_string(problem.impulses.size()) + " entries for "
-			                            + std::to_string(problem.contactCount()) + " contacts");
-		for (std::size_t b = 0; b < problem.bodyCount(); ++b) {
-			const Twist&       v = problem.freeVelocity[b];
-			const InverseMass& m = problem.inverseMass[b];
-			if (!std::isfinite(v.x + v.y + v.w + m.x + m.y + m.w))
-				throw std::invalid_argument("contact problem: body " + std::to_string(b) + " has a velocity or mass that is not finite");
-		}
-		const auto unusable = [bodies = static_cast<std::int32_t>(problem.bodyCount())](const Contact& c, const Impulse& p) {
-			return c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies
-			        || !std::isfinite(
-			                c.nx + c.ny + c.leverNi + c.leverTi + c.leverNj + c.leverTj + c.biasN + c.biasT + c.biasR + c.adhesion + c.friction
-			                + c.rollingArm + c.length + p.n + p.t + p.r);
-		};
-		const long count = static_cast<long>(problem.contactCount());
-		long       bad   = count; // the first one, found by threads, which must not throw
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
-		for (long k = 0; k < count; ++k)
-			if (unusable(problem.contacts[k], problem.impulses[k])) bad = std::min(bad, k);
-		if (bad < count) {
-			const Contact& c = problem.contacts[bad];
-			throw std::invalid_argument(
-			        "contact problem: contact " + std::to_string(bad) + " between bodies " + std::to_string(c.i) + " and " + std::to_string(c.j)
-			        + " has an index out of range or a number that is not finite");
-		}
-	}
-
 } // namespace
 
 SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace)
 {
+	check(settings);
 	check(problem, threadsFor(problem, settings));
 	Workspace own;
 	return Sweeper(problem, settings, workspace ? *workspace : own).run();
