@@ -18,7 +18,7 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 	const auto        odd   = [&](std::size_t pair) { return evenStrips + pair; };
 	const std::size_t count = std::min(pairs, static_cast<std::size_t>(std::max(1, workers)));
 
-	// pair after pair to the first worker that has not had its share, but one to each at least
+	// a stretch ends with the pair that comes nearest to its share, but has one at least
 	std::vector<std::size_t> ends;
 	std::size_t              done = 0;
 	const std::size_t        all  = strips > 0 ? begin[strips] : 0;
@@ -26,7 +26,8 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 		done += size(p) + size(odd(p));
 		const std::size_t worker = ends.size();
 		if (worker + 1 == count) break;
-		if (done * count >= all * (worker + 1) || pairs - (p + 1) == count - (worker + 1)) ends.push_back(p + 1);
+		const std::size_t next = p + 1 < pairs ? size(p + 1) + size(odd(p + 1)) : 0;
+		if ((2 * done + next) * count >= 2 * all * (worker + 1) || pairs - (p + 1) == count - (worker + 1)) ends.push_back(p + 1);
 	}
 	if (count > 0) ends.push_back(pairs);
 

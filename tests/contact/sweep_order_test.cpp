@@ -1,6 +1,7 @@
 // Strips let threads share a sweep without changing a bit.
 #include "problems.hpp"
 #include <algorithm>
+#include <contact/strip_schedule.hpp>
 #include <contact/sweep_order.hpp>
 #include <gtest/gtest.h>
 
@@ -177,6 +178,23 @@ TEST(SweepOrder, AWidePlatenLeavesItsFarContactsOver)
 	EXPECT_GT(leftOver(sweep), 50u);    // of 95; the nearest ones fit into strips
 	for (std::size_t k = sweep.partBegin[sweep.stripCount()]; k < sweep.order.size(); ++k)
 		EXPECT_EQ(p.contacts[sweep.order[k]].i, platen);
+}
+
+// what two threads gain at best: wall time is the benchmark's to measure
+TEST(SweepOrder, TwoThreadsShareTheWorkUnderAPlaten)
+{
+	for (const Problem& p : { underPlaten(95, 95), withStray(lattice(95, 95).problem, 1e6, 0) }) {
+		const SweepOrder sweep = arranged(p);
+		StripSchedule    schedule;
+		schedule.plan(sweep.partBegin, sweep.evenStrips, 2);
+		ASSERT_EQ(schedule.workerCount(), 2);
+		std::size_t of[2] = { 0, 0 };
+		for (const int worker : { 0, 1 })
+			schedule.each(worker, [&](std::size_t part) {
+				if (part < sweep.stripCount()) of[worker] += sweep.partBegin[part + 1] - sweep.partBegin[part];
+			});
+		EXPECT_GT(double(p.contactCount()) / double(std::max(of[0], of[1]) + leftOver(sweep)), 1.85);
+	}
 }
 
 TEST(SweepOrder, AStrayDiskChangesNoStrip)
