@@ -16,7 +16,7 @@ constexpr double pi = 3.14159265358979323846, gravity = 9.81, step = 5e-3;
 
 template <class T> bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
 {
-	return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+	return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 struct Disk {
