@@ -11,6 +11,19 @@ if(contact_tests)
     gtest_discover_tests(contact_tests DISCOVERY_TIMEOUT 60 PROPERTIES LABELS contact TIMEOUT 600)
 endif()
 
+# What is in Python without YADE: the binding, and damaged files where python3-hypothesis is there.
+function(nonsmooth_python_test name path)
+    add_test(NAME ${name} COMMAND "${Python3_EXECUTABLE}" -m pytest -q -p no:cacheprovider "${CMAKE_SOURCE_DIR}/${path}")
+    set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 600 ENVIRONMENT "PYTHONPATH=${NONSMOOTH_PYTHON}")
+endfunction()
+nonsmooth_python_test(bindings tests/bindings)
+execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import hypothesis, h5py" RESULT_VARIABLE without_hypothesis ERROR_QUIET)
+if(without_hypothesis)
+    message(STATUS "Hypothesis or h5py not found (python3-hypothesis, python3-h5py): without the test problem_files")
+else()
+    nonsmooth_python_test(problem_files tests/fuzz/test_problem_files.py)
+endif()
+
 if(NONSMOOTH_PLUGIN)
     # A gate whose class layout is wrong on purpose, as if the macros had been guessed: the gate must
     # notice (tests/yade/test_load.py).

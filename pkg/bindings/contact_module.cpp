@@ -1,8 +1,11 @@
 // The solver library for Python, as _nonsmooth_contact: arrays in, arrays out. No YADE here; nonsmooth/contact.py is the face of it.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <contact/memory_stream.hpp>
 #include <contact/problem.hpp>
+#include <contact/problem_check.hpp>
+#include <contact/problem_file.hpp>
 #include <contact/residual.hpp>
 #include <contact/solver.hpp>
 #include <pybind11/numpy.h>
@@ -44,6 +47,18 @@ template <class Item> Doubles array(const std::vector<Item>& items)
 	static_assert(sizeof(Item) == 3 * sizeof(double), "three numbers side by side");
 	Doubles result({ py::ssize_t(items.size()), py::ssize_t(3) });
 	std::copy_n(reinterpret_cast<const double*>(items.data()), 3 * items.size(), result.mutable_data());
+	return result;
+}
+
+/// What numbers(item) puts out for each item, a row of `columns`; a list where they are 0.
+template <class Number, class Item, class Numbers> py::array_t<Number> table(const std::vector<Item>& items, py::ssize_t columns, Numbers numbers)
+{
+	const auto          rows = static_cast<py::ssize_t>(items.size());
+	py::array_t<Number> result(columns ? std::vector<py::ssize_t> { rows, columns } : std::vector<py::ssize_t> { rows });
+	Number*             to = result.mutable_data();
+	for (const Item& item : items)
+		for (const Number x : numbers(item))
+			*to++ = x;
 	return result;
 }
 
@@ -93,6 +108,40 @@ Problem problemOf(const py::dict& d)
 	return p;
 }
 
+/// A file's problem under the names of nonsmooth.contact.ContactProblem. The lock of Python is kept: HDF5 serves one thread at a time, and h5py too.
+py::dict loadFile(const std::string& path)
+{
+	const RecordedProblem r = read(path);
+	const Problem&        p = r.problem;
+	py::dict              d;
+	d["time_step"]     = r.timeStep;
+	d["inverse_mass"]  = array(p.inverseMass);
+	d["free_velocity"] = array(p.freeVelocity);
+	d["velocity"]      = array(p.velocities);
+	d["position"]      = py::none();
+	if (p.positions.size() == p.bodyCount() && p.bodyCount() > 0)
+		d["position"] = table<double>(p.positions, 2, [](const Point& x) { return std::array { x.x, x.y }; });
+	d["body"]        = table<std::int32_t>(p.contacts, 2, [](const Contact& c) { return std::array { c.i, c.j }; });
+	d["normal"]      = table<double>(p.contacts, 2, [](const Contact& c) { return std::array { c.nx, c.ny }; });
+	d["lever"]       = table<double>(p.contacts, 4, [](const Contact& c) { return std::array { c.leverNi, c.leverTi, c.leverNj, c.leverTj }; });
+	d["bias"]        = table<double>(p.contacts, 3, [](const Contact& c) { return std::array { c.biasN, c.biasT, c.biasR }; });
+	d["adhesion"]    = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.adhesion }; });
+	d["friction"]    = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.friction }; });
+	d["rolling_arm"] = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.rollingArm }; });
+	d["length"]      = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.length }; });
+	d["warm_start"]  = array(r.warmStart);
+	d["impulse"]     = array(p.impulses);
+	return d;
+}
+
+void saveFile(const std::string& path, const py::dict& d)
+{
+	RecordedProblem r { problemOf(d), {}, py::cast<double>(d["time_step"]) };
+	r.problem.velocities = triples<Twist>(take<Doubles>(d, "velocity", static_cast<py::ssize_t>(r.problem.bodyCount()), 3));
+	r.warmStart          = triples<Impulse>(take<Doubles>(d, "warm_start", static_cast<py::ssize_t>(r.problem.contactCount()), 3));
+	write(path, r);
+}
+
 py::dict dictOf(const Residual& r)
 {
 	py::dict d;
@@ -136,7 +185,6 @@ py::dict solveArrays(
 	SolverSettings s;
 	if (method != "accelerated" && method != "gaussSeidel")
 		throw py::value_error("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
-	if (!(tolerance > 0)) throw py::value_error("tolerance = " + std::to_string(tolerance) + ": it must be positive");
 	for (const BlockKernels* kernels : availableKernels())
 		if (path == kernels->name) s.kernels = kernels;
 	s.reference = path == "reference";
@@ -146,7 +194,6 @@ py::dict solveArrays(
 			names += "'" + name + "', ";
 		throw py::value_error("path = '" + path + "': it must be 'best', " + names + "or 'reference'");
 	}
-	if (maxIterations < 0 || checkEvery < 1 || threads < 1) throw py::value_error("max_iterations, check_every and threads must be positive");
 	s.method        = method == "gaussSeidel" ? Method::GaussSeidel : Method::Accelerated;
 	s.tolerance     = tolerance;
 	s.maxIterations = maxIterations;
@@ -209,11 +256,15 @@ std::vector<double> streamSeconds(std::size_t bytes, int passes)
 PYBIND11_MODULE(_nonsmooth_contact, m)
 {
 	m.doc() = "Solver of yade-nonsmooth's contact problems; use nonsmooth.contact.";
+	m.def("load", &loadFile);
+	m.def("save", &saveFile);
 	m.def("solve", &solveArrays);
 	m.def("residual", &residualOf);
 	m.def("velocity_changes", &changesOf);
 	m.def("stream_seconds", &streamSeconds);
 	m.attr("bytes_per_contact") = double(sizeof(Block)) / lanes;
 	m.attr("kernels")           = kernelNames();
+	m.attr("most_threads")      = mostThreads;
+	m.attr("most_check_every")  = mostCheckEvery;
 	m.attr("compiler")          = NONSMOOTH_COMPILER;
 }

@@ -30,14 +30,14 @@ namespace {
 	};
 
 	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
-	void fill(const SweepOrder& order, const std::vector<std::uint8_t>& simple, std::size_t strip, ContactBlocks::Strip& result)
+	void fill(const SweepOrder& order, const std::vector<std::uint8_t>& simple, std::size_t part, ContactBlocks::Part& result)
 	{
 		constexpr std::size_t mostOpen = 16;
 		result.contactOf.clear();
 		result.others.clear();
 		std::vector<Open>     open;
 		open.reserve(mostOpen);
-		for (std::size_t k = order.stripBegin[strip]; k < order.stripBegin[strip + 1]; ++k) {
+		for (std::size_t k = order.partBegin[part]; k < order.partBegin[part + 1]; ++k) {
 			const std::int32_t index = order.order[k];
 			if (!simple[index]) {
 				result.others.push_back(index);
@@ -131,11 +131,11 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 {
 	const SweepOrder& order = result.order;
 	arrange(problem, threads, result.order);
-	const std::size_t strips = order.stripCount();
+	const std::size_t partCount = order.partCount();
 	const auto        nobody = static_cast<std::int32_t>(problem.bodyCount());
 	const long        bodyCount = static_cast<long>(problem.bodyCount()), contactCount = static_cast<long>(problem.contactCount());
 	auto&             parts  = result.scratch;
-	parts.resize(strips);
+	parts.resize(partCount);
 	result.traits.resize(problem.bodyCount());
 	result.simple.resize(problem.contactCount());
 	result.placeOf.resize(problem.bodyCount());
@@ -152,13 +152,13 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 			result.simple[k] = blocks && isSimple(c, result.traits[c.i], result.traits[c.j]);
 		}
 #pragma omp for schedule(dynamic, 1)
-		for (long s = 0; s < static_cast<long>(strips); ++s)
+		for (long s = 0; s < static_cast<long>(partCount); ++s)
 			fill(order, result.simple, s, parts[s]);
 	}
 
 	result.blockBegin.assign(1, 0);
 	result.otherBegin.assign(1, 0);
-	for (const ContactBlocks::Strip& part : parts) {
+	for (const ContactBlocks::Part& part : parts) {
 		result.blockBegin.push_back(result.blockBegin.back() + part.contactOf.size() / lanes);
 		result.otherBegin.push_back(result.otherBegin.back() + part.others.size());
 	}
@@ -167,8 +167,8 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 	result.inverseLength.resize(result.blocks.size());
 	result.others.resize(result.otherBegin.back());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-	for (long s = 0; s < static_cast<long>(strips); ++s) {
-		const ContactBlocks::Strip& part = parts[s];
+	for (long s = 0; s < static_cast<long>(partCount); ++s) {
+		const ContactBlocks::Part& part = parts[s];
 		std::copy(part.others.begin(), part.others.end(), result.others.begin() + result.otherBegin[s]);
 		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + result.blockBegin[s] * lanes);
 		for (std::size_t b = result.blockBegin[s]; b < result.blockBegin[s + 1]; ++b) {

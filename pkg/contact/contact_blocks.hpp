@@ -1,4 +1,4 @@
-// A contact problem laid out for sweeping: in strips, and inside a strip in blocks of four contacts that share no movable body (nor do most blocks
+// A contact problem laid out for sweeping: in strips (and what they leave over, as one more part), and inside a part in blocks of four contacts that share no movable body (nor do most blocks
 // with the next one, which Block::withNext says), followed by the few contacts that do not fit into blocks.
 #pragma once
 
@@ -15,17 +15,17 @@ struct ContactBlocks {
 	std::vector<Block>        blocks;
 	std::vector<std::int32_t> contactOf;     // of every lane of every block, in Problem::contacts
 	std::vector<std::int32_t> others;        // contacts outside blocks
-	std::vector<std::size_t>  blockBegin, otherBegin; // of every strip; one more than there are strips
+	std::vector<std::size_t>  blockBegin, otherBegin; // of every part of the order; one more than there are parts
 	std::vector<InverseLength> inverseLength; // of every block; apart, since only the residual needs it
 	std::vector<std::int32_t> placeOf; // of the problem's bodies in order.bodies
 	SweepOrder                order;
-	std::size_t               stripCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
+	std::size_t               partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
 
-	/// What one strip consists of, before its place in the whole is known.
-	struct Strip {
+	/// What one part consists of, before its place in the whole is known.
+	struct Part {
 		std::vector<std::int32_t> contactOf, others;
 	};
-	std::vector<Strip>        scratch;
+	std::vector<Part>         scratch;
 	std::vector<std::uint8_t> traits, simple; // of bodies, of contacts
 };
 

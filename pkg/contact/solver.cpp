@@ -2,11 +2,10 @@
 #include <cmath>
 #include <contact/contact_blocks.hpp>
 #include <contact/law.hpp>
+#include <contact/problem_check.hpp>
 #include <contact/solver.hpp>
 #include <contact/strip_schedule.hpp>
 #include <omp.h>
-#include <stdexcept>
-#include <string>
 
 namespace nonsmooth::contact {
 namespace {
@@ -92,7 +91,7 @@ namespace {
 	/// Few contacts are not worth waking threads for.
 	int threadsFor(const Problem& problem, const SolverSettings& settings)
 	{
-		return problem.contactCount() < 1000 ? 1 : std::max(1, settings.threads);
+		return problem.contactCount() < 1000 ? 1 : settings.threads;
 	}
 
 	class Sweeper {
@@ -130,9 +129,9 @@ namespace {
 		std::vector<Row>          rows;
 		std::vector<Motion>&      bodies; // by place; the last one is nobody
 		std::vector<Motion>&      bodiesBefore;
-		std::vector<ResidualSums> sums;                 // one a strip
+		std::vector<ResidualSums> sums;                 // one a part of the order
 		Residual                  residual;
-		std::vector<ChangeSums>   changeSums; // one a strip
+		std::vector<ChangeSums>   changeSums; // one a part of the order
 		VelocityChanges           changes;
 		SolverStatistics          statistics;
 	};
@@ -149,8 +148,8 @@ namespace {
 		if (!isLaidOut) layOut(problem, threads, laidOut, !settings.reference);
 		outgrowsCache = laidOut.blocks.size() * sizeof(Block) > lastCache;
 		rows.resize(laidOut.others.size());
-		sums.resize(laidOut.stripCount());
-		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.stripCount());
+		sums.resize(laidOut.partCount());
+		if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.partCount());
 		bodies.resize(problem.bodyCount() + 1);
 		bodiesBefore.resize(problem.bodyCount() + 1);
 		for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -163,7 +162,7 @@ namespace {
 		}
 		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
-		statistics.strips = static_cast<int>(laidOut.stripCount());
+		statistics.strips = static_cast<int>(laidOut.order.stripCount());
 	}
 
 	/// Leaves fixed bodies alone, which several threads may visit.
@@ -233,7 +232,7 @@ namespace {
 			const double beta = betas[pass];
 			if (s < laidOut.order.evenStrips && settings.method == Method::Accelerated) {
 				// a strip in the first half is the first to touch its own bodies and those of the next one
-				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.stripCount())];
+				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.order.stripCount())];
 				kernels.extrapolate(bodies.data() + first, bodiesBefore.data() + first, last - first, beta);
 			}
 			Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
@@ -385,7 +384,7 @@ namespace {
 #pragma omp parallel num_threads(threads)
 		{
 #pragma omp single
-			schedule.plan(laidOut.order.stripBegin, laidOut.order.evenStrips, omp_get_num_threads());
+			schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
 			resetVelocities();
 			iterate();
 			finish();
@@ -443,7 +442,7 @@ namespace {
 #pragma omp parallel num_threads(threads)
 		{
 #pragma omp single
-			schedule.plan(laidOut.order.stripBegin, laidOut.order.evenStrips, omp_get_num_threads());
+			schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
 			takeErrors(errors);
 			sweep(betas, false);
 #pragma omp barrier
@@ -462,39 +461,6 @@ namespace {
 		}
 	}
 
-	void check(const Problem& problem, int threads)
-	{
-		if (problem.freeVelocity.size() != problem.bodyCount())
-			throw std::invalid_argument("contact problem: freeVelocity has " + std::to_string(problem.freeVelocity.size()) + " entries for "
-			                            + std::to_string(problem.bodyCount()) + " bodies");
-		if (problem.impulses.size() != problem.contactCount())
-			throw std::invalid_argument("contact problem: impulses has " + std::to_string(problem.impulses.size()) + " entries for "
-			                            + std::to_string(problem.contactCount()) + " contacts");
-		for (std::size_t b = 0; b < problem.bodyCount(); ++b) {
-			const Twist&       v = problem.freeVelocity[b];
-			const InverseMass& m = problem.inverseMass[b];
-			if (!std::isfinite(v.x + v.y + v.w + m.x + m.y + m.w))
-				throw std::invalid_argument("contact problem: body " + std::to_string(b) + " has a velocity or mass that is not finite");
-		}
-		const auto unusable = [bodies = static_cast<std::int32_t>(problem.bodyCount())](const Contact& c, const Impulse& p) {
-			return c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies
-			        || !std::isfinite(
-			                c.nx + c.ny + c.leverNi + c.leverTi + c.leverNj + c.leverTj + c.biasN + c.biasT + c.biasR + c.adhesion + c.friction
-			                + c.rollingArm + c.length + p.n + p.t + p.r);
-		};
-		const long count = static_cast<long>(problem.contactCount());
-		long       bad   = count; // the first one, found by threads, which must not throw
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
-		for (long k = 0; k < count; ++k)
-			if (unusable(problem.contacts[k], problem.impulses[k])) bad = std::min(bad, k);
-		if (bad < count) {
-			const Contact& c = problem.contacts[bad];
-			throw std::invalid_argument(
-			        "contact problem: contact " + std::to_string(bad) + " between bodies " + std::to_string(c.i) + " and " + std::to_string(c.j)
-			        + " has an index out of range or a number that is not finite");
-		}
-	}
-
 } // namespace
 
 void correctPositions(
@@ -509,6 +475,7 @@ void correctPositions(
 
 SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace)
 {
+	check(settings);
 	check(problem, threadsFor(problem, settings));
 	Workspace own;
 	return Sweeper(problem, settings, workspace ? *workspace : own).run();

@@ -71,7 +71,7 @@ void correctPositions(
         Problem& problem, const SolverSettings& settings, Workspace& workspace, const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
 
 /// Solves in place: reads problem.impulses as warm start, writes problem.impulses and problem.velocities.
-/// Throws std::invalid_argument where a size does not fit or a number is not finite.
+/// Throws std::invalid_argument naming the setting, body or contact that cannot be used (problem_check.hpp), before anything is changed.
 SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace = nullptr);
 
 } // namespace nonsmooth::contact

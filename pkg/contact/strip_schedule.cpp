@@ -11,21 +11,23 @@ namespace {
 
 void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers)
 {
-	strips = begin.empty() ? 0 : begin.size() - 1;
-	pairs  = evenStrips;
+	strips   = begin.size() < 2 ? 0 : begin.size() - 2;
+	pairs    = evenStrips;
+	leftOver = strips > 0 && begin.back() > begin[strips];
 	const auto        size  = [&](std::size_t place) { return place < strips ? begin[place + 1] - begin[place] : 0; };
 	const auto        odd   = [&](std::size_t pair) { return evenStrips + pair; };
 	const std::size_t count = std::min(pairs, static_cast<std::size_t>(std::max(1, workers)));
 
-	// pair after pair to the first worker that has not had its share, but one to each at least
+	// a stretch ends with the pair that comes nearest to its share, but has one at least
 	std::vector<std::size_t> ends;
 	std::size_t              done = 0;
-	const std::size_t        all  = begin.empty() ? 0 : begin.back();
+	const std::size_t        all  = strips > 0 ? begin[strips] : 0;
 	for (std::size_t p = 0; p < pairs; ++p) {
 		done += size(p) + size(odd(p));
 		const std::size_t worker = ends.size();
 		if (worker + 1 == count) break;
-		if (done * count >= all * (worker + 1) || pairs - (p + 1) == count - (worker + 1)) ends.push_back(p + 1);
+		const std::size_t next = p + 1 < pairs ? size(p + 1) + size(odd(p + 1)) : 0;
+		if ((2 * done + next) * count >= 2 * all * (worker + 1) || pairs - (p + 1) == count - (worker + 1)) ends.push_back(p + 1);
 	}
 	if (count > 0) ends.push_back(pairs);
 
@@ -56,7 +58,7 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 		first = ends[w];
 	}
 	const std::size_t fits = std::min(deepest, shortest / pairsADepth);
-	depth                  = fits < shallowest ? 1 : static_cast<int>(fits);
+	depth                  = leftOver || fits < shallowest ? 1 : static_cast<int>(fits);
 }
 
 } // namespace nonsmooth::contact

@@ -9,6 +9,8 @@
 // after the last odd strip that the worker before visited in the pass before. A worker visits its first strip at the beginning of a pass and its
 // last one in the middle, so each may be half a pass ahead of the other before it waits.
 //
+// What strips leave over (sweep_order.hpp) is the first worker's, after all strips of a pass and before those of the next: everybody waits.
+//
 // Several passes at once: a strip's next visit has to wait for the strips beside it alone. Where a stretch is long, a worker therefore makes a few
 // passes together, each two strips behind the one before (a wavefront), so that what the first fetches from memory is in the cache for all of them.
 // Strips near the end of a stretch cannot be visited that way without the neighbour's next passes, so every pass stops a pair of strips short of the one
@@ -17,12 +19,13 @@
 //     pass 3          o o o o o o - - - - - - o o o o       o: wavefronts of the two workers
 //     pass 2      o o o o o o o o - - - - o o o o o o       -: the triangle between them
 //     pass 1    o o o o o o o o o o - - o o o o o o o o
+//
+// Where something is left over, passes come one after the other.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <emmintrin.h>
 #include <thread>
 #include <vector>
 
@@ -30,11 +33,11 @@ namespace nonsmooth::contact {
 
 class StripSchedule {
 public:
-	/// Cuts strips into stretches for at most `workers`. `begin`: of every strip's contacts, even strips first, one more than there are strips;
-	/// `evenStrips`: how many of them are even. To be called by one thread.
+	/// Cuts strips into stretches for at most `workers`. `begin`: as SweepOrder::partBegin, even strips first, then odd ones, then what is left over;
+	/// `evenStrips`: how many are even. To be called by one thread.
 	void plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers);
 
-	/// One pass over all strips: calls visit(strip) for those of a worker. Every worker below workerCount() must make as many passes as the others;
+	/// One pass over all parts: calls visit(part) for those of a worker. Every worker below workerCount() must make as many passes as the others;
 	/// other threads do nothing. It does not wait for the others at its end.
 	template <class Visit> void pass(int worker, Visit visit);
 
@@ -45,10 +48,10 @@ public:
 		int         part = 0, parts = 0;
 	};
 
-	/// As many passes: calls visit(strip, pass, ahead) with passes counted from 0, several at once where stretches are long enough.
+	/// As many passes: calls visit(part, pass, ahead) with passes counted from 0, several at once where stretches are long enough.
 	template <class Visit> void passes(int worker, int count, Visit visit);
 
-	/// Calls visit(strip) for the same strips, in any order with those of others.
+	/// Calls visit(part) for the same parts, in any order with those of others.
 	template <class Visit> void each(int worker, Visit visit) const;
 
 	int workerCount() const { return static_cast<int>(stretches.size()); }
@@ -61,17 +64,28 @@ private:
 		std::size_t              joint;   // how many of them come before the one that reaches into the next stretch
 		bool                     reaches; // whether there is such a one
 	};
-	/// Passes in which a worker has visited its first strip, and the one that reaches into the next stretch; on a cache line of their own.
+	/// Passes in which a worker has visited its first strip, the one that reaches into the next stretch, and all, of the first worker with what is
+	/// left over; on a cache line of their own.
 	struct alignas(64) Progress {
-		std::atomic<long> begun { 0 }, joined { 0 };
+		std::atomic<long> begun { 0 }, joined { 0 }, ended { 0 };
 		long              passes = 0; // of the worker itself
 	};
+
+	/// Tells the processor that this thread only waits, where it can be told.
+	static void relax()
+	{
+#if defined(__x86_64__) || defined(__i386__)
+		__builtin_ia32_pause();
+#elif defined(__aarch64__)
+		asm volatile("yield");
+#endif
+	}
 
 	/// Spins, and lets others run where it takes long: there may be more threads than processors.
 	static void await(const std::atomic<long>& count, long wanted)
 	{
 		for (int turns = 0; count.load(std::memory_order_acquire) < wanted; ++turns)
-			if (turns < 4096) _mm_pause();
+			if (turns < 4096) relax();
 			else
 				std::this_thread::yield();
 	}
@@ -79,6 +93,7 @@ private:
 	template <class Visit> void together(int worker, int first, int count, Visit visit);
 
 	std::size_t           strips = 0, pairs = 0;
+	bool                  leftOver = false;
 	int                   depth = 1; // passes to be made at once
 	std::vector<Stretch>  stretches;
 	std::vector<Progress> progress;
@@ -90,13 +105,22 @@ template <class Visit> void StripSchedule::pass(int worker, Visit visit)
 	const Stretch& own  = stretches[worker];
 	Progress&      mine = progress[worker];
 	const long     pass = mine.passes++;
-	if (worker > 0) await(progress[worker - 1].joined, pass);
+	if (leftOver) await(progress.front().ended, pass);
+	else if (worker > 0)
+		await(progress[worker - 1].joined, pass);
 	for (std::size_t k = 0; k < own.visits.size(); ++k) {
 		if (own.reaches && k == own.joint) await(progress[worker + 1].begun, pass + 1);
 		visit(own.visits[k]);
 		if (k == 0) mine.begun.store(pass + 1, std::memory_order_release);
 		if (own.reaches && k == own.joint) mine.joined.store(pass + 1, std::memory_order_release);
 	}
+	if (!leftOver) return;
+	if (worker == 0) {
+		for (std::size_t other = 1; other < progress.size(); ++other)
+			await(progress[other].ended, pass + 1);
+		visit(strips);
+	}
+	mine.ended.store(pass + 1, std::memory_order_release);
 }
 
 template <class Visit> void StripSchedule::passes(int worker, int count, Visit visit)
@@ -149,6 +173,7 @@ template <class Visit> void StripSchedule::each(int worker, Visit visit) const
 	if (worker >= workerCount()) return;
 	for (const std::size_t strip : stretches[worker].visits)
 		visit(strip);
+	if (leftOver && worker == 0) visit(strips);
 }
 
 } // namespace nonsmooth::contact

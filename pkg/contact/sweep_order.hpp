@@ -1,33 +1,31 @@
 // The order in which a Gauss-Seidel sweep visits contacts: independent of the number of threads and kind to caches.
 //
-// Bodies are cut into strips across the longer side of the packing, each at least as wide as the longest contact, and a contact belongs
-// to the first strip it touches: it reaches into the next strip at most. So all even strips can be swept at once, then all odd ones,
-// and any number of threads gives the same bits. Inside a strip contacts are sorted by colour (neighbours in the order share no body),
-// which lets a processor work on several at a time. Bodies are ordered by strips too, so that a strip finds its own side by side.
+// Bodies are cut into strips across the longer side of the packing (strip_cut.hpp), and a contact belongs to the first strip it touches, if it
+// reaches into the next strip at most. So all even strips can be swept at once, then all odd ones, and any number of threads gives the same bits.
+// Contacts that reach further, few or none, are left over: they come last, one thread's work. Inside a strip contacts are sorted by colour
+// (neighbours in the order share no body), which lets a processor work on several at a time. Bodies are ordered by strips too, so that a strip
+// finds its own side by side.
 #pragma once
 
 #include <contact/problem.hpp>
+#include <contact/strip_cut.hpp>
 
 namespace nonsmooth::contact {
 
-/// The bodies of a contact that can move; `none` in place of one that can't.
-struct MovablePair {
-	static constexpr std::int32_t none = -1;
-	std::int32_t                  i, j;
-};
-
 /// Filled by arrange(), whose memory it keeps from one call to the next.
 struct SweepOrder {
-	std::vector<std::int32_t> order;      // contacts, even strips first
-	std::vector<std::size_t>  stripBegin; // in `order`; one more than there are strips
+	std::vector<std::int32_t> order;      // contacts: even strips, odd strips, those left over
+	std::vector<std::size_t>  partBegin;  // in `order`, of these parts; one more than there are. The last part is what is left over.
 	std::size_t               evenStrips = 0; // how many of the strips come in the first half
 	std::vector<std::int32_t> bodies;         // those that move, strip after strip from one end of the packing to the other; then the others
 	std::vector<std::size_t>  bodyBegin;      // in `bodies`; one more than there are strips
 	std::vector<MovablePair>  pairs;          // of the contacts
-	std::size_t               stripCount() const { return stripBegin.size() - 1; }
+	std::size_t               partCount() const { return partBegin.size() - 1; }
+	std::size_t               stripCount() const { return partCount() - 1; }
 
 	struct {
-		std::vector<std::int32_t>  bucketOf, stripOfBody; // bucket: what a contact is sorted by
+		StripCut                   cut;
+		std::vector<std::int32_t>  bucketOf; // what a contact is sorted by
 		std::vector<std::uint8_t>  colours;
 		std::vector<std::uint64_t> used; // colours at each body
 		std::vector<std::size_t>   next;

@@ -1,7 +1,7 @@
 """Contact problems of single steps as arrays and files, and the solver without YADE.
 
 A problem is what one step of :class:`ContactDynamicsEngine` has to solve: write it with ``engine.dump("step.h5")``, read it here. The file's
-format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy, h5py and this project's module ``_nonsmooth_contact``, but no YADE::
+format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy and this project's module ``_nonsmooth_contact``, but no YADE::
 
     import nonsmooth.contact as contact
     problem = contact.load("step.h5")
@@ -11,18 +11,16 @@ format stands in ``pkg/contact/problem_file.hpp``. Needs NumPy, h5py and this pr
 
 from __future__ import annotations
 
+import numbers
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 from .errors import UserError
-from .whole_files import beside
 
 __all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "VelocityChanges", "load", "paths", "residual", "save", "solve", "velocity_changes"]
-
-FORMAT = 1
 
 
 class ProblemError(UserError, ValueError):
@@ -94,24 +92,25 @@ _CONTACTS = {"normal": 2, "lever": 4, "bias": 3, "adhesion": 0, "friction": 0, "
 
 def load(path) -> ContactProblem:
     """Reads a problem; raises ProblemError naming the file and what is missing or wrong in it."""
-    path = Path(path)
+    import _nonsmooth_contact
+
     try:
-        with h5py.File(path, "r") as file:
-            if file.attrs.get("format") is None or int(file.attrs["format"][()].item()) != FORMAT:
-                raise ProblemError(f"{path}: this is not a contact problem of format {FORMAT}")
-            arrays = {name: file[f"bodies/{name}"][()] for name in _BODIES}
-            arrays.update({name: file[f"contacts/{name}"][()] for name in _CONTACTS})
-            arrays["body"] = file["contacts/body"][()].astype(np.int32)
-            if "bodies/position" in file:
-                arrays["position"] = file["bodies/position"][()]
-            problem = ContactProblem(time_step=float(np.ravel(file.attrs["time_step"])[0]), **arrays)
-    except (OSError, KeyError) as error:
-        raise ProblemError(f"{path}: the contact problem cannot be read ({error})") from None
-    return check(problem, str(path))
+        return ContactProblem(**_nonsmooth_contact.load(os.fspath(path)))
+    except RuntimeError as error:
+        raise ProblemError(str(error)) from None
 
 
 def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
-    """Returns the problem if all shapes agree; raises ProblemError naming the array otherwise."""
+    """Returns the problem if all arrays have the shapes and kinds of numbers they must have, and contacts name bodies that are there.
+
+    Raises ProblemError naming the array otherwise. Values are :func:`solve`'s to refuse.
+    """
+    step = problem.time_step
+    if not (isinstance(step, numbers.Real) and np.isfinite(step) and step > 0):
+        raise ProblemError(f"{what}: time_step = {step!r}: it must be a positive number of seconds")
+    for name in ("inverse_mass", "normal"):
+        if np.ndim(getattr(problem, name)) == 0:
+            raise ProblemError(f"{what}: {name} must be an array")
     bodies, contacts = len(problem.inverse_mass), len(problem.normal)
     shapes = {name: (bodies, columns) for name, columns in _BODIES.items()}
     shapes.update({name: (contacts, columns) if columns else (contacts,) for name, columns in _CONTACTS.items()})
@@ -119,33 +118,49 @@ def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
     if problem.position is not None:
         shapes["position"] = (bodies, 2)
     for name, shape in shapes.items():
-        if np.shape(getattr(problem, name)) != shape:
-            raise ProblemError(f"{what}: {name} has the shape {np.shape(getattr(problem, name))} and must have {shape}")
+        _checked(f"{what}: {name}", getattr(problem, name), shape, "iu" if name == "body" else "fiu")
+    if contacts and not (0 <= np.min(problem.body) and np.max(problem.body) < bodies):
+        k = int(np.argmax(((np.asarray(problem.body) < 0) | (np.asarray(problem.body) >= bodies)).any(axis=1)))
+        raise ProblemError(f"{what}: body: contact {k} names bodies {tuple(np.asarray(problem.body)[k].tolist())}; there are {bodies}, counted from 0")
     return problem
+
+
+def _checked(what, value, shape, kinds):
+    """The value as an array of that shape, whose numbers are of one of NumPy's kinds."""
+    try:
+        array = np.asarray(value)
+    except ValueError as error:
+        raise ProblemError(f"{what} is not an array ({error})") from None
+    if array.shape != shape:
+        raise ProblemError(f"{what} has the shape {array.shape} and must have {shape}")
+    if array.dtype.kind not in kinds and array.size:
+        raise ProblemError(f"{what} holds {array.dtype} and must hold {'numbers' if 'f' in kinds else 'whole numbers'}")
+    return array
 
 
 def save(path, problem: ContactProblem) -> Path:
     """Writes a problem beside and renames; returns the path."""
+    import _nonsmooth_contact
+
     path = Path(path)
     check(problem)
     try:
-        with beside(path) as part, h5py.File(part, "w") as file:
-            file.attrs["format"], file.attrs["time_step"] = np.int32(FORMAT), float(problem.time_step)
-            for name in _BODIES:
-                file[f"bodies/{name}"] = getattr(problem, name)
-            if problem.position is not None:
-                file["bodies/position"] = problem.position
-            for name in _CONTACTS:
-                file[f"contacts/{name}"] = getattr(problem, name)
-            file["contacts/body"] = np.asarray(problem.body, np.int32)
-    except OSError as error:
-        raise ProblemError(f"{path}: the contact problem cannot be written ({error})") from None
+        _nonsmooth_contact.save(os.fspath(path), {**_arrays(problem, problem.impulse), "time_step": float(problem.time_step), "velocity": problem.velocity,
+                                                  "warm_start": problem.warm_start})
+    except RuntimeError as error:
+        raise ProblemError(str(error)) from None
     return path
 
 
 def _arrays(problem, impulse):
     fields = ("inverse_mass", "free_velocity", "position", "body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length")
-    return {**{name: getattr(problem, name) for name in fields}, "impulse": impulse}
+    return {**{name: getattr(problem, name) for name in fields}, "impulse": _checked("impulse", impulse, (len(problem.normal), 3), "fiu")}
+
+
+def _whole(name, value, least, most):
+    if not isinstance(value, numbers.Integral) or isinstance(value, bool) or not least <= value <= most:
+        raise ProblemError(f"{name} = {value!r}: it must be a whole number from {least} to {most}")
+    return int(value)
 
 
 def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_iterations=1000, check_every=10, threads=1, start="warm",
@@ -156,7 +171,7 @@ def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_ite
     ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's tests, "Quad", "Maxm", "QM/16".
     ``path``: the loops of the sweep: "best" (four or eight contacts at a time, by the fastest instructions of this processor), one of :func:`paths`
     with the same bits, or "reference" (contact after contact, by the general formulas; the same solution to within the tolerance).
-    Raises ValueError for settings without sense.
+    Raises ProblemError for settings without sense, and for numbers that are not finite or must not be negative, naming the body or contact.
     """
     import _nonsmooth_contact
 
@@ -164,7 +179,17 @@ def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_ite
         if start not in ("warm", "cold"):
             raise ProblemError(f"start = {start!r}: it must be 'warm', 'cold' or an array of impulses")
         start = problem.warm_start if start == "warm" else np.zeros_like(problem.warm_start)
-    found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, tolerance, max_iterations, check_every, threads, stopping, path)
+    if not isinstance(tolerance, numbers.Real) or isinstance(tolerance, bool) or not (np.isfinite(tolerance) and tolerance > 0):
+        raise ProblemError(f"tolerance = {tolerance!r}: it must be a positive, finite number")
+    for name, value in (("method", method), ("stopping", stopping), ("path", path)):
+        if not isinstance(value, str):
+            raise ProblemError(f"{name} = {value!r}: it must be a string")
+    sweeps = _whole("max_iterations", max_iterations, 0, 2**31 - 1), _whole("check_every", check_every, 1, _nonsmooth_contact.most_check_every)
+    threads = _whole("threads", threads, 1, _nonsmooth_contact.most_threads)
+    try:
+        found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, float(tolerance), *sweeps, threads, stopping, path)
+    except ValueError as error:
+        raise ProblemError(str(error)) from None
     return Solution(**{name: found[name] for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative", "seconds")})
 
 

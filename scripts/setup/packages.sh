@@ -22,6 +22,9 @@ PACKAGES_YADE_STOCK=(
 # Another solver to compare with, where the distribution has it: Debian 12 does, Debian 13 does not.
 PACKAGES_ORACLE=(libsiconos-numerics-dev)
 
+# To compile the solver for another processor, in .ci/run: 56 MB to fetch, 200 MB on the disk, so no user needs it.
+PACKAGES_CROSS=(g++-aarch64-linux-gnu)
+
 # Installs those of the packages that apt knows, and leaves out the others.
 packages_install_known() {
     local name known=()

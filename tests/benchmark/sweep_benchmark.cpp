@@ -15,16 +15,16 @@ constexpr int few = 20, many = 120;
 
 enum class Path { Reference, Portable, Best };
 
-double seconds(SolverSettings settings, int sweeps, Workspace& workspace)
+double seconds(const Problem& problem, SolverSettings settings, int sweeps, Workspace& workspace)
 {
-	Problem p              = benchmarks::problem();
+	Problem p              = problem;
 	settings.maxIterations = settings.checkEvery = sweeps;
 	const auto begin       = std::chrono::steady_clock::now();
 	solve(p, settings, &workspace);
 	return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void sweep(benchmark::State& state, Path path)
+void sweep(benchmark::State& state, Path path, const Problem& (*problem)() = benchmarks::problem)
 {
 	SolverSettings settings;
 	settings.tolerance = 1e-300; // never met
@@ -33,14 +33,14 @@ void sweep(benchmark::State& state, Path path)
 	settings.reference = path == Path::Reference;
 	try {
 		Workspace workspace;
-		seconds(settings, few, workspace); // takes the memory
+		seconds(problem(), settings, few, workspace); // takes the memory
 		double spent = 0;
 		for (auto _ : state) {
-			const double one = std::max(0.0, seconds(settings, many, workspace) - seconds(settings, few, workspace)) / (many - few);
+			const double one = std::max(0.0, seconds(problem(), settings, many, workspace) - seconds(problem(), settings, few, workspace)) / (many - few);
 			state.SetIterationTime(one);
 			spent += one;
 		}
-		const auto contacts              = static_cast<double>(benchmarks::problem().contactCount());
+		const auto contacts              = static_cast<double>(problem().contactCount());
 		state.counters["ns_per_contact"] = 1e9 * spent / (static_cast<double>(state.iterations()) * contacts);
 		state.counters["contacts"]       = contacts;
 	} catch (const std::exception& error) {
@@ -48,11 +48,19 @@ void sweep(benchmark::State& state, Path path)
 	}
 }
 
+/// 9,000 disks below a platen that follows their pressure.
+const Problem& platen()
+{
+	static const Problem made = testing::underPlaten(95, 95);
+	return made;
+}
+
 // a fixed number of repetitions: the time that counts is a small part of what each takes
-#define NONSMOOTH_SWEEP(name, path)                                                                                                            \
-	BENCHMARK_CAPTURE(sweep, name, path)->ArgName("threads")->Arg(1)->Arg(2)->UseManualTime()->Iterations(10)->Unit(benchmark::kMicrosecond)
+#define NONSMOOTH_SWEEP(name, ...)                                                                                                             \
+	BENCHMARK_CAPTURE(sweep, name, __VA_ARGS__)->ArgName("threads")->Arg(1)->Arg(2)->UseManualTime()->Iterations(10)->Unit(benchmark::kMicrosecond)
 NONSMOOTH_SWEEP(reference, Path::Reference);
 NONSMOOTH_SWEEP(portable, Path::Portable);
 NONSMOOTH_SWEEP(best, Path::Best);
+NONSMOOTH_SWEEP(platen, Path::Best, platen);
 
 } // namespace

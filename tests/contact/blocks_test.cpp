@@ -60,7 +60,7 @@ TEST(Blocks, AreVisitedTogetherOnlyWithoutABodyInBoth)
 		return bodies;
 	};
 	std::size_t together = 0;
-	for (std::size_t s = 0; s < b.stripCount(); ++s)
+	for (std::size_t s = 0; s < b.partCount(); ++s)
 		for (std::size_t k = b.blockBegin[s]; k < b.blockBegin[s + 1]; ++k) {
 			if (!b.blocks[k].withNext) continue;
 			ASSERT_LT(k + 1, b.blockBegin[s + 1]) << "the last block of a strip has no next";

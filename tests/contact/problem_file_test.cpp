@@ -1,9 +1,11 @@
 // A contact problem survives the file, bit for bit; files that are not one are refused with their name.
 #include "problems.hpp"
 #include <contact/problem_file.hpp>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 using namespace nonsmooth::contact;
@@ -20,6 +22,14 @@ protected:
 
 	void SetUp() override { std::filesystem::create_directories(folder); }
 	void TearDown() override { std::filesystem::remove_all(folder); }
+
+	std::vector<std::string> names() const
+	{
+		std::vector<std::string> found;
+		for (const auto& entry : std::filesystem::directory_iterator(folder))
+			found.push_back(entry.path().filename().string());
+		return found;
+	}
 
 	/// What reading the file complains about.
 	std::string complaint() const
@@ -56,20 +66,20 @@ TEST_F(ProblemFile, KeepsEveryBit)
 	again.impulses = in.warmStart;
 	solve(again, s);
 	EXPECT_TRUE(sameBits(again.impulses, out.problem.impulses));
-	EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+	EXPECT_EQ(names(), std::vector<std::string> { "step.h5" });
 }
 
 TEST_F(ProblemFile, AnEmptyProblemIsOneToo)
 {
-	write(path, {});
+	write(path, { {}, {}, step });
 	EXPECT_EQ(read(path).problem.contactCount(), 0u);
 }
 
 TEST_F(ProblemFile, RefusesWhatIsNotOne)
 {
-	EXPECT_NE(complaint().find("cannot be opened"), std::string::npos) << complaint();
+	EXPECT_NE(complaint().find("cannot be read (No such file or directory)"), std::string::npos) << complaint();
 	std::ofstream(path) << "no HDF5";
-	EXPECT_NE(complaint().find(path), std::string::npos) << complaint();
+	EXPECT_NE(complaint().find(path + ": cannot be read as an HDF5 file"), std::string::npos) << complaint();
 
 	RecordedProblem out { lattice(4, 2).problem, {}, step };
 	out.problem.velocities.resize(out.problem.bodyCount());
@@ -80,14 +90,79 @@ TEST_F(ProblemFile, RefusesWhatIsNotOne)
 	EXPECT_NE(complaint().find(path), std::string::npos) << complaint();
 }
 
-TEST_F(ProblemFile, SaysWhereItCannotWrite)
+TEST_F(ProblemFile, RefusesBodiesThatAreNotThereAndStepsThatAreNone)
+{
+	RecordedProblem out { lattice(4, 2).problem, {}, step };
+	out.problem.velocities.resize(out.problem.bodyCount());
+	out.warmStart = out.problem.impulses;
+	write(path, out);
+	EXPECT_EQ(complaint(), "");
+	out.problem.contacts[3].j = 1000;
+	write(path, out);
+	EXPECT_NE(complaint().find("contact 3 names body 1000: there are 9, counted from 0"), std::string::npos) << complaint();
+	out.problem.contacts[3].j = -1;
+	write(path, out);
+	EXPECT_NE(complaint().find("contact 3 names body -1"), std::string::npos) << complaint();
+	for (const double h : { 0.0, -1.0, std::nan("") }) {
+		write(path, { {}, {}, h });
+		EXPECT_NE(complaint().find("time_step"), std::string::npos) << complaint();
+	}
+}
+
+/// What writing to a path complains about.
+std::string refusal(const std::string& path)
 {
 	try {
-		write((folder / "nowhere" / "step.h5").string(), {});
-		FAIL() << "it was written";
+		write(path, { lattice(4, 2).problem, {}, step });
 	} catch (const std::runtime_error& error) {
-		EXPECT_NE(std::string(error.what()).find("cannot be created"), std::string::npos) << error.what();
+		return error.what();
 	}
+	return "written";
+}
+
+TEST_F(ProblemFile, SaysWhereItCannotWrite)
+{
+	const std::string nowhere = (folder / "nowhere" / "step.h5").string(), text = refusal(nowhere);
+	EXPECT_NE(text.find(nowhere + ": cannot be written (No such file or directory)"), std::string::npos) << text;
+	EXPECT_NE(text.find("choose a folder"), std::string::npos) << text;
+}
+
+TEST_F(ProblemFile, LeavesNothingBehindWhereItFails)
+{
+	std::filesystem::create_directory(path); // cannot be replaced by a file
+	EXPECT_NE(refusal(path).find("cannot be written (Is a directory)"), std::string::npos) << refusal(path);
+	EXPECT_EQ(names(), std::vector<std::string> { "step.h5" });
+}
+
+// a disk without room, as far as a process may have one
+TEST_F(ProblemFile, AFullDiskIsOneMessageAndTheOldFileStays)
+{
+	std::ofstream(path) << "the old one";
+	rlimit before {};
+	ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+	rlimit small   = before;
+	small.rlim_cur = 2000; // bytes; the file has some ten thousand
+	const auto old = std::signal(SIGXFSZ, SIG_IGN);
+	setrlimit(RLIMIT_FSIZE, &small);
+	const std::string text = refusal(path);
+	setrlimit(RLIMIT_FSIZE, &before);
+	std::signal(SIGXFSZ, old);
+	EXPECT_NE(text.find("cannot be written (File too large)"), std::string::npos) << text;
+	EXPECT_EQ(names(), std::vector<std::string> { "step.h5" });
+	EXPECT_EQ(std::filesystem::file_size(path), 11u);
+}
+
+// who can write into the folder (/tmp) could have put a link where the part goes, or where the file goes
+TEST_F(ProblemFile, FollowsNoLink)
+{
+	const std::filesystem::path victim = folder / "victim";
+	std::ofstream(victim) << "precious";
+	std::filesystem::create_symlink(victim, path);
+	std::filesystem::create_symlink(victim, path + ".part"); // a name that could be known
+	EXPECT_EQ(refusal(path), "written");
+	EXPECT_FALSE(std::filesystem::is_symlink(path));
+	EXPECT_EQ(std::filesystem::file_size(victim), 8u);
+	EXPECT_EQ(complaint(), "contact problem " + path + ": /bodies/velocity has 0 rows where 9 are needed"); // ours, and HDF5
 }
 
 } // namespace

@@ -16,7 +16,7 @@ constexpr double pi = 3.14159265358979323846, gravity = 9.81, step = 5e-3;
 
 template <class T> bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
 {
-	return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+	return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 struct Disk {
@@ -135,6 +135,34 @@ inline Scene lattice(int columns, int rows)
 	scene.touchDisks(0.03);
 	scene.wall(0, 0, 0, 1, 0.03);
 	return scene;
+}
+
+/// The same below a platen as wide as it, which moves down only: one body, with the disks of the uppermost layer.
+inline Problem underPlaten(int columns, int rows)
+{
+	const Scene  scene = lattice(columns, rows);
+	Problem      p     = scene.problem;
+	const auto   body  = static_cast<std::int32_t>(p.bodyCount());
+	const double mass = 2 * scene.density * columns, x = 0.5 * columns, y = 0.5 + (rows - 1) * std::sqrt(0.75) + 0.5; // 2 m of rock
+	p.inverseMass.push_back({ 0, 1 / mass, 0 });
+	p.freeVelocity.push_back({ 0, -gravity * step, 0 });
+	p.positions.push_back({ x, y });
+	for (std::size_t k = scene.disks.size() - columns; k < scene.disks.size(); ++k) {
+		const Disk& d = scene.disks[k];
+		Contact     c;
+		c.i          = body;
+		c.j          = static_cast<std::int32_t>(k);
+		c.nx         = 0;
+		c.ny         = -1;
+		c.leverNi    = x - d.x;
+		c.leverTj    = -d.r;
+		c.friction   = scene.friction;
+		c.rollingArm = scene.rolling * 2 * d.r;
+		c.length     = 2 * d.r;
+		p.contacts.push_back(c);
+		p.impulses.emplace_back();
+	}
+	return p;
 }
 
 } // namespace nonsmooth::contact::testing

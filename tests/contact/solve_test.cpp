@@ -269,30 +269,77 @@ TEST(Driven, HeldDiskFeelsTheFullFriction)
 	}
 }
 
+/// What solve() complains about.
+std::string complaint(Problem p, const SolverSettings& s = {})
+{
+	const Problem before = p;
+	try {
+		solve(p, s);
+	} catch (const std::invalid_argument& error) {
+		EXPECT_TRUE(sameBits(p.impulses, before.impulses) && p.velocities.size() == before.velocities.size()) << "changed before it was refused";
+		return error.what();
+	}
+	return "taken";
+}
+
 TEST(Refusal, SizesAndNumbers)
 {
-	const auto refused = [](auto change, const char* word) {
+	const auto refused = [](auto change, const char* words) {
 		Problem p = single({ -1, 0.5, 0.2 });
 		change(p);
-		try {
-			solve(p, {});
-			ADD_FAILURE() << "taken: " << word;
-		} catch (const std::invalid_argument& error) {
-			EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-		}
+		const std::string text = complaint(p);
+		EXPECT_EQ(text.rfind("contact problem: ", 0), 0u) << text;
+		EXPECT_NE(text.find(words), std::string::npos) << text << "; wanted: " << words;
 	};
 	const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
 	refused([](Problem& p) { p.freeVelocity.pop_back(); }, "freeVelocity has 1");
 	refused([](Problem& p) { p.impulses.clear(); }, "impulses has 0");
+	refused([](Problem& p) { p.positions.resize(1); }, "positions has 1 entries for 2 bodies");
+	refused([=](Problem& p) { p.positions = { { 0, 0 }, { nan, 0 } }; }, "body 1 has the position (nan, 0): it must be finite");
+	refused([=](Problem& p) { p.positions = { { 0, -infinite }, { 0, 0 } }; }, "body 0 has the position (0, -inf)"); // a fixed one too
 	refused([=](Problem& p) { p.freeVelocity[1].w = nan; }, "body 1 has a velocity");
 	refused([=](Problem& p) { p.freeVelocity[1].x = infinite; }, "body 1 has a velocity");
 	refused([=](Problem& p) { p.inverseMass[0].w = nan; }, "body 0 has a velocity or mass");
-	refused([=](Problem& p) { p.impulses[0].r = nan; }, "contact 0");
-	refused([=](Problem& p) { p.contacts[0].leverTi = infinite; }, "contact 0");
-	refused([=](Problem& p) { p.contacts[0].biasN = nan; }, "contact 0");
-	refused([=](Problem& p) { p.contacts[0].friction = nan; }, "contact 0");
-	refused([](Problem& p) { p.contacts[0].j = 2; }, "bodies 0 and 2");
+	refused([](Problem& p) { p.inverseMass[1].y = -1; }, "body 1 has the inverse mass (1, -1, 1): none may be negative");
+	refused([=](Problem& p) { p.impulses[0].r = nan; }, "contact 0 between bodies 0 and 1 has the rolling impulse nan: it must be finite");
+	refused([=](Problem& p) { p.contacts[0].leverTi = infinite; }, "has the lever t of i inf");
+	refused([=](Problem& p) { p.contacts[0].biasN = nan; }, "has the normal bias nan");
+	refused([=](Problem& p) { p.contacts[0].friction = nan; }, "has the friction nan");
+	refused([=](Problem& p) { p.contacts[0].nx = nan; }, "has the normal x nan");
+	refused([](Problem& p) { p.contacts[0].friction = -0.1; }, "has the friction -0.1: it must not be negative");
+	refused([](Problem& p) { p.contacts[0].rollingArm = -2; }, "has the rolling arm -2: it must not be negative");
+	refused([](Problem& p) { p.contacts[0].adhesion = -3; }, "has the adhesion -3: it must not be negative");
+	refused([](Problem& p) { p.contacts[0].length = 0; }, "has the length 0: it must be positive");
+	refused([](Problem& p) { p.contacts[0].nx = 0.5; }, "has the normal (0.5, 0): its length must be 1");
+	refused([](Problem& p) { p.contacts[0].j = 2; }, "bodies 0 and 2 names a body that is not there: there are 2");
 	refused([](Problem& p) { p.contacts[0].i = -1; }, "bodies -1 and 1");
+	refused([](Problem& p) { p.contacts[0].i = 1; }, "is one of a body with itself");
+	// large numbers are numbers
+	Problem large         = single({ 1e308, 1e308, 1e308 });
+	large.impulses[0]     = { 1e308, 1e308, 1e308 };
+	large.positions       = { { 1e308, 1e308 }, { -1e308, 1e308 } };
+	EXPECT_EQ(complaint(large), "taken");
+}
+
+TEST(Refusal, Settings)
+{
+	const auto refused = [](auto change, const char* words) {
+		SolverSettings s;
+		change(s);
+		EXPECT_EQ(complaint(single({ -1, 0.5, 0.2 }), s), words);
+	};
+	const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+	refused([=](SolverSettings& s) { s.tolerance = nan; }, "tolerance = nan: it must be positive and finite");
+	refused([=](SolverSettings& s) { s.tolerance = infinite; }, "tolerance = inf: it must be positive and finite");
+	refused([](SolverSettings& s) { s.tolerance = 0; }, "tolerance = 0: it must be positive and finite");
+	refused([](SolverSettings& s) { s.maxIterations = -1; }, "maxIterations = -1: it must not be negative");
+	refused([](SolverSettings& s) { s.checkEvery = 0; }, "checkEvery = 0: it must be from 1 to 1000000");
+	refused([](SolverSettings& s) { s.checkEvery = std::numeric_limits<int>::max(); }, "checkEvery = 2147483647: it must be from 1 to 1000000");
+	refused([](SolverSettings& s) { s.threads = 0; }, "threads = 0: it must be from 1 to 1024");
+	refused([](SolverSettings& s) { s.threads = 100000; }, "threads = 100000: it must be from 1 to 1024");
+	SolverSettings none;
+	none.maxIterations = 0; // asks for the residual alone
+	EXPECT_EQ(complaint(single({ -1, 0.5, 0.2 }), none), "taken");
 }
 
 TEST(Empty, NoContactsAndNoBodies)

@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <cmath>
+#include <contact/strip_cut.hpp>
+#include <omp.h>
+
+namespace nonsmooth::contact {
+
+namespace {
+
+	constexpr std::size_t contactsAStrip = 512; // wanted: a strip's rows and bodies stay in a second-level cache
+	constexpr std::size_t binsAStrip     = 32;
+	constexpr std::size_t fewStrips      = 64; // half as many are enough not to leave long contacts over
+	constexpr std::size_t rareContacts   = 32; // one in so many may be left over
+	constexpr std::size_t sampleCount    = 1024;
+	constexpr double      rounding       = 1.000001;
+
+	double coordinate(const Point& x, int axis) { return axis == 0 ? x.x : x.y; }
+
+	struct Span {
+		double low = HUGE_VAL, high = -HUGE_VAL;
+		double length() const { return high - low; }
+	};
+
+	/// From the lowest to the highest body that can move.
+	void extentsOf(const Problem& problem, int threads, Span (&extents)[2])
+	{
+		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL;
+		const long count = static_cast<long>(problem.bodyCount());
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY) reduction(max : highX, highY)
+		for (long b = 0; b < count; ++b) {
+			if (problem.inverseMass[b].isFixed()) continue;
+			const Point& x = problem.positions[b];
+			lowX           = std::min(lowX, x.x);
+			lowY           = std::min(lowY, x.y);
+			highX          = std::max(highX, x.x);
+			highY          = std::max(highY, x.y);
+		}
+		extents[0] = { lowX, highX };
+		extents[1] = { lowY, highY };
+	}
+
+	/// Where contacts are, but for one in 128 at either end and what lies far beyond.
+	Span mostOf(std::vector<double>& samples, const Span& extent)
+	{
+		if (samples.empty()) return { 0, 0 };
+		const auto at = [&samples](std::size_t rank) {
+			std::nth_element(samples.begin(), samples.begin() + rank, samples.end());
+			return samples[rank];
+		};
+		const std::size_t out = samples.size() / 128;
+		const double      low = at(out), high = at(samples.size() - 1 - out), beyond = 0.5 * (high - low);
+		return { std::max(extent.low, low - beyond), std::min(extent.high, high + beyond) };
+	}
+
+	/// Lower ends of some contacts. Places of the samples follow the golden section, so that no regular order of contacts falls in with them.
+	void sample(const Problem& problem, const std::vector<MovablePair>& pairs, std::vector<double> (&samples)[2])
+	{
+		for (auto& s : samples)
+			s.clear();
+		const std::size_t count = std::min(sampleCount, pairs.size());
+		for (std::size_t k = 0; k < count; ++k) {
+			const auto        part = std::uint64_t(std::uint32_t(k * 2654435769u)); // of 2³²
+			const MovablePair pair = pairs[part * pairs.size() >> 32];
+			const auto        low  = [&](int axis) {
+				const auto at = [&](std::int32_t b) { return b == MovablePair::none ? HUGE_VAL : coordinate(problem.positions[b], axis); };
+				return std::min(at(pair.i), at(pair.j));
+			};
+			if (pair.i == MovablePair::none && pair.j == MovablePair::none) continue;
+			samples[0].push_back(low(0));
+			samples[1].push_back(low(1));
+		}
+	}
+
+	/// Of a contact along an axis; 0 where only one of its bodies moves.
+	double lengthOf(const Problem& problem, const MovablePair& pair, int axis)
+	{
+		if (pair.i == MovablePair::none || pair.j == MovablePair::none) return 0;
+		return std::abs(coordinate(problem.positions[pair.i], axis) - coordinate(problem.positions[pair.j], axis));
+	}
+
+	/// Length of the longest contact that strips have to be as wide as.
+	double reachOf(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, int axis, double extent)
+	{
+		const long count   = static_cast<long>(pairs.size());
+		double     longest = 0;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : longest)
+		for (long k = 0; k < count; ++k)
+			longest = std::max(longest, lengthOf(problem, pairs[k], axis));
+		const double enough = 0.5 * static_cast<double>(std::min(pairs.size() / contactsAStrip, fewStrips));
+		std::vector<double> half; // longest/2, longest/4, … to where strips are enough
+		for (double reach = longest; reach * enough > extent && half.size() < 32; half.push_back(reach))
+			reach *= 0.5;
+		if (half.empty()) return longest;
+		std::vector<std::size_t> longer(half.size() + 1, 0); // contacts longer than half[k] and not than the one before
+		std::size_t* const       inOctave = longer.data();
+		const std::size_t        octaves  = half.size();
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : inOctave[:octaves + 1])
+		for (long k = 0; k < count; ++k) {
+			const double length = lengthOf(problem, pairs[k], axis);
+			std::size_t  o      = 0;
+			while (o < octaves && !(length > half[o]))
+				++o;
+			++inOctave[o];
+		}
+		double      reach = longest;
+		std::size_t over  = 0;
+		for (std::size_t o = 0; o < octaves && (over += longer[o]) * rareContacts <= pairs.size(); ++o)
+			reach = half[o];
+		return reach;
+	}
+
+	/// Contacts by the bin of their lower end, without those that are longer than `width` bins.
+	void count(const std::vector<MovablePair>& pairs, int threads, std::int32_t bins, std::int32_t width, StripCut& result)
+	{
+		auto&      scratch = result.scratch;
+		const long contacts = static_cast<long>(pairs.size());
+		scratch.counts.resize(std::max<std::size_t>(scratch.counts.size(), threads));
+		scratch.sums.assign(bins, 0);
+#pragma omp parallel num_threads(threads)
+		{
+			auto& counts = scratch.counts[omp_get_thread_num()];
+			counts.assign(bins, 0);
+#pragma omp for schedule(static)
+			for (long k = 0; k < contacts; ++k) {
+				const auto [i, j]    = pairs[k];
+				const bool         a = i != MovablePair::none, b = j != MovablePair::none;
+				if (!a && !b) continue;
+				const std::int32_t from = scratch.binOfBody[a ? i : j], to = scratch.binOfBody[b ? j : i];
+				if (std::abs(from - to) <= width) ++counts[std::min(from, to)];
+			}
+#pragma omp critical
+			for (std::int32_t k = 0; k < bins; ++k)
+				scratch.sums[k] += counts[k];
+		}
+	}
+
+	/// Takes bin after bin to a strip until it has its share of contacts and is wide enough.
+	void share(std::size_t strips, std::int32_t width, StripCut& result)
+	{
+		const auto& sums = result.scratch.sums;
+		long        all  = 0;
+		for (const std::int32_t n : sums)
+			all += n;
+		const double wanted = static_cast<double>(all) / static_cast<double>(strips);
+		auto&        strip  = result.scratch.stripOfBin;
+		std::size_t  begin  = 0; // of the strip that is being filled
+		double       inside = 0, share = wanted;
+		result.count        = 1;
+		strip.resize(sums.size());
+		for (std::size_t k = 0; k < sums.size(); ++k) {
+			strip[k] = result.count - 1;
+			inside += sums[k];
+			if (k + 1 == sums.size() || inside + 0.5 * sums[k + 1] < share || k + 1 - begin < std::size_t(width)) continue;
+			++result.count;
+			begin  = k + 1;
+			share  = wanted + std::clamp(share - inside, -0.5 * wanted, 0.5 * wanted); // what one has too much the next one has less
+			inside = 0;
+		}
+		if (result.count > 1 && inside < 0.5 * wanted) { // not worth a strip
+			--result.count;
+			std::fill(strip.begin() + begin, strip.end(), result.count - 1);
+		}
+	}
+
+	/// Leaves `stripOfBin` empty where there is one strip only.
+	void divide(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, StripCut& result)
+	{
+		auto& scratch = result.scratch;
+		result.count  = 1;
+		scratch.stripOfBin.clear();
+		if (problem.positions.size() != problem.bodyCount() || pairs.size() < 2 * contactsAStrip) return;
+		Span extents[2];
+		extentsOf(problem, threads, extents);
+		sample(problem, pairs, scratch.samples);
+		const Span   spans[2] = { mostOf(scratch.samples[0], extents[0]), mostOf(scratch.samples[1], extents[1]) };
+		const int    axis     = spans[0].length() >= spans[1].length() ? 0 : 1;
+		const Span   span     = spans[axis];
+		const double extent   = span.length();
+		if (!(extent > 0) || !std::isfinite(extent)) return;
+		const std::size_t strips = pairs.size() / contactsAStrip;
+		const auto        bins   = static_cast<std::int32_t>(strips * binsAStrip);
+		const double      scale  = bins / extent, reach = reachOf(problem, pairs, threads, axis, extent);
+		const auto        width  = static_cast<std::int32_t>(std::min<double>(bins, std::max(1.0, std::ceil(reach * rounding * scale))));
+		scratch.binOfBody.resize(problem.bodyCount());
+		const long bodies = static_cast<long>(problem.bodyCount());
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long b = 0; b < bodies; ++b)
+			scratch.binOfBody[b] = static_cast<std::int32_t>(std::clamp((coordinate(problem.positions[b], axis) - span.low) * scale, 0.0, bins - 1.0));
+		count(pairs, threads, bins, width, result);
+		share(strips, width, result);
+	}
+
+} // namespace
+
+void cutIntoStrips(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, StripCut& result)
+{
+	divide(problem, pairs, threads, result);
+	result.stripOfBody.resize(problem.bodyCount());
+	const long bodies = static_cast<long>(problem.bodyCount());
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long b = 0; b < bodies; ++b)
+		result.stripOfBody[b] = problem.inverseMass[b].isFixed() ? -1 : (result.count == 1 ? 0 : result.scratch.stripOfBin[result.scratch.binOfBody[b]]);
+}
+
+} // namespace nonsmooth::contact

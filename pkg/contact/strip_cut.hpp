@@ -1,0 +1,34 @@
+// Where a packing is cut into strips: across its longer side, with about as many contacts in each.
+//
+// A contact may reach into the next strip but no further, so a strip is at least as wide as a contact is long. One body with long contacts (a wide platen
+// whose centre is far from the disks below it) would make strips so wide that few are left. Where that happens and few contacts are that long, strips are
+// as wide as the others ask, and those that reach too far are left over. Nor does a body far from all others widen strips: ends take in whatever lies beyond.
+#pragma once
+
+#include <contact/problem.hpp>
+
+namespace nonsmooth::contact {
+
+/// The bodies of a contact that can move; `none` in place of one that can't.
+struct MovablePair {
+	static constexpr std::int32_t none = -1;
+	std::int32_t                  i, j;
+};
+
+/// Filled by cutIntoStrips(), whose memory it keeps from one call to the next.
+struct StripCut {
+	std::int32_t count = 1;                // strips
+	std::vector<std::int32_t> stripOfBody; // -1: it can't move
+
+	struct {
+		std::vector<std::int32_t>              binOfBody, stripOfBin; // the packing is first cut into many bins of one width
+		std::vector<std::vector<std::int32_t>> counts;                // contacts in each bin, by thread
+		std::vector<std::int32_t>              sums;                  // all of them
+		std::vector<double>                    samples[2];
+	} scratch;
+};
+
+/// One strip where positions are missing or contacts few. The result does not depend on `threads`.
+void cutIntoStrips(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, StripCut& result);
+
+} // namespace nonsmooth::contact

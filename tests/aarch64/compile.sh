@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Compiles the solver and the collider for aarch64, warnings being errors: no header or instruction of one kind of processor may be needed. It does not run them.
+# Usage: tests/aarch64/compile.sh COMPILER FOLDER HDF5_HEADERS   with FOLDER for what is made
+set -euo pipefail
+
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.." && pwd)
+[ $# -eq 3 ] || { sed -n '2,3s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+mkdir -p "$2"
+cd "$root"
+for source in pkg/contact/*.cpp pkg/neighbours/*.cpp; do
+    "$1" -std=c++17 -O1 -ffp-contract=off -fopenmp -Wall -Wextra -Werror -Wno-psabi -Ipkg -isystem "$3" -c "$source" -o "$2/$(basename "$source" .cpp).o"
+done
+echo "$(find "$2" -name '*.o' | wc -l) sources compiled for $("$1" -dumpmachine)"
