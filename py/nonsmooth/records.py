@@ -162,17 +162,17 @@ class SeriesWriter:
             raise RecordsError(f"{self.path}: missing, so the run cannot be resumed; start it anew without --resume")
         with open(self.path, "rb") as file:
             kept = file.read(mark["bytes"])
-        if not kept.startswith(self._header):
-            found = kept.split(b"\n", 1)[0].decode(errors="replace")
-            raise RecordsError(
-                f"{self.path}: its columns are not those of this run (found '{found[:120]}'); resume with the version "
-                "that wrote it, or start anew in another folder"
-            )
         if len(kept) < mark["bytes"] or hashlib.sha256(kept).hexdigest() != mark["sha256"]:
             wrong = f"has {len(kept)} bytes of the {mark['bytes']} it had then" if len(kept) < mark["bytes"] else "has been changed since"
             raise RecordsError(
                 f"{self.path}: does not match the checkpoint, it {wrong}; restore the file from a copy, or start the "
                 "run anew without --resume"
+            )
+        if not kept.startswith(self._header):
+            found = kept.split(b"\n", 1)[0].decode(errors="replace")
+            raise RecordsError(
+                f"{self.path}: its columns are not those of this run (found '{found[:120]}'); resume with the version "
+                "that wrote it, or start anew without --resume"
             )
         self.last_step = mark["last_step"]
         return kept

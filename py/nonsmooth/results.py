@@ -46,7 +46,7 @@ def forget_later(folder, stage, step):
     folder = Path(folder)
     later = [path for path in whole(folder / SNAPSHOTS, "*.npz") if path.stem.isdecimal() and int(path.stem) > step]
     _remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"))
-    remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW)
+    remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW, folder / "checkpoint")
 
 
 def _remove(paths):

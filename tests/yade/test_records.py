@@ -108,7 +108,7 @@ def test_one_flipped_bit_in_the_part_that_is_kept_is_refused_and_nothing_is_lost
     data = bytearray(path.read_bytes())
     data[place if place >= 0 else mark["bytes"] - 1] ^= 4
     path.write_bytes(data)
-    with pytest.raises(RecordsError, match="s.csv.*(does not match the checkpoint|columns are not those)"):
+    with pytest.raises(RecordsError, match="s.csv.*does not match the checkpoint"):
         records.SeriesWriter(path, COLUMNS, resume_from=mark)
     assert path.read_bytes() == data
     data[place if place >= 0 else mark["bytes"] - 1] ^= 4
