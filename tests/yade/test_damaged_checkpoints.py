@@ -61,13 +61,14 @@ def flip(draw, files, saved):
     """One bit of a file that a resume reads."""
     name = draw(st.sampled_from(saved.read))
     content = bytearray(files[name])
-    content[draw(st.integers(0, len(content) - 1))] ^= 1 << draw(st.integers(0, 7))
+    if content:
+        content[draw(st.integers(0, len(content) - 1))] ^= 1 << draw(st.integers(0, 7))
     files[name] = bytes(content)
 
 
 def cut(draw, files, saved):
     name = draw(st.sampled_from(saved.read))
-    files[name] = files[name][:draw(st.integers(0, len(files[name]) - 1))]
+    files[name] = files[name][:draw(st.integers(0, max(0, len(files[name]) - 1)))]
 
 
 def splice(draw, files, saved):
@@ -134,7 +135,7 @@ def test_a_damaged_folder_is_one_message_or_goes_on_from_what_was_saved(saved, t
     for damage in damages:
         try:
             damage(data.draw, files, saved)
-        except (KeyError, ValueError, StopIteration):  # what it was to damage is gone or empty already
+        except KeyError:  # what it was to damage is gone already
             pass
     check(saved, files, tmp_path_factory.getbasetemp() / "damaged")
 

@@ -1,6 +1,7 @@
 """Series and snapshots: exact, never half-written, clear about what is wrong. Needs no YADE."""
 
 import os
+import resource
 import sys
 from pathlib import Path
 
@@ -161,6 +162,22 @@ def test_a_bad_row_is_refused_and_nothing_written(tmp_path, change, message):
             writer.write({k: v for k, v in row(3).items() if k != "contacts"})
         assert (tmp_path / "s.csv").read_bytes() == before
         writer.write(row(3))
+
+
+def test_a_row_that_does_not_fit_is_refused_whole(tmp_path):
+    """As on a full disk; with room again the run goes on."""
+    with records.SeriesWriter(tmp_path / "s.csv", COLUMNS) as writer:
+        writer.write(row(0))
+        before, mark, limits = (tmp_path / "s.csv").read_bytes(), writer.mark(), resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 5, limits[1]))
+        try:
+            with pytest.raises(RecordsError, match="a row could not be written.*free some space"):
+                writer.write(row(1))
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        assert (tmp_path / "s.csv").read_bytes() == before and writer.mark() == mark
+        writer.write(row(1))
+    assert (tmp_path / "s.csv").read_bytes() == fill(tmp_path / "whole.csv", range(2)).read_bytes()
 
 
 def test_messages_name_the_file_and_the_remedy(tmp_path):
