@@ -74,14 +74,15 @@ def write(folder, key, content):
             old.unlink(missing_ok=True)
 
 
-def read(folder, key, error):
+def read(folder, key, error, again="run without --resume"):
     """Loads the scene of the checkpoint below ``folder`` and returns the content that :func:`write` was given.
 
     Raises ``error`` (an exception class) where there is none, where it is damaged, or where its key is another than ``key``; the scene is then as it was.
+    ``again``: how a run is begun anew, for its message.
     """
     path = _named(folder)
-    anew = f"remove {path.parent} and run without --resume"
-    told = _told(path, anew, error)
+    anew = f"remove {path.parent} and {again}"
+    told = _told(path, again, anew, error)
     if told.get("format") != FORMAT or told["engines"] != _engines():
         raise error(f"{path}: another version of the plugin or of YADE wrote this checkpoint, and would not go on with the same bits; resume with that one, or {anew}")
     if told["key"] != key:
@@ -103,12 +104,12 @@ def read(folder, key, error):
     return {name: value for name, value in told.items() if name not in OWN}
 
 
-def _told(path, anew, error):
+def _told(path, again, anew, error):
     """The content of checkpoint.json once it matches its own checksum."""
     try:
         told = json.loads(path.read_text())
     except FileNotFoundError:
-        raise error(f"{path}: there is no checkpoint to resume from; run without --resume, or give the right --out") from None
+        raise error(f"{path}: there is no checkpoint to resume from; {again}, or give the right --out") from None
     except (OSError, ValueError, RecursionError) as problem:
         raise error(f"{path}: the checkpoint cannot be read ({problem}); {anew}") from None
     if not isinstance(told, dict) or not isinstance(told.get("format"), int):

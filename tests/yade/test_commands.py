@@ -22,8 +22,8 @@ ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"} | 
 SLOPE = ("--disks", "300", "--threads", "1", "--seed", "1")
 
 
-def start(name, *arguments, **options):
-    return subprocess.Popen([SCRIPTS / name, *map(str, arguments)], env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+def start(name, *arguments, environment=ENVIRONMENT, **options):
+    return subprocess.Popen([SCRIPTS / name, *map(str, arguments)], env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
 
 
 def ended(process):
@@ -181,10 +181,11 @@ def test_a_killed_command_leaves_no_run_behind(tmp_path):
 
 # ---- disks that are full, folders that cannot be written ------------------------------------------
 
-def test_a_limit_on_files_is_one_line_and_nothing_is_half_written(section, tmp_path):
+def test_a_limit_on_files_is_one_line_and_nothing_is_half_written(section, tmp_path, tmp_path_factory):
     """As a full disk: the first checkpoint is larger. The bar is shown by then; its line ends before the message."""
-    process = start("jiufengershan.py", "--section", section, *SLOPE, "--end", "2.2", "--out", tmp_path,
-                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, 30_000)))
+    history = {"IPYTHONDIR": str(tmp_path_factory.mktemp("history"))}  # of YADE's prompt, whose file may be larger too
+    process = start("jiufengershan.py", "--section", section, *SLOPE, "--end", "2.2", "--out", tmp_path, environment=ENVIRONMENT | history,
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000)))
     status, _, lines = ended(process)
     assert status == 1 and lines[-1] == "" and lines[-2].startswith("error: ") and str(tmp_path) in lines[-2], lines
     assert sum("error: " in line for line in lines) == 1

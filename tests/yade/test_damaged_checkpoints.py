@@ -175,7 +175,7 @@ def test_every_byte_of_the_checkpoint_file_counts(saved, tmp_path):
     for place in range(len(content)):
         path.write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1:])
         try:
-            found = checkpoints._told(path, "anew", errors.UserError)
+            found = checkpoints._told(path, "again", "anew", errors.UserError)
         except errors.UserError:
             refused += 1
         else:  # another format is another version's, and refused for that

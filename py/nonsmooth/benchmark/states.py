@@ -98,7 +98,7 @@ def load(source, disks, name):
     Raises BenchmarkError where it is missing or damaged.
     """
     chosen = section_of(source, disks)
-    checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError)
+    checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError, "run again")
     os.utime(folder_of(chosen))  # used now
 
 
