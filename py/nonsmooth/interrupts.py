@@ -26,9 +26,10 @@ def be_patient():
 def noted():
     """Within the block Ctrl-C only leaves a note; gives a function that tells whether it came. A second one ends the block at once.
 
-    A note that the block did not act upon becomes a KeyboardInterrupt when it ends. Outside the main thread, which alone hears of signals, nothing changes.
+    A note that the block did not act upon becomes a KeyboardInterrupt when it ends. Outside the main thread, which alone hears of signals, and in a
+    process that ignores Ctrl-C, as a shell's background jobs do, nothing changes.
     """
-    if threading.current_thread() is not threading.main_thread():
+    if threading.current_thread() is not threading.main_thread() or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         yield lambda: False
         return
     came = False

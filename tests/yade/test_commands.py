@@ -22,8 +22,15 @@ ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"} | 
 SLOPE = ("--disks", "300", "--threads", "1", "--seed", "1")
 
 
-def start(name, *arguments, environment=ENVIRONMENT, **options):
-    return subprocess.Popen([SCRIPTS / name, *map(str, arguments)], env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+def start(name, *arguments, environment=ENVIRONMENT, limit=None):
+    """A command; ``limit``: of the size of its files [bytes]."""
+
+    def prepare():
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # tests in the background ignore it, and so would what they start
+        if limit:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    return subprocess.Popen([SCRIPTS / name, *map(str, arguments)], env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare)
 
 
 def ended(process):
@@ -135,7 +142,25 @@ def test_ctrl_c_ends_runs_side_by_side_with_their_checkpoints(tmp_path):
         assert (out / path.relative_to(tmp_path / "whole")).read_bytes() == path.read_bytes()
 
 
-def test_a_note_of_ctrl_c_is_never_lost():
+def test_ctrl_c_stays_ignored_where_it_was():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with interrupts.noted() as came:
+            os.kill(os.getpid(), signal.SIGINT)
+            assert not came()
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture
+def heard():
+    """Ctrl-C is heard, also in tests that run in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_a_note_of_ctrl_c_is_never_lost(heard):
     with pytest.raises(KeyboardInterrupt), interrupts.noted() as came:
         assert not came()
         os.kill(os.getpid(), signal.SIGINT)
@@ -184,8 +209,7 @@ def test_a_killed_command_leaves_no_run_behind(tmp_path):
 def test_a_limit_on_files_is_one_line_and_nothing_is_half_written(section, tmp_path, tmp_path_factory):
     """As a full disk: the first checkpoint is larger. The bar is shown by then; its line ends before the message."""
     history = {"IPYTHONDIR": str(tmp_path_factory.mktemp("history"))}  # of YADE's prompt, whose file may be larger too
-    process = start("jiufengershan.py", "--section", section, *SLOPE, "--end", "2.2", "--out", tmp_path, environment=ENVIRONMENT | history,
-                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000)))
+    process = start("jiufengershan.py", "--section", section, *SLOPE, "--end", "2.2", "--out", tmp_path, environment=ENVIRONMENT | history, limit=200_000)
     status, _, lines = ended(process)
     assert status == 1 and lines[-1] == "" and lines[-2].startswith("error: ") and str(tmp_path) in lines[-2], lines
     assert sum("error: " in line for line in lines) == 1
