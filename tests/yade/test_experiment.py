@@ -18,7 +18,6 @@ DISKS = "400"   # coarse: enough for walls, layers and water to act
 END = "3"       # s: gravity's ramp, the dry rest, and some of the water's rise
 
 
-
 @pytest.fixture(scope="module")
 def section(tmp_path_factory):
     return slope_scenes.write_quick(tmp_path_factory.mktemp("section"))

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
@@ -39,8 +38,6 @@ WARM_UP, LOOKS = 10, 5  # steps before those that are timed; blocks of these, af
 
 def measure_hard(folder, source, disks, state, steps):
     """Times hard steps from a saved state; returns mean overlap and wall time for a second of simulation."""
-    from yade import O
-
     from .. import scene
     from ..benchmark import states
     from ..stepping import advance
