@@ -14,7 +14,7 @@ import json
 import time
 from pathlib import Path
 
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.benchmark import report, scale, states, suite
 from yade.nonsmooth.figures.scale import cost_by_size
 from yade.nonsmooth.laboratory import arguments
@@ -59,7 +59,7 @@ def measure_scale(args, out):
 def main():
     args, began = read_arguments(), time.monotonic()
     out = Path(args.out)
-    records.check_writable(out)
+    output_folder.claim(out, "benchmark.py")
     if args.scale:
         return measure_scale(args, out)
     states.section_of(args.section, args.disks)  # refused before anything runs
@@ -71,7 +71,4 @@ def main():
     print(f"{summary['wall_s']:.0f} s of wall time; results: {out}/benchmark.json")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main)

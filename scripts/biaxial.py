@@ -14,7 +14,7 @@ import json
 import time
 from pathlib import Path
 
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report
 from yade.nonsmooth.whole_files import write_atomically
 
@@ -55,7 +55,7 @@ def read_arguments():
 def main():
     args, began = read_arguments(), time.monotonic()
     material, out = materials.load(args.material), Path(args.out)
-    records.check_writable(out)
+    output_folder.claim(out, "biaxial.py", args.resume)
     if args.bond_distance is not None:
         material = dataclasses.replace(material, bond_creation_distance=args.bond_distance)
     pressed = args.sample == "pressed" or args.sample is None and not material.bonded
@@ -72,7 +72,4 @@ def main():
     print(f"{summary['wall_s']:.0f} s of wall time; results: {out}/summary.json, tests/*/series.csv, {', '.join(p.name for p in made)}")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "what has ended is kept, go on with --resume")

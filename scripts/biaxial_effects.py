@@ -12,7 +12,7 @@ import argparse
 import json
 from pathlib import Path
 
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.figures import biaxial as figures
 from yade.nonsmooth.laboratory import arguments, effects, materials
 from yade.nonsmooth.whole_files import write_atomically
@@ -35,7 +35,7 @@ def main():
     args = read_arguments()
     out = Path(args.out)
     material = materials.load(args.material)
-    records.check_writable(out)
+    output_folder.claim(out, "biaxial_effects.py", args.resume)
     chosen = [e for e in effects.effects(material, args.seeds, args.disks, 1e6 * args.confining) if not args.only or e.name in args.only]
     with arguments.bar() as progress:
         rows = effects.run(chosen, out, args.threads, args.resume, progress)
@@ -49,7 +49,4 @@ def main():
     print(f"results: {out}/summary.json, effects.png")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "what has ended is kept, go on with --resume")

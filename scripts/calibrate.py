@@ -14,7 +14,7 @@ import json
 import time
 from pathlib import Path
 
-from yade.nonsmooth import errors, records, section
+from yade.nonsmooth import commands, output_folder, section
 from yade.nonsmooth.laboratory import arguments, calibration, materials
 from yade.nonsmooth.whole_files import write_atomically
 
@@ -53,7 +53,7 @@ def main():
     wanted = calibration.Wanted(1e3 * args.cohesion, args.friction, *residual)
     path = Path(args.out)
     work = path.with_name(path.stem + "-calibration")
-    records.check_writable(work)
+    output_folder.claim(work, "calibrate.py", args.resume)
     say = lambda text: print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True)  # noqa: E731
     with arguments.bar() as progress:
         search = calibration.Calibration(wanted, materials.load(args.start), work, args.threads, say, args.resume, progress)
@@ -71,7 +71,4 @@ def main():
               f"{100 * calibration.SCALE:g} % and {calibration.DEGREES:g}°; try another --start, or strengths that belong together", file=sys.stderr)
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "what has ended is kept, go on with --resume")

@@ -13,7 +13,7 @@ import argparse
 import json
 from pathlib import Path
 
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.figures import columns as figures
 from yade.nonsmooth.heaps import grains, report, study
 from yade.nonsmooth.laboratory import arguments
@@ -79,7 +79,7 @@ def main():
     cases = cases_of(args)
     for heap, world in cases.values():  # before anything is computed
         study.world_of(heap, **world)
-    records.check_writable(out)
+    output_folder.claim(out, "column.py", args.resume)
     with arguments.bar() as progress:
         found = study.run(cases, out, args.threads, args.resume, args.duration, lambda share: progress(share, f"{len(cases)} run{'s' if len(cases) > 1 else ''}"))
     summary = report.summarise(found)
@@ -93,7 +93,4 @@ def main():
     print(f"results: {out}/summary.json, {', '.join(str(p) for p in drawn[-3:])}{' …' if len(drawn) > 3 else ''}")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "what has ended is kept, go on with --resume")

@@ -11,7 +11,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 
 from pathlib import Path
 
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.comparison import cost, cost_report, course, options
 from yade.nonsmooth.laboratory import arguments
 
@@ -34,7 +34,7 @@ def measure_cost(args, out):
 def main():
     args = options.read(__doc__.splitlines()[0])
     out = Path(args.out)
-    records.check_writable(out)
+    output_folder.claim(out, "compare_hard_soft.py", args.resume)
     if args.cost:
         return measure_cost(args, out)
     with arguments.bar() as progress:
@@ -47,7 +47,4 @@ def main():
           "summary.json, figures, runs/*")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "what has ended is kept, go on with --resume")

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 from yade import O
-from yade.nonsmooth import errors, experiment, packing, records, results, section, slope
+from yade.nonsmooth import commands, experiment, output_folder, packing, results, section, slope
 from yade.nonsmooth.laboratory import materials
 
 
@@ -52,7 +52,7 @@ def fill(args, s):
     began = time.monotonic()
     if args.packing:
         return packing.read_text(args.packing), time.monotonic() - began
-    with tqdm(total=100, desc="packing", unit="%", leave=False) as bar:
+    with commands.closing(tqdm(total=100, desc="packing", unit="%", leave=False)) as bar:
         made = packing.cached_pack(s, progress=lambda share: bar.update(int(100 * share) - bar.n))
     return made, time.monotonic() - began
 
@@ -74,7 +74,7 @@ def main():
     args = arguments()
     s = read_section(args)
     out = Path(args.out)
-    records.check_writable(out)
+    output_folder.claim(out, "jiufengershan.py")
     if args.resume:
         run = experiment.resume(s, out)
     else:
@@ -84,9 +84,9 @@ def main():
         run.state.wall_packing_s = seconds
         print(f"{len(made)} disks, packing fraction {packing.packing_fraction(made, s.outline):.3f}, results go to {out}", flush=True)
     run.progress = Bar()
-    run.run(end=args.end)
-    run.progress.bar.close()
-    if run.state.stage == "settle":
+    with commands.closing(run.progress.bar):
+        run.run(end=args.end)
+    if run.series.last_step is None:  # rows begin when it has settled
         print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
         return
     state = {**dataclasses.asdict(run.state), "overlap_worst_ever": run.slope.solver.overlapWorstEver}
@@ -106,7 +106,4 @@ def main():
     print(f"results: {out}/summary.json, series.csv, {', '.join(p.name for p in made)}")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "where there is a checkpoint, --resume goes on from it")

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 from yade import config
-from yade.nonsmooth import verification
+from yade.nonsmooth import commands, output_folder, verification
 from yade.nonsmooth.verification import report, runner, siconos_solve
 
 
@@ -64,10 +64,7 @@ def main():
             print(f"{module_of(c):14s} {c.name:34s} {c.seconds:5.0f} s, quick {quick:6s} {c.title}")
         return
     checks, out = at_hand(chosen(checks, args)), Path(args.out)
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        sys.exit(f"error: {out}: the output folder cannot be made ({error.strerror}); give another with --out")
+    output_folder.claim(out, "verify.py", args.resume)
     began, results = time.monotonic(), []
     cost = {c.name: (c.quick_seconds or c.seconds) if args.quick else c.seconds for c in checks}
     bar = tqdm(total=sum(cost.values()), unit="s", bar_format="{percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left  {desc}")
@@ -84,9 +81,9 @@ def main():
     def progress(check, text):
         bar.set_description_str(f"{check.name}: {text}")
 
-    for result in runner.run_checks(checks, out, quick=args.quick, threads=args.threads or os.cpu_count(), resume=args.resume, progress=progress, done=done):
-        results.append(result)
-    bar.close()
+    with commands.closing(bar):
+        for result in runner.run_checks(checks, out, quick=args.quick, threads=args.threads or os.cpu_count(), resume=args.resume, progress=progress, done=done):
+            results.append(result)
     page = report.write_report(out / "report.html", results, quick=args.quick, versions={"YADE": config.version})
     failed = [r.check.name for r in results if not r.passed]
     print(f"{len(results) - len(failed)} of {len(results)} checks hold, {time.monotonic() - began:.0f} s of wall time; report: {page}")
@@ -94,4 +91,4 @@ def main():
         sys.exit(f"these do not hold: {', '.join(failed)}")
 
 
-main()
+commands.run(main, "what has ended is kept, go on with --resume")

@@ -13,7 +13,7 @@ import dataclasses
 import json
 from pathlib import Path
 
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import commands, errors, output_folder, records
 from yade.nonsmooth.figures import wall_shear as figures
 from yade.nonsmooth.laboratory import arguments, materials, wall_shear
 from yade.nonsmooth.whole_files import write_atomically
@@ -35,7 +35,7 @@ def read_arguments():
 def main():
     args = read_arguments()
     out = Path(args.out)
-    records.check_writable(out)
+    output_folder.claim(out, "wall_shear.py", args.resume)
     chosen = []
     for name in args.material:
         m = materials.load(name)
@@ -61,7 +61,4 @@ def main():
     print(f"results: {out}/summary.json, tests/*/series.csv, {made}")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "what has ended is kept, go on with --resume")

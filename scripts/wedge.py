@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from tqdm import tqdm
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import commands, errors, output_folder
 from yade.nonsmooth.figures.creep import creep
 from yade.nonsmooth.figures.style import LINES
 from yade.nonsmooth.whole_files import write_atomically
@@ -51,21 +51,26 @@ def curve(out, key, script, parameters, resume):
     table, kept, part = (out / f"{key}.{end}" for end in ("table", "txt", "part"))
     wanted = "{}\n{}\n".format(" ".join([*parameters, "save"]), " ".join([*map(repr, parameters.values()), repr(part.name)]))
     if not (resume and kept.exists() and table.exists() and table.read_text() == wanted):
+        kept.unlink(missing_ok=True)  # before its parameters are: a kill between them must not pair it with others'
         write_atomically(table, wanted.encode())
         done = subprocess.run([EXAMPLES / script], cwd=out, env={**os.environ, "YADE_BATCH": f"{table.name}:2"}, stdin=subprocess.DEVNULL, text=True,
                               capture_output=True)
         if done.returncode:
             raise WedgeError(f"{script} with {table}: ended with status {done.returncode}: {done.stderr[-500:]}")
         os.replace(part, kept)
-    return np.genfromtxt(kept, names=True)
+    found = np.genfromtxt(kept, names=True)
+    # O.run may lose an engine's refusal (see yade.nonsmooth.stepping), and the script then ends as if nothing were wrong
+    if not found["t"].size or found["t"].max() < parameters["seconds"] - 0.2:
+        raise WedgeError(f"{kept}: the run ended before {parameters['seconds']:g} s; see what {script} says with YADE_BATCH={table}:2, remove the file, and run again")
+    return found
 
 
 def main():
     args = read_arguments()
     out = Path(args.out)
-    records.check_writable(out)
+    output_folder.claim(out, "wedge.py", args.resume)
     panels, rows = [], []
-    with tqdm(total=len(CASES) * len(MODELS), unit="run", leave=False) as bar:
+    with commands.closing(tqdm(total=len(CASES) * len(MODELS), unit="run", leave=False)) as bar:
         for case, title, joint in CASES:
             curves = []
             for model, label, colour, script, numerics in MODELS:
@@ -84,7 +89,4 @@ def main():
     print(f"results: {out}/summary.json, wedge.png")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main, "what has ended is kept, go on with --resume")

@@ -1,19 +1,33 @@
 """One call in a process of its own, see processes.py: a script for YADE with the argument FOLDER."""
+import ctypes
 import importlib
 import json
+import os
+import signal
 import sys
 import traceback
 from pathlib import Path
 
+from yade.nonsmooth import interrupts
 from yade.nonsmooth.errors import UserError
 from yade.nonsmooth.whole_files import write_atomically
 
+PR_SET_PDEATHSIG = 1  # <sys/prctl.h>
+
 folder = Path(sys.argv[-1])
 request = json.loads((folder / "request.json").read_text())
+# a command that is killed must not leave runs behind that write on into its folder
+ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+if os.getppid() != request["parent"]:
+    sys.exit(1)
+interrupts.be_patient()
 try:
     found = getattr(importlib.import_module(request["module"]), request["function"])(folder, **request["arguments"])
 except UserError as error:
     traceback.print_exc()
     write_atomically(folder / "refused.txt", str(error).encode())
     sys.exit(1)
+except KeyboardInterrupt as stop:
+    print(f"stopped: {stop}")
+    sys.exit(130)
 write_atomically(folder / "found.json", json.dumps(found, indent=1).encode())

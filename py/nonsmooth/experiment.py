@@ -30,9 +30,10 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 
-from . import checkpoints, packing, records, slope, tables
+from . import checkpoints, interrupts, packing, records, results, slope, tables
 from .errors import UserError
 from .figures.profiles import front_of
+from .stepping import advance
 
 __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 
@@ -74,7 +75,7 @@ class State:
     resting_since: float | None = None
     bonds_initial: int = 0
     contacts_initial: int = 0
-    packing_fraction: float = 0.0
+    packing_fraction: float | None = 0.0
     frames: int = 0
     overlap_mean_worst: float = 0.0
     wall_s: float = 0.0
@@ -89,18 +90,24 @@ class Experiment:
     """Runs a built :class:`~nonsmooth.slope.Slope` and writes its records into ``folder``.
 
     ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row. ``damping_moving``: of soft contacts, instead of
-    their world's while the slope moves. A slope of soft contacts has no checkpoints.
+    their world's while the slope moves. A slope of soft contacts has no checkpoints. ``state``, ``mark``: of a checkpoint, see :func:`resume`; without
+    them the records of an earlier run in ``folder`` are removed.
     """
 
-    def __init__(self, built, folder, state=None, layers=None, progress=None, damping_moving=None):
+    def __init__(self, built, folder, state=None, layers=None, progress=None, damping_moving=None, mark=None):
         self.slope, self.section, self.folder = built, built.section, Path(folder)
         self.state = state or State()
         self.layers = slope.layers_of(built) if layers is None else layers
         self.progress = progress or (lambda *_: None)
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
+        if state is None:
+            checkpoints.forget(self.folder)  # before anything is written that it would not belong to
+            results.forget(self.folder)
         self.series = records.SeriesWriter(
-            self.folder / "series.csv", self.columns, resume_from_step=O.iter if state else None, overwrite=state is None)
+            self.folder / "series.csv", self.columns, resume_from=mark, overwrite=True)
+        if state is not None:
+            results.forget_later(self.folder, state.stage, O.iter)
         self._clock = time.monotonic()
         self._saved, self._saving = self._clock, 0.0
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
@@ -110,7 +117,14 @@ class Experiment:
 
     # ---- the course ---------------------------------------------------------------------------
     def run(self, end=None):
-        """Runs until the experiment is over, or until ``end`` [s] of simulated time."""
+        """Runs until the experiment is over, or until ``end`` [s] of simulated time.
+
+        Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted.
+        """
+        with interrupts.noted() as interrupted:
+            self._run(end, interrupted)
+
+    def _run(self, end, interrupted):
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
             # to a multiple of ROW_SECONDS, so that rows fall on the same steps after a resume
             row = math.floor((O.time + 0.5 * O.dt) / ROW_SECONDS) + 1
@@ -118,9 +132,14 @@ class Experiment:
             while O.time < row * ROW_SECONDS - 0.5 * O.dt:
                 if self.state.stage == "settle":
                     self.newton.gravity = self._gravity(O.time)
-                O.step()
+                advance()
             self._count(O.time - first, time.perf_counter() - began)
             self._advance(row)
+            if interrupted():
+                self.checkpoint()
+                self.series.close()
+                kept = "the checkpoint is written, go on with --resume" if self.hard else "a slope of soft contacts has no checkpoint, run it again"
+                raise interrupts.Interrupted(f"at {O.time:.1f} s of simulated time; {kept}")
         self.checkpoint()
         self.series.close()
 
@@ -151,11 +170,11 @@ class Experiment:
         """The first steps, without gravity; bonds the packing as it is, unless that comes after gravity has grown."""
         s, solver = self.state, self.slope.solver
         self.newton.gravity = self._gravity(0.0)
-        O.step()  # makes the interactions
+        advance()  # makes the interactions
         s.first_step = O.iter
         if self.section.stages.settle.bond == "before":
             s.bonds_initial = solver.bond()
-        O.step()
+        advance()
         s.contacts_initial = solver.contacts
 
     def _gravity(self, time):
@@ -250,12 +269,12 @@ class Experiment:
         self.slope.water.heights = [height]
 
     def _fraction(self):
-        """Packing fraction of the settled bulk; NaN where the layers are too thin to have one."""
+        """Packing fraction of the settled bulk; None where the layers are too thin to have one."""
         x, y, r = (tables.bodies(self.slope.solver)[name] for name in ("x", "y", "r"))
         try:
             return packing.packing_fraction(packing.Packing(x, y, r, self.layers), self.section.outline)
         except packing.PackingError:
-            return math.nan
+            return None
 
     def _foreseen(self):
         """Simulated time at which the run may end [s]: an estimate for the progress bar."""
@@ -340,7 +359,8 @@ class Experiment:
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
         if self.hard:
             checkpoints.write(self.folder, run_key(self.section), {
-                "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state)})
+                "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state),
+                "series": self.series.mark()})
         self._saved = time.monotonic()
         self._saving = self._saved - now
 
@@ -354,12 +374,13 @@ def run_key(section):
 def resume(section, folder, progress=None):
     """An :class:`Experiment` that goes on from the checkpoint in ``folder``.
 
-    Raises ExperimentError where there is none, where it is damaged, or where it belongs to another section.
+    Raises ExperimentError where there is none, where it is damaged, or where it belongs to another section, and RecordsError where the series is not as it
+    was then. Nothing has been written then.
     """
     content = checkpoints.read(folder, run_key(section), ExperimentError)
     try:
-        state = State(**content["state"])
+        state, mark = State(**content["state"]), content["series"]
     except (KeyError, TypeError) as error:
         raise ExperimentError(f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume") from None
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
-    return Experiment(built, folder, state=state, progress=progress)
+    return Experiment(built, folder, state=state, progress=progress, mark=mark)

@@ -6,7 +6,7 @@ import json
 import time
 from pathlib import Path
 
-from .whole_files import write_atomically
+from .whole_files import WriteError, write_atomically
 
 __all__ = ["Progress", "forget", "keep", "kept", "share"]
 
@@ -42,9 +42,13 @@ def keep(folder, key, found):
 
 
 def forget(folder):
-    """Removes the result of an earlier run, and how far it was."""
+    """Removes the result of an earlier run, and how far it was. Raises WriteError."""
     for name in ("result.json", "progress"):
-        (Path(folder) / name).unlink(missing_ok=True)
+        path = Path(folder) / name
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise WriteError(f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another --out") from None
 
 
 def kept(folder, key):
@@ -52,5 +56,5 @@ def kept(folder, key):
     try:
         content = json.loads((Path(folder) / "result.json").read_text())
         return content["found"] if content["key"] == key else None
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return None

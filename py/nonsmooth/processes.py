@@ -5,17 +5,23 @@ Small scenes gain little from threads, so runs side by side use a machine better
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import signal
 import subprocess
+import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from .errors import UserError
+from .whole_files import write_atomically
 
-__all__ = ["RunError", "call"]
+__all__ = ["RunError", "call", "pool"]
 
 _WORKER = Path(__file__).with_name("_process_worker.py")
+_running, _halted, _guard = set(), False, threading.Lock()  # processes of this one; whether no more may begin
 
 
 class RunError(UserError, RuntimeError):
@@ -30,14 +36,13 @@ def call(function, folder, arguments, threads=1):
     """
     folder, began = Path(folder), time.monotonic()
     request = folder / "request.json"
-    request.write_text(json.dumps({"module": function.__module__, "function": function.__name__, "arguments": arguments}))
+    write_atomically(request, json.dumps({"module": function.__module__, "function": function.__name__, "arguments": arguments, "parent": os.getpid()}).encode())
     for name in ("found.json", "refused.txt"):
         (folder / name).unlink(missing_ok=True)
     # waiting threads must not spin where processes share the cores
     environment = {**os.environ, "OMP_WAIT_POLICY": "passive"} if threads == 1 else None
     with open(folder / "log.txt", "wb") as log:
-        status = subprocess.run([_yade(), "-n", "-x", f"-j{threads}", str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT,
-                                stdin=subprocess.DEVNULL, env=environment).returncode
+        status = _run([_yade(), "-n", "-x", f"-j{threads}", str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
     try:
         found = json.loads((folder / "found.json").read_text())
     except (OSError, ValueError):
@@ -47,6 +52,54 @@ def call(function, folder, arguments, threads=1):
         last = next((line.strip() for line in reversed(lines) if line.strip()), "no output")
         raise RunError(f"the run ended with status {status} and no result: {last} (all of it: {folder / 'log.txt'})") from None
     return {"wall_s": time.monotonic() - began, **found}
+
+
+def _run(command, **options):
+    """Status of a process, which hears of a Ctrl-C that comes meanwhile."""
+    with _guard:
+        if _halted:
+            raise RunError("stopped before it began")
+        process = subprocess.Popen(command, **options)
+        _running.add(process)
+    try:
+        return process.wait()
+    except KeyboardInterrupt:  # in the main thread alone
+        _halt()
+        raise
+    finally:
+        with _guard:
+            _running.discard(process)
+
+
+@contextlib.contextmanager
+def pool(threads):
+    """A ThreadPoolExecutor for calls side by side. At Ctrl-C those that have not begun do not, and the others' processes end as they do at Ctrl-C themselves:
+    with a checkpoint where they have one. A second Ctrl-C kills them."""
+    global _halted
+    _halted = False
+    with ThreadPoolExecutor(max(1, threads)) as made:
+        try:
+            yield made
+        except KeyboardInterrupt:
+            made.shutdown(wait=False, cancel_futures=True)
+            _halt()
+            raise
+
+
+def _halt():
+    global _halted
+    with _guard:
+        _halted = True
+        left = list(_running)
+    try:
+        for process in left:
+            process.send_signal(signal.SIGINT)
+        for process in left:
+            process.wait()
+    except KeyboardInterrupt:
+        for process in left:
+            process.kill()
+        raise
 
 
 def _yade():

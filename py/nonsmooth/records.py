@@ -5,6 +5,7 @@ thickness (the model is two-dimensional). Every failure is a :class:`RecordsErro
 wrong with it and what to do.
 """
 
+import hashlib
 import math
 import os
 import zipfile
@@ -22,18 +23,6 @@ from .tables import BREAK_MODES
 
 class RecordsError(UserError):
     """A record cannot be written or read; the message says which file, what is wrong and the remedy."""
-
-
-def check_writable(folder):
-    """Makes a folder for results; raises RecordsError where nothing can be written there."""
-    folder = Path(folder)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / ".probe"
-        probe.touch()
-        probe.unlink()
-    except OSError as error:
-        raise RecordsError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out") from None
 
 
 class Column(NamedTuple):
@@ -120,9 +109,9 @@ def _number(text):
 class SeriesWriter:
     """Appends rows to a series file, each row in one unbuffered write.
 
-    ``path``: the CSV file. ``columns``: names in order, beginning with ``step``. ``resume_from_step``: continue an
-    existing file from a checkpoint of that step: rows of later steps and a half-written last line are removed, the
-    rest is kept byte for byte. Without it a file that already holds rows is refused unless ``overwrite`` is true.
+    ``path``: the CSV file. ``columns``: names in order, beginning with ``step``. ``resume_from``: a :meth:`mark` that a
+    checkpoint kept: what the file held then is kept byte for byte, and must still be the same; later rows and a
+    half-written last line are removed. Without it a file that already holds rows is refused unless ``overwrite`` is true.
 
     A killed process loses no written row; call :meth:`sync` at checkpoints to be safe from a power failure too.
     Numbers are written so that reading them returns the same bits; equal runs give equal files.
@@ -130,27 +119,27 @@ class SeriesWriter:
     Raises :class:`RecordsError` for a file that cannot be written, that has other columns, or has a damaged row.
     """
 
-    def __init__(self, path, columns, resume_from_step=None, overwrite=False):
+    def __init__(self, path, columns, resume_from=None, overwrite=False):
         self.path = Path(path)
         self.columns = tuple(columns)
         self.last_step: Optional[int] = None
-        self._file = None
+        self._file, self._sum = None, hashlib.sha256()
         if not self.columns or self.columns[0] != "step" or len(set(self.columns)) != len(self.columns):
             raise RecordsError(f"{self.path}: columns must be unique and begin with 'step', not {self.columns[:3]}...")
         self._header = (",".join(self.columns) + "\n").encode()
         try:
-            if resume_from_step is None:
+            if resume_from is None:
                 self._refuse_to_overwrite(overwrite)
                 self._file = open(self.path, "wb", buffering=0)
                 self._size = 0
                 self._append(self._header)
             else:
-                self._size = self._keep_until(int(resume_from_step))
+                kept = self._kept(resume_from)
+                self._sum.update(kept)
+                self._size = len(kept)
                 self._file = open(self.path, "r+b", buffering=0)
                 self._file.truncate(self._size)
                 self._file.seek(self._size)
-                if self._size == 0:
-                    self._append(self._header)
         except OSError as error:
             raise RecordsError(
                 f"{self.path}: cannot be written ({error.strerror}); choose a folder that exists and is writable"
@@ -167,34 +156,26 @@ class SeriesWriter:
                 "or choose another folder"
             )
 
-    def _keep_until(self, step):
-        """Bytes of the existing file to keep: the header and the complete rows up to ``step``."""
+    def _kept(self, mark):
+        """What was in the file at a :meth:`mark`; RecordsError where it is no longer there."""
         if not self.path.exists():
             raise RecordsError(f"{self.path}: missing, so the run cannot be resumed; start it anew without --resume")
-        data = self.path.read_bytes()
-        if self._header.startswith(data):  # killed while the header was written (or just after)
-            return len(data) if data == self._header else 0
-        if not data.startswith(self._header):
-            found = data.split(b"\n", 1)[0].decode(errors="replace")
+        with open(self.path, "rb") as file:
+            kept = file.read(mark["bytes"])
+        if len(kept) < mark["bytes"] or hashlib.sha256(kept).hexdigest() != mark["sha256"]:
+            wrong = f"has {len(kept)} bytes of the {mark['bytes']} it had then" if len(kept) < mark["bytes"] else "has been changed since"
+            raise RecordsError(
+                f"{self.path}: does not match the checkpoint, it {wrong}; restore the file from a copy, or start the "
+                "run anew without --resume"
+            )
+        if not kept.startswith(self._header):
+            found = kept.split(b"\n", 1)[0].decode(errors="replace")
             raise RecordsError(
                 f"{self.path}: its columns are not those of this run (found '{found[:120]}'); resume with the version "
-                "that wrote it, or start anew in another folder"
+                "that wrote it, or start anew without --resume"
             )
-        keep = len(self._header)
-        for number, line in enumerate(data[keep:].splitlines(keepends=True), start=2):
-            if not line.endswith(b"\n"):
-                break
-            row = _parse_row(self.path, number, line.decode(errors="replace"), self.columns)
-            if row[0] > step:
-                break
-            if self.last_step is not None and row[0] <= self.last_step:
-                raise RecordsError(
-                    f"{self.path}, line {number}: step {row[0]} does not come after {self.last_step}; "
-                    "restore the file from a copy or start anew"
-                )
-            self.last_step = row[0]
-            keep += len(line)
-        return keep
+        self.last_step = mark["last_step"]
+        return kept
 
     def _append(self, data):
         """Write all of ``data`` or nothing of it."""
@@ -212,6 +193,7 @@ class SeriesWriter:
                 f"{self.path}: a row could not be written ({error.strerror}); free some space and resume the run"
             ) from error
         self._size += len(data)
+        self._sum.update(data)
 
     def write(self, row):
         """Append one row: a mapping from column name to number, with exactly the columns of this series.
@@ -247,6 +229,10 @@ class SeriesWriter:
             )
         self._append((",".join(texts) + "\n").encode())
         self.last_step = step
+
+    def mark(self):
+        """What a checkpoint keeps of the file as it is now: size [bytes], checksum, and last step (None where there is no row)."""
+        return {"bytes": self._size, "sha256": self._sum.hexdigest(), "last_step": self.last_step}
 
     def sync(self):
         """Have the operating system put all rows on the disk."""

@@ -21,9 +21,40 @@ from pathlib import Path
 import numpy as np
 
 from . import figures, paraview, records, toe, video
-from .whole_files import write_atomically
+from .whole_files import WriteError, remove_parts, whole, write_atomically
 
-__all__ = ["characteristic_times", "mean_of", "summarise", "draw"]
+__all__ = ["characteristic_times", "mean_of", "summarise", "draw", "forget", "forget_later"]
+
+# what a run leaves besides its series and its checkpoint
+SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = "summary.json", "breaks.csv", "t0.npz", "end.npz", "snapshots", "vtk"
+FIGURES = ("force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png", "avalanche.mp4")
+
+
+def forget(folder):
+    """Removes what an earlier run left in ``folder``, so that nothing of it is taken for the next one's; its series and checkpoint apart.
+
+    Half-written files that killed runs have left go too. Raises WriteError.
+    """
+    folder = Path(folder)
+    _remove([folder / name for name in (SUMMARY, BREAKS, BEGIN, END, *FIGURES)] + whole(folder / SNAPSHOTS, "*.npz") + whole(folder / PARAVIEW, "*.vtu") +
+            [folder / PARAVIEW / "avalanche.pvd"])
+    remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW)
+
+
+def forget_later(folder, stage, step):
+    """Removes snapshots of times that a run resumed in ``stage`` (of experiment.State) at ``step`` has not reached yet, and half-written files."""
+    folder = Path(folder)
+    later = [path for path in whole(folder / SNAPSHOTS, "*.npz") if path.stem.isdecimal() and int(path.stem) > step]
+    _remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"))
+    remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW, folder / "checkpoint")
+
+
+def _remove(paths):
+    for path in paths:
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise WriteError(f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another folder") from None
 
 
 def mean_of(series, name, end, span=1.0):
@@ -95,6 +126,8 @@ def summarise(folder, section, state, threads=None) -> dict:
     """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are null."""
     folder = Path(folder)
     series = records.read_series(folder / "series.csv")
+    if not len(series["step"]):
+        raise records.RecordsError(f"{folder / 'series.csv'}: has no rows yet; let the run go on beyond its settling with --resume")
     times = characteristic_times(series, section, state)
     last = float(series["time_s"][-1])
     at = lambda name, end, span=1.0: None if end is None else mean_of(series, name, end, span)  # noqa: E731
@@ -102,8 +135,8 @@ def summarise(folder, section, state, threads=None) -> dict:
     finished = state["stage"] == "done"
     begin = t0 if t0 is not None else last
     after = series["time_s"] >= begin - 1e-9
-    start = records.read_snapshot(folder / "t0.npz") if (folder / "t0.npz").exists() else None
-    end = records.read_snapshot(folder / "end.npz") if (folder / "end.npz").exists() else None
+    start = records.read_snapshot(folder / BEGIN) if (folder / BEGIN).exists() else None
+    end = records.read_snapshot(folder / END) if (folder / END).exists() else None
     moved = None
     thickness = bulking = None
     if start is not None and end is not None:
@@ -154,7 +187,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
     summary |= _passive(section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"])
     clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
-    write_atomically(folder / "summary.json", (json.dumps(clean, indent=1) + "\n").encode())
+    write_atomically(folder / SUMMARY, (json.dumps(clean, indent=1) + "\n").encode())
     return clean
 
 
@@ -170,10 +203,10 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     times = summary["times_s"]
     made, notes = [], []
     time_of = dict(zip(series["step"].astype(int).tolist(), series["time_s"].tolist()))
-    # files of steps that the series has not are left from before a resume
-    frames = [(time_of[int(p.stem)], p) for p in sorted((folder / "snapshots").glob("*.npz")) if int(p.stem) in time_of]
+    # other files are none of the run's
+    frames = [(time_of[int(p.stem)], p) for p in whole(folder / SNAPSHOTS, "*.npz") if p.stem.isdecimal() and int(p.stem) in time_of]
     files = [p for _, p in frames]
-    start, end = folder / "t0.npz", folder / "end.npz"
+    start, end = folder / BEGIN, folder / END
     if start.exists():
         first = records.read_snapshot(start)
         made.append(figures.force_chains(first, section, folder / "force_chains.png"))

@@ -10,11 +10,13 @@ import shutil
 import time
 from collections import Counter
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import wait
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import kept_runs, processes
+from . import checkpoints, kept_runs, processes
+from .interrupts import Interrupted
+from .whole_files import WriteError
 
 __all__ = ["Run", "check", "run"]
 
@@ -48,29 +50,44 @@ def run(runs, threads, resume=False, error=processes.RunError, advice="", progre
 
     ``resume``: keep what has ended; ``go_on``: keep also what halted runs have written, since their function goes on from it. All else in the folders
     is removed. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, before
-    anything runs where Runs share a folder, and with the first failure (in the order of ``runs``) and the ``advice`` after the others have ended.
+    anything runs where Runs share a folder, and with the first failure (in the order of ``runs``) and the ``advice`` after the others have ended; interrupts.Interrupted
+    after Ctrl-C.
     """
     runs = list(runs)
     check(runs, error)
     known = {r.folder: kept_runs.kept(r.folder, r.key) if resume else None for r in runs}
     for r in runs:
         if known[r.folder] is None:
-            if resume and go_on:
-                kept_runs.forget(r.folder)
-            else:
-                shutil.rmtree(r.folder, ignore_errors=True)
+            kept_runs.forget(r.folder)
+            if not (resume and go_on):
+                _clear(r.folder)
             r.folder.mkdir(parents=True, exist_ok=True)
     whole = sum(r.work for r in runs)
-    with ThreadPoolExecutor(max(1, threads)) as pool:
-        futures = {r.folder: pool.submit(_one, r, known[r.folder]) for r in sorted(runs, key=lambda r: -r.work)}
-        left = set(futures.values())
-        while left:
-            left = wait(left, timeout=LOOK_SECONDS).not_done
-            progress(sum(r.work * kept_runs.share(r.folder) for r in runs) / whole, sum(f.done() for f in futures.values()))
+    futures = {}
+    try:
+        with processes.pool(threads) as pool:
+            futures |= {r.folder: pool.submit(_one, r, known[r.folder]) for r in sorted(runs, key=lambda r: -r.work)}
+            left = set(futures.values())
+            while left:
+                left = wait(left, timeout=LOOK_SECONDS).not_done
+                progress(sum(r.work * kept_runs.share(r.folder) for r in runs) / whole, sum(f.done() for f in futures.values()))
+    except KeyboardInterrupt:
+        ended = sum(f.done() and not f.cancelled() and not f.exception() for f in futures.values())
+        raise Interrupted(f"{ended} of {len(runs)} runs have ended and are kept{', others have their checkpoint' if go_on else ''}; go on with --resume") from None
     failures = [f"{r.name}: {failed}" for r in runs if (failed := futures[r.folder].exception())]
     if failures:
         raise error(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else "") + advice)
     return [futures[r.folder].result() for r in runs]
+
+
+def _clear(folder):
+    """Removes an earlier run; what another process might take for the new one's goes first, so that a kill on the way leaves none of it."""
+    checkpoints.forget(folder)
+    try:
+        if folder.exists():
+            shutil.rmtree(folder)
+    except OSError as error:
+        raise WriteError(f"{folder}: what an earlier run left there cannot be removed ({error.strerror}); remove it, or give another --out") from None
 
 
 def _one(r, known):

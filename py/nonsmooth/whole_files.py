@@ -12,7 +12,9 @@ import numpy as np
 
 from .errors import UserError
 
-__all__ = ["WriteError", "beside", "write_arrays", "write_atomically"]
+__all__ = ["WriteError", "beside", "remove_parts", "sync_folder", "whole", "write_arrays", "write_atomically"]
+
+PART = ".part-"  # begins the names of files that are being written
 
 
 class WriteError(UserError, OSError):
@@ -27,7 +29,7 @@ def beside(path):
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".part-{secrets.token_hex(4)}-{path.name}")
+    part = path.with_name(f"{PART}{secrets.token_hex(4)}-{path.name}")
     try:
         yield part
         os.replace(part, path)
@@ -37,8 +39,34 @@ def beside(path):
         raise
 
 
-def write_atomically(path, content: bytes) -> None:
-    """Write beside `path`, then rename, so that a reader never meets half a file. Raises WriteError."""
+def whole(folder, pattern):
+    """Sorted paths of the files in ``folder`` that match a pattern, without those that are being written, or were when their process was killed."""
+    return sorted(path for path in Path(folder).glob(pattern) if not path.name.startswith(PART))
+
+
+def remove_parts(*folders):
+    """Removes what killed processes left half-written in the folders; other processes must not be writing there. Raises WriteError."""
+    for folder in folders:
+        for path in Path(folder).glob(f"{PART}*"):
+            try:
+                path.unlink(missing_ok=True)
+            except OSError as error:
+                raise WriteError(f"{path}: left from a run that was killed, and cannot be removed ({error.strerror}); remove it") from None
+
+
+def sync_folder(folder):
+    """Has the operating system put the names of files, as they are now, on the disk."""
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(number)
+    except OSError:
+        pass  # some file systems cannot
+    finally:
+        os.close(number)
+
+
+def write_atomically(path, content) -> None:
+    """Write `content` (bytes, or any buffer of them) beside `path`, then rename, so that a reader never meets half a file. Raises WriteError."""
     try:
         with beside(path) as part, part.open("wb") as file:
             file.write(content)

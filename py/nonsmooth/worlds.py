@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 from yade import O
 from yade.wrapper import NewtonIntegrator
 from . import scene, soft
+from .stepping import advance
 
 __all__ = ["Hard", "Soft"]
 
@@ -63,7 +64,7 @@ class Hard:
         """
         newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         gravity, newton.gravity = newton.gravity, (0, 0, 0)
-        O.step()
+        advance()
         newton.gravity = gravity
         return scene.contact_dynamics().bond()
 

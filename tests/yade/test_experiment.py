@@ -10,28 +10,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import slope_scenes
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "jiufengershan.py"
-SHIPPED = ROOT / "py" / "nonsmooth" / "sections" / "jiufengershan.yaml"
 DISKS = "400"   # coarse: enough for walls, layers and water to act
 END = "3"       # s: gravity's ramp, the dry rest, and some of the water's rise
 
 
-# The shipped section with short stages and a looser solve, so that a run takes seconds.
-QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 1.5",
-         "dry: 3.0": "dry: 0.5", "tolerance: 1e-6": "tolerance: 1e-4", "max_iterations: 300": "max_iterations: 60"}
-
-
 @pytest.fixture(scope="module")
 def section(tmp_path_factory):
-    text = SHIPPED.read_text()
-    for old, new in QUICK.items():
-        assert text.count(old) == 1, old
-        text = text.replace(old, new)
-    path = tmp_path_factory.mktemp("section") / "quick.yaml"
-    path.write_text(text)
-    return path
+    return slope_scenes.write_quick(tmp_path_factory.mktemp("section"))
 
 
 def run(section, out, *options, check=True, end=END, **kwargs):
@@ -127,7 +116,7 @@ def test_unreadable_packing(tmp_path):
 
 def test_unknown_key_in_the_section(tmp_path):
     path = tmp_path / "slope.yaml"
-    text = SHIPPED.read_text()
+    text = slope_scenes.SHIPPED.read_text()
     path.write_text(text.replace("gravity: 9.81", "gravity: 9.81\ncolour: red"))
     message = refused("--section", path, "--out", tmp_path / "out")
     assert "slope.yaml" in message and "colour" in message

@@ -74,8 +74,9 @@ def test_series_without_rows_or_columns_say_so(tmp_path, series):
         figures.forces_against_time({k: v for k, v in series.items() if "dp_shear" not in k}, {}, tmp_path / "f.png")
     with pytest.raises(RecordsError, match="no rows"):
         figures.energy({name: values[:0] for name, values in series.items()}, tmp_path / "f.png")
+    (tmp_path / "file").write_text("")
     with pytest.raises(RecordsError, match="cannot be written"):
-        figures.energy(series, tmp_path / "nowhere" / "f.png")
+        figures.energy(series, tmp_path / "file" / "f.png")
 
 
 def test_snapshots_and_deposit(tmp_path):

@@ -1,6 +1,7 @@
 """Series and snapshots: exact, never half-written, clear about what is wrong. Needs no YADE."""
 
 import os
+import resource
 import sys
 from pathlib import Path
 
@@ -64,25 +65,64 @@ def test_a_killed_process_loses_no_row(tmp_path):
 @pytest.mark.parametrize("tail", [b"", b"70,7.0,1e", b"70,7.0,1e-6,490,10."])
 def test_a_resumed_series_has_the_bytes_of_an_unbroken_one(tmp_path, tail):
     whole = fill(tmp_path / "whole.csv", range(0, 100, 10)).read_bytes()
-    broken = fill(tmp_path / "broken.csv", range(0, 70, 10))
+    broken = tmp_path / "broken.csv"
+    mark = marked(broken, range(0, 50, 10), range(50, 70, 10))
     with open(broken, "ab") as file:
         file.write(tail)
-    fill(broken, range(50, 100, 10), resume_from_step=45)  # rows 50 and 60 are computed again
+    fill(broken, range(50, 100, 10), resume_from=mark)  # rows 50 and 60 are computed again
     assert broken.read_bytes() == whole
 
 
-def test_resume_at_the_last_row_keeps_all(tmp_path):
-    path = fill(tmp_path / "s.csv", range(5))
-    with records.SeriesWriter(path, COLUMNS, resume_from_step=4) as writer:
-        assert writer.last_step == 4
-    assert len(records.read_series(path)["step"]) == 5
+def marked(path, before, after=()):
+    """Writes a series and returns its mark between two ranges of steps."""
+    with records.SeriesWriter(path, COLUMNS) as writer:
+        for step in before:
+            writer.write(row(step))
+        mark = writer.mark()
+        for step in after:
+            writer.write(row(step))
+    return mark
 
 
-@pytest.mark.parametrize("cut", [0, 3, 20])
-def test_resume_after_a_half_written_header(tmp_path, cut):
-    whole = fill(tmp_path / "whole.csv", range(3)).read_bytes()
-    (tmp_path / "s.csv").write_bytes(whole[:cut])
-    assert fill(tmp_path / "s.csv", range(3), resume_from_step=0).read_bytes() == whole
+@pytest.mark.parametrize("rows", [0, 5])
+def test_resume_at_the_last_row_keeps_all(tmp_path, rows):
+    path = tmp_path / "s.csv"
+    mark = marked(path, range(rows))
+    before = path.read_bytes()
+    with records.SeriesWriter(path, COLUMNS, resume_from=mark) as writer:
+        assert writer.last_step == (rows - 1 if rows else None) and writer.mark() == mark
+    assert path.read_bytes() == before
+
+
+def test_a_resumed_series_has_the_mark_of_an_unbroken_one(tmp_path):
+    mark = marked(tmp_path / "s.csv", range(5), range(5, 9))
+    with records.SeriesWriter(tmp_path / "s.csv", COLUMNS, resume_from=mark) as writer:
+        for step in range(5, 12):
+            writer.write(row(step))
+        assert writer.mark() == marked(tmp_path / "whole.csv", range(12))
+
+
+@pytest.mark.parametrize("place", [0, 3, 60, 150, -1])
+def test_one_flipped_bit_in_the_part_that_is_kept_is_refused_and_nothing_is_lost(tmp_path, place):
+    path = tmp_path / "s.csv"
+    mark = marked(path, range(5), range(5, 9))
+    data = bytearray(path.read_bytes())
+    data[place if place >= 0 else mark["bytes"] - 1] ^= 4
+    path.write_bytes(data)
+    with pytest.raises(RecordsError, match="s.csv.*does not match the checkpoint"):
+        records.SeriesWriter(path, COLUMNS, resume_from=mark)
+    assert path.read_bytes() == data
+    data[place if place >= 0 else mark["bytes"] - 1] ^= 4
+    data[mark["bytes"] + 3] ^= 4  # a row that is computed again
+    path.write_bytes(data)
+    records.SeriesWriter(path, COLUMNS, resume_from=mark).close()
+
+
+def test_a_series_that_has_become_shorter_is_refused(tmp_path):
+    mark = marked(tmp_path / "s.csv", range(5))
+    (tmp_path / "s.csv").write_bytes((tmp_path / "s.csv").read_bytes()[:-1])
+    with pytest.raises(RecordsError, match=f"has {mark['bytes'] - 1} bytes of the {mark['bytes']} it had then"):
+        records.SeriesWriter(tmp_path / "s.csv", COLUMNS, resume_from=mark)
 
 
 def test_reading_leaves_out_a_half_written_row(tmp_path):
@@ -124,21 +164,36 @@ def test_a_bad_row_is_refused_and_nothing_written(tmp_path, change, message):
         writer.write(row(3))
 
 
+def test_a_row_that_does_not_fit_is_refused_whole(tmp_path):
+    """As on a full disk; with room again the run goes on."""
+    with records.SeriesWriter(tmp_path / "s.csv", COLUMNS) as writer:
+        writer.write(row(0))
+        before, mark, limits = (tmp_path / "s.csv").read_bytes(), writer.mark(), resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 5, limits[1]))
+        try:
+            with pytest.raises(RecordsError, match="a row could not be written.*free some space"):
+                writer.write(row(1))
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        assert (tmp_path / "s.csv").read_bytes() == before and writer.mark() == mark
+        writer.write(row(1))
+    assert (tmp_path / "s.csv").read_bytes() == fill(tmp_path / "whole.csv", range(2)).read_bytes()
+
+
 def test_messages_name_the_file_and_the_remedy(tmp_path):
     with pytest.raises(RecordsError, match="nowhere.*cannot be written.*writable"):
         records.SeriesWriter(tmp_path / "nowhere" / "s.csv", COLUMNS)
     with pytest.raises(RecordsError, match="missing.*without --resume"):
-        records.SeriesWriter(tmp_path / "s.csv", COLUMNS, resume_from_step=3)
+        records.SeriesWriter(tmp_path / "s.csv", COLUMNS, resume_from={"bytes": 40, "sha256": "", "last_step": 0})
     with pytest.raises(RecordsError, match="cannot be read"):
         records.read_series(tmp_path / "s.csv")
-    path = fill(tmp_path / "s.csv", range(3))
+    path = tmp_path / "s.csv"
+    mark = marked(path, range(3))
     with pytest.raises(RecordsError, match="columns are not those"):
-        records.SeriesWriter(path, COLUMNS[:-1] + ("other",), resume_from_step=1)
+        records.SeriesWriter(path, COLUMNS[:-1] + ("other",), resume_from=mark)
     path.write_text(path.read_text().replace("\n1,", "\n1,?,"))
     with pytest.raises(RecordsError, match="line 3: damaged row"):
         records.read_series(path)
-    with pytest.raises(RecordsError, match="line 3: damaged row"):
-        records.SeriesWriter(path, COLUMNS, resume_from_step=2)
     (tmp_path / "empty.csv").write_text("")
     with pytest.raises(RecordsError, match="no header"):
         records.read_series(tmp_path / "empty.csv")

@@ -15,6 +15,7 @@ from pathlib import Path
 from yade import O
 
 from .. import contact, packing, packing_files, slope, worlds
+from ..stepping import advance
 from . import cold_start, machine, states, sweeps
 from .course import Course
 from .statistics import spread
@@ -52,7 +53,7 @@ def measure(folder, source, disks, steps=STEPS):
     before, began = _resident(), time.perf_counter()
     solver = slope.build(chosen, packed).solver
     scene = _scene_alone(solver) - before
-    O.step()
+    advance()
     bonds, building_s = solver.bond(), time.perf_counter() - began
     timed = TimedSteps().run(0, warm_up=LOADING)
     begun = solver.totalIterations
@@ -67,7 +68,7 @@ def measure(folder, source, disks, steps=STEPS):
 def _scene_alone(solver):
     """Makes a step so short that nothing moves, without the solver, which leaves interactions and no contact problem; memory of the process then [byte]."""
     step, O.dt, solver.dead = O.dt, 1e-9 * O.dt, True
-    O.step()
+    advance()
     O.dt, solver.dead = step, False
     return _resident()
 
@@ -89,9 +90,9 @@ def measure_soft_memory(folder, source, disks, packed):
     # fragile bonds are YADE's own; others need an engine of ours
     world = worlds.Soft(stiffness=SOFT_YOUNG, diameter=(chosen.disks.d_min, chosen.disks.d_max), verlet=-chosen.numerics.verlet_distance, fragile=True)
     built = slope.build(chosen, packed, world)
-    O.step()
+    advance()
     built.solver.bond()
-    O.step()  # and no more: bonds that break would leave fewer contacts in the same memory
+    advance()  # and no more: bonds that break would leave fewer contacts in the same memory
     grown, contacts = _resident() - before, O.interactions.countReal()
     return {"contacts": contacts, "bytes_per_disk": grown / len(packed)}
 

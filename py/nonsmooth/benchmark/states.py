@@ -18,7 +18,9 @@ from yade import O, config
 
 from .. import checkpoints, experiment, packing, scene, section, slope
 from ..errors import UserError
+from ..kept_runs import Progress
 from ..packing_files import cache_folder
+from ..stepping import advance
 from . import soft_contacts
 
 __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
@@ -78,7 +80,7 @@ def make(folder, source, disks):
     """
     chosen = section_of(source, disks)
     _forget_old()
-    note = lambda share: (Path(folder) / "progress").write_text(f"{share:.3f}")  # noqa: E731
+    note = Progress(folder)
     built = _settle(chosen, lambda share: note(0.5 * share))
     _save("rest", chosen, built)
     _move(built, lambda share: note(0.5 + 0.3 * share))
@@ -96,7 +98,7 @@ def load(source, disks, name):
     Raises BenchmarkError where it is missing or damaged.
     """
     chosen = section_of(source, disks)
-    checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError)
+    checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError, "run again")
     os.utime(folder_of(chosen))  # used now
 
 
@@ -134,8 +136,7 @@ def _move(built, progress):
     solver.tolerance = built.section.numerics.tolerance_moving
     built.water.times, built.water.heights = [begin], [WATER_HEIGHT]
     while solver.meanSpeed < SPEED and O.time < begin + MOVING_SECONDS:
-        for _ in range(PROGRESS_STEPS):
-            O.step()
+        advance(PROGRESS_STEPS)
         progress(min(1.0, solver.meanSpeed / SPEED))
     if solver.meanSpeed < SPEED_LEAST:
         raise BenchmarkError(f"the slope of {built.count} disks does not move {MOVING_SECONDS:g} s after its wall DP has lost its friction (mean speed "
@@ -145,6 +146,6 @@ def _move(built, progress):
 def _run_soft(progress):
     steps = round(SOFT_SECONDS / O.dt)
     for k in range(steps):
-        O.step()
+        advance()
         if k % PROGRESS_STEPS == 0:
             progress(k / steps)

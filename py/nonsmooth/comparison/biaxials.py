@@ -121,6 +121,7 @@ class SoftCourse(biaxial.Course):
         from .. import scene, worlds
         from ..laboratory.walls import Walls
         from ..soft.measures import Measures
+        from ..stepping import advance
 
         shape, rock = test.shape, test.material
         pressed = pressing.load(shape)
@@ -151,8 +152,7 @@ class SoftCourse(biaxial.Course):
             walls.remove("left", "right")
             for _ in range(SWITCHES):
                 course._membrane()
-                for _ in range(max(1, round(REST_UNITS / SWITCHES * unit / O.dt))):
-                    O.step()
+                advance(max(1, round(REST_UNITS / SWITCHES * unit / O.dt)))
         body.bonds = body.engine.bond()
         height = walls.height()
         area = course._membrane() if test.sides == "flexible" else height * walls.width()

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
@@ -23,7 +22,7 @@ import numpy as np
 from .. import checkpoints
 from ..benchmark import machine
 from ..benchmark.course import Course
-from ..kept_runs import keep, kept
+from ..kept_runs import Progress, keep, kept
 from . import losses, precision, slopes
 from .cases import Case, ComparisonError, check_soft, moduli_of
 from .summary import ROCK_STIFFNESS, clean
@@ -39,14 +38,12 @@ WARM_UP, LOOKS = 10, 5  # steps before those that are timed; blocks of these, af
 
 def measure_hard(folder, source, disks, state, steps):
     """Times hard steps from a saved state; returns mean overlap and wall time for a second of simulation."""
-    from yade import O
-
     from .. import scene
     from ..benchmark import states
+    from ..stepping import advance
 
     states.load(source, disks, state)
-    for _ in range(WARM_UP):
-        O.step()
+    advance(WARM_UP)
     solver = scene.contact_dynamics()
     sweeps = solver.totalIterations
     walls, overlaps, made, simulated = _timed(steps, solver)
@@ -60,6 +57,7 @@ def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_s
 
     from .. import packing_files, scene, slope, tables, worlds
     from ..benchmark import states
+    from ..stepping import advance
 
     chosen = states.section_of(source, disks)
     states.load(source, disks, state)
@@ -83,10 +81,10 @@ def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_s
         built.water.times, built.water.heights = [0.0], [height]
     bonds = _bond(built, order, held)
     relax_steps = max(1, round(relax / O.dt))
+    note = Progress(folder)
     for k in range(relax_steps):
-        O.step()
-        if k % 100 == 0:
-            (Path(folder) / "progress").write_text(f"{0.9 * k / relax_steps:.3f}")
+        advance()
+        note(0.9 * k / relax_steps)
     walls, overlaps, made, simulated = _timed(steps, built.solver)
     return _found(simulated / made, made, walls, overlaps, built.solver.contacts, built.solver.meanSpeed) | {
         "bonds_made": bonds, "bonds_before": len(held), "state_time_s": time_s}
@@ -97,11 +95,12 @@ def _timed(steps, solver):
     of steps, and the time that they simulated [s]."""
     from yade import O
 
+    from ..stepping import advance
+
     part, walls, overlaps, first, begun = max(1, steps // LOOKS), [], [], O.iter, O.time
     for _ in range(LOOKS):
         began = time.perf_counter()
-        for _ in range(part):
-            O.step()
+        advance(part)
         walls.append((time.perf_counter() - began) / part)
         overlaps.append((solver.overlapMean, solver.overlapWorst))
     return walls, overlaps, O.iter - first, O.time - begun

@@ -10,6 +10,7 @@ from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
 
 from ..records import RecordsError
+from ..whole_files import beside
 
 # Told apart by lightness as well as by hue, so that they survive colour blindness and grey printing.
 LAYERS = ("#5a2d0c", "#b5651d", "#e9a23b", "#f7d98b", "#8c8c7a")
@@ -66,12 +67,12 @@ def styled(function):
 
 
 def save(fig, path, pdf=False, dpi=170):
-    """Write the PNG (and a PDF beside it); returns the PNG's path."""
+    """Write the PNG (and a PDF beside it), whole or not at all; returns the PNG's path."""
     path = Path(path)
     try:
-        fig.savefig(path, dpi=dpi)
-        if pdf:
-            fig.savefig(path.with_suffix(".pdf"), dpi=300)
+        for target, fine in ((path, dpi), *([(path.with_suffix(".pdf"), 300)] if pdf else [])):
+            with beside(target) as part:
+                fig.savefig(part, dpi=fine)
     except OSError as error:
         raise RecordsError(f"{path}: figure cannot be written ({error.strerror}); choose a writable folder") from error
     return path

@@ -11,6 +11,7 @@ import numpy as np
 from yade import O
 from yade.wrapper import NewtonIntegrator
 
+from ..stepping import advance
 from . import measures, preparation
 from .grains import Heap, HeapError
 
@@ -210,7 +211,7 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     every = max(1, round(unit / RECORDS / O.dt))
     settle, speed = 0.0, math.inf
     while True:  # springs yield under the weight first; hard disks have nothing to do
-        O.run(every, wait=True)
+        advance(every)
         settle, speed = settle + every * O.dt / unit, scene.rms_speed()
         if speed < SETTLED_SPEED:
             break
@@ -238,8 +239,7 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
             break
         adapt()
         started = time.perf_counter()
-        for _ in range(every):  # O.run(…, wait=True) looks every 40 ms whether it is done
-            O.step()
+        advance(every)
         wall += time.perf_counter() - started
     t = preparation.disk_table(scene.stand)
     half = 0.5 if "left" in heap.gates() else 1.0

@@ -10,6 +10,7 @@ from yade import O
 from yade.wrapper import ContactDynamicsEngine
 
 from .. import checkpoints, packing, packing_files, scene, tables, worlds
+from ..stepping import advance
 from .grains import HeapError, sizes_along
 
 __all__ = ["Prepared", "Stand", "cache_path", "disk_table", "prepared", "put"]
@@ -87,7 +88,7 @@ def _settle(heap):
     while speed > wanted:
         if O.iter >= LIMIT:
             raise HeapError(f"the disks do not come to rest in their box: rms speed {speed:.2g} m/s after {O.iter} steps, wanted {wanted:.2g} m/s; try another seed")
-        O.run(CHUNK, wait=True)
+        advance(CHUNK)
         t = disk_table(stand)
         speed = math.sqrt(np.mean(t["vx"] ** 2 + t["vy"] ** 2))
     found = packing.Packing(t["x"], t["y"], t["r"], np.zeros(len(x)))

@@ -38,8 +38,10 @@ def bar():
     """A progress bar; gives a function to call with the share done and what is being done, in words."""
     from tqdm import tqdm
 
+    from ..commands import closing
+
     # a file gets a line every half a minute
-    with tqdm(total=1000, mininterval=0.5 if sys.stderr.isatty() else 30, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left") as shown:
+    with closing(tqdm(total=1000, mininterval=0.5 if sys.stderr.isatty() else 30, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left")) as shown:
 
         def progress(share, doing):
             shown.set_description_str(doing, refresh=False)

@@ -20,9 +20,10 @@ import numpy as np
 
 from yade import O
 
-from .. import checkpoints, records, section, tables
+from .. import checkpoints, interrupts, records, section, tables
 from ..errors import UserError
 from ..kept_runs import Progress
+from ..whole_files import remove_parts
 from . import materials, membrane, pressing, sample
 from .walls import Walls
 
@@ -91,7 +92,7 @@ class Course:
     def __init__(self, test, folder, body, state):
         """``body``: the Sample in the scene; ``state``: dictionary of numbers that a checkpoint keeps."""
         self.test, self.folder, self.sample, self.state = test, Path(folder), body, state
-        self.series = records.SeriesWriter(self.folder / "series.csv", self.columns, resume_from_step=state.get("row_step"), overwrite="row_step" not in state)
+        self.series = records.SeriesWriter(self.folder / "series.csv", self.columns, resume_from=state.pop("series", None), overwrite=True)
         self._saved = self._clock = time.monotonic()
 
     # ---- begin ----------------------------------------------------------------------------------
@@ -122,7 +123,7 @@ class Course:
         """From the checkpoint in ``folder``; TestError where there is none or it is another test's."""
         content = checkpoints.read(Path(folder), key_of(test), TestError)
         body = sample.Sample(Walls(content["walls"], test.confining), content["first_disk"], content["count"])
-        course = cls(test, folder, body, content["state"])
+        course = cls(test, folder, body, content["state"] | {"series": content["series"]})
         if test.sides == "flexible":
             course.state["pressed"] = []  # a saved scene keeps no permanent forces
             course._membrane()
@@ -134,7 +135,11 @@ class Course:
         return 1 - self.sample.walls.height() / self.state["height"]
 
     def run(self, progress=None):
-        """Shears the sample to the end; ``progress``: called with the share done."""
+        """Shears the sample to the end; ``progress``: called with the share done. Ctrl-C ends it after the next row, with a checkpoint."""
+        with interrupts.noted() as interrupted:
+            self._run(progress, interrupted)
+
+    def _run(self, progress, interrupted):
         s, test, engine, walls = self.state, self.test, self.sample.engine, self.sample.walls
         per_row = max(1, round(ROW_STRAIN / (s["rate"] * O.dt)))
         taken = [strain for strain in SNAPSHOTS if strain < test.strain - 1e-9]
@@ -152,15 +157,18 @@ class Course:
             s["wall_steps_s"] += time.perf_counter() - began
             area = self._membrane() if test.sides == "flexible" else walls.height() * walls.width()
             before = s.get("strain", 0.0)
-            s["strain"], s["row_step"] = self.strain, O.iter
+            s["strain"] = self.strain
             self._row(sums, area, (engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed)
             for strain in taken:
                 if before < strain <= s["strain"]:
                     self.snapshot(f"{100 * strain:g}")
             if progress:
                 progress(s["strain"] / test.strain)
-            if time.monotonic() - self._saved > CHECKPOINT_SECONDS:
+            if interrupted() or time.monotonic() - self._saved > CHECKPOINT_SECONDS:
                 self.checkpoint()
+            if interrupted():
+                self.series.close()
+                raise interrupts.Interrupted(f"at a strain of {s['strain']:.4f}; the checkpoint is written, go on with --resume")
         self.snapshot("end")
         self._count_time()
         self.series.close()
@@ -214,7 +222,8 @@ class Course:
         """Saves all that :meth:`resume` needs."""
         self._count_time()
         self.series.sync()
-        checkpoints.write(self.folder, key_of(self.test), {"walls": self.sample.walls.ids, "first_disk": self.sample.first_disk, "count": self.sample.count, "state": self.state})
+        checkpoints.write(self.folder, key_of(self.test), {"walls": self.sample.walls.ids, "first_disk": self.sample.first_disk, "count": self.sample.count, "state": self.state,
+                                                         "series": self.series.mark()})
         self._saved = time.monotonic()
 
     def _count_time(self):
@@ -234,6 +243,7 @@ def run(folder, **plain):
     ``wall_s`` counts all but making the sample, ``wall_steps_s`` the steps alone, without records and checkpoints [s]. The share done is kept in the file ``progress``.
     """
     test, folder = Test.of(plain), Path(folder)
+    remove_parts(folder, folder / "snapshots", folder / "checkpoint")
     course = Course.resume(test, folder) if checkpoints.exists(folder) else Course.begin(test, folder)
     course.run(Progress(folder))
     s, engine = course.state, course.sample.engine

@@ -65,7 +65,7 @@ class Calibration:
         self.wanted, self.start, self.out, self.threads, self.say, self.resume, self.progress = wanted, start, Path(out), threads, say, resume, progress
         self.names = ("tensile_strength", "friction") + (("rolling_friction", "residual_share") if wanted.with_residual else ())
         self.trials = []
-        self.known = json.loads((self.out / "trials.json").read_text()) if resume and (self.out / "trials.json").exists() else []
+        self.known = self._kept() if resume else []
         share = start.residual_tensile_strength / start.tensile_strength if start.tensile_strength > 0 else 0.25
         first = {"tensile_strength": 1.1 * wanted.cohesion, "friction": start.friction, "rolling_friction": start.rolling_friction, "residual_share": max(share, 0.02)}
         self.x0 = np.log([first[name] for name in self.names])
@@ -90,6 +90,19 @@ class Calibration:
             friction=friction, residual_friction=friction, rolling_friction=rolling, residual_rolling_friction=rolling, envelope=None)
 
     # ---- trials ---------------------------------------------------------------------------------
+    def _kept(self):
+        """Trials of an earlier search, an empty list where there are none; CampaignError for a file that cannot be read."""
+        path = self.out / "trials.json"
+        try:
+            trials = json.loads(path.read_text())
+            for trial in trials:
+                trial["key"], [float(strength) for strength in trial["found"]]
+            return trials
+        except FileNotFoundError:
+            return []
+        except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+            raise campaign.CampaignError(f"{path}: the trials of the earlier search cannot be read ({error}); remove the file, and they are made again") from None
+
     def measure(self, x, disks, seeds):
         """c [Pa], φ [°], and where they are wanted c_res, φ_res of the material at ``x``, an array, with samples of so many disks.
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 import math
 import shutil
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from .. import records, side_by_side
+from .. import processes, records, side_by_side
 from ..errors import UserError
 from . import bands, biaxial, pressing, strength
 
@@ -63,7 +62,7 @@ def _press(shapes, home, threads, progress):
         shape.section()  # refuses a sample that is too small, before anything runs
     progress(0.0, f"pressing {len(missing)} sample{'s' if len(missing) > 1 else ''}")
     folders = [home / f"pressing-{k}" for k in range(len(missing))]
-    with ThreadPoolExecutor(max(1, threads)) as pool:
+    with processes.pool(threads) as pool:
         futures = [pool.submit(pressing.prepare, shape, folder) for shape, folder in zip(missing, folders)]
         failures = [str(error) for f in futures if (error := f.exception())]
     if failures:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from .. import paraview, records
 from ..figures import biaxial as figures
+from ..whole_files import whole
 from .campaign import name_of_result
 
 
@@ -35,7 +36,7 @@ def draw(out, summary):
     shown = min(first, key=lambda t: abs(t["confining_Pa"] - 8e6))  # the paper's Figure 9 is at 8 MPa
     for t in summary["tests"]:
         home = out / "tests" / name_of_result(t)
-        frames = {path.stem: records.read_snapshot(path) for path in (home / "snapshots").glob("*.npz")}
+        frames = {path.stem: records.read_snapshot(path) for path in whole(home / "snapshots", "*.npz")}
         _paraview(frames, home / "vtk")
         if t is shown:
             made += _pictures(t, frames, out)

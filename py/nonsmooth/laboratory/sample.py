@@ -9,6 +9,7 @@ from yade import O
 from yade.wrapper import NscdMat
 
 from .. import scene, tables
+from ..stepping import advance
 from . import pressing
 from .walls import Walls
 
@@ -57,7 +58,7 @@ class Sample:
         self.bonds = self.engine.bond()
 
     def _bond_and_load(self, pressure):
-        O.step()  # finds the contacts
+        advance()  # finds the contacts
         self.bonds = self.engine.bond()
         self._free(1.0)
         for k in range(pressing.RAMP + REST_STEPS):

@@ -98,6 +98,7 @@ def slide(test, record=lambda row: None):
     from yade import O
 
     from .. import scene
+    from ..stepping import advance
 
     block, material, pressure, (width, height) = test.block(), test.material, test.pressure, test.extent
     rock, made = block.materials["rock"], packing.cached_pack(block)
@@ -117,10 +118,10 @@ def slide(test, record=lambda row: None):
 
     def step(share):
         O.forces.setPermF(plate, (0, -share * load, 0))
-        O.step()
+        advance()
 
     engine = scene.contact_dynamics()
-    O.step()  # finds the contacts
+    advance()  # finds the contacts
     engine.bond()
     for k in range(PRESSING):
         step((k + 1) / PRESSING)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from yade import O
 
 from .. import scene
+from ..stepping import advance
 
 SIDES = ("bottom", "right", "top", "left")
 FREE_STATES = {"right": "yzXYZ", "top": "xzXYZ", "left": "yzXYZ"}  # blocked DOFs of a wall that follows the pressure
@@ -70,7 +71,7 @@ class Walls:
                 axis, sign = OUTWARDS[wall]
                 self._pushes[wall] = push = self.pressure * (self.height() if axis == 0 else self.width())
                 O.forces.setPermF(self.ids[wall], (-sign * push, 0, 0) if axis == 0 else (0, -sign * push, 0))
-        O.step()
+        advance()
 
     def forces(self):
         """Force of the disks on each wall in the last step [N/m], positive outwards."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import shutil
-from concurrent.futures import ThreadPoolExecutor
 
 from .. import processes
 from ..whole_files import write_atomically
@@ -32,7 +31,7 @@ def run_cases(bench, function, cases):
         bench.progress(f"{function.__name__}, {done} of {len(cases)} cases")
         return found
 
-    with ThreadPoolExecutor(max(1, bench.threads)) as pool:
+    with processes.pool(bench.threads) as pool:
         return [future.result() for future in [pool.submit(one, case) for case in cases]]
 
 

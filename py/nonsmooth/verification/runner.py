@@ -44,6 +44,7 @@ def run_checks(checks, out, *, quick=False, threads=1, resume=False, progress=la
         result = _read(check, folder, quick) if resume else None
         if result is None:
             if not resume:  # an interrupted check may have finished parts of its own
+                (folder / "result.json").unlink(missing_ok=True)  # first: a kill on the way must not leave it with half of what it names
                 shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True, exist_ok=True)
             bench = Bench(folder=folder, quick=quick, threads=threads, progress=lambda text, check=check: progress(check, text))

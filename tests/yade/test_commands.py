@@ -1,0 +1,397 @@
+"""How commands end: one line on a line of its own and a status of 1 for what a user can mend, 130 after Ctrl-C; nothing half-written; one run at a time in a folder."""
+
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+import slope_scenes
+from contact_scenes import material
+from yade import O
+from yade.nonsmooth import checkpoints, commands, errors, interrupts, output_folder, processes, records, results, scene, side_by_side, stepping, whole_files
+from yade.nonsmooth.laboratory import calibration, campaign, materials
+from yade.wrapper import NonsmoothTimeStepper
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"} | {"NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"])}
+SLOPE = ("--disks", "300", "--threads", "1", "--seed", "1")
+
+
+def start(name, *arguments, environment=ENVIRONMENT, limit=None):
+    """A command; ``limit``: of the size of its files [bytes]."""
+
+    def prepare():
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # tests in the background ignore it, and so would what they start
+        if limit:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    return subprocess.Popen([SCRIPTS / name, *map(str, arguments)], env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare)
+
+
+def ended(process):
+    """Status, output and lines on stderr as a file holds them: a progress bar goes back to the begin of its line."""
+    out, said = process.communicate(timeout=600)
+    assert "Traceback" not in said and "Traceback" not in out, said
+    return process.returncode, out, said.split("\n")
+
+
+def wait_for(found, process):
+    """Until ``found()`` is true; a process that ends before is a failure."""
+    while not found():
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.05)
+
+
+@pytest.fixture(scope="module")
+def section(tmp_path_factory):
+    return slope_scenes.write_quick(tmp_path_factory.mktemp("section"))
+
+
+# ---- steps ----------------------------------------------------------------------------------------
+
+def test_a_refused_step_ends_a_command_with_the_engines_words():
+    O.reset()
+    O.step()
+    O.engines = [NonsmoothTimeStepper()]
+    with pytest.raises(stepping.StepError, match="^step 1: NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine"):
+        stepping.advance(5)
+    assert O.iter == 1 and issubclass(stepping.StepError, errors.UserError)
+
+
+def test_no_step_is_none():
+    O.reset()
+    stepping.advance(0)  # O.run(0, True) would never end
+    assert O.iter == 0
+    stepping.advance(3)
+    assert O.iter == 3
+
+
+def test_the_library_makes_no_steps_in_a_thread_that_swallows_refusals():
+    package = Path(stepping.__file__).resolve().parent
+    found = [path.name for path in package.rglob("*.py") if re.search(r"^[^#\"]*\bO\.run\(", path.read_text(), re.M) and path.name != "stepping.py"]
+    assert found == []
+
+
+# ---- Ctrl-C ---------------------------------------------------------------------------------------
+
+def rows(path):
+    return path.read_bytes().count(b"\n") - 1 if path.exists() else 0
+
+
+def test_ctrl_c_writes_a_checkpoint_and_the_run_goes_on_with_the_same_bytes(section, tmp_path):
+    options = ("--section", section, *SLOPE, "--end", "3")
+    assert ended(start("jiufengershan.py", *options, "--out", tmp_path / "whole"))[0] == 0
+    out = tmp_path / "out"
+    for number, least in enumerate((2, 7)):  # rows of 0.1 s from 1.5 s; the last of 3 s is the 16th
+        process = start("jiufengershan.py", *options, "--out", out, *(["--resume"] if number else []))
+        wait_for(lambda least=least: rows(out / "series.csv") >= least, process)
+        process.send_signal(signal.SIGINT)
+        status, _, lines = ended(process)
+        assert status == 130
+        assert re.fullmatch(r"stopped: at \d\.\d s of simulated time; the checkpoint is written, go on with --resume", lines[-2]) and lines[-1] == ""
+        series = records.read_series(out / "series.csv")
+        told = json.loads((out / "checkpoint" / "checkpoint.json").read_text())
+        assert told["step"] == series["step"][-1]
+    assert ended(start("jiufengershan.py", *options, "--out", out, "--resume"))[0] == 0
+    for name in ("series.csv", "breaks.csv"):
+        assert (out / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
+
+
+@pytest.mark.parametrize("name, arguments", [
+    ("biaxial.py", ("--disks", 400, "--confining", "1", "--threads", 1)),
+    ("biaxial_effects.py", ("--seeds", 1, "--threads", 1, "--only", "step")),
+    ("wall_shear.py", ("--material", "dp", "--seeds", 1, "--threads", 1)),
+    ("column.py", ("--disks", 400, "--aspect", "1", "--threads", 1)),
+    ("compare_hard_soft.py", ("--scenario", "column", "--disks", 150, "--seeds", 1, "--threads", 1)),
+    ("wedge.py", ()),
+    ("verify.py", ("--quick", "--threads", 1)),
+    ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--threads", 1)),
+    ("benchmark.py", ("--quick", "--disks", 600, "--threads", 1)),
+    ("jiufengershan.py", ("--disks", 20000, "--seed", 987)),  # still packing: no packing of this seed is in the cache
+])
+def test_ctrl_c_ends_every_command_with_one_line_and_status_130(tmp_path, name, arguments):
+    out = tmp_path / "material.yaml" if name == "calibrate.py" else tmp_path
+    process = start(name, *arguments, "--out", out)
+    lock = tmp_path / ("material-calibration" if name == "calibrate.py" else "") / output_folder.LOCK
+    wait_for(lambda: lock.exists() and name in lock.read_text(), process)
+    time.sleep(1.0)  # into whatever it does then
+    process.send_signal(signal.SIGINT)
+    status, _, lines = ended(process)
+    assert status == 130, lines
+    assert lines[-2].startswith("stopped: ") and lines[-1] == "" and not any("error" in line for line in lines), lines
+
+
+def test_ctrl_c_ends_runs_side_by_side_with_their_checkpoints(tmp_path):
+    """A command that alone is told hands it on; the tests then go on where they were, with the bytes of undisturbed ones."""
+    options = ("--disks", 150, "--diameter", 1, 2, "--fraction", 0.82, "--confining", "0.5,4", "--strain", 0.03, "--sides", "rigid", "--threads", 1)
+    assert ended(start("biaxial.py", *options, "--out", tmp_path / "whole"))[0] == 0
+    out = tmp_path / "out"
+    process = start("biaxial.py", *options, "--out", out)
+    wait_for(lambda: any(rows(path) > 30 for path in out.glob("tests/*/series.csv")), process)
+    process.send_signal(signal.SIGINT)
+    status, _, lines = ended(process)
+    assert status == 130 and re.fullmatch(r"stopped: [01] of 2 runs have ended and are kept, others have their checkpoint; go on with --resume", lines[-2]), lines
+    assert list(out.glob("tests/*/checkpoint/checkpoint.json")) and not (out / "summary.json").exists()
+    assert ended(start("biaxial.py", *options, "--out", out, "--resume"))[0] == 0
+    for path in (tmp_path / "whole").glob("tests/*/series.csv"):
+        assert (out / path.relative_to(tmp_path / "whole")).read_bytes() == path.read_bytes()
+
+
+def test_ctrl_c_stays_ignored_where_it_was():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with interrupts.noted() as came:
+            os.kill(os.getpid(), signal.SIGINT)
+            assert not came()
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture
+def heard():
+    """Ctrl-C is heard, also in tests that run in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_a_note_of_ctrl_c_is_never_lost(heard):
+    with pytest.raises(KeyboardInterrupt), interrupts.noted() as came:
+        assert not came()
+        os.kill(os.getpid(), signal.SIGINT)
+        assert came()
+    with pytest.raises(KeyboardInterrupt), interrupts.noted() as came:
+        os.kill(os.getpid(), signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGINT)
+        raise AssertionError("the second ends the block at once")
+    with pytest.raises(KeyboardInterrupt):  # and afterwards everything is as it was
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(1)
+
+
+def test_a_killed_command_leaves_no_run_behind(tmp_path):
+    process = start("column.py", "--disks", 2000, "--aspect", "3", "--threads", 1, "--out", tmp_path)
+
+    def workers():
+        found = []
+        for path in Path("/proc").glob("[0-9]*/stat"):
+            try:
+                fields = path.read_text().rsplit(")", 1)[1].split()
+                if fields[1] == str(process.pid) and fields[0] != "Z" and b"_process_worker" in path.with_name("cmdline").read_bytes():
+                    found.append(int(path.parent.name))
+            except OSError:
+                pass
+        return found
+
+    log = tmp_path / "runs" / "a3-seed1" / "log.txt"
+    wait_for(lambda: workers() and log.exists() and "Running script" in log.read_text(), process)
+    time.sleep(1.0)  # until it has told the system what it wants; it does so first
+    worker, = workers()
+    process.kill()
+    process.wait()
+    for _ in range(600):  # at most a minute, on a busy machine
+        stat = Path(f"/proc/{worker}/stat")
+        if not stat.exists() or stat.read_text().rsplit(")", 1)[1].split()[0] == "Z":
+            break
+        time.sleep(0.1)
+    else:
+        os.kill(worker, signal.SIGKILL)
+        pytest.fail("the run goes on without its command")
+
+
+# ---- disks that are full, folders that cannot be written ------------------------------------------
+
+def test_a_limit_on_files_is_one_line_and_nothing_is_half_written(section, tmp_path, tmp_path_factory):
+    """As a full disk: the first checkpoint is larger. The bar is shown by then; its line ends before the message."""
+    history = {"IPYTHONDIR": str(tmp_path_factory.mktemp("history"))}  # of YADE's prompt, whose file may be larger too
+    process = start("jiufengershan.py", "--section", section, *SLOPE, "--end", "2.2", "--out", tmp_path, environment=ENVIRONMENT | history, limit=200_000)
+    status, _, lines = ended(process)
+    assert status == 1 and lines[-1] == "" and lines[-2].startswith("error: ") and str(tmp_path) in lines[-2], lines
+    assert sum("error: " in line for line in lines) == 1
+    assert not list(tmp_path.rglob(".part-*")) and not list(tmp_path.rglob("scene-*"))
+
+
+def test_a_full_disk_is_one_line(section, tmp_path):
+    command = f"mount -t tmpfs -o size=120k none {tmp_path} && {SCRIPTS}/jiufengershan.py --section {section} --out {tmp_path} {' '.join(SLOPE)} --end 2.2"
+    if subprocess.run(["unshare", "-m", "mount", "-t", "tmpfs", "none", tmp_path], capture_output=True).returncode:
+        pytest.skip("mounting wants a root user who may")
+    process = subprocess.Popen(["unshare", "-m", "sh", "-c", command], env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    status, _, lines = ended(process)
+    assert status == 1 and lines[-2].startswith("error: ") and "No space left on device" in lines[-2], lines
+
+
+@pytest.mark.parametrize("missing", [1, 4000])
+def test_the_end_of_a_scene_that_is_cut_off_is_noticed(tmp_path, missing):
+    """YADE says nothing where the last bytes of a file do not fit."""
+    O.reset()
+    stuff = material()
+    O.bodies.append([scene.disk((2 * k, 0), 0.5, stuff) for k in range(20)])
+    checkpoints.write(tmp_path, "key", {"old": 1})
+    size = json.loads((tmp_path / "checkpoint" / "checkpoint.json").read_text())["size"]
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size - missing, before[1]))
+    try:
+        with pytest.raises(whole_files.WriteError, match="the checkpoint cannot be written"):
+            checkpoints.write(tmp_path, "key", {"new": 1})
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert checkpoints.read(tmp_path, "key", errors.UserError) == {"old": 1} and len(list((tmp_path / "checkpoint").iterdir())) == 2
+
+
+def test_nan_is_not_written_into_a_checkpoint(tmp_path):
+    O.reset()
+    with pytest.raises(ValueError):
+        checkpoints.write(tmp_path, "key", {"state": float("nan")})
+    assert not checkpoints.exists(tmp_path)
+
+
+def test_a_figure_is_whole_or_not_there(tmp_path):
+    from matplotlib.figure import Figure
+    from yade.nonsmooth.figures import style
+
+    class Broken(Figure):
+        def savefig(self, path, **options):
+            Path(path).write_bytes(b"half")
+            raise OSError(28, "No space left on device")
+
+    (tmp_path / "a.png").write_bytes(b"old")
+    with pytest.raises(records.RecordsError, match="a.png.*No space left"):
+        style.save(Broken(), tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes() == b"old" and len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize("raised, status, said", [
+    (errors.UserError("no such rock"), 1, "error: no such rock\n"), (OSError(28, "No space left on device", "x.png"), 1, "error: x.png: cannot be used (No space left on device); "),
+    (KeyboardInterrupt(), 130, "stopped: parts are kept\n"), (interrupts.Interrupted("at 3 s"), 130, "stopped: at 3 s\n")])
+def test_a_command_ends_with_its_status_and_one_line(capsys, raised, status, said):
+    def main():
+        raise raised
+
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(SystemExit) as end:
+        commands.run(main, "parts are kept")
+    signal.signal(signal.SIGINT, before)
+    told = capsys.readouterr().err
+    assert end.value.code == status and told.startswith(said) and told.count("\n") == 1
+
+
+def test_an_error_of_ours_keeps_its_traceback():
+    with pytest.raises(FileNotFoundError):
+        commands.run(lambda: open("/nowhere/at/all"))
+    with pytest.raises(ZeroDivisionError):
+        commands.run(lambda: 1 / 0)
+
+
+@pytest.mark.parametrize("leave", [True, False])
+def test_a_message_begins_a_line_after_a_bar(capfd, leave):
+    import sys
+
+    from tqdm import tqdm
+
+    before = signal.getsignal(signal.SIGINT)
+
+    def main():
+        with commands.closing(tqdm(total=10, leave=leave, file=sys.stderr)) as bar:
+            bar.update(3)
+            raise errors.UserError("no such rock")
+
+    with pytest.raises(SystemExit):
+        commands.run(main)
+    signal.signal(signal.SIGINT, before)
+    assert capfd.readouterr().err.split("\n")[-2:] == ["error: no such rock", ""]
+
+
+# ---- folders --------------------------------------------------------------------------------------
+
+def test_two_runs_do_not_write_into_one_folder(tmp_path):
+    output_folder.claim(tmp_path, "jiufengershan.py")
+    output_folder.claim(tmp_path, "jiufengershan.py")  # this process has it already
+    status, _, lines = ended(start("jiufengershan.py", *SLOPE, "--out", tmp_path))
+    assert status == 1 and lines[-2].startswith(f"error: {tmp_path}: another run is writing into this folder")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [output_folder.LOCK]
+
+
+def test_a_folder_is_free_once_its_run_is_dead(tmp_path):
+    code = f"from yade.nonsmooth import output_folder; output_folder.claim({str(tmp_path)!r}, 'a.py'); import os; os.kill(os.getpid(), 9)"
+    script = tmp_path / "claims.py"
+    script.write_text(code)
+    assert subprocess.run([SCRIPTS / "yade-nonsmooth", script], env=ENVIRONMENT, capture_output=True).returncode == -9
+    output_folder.claim(tmp_path, "b.py")
+    assert (tmp_path / output_folder.LOCK).read_text() == "a.py\nb.py\n"
+
+
+def test_a_resume_in_the_folder_of_another_command_is_refused(tmp_path):
+    output_folder.claim(tmp_path, "column.py")
+    with pytest.raises(output_folder.FolderError, match="holds what column.py wrote, nothing of biaxial.py"):
+        output_folder.claim(tmp_path, "biaxial.py", resume=True)
+    assert (tmp_path / output_folder.LOCK).read_text() == "column.py\n"
+    output_folder.claim(tmp_path, "biaxial.py")
+    output_folder.claim(tmp_path, "biaxial.py", resume=True)
+    output_folder.claim(tmp_path / "new", "biaxial.py", resume=True)  # nothing there yet: it begins
+
+
+def test_an_old_run_is_taken_away_with_its_result_first(tmp_path, monkeypatch):
+    """Killed while the old folder is removed, nothing is left that a resume would take."""
+    for name in ("result.json", "series.csv", "checkpoint/checkpoint.json"):
+        (tmp_path / "a" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "a" / name).write_text("{}")
+
+    def killed(folder):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(side_by_side.shutil, "rmtree", killed)
+    with pytest.raises(KeyboardInterrupt):
+        side_by_side.run([side_by_side.Run("a", tmp_path / "a", print, {}, "key")], 1)
+    assert [path.name for path in (tmp_path / "a").rglob("*") if path.is_file()] == ["series.csv"]
+
+
+def test_a_fresh_run_takes_all_records_of_the_old_one_away_and_nothing_else(tmp_path):
+    old = (results.SUMMARY, results.BREAKS, results.BEGIN, results.END, *results.FIGURES, "snapshots/00000100.npz", "vtk/disks-00000100.vtu", "vtk/avalanche.pvd",
+           "snapshots/.part-01-00000150.npz", ".part-02-end.npz")
+    own = ("notes.txt", "snapshots/notes.txt", "other.png", "vtk/view.pvsm")
+    for name in (*old, *own):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("")
+    results.forget(tmp_path)
+    assert sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()) == sorted(own)
+
+
+def test_half_written_files_are_no_snapshots(tmp_path):
+    for name in ("00000100.npz", ".part-0123abcd-00000150.npz"):
+        (tmp_path / name).write_text("")
+    assert [path.name for path in whole_files.whole(tmp_path, "*.npz")] == ["00000100.npz"]
+    package = Path(whole_files.__file__).resolve().parent
+    assert not [path for path in package.rglob("*.py") if re.search(r"\.glob\(\"\*\.npz", path.read_text())]  # all ask for whole ones
+
+
+def test_a_series_without_rows_is_one_message(tmp_path, section):
+    from yade.nonsmooth import section as sections
+
+    (tmp_path / "series.csv").write_text("step,time_s\n")
+    with pytest.raises(records.RecordsError, match="has no rows yet"):
+        results.summarise(tmp_path, sections.load(str(section)), {})
+
+
+@pytest.mark.parametrize("content", ["", "[", "{}x", "3", '[{"key": 1}]', '[{"key": "a", "found": ["x"]}]', "[" * 100_000])
+def test_damaged_trials_of_a_search_are_one_message(tmp_path, content):
+    (tmp_path / "trials.json").write_text(content)
+    with pytest.raises(campaign.CampaignError, match="trials.json.*remove the file"):
+        calibration.Calibration(calibration.Wanted(50e3, 30.0), materials.load("wwr"), tmp_path, 1, resume=True)
+
+
+def test_a_wedge_that_ended_early_is_not_taken(tmp_path):
+    (tmp_path / "dry_hard.table").write_text("seconds friction water save\n2.0 0.6 0 'dry_hard.part'\n")
+    (tmp_path / "dry_hard.txt").write_text("# t centroid largest\n0.1 0.0 0.0\n0.2 0.0 0.0\n")
+    status, _, lines = ended(start("wedge.py", "--seconds", 2, "--resume", "--out", tmp_path))
+    assert status == 1 and "dry_hard.txt: the run ended before 2 s" in lines[-2], lines
+
+
+def test_a_request_is_refused_once_a_command_is_stopped(tmp_path, monkeypatch):
+    monkeypatch.setattr(processes, "_halted", True)
+    with pytest.raises(processes.RunError, match="stopped before it began"):
+        processes.call(side_by_side.run, tmp_path, {})
