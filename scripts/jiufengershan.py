@@ -87,6 +87,13 @@ class Bar:
         self.bar.refresh() if sys.stderr.isatty() or int(now * 10) % 20 == 0 else None
 
 
+def dry_failure(since):
+    """What is said of a slope that did not wait for the water, or nothing."""
+    return "" if since is None else (
+        f"\nTHE SLOPE FAILED DRY, at {since:.1f} s: it does not bear its own weight, so nothing here is a failure by water. "
+        "Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the plane.\n\n")
+
+
 def main():
     args = arguments()
     s = read_section(args)
@@ -104,6 +111,7 @@ def main():
     run.run(end=args.end)
     run.progress.bar.close()
     if run.state.stage == "settle":
+        print(dry_failure(run.state.failed_dry), end="")
         print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
         return
     state = {**dataclasses.asdict(run.state), "overlap_worst_ever": run.slope.solver.overlapWorstEver}
@@ -120,6 +128,7 @@ def main():
         print(f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water "
               f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
               f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop")
+    print(dry_failure(summary["failed_dry_s"]), end="")
     print(f"results: {out}/summary.json, series.csv, {', '.join(p.name for p in made)}")
 
 
