@@ -109,7 +109,8 @@ def _passive(section, packing_fraction, water, force):
 def summarise(folder, section, state, threads=None) -> dict:
     """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are null."""
     folder = Path(folder)
-    series, failed_dry = chosen_rows(records.read_series(folder / "series.csv"), state), state.get("failed_dry")
+    whole, failed_dry = records.read_series(folder / "series.csv"), state.get("failed_dry")
+    series, balanced = chosen_rows(whole, state), records.since_settled(whole)  # energies begin anew then
     times = characteristic_times(series, section, state)
     last, second = float(series["time_s"][-1]), scales.of(section).mean_seconds
     at = lambda name, end, span=second: None if end is None else mean_of(series, name, end, span)  # noqa: E731
@@ -132,10 +133,10 @@ def summarise(folder, section, state, threads=None) -> dict:
         bulking = areas[1] / areas[0] if failed_dry is None else None  # it had loosened before
         moved = math.hypot(series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
                            series["centroid_y_m"][-1] - series["centroid_y_m"][after][0])
-    losses = sum(series[name] for name in records.LOSSES)
+    losses = sum(balanced[name] for name in records.LOSSES)
     dissipated = float(losses[-1])
-    turned = max(dissipated, float(np.max(series["energy_kinetic_J"])))
-    error = np.abs(series["energy_error_rel"]) * (losses + series["energy_kinetic_J"] + np.abs(series["energy_water_J"]))
+    turned = max(dissipated, float(np.max(balanced["energy_kinetic_J"])))
+    error = np.abs(balanced["energy_error_rel"]) * (losses + balanced["energy_kinetic_J"] + np.abs(balanced["energy_water_J"]))
     summary = {
         "section": section.name, "finished": finished, "disks": int(len(start.x)) if start is not None else None,
         "contacts_initial": state["contacts_initial"], "bonds_initial": state["bonds_initial"],
@@ -208,7 +209,7 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
         made.append(figures.snapshots(cases, section, folder / "snapshots.png"))
     if stood and end.exists():
         made.append(figures.deposit(records.read_snapshot(end), first, section, folder / "deposit.png"))
-    made.append(figures.energy(series, folder / "energy.png", times=times))
+    made.append(figures.energy(records.since_settled(whole), folder / "energy.png", times=times))
     made.append(figures.solver(series, folder / "solver.png", times=times))
     if files:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn

@@ -58,6 +58,7 @@ def test_a_slope_that_fails_dry_is_no_failure_by_water(failed):
     series = records.read_series(out / "series.csv")
     assert summary["front_travel_m"] == pytest.approx(series["front_m"][-1] - series["front_m"][0])  # from the beginning
     assert summary["centroid_travel_m"] > 5  # some seconds at some m/s
+    assert summary["energy_error_rel"] < 0.02  # of the rows since gravity has grown; before, the balance means nothing
     assert not (out / "deposit.png").exists() and (out / "energy.png").stat().st_size > 1000
 
 
@@ -83,6 +84,36 @@ def test_the_failure_is_found_also_where_it_comes_at_rest_or_late():
     assert times["t4"] == pytest.approx(10) and times["t5"] == pytest.approx(20 - 0.02 * 10, abs=0.11)
     assert results.chosen_rows(series, {"failed_dry": 6.0}) is series
     assert results.chosen_rows(series, {})["time_s"][0] == pytest.approx(7.0)
+
+
+class Stub:
+    """What the course asks of the solver and of the water, as a run would have it."""
+
+    def __init__(self, speed):
+        self.meanSpeed, self.height, self.times, self.heights, self.tolerance = speed, 1.5, [], [], 1e-6
+
+
+@pytest.mark.parametrize("at_t0, speeds, failed", [
+    (1e-3, (1e-3, 0.25), False),         # stood, and water moves it
+    (0.15, (0.1, 0.01, 0.25), False),    # comes to rest after t0
+    (0.15, (0.17, 0.19, 0.21), True),    # never stood, and goes on
+    (0.25, (0.3, 0.4), True)])           # on the move at t0
+def test_only_a_slope_that_has_stood_fails_by_water(at_t0, speeds, failed, loaded, tmp_path, monkeypatch):
+    run = experiment.Experiment(loaded, tmp_path)
+    table = experiment.tables.bodies(loaded.solver)
+    monkeypatch.setattr(experiment.tables, "bodies", lambda _: table)
+    solver = run.slope.solver = Stub(at_t0)
+    run.slope.water = Stub(0.0)
+    monkeypatch.setattr(run, "snapshot", lambda *_, **__: None)
+    monkeypatch.setattr(run, "checkpoint", lambda: None)
+    s = run.state
+    s.settled, s.stage = O.time - 100.0, "dry"
+    run._dry()
+    for solver.meanSpeed in speeds:
+        s.speed_max = max(s.speed_max, solver.meanSpeed)
+        run._water()
+    assert s.moving is not None and (s.failed_dry is not None) == failed
+    assert s.water_hold == (0.0 if at_t0 >= 0.2 else 1.5)  # where it was when the slope moved
 
 
 # ---- sizes ----------------------------------------------------------------------------------------
