@@ -395,7 +395,11 @@ def load(path_or_name) -> Section:
     Raises SectionError (a ValueError) with file, line, key, value and remedy.
     """
     path = Path(path_or_name)
-    if path.suffix not in (".yaml", ".yml") and not path.exists() and path.name == str(path_or_name):
+    try:
+        given = path.suffix in (".yaml", ".yml") or path.exists() or path.name != str(path_or_name)
+    except (OSError, ValueError) as error:  # a name that no system takes
+        raise SectionError(f"{str(path)[:60]!r}: no path ({getattr(error, 'strerror', None) or error}); give a path or one of: {', '.join(shipped())}") from None
+    if not given:
         if path.name not in shipped():
             raise SectionError(f"{path}: neither a file nor a shipped section; give a path or one of: "
                                f"{', '.join(shipped())}")

@@ -118,8 +118,8 @@ def _text(path: Path) -> str:
                            "or a shipped name") from None
     except UnicodeDecodeError as error:
         raise SectionError(f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8") from None
-    except OSError as error:
-        raise SectionError(f"{path}: cannot be read ({error.strerror}); give a readable section file") from None
+    except (OSError, ValueError) as error:  # ValueError: a zero in the name
+        raise SectionError(_line(f"{str(path)[:200]}: cannot be read ({getattr(error, 'strerror', None) or error}); give a readable section file")) from None
 
 
 def _yaml(path: Path):

@@ -8,7 +8,8 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
-from hypothesis import given
+import numpy as np
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
@@ -81,6 +82,11 @@ def altered(lines, kind, at, what, word):
 
 @fuzzing.settings("NONSMOOTH_FUZZ_PACKINGS", 60, share=2 / 3)
 @given(st.lists(CHANGES, min_size=1, max_size=3), st.booleans())
+@example([("word", 5, 3, "9" * 30)], True)
+@example([("word", 5, 3, "9" * 5000)], False)
+@example([("word", 5, 0, "1e308")], True)
+@example([("scale", 2, 1e300, None)], True)
+@example([("scale", 0, 0, None), ("scale", 1, 0, None)], True)  # all at one place
 def test_changed_text(changes, announced):
     section, _, lines = made()
     lines = lines if announced else lines[2:]
@@ -123,3 +129,19 @@ def test_damaged_arrays(changes):
             file = file[:at] + what + file[at:]
     found = outcome(file, "npz", packing_files.load)
     assert found is None or found.checksum == disks.checksum
+
+
+def test_every_bit_of_a_directory():
+    """The end of an .npz says where its arrays are, and how packed: zipfile lets through what it makes of a damaged one."""
+    small = packing.Packing(np.arange(20.0), np.zeros(20), np.full(20, 0.4), np.zeros(20))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "p.npz"
+        packing.save(small, path)
+        whole = path.read_bytes()
+        for at in range(len(whole) - 380, len(whole)):
+            for bit in range(8):
+                path.write_bytes(whole[:at] + bytes([whole[at] ^ (1 << bit)]) + whole[at + 1:])
+                try:
+                    assert packing_files.load(path).checksum == small.checksum
+                except packing.PackingError as error:
+                    assert str(path) in str(error) and "\n" not in str(error)

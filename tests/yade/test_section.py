@@ -327,7 +327,8 @@ def test_a_file_without_end_is_refused():
 def test_unreadable_files(tmp_path):
     (tmp_path / "b.yaml").write_bytes(b"\xff\xfe\x00")
     for name, what in ((tmp_path / "none.yaml", "no such file"), (tmp_path, "cannot be read"),
-                       (tmp_path / "b.yaml", "UTF-8"), ("no-such-section", "jiufengershan")):
+                       (tmp_path / "b.yaml", "UTF-8"), ("no-such-section", "jiufengershan"),
+                       ("x" * 5000, "no path.*jiufengershan"), ("x" * 5000 + ".yaml", "cannot be read"), ("a\0b", "no path|no such|neither")):
         with pytest.raises(SectionError, match=what):
             load(name)
 
