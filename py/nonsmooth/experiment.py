@@ -335,7 +335,7 @@ class Experiment:
     def _of_solver(self, e):
         """The columns of OF_SOLVER."""
         losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
-        turned = losses + e.kineticEnergy + abs(e.externalWork)
+        turned = losses + e.kineticEnergy + abs(e.externalWork) if self.state.stage != "settle" else 0.0  # gravity grows: no balance yet
         return {
             "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance,
             "energy_water_J": e.externalWork, "energy_walls_J": e.wallWork, "energy_sliding_J": e.slidingLoss, "energy_rolling_J": e.rollingLoss,

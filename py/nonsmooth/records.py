@@ -95,7 +95,7 @@ COLUMNS = {
     "energy_impact_J": Column("J/m", "energy dissipated by impacts"),
     "energy_bonds_J": Column("J/m", "energy dissipated by pulling contacts apart against their adhesion"),
     "energy_correction_J": Column("J/m", "energy added by the correction of overlaps"),
-    "energy_error_rel": Column("1", "what the energy balance leaves over, relative"),
+    "energy_error_rel": Column("1", "what the energy balance leaves over, relative; 0 while settling, as it begins then"),
 }
 
 

@@ -67,6 +67,7 @@ def test_rows_begin_with_the_run_and_name_their_stage(failed):
     assert series["time_s"][0] == pytest.approx(0.1, abs=1e-9) and np.allclose(np.diff(series["time_s"]), 0.1, atol=0.006)
     assert (np.diff(series["stage"]) >= 0).all() and set(series["stage"]) == {0, 1, 2}
     assert (series["water_m"] == 0).all() and (series["wet_disks"] == 0).all()
+    assert (series["energy_error_rel"][series["stage"] == 0] == 0).all()
     since = records.since_settled(series)
     assert set(since["stage"]) == {1, 2} and len(since["step"]) == np.count_nonzero(series["stage"])
     old = {name: values for name, values in series.items() if name != "stage"}
