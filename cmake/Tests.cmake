@@ -40,6 +40,10 @@ if(NONSMOOTH_PLUGIN)
     set_tests_properties(yade PROPERTIES LABELS yade TIMEOUT 3600 RUN_SERIAL ON
         ENVIRONMENT "NONSMOOTH_BUILD=${CMAKE_BINARY_DIR}")
 
+    # Sections and packings broken in many ways, read without YADE.
+    add_test(NAME fuzz COMMAND "${YADE_PYTHON}" -m pytest -q -p no:cacheprovider "--rootdir=${CMAKE_SOURCE_DIR}/tests/fuzz" "${CMAKE_SOURCE_DIR}/tests/fuzz")
+    set_tests_properties(fuzz PROPERTIES LABELS fuzz TIMEOUT 600)
+
     # The law broken on purpose, in a copy: the verification must notice. Builds the plugin a second time.
     add_test(NAME mutation COMMAND "${YADE_PYTHON}" "${CMAKE_SOURCE_DIR}/tests/mutation/run.py" "${CMAKE_BINARY_DIR}")
     set_tests_properties(mutation PROPERTIES LABELS mutation TIMEOUT 3600 RUN_SERIAL ON)

@@ -15,8 +15,21 @@ from pathlib import Path
 
 from tqdm import tqdm
 from yade import O
-from yade.nonsmooth import commands, experiment, output_folder, packing, results, section, slope
+from yade.nonsmooth import commands, experiment, output_folder, packing, packing_checks, results, section, slope
 from yade.nonsmooth.laboratory import materials
+
+
+def number(kind, low, high, what):
+    """A reader for argparse: a number of the ``kind`` from ``low`` to ``high``, or a message that says what is needed."""
+    def read(text):
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or not low <= value <= high:  # a NaN is not
+            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not allowed; give {what}")
+        return value
+    return read
 
 
 def arguments():
@@ -24,12 +37,12 @@ def arguments():
     parser.add_argument("--section", default="jiufengershan", metavar="FILE", help="a section file, or the name of a shipped one")
     parser.add_argument("--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own")
     parser.add_argument("--rock", metavar="NAME|FILE", help="material of the layers instead of the section's: wwr-sparse, bonded over small gaps only, or a material file, as calibrate.py writes it")
-    parser.add_argument("--disks", type=int, metavar="N", help="about N disks instead of the section's: all diameters are scaled")
+    parser.add_argument("--disks", type=number(int, 1, section.MOST_DISKS, f"a whole number from 1 to {section.MOST_DISKS}"), metavar="N", help="about N disks instead of the section's: all diameters are scaled")
     parser.add_argument("--out", default="out/jiufengershan", metavar="DIR", help="folder for the results (default: %(default)s)")
-    parser.add_argument("--threads", type=int, metavar="T", help="threads (default: all cores)")
-    parser.add_argument("--seed", type=int, metavar="S", help="seed of the packing instead of the section's")
-    parser.add_argument("--end", type=float, metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
-    parser.add_argument("--water", metavar="RATE", type=float, help="rate at which the table rises [m/s] instead of the section's; 0: dry")
+    parser.add_argument("--threads", type=number(int, 1, 1024, "a whole number from 1 to 1024"), metavar="T", help="threads (default: all cores)")
+    parser.add_argument("--seed", type=number(int, 0, 10**12, "a whole number from 0 to 1e12"), metavar="S", help="seed of the packing instead of the section's")
+    parser.add_argument("--end", type=number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
+    parser.add_argument("--water", metavar="RATE", type=number(float, 0, 1e6, "m/s from 0 to 1e6"), help="rate at which the table rises [m/s] instead of the section's; 0: dry")
     parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in DIR")
     return parser.parse_args()
 
@@ -42,6 +55,8 @@ def read_section(args):
         s = s.with_rock(materials.load(args.rock))
     if args.seed is not None:
         s = dataclasses.replace(s, seed=args.seed)
+    if args.water and s.water is None:
+        raise section.SectionError(f"--water {args.water:g}: {s.source} has no water; add the key `water` to it, or leave --water out")
     if args.water is not None and s.water is not None:
         s = dataclasses.replace(s, water=dataclasses.replace(s.water, table=((0.0, 0.0),), rate=args.water))
     return s
@@ -51,7 +66,9 @@ def fill(args, s):
     """The packing, and the wall time it took [s]."""
     began = time.monotonic()
     if args.packing:
-        return packing.read_text(args.packing), time.monotonic() - began
+        made = packing.read_text(args.packing)
+        packing_checks.check(made, s, args.packing)
+        return made, time.monotonic() - began
     with commands.closing(tqdm(total=100, desc="packing", unit="%", leave=False)) as bar:
         made = packing.cached_pack(s, progress=lambda share: bar.update(int(100 * share) - bar.n))
     return made, time.monotonic() - began
@@ -70,6 +87,13 @@ class Bar:
         self.bar.refresh() if sys.stderr.isatty() or int(now * 10) % 20 == 0 else None
 
 
+def dry_failure(since):
+    """What is said of a slope that did not wait for the water, or nothing."""
+    return "" if since is None else (
+        f"\nTHE SLOPE FAILED DRY, at {since:.1f} s: it does not bear its own weight, so nothing here is a failure by water. "
+        "Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the plane.\n\n")
+
+
 def main():
     args = arguments()
     s = read_section(args)
@@ -86,7 +110,8 @@ def main():
     run.progress = Bar()
     with commands.closing(run.progress.bar):
         run.run(end=args.end)
-    if run.series.last_step is None:  # rows begin when it has settled
+    if run.state.stage == "settle":
+        print(dry_failure(run.state.failed_dry), end="")
         print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
         return
     state = {**dataclasses.asdict(run.state), "overlap_worst_ever": run.slope.solver.overlapWorstEver}
@@ -103,6 +128,7 @@ def main():
         print(f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water "
               f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
               f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop")
+    print(dry_failure(summary["failed_dry_s"]), end="")
     print(f"results: {out}/summary.json, series.csv, {', '.join(p.name for p in made)}")
 
 

@@ -4,6 +4,8 @@ Everything that decides the course stands in :class:`State`, which goes into che
 
 * bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
+* failed dry: the mean speed has reached 2 m/s before t0, or is 0.2 m/s then, or comes to that without having been below 0.02 m/s since. The water does not
+  rise, or no further; the slope is followed until it rests;
 * t0: the dry rest ends, the water begins to rise;
 * moving: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
   is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
@@ -12,7 +14,9 @@ Everything that decides the course stands in :class:`State`, which goes into che
 * still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of ``tolerance``, since
   nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a bond or two that bear all they can;
 * a step is ``numerics.time_step``, or as short as the speeds of contacts want it (NonsmoothTimeStepper, where the section gives a ``path``);
-* rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their distance in time;
+* rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their distance in time, from the beginning
+  on; forces on walls are means over the steps since the row before, and the largest;
+* speeds and times in this list are those of the shipped section, and scaled for another (:mod:`.scales`);
 * with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the integrator's damping (``damping_moving``);
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
 """
@@ -30,23 +34,21 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 
-from . import checkpoints, interrupts, packing, records, results, slope, tables
+from . import checkpoints, interrupts, packing, records, results, scales, slope, tables
 from .errors import UserError
 from .figures.profiles import front_of
 from .stepping import advance
+from .wall_forces import WallForces
 
 __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 
-ROW_SECONDS = 0.1        # between two rows of series.csv
+FORCE_SAMPLES = 100      # of the forces on walls in a row, with soft contacts; each step with hard ones
 FRAME_ROWS = 5           # between two snapshots, for the video and the figures
 CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
 CHECKPOINT_SHARE = 0.02  # ... and so many that they take this part of it at most
-MOVING_SPEED = 0.2       # m/s, see above
-STOPPED_SPEED = 0.02     # m/s: at rest again ...
-GOING_SPEED = 2.0        # m/s: ... without a mean speed that was ever as large
 SLOW_FRACTION = 0.1      # of the largest mean speed, see above
-STILL_SECONDS = 5.0      # with nothing that changes ...
-STILL_SHARE = 0.25       # ... the tolerance goes down to this part of itself
+STILL_SHARE = 0.25       # the tolerance of a slope that is still, of itself
+STAGES = ("settle", "dry", "water")  # by their number in the series
 
 COLUMNS = tuple(records.COLUMNS)
 #: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
@@ -66,6 +68,8 @@ class State:
     settled: float | None = None
     t0: float | None = None
     moving: float | None = None
+    failed_dry: float | None = None  # the slope did not wait for the water
+    stood: bool = False  # at t0 or since, before it moved
     water_hold: float | None = None
     table: float = 0.0  # height of the water table ...
     table_since: float = 0.0  # ... and the time since when it has been there
@@ -99,7 +103,11 @@ class Experiment:
         self.state = state or State()
         self.layers = slope.layers_of(built) if layers is None else layers
         self.progress = progress or (lambda *_: None)
+        self.scales = scales.of(self.section)
+        self.forces = WallForces(built.walls)
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
+        # soft steps are thousands a row, and as cheap as a look at the walls
+        self._every = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
@@ -126,13 +134,16 @@ class Experiment:
 
     def _run(self, end, interrupted):
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
-            # to a multiple of ROW_SECONDS, so that rows fall on the same steps after a resume
-            row = math.floor((O.time + 0.5 * O.dt) / ROW_SECONDS) + 1
+            # to a multiple of the rows' distance, so that rows fall on the same steps after a resume
+            row = math.floor((O.time + 0.5 * O.dt) / self.scales.row_seconds) + 1
             first, began = O.time, time.perf_counter()
-            while O.time < row * ROW_SECONDS - 0.5 * O.dt:
+            while O.time < row * self.scales.row_seconds - 0.5 * O.dt:
                 if self.state.stage == "settle":
                     self.newton.gravity = self._gravity(O.time)
+                before = O.time
                 advance()
+                if O.iter % self._every == 0:
+                    self.forces.add(O.time - before)
             self._count(O.time - first, time.perf_counter() - began)
             self._advance(row)
             if interrupted():
@@ -154,13 +165,14 @@ class Experiment:
         solver, s = self.slope.solver, self.state
         disks = tables.bodies(solver)
         self._inside(disks)
-        s.speed_max = max(s.speed_max, solver.meanSpeed) if s.stage == "water" else 0.0
+        if s.stage != "water" and s.failed_dry is None and solver.meanSpeed >= self.scales.going_speed:
+            s.failed_dry = O.time
+        s.speed_max = max(s.speed_max, solver.meanSpeed) if s.stage == "water" or s.failed_dry is not None else 0.0
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
-        if s.stage != "settle":
-            self.series.write(self._row(disks))
-            if row % FRAME_ROWS == 0:
-                self.snapshot(self.folder / "snapshots" / f"{O.iter:08d}.npz")
-                s.frames += 1
+        self.series.write(self._row(disks))
+        if (s.stage != "settle" or s.failed_dry is not None) and row % FRAME_ROWS == 0:
+            self.snapshot(self.folder / "snapshots" / f"{O.iter:08d}.npz")
+            s.frames += 1
         getattr(self, f"_{s.stage}")()
         self.progress(s.stage, O.time, self._foreseen())
         if time.monotonic() - self._saved > max(CHECKPOINT_SECONDS, self._saving / CHECKPOINT_SHARE):
@@ -185,9 +197,10 @@ class Experiment:
 
     def _settle(self):
         stage, s = self.section.stages.settle, self.state
-        if O.time < stage.ramp or (self.slope.solver.meanSpeed > stage.speed_rest and O.time < stage.time_max - 0.5 * O.dt):
+        resting = self.slope.solver.meanSpeed <= stage.speed_rest or O.time >= stage.time_max - 0.5 * O.dt
+        if O.time < stage.ramp or not (resting or s.failed_dry is not None):  # one that has failed is not waited for
             return
-        s.packing_fraction = self._fraction()
+        s.packing_fraction = self._fraction() if s.failed_dry is None else math.nan
         if stage.bond == "after":
             s.bonds_initial, s.contacts_initial = self.slope.solver.bond(), self.slope.solver.contacts
         s.settled, s.stage = O.time, "dry"
@@ -209,7 +222,13 @@ class Experiment:
         disks = tables.bodies(self.slope.solver)
         s.front0 = front_of(disks["x"], disks["r"])
         self.snapshot(self.folder / "t0.npz", contacts=True)
-        if self.slope.water:
+        speed = self.slope.solver.meanSpeed
+        if s.failed_dry is None and speed >= self.scales.moving_speed:
+            s.failed_dry = O.time
+        s.stood = speed < self.scales.stopped_speed
+        if s.failed_dry is not None:
+            s.moving, s.water_hold = s.failed_dry, 0.0
+        elif self.slope.water:
             self._raise_water()
         self.checkpoint()
 
@@ -226,11 +245,17 @@ class Experiment:
 
     def _water(self):
         s, stages, solver, water = self.state, self.section.stages, self.slope.solver, self.slope.water
-        if s.moving is None and solver.meanSpeed >= MOVING_SPEED:
+        s.stood = s.stood or solver.meanSpeed < self.scales.stopped_speed
+        if s.moving is None and solver.meanSpeed >= self.scales.moving_speed:
             s.moving = O.time
-            if water and stages.water_hold == "motion":
+            if not s.stood:
+                s.failed_dry = O.time
+                if water:
+                    self._hold(water.height)
+            elif water and stages.water_hold == "motion":
                 self._hold(water.height)
-        elif s.moving is not None and solver.meanSpeed < STOPPED_SPEED and s.speed_max < GOING_SPEED:
+        elif (s.moving is not None and s.failed_dry is None and solver.meanSpeed < self.scales.stopped_speed
+              and s.speed_max < self.scales.going_speed):
             if water and stages.water_hold == "motion":
                 s.water_delay += O.time - s.moving
                 s.water_hold = None
@@ -248,7 +273,7 @@ class Experiment:
         height = water.height if water else 0.0
         if height != s.table:
             s.table, s.table_since = height, O.time
-        still = s.moving is None and O.time - s.table_since >= STILL_SECONDS
+        still = s.moving is None and O.time - s.table_since >= self.scales.still_seconds
         self._care(flowing, still)
         over = O.time >= s.settled + stages.end.time - 0.5 * O.dt
         if over or (resting and O.time - s.resting_since >= stages.end.rest_hold - 0.5 * O.dt):
@@ -302,8 +327,8 @@ class Experiment:
 
     def _row(self, disks):
         e, water, section = self.slope.solver, self.slope.water, self.section
-        forces = self.slope.wall_forces()
-        zero = (0.0, 0.0)
+        forces = self.forces.take()
+        zero = (0.0, 0.0, 0.0)
         base = section.water.wall if section.water and section.water.wall else "DP"
         dp, fb, ss = forces.get(base, zero), forces.get("FB", zero), forces.get("SS", zero)
         total = water.totalForce if water else (0.0, 0.0, 0.0)
@@ -311,9 +336,10 @@ class Experiment:
         weak = self.slope.wall_material(base) if base in self.slope.walls else None
         slip = hasattr(weak, "meanSlip")
         row = {
-            "step": O.iter, "time_s": O.time, "water_m": water.height if water else 0.0,
+            "step": O.iter, "time_s": O.time, "stage": STAGES.index(self.state.stage), "water_m": water.height if water else 0.0,
             "dp_normal_total_N_per_m": dp[0] + u, "dp_normal_effective_N_per_m": dp[0], "dp_water_N_per_m": u, "dp_shear_N_per_m": dp[1],
             "fb_normal_N_per_m": fb[0], "fb_shear_N_per_m": fb[1], "ss_normal_N_per_m": ss[0], "ss_shear_N_per_m": ss[1],
+            "dp_normal_peak_N_per_m": dp[2], "fb_normal_peak_N_per_m": fb[2], "ss_normal_peak_N_per_m": ss[2],
             "wet_disks": water.wetCount if water else 0, "released_disks": water.releasedCount if water else 0,
             "speed_mean_m_per_s": e.meanSpeed, "speed_max_m_per_s": e.maxSpeed, "front_m": front_of(disks["x"], disks["r"]),
             "centroid_x_m": e.centroid[0], "centroid_y_m": e.centroid[1], "bonds_alive": e.bonds,
@@ -328,7 +354,7 @@ class Experiment:
     def _of_solver(self, e):
         """The columns of OF_SOLVER."""
         losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
-        turned = losses + e.kineticEnergy + abs(e.externalWork)
+        turned = losses + e.kineticEnergy + abs(e.externalWork) if self.state.stage != "settle" else 0.0  # gravity grows: no balance yet
         return {
             "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance,
             "energy_water_J": e.externalWork, "energy_walls_J": e.wallWork, "energy_sliding_J": e.slidingLoss, "energy_rolling_J": e.rollingLoss,

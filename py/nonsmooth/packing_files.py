@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import math
 import os
-import zipfile
+import stat
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from .whole_files import write_arrays, write_atomically
 
 __all__ = ["FORMAT", "Packing", "PackingError", "cache_folder", "cache_path", "load", "read_text", "save", "write_text"]
 
+LARGEST_FILE = 2_000_000_000  # bytes of a text file; ten million disks have less
+FARTHEST = 1e7                # m, as in a section
 FORMAT = 2  # of cache files and of the way packings are made; a new number makes old files unused
 
 
@@ -73,7 +76,7 @@ def load(path) -> Packing:
             packing = Packing(data["x"], data["y"], data["r"], data["layer"])
     except FileNotFoundError:
         raise PackingError(f"{path}: there is no such packing; give the path of a saved one") from None
-    except (OSError, EOFError, KeyError, ValueError, TypeError, AttributeError, zipfile.BadZipFile) as error:
+    except Exception as error:  # NumPy's and zipfile's readers let through whatever a damaged file makes them meet
         if isinstance(error, OSError) and error.errno:
             raise PackingError(f"{path}: cannot be read ({error.strerror}); make it readable, or delete it") from None
         raise PackingError(f"{path}: truncated or no packing ({' '.join(str(error).split())}); {remedy}") from None
@@ -111,7 +114,10 @@ def read_text(path) -> Packing:
     """
     path = Path(path)
     try:
-        lines = path.read_bytes().decode("utf-8").splitlines()
+        with path.open("rb") as file:
+            if stat.S_ISCHR(os.fstat(file.fileno()).st_mode) or os.fstat(file.fileno()).st_size > LARGEST_FILE:
+                raise PackingError(f"{path}: has no end, or more than {LARGEST_FILE} bytes; give a text file of x y r [layer]")
+            lines = file.read().decode("utf-8").splitlines()
     except UnicodeDecodeError as error:
         raise PackingError(f"{path}: byte {error.start} is no text; give a text file of x y r [layer]") from None
     except OSError as error:
@@ -137,14 +143,16 @@ def read_text(path) -> Packing:
             x, y, r = map(float, fields[:3])
             layer = int(fields[3]) if columns == 4 else 0
         except ValueError as error:
-            raise PackingError(f"{where}: {error}; give numbers, the layer a whole one") from None
+            raise PackingError(f"{where}: {str(error)[:80]}; give numbers, the layer a whole one") from None
         for name, value in (("x", x), ("y", y), ("r", r)):
-            if not np.isfinite(value):
+            if not math.isfinite(value):
                 raise PackingError(f"{where}: {name} is {value}; give a finite number")
-        if r <= 0:
-            raise PackingError(f"{where}: the radius is {r:g} m; give one above 0")
-        if layer < 0:
-            raise PackingError(f"{where}: the layer is {layer}; give a number from 0")
+            if abs(value) > FARTHEST:
+                raise PackingError(f"{where}: {name} is {value:g}; give m, at most {FARTHEST:g}")
+        if r < 1e-9:
+            raise PackingError(f"{where}: the radius is {r:g} m; give one above 1e-9 m")
+        if not 0 <= layer < 1000:
+            raise PackingError(f"{where}: the layer is {layer if abs(layer) < 1e9 else fields[3][:40]}; give a number from 0")
         rows.append((x, y, r, layer))
     if not rows:
         raise PackingError(f"{path}: holds no disk; give lines of x y r [layer]")

@@ -41,15 +41,19 @@ def _count(description):
 COLUMNS = {
     "step": _count("number of the time step, strictly increasing"),
     "time_s": Column("s", "simulated time"),
+    "stage": _count("stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
     "water_m": Column("m", "height of the water table above DP, h_w"),
-    "dp_normal_total_N_per_m": Column("N/m", "total normal force on DP, N_DP = N'_DP + U_DP"),
-    "dp_normal_effective_N_per_m": Column("N/m", "effective (contact) normal force on DP, N'_DP"),
+    "dp_normal_total_N_per_m": Column("N/m", "total normal force on DP, N_DP = N'_DP + U_DP, mean over the row"),
+    "dp_normal_effective_N_per_m": Column("N/m", "effective (contact) normal force on DP, N'_DP, mean over the row"),
     "dp_water_N_per_m": Column("N/m", "force of the pore water on DP, U_DP"),
-    "dp_shear_N_per_m": Column("N/m", "shear force on DP, T_DP; positive when the wall resists downslope motion"),
-    "fb_normal_N_per_m": Column("N/m", "normal force on FB, N'_FB"),
-    "fb_shear_N_per_m": Column("N/m", "shear force on FB"),
-    "ss_normal_N_per_m": Column("N/m", "normal force on SS"),
-    "ss_shear_N_per_m": Column("N/m", "shear force on SS"),
+    "dp_shear_N_per_m": Column("N/m", "shear force on DP, T_DP, mean over the row; positive when the wall resists downslope motion"),
+    "fb_normal_N_per_m": Column("N/m", "normal force on FB, N'_FB, mean over the row"),
+    "fb_shear_N_per_m": Column("N/m", "shear force on FB, mean over the row"),
+    "ss_normal_N_per_m": Column("N/m", "normal force on SS, mean over the row"),
+    "ss_shear_N_per_m": Column("N/m", "shear force on SS, mean over the row"),
+    "dp_normal_peak_N_per_m": Column("N/m", "largest effective normal force on DP in a step of the row"),
+    "fb_normal_peak_N_per_m": Column("N/m", "largest normal force on FB in a step of the row"),
+    "ss_normal_peak_N_per_m": Column("N/m", "largest normal force on SS in a step of the row"),
     "wet_disks": _count("disks that feel pore pressure"),
     "released_disks": _count("disks whose pore pressure has been released for good"),
     "speed_mean_m_per_s": Column("m/s", "mean speed of the disks"),
@@ -80,7 +84,7 @@ COLUMNS = {
     "energy_impact_J": Column("J/m", "energy dissipated by impacts"),
     "energy_bonds_J": Column("J/m", "energy dissipated by pulling contacts apart against their adhesion"),
     "energy_correction_J": Column("J/m", "energy added by the correction of overlaps"),
-    "energy_error_rel": Column("1", "what the energy balance leaves over, relative"),
+    "energy_error_rel": Column("1", "what the energy balance leaves over, relative; 0 while settling, as it begins then"),
 }
 
 
@@ -286,6 +290,13 @@ def read_series(path):
         integer = COLUMNS[name].integer if name in COLUMNS else bool(values) and all(type(v) is int for v in values)
         series[name] = np.array(values, dtype=np.int64 if integer else np.float64)
     return series
+
+
+def since_settled(series):
+    """The rows from the dry rest on, or all where there are none, and of a series that has no ``stage``."""
+    if "stage" not in series or not (series["stage"] > 0).any():
+        return series
+    return {name: values[series["stage"] > 0] for name, values in series.items()}
 
 
 BREAK_COLUMNS = ("step", "time_s", "disk1", "disk2", "mode", "x_m", "y_m")

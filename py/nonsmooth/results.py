@@ -2,13 +2,15 @@
 
 Characteristic times (paper, section 6; the rules are ours):
 
-* t0: the water table begins to rise;
+* t0: the water table begins to rise; a slope that failed before that, by its dry weight, has neither t0 nor t1 to t3;
 * t1, failure: the mean of N_FB over one second first comes within 2 % of its largest value before t2, the strength of the foot;
   where there is no backstop, the slope begins to move (mean speed 0.2 m/s, see experiment.py);
 * t2: D_c is reached by one per cent of the disks that fit along the dipping plane;
 * t3: the mean of T_DP over one second has fallen by 90 % of its value at t2;
 * t4: the largest kinetic energy;
 * t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum for good.
+
+One second, and 0.2 m/s, are those of the shipped section, and scaled for another (scales.py).
 """
 
 from __future__ import annotations
@@ -20,10 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
-from . import figures, paraview, records, toe, video
+from . import figures, paraview, records, scales, toe, video
 from .whole_files import WriteError, remove_parts, whole, write_atomically
 
-__all__ = ["characteristic_times", "mean_of", "summarise", "draw", "forget", "forget_later"]
+__all__ = ["characteristic_times", "chosen_rows", "mean_of", "summarise", "draw", "forget", "forget_later"]
 
 # what a run leaves besides its series and its checkpoint
 SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = "summary.json", "breaks.csv", "t0.npz", "end.npz", "snapshots", "vtk"
@@ -57,7 +59,12 @@ def _remove(paths):
             raise WriteError(f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another folder") from None
 
 
-def mean_of(series, name, end, span=1.0):
+def chosen_rows(series, state):
+    """The rows that a run is told by: those since it settled, but all of a slope that failed dry. ``state``: see :func:`characteristic_times`."""
+    return series if state.get("failed_dry") is not None else records.since_settled(series)
+
+
+def mean_of(series, name, end, span):
     """Mean of a column over the ``span`` seconds up to ``end`` [s]."""
     t = series["time_s"]
     chosen = (t > end - span - 1e-9) & (t <= end + 1e-9)
@@ -68,39 +75,47 @@ def characteristic_times(series, section, state) -> dict[str, float | None]:
     """t0 … t5 [s] of a run; None for those that did not come. ``state``: the fields of experiment.State as a mapping."""
     t = series["time_s"]
     times = dict.fromkeys(("t0", "t1", "t2", "t3", "t4", "t5"))
+    if state.get("failed_dry") is not None:
+        return times | _of_motion(series, section)
     times["t0"] = state["t0"]
     if times["t0"] is None or state["moving"] is None:
         return times
+    span = scales.of(section).mean_seconds
     base = section.water.wall if section.water and section.water.wall else section.walls[0].name
     length = float(np.hypot(*np.diff(section.wall(base).points, axis=0).T).sum())
     enough = max(1.0, 0.01 * length / math.sqrt(section.disks.mean_square))
     late = np.flatnonzero((series["weakened_disks"] >= enough) & (t >= times["t0"]))
     if len(late):
         times["t2"] = float(t[late[0]])
-    times["t1"] = _failure(series, times, state)
+    times["t1"] = _failure(series, times, state, span)
     if not len(late):
         return times
-    before = mean_of(series, "dp_shear_N_per_m", times["t2"])
+    before = mean_of(series, "dp_shear_N_per_m", times["t2"], span)
     for k in range(late[0], len(t)):
-        if mean_of(series, "dp_shear_N_per_m", t[k]) <= 0.1 * before:
+        if mean_of(series, "dp_shear_N_per_m", t[k], span) <= 0.1 * before:
             times["t3"] = float(t[k])
             break
-    times["t4"] = float(t[np.argmax(series["energy_kinetic_J"])])
-    speed = series["speed_mean_m_per_s"]
+    return times | _of_motion(series, section)
+
+
+def _of_motion(series, section):
+    """t4 and t5 [s], see above."""
+    t, speed = series["time_s"], series["speed_mean_m_per_s"]
+    times = {"t4": float(t[np.argmax(series["energy_kinetic_J"])])}
     moving = np.flatnonzero(speed >= section.stages.end.rest_fraction * speed.max())
     if len(moving) and moving[-1] + 1 < len(t):
         times["t5"] = float(t[moving[-1] + 1])
     return times
 
 
-def _failure(series, times, state):
+def _failure(series, times, state, span):
     """t1 [s], see above."""
     t = series["time_s"]
     until = times["t2"] if times["t2"] is not None else t[-1]
-    steps = np.flatnonzero((t >= times["t0"] + 1 - 1e-9) & (t <= until + 1e-9))
+    steps = np.flatnonzero((t >= times["t0"] + span - 1e-9) & (t <= until + 1e-9))
     if not len(steps) or not np.any(series["fb_normal_N_per_m"]):
         return state["moving"]
-    force = np.array([mean_of(series, "fb_normal_N_per_m", t[k]) for k in steps])
+    force = np.array([mean_of(series, "fb_normal_N_per_m", t[k], span) for k in steps])
     return float(t[steps[np.argmax(force >= 0.98 * force.max())]])
 
 
@@ -125,15 +140,17 @@ def _passive(section, packing_fraction, water, force):
 def summarise(folder, section, state, threads=None) -> dict:
     """Reads the records in ``folder``, writes and returns ``summary.json``. Values that the run has not reached are null."""
     folder = Path(folder)
-    series = records.read_series(folder / "series.csv")
-    if not len(series["step"]):
-        raise records.RecordsError(f"{folder / 'series.csv'}: has no rows yet; let the run go on beyond its settling with --resume")
+    every, failed_dry = records.read_series(folder / "series.csv"), state.get("failed_dry")
+    if not len(every["step"]):
+        raise records.RecordsError(f"{folder / 'series.csv'}: has no rows yet; let the run go on with --resume")
+    series, balanced = chosen_rows(every, state), records.since_settled(every)  # energies begin anew then
     times = characteristic_times(series, section, state)
-    last = float(series["time_s"][-1])
-    at = lambda name, end, span=1.0: None if end is None else mean_of(series, name, end, span)  # noqa: E731
+    last, second = float(series["time_s"][-1]), scales.of(section).mean_seconds
+    at = lambda name, end, span=second: None if end is None else mean_of(series, name, end, span)  # noqa: E731
     t0, t1 = times["t0"], times["t1"]
     finished = state["stage"] == "done"
-    begin = t0 if t0 is not None else last
+    begin = t0 if t0 is not None else last if failed_dry is None else 0.0
+    front0 = state["front0"] if failed_dry is None else series["front_m"][0]
     after = series["time_s"] >= begin - 1e-9
     start = records.read_snapshot(folder / BEGIN) if (folder / BEGIN).exists() else None
     end = records.read_snapshot(folder / END) if (folder / END).exists() else None
@@ -146,13 +163,13 @@ def summarise(folder, section, state, threads=None) -> dict:
             height = surface - base
             areas.append(float(np.nansum(height)) * float(x[1] - x[0]))
         thickness = float(np.nanmax(height))
-        bulking = areas[1] / areas[0]
+        bulking = areas[1] / areas[0] if failed_dry is None else None  # it had loosened before
         moved = math.hypot(series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
                            series["centroid_y_m"][-1] - series["centroid_y_m"][after][0])
-    losses = sum(series[name] for name in records.LOSSES)
+    losses = sum(balanced[name] for name in records.LOSSES)
     dissipated = float(losses[-1])
-    turned = max(dissipated, float(np.max(series["energy_kinetic_J"])))
-    error = np.abs(series["energy_error_rel"]) * (losses + series["energy_kinetic_J"] + np.abs(series["energy_water_J"]))
+    turned = max(dissipated, float(np.max(balanced["energy_kinetic_J"])))
+    error = np.abs(balanced["energy_error_rel"]) * (losses + balanced["energy_kinetic_J"] + np.abs(balanced["energy_water_J"]))
     summary = {
         "section": section.name, "finished": finished, "disks": int(len(start.x)) if start is not None else None,
         "contacts_initial": state["contacts_initial"], "bonds_initial": state["bonds_initial"],
@@ -165,13 +182,13 @@ def summarise(folder, section, state, threads=None) -> dict:
         "residual_N_per_m_p95": float(np.percentile(series["residual_N_per_m"], 95)),
         "residual_p95_over_tolerance": float(np.percentile(series["residual"] / series["tolerance"], 95)),
         "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])), "overlap_mean_rel": float(np.max(series["overlap_mean_rel"])),
-        "times_s": times, "water_at_failure_m": at("water_m", t1, 0.0),
+        "failed_dry_s": failed_dry, "times_s": times, "water_at_failure_m": at("water_m", t1, 0.0),
         "fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0), "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", t1),
-        "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2.0) if finished else None,
+        "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2 * second) if finished else None,
         "dp_shear_dry_N_per_m": at("dp_shear_N_per_m", t0), "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", t1),
-        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2.0) if finished else None,
+        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2 * second) if finished else None,
         "triggering_s": _difference(times["t3"], times["t2"]), "motion_s": _difference(times["t5"], times["t3"]),
-        "front_travel_m": float(series["front_m"][-1] - state["front0"]) if state["front0"] is not None else None,
+        "front_travel_m": float(series["front_m"][-1] - front0) if front0 is not None else None,
         "centroid_travel_m": moved, "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
         "deposit_thickness_max_m": thickness, "bulking_factor": bulking,
@@ -199,30 +216,33 @@ def _nearest(frames, time):
 def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
     """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
     folder = Path(folder)
-    series = records.read_series(folder / "series.csv")
-    times = summary["times_s"]
+    every, times = records.read_series(folder / "series.csv"), summary["times_s"]
+    series = chosen_rows(every, {"failed_dry": summary["failed_dry_s"]})
     made, notes = [], []
-    time_of = dict(zip(series["step"].astype(int).tolist(), series["time_s"].tolist()))
+    time_of = dict(zip(every["step"].astype(int).tolist(), every["time_s"].tolist()))
     # other files are none of the run's
     frames = [(time_of[int(p.stem)], p) for p in whole(folder / SNAPSHOTS, "*.npz") if p.stem.isdecimal() and int(p.stem) in time_of]
     files = [p for _, p in frames]
     start, end = folder / BEGIN, folder / END
-    if start.exists():
+    stood = start.exists() and summary["failed_dry_s"] is None
+    if summary["failed_dry_s"] is not None:
+        notes.append("no figures of force chains and deposit: the slope was on the move already when they would begin")
+    if stood:
         first = records.read_snapshot(start)
         made.append(figures.force_chains(first, section, folder / "force_chains.png"))
-    made.append(figures.forces_against_time(series, times, folder / "forces.png"))
+    made.append(figures.forces_against_time(series, times, folder / "forces.png", window=scales.of(section).mean_seconds))
     cases = []
     for name, t in times.items():
         if t is None:
             continue
-        path = start if name == "t0" and start.exists() else (_nearest(frames, t) if frames else None)
+        path = start if name == "t0" and stood else (_nearest(frames, t) if frames else None)
         if path is not None:
             cases.append((name, records.read_snapshot(path)))
     if cases:
         made.append(figures.snapshots(cases, section, folder / "snapshots.png"))
-    if start.exists() and end.exists():
+    if stood and end.exists():
         made.append(figures.deposit(records.read_snapshot(end), first, section, folder / "deposit.png"))
-    made.append(figures.energy(series, folder / "energy.png", times=times))
+    made.append(figures.energy(records.since_settled(every), folder / "energy.png", times=times))
     made.append(figures.solver(series, folder / "solver.png", times=times))
     if files:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn

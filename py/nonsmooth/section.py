@@ -33,6 +33,8 @@ FOLDER = Path(__file__).resolve().parent / "sections"
 # the mean size were void. Measured on packings of 3,000 and 21,000 disks.
 BORDER_STRIP = 0.085
 
+MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million takes 2 GB and some seconds a step
+
 
 @dataclass(frozen=True)
 class SlipWeakening:
@@ -317,8 +319,8 @@ class Section:
 
         Raises SectionError where such disks are too large for the layers.
         """
-        if isinstance(count, bool) or int(count) != count or count < 1:
-            raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1")
+        if isinstance(count, bool) or not 1 <= count <= MOST_DISKS or int(count) != count:
+            raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1 to {MOST_DISKS}")
         m = self.disks.mean_square
         phi = self.disks.packing_fraction
         strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
@@ -328,6 +330,9 @@ class Section:
                                     count=int(count))
         scaled = dataclasses.replace(self, disks=disks, scale=self.scale * s)
         scaled._check_room(f"{count} disks", "ask for more disks")
+        if self.numerics.time_step > scaled.longest_step:
+            raise SectionError(f"{self.source}: {count} disks: the smallest, {disks.d_min:.4g} m, would fall past its own diameter in a step of "
+                               f"{self.numerics.time_step:g} s; lower numerics.time_step below {scaled.longest_step:.2g} s, or ask for fewer disks")
         return scaled
 
     def with_rock(self, rock: Material) -> Section:
@@ -338,7 +343,15 @@ class Section:
         made = {k: dataclasses.replace(rock, name=k, slip_weakening=None) if k in names else m for k, m in self.materials.items()}
         return dataclasses.replace(self, materials=MappingProxyType(made))
 
+    @property
+    def longest_step(self) -> float:
+        """Time step [s] in which a disk that has fallen by its own diameter, the smallest one, falls by as much again."""
+        return math.sqrt(self.disks.d_min / (2 * self.gravity))
+
     def _check_room(self, what: str, remedy: str) -> None:
+        total = sum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)
+        if total > MOST_DISKS:
+            raise SectionError(f"{self.source}: {what}: {total:.2g} disks would fill the layers, more than {MOST_DISKS}; give larger diameters")
         for polygon in geometry.parts(self.outline):
             if polygon.buffer(-self.disks.d_max / 2).is_empty or min(self.disk_counts()) < 1:
                 x, y = polygon.representative_point().coords[0]
@@ -382,7 +395,11 @@ def load(path_or_name) -> Section:
     Raises SectionError (a ValueError) with file, line, key, value and remedy.
     """
     path = Path(path_or_name)
-    if path.suffix not in (".yaml", ".yml") and not path.exists() and path.name == str(path_or_name):
+    try:
+        given = path.suffix in (".yaml", ".yml") or path.exists() or path.name != str(path_or_name)
+    except (OSError, ValueError) as error:  # a name that no system takes
+        raise SectionError(f"{str(path)[:60]!r}: no path ({getattr(error, 'strerror', None) or error}); give a path or one of: {', '.join(shipped())}") from None
+    if not given:
         if path.name not in shipped():
             raise SectionError(f"{path}: neither a file nor a shipped section; give a path or one of: "
                                f"{', '.join(shipped())}")
@@ -395,6 +412,7 @@ def _build(document, source: str) -> Section:
     from . import section_checks
 
     raw = document.data
+    section_checks.check_extent(document)
     walls = section_checks.walls(document)
     layers = tuple(Layer(v["name"], v["material"], _points(v["vertices"])) for v in raw["layers"])
     size = raw["disks"]
@@ -411,6 +429,7 @@ def _build(document, source: str) -> Section:
     section_checks.check(section, document)
     if "water" in raw:
         section = dataclasses.replace(section, water=_water(raw["water"], section, document))
+    section_checks.check_dip(section, document)
     if "count" in size:
         section = section.with_disks(size["count"])
     return section

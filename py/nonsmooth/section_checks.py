@@ -5,16 +5,28 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from shapely.geometry import LineString
+from shapely.geometry import LineString, MultiPoint
 
 from . import geometry
 from .section import Layer, Section, Wall, _points
 
-__all__ = ["check", "walls"]
+__all__ = ["check", "check_dip", "check_extent", "walls"]
+
+MOST_VERTICES = 10_000  # of all walls and layers: what is compared pairwise stays a matter of seconds
+LEVEL = 1e-3            # degrees, from rounded coordinates: a plane that dips less to the left is level
 
 
 def _at(point) -> str:
     return f"({point[0]:.8g}, {point[1]:.8g})"
+
+
+def check_extent(document) -> None:
+    """Raise SectionError where the vertices of walls and layers are too many, or all at one place."""
+    vertices = [p for kind in ("walls", "layers") for item in document.data[kind] for p in item["vertices"]]
+    if len(vertices) > MOST_VERTICES:
+        document.refuse(("walls",), f"walls and layers have {len(vertices)} vertices together", f"give at most {MOST_VERTICES}")
+    if not np.ptp(np.array(vertices, float), axis=0).max() >= 1e-5:
+        document.refuse(("walls",), "walls and layers have no extent", "give coordinates in m, 1e-5 m apart or more")
 
 
 def walls(document) -> tuple[Wall, ...]:
@@ -22,12 +34,16 @@ def walls(document) -> tuple[Wall, ...]:
     raw = document.data["walls"]
     everything = np.vstack([item["vertices"] for item in (*raw, *document.data["layers"])]).astype(float)
     tolerance = 1e-6 * math.dist(everything.min(axis=0), everything.max(axis=0))
-    known, result = [], []
+    known, count = np.empty_like(everything), 0
+    result = []
     for item in raw:
         vertices = []
         for p in _points(item["vertices"]):
-            p = next((q for q in known if math.dist(p, q) <= tolerance), p)
-            known.append(p)
+            same = np.flatnonzero(geometry.distance(*(known[:count] - p).T) <= tolerance)
+            if len(same):
+                p = tuple(known[same[0]].tolist())
+            known[count] = p
+            count += 1
             vertices.append(p)
         result.append(Wall(item["name"], item["material"], tuple(vertices), item.get("apart", False)))
     return tuple(result)
@@ -43,6 +59,22 @@ def check(section: Section, document) -> None:
     _check_walls(section, document)
     _check_layers(section, document)
     section._check_room("disks.diameter", "give smaller diameters or thicker layers")
+    step = section.numerics.time_step
+    if step > section.longest_step and "count" not in document.data["disks"]:
+        document.refuse(("numerics", "time_step"), f"in {step:g} s the smallest disk, {section.disks.d_min:g} m, would fall past its own diameter",
+                        f"give less than {section.longest_step:.2g} s")
+
+
+def check_dip(section: Section, document) -> None:
+    """Raise SectionError for a slope that dips to the left: front, travel and characteristic times are made for one that dips to the right."""
+    if section.dip >= -LEVEL:
+        return
+    if section.water:
+        keys, plane = ("water", "plane"), f"the wall {section.water.wall}"
+    else:
+        keys, plane = ("walls",), "the longest straight piece of the walls"
+    document.refuse(keys, f"{plane} dips to the left, by {-section.dip:.4g} degrees",
+                    "mirror the slope: change the sign of every x, then list each wall's vertices, and the walls, the other way round")
 
 
 def _check_names(section, document) -> None:
@@ -83,6 +115,7 @@ def _check_walls(section, document) -> None:
         if not line.is_simple:
             document.refuse(("walls", i, "vertices"), "the wall crosses itself", "correct the order of its vertices")
         lines.append(line)
+    _check_crossings(section, lines, document)
     joined, waiting = set(), [next((i for i, w in enumerate(section.walls) if not w.apart), 0)]
     while waiting:  # walls reached from the first one through joints
         i = waiting.pop()
@@ -104,6 +137,46 @@ def _check_walls(section, document) -> None:
                         "make them the same point, or set `apart: true` if the gap is wanted")
 
 
+def _check_crossings(section, lines, document) -> None:
+    """Refuse walls that cross or cover each other; they may share vertices, and end on one another."""
+    for i, (wall, line) in enumerate(zip(section.walls, lines)):
+        for other, crossed in zip(section.walls[:i], lines):
+            if not line.intersects(crossed):
+                continue
+            shared = {*wall.vertices} & {*other.vertices}
+            ends = {wall.vertices[0], wall.vertices[-1], other.vertices[0], other.vertices[-1]}
+            common = line.intersection(crossed).difference(MultiPoint([*shared, *ends]).buffer(3 * section.tolerance))
+            if not common.is_empty:
+                where = common.representative_point().coords[0]
+                document.refuse(("walls", i, "vertices"), f"the wall crosses or covers {other.name} at {_at(where)}",
+                                "let walls meet at vertices only")
+
+
+def _check_sense(section, document) -> None:
+    """Refuse walls listed the wrong way round: the side to the left of a wall's direction acts."""
+    remedy = "list its vertices the other way round"
+    table, tolerance = geometry.edges(section.outline), section.tolerance
+    finish = table.start + table.length[:, None] * table.direction
+    for i, wall in enumerate(section.walls):
+        for a, b in zip(wall.points, wall.points[1:]):
+            length = float(geometry.distance(*(b - a)))
+            t = (b - a) / length
+            (along0, off0), (along1, off1) = (((p - a) @ t, (p - a) @ (-t[1], t[0])) for p in (table.start, finish))
+            on = (np.abs(off0) <= 3 * tolerance) & (np.abs(off1) <= 3 * tolerance)
+            on &= np.minimum(np.maximum(along0, along1), length) - np.maximum(np.minimum(along0, along1), 0) > 10 * tolerance
+            if np.any(on & (along1 < along0)):  # the outline has the layers on its left
+                document.refuse(("walls", i, "vertices"), f"from {_at(a)} to {_at(b)} the layers lie to the right of the wall", remedy)
+    for end, name in ((0, "begin"), (-1, "end")):
+        passed = {p for wall in section.walls for p in (wall.vertices[1:-1] + (wall.vertices[-1 - end],))}
+        at = {}
+        for i, wall in enumerate(section.walls):
+            p = wall.vertices[end]
+            other = at.setdefault(p, wall.name)
+            if other != wall.name and p not in passed:
+                document.refuse(("walls", i, "vertices"), f"both {other} and {wall.name} {name} at {_at(p)}, so one of them acts on its other side",
+                                f"{remedy}, or those of {other}: one wall goes on where another ends")
+
+
 def _check_layers(section, document) -> None:
     tolerance = section.tolerance
     for i, layer in enumerate(section.layers):
@@ -111,6 +184,8 @@ def _check_layers(section, document) -> None:
         if reason:
             document.refuse(("layers", i, "vertices"), f"no simple polygon: {reason}",
                             "list the vertices in order around the layer")
+        if layer.polygon.buffer(-10 * tolerance).is_empty:
+            document.refuse(("layers", i, "vertices"), f"the layer is thinner than {20 * tolerance:.2g} m", "give it some thickness, or leave it out")
     for i, layer in enumerate(section.layers):
         for j in range(i):
             _check_overlap(section.layers[j], layer, j, i, tolerance, document)
@@ -128,6 +203,7 @@ def _check_layers(section, document) -> None:
         i = min(range(len(section.layers)), key=lambda k: section.layers[k].polygon.distance(LineString(hole)))
         document.refuse(("layers", i, "vertices"), f"disks could fall out: no wall below the layer from {_at(hole[0])} "
                         f"to {_at(hole[1])}", "extend a wall along it, or move the layer onto a wall")
+    _check_sense(section, document)
 
 
 def _check_overlap(lower: Layer, upper: Layer, j: int, i: int, tolerance: float, document) -> None:

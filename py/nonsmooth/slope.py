@@ -11,15 +11,13 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import NonsmoothTimeStepper, PorePressureEngine
 
-from . import scene, worlds
+from . import scales, scene, worlds
 from .soft.measures import Measures
 
 __all__ = ["Slope", "build", "find", "hard", "order_of"]
 
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
-# Contacts are known early enough for disks that approach each other at this speed [m/s]; the fastest of the paper's slope reach 50 m/s.
-FASTEST_APPROACH = 60.0
 REACH = 0.05  # gap [ℓ] up to which they are known in any case
 SHORTEST_STEP = 0.1  # of a section's time step, however fast its disks are
 STEP_GROWTH = 1.2    # one bond that is torn apart shortens a step, and should not shorten the next dozen
@@ -38,19 +36,6 @@ class Slope:
     count: int
     solver: object
     water: object  # PorePressureEngine or None
-
-    def wall_forces(self) -> dict[str, tuple[float, float]]:
-        """Force of the disks on each wall in the last step [N/m]: (normal, positive into the wall; along its direction)."""
-        forces = {}
-        for name, ids in self.walls.items():
-            normal = shear = 0.0
-            for i in ids:
-                f = O.forces.f(i)
-                along = O.bodies[i].state.ori * Vector3(1, 0, 0)
-                normal += f[0] * along[1] - f[1] * along[0]
-                shear += f[0] * along[0] + f[1] * along[1]
-            forces[name] = (normal, shear)
-        return forces
 
     def wall_material(self, name):
         """Material of a wall."""
@@ -79,7 +64,9 @@ def hard(section) -> worlds.Hard:
     n = section.numerics
     # bonds are made where contacts are known, so these must reach further than Δ
     reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
-    return worlds.Hard(n.time_step, n.tolerance, reach, FASTEST_APPROACH * n.time_step / section.disks.d_min, -n.verlet_distance, {"maxIterations": n.max_iterations})
+    # known early enough for disks that approach each other at such a speed; the fastest of the paper's slope reach 50 m/s
+    far = scales.of(section).approach_speed * n.time_step / section.disks.d_min
+    return worlds.Hard(n.time_step, n.tolerance, reach, far, -n.verlet_distance, {"maxIterations": n.max_iterations})
 
 
 def order_of(section, packing) -> np.ndarray:

@@ -44,7 +44,7 @@ def run(disks, folder):
 
     experiment_run.progress = keep
     experiment_run.run()
-    times = results.characteristic_times(records.read_series(folder / "series.csv"), chosen, dataclasses.asdict(experiment_run.state))
+    times = results.characteristic_times(records.since_settled(records.read_series(folder / "series.csv")), chosen, dataclasses.asdict(experiment_run.state))
     return times, problems
 
 

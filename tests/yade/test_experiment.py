@@ -43,7 +43,7 @@ def test_records_and_figures_are_there(unbroken):
     assert summary["disks"] == pytest.approx(400, abs=4)  # counts of layers are rounded
     # so few disks have hardly a bulk; where it can be measured, it is a dense packing
     assert summary["packing_fraction"] is None or 0.80 < summary["packing_fraction"] < 0.90
-    assert summary["finished"] is False
+    assert summary["finished"] is False and summary["failed_dry_s"] is None and summary["times_s"]["t0"] == pytest.approx(2.0)  # 1.5 + 0.5 s
     for name in ("series.csv", "force_chains.png", "forces.png", "snapshots.png", "energy.png", "solver.png"):
         assert (unbroken / name).stat().st_size > 1000
 
@@ -64,7 +64,7 @@ def test_resumed_after_a_kill_gives_the_same_bits(section, unbroken, tmp_path):
                                start_new_session=True)
     series = tmp_path / "series.csv"
     for _ in range(1200):  # killed some rows after the last checkpoint, at no particular moment
-        if series.exists() and len(series.read_bytes().splitlines()) > 7:
+        if series.exists() and len(series.read_bytes().splitlines()) > 23:
             break
         time.sleep(0.1)
     os.killpg(process.pid, signal.SIGKILL)
@@ -128,12 +128,9 @@ def test_a_slope_that_stands_still_is_solved_more_tightly(section, tmp_path):
     """Five seconds after the settling (1.5 s), with a table at rest; a rising one keeps the tolerance."""
     from yade.nonsmooth import records
 
-    strong = tmp_path / "strong.yaml"  # so few disks would not hold with the paper's strength
-    strong.write_text(section.read_text().replace("friction: 0.3\n", "friction: 0.8\n").replace("tensile_strength: 100.0e3", "tensile_strength: 100.0e6"))
-    section = strong
     run(section, tmp_path / "dry", "--water", "0", end="7.5")
     dry = records.read_series(tmp_path / "dry" / "series.csv")
-    settled = dry["time_s"][0]
+    settled = dry["time_s"][dry["stage"] > 0][0]
     late = dry["time_s"] > settled + 5.1  # the rule is looked at once a row, 0.1 s
     assert (dry["speed_mean_m_per_s"] < 0.2).all()  # else it would count as moving
     assert set(dry["tolerance"][late]) == {0.25e-4} and set(dry["tolerance"][dry["time_s"] < settled + 4.9]) == {1e-4}
@@ -160,11 +157,13 @@ def test_fast_disks_shorten_steps_and_rows_keep_their_distance(section, tmp_path
 
 
 def test_bonds_can_be_made_after_gravity_has_grown(section, unbroken, tmp_path):
+    from yade.nonsmooth import records
+
     later = tmp_path / "later.yaml"
     later.write_text(section.read_text().replace("    ramp: 1.0", "    bond: after\n    ramp: 1.0"))
     run(later, tmp_path / "out", end="1.7")
     first, usual = (json.loads((folder / "summary.json").read_text()) for folder in (tmp_path / "out", unbroken))
-    assert 200 > first["bonds_initial"] > 100 and first["bonds_initial"] != usual["bonds_initial"]  # 400 coarse disks have little more than 200 neighbours
-    rows = (tmp_path / "out" / "series.csv").read_text().splitlines()
-    begin = dict(zip(rows[0].split(","), rows[1].split(",")))
-    assert float(begin["bonds_alive"]) > 0.9 * first["bonds_initial"]
+    assert 300 > first["bonds_initial"] > 100 and first["bonds_initial"] != usual["bonds_initial"]  # 400 coarse disks have little more than 200 neighbours
+    series = records.read_series(tmp_path / "out" / "series.csv")
+    assert (series["bonds_alive"][series["stage"] == 0] == 0).all()
+    assert series["bonds_alive"][series["stage"] > 0][0] > 0.9 * first["bonds_initial"]

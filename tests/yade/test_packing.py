@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import geometry, packing  # noqa: E402
+from nonsmooth import geometry, packing, packing_checks  # noqa: E402
 from nonsmooth.packing import Packing, PackingError  # noqa: E402
 from nonsmooth.section import FOLDER, load  # noqa: E402
 from nonsmooth.whole_files import WriteError  # noqa: E402
@@ -175,7 +175,9 @@ def test_text(three, tmp_path):
     ("0 0 1 0\n1 1\n", r"line 2: 2 values"), ("0 0 1 0\n1 1 1\n", r"line 2: 3 values after lines of 4.*truncated"),
     ("0 0 -1\n", r"line 1: the radius is -1"), ("0 nan 1\n", r"line 1: y is nan"), ("0 0 one\n", r"line 1: .*'one'"),
     ("0 0 1 0.5\n", r"line 1: .*whole"), ("0 0 1 -1\n", r"line 1: the layer is -1"), ("# nothing\n", "holds no disk"),
-    ("# disks: 3\n0 0 1 0\n", "holds 1 disks of the 3.*truncated")])
+    ("# disks: 3\n0 0 1 0\n", "holds 1 disks of the 3.*truncated"), ("1e308 0 1\n", r"line 1: x is 1e\+308; give m, at most 1e\+07"),
+    ("0 0 5e-324\n", "line 1: the radius is"), ("0 0 1 " + "9" * 30 + "\n", "line 1: the layer is 9999"), ("0 0 1 " + "9" * 5000 + "\n", "line 1: .*whole one"),
+    ("0 0 " + "x" * 5000 + "\n", "line 1: .{0,90}; give numbers")])
 def test_bad_text(text, what, tmp_path):
     path = tmp_path / "p.txt"
     path.write_text(text)
@@ -187,9 +189,60 @@ def test_bad_text(text, what, tmp_path):
 def test_unreadable_text(tmp_path):
     with pytest.raises(PackingError, match="cannot be read"):
         packing.read_text(tmp_path / "none.txt")
+    with pytest.raises(PackingError, match="has no end"):
+        packing.read_text("/dev/zero")
     (tmp_path / "b").write_bytes(b"\xff\x00")
     with pytest.raises(PackingError, match="is no text"):
         packing.read_text(tmp_path / "b")
+
+
+def moved(packing, **arrays):
+    return dataclasses.replace(packing, **arrays)
+
+
+def first_to(packing, x, y):
+    """The packing with its first disk elsewhere."""
+    return moved(packing, x=np.r_[x, packing.x[1:]], y=np.r_[y, packing.y[1:]])
+
+
+# What the shipped section with 3,000 disks (2.6 to 10.6 m) says of a file that is none of its packings.
+FOREIGN = {
+    "all radii times 1.3": (lambda p: moved(p, r=1.3 * p.r), "has a radius of .* and the section's disks have"),
+    "nearly all radii times 1.3": (lambda p: moved(p, r=np.minimum(1.3 * p.r, p.r.max())), "lies in the wall|overlap by up to"),
+    "loose": (lambda p: moved(p, r=np.maximum(0.8 * p.r, p.r.min())), r"disks fill 0\.\d+ of the layers, and the section's fill 0\.8.*disks.packing_fraction"),
+    "half of them": (lambda p: Packing(p.x[::2], p.y[::2], p.r[::2], p.layer[::2]), r"disks fill 0\.\d+ of the layers"),
+    "another number of disks": (lambda p: packing.pack(load("jiufengershan").with_disks(800), 1), "has a radius of .* or --disks with its number"),
+    "without layers": (lambda p: moved(p, layer=0 * p.layer), r"belongs to layer 0 \(L1\) and lies .* m outside it; give lines of x y r layer"),
+    "layers from 1": (lambda p: moved(p, layer=p.layer + 1), r"belongs to layer 5, and the section has 5; give 0 \(L1\) to 4 \(L5\)"),
+    "layers turned round": (lambda p: moved(p, layer=4 - p.layer), r"belongs to layer 0 \(L1\) and lies"),
+    "a layer left out": (lambda p: moved(p, layer=np.maximum(p.layer, 1)), "no disk belongs to layer 0|belongs to layer 1"),
+    "all moved up": (lambda p: moved(p, y=p.y + 300), "outside the layers"),
+    "all sunk by a metre": (lambda p: moved(p, y=p.y - 1), "in the wall DP|beyond the wall DP"),
+    "one below the slope": (lambda p: first_to(p, -700.0, 255.0), "beyond the wall DP"),
+    "one far below the slope": (lambda p: first_to(p, -700.0, 0.0), "disk 0 at .* lies .* the wall DP|disk 0 at .* outside the layers"),
+    "one in the valley": (lambda p: first_to(p, 1000.0, 40.0), "disk 0 at .* outside the layers"),
+    "one far away": (lambda p: first_to(p, 1e7, -1e7), "disk 0 at .* outside the layers"),
+    "one above the slope": (lambda p: first_to(p, -700.0, 500.0), "disk 0 at .* lies .* m outside the layers"),
+    "one twice": (lambda p: first_to(p, p.x[7], p.y[7]), "overlap by more than a tenth|belongs to layer"),
+    "all at one place": (lambda p: moved(p, x=0 * p.x + p.x[7], y=0 * p.y + p.y[7], layer=p.layer), "overlap by more than a tenth|belongs to layer"),
+}
+
+
+@pytest.mark.parametrize("case", FOREIGN)
+def test_packing_of_another_section(case, section, packed):
+    change, what = FOREIGN[case]
+    with pytest.raises(PackingError, match=what) as info:
+        packing_checks.check(change(packed), section, "p.txt")
+    assert str(info.value).startswith("p.txt: ") and "\n" not in str(info.value)
+
+
+def test_packings_of_the_section_are_taken(section, packed, bent):
+    packing_checks.check(packed, section, "p.txt")
+    packing_checks.check(packing.pack(section, 2), section, "p.txt")
+    packing_checks.check(packing.pack(bent, 3), bent, "p.txt")
+    # as printed with four digits, and settled by a little
+    packing_checks.check(moved(packed, x=np.round(packed.x, 2), y=np.round(packed.y, 2)), section, "p.txt")
+    packing_checks.check(moved(packed, x=0.9999 * packed.x, y=0.9999 * packed.y), section, "p.txt")
 
 
 def test_bad_arrays():

@@ -119,8 +119,9 @@ def _settle(chosen, progress):
     built = slope.build(dry, packing.cached_pack(dry))
     foreseen = chosen.stages.settle.ramp + 1.5 + REST_SECONDS
     with tempfile.TemporaryDirectory() as records:
-        experiment.Experiment(built, records, progress=lambda stage, now, _: progress(min(1.0, now / foreseen))).run()
-    if built.solver.meanSpeed > REST_SPEED:
+        run = experiment.Experiment(built, records, progress=lambda stage, now, _: progress(min(1.0, now / foreseen)))
+        run.run()
+    if built.solver.meanSpeed > REST_SPEED or run.state.failed_dry is not None:
         raise BenchmarkError(f"{chosen.source}: {built.count} disks do not come to rest (mean speed {built.solver.meanSpeed:.2g} m/s after {O.time:.1f} s); "
                              "take more disks, or stronger materials")
     return built

@@ -8,7 +8,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from .. import packing, records, results, section
+from .. import packing, records, results, scales, section
 from ..figures.profiles import deposit_profile
 from ..kept_runs import Progress
 from .cases import Case, ComparisonError
@@ -81,7 +81,8 @@ def run(folder, **plain):
                             verlet=-s.numerics.verlet_distance)
     built = slope.build(s, packing.cached_pack(s), world)
     if case.world == "soft":  # so that rows are those of the hard run
-        O.dt = experiment.ROW_SECONDS / math.ceil(experiment.ROW_SECONDS / O.dt)
+        row = scales.of(s).row_seconds
+        O.dt = row / math.ceil(row / O.dt)
     course = experiment.Experiment(built, folder, progress=lambda stage, now, foreseen: note(now / foreseen), damping_moving=case.damping_moving)
     course.run()
     return {"state": asdict(course.state), "disks": built.count, "steps": O.iter - course.state.first_step, "simulated_s": O.time,
@@ -93,21 +94,23 @@ def measure(case: Case, folder, found) -> Outcome:
     s, state = section_of(case), found["state"]
     if "simulated_s" not in found:  # as of versions whose steps were all as long
         raise ComparisonError(f"{folder}: its result.json has no simulated_s; remove the folder and go on with --resume")
-    series = records.read_series(folder / "series.csv")
+    series, second = results.chosen_rows(records.read_series(folder / "series.csv"), state), scales.of(s).mean_seconds
     times = results.characteristic_times(series, s, state)
     t, last = series["time_s"], float(series["time_s"][-1])
-    at = lambda name, when, span=1.0: None if when is None else results.mean_of(series, name, when, span)  # noqa: E731
+    at = lambda name, when, span=second: None if when is None else results.mean_of(series, name, when, span)  # noqa: E731
     begin, end = (records.read_snapshot(folder / name) if (folder / name).exists() else None for name in ("t0.npz", "end.npz"))
     after = t >= (times["t0"] or 0.0) - 1e-9
+    failed_dry = state.get("failed_dry")
+    front0 = series["front_m"][0] if failed_dry is not None else state["front0"]
     start = state["moving"] if state["moving"] is not None else times["t0"]
     moved = np.hypot(series["centroid_x_m"] - series["centroid_x_m"][after][0], series["centroid_y_m"] - series["centroid_y_m"][after][0])
     broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
     values = {
         "water_at_failure_m": at("water_m", times["t1"], 0.0),
-        "front_travel_m": None if state["front0"] is None else float(series["front_m"][-1] - state["front0"]),
+        "front_travel_m": None if front0 is None else float(series["front_m"][-1] - front0),
         "centroid_travel_m": float(moved[-1]), "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", times["t1"]),
-        "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", times["t1"]), "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2.0),
-        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2.0),
+        "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", times["t1"]), "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2 * second),
+        "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2 * second),
         "bonds_broken_share": broken / state["bonds_initial"] if state["bonds_initial"] else None,
         "deposit_thickness_max_m": None, "speed_mean_max_m_per_s": float(series["speed_mean_m_per_s"].max()),
     }
@@ -115,14 +118,16 @@ def measure(case: Case, folder, found) -> Outcome:
     if end is not None:
         _, base, surface = deposit_profile(end, s)
         values["deposit_thickness_max_m"] = float(np.nanmax(surface - base))
-    if state["moving"] is None:
+    if failed_dry is not None:
+        notes.append(f"the slope failed dry, at {failed_dry:.1f} s")
+    elif state["moving"] is None:
         notes.append("the slope did not begin to move")
     elif times["t5"] is None:
         notes.append(f"stopped at {last:.0f} s, before the mass was at rest")
     moving = (t >= start) & (series["speed_mean_m_per_s"] > 0.1 * series["speed_mean_m_per_s"].max()) if start is not None else np.zeros(len(t), bool)
-    rest = (t > (times["t0"] or last) - 1.0) & (t <= (times["t0"] or last) + 1e-9)
+    rest = (t > (times["t0"] or last) - second) & (t <= (times["t0"] or last) + 1e-9)
     curves = {"abscissa": t[after] - (start if start is not None else t[after][0]),
-              "front": series["front_m"][after] - (state["front0"] or series["front_m"][after][0]),
+              "front": series["front_m"][after] - (series["front_m"][after][0] if front0 is None else front0),
               "centroid": moved[after]}
     simulated = found["simulated_s"]
     rate = state["wall_moving_s"] / state["moving_s"] if state["moving_s"] else state["wall_steps_s"] / simulated

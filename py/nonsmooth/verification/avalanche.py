@@ -36,7 +36,7 @@ def whole_avalanche(bench):
     engine = run.slope.solver
     state = {**vars(run.state), "overlap_worst_ever": engine.overlapWorstEver}
     summary = results.summarise(folder, s, state)
-    series = records.read_series(folder / "series.csv")
+    series = results.chosen_rows(records.read_series(folder / "series.csv"), state)
     log = tables.breaks(engine)
 
     losses = {name: series[name] for name in records.LOSSES}
