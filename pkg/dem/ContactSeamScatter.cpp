@@ -19,7 +19,10 @@ void StepSums::add(const StepSums& other)
 	impact += other.impact;
 	correction += other.correction;
 	overlap += other.overlap;
-	worstOverlap = std::max(worstOverlap, other.worstOverlap);
+	if (other.worstOverlap > worstOverlap) {
+		worstOverlap = other.worstOverlap;
+		std::copy_n(other.worstIds, 2, worstIds);
+	}
 	contactRate = std::max(contactRate, other.contactRate);
 	bondRate    = std::max(bondRate, other.bondRate);
 	touching += other.touching;
@@ -97,6 +100,7 @@ void ContactSeam::scatterContact(size_t k)
 	phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
 	phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
 	phys.yielded        = false;
+	if (links[k].broken != NscdPhys::None) phys.breaks = false; // it is counted now
 	if (!phys.bonded) return;
 	const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 	constexpr Real close = 1 - 1e-9;
@@ -133,8 +137,8 @@ void ContactSeam::scatterForces(Scene& scene)
 	for (size_t id = 0; id < reaction.size(); ++id) {
 		const Twist& r = reaction[id];
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
-		scene.forces.addForce(id, Vector3r(r.x / h, r.y / h, 0));
-		scene.forces.addTorque(id, Vector3r(0, 0, r.w / h));
+		scene.forces.addForceUnsynced(id, Vector3r(r.x / h, r.y / h, 0)); // into the sums, see gatherBodies
+		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, r.w / h));
 	}
 }
 
@@ -170,9 +174,15 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
 		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
 		if (p.n > 0 && links[k].bias < 0) sums.correction -= p.n * links[k].bias;
-		const Real overlap = std::max(Real(0), -links[k].gap) / c.length;
+		// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
+		const bool held    = links[k].gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
+		const Real overlap = held ? 0 : std::max(Real(0), -links[k].gap) / c.length;
 		sums.overlap += overlap;
-		sums.worstOverlap = std::max(sums.worstOverlap, overlap);
+		if (overlap > sums.worstOverlap) {
+			sums.worstOverlap = overlap;
+			sums.worstIds[0]  = std::min(c.i, c.j);
+			sums.worstIds[1]  = std::max(c.i, c.j);
+		}
 		sums.touching += (p.n != 0 || links[k].gap <= 0);
 		sums.bonds += links[k].bonded;
 		if (links[k].broken != NscdPhys::None) ++sums.broken[links[k].broken];

@@ -5,9 +5,11 @@ import sys
 import traceback
 from pathlib import Path
 
+from yade.nonsmooth import servers
 from yade.nonsmooth.errors import UserError
 from yade.nonsmooth.whole_files import write_atomically
 
+servers.close()  # where the plugin is installed into a YADE, whose own program opens them
 folder = Path(sys.argv[-1])
 request = json.loads((folder / "request.json").read_text())
 try:

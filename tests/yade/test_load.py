@@ -157,7 +157,10 @@ def test_launcher_refuses_bad_calls(script, tmp_path):
             ([], "SCRIPT [ARGS]"),
             ([tmp_path / "missing.py"], "cannot be read"),
             ([script("", "notes.txt")], "must be a Python file"),
-            ([script(""), "--threads", "none"], "--threads wants a positive number")):
+            ([script(""), "--threads", "none"], "--threads wants a positive number"),
+            ([script(""), "--threads", "08"], "--threads wants a positive number"),
+            ([script(""), "--threads", "100000"], "--threads 100000 is more than this machine has a use for"),  # YADE crashed
+            ([script(""), "--threads", "9" * 30], "give at most")):
         result = run([LAUNCHER, *arguments])
         assert result.returncode == 2 and message in result.stderr
     result = run([LAUNCHER, script("")], NONSMOOTH_BUILD=str(tmp_path / "nowhere"))
