@@ -41,10 +41,16 @@ def main():
     with arguments.bar() as progress:
         found = soak.run(args.disks, args.steps, args.seed, progress)
     write_atomically(out, json.dumps({"machine": machine.describe(), **found}, indent=1).encode())
-    first, last = found["rows"][len(found["rows"]) // 10], found["rows"][-1]
-    print(f"{args.steps} steps of {args.disks} disks, {last['turns']:.1f} turns, {found['wall_s']:.0f} s of wall time: from step {first['step']} to the last, "
-          f"overlap at most {max(row['overlap_worst_rel'] for row in found['rows'][4:]):.2g} of a diameter, kinetic energy {found['ratios']['kinetic_J']:.2f} times the first third's, "
-          f"energy balance {last['energy_error_rel']:.2g} of what was dissipated, memory {first['memory_MB']:.1f} to {last['memory_MB']:.1f} MB; result: {out}")
+    rows = found["rows"]
+    first, last = rows[len(rows) // 10], rows[-1]
+    print(f"{args.steps} steps of {args.disks} disks, {last['turns']:.1f} turns, {found['wall_s']:.0f} s of wall time. From step {first['step']} on: overlaps of at most "
+          f"{max(row['overlap_worst_rel'] for row in rows[len(rows) // 10:]):.1e} of a diameter, {sum(row['unconverged'] for row in rows)} steps above the tolerance, "
+          f"{last['energy_error_rel']:.1e} of what was dissipated missing in the energy balance, memory {first['memory_MB']:.1f} MB, then {last['memory_MB']:.1f} MB")
+    print(f"result: {out}")
+    if found["grew"] is None:
+        print(f"too few turns to judge by: {soak.TURNS_TO_JUDGE} take {soak.steps_of(soak.TURNS_TO_JUDGE)} steps")
+        return
+    print("last third over first: " + ", ".join(f"{name} {ratio:.3f}" for name, ratio in found["ratios"].items()))
     if found["grew"]:
         sys.exit("error: " + "; ".join(found["grew"]))
     print("nothing grew")

@@ -6,8 +6,9 @@ from yade import O, utils
 from yade.minieigenHP import Quaternion, Vector3
 from yade.nonsmooth import scene
 from yade.wrapper import (
-    Bo1_Box_Aabb, Bo1_Facet_Aabb, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, Body, Box, Collider, ContactDynamicsEngine, ForceEngine, ForceResetter, FrictMat, GlobalStiffnessTimeStepper,
-    Ig2_Box_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, NewtonIntegrator,
+    Bo1_Box_Aabb, Bo1_Facet_Aabb, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Body, Box, Collider, ContactDynamicsEngine, ForceEngine, ForceResetter,
+    FrictMat, GlobalStiffnessTimeStepper, Ig2_Box_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Wall_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, NewtonIntegrator,
     NscdInteractionLoop, NscdMat, PlanarGridCollider, PyRunner, Segment, SlipWeakeningMat)
 
 from contact_scenes import G, begin, contacts, engine, launch, material, refused, run
@@ -212,6 +213,7 @@ def box_body(stuff):
 SHAPES = {
     "Facet": (lambda stuff: utils.facet([(-5, 0, -5), (5, 0, -5), (0, 0, 5)], material=stuff), Bo1_Facet_Aabb, Ig2_Facet_Sphere_ScGeom),
     "Box": (box_body, Bo1_Box_Aabb, Ig2_Box_Sphere_ScGeom),
+    "Wall": (lambda stuff: utils.wall(0, axis=1, material=stuff), Bo1_Wall_Aabb, Ig2_Wall_Sphere_ScGeom),
 }
 
 
