@@ -9,7 +9,8 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 	const auto& bodies = *scene.bodies;
 	const long  count  = (long)bodies.size();
 	readings.resize(count);
-#pragma omp parallel for schedule(static) num_threads(threads)
+	long stateless = -1; // reported after the loop, which must not throw
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : stateless)
 	for (long id = 0; id < count; ++id) {
 		if (id + (long)later < count) fetch<sizeof(Body)>(bodies[id + later].get());
 		if (id + (long)soon < count && bodies[id + soon]) {
@@ -22,6 +23,10 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 		r.present         = (bool)body;
 		r.clumped = r.plain = false;
 		if (!body) continue;
+		if (!body->state) {
+			stateless = std::max(stateless, id);
+			continue;
+		}
 		const State& s = *body->state;
 		r.clumped      = body->isClump() || body->isClumpMember();
 		if (const Shape* shape = body->shape.get()) {
@@ -38,6 +43,7 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 		r.inertia = s.inertia[2];
 		r.blocked = s.blockedDOFs;
 	}
+	if (stateless >= 0) throw std::runtime_error("body #" + std::to_string(stateless) + " has no state: set Body.state = State(...)");
 }
 
 } // namespace yade::nscd

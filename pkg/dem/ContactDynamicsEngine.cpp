@@ -4,10 +4,11 @@
 #include "NonsmoothTimeStepper.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "PythonBytes.hpp"
+#include "SceneCheck.hpp"
+#include "Seldom.hpp"
 #include "YadeFeatures.hpp"
 #include <chrono>
 #include <contact/problem_file.hpp>
-#include <core/TimeStepper.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -40,39 +41,29 @@ void ContactDynamicsEngine::action()
 	seam.correct(settings(), workspace, correctionSweeps);
 	const Real t2         = clock();
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
-	account(seam.scatter(*scene, gravity, threads, adapts));
-	report(statistics);
+	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
+	account(sums);
+	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
 	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
 }
 
 void ContactDynamicsEngine::validate() const
 {
-	const auto fail = [](const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); };
-	bool       passed = false, newton = false;
-	for (const auto& engine : scene->engines) {
-		if (engine.get() == this) passed = true;
-		if (const auto* n = dynamic_cast<const NewtonIntegrator*>(engine.get())) {
-			newton = true;
-			if (n->damping != 0)
-				fail("NewtonIntegrator.damping = " + boost::lexical_cast<string>(n->damping)
-				     + ", which would change the impulses: set damping=0 (rigid contacts dissipate by themselves)");
-			if (!passed) fail("it stands after NewtonIntegrator in O.engines: put it before");
-		}
-		const auto* stepper = dynamic_cast<const TimeStepper*>(engine.get());
-		if (stepper && stepper->active && !stepper->dead)
-			fail(stepper->getClassName() + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
-	}
+	const auto fail   = [](const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); };
+	const auto refuse = [&](const char* name, Real value, const char* what) { fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be " + what); };
+	nscd::checkEngines(*scene, *this);
 	// here and not where contacts are made: an exception in InteractionLoop's threads would end the program
 	for (const auto& material : scene->materials)
 		if (const auto* nscd = dynamic_cast<const NscdMat*>(material.get())) nscd->validate();
-	if (!newton) fail("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");
 	if (scene->isPeriodic) fail("periodic scenes are not supported: set O.periodic = False");
 	if (!(scene->dt > 0) || !std::isfinite(scene->dt)) fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");
-	if (!(tolerance > 0)) fail("tolerance = " + boost::lexical_cast<string>(tolerance) + ": it must be positive");
+	if (!(tolerance > 0) || !std::isfinite(tolerance)) refuse("tolerance", tolerance, "positive and finite");
 	if (maxIterations < 1) fail("maxIterations = " + std::to_string(maxIterations) + ": it must be at least 1");
 	if (correctionSweeps < 0) fail("correctionSweeps = " + std::to_string(correctionSweeps) + ": it must be 0 or more");
 	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
-	if (!(relaxationRate >= 0 && relaxationRate <= 1)) fail("relaxationRate = " + boost::lexical_cast<string>(relaxationRate) + ": it must be from 0 to 1");
+	if (!(relaxationRate >= 0 && relaxationRate <= 1)) refuse("relaxationRate", relaxationRate, "from 0 to 1");
+	if (!(correctionSpeed >= 0)) refuse("correctionSpeed", correctionSpeed, "0 or more [m/s]");
+	if (!(openGap >= 0)) refuse("openGap", openGap, "0 or more [ℓ]");
 	if (method != "accelerated" && method != "gaussSeidel") fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
 	try {
 		contact::stoppingTestOf(stoppingTest.c_str());
@@ -120,6 +111,8 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	overlapWorst     = s.worstOverlap;
 	overlapMean      = s.touching > 0 ? s.overlap / s.touching : 0;
 	overlapWorstEver = std::max(overlapWorstEver, overlapWorst);
+	overlapWorstPair = Vector2i(s.worstIds[0], s.worstIds[1]);
+	reportOverlap();
 	brokenTension += s.broken[NscdPhys::Tension];
 	brokenShear += s.broken[NscdPhys::Shear];
 	brokenTorque += s.broken[NscdPhys::Torque];
@@ -149,7 +142,17 @@ void ContactDynamicsEngine::dump(const std::string& path) const
 	contact::write(path, { seam.problem, warmStart, stepSolved });
 }
 
-void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics)
+void ContactDynamicsEngine::reportOverlap()
+{
+	constexpr Real deep = 0.05; // ℓ; what a step of an ordinary run begins with is a hundredth of that
+	if (overlapWorst < deep || !nscd::seldom(++overlappedSteps)) return;
+	LOG_WARN(
+	        "step " << scene->iter << " began with bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1] << " " << 100 * overlapWorst
+	                << " % of their mean diameter in each other (" << overlappedSteps << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
+	                   " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors.");
+}
+
+void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, Real meanWeight)
 {
 	iterations = lastIterations = statistics.iterations;
 	lastUnsolved  = !statistics.converged;
@@ -157,20 +160,21 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics)
 	residualForce = statistics.residual.rms / scene->dt;
 	++steps;
 	totalIterations += iterations;
-	if (statistics.converged) return;
-	++unconverged;
-	// loud, but not once a step: at the 1st, 10th, 100th … time
-	Real decade = 1;
-	while (decade < unconverged)
-		decade *= 10;
-	if (decade == unconverged) {
-		const auto test   = contact::stoppingTestOf(stoppingTest.c_str());
-		const bool ours   = test == contact::StoppingTest::NaturalMap;
-		const Real figure = ours ? residual : statistics.changes.figure(test);
-		LOG_WARN(
-		        "step " << scene->iter << " was not solved: " << (ours ? "residual" : stoppingTest) << " " << figure << " after " << iterations
-		                << " sweeps, wanted " << tolerance << " (" << unconverged << " such steps so far). Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
-	}
+	if (!statistics.converged) ++unconverged;
+	const auto test   = contact::stoppingTestOf(stoppingTest.c_str());
+	const bool ours   = test == contact::StoppingTest::NaturalMap;
+	const Real figure = ours ? residual : statistics.changes.figure(test);
+	// A step in which bodies meet hard may miss the tolerance, and so do forces that are next to nothing: that is counted. What lasts, or outweighs a body, matters.
+	constexpr Real missed = 10; // tolerances
+	constexpr int  lasts  = 10; // steps
+	const bool     matters = !statistics.converged && !(figure <= missed * tolerance) && !(residualForce <= missed * tolerance * meanWeight);
+	unsolvedOnEnd          = matters ? unsolvedOnEnd + 1 : 0;
+	const bool outweighs   = matters && meanWeight > 0 && residualForce > meanWeight;
+	if ((unsolvedOnEnd != lasts && !outweighs) || !nscd::seldom(++unsolved)) return;
+	LOG_WARN(
+	        "step " << scene->iter << " was not solved" << (unsolvedOnEnd >= lasts ? ", like those before it" : "") << ": " << (ours ? "residual" : stoppingTest) << " " << figure
+	                << " after " << iterations << " sweeps, wanted " << tolerance << "; reactions miss the law by " << residualForce << " N (rms), a body weighs " << meanWeight
+	                << " N (mean); " << unconverged << " steps so far ended above the tolerance. Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
 }
 
 int ContactDynamicsEngine::bond()
@@ -207,6 +211,8 @@ int ContactDynamicsEngine::unbond()
 void ContactDynamicsEngine::updateStrengths()
 {
 	scene = Omega::instance().getScene().get();
+	for (const auto& b : *scene->bodies) // before anything is changed
+		if (const auto* material = b ? dynamic_cast<const NscdMat*>(b->material.get()) : nullptr) material->validate();
 	for (const auto& i : *scene->interactions)
 		if (auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr)
 			Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(*phys, *Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));

@@ -61,12 +61,16 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,bondRate,0,Attr::readonly,"With a :yref:`NonsmoothTimeStepper`: largest rate at which a bond crosses its ellipse at the end of the last step [1/s]."))
 		((int,lastIterations,0,(Attr::readonly|Attr::hidden),"iterations, saved with the scene."))
 		((bool,lastUnsolved,false,(Attr::readonly|Attr::hidden),"The last step ended above the tolerance."))
-		((int,unconverged,0,Attr::readonly,"Steps so far that ended above the tolerance."))
+		((int,unconverged,0,Attr::readonly,"Steps so far that ended above the tolerance, whether by much or by little: see unsolved."))
+		((int,unsolvedOnEnd,0,(Attr::readonly|Attr::hidden),"The last steps, one after the other, that missed the tolerance by ten times and more."))
+		((int,unsolved,0,Attr::readonly,"Times so far that a warning was due: ten steps in a row ended above ten tolerances, with forces that matter beside a body's weight; or one did, by more than a body's mean weight."))
 		((long,steps,0,Attr::readonly,"Steps so far."))
 		((long,totalIterations,0,Attr::readonly,"Sweeps so far."))
 		((Real,overlapWorst,0,(Attr::readonly|Attr::noSave),"Largest overlap at the beginning of the last step [ℓ]."))
 		((Real,overlapMean,0,(Attr::readonly|Attr::noSave),"Mean overlap of touching contacts [ℓ]."))
 		((Real,overlapWorstEver,0,Attr::readonly,"Largest overlap of any step so far [ℓ]."))
+		((Vector2i,overlapWorstPair,Vector2i(-1,-1),(Attr::readonly|Attr::noSave),"Bodies with the largest overlap at the beginning of the last step, the lower id first; (-1, -1): none overlap."))
+		((int,overlappedSteps,0,Attr::readonly,"Steps so far that began with an overlap of 0.05 ℓ or more, of which a warning tells."))
 		((int,contacts,0,(Attr::readonly|Attr::noSave),"Contacts that touch or carry force."))
 		((int,candidates,0,(Attr::readonly|Attr::noSave),"Contacts in the solve, open ones included."))
 		((int,bonds,0,(Attr::readonly|Attr::noSave),"Living bonds."))
@@ -113,7 +117,8 @@ private:
 	nonsmooth::contact::SolverSettings   settings() const;
 	void                                 account(const nscd::StepSums& sums);
 	void                                 recordBreaks();
-	void                                 report(const nonsmooth::contact::SolverStatistics& statistics);
+	void                                 report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
+	void                                 reportOverlap();
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;

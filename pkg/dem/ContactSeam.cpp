@@ -1,6 +1,7 @@
 #include "ContactSeam.hpp"
 #include "NscdInteractionLoop.hpp"
 #include "Prefetch.hpp"
+#include "SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
 #include <neighbours/bucket_sort.hpp>
@@ -33,14 +34,14 @@ void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation
 {
 	relaxation = how;
 	threads    = threadCount;
-	iteration  = scene.iter;
 	if (!loop) readBodies(scene, threads, ownBodies);
 	gatherBodies(scene, gravity, loop ? loop->bodyReadings() : ownBodies);
+	checkShapes(scene, loop ? loop->bodyReadings() : ownBodies);
 	if (scene.iter % tidyPeriod == 0) tidy(scene);
 	if (!loop) readContacts(scene);
 	const Readings& read = loop ? loop->contactReadings() : ownContacts;
 	arrange(read, scene.bodies->size());
-	divide(read);
+	divide(scene, read);
 	const size_t count = ordered.size(), solved = solvedBefore.back();
 	problem.contacts.resize(solved);
 	problem.impulses.resize(solved);
@@ -69,6 +70,9 @@ void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation
 void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read)
 {
 	const long size = (long)read.size();
+	// also what a script or an engine after the integrator has added to a list that counts as summed up: ForceResetter does not see it
+	scene.forces.addMaxId(Body::id_t(size));
+	scene.forces.synced = false;
 	scene.forces.sync();
 	for (auto* v : { &problem.freeVelocity, &before, &external })
 		v->assign(size, {});
@@ -78,8 +82,10 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 	radius.assign(size, -1);
 	mass.assign(size, 0);
 	inertia.assign(size, 0);
-	const Real h = relaxation.step;
-	int        bad = -1; // body with an unusable state; reported after the loop, which must not throw
+	const Real h     = relaxation.step;
+	const auto first = std::find_if(read.begin(), read.end(), [](const BodyReading& b) { return b.present && b.radius > 0; });
+	const Real plane = first == read.end() ? 0 : first->pos[2]; // in which all disks lie
+	int        bad   = -1; // body with an unusable state; reported after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
 	for (long id = 0; id < size; ++id) {
 		const BodyReading& s = read[id];
@@ -105,7 +111,8 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 
 		const bool     moves  = !w.isFixed();
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-		if (!std::isfinite(v.x + v.y + v.w + s.pos[0] + s.pos[1] + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped)
+		if (!std::isfinite(v.x + v.y + v.w + s.pos[0] + s.pos[1] + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped
+		    || w.x < 0 || w.y < 0 || w.w < 0 || (s.radius > 0 && !(std::abs(s.pos[2] - plane) <= flatness * s.radius)))
 			bad = std::max(bad, (int)id);
 	}
 	if (bad >= 0) {
@@ -113,7 +120,14 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 		if (body.isClump() || body.isClumpMember()) refuse(body, "belongs to a clump", "clumps are not supported; use single spheres");
 		const State& s = *body.state;
 		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum())) refuse(body, "has a position or velocity that is not finite", "look at the forces and velocities set by the script");
-		if (!(s.mass > 0) || !(s.inertia[2] > 0)) refuse(body, "can move but has no mass or inertia", "set state.mass and state.inertia, or block its DOFs");
+		const auto     number = [](Real value) { return boost::lexical_cast<string>(value); };
+		const unsigned free   = ~s.blockedDOFs;
+		if (((free & (State::DOF_X | State::DOF_Y)) && !(s.mass > 0)) || ((free & State::DOF_RZ) && !(s.inertia[2] > 0)))
+			refuse(body, "can move but has mass = " + number(s.mass) + " kg and inertia = " + number(s.inertia[2]) + " kg m² about z",
+			       "set state.mass and state.inertia to positive values, or block its DOFs");
+		if (read[bad].radius > 0 && !(std::abs(s.pos[2] - plane) <= flatness * read[bad].radius))
+			refuse(body, "is at z = " + number(s.pos[2]) + " m and body #" + std::to_string(first - read.begin()) + " at z = " + number(plane) + " m",
+			       "put all disks at one z, since only the part of a contact in the x-y plane would act");
 		const Vector3r& f = scene.forces.getForce(bad);
 		if (!std::isfinite(f.sum())) refuse(body, "has a force that is not finite", "look at the engines that add forces");
 		refuse(body, "can leave the x-y plane", "set state.blockedDOFs = 'zXY' (the contact problem is two-dimensional)");
@@ -124,7 +138,8 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 /// neighbours in memory.
 void ContactSeam::tidy(Scene& scene)
 {
-	auto&                                list = *scene.interactions;
+	auto& list = *scene.interactions;
+	const std::lock_guard<std::mutex>    drawing(list.drawloopmutex); // YADE's viewer walks along it meanwhile
 	std::vector<shared_ptr<Interaction>> sorted(list.begin(), list.begin() + list.size());
 	const auto key = [](const shared_ptr<Interaction>& i) {
 		return std::pair<int, int>(std::min(i->getId1(), i->getId2()), std::max(i->getId1(), i->getId2()));
@@ -149,7 +164,7 @@ void ContactSeam::readContacts(Scene& scene)
 			if (ahead.geom) fetch<partOfGeometry>(ahead.geom.get());
 			if (ahead.phys) fetch<partOfPhysics>(ahead.phys.get());
 		}
-		ownContacts.take(k, *list[k], iteration);
+		ownContacts.take(k, *list[k]);
 	}
 }
 
@@ -174,25 +189,21 @@ void ContactSeam::arrange(const Readings& readings, size_t bodies)
 }
 
 /// Tells the contacts that need not be solved for from the others, and counts these, so that each can be gathered where it stays.
-void ContactSeam::divide(const Readings& readings)
+void ContactSeam::divide(const Scene& scene, const Readings& readings)
 {
 	const size_t count = ordered.size();
-	long         bad   = (long)count; // the first one of another physics, reported after the loop
+	long         bad   = (long)count; // the first one that cannot be taken, reported after the loop
 	solvedBefore.assign(chunksOf(count) + 1, 0);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
 	for (long part = 0; part < (long)chunksOf(count); ++part)
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
 			const Reading& reading = readings.contacts[ordered[k].reading];
-			if (!reading.phys) bad = std::min(bad, (long)k);
+			if (!reading.usable) bad = std::min(bad, (long)k);
+			if (!reading.phys) continue;
 			ordered[k].solved = mustBeSolved(reading, ordered[k]);
 			solvedBefore[part + 1] += ordered[k].solved;
 		}
-	if (bad < (long)count) {
-		const Interaction& i = *readings.contacts[ordered[bad].reading].interaction;
-		throw std::runtime_error(
-		        "ContactDynamicsEngine: interaction #" + std::to_string(i.getId1()) + "+#" + std::to_string(i.getId2()) + " has a "
-		        + i.phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
-	}
+	if (bad < (long)count) refuseContact(scene, readings.contacts[ordered[bad].reading]);
 	for (size_t part = 1; part < solvedBefore.size(); ++part)
 		solvedBefore[part] += solvedBefore[part - 1];
 }
@@ -286,6 +297,7 @@ Impulse ContactSeam::gatherContact(const Reading& reading, const Found& ids, Con
 	c.rollingArm = reading.rollingArm;
 	c.length     = reading.length;
 	result       = c;
+	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed()) return {}; // no reaction is found, so none may stay
 	return { h * reading.normal, h * reading.tangential, h * reading.torque };
 }
 

@@ -42,6 +42,7 @@ struct StepSums {
 	// contacts
 	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
 	Real overlap = 0, worstOverlap = 0;                       // sum and maximum over contacts, in units of ℓ
+	int  worstIds[2] = { -1, -1 };                            // bodies of the first contact that has the maximum
 	Real contactRate = 0, bondRate = 0;                       // [1/s], see NonsmoothTimeStepper
 	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 	// bodies
@@ -87,7 +88,7 @@ private:
 	void tidy(Scene& scene);
 	void readContacts(Scene& scene);
 	void arrange(const Readings& readings, size_t bodies);
-	void divide(const Readings& readings);
+	void divide(const Scene& scene, const Readings& readings);
 	bool mustBeSolved(const Reading& reading, const Found& ids) const;
 	nonsmooth::contact::Contact frameOf(const Reading& reading, const Found& ids) const;
 	nonsmooth::contact::Impulse gatherContact(const Reading& reading, const Found& ids, nonsmooth::contact::Contact& result, Link& link) const;
@@ -105,7 +106,6 @@ private:
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
 	std::vector<Link>                        leftLinks;    // their links
 	int                                    threads = 1;
-	long                                   iteration = -1;
 	std::vector<nonsmooth::contact::Twist> before; // velocities at the beginning of the step
 	std::vector<nonsmooth::contact::Twist> external; // force and torque of other engines [N, N m]
 	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body

@@ -18,7 +18,10 @@ void StepSums::add(const StepSums& other)
 	debonding += other.debonding;
 	impact += other.impact;
 	overlap += other.overlap;
-	worstOverlap = std::max(worstOverlap, other.worstOverlap);
+	if (other.worstOverlap > worstOverlap) {
+		worstOverlap = other.worstOverlap;
+		std::copy_n(other.worstIds, 2, worstIds);
+	}
 	contactRate = std::max(contactRate, other.contactRate);
 	bondRate    = std::max(bondRate, other.bondRate);
 	touching += other.touching;
@@ -176,6 +179,7 @@ void ContactSeam::scatterContact(size_t k)
 	phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
 	phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
 	phys.yielded        = false;
+	if (links[k].broken != NscdPhys::None) phys.breaks = false; // it is counted now
 	if (!phys.bonded) return;
 	const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 	constexpr Real close = 1 - 1e-9;
@@ -214,8 +218,8 @@ void ContactSeam::scatterForces(Scene& scene)
 		r.x += turning[id].x;
 		r.y += turning[id].y;
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
-		scene.forces.addForce(id, Vector3r(r.x / h, r.y / h, 0));
-		scene.forces.addTorque(id, Vector3r(0, 0, r.w / h));
+		scene.forces.addForceUnsynced(id, Vector3r(r.x / h, r.y / h, 0)); // into the sums, see gatherBodies
+		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, r.w / h));
 	}
 }
 
@@ -250,9 +254,15 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 		(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
 		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
 		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
-		const Real overlap = std::max(Real(0), -links[k].gap) / c.length;
+		// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
+		const bool held    = links[k].gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
+		const Real overlap = held ? 0 : std::max(Real(0), -links[k].gap) / c.length;
 		sums.overlap += overlap;
-		sums.worstOverlap = std::max(sums.worstOverlap, overlap);
+		if (overlap > sums.worstOverlap) {
+			sums.worstOverlap = overlap;
+			sums.worstIds[0]  = std::min(c.i, c.j);
+			sums.worstIds[1]  = std::max(c.i, c.j);
+		}
 		sums.touching += (p.n != 0 || links[k].gap <= 0);
 		sums.bonds += links[k].bonded;
 		if (links[k].broken != NscdPhys::None) ++sums.broken[links[k].broken];

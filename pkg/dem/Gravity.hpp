@@ -9,7 +9,7 @@ namespace yade::nscd {
 inline const NewtonIntegrator* findNewton(const Scene& scene)
 {
 	for (const auto& engine : scene.engines)
-		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) return newton;
+		if (const auto* newton = engine->dead ? nullptr : dynamic_cast<const NewtonIntegrator*>(engine.get())) return newton;
 	return nullptr;
 }
 

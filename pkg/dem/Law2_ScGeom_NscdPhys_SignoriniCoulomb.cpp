@@ -1,14 +1,25 @@
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
+#include "SceneCheck.hpp"
 #include "Segment.hpp"
+#include "Seldom.hpp"
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
 namespace yade {
 
 YADE_PLUGIN((Law2_ScGeom_NscdPhys_SignoriniCoulomb));
+CREATE_LOGGER(Law2_ScGeom_NscdPhys_SignoriniCoulomb);
+
+/// Behind YADE's own loop, whose threads no exception may leave, a missing solver can only be told of; NscdInteractionLoop refuses it.
+void Law2_ScGeom_NscdPhys_SignoriniCoulomb::expectSolver()
+{
+	if (looked == scene->iter || looked.exchange(scene->iter) == scene->iter || nscd::hasSolver(*scene)) return;
+	if (nscd::seldom(++unsolved)) LOG_ERROR("step " << scene->iter << ": " << nscd::noSolver(*scene));
+}
 
 bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr<IPhys>& ip, Interaction* interaction)
 {
+	expectSolver();
 	const auto& geom = static_cast<const ScGeom&>(*ig);
 	auto&       phys = static_cast<NscdPhys&>(*ip);
 	const Real  gap  = -geom.penetrationDepth;
@@ -18,7 +29,7 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 		followBond(phys, gap, *pair.first->state, *pair.second->state);
 	}
 	if (!keeps(phys, gap)) return false;
-	if (!phys.bonded && phys.brokenStep != scene->iter)
+	if (!phys.bonded && !phys.breaks)
 		if (const auto* wall = dynamic_cast<const SegmentGeom*>(&geom))
 			if (!wall->owned) return false;
 	phys.updateThresholds(gap, adhesionRange);

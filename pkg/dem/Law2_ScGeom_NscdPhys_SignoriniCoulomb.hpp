@@ -14,6 +14,7 @@
 #include "BondEllipse.hpp"
 #include <core/Dispatching.hpp>
 #include <core/Scene.hpp>
+#include <atomic>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade {
@@ -31,11 +32,12 @@ public:
 			phys.bonded     = false;
 			phys.brokenMode = nscd::bondMode(phys);
 			phys.brokenStep = scene->iter;
+			phys.breaks     = true;
 		} else if (phys.yielded)
 			phys.restGap = std::max(phys.restGap, gap);
 	}
 	/// Whether a contact with that gap is kept; one whose bond broke in this step stays for the step, to be counted.
-	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.brokenStep == scene->iter || gap <= reach * phys.length; }
+	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.breaks || gap <= reach * phys.length; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Law2_ScGeom_NscdPhys_SignoriniCoulomb,LawFunctor,
 R"""(Nonsmooth cohesive contact of rigid bodies: Signorini's condition with a tensile threshold, Coulomb friction and rolling friction, all
@@ -45,6 +47,13 @@ three with a threshold proportional to :math:`F_a+N` (Taboada and Estrada 2009, 
 		((Real,adhesionRange,1e-3,,"Gap [ℓ] up to which a contact without a bond counts as touching for the residual tensile strength."))
 	);
 	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	void expectSolver();
+
+	std::atomic<long> looked { -1 }; // the step in which a solver was looked for
+	std::atomic<long> unsolved { 0 }; // steps without one
 };
 REGISTER_SERIALIZABLE(Law2_ScGeom_NscdPhys_SignoriniCoulomb);
 

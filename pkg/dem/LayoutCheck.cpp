@@ -11,12 +11,22 @@
 
 #include <lib/factory/ClassFactory.hpp>
 #include <lib/serialization/Serializable.hpp>
+#include <core/Aabb.hpp>
 #include <core/Body.hpp>
+#include <core/Cell.hpp>
+#include <core/Dispatching.hpp>
+#include <core/EnergyTracker.hpp>
 #include <core/Interaction.hpp>
+#include <core/InteractionLoop.hpp>
 #include <core/Scene.hpp>
 #include <core/State.hpp>
+#include <core/TimeStepper.hpp>
+#include <pkg/common/Bo1_Aabb.hpp>
+#include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
+#include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
+#include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
@@ -45,6 +55,8 @@ std::string& refusal()
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::runtime_error(reason); }
 
+[[noreturn]] void misplaced(const std::string& attribute) { refuse("YADE's " + attribute + " is not where its header says it is in memory."); }
+
 void checkVersionAndFeatures()
 {
 	const py::object config  = py::import("yade.config");
@@ -69,7 +81,7 @@ template <class Class, class Member, class Value> void check(const char* name, c
 	const auto object = make<Class>(name);
 	object->pySetAttr(attribute, py::object(value));
 	if (static_cast<const Class&>(*object).*member != value)
-		refuse(std::string("YADE's ") + name + "." + attribute + " is not where its header says it is in memory.");
+		misplaced(std::string(name) + "." + attribute);
 }
 
 // For each class the engines touch: its own first and last attributes of a plain type, so that a member
@@ -81,23 +93,73 @@ void checkLayout()
 	check("Scene", "selectedBody", &Scene::selectedBody, 321);
 	const auto        scene = make<Scene>("Scene");
 	const std::size_t tags  = static_cast<const Scene&>(*scene).tags.size(); // every new scene has some
-	if (tags < 1 or tags > 1000) refuse("YADE's Scene.tags is not where its header says it is in memory.");
+	if (tags < 1 or tags > 1000) misplaced("Scene.tags");
 
+	// the containers of a scene, two of which have no attributes that could be set: what YADE's own code leaves in them
+	auto& live = static_cast<Scene&>(*scene);
+	if (live.interactions->size() != 0 or live.interactions->iterColliderLastRun != -1) misplaced("InteractionContainer.iterColliderLastRun");
+	if (not live.forces.synced or live.forces.lastReset != 0) misplaced("ForceContainer.synced");
+	live.forces.addForce(0, Vector3r(1, 0, 0));
+	if (live.forces.synced) misplaced("ForceContainer.synced");
+	check("BodyContainer", "checkedByCollider", &BodyContainer::checkedByCollider, true);
+	check("BodyContainer", "useRedirection", &BodyContainer::useRedirection, true);
+	check("BodyContainer", "enableRedirection", &BodyContainer::enableRedirection, false);
+	check("Cell", "homoDeform", &Cell::homoDeform, 1);
+	check("Cell", "velGradChanged", &Cell::velGradChanged, true);
+	check("Cell", "flipFlippable", &Cell::flipFlippable, true);
+	make<EnergyTracker>("EnergyTracker");
+
+	check("Body", "id", &Body::id, 44);
 	check("Body", "flags", &Body::flags, 13);
 	check("Body", "clumpId", &Body::clumpId, 77);
 	check("Body", "timeBorn", &Body::timeBorn, 0.625);
 	check("State", "mass", &State::mass, 2.125);
+	check("State", "isDamped", &State::isDamped, false);
 	check("State", "densityScaling", &State::densityScaling, 3.375);
+	check("Aabb", "lastUpdateIter", &Aabb::lastUpdateIter, 45);
+	check("Aabb", "sweepLength", &Aabb::sweepLength, 0.3125);
+	make<Aabb>("Aabb");
+	check("Sphere", "wire", &Sphere::wire, true);
 	check("Sphere", "highlight", &Sphere::highlight, true);
 	check("Sphere", "radius", &Sphere::radius, 4.625);
 	check("Interaction", "iterMadeReal", &Interaction::iterMadeReal, 987L);
 	check("Interaction", "iterBorn", &Interaction::iterBorn, 654L);
+	check("Interaction", "linIx", &Interaction::linIx, 46);
+	check("FrictMat", "id", &FrictMat::id, 47);
+	check("FrictMat", "young", &FrictMat::young, 2.875);
+	check("FrictMat", "poisson", &FrictMat::poisson, 0.1875);
 	check("FrictMat", "density", &FrictMat::density, 5.125);
 	check("FrictMat", "frictionAngle", &FrictMat::frictionAngle, 0.875);
+	check("CohFrictMat", "isCohesive", &CohFrictMat::isCohesive, false);
+	check("CohFrictMat", "momentRotationLaw", &CohFrictMat::momentRotationLaw, true);
+	check("ScGeom", "refR1", &ScGeom::refR1, 1.625);
+	check("ScGeom", "refR2", &ScGeom::refR2, 1.875);
 	check("ScGeom", "penetrationDepth", &ScGeom::penetrationDepth, 6.375);
 	check("FrictPhys", "kn", &FrictPhys::kn, 7.625);
 	check("FrictPhys", "ks", &FrictPhys::ks, 8.125);
 	check("FrictPhys", "tangensOfFrictionAngle", &FrictPhys::tangensOfFrictionAngle, 9.375);
+	check("CohFrictPhys", "kr", &CohFrictPhys::kr, 3.125);
+	check("CohFrictPhys", "ktw", &CohFrictPhys::ktw, 3.625);
+	check("CohFrictPhys", "cohesionDisablesFriction", &CohFrictPhys::cohesionDisablesFriction, true);
+	check("CohFrictPhys", "fragile", &CohFrictPhys::fragile, false);
+	check("CohFrictPhys", "unp", &CohFrictPhys::unp, 4.125);
+	check("CohFrictPhys", "creep_viscosity", &CohFrictPhys::creep_viscosity, 4.375);
+
+	check("GlobalEngine", "dead", &GlobalEngine::dead, true);
+	check("GlobalEngine", "label", &GlobalEngine::label, std::string("probe"));
+	check("PeriodicEngine", "virtPeriod", &PeriodicEngine::virtPeriod, 5.625);
+	check("PeriodicEngine", "nDone", &PeriodicEngine::nDone, 48L);
+	check("GlobalStiffnessTimeStepper", "active", &TimeStepper::active, false);
+	check("GlobalStiffnessTimeStepper", "timeStepUpdateInterval", &TimeStepper::timeStepUpdateInterval, 49u);
+	check("InteractionLoop", "loopOnSortedInteractions", &InteractionLoop::loopOnSortedInteractions, true);
+	check("BoundDispatcher", "activated", &BoundDispatcher::activated, false);
+	check("BoundDispatcher", "targetInterv", &BoundDispatcher::targetInterv, 5.875);
+	check("IGeomDispatcher", "label", &IGeomDispatcher::label, std::string("probe"));
+	check("Bo1_Sphere_Aabb", "aabbEnlargeFactor", &Bo1_Sphere_Aabb::aabbEnlargeFactor, 6.125);
+	if constexpr (std::is_same<mask_t, int>::value) { // masks of many bits are no plain attributes
+		check("Body", "groupMask", &Body::groupMask, mask_t(50));
+		check("InsertionSortCollider", "avoidSelfInteractionMask", &Collider::avoidSelfInteractionMask, mask_t(51));
+	}
 	check("NewtonIntegrator", "ompThreads", &NewtonIntegrator::ompThreads, 3);
 	check("NewtonIntegrator", "damping", &NewtonIntegrator::damping, 0.0625);
 	check("NewtonIntegrator", "mask", &NewtonIntegrator::mask, 5);

@@ -27,7 +27,7 @@ void NonsmoothTimeStepper::action()
 	validate();
 	const ContactDynamicsEngine* solver = nullptr;
 	for (const auto& engine : scene->engines)
-		if (const auto* found = dynamic_cast<const ContactDynamicsEngine*>(engine.get())) solver = found;
+		if (const auto* found = engine->dead ? nullptr : dynamic_cast<const ContactDynamicsEngine*>(engine.get())) solver = found;
 	if (!solver) throw std::runtime_error("NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine: add one, or set O.dt yourself");
 
 	Real       step  = largest;

@@ -3,6 +3,7 @@
 #include "PlanarGridCollider.hpp"
 #include "PorePressureEngine.hpp"
 #include "Prefetch.hpp"
+#include "SceneCheck.hpp"
 #include "YadeFeatures.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -59,6 +60,8 @@ namespace {
 				return true;
 			}
 		}
+		for (const auto* b : { b1_.get(), b2_.get() })
+			if (!b->material) throw std::runtime_error("NscdInteractionLoop: body #" + std::to_string(b->getId()) + " has no material: give it an NscdMat");
 		if (swap) I->swapOrder();
 		const shared_ptr<Body>&b1 = swap ? b2_ : b1_, &b2 = swap ? b1_ : b2_;
 		const bool wasReal = I->isReal();
@@ -80,8 +83,9 @@ const NscdInteractionLoop* NscdInteractionLoop::before(const Engine& engine)
 	const NscdInteractionLoop* loop = nullptr;
 	for (const auto& other : scene.engines) {
 		if (other.get() == &engine) break;
+		if (other->dead) continue;
 		if (const auto* found = dynamic_cast<const NscdInteractionLoop*>(other.get())) loop = found;
-		else if (!other->dead && !dynamic_cast<const PorePressureEngine*>(other.get())) // which only adds forces
+		else if (!dynamic_cast<const PorePressureEngine*>(other.get())) // which only adds forces
 			loop = nullptr;
 	}
 	const bool holds = loop && loop->hasRead(scene.iter) && loop->contactReadings().ids.size() == scene.interactions->size()
@@ -92,7 +96,7 @@ const NscdInteractionLoop* NscdInteractionLoop::before(const Engine& engine)
 const NscdInteractionLoop* NscdInteractionLoop::ofLastStep(const Scene& scene)
 {
 	for (const auto& engine : scene.engines)
-		if (const auto* loop = dynamic_cast<const NscdInteractionLoop*>(engine.get()))
+		if (const auto* loop = engine->dead ? nullptr : dynamic_cast<const NscdInteractionLoop*>(engine.get()))
 			if (loop->hasRead(scene.iter - 1)) return loop;
 	return nullptr;
 }
@@ -100,6 +104,10 @@ const NscdInteractionLoop* NscdInteractionLoop::ofLastStep(const Scene& scene)
 void NscdInteractionLoop::action()
 {
 	auto& list = *scene->interactions;
+	readIn     = never; // until all is read; a step's number comes again after O.resetTime()
+	if (!nscd::hasSolver(*scene))
+		for (const auto& law : lawDispatcher->functors)
+			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get())) throw std::runtime_error("NscdInteractionLoop: " + nscd::noSolver(*scene));
 	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0) {
 		InteractionLoop::action();
 		return;
@@ -145,11 +153,11 @@ void NscdInteractionLoop::action()
 				const Real gap  = -geom.penetrationDepth;
 				const bool swap = I->getId1() > I->getId2();
 				if (phys.bonded) law->followBond(phys, gap, swap ? p2 : p1, swap ? p1 : p2);
-				const bool wanted = !collider || phys.bonded || phys.brokenStep == scene->iter || collider->wants(I->getId1(), I->getId2(), p1.radius + p2.radius + gap);
+				const bool wanted = !collider || phys.bonded || phys.breaks || collider->wants(I->getId1(), I->getId2(), p1.radius + p2.radius + gap);
 				if (wanted && law->keeps(phys, gap)) {
 					phys.updateThresholds(gap, law->adhesionRange);
 					if (I->isActive) {
-						readings.take(k, *I, geom, &phys, scene->iter);
+						readings.take(k, *I, geom, &phys);
 						continue;
 					}
 				} else
@@ -160,7 +168,7 @@ void NscdInteractionLoop::action()
 		}
 		try {
 			if (!visit(I, *scene, *this)) list.requestErase(I);
-			readings.take(k, *I, scene->iter);
+			readings.take(k, *I);
 		} catch (const std::exception& e) {
 #pragma omp critical
 			error = e.what();
@@ -170,7 +178,7 @@ void NscdInteractionLoop::action()
 	unreal.clear();
 	for (long k = 0; k < count; ++k)
 		if (readings.ids[k].first < 0 && !list[k]->isReal()) unreal.emplace_back(list[k]->getId1(), list[k]->getId2());
-	readIn = scene->iter;
+	if (!scene->subStepping) readIn = scene->iter; // or a script may change what was read before others use it
 }
 
 /// The collider whose readings of this step hold; null where another engine may have changed bodies since, or a script.

@@ -44,7 +44,8 @@ private:
 	std::vector<nscd::BodyReading>                 ownBodies;
 	nscd::Readings                                 readings;
 	std::vector<std::pair<Body::id_t, Body::id_t>> unreal;
-	long                                           readIn = -1; // step
+	static constexpr long                          never  = std::numeric_limits<long>::min();
+	long                                           readIn = never; // step
 };
 REGISTER_SERIALIZABLE(NscdInteractionLoop);
 

@@ -7,17 +7,20 @@ namespace yade {
 
 YADE_PLUGIN((NscdMat)(SlipWeakeningMat));
 
+void NscdMat::require(bool good, const char* name, Real value, const char* what) const
+{
+	if (!good) throw std::invalid_argument(getClassName() + " '" + label + "': " + name + " = " + boost::lexical_cast<string>(value) + ", it must be " + what);
+}
+
 void NscdMat::validate() const
 {
-	const auto require = [this](bool good, const char* name, Real value, const char* what) {
-		if (!good)
-			throw std::invalid_argument(getClassName() + " '" + label + "': " + name + " = " + boost::lexical_cast<string>(value) + ", it must be " + what);
-	};
+	require(density > 0, "density", density, "positive [kg/m³], also for walls, which have no use for it");
 	require(tensileStrength >= 0, "tensileStrength", tensileStrength, "0 or more [Pa]");
 	require(residualTensileStrength >= 0, "residualTensileStrength", residualTensileStrength, "0 or more [Pa]");
 	require(frictionAngle >= 0 && frictionAngle < Mathr::PI / 2, "frictionAngle", frictionAngle, "from 0 to below π/2 [rad]");
 	require(residualFrictionAngle < Mathr::PI / 2, "residualFrictionAngle", residualFrictionAngle, "below π/2 [rad], or negative for the peak value");
 	require(rollingFriction >= 0, "rollingFriction", rollingFriction, "0 or more");
+	require(!std::isnan(residualRollingFriction), "residualRollingFriction", residualRollingFriction, "0 or more, or negative for the peak value");
 	require(bondEllipseNormal > 0, "bondEllipseNormal", bondEllipseNormal, "positive (units of ℓ)");
 	require(bondEllipseTangential > 0, "bondEllipseTangential", bondEllipseTangential, "positive (units of ℓ)");
 	require(bondCreationDistance >= 0, "bondCreationDistance", bondCreationDistance, "0 or more (units of ℓ)");
@@ -27,6 +30,8 @@ void NscdMat::validate() const
 void SlipWeakeningMat::validate() const
 {
 	NscdMat::validate();
+	require(weakenedFrictionAngle >= 0 && weakenedFrictionAngle < Mathr::PI / 2, "weakenedFrictionAngle", weakenedFrictionAngle, "from 0 to below π/2 [rad]");
+	require(weakenedTensileStrength >= 0, "weakenedTensileStrength", weakenedTensileStrength, "0 or more [Pa]");
 	nonsmooth::contact::slipWeakening(weakening, 0, criticalSlip); // throws for a name or a slip that it does not know
 }
 

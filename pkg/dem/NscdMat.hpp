@@ -34,6 +34,9 @@ not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that 
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(NscdMat, FrictMat);
+
+protected:
+	void require(bool good, const char* name, Real value, const char* what) const;
 };
 REGISTER_SERIALIZABLE(NscdMat);
 

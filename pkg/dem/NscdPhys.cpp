@@ -38,9 +38,32 @@ namespace nscd {
 	}
 }
 
+namespace {
+	bool usable(const shared_ptr<Material>& m)
+	{
+		const auto* material = dynamic_cast<const NscdMat*>(m.get());
+		try {
+			if (material) material->validate();
+			return material;
+		} catch (const std::invalid_argument&) {
+			return false;
+		}
+	}
+}
+
 void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
 {
 	if (interaction->phys) return;
+	const Body &b1 = *Body::byId(interaction->getId1(), scene), &b2 = *Body::byId(interaction->getId2(), scene);
+	if (!usable(m1) || !usable(m2)) {
+		// no exception may leave the threads of YADE's loop: ContactDynamicsEngine meets these numbers in the same step, and says why they are none
+		const auto spoilt = boost::make_shared<NscdPhys>();
+		spoilt->length = nscd::meanDiameter(b1, b2);
+		for (Real* value : { &spoilt->friction, &spoilt->residualFriction, &spoilt->restitution })
+			*value = NaN;
+		interaction->phys = spoilt;
+		return;
+	}
 	shared_ptr<NscdPhys> phys;
 	const auto           weak1 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1), weak2 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
 	if (weak1 || weak2) {
@@ -50,12 +73,18 @@ void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shar
 		phys               = weak;
 	} else
 		phys = boost::make_shared<NscdPhys>();
-	setStrengths(*phys, *Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
+	setStrengths(*phys, b1, b2);
 	interaction->phys = phys;
 }
 
 void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, const Body& b2)
 {
+	for (const Body* body : { &b1, &b2 }) {
+		const string who = "body #" + std::to_string(body->getId());
+		if (!body->material) throw std::runtime_error(who + " has no material: give it an NscdMat");
+		if (!dynamic_cast<const NscdMat*>(body->material.get()))
+			throw std::runtime_error(who + " has a " + body->material->getClassName() + " in a rigid contact: give it an NscdMat");
+	}
 	const auto &a = static_cast<const NscdMat&>(*b1.material), &b = static_cast<const NscdMat&>(*b2.material);
 	// a wall's own value, or the weaker of two particles'
 	const auto pick      = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };

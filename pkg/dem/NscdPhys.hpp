@@ -37,6 +37,7 @@ R"""(Contact of two :yref:`NscdMats<NscdMat>`: reactions of the last step, thres
 		((bool,bonded,false,,"A bond holds."))
 		((bool,yielded,false,(Attr::readonly|Attr::hidden),"The bond yielded in tension in the last step."))
 		((bool,bondable,false,,"A bond may be made here on request."))
+		((bool,breaks,false,(Attr::readonly|Attr::hidden|Attr::noSave),"The bond broke in this step, and is not counted yet; not brokenStep == O.iter, which O.resetTime() makes true again."))
 		((Vector3r,yieldPath,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Path [m] yielded in tension, shear and rolling, by which a break is classified."))
 		((Real,residualTensileForce,0,,"F_a of a touching contact that is not bonded [N]."))
 		((Real,residualFriction,0,,"μ_s of a contact that is not bonded."))

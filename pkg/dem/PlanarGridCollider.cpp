@@ -28,20 +28,23 @@ void PlanarGridCollider::action()
 	if (!std::isfinite(verletDist))
 		throw std::runtime_error("PlanarGridCollider: verletDist = " + boost::lexical_cast<string>(verletDist) + ": give a length [m], or a negative number of smallest radii");
 	threads = nscd::threadsOf(*this);
+	readIn  = never; // until all is read; a step's number comes again after O.resetTime()
 	scene->interactions->iterColliderLastRun = -1;
 	scene->forces.addMaxId(scene->bodies->size());
-	const bool anew = changed();
+	bool anew = changed();
 	nscd::readBodies(*scene, threads, bodies);
-	readIn          = scene->iter;
 	const long size = (long)bodies.size();
 	disks.resize(size);
 	velocities.resize(size);
-#pragma omp parallel for schedule(static) num_threads(threads)
+	bool turned = false; // a disk into another shape, or the other way round
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : turned)
 	for (long id = 0; id < size; ++id) {
 		const auto& b  = bodies[id];
 		disks[id]      = b.present && b.plain ? Disk { b.pos[0], b.pos[1], b.radius } : Disk { 0, 0, -1 };
 		velocities[id] = { b.vx, b.vy };
+		turned         = turned || hasTurned(id);
 	}
+	if (renewShapes(turned)) anew = true;
 	if (anew) listSides();
 	boundSides();
 
@@ -56,6 +59,27 @@ void PlanarGridCollider::action()
 	takeDisks();
 	takeSides();
 	sizeLeft = scene->interactions->size();
+	if (!scene->subStepping) readIn = scene->iter; // or a script may change what was read before others use it
+}
+
+/// Ends the contacts of bodies whose shape was replaced: they hold what was made for the old one. Returns whether there are any.
+bool PlanarGridCollider::renewShapes(bool turned)
+{
+	std::vector<Body::id_t> renewed;
+	for (size_t id = 0; turned && id < disks.size(); ++id)
+		if (hasTurned(id)) renewed.push_back(Body::id_t(id));
+	for (const Side& side : sides) {
+		const auto& b = Body::byId(side.id, scene);
+		if (b && b->shape != side.shape) renewed.push_back(side.id);
+	}
+	for (const Body::id_t id : renewed) {
+		const auto& b = Body::byId(id, scene);
+		if (!b) continue;
+		const auto contacts = b->intrs; // a copy, as erasing changes it
+		for (const auto& [other, contact] : contacts)
+			scene->interactions->erase(id, other, contact->linIx);
+	}
+	return !renewed.empty();
 }
 
 /// Whether lists of an earlier step are of no use: there are none, or what they depend on is different.
@@ -90,7 +114,7 @@ void PlanarGridCollider::listSides()
 	for (const auto& b : *scene->bodies) {
 		if (!b || !b->shape || !b->isBounded() || bodies[b->getId()].plain) continue;
 		b->shape->boundFunctor = boundDispatcher->getFunctor1D(b->shape);
-		if (b->shape->boundFunctor) sides.push_back({ b->getId(), {}, {} });
+		if (b->shape->boundFunctor) sides.push_back({ b->getId(), {}, {}, b->shape });
 	}
 }
 

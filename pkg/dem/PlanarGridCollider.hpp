@@ -56,8 +56,9 @@ private:
 	using Box = nonsmooth::neighbours::Box;
 	/// A body that is no sphere, and where its box was when pairs were looked up.
 	struct Side {
-		Body::id_t id;
-		Box        box, reference;
+		Body::id_t        id;
+		Box               box, reference;
+		shared_ptr<Shape> shape; // that its contacts were made for
 	};
 	struct SidePair {
 		int  side; // place in `sides`
@@ -69,7 +70,10 @@ private:
 	{
 		return (1 + sureReach) * (disks[a].r + disks[b].r) + foresight * scene->dt * speed;
 	}
+	/// Whether a body is a disk now and was none when pairs were looked up, or the other way round.
+	bool hasTurned(size_t id) const { return id < reference.size() && (disks[id].r < 0) != (reference[id].r < 0); }
 	bool      changed();
+	bool      renewShapes(bool turned);
 	void      listSides();
 	void      boundSides();
 	void      forget();
@@ -94,7 +98,8 @@ private:
 	Real                                      factor = 1; // reach of disks in sums of radii
 	Real                                      verletDistOfLists = 0; // the attribute as it was when they were made
 	std::vector<nscd::BodyReading>            bodies;
-	long                                      readIn = -1; // step
+	static constexpr long                     never  = std::numeric_limits<long>::min();
+	long                                      readIn = never; // step
 	std::vector<nonsmooth::neighbours::Disk>  disks, reference; // by body, now and when pairs were looked up; none where that must be done anew
 	nonsmooth::neighbours::DiskGrid           grid;
 	nonsmooth::neighbours::Pairs              pairs, before;

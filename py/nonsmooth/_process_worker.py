@@ -8,12 +8,13 @@ import sys
 import traceback
 from pathlib import Path
 
-from yade.nonsmooth import interrupts
+from yade.nonsmooth import interrupts, servers
 from yade.nonsmooth.errors import UserError
 from yade.nonsmooth.whole_files import write_atomically
 
 PR_SET_PDEATHSIG = 1  # <sys/prctl.h>
 
+servers.close()  # where the plugin is installed into a YADE, whose own program opens them
 folder = Path(sys.argv[-1])
 request = json.loads((folder / "request.json").read_text())
 # a command that is killed must not leave runs behind that write on into its folder

@@ -1,8 +1,11 @@
 """Small scenes that several tests share."""
 import math
+import os
 import random
+import subprocess
 
 import numpy as np
+import pytest
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
@@ -57,6 +60,25 @@ def loose_heap(stuff, columns=8, rows=8, seed=5, radius=(0.3, 0.5)):
     return [O.bodies.append(scene.disk((0.75 + 1.1 * a + dice.uniform(-0.04, 0.04), 0.6 + 1.1 * b + dice.uniform(-0.04, 0.04)),
                                        dice.uniform(*radius), stuff))
             for b in range(rows) for a in range(columns)]
+
+
+def refused(*words):
+    """The next step is refused, in words that hold all these."""
+    with pytest.raises(Exception) as error:
+        O.step()
+    for word in words:
+        assert word in str(error.value), str(error.value)
+
+
+def launch(script, *arguments):
+    """Runs a script by the launcher in a process of its own."""
+    here = os.path.dirname(os.path.realpath(__file__))
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
+    environment["NONSMOOTH_BUILD"] = os.path.dirname(os.environ["YADE_PREFIX"])
+    environment["PYTHONPATH"] = here
+    environment["OMP_WAIT_POLICY"] = "passive"  # threads of a busy machine must not wait for each other in spin loops
+    return subprocess.run([os.path.join(here, "..", "..", "scripts", "yade-nonsmooth"), str(script), *arguments],
+                          env=environment, text=True, capture_output=True, timeout=300)
 
 
 def state(ids):

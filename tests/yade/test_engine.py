@@ -1,17 +1,15 @@
 """ContactDynamicsEngine in a scene: stacks, momentum, impact, driven walls, other engines, energies, refusals, save and load."""
 import math
-import os
 import random
-import subprocess
 
 import pytest
 from yade import O
 from yade.nonsmooth import scene
 from yade.wrapper import (
-    ContactDynamicsEngine, ForceEngine, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
+    ContactDynamicsEngine, ForceEngine, ForceResetter, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
     Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
 
-from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, loose_heap, material, momenta, run
+from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, launch, loose_heap, material, momenta, refused, run
 
 
 @pytest.fixture(autouse=True)
@@ -288,19 +286,8 @@ def test_own_integrator_leaves_clumps_to_yades():
     pair = [free_disk(0, 5, stuff=stuff), free_disk(1.2, 5, stuff=stuff)]
     O.bodies.clump(pair)
     begin()
-    O.engines = [e for e in O.engines if e is not engine()]
+    O.engines = [e for e in O.engines if isinstance(e, (ForceResetter, NewtonIntegrator))]
     refused("PlanarNewtonIntegrator", "clump", "NewtonIntegrator")
-
-
-def launch(script, *arguments):
-    """Runs a script by the launcher in a process of its own."""
-    here = os.path.dirname(os.path.realpath(__file__))
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    environment["NONSMOOTH_BUILD"] = os.path.dirname(os.environ["YADE_PREFIX"])
-    environment["PYTHONPATH"] = here
-    environment["OMP_WAIT_POLICY"] = "passive"  # threads of a busy machine must not wait for each other in spin loops
-    return subprocess.run([os.path.join(here, "..", "..", "scripts", "yade-nonsmooth"), str(script), *arguments],
-                          env=environment, text=True, capture_output=True, timeout=300)
 
 
 def test_one_and_two_threads_give_the_same_bits(tmp_path):
@@ -336,13 +323,6 @@ def test_timing_counts_the_engine():
 
 
 # ---- refusals -------------------------------------------------------------------------------------
-
-def refused(*words):
-    with pytest.raises(Exception) as error:
-        O.step()
-    for word in words:
-        assert word in str(error.value), str(error.value)
-
 
 def simple_scene(**more):
     stuff = material(0.3, label="rock")

@@ -5,6 +5,7 @@ Everything runs in a subprocess: a library that fails to load makes YADE abort.
 import ast
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -123,6 +124,33 @@ def test_other_features_and_missing_engines_are_refused(script, tmp_path):
         assert result.returncode == 0 and expected in result.stdout, result.stdout + result.stderr
 
 
+# What the layout check looks at for each of YADE's headers that the engines include: names as in check("NAME", …), make<…>("NAME") or misplaced("NAME…").
+LOOKED_AT = {
+    "core/Aabb": ["Aabb"], "core/Body": ["Body"], "core/Dispatching": ["BoundDispatcher", "IGeomDispatcher"], "core/GlobalEngine": ["GlobalEngine"],
+    "core/InteractionLoop": ["InteractionLoop"],
+    "core/Scene": ["Scene", "State", "Interaction", "InteractionContainer", "ForceContainer", "BodyContainer", "Cell", "EnergyTracker"],
+    "core/Shape": ["Sphere"], "core/TimeStepper": ["GlobalStiffnessTimeStepper"], "pkg/common/Bo1_Aabb": ["Bo1_Sphere_Aabb"],
+    "pkg/common/Collider": ["InsertionSortCollider"], "pkg/common/ElastMat": ["FrictMat"], "pkg/common/PeriodicEngines": ["PeriodicEngine"],
+    "pkg/common/Sphere": ["Sphere"], "pkg/dem/CohesiveFrictionalContactLaw": ["CohFrictMat", "CohFrictPhys"], "pkg/dem/FrictPhys": ["FrictPhys"],
+    "pkg/dem/Ig2_Sphere_Sphere_ScGeom": ["Ig2_Sphere_Sphere_ScGeom"], "pkg/dem/NewtonIntegrator": ["NewtonIntegrator"], "pkg/dem/ScGeom": ["ScGeom"],
+    "core/Omega": [], "pkg/common/ForceResetter": [], "lib/high-precision/Constants": [],  # functions, a class that is only recognised, and numbers
+}
+
+
+def test_the_layout_check_knows_every_class_that_the_engines_include():
+    folder = os.path.join(ROOT, "pkg", "dem")
+    texts = {}
+    for name in os.listdir(folder):
+        with open(os.path.join(folder, name)) as source:
+            texts[name] = source.read()
+    gate = texts.pop("LayoutCheck.cpp")
+    included = {header for text in texts.values() for header in re.findall(r"#include <((?:core|pkg|lib)/[^>]+)\.hpp>", text)}
+    assert included == set(LOOKED_AT)  # a new header: check what the engines touch of its classes, and add it here
+    for header, names in LOOKED_AT.items():
+        for name in names:
+            assert re.search(r'(check|misplaced|make<\w+>)\("%s\b' % name, gate), (header, name)
+
+
 # ---- the launcher ---------------------------------------------------------------------------------
 
 def test_launcher_passes_arguments_and_exit_status(script):
@@ -157,7 +185,10 @@ def test_launcher_refuses_bad_calls(script, tmp_path):
             ([], "SCRIPT [ARGS]"),
             ([tmp_path / "missing.py"], "cannot be read"),
             ([script("", "notes.txt")], "must be a Python file"),
-            ([script(""), "--threads", "none"], "--threads wants a positive number")):
+            ([script(""), "--threads", "none"], "--threads wants a positive number"),
+            ([script(""), "--threads", "08"], "--threads wants a positive number"),
+            ([script(""), "--threads", "100000"], "--threads 100000 is more than this machine has a use for"),  # YADE crashed
+            ([script(""), "--threads", "9" * 30], "give at most")):
         result = run([LAUNCHER, *arguments])
         assert result.returncode == 2 and message in result.stderr
     result = run([LAUNCHER, script("")], NONSMOOTH_BUILD=str(tmp_path / "nowhere"))

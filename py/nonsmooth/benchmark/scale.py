@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 from yade import O
+from yade.wrapper import Collider, InteractionLoop
 
 from .. import contact, packing, packing_files, slope, worlds
 from ..stepping import advance
@@ -52,7 +53,7 @@ def measure(folder, source, disks, steps=STEPS):
     packing_files.save(packed, Path(folder) / PACKING)
     before, began = _resident(), time.perf_counter()
     solver = slope.build(chosen, packed).solver
-    scene = _scene_alone(solver) - before
+    scene = _scene_alone() - before
     advance()
     bonds, building_s = solver.bond(), time.perf_counter() - began
     timed = TimedSteps().run(0, warm_up=LOADING)
@@ -65,11 +66,11 @@ def measure(folder, source, disks, steps=STEPS):
             **_dumped(solver, Path(folder) / PROBLEM)}
 
 
-def _scene_alone(solver):
-    """Makes a step so short that nothing moves, without the solver, which leaves interactions and no contact problem; memory of the process then [byte]."""
-    step, O.dt, solver.dead = O.dt, 1e-9 * O.dt, True
-    advance()
-    O.dt, solver.dead = step, False
+def _scene_alone():
+    """Finds the contacts as a step does before it comes to the solver, which leaves interactions and no contact problem; memory of the process then [byte]."""
+    for engine in O.engines:
+        if isinstance(engine, (Collider, InteractionLoop)):
+            engine()
     return _resident()
 
 

@@ -1,0 +1,26 @@
+// Scenes that would run and be wrong in silence: what ContactDynamicsEngine refuses before a step, besides its own settings.
+//
+// All of this is looked at in every step, since a script may change anything between two: the list of engines, the shapes of the bodies that are no disks, the
+// numbers of each contact. None of it costs a thousandth of a step.
+#pragma once
+
+#include "BodyReading.hpp"
+#include "ContactReading.hpp"
+
+namespace yade::nscd {
+
+/// Refuses lists of engines that leave out, double or disturb the solver's work. Throws std::runtime_error that names the engine and what would do.
+void checkEngines(const Scene& scene, const Engine& solver);
+
+/// Refuses bodies that could be touched and never are, since the engines have no functor for their shapes. Throws std::runtime_error.
+void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies);
+
+/// Refuses a reading that is not Reading::usable, or has another physics: says why. Throws std::runtime_error.
+[[noreturn]] void refuseContact(const Scene& scene, const Reading& reading);
+
+/// Whether a scene has a ContactDynamicsEngine that runs; without one contacts bear nothing, and nothing else says so.
+bool hasSolver(const Scene& scene);
+/// What to say where it has none.
+string noSolver(const Scene& scene);
+
+} // namespace yade::nscd
