@@ -6,6 +6,8 @@
 #include <contact/solver.hpp>
 #include <contact/strip_schedule.hpp>
 #include <omp.h>
+#include <stdexcept>
+#include <string>
 
 namespace nonsmooth::contact {
 namespace {

@@ -32,8 +32,7 @@ void ContactDynamicsEngine::action()
 	stepSolved      = scene->dt;
 	const Real t1         = clock();
 	auto       statistics = contact::solve(seam.problem, settings(), &workspace);
-	while (seam.recall() > 0) { // ends, as every round takes contacts in
-		warmStart.resize(seam.problem.impulses.size());
+	while (seam.recall(warmStart) > 0) {
 		const int before = statistics.iterations;
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;

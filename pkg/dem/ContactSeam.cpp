@@ -18,6 +18,8 @@ namespace {
 	constexpr long   tidyPeriod = 100; // steps
 	constexpr Real   unseen     = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
 
+	constexpr int    mostRecalls = 4; // solves of a step after which all contacts left out are taken in
+
 	void forgetReactions(NscdPhys& phys)
 	{
 		phys.normal = phys.tangential = phys.torque = phys.correction = 0;
@@ -33,6 +35,7 @@ namespace {
 void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount, const NscdInteractionLoop* loop)
 {
 	relaxation = how;
+	recalls    = 0;
 	threads    = threadCount;
 	if (!loop) readBodies(scene, threads, ownBodies);
 	gatherBodies(scene, gravity, loop ? loop->bodyReadings() : ownBodies);
@@ -219,7 +222,7 @@ bool ContactSeam::mustBeSolved(const Reading& reading, const Found& ids) const
 }
 
 /// A body that is hit in the step may reach others that nothing approached before.
-size_t ContactSeam::recall()
+size_t ContactSeam::recall(std::vector<Impulse>& begun)
 {
 	const auto gapAfter = [this](size_t k) {
 		const Contact& c = leftContacts[k];
@@ -229,21 +232,44 @@ size_t ContactSeam::recall()
 	for (size_t k = 0; k < leftLinks.size() && !needed; ++k)
 		needed = gapAfter(k) < -unseen * leftContacts[k].length;
 	if (!needed) return 0;
-	size_t left = 0;
-	for (size_t k = 0; k < leftLinks.size(); ++k) {
-		if (gapAfter(k) < 0) {
-			links.push_back(leftLinks[k]);
-			problem.contacts.push_back(leftContacts[k]);
-			problem.impulses.push_back({});
+	++recalls;
+	std::vector<size_t> taken;
+	size_t              left = 0;
+	for (size_t k = 0; k < leftLinks.size(); ++k)
+		if (recalls > mostRecalls || gapAfter(k) < 0) taken.push_back(k);
+	// into the order of ids, from the back
+	const auto key = [](const Contact& c) { return std::pair(std::min(c.i, c.j), std::max(c.i, c.j)); };
+	size_t     old = links.size(), b = taken.size(), at = old + b;
+	links.resize(at);
+	problem.contacts.resize(at);
+	problem.impulses.resize(at);
+	begun.resize(at);
+	while (b > 0) {
+		--at;
+		if (old > 0 && key(problem.contacts[old - 1]) > key(leftContacts[taken[b - 1]])) {
+			--old;
+			links[at]            = links[old];
+			problem.contacts[at] = problem.contacts[old];
+			problem.impulses[at] = problem.impulses[old];
+			begun[at]            = begun[old];
 		} else {
-			leftLinks[left]      = leftLinks[k];
-			leftContacts[left++] = leftContacts[k];
+			--b;
+			links[at]            = leftLinks[taken[b]];
+			problem.contacts[at] = leftContacts[taken[b]];
+			problem.impulses[at] = begun[at] = {};
 		}
 	}
-	const size_t recalled = leftLinks.size() - left;
+	for (size_t k = 0, next = 0; k < leftLinks.size(); ++k) {
+		if (next < taken.size() && taken[next] == k) {
+			++next;
+			continue;
+		}
+		leftLinks[left]      = leftLinks[k];
+		leftContacts[left++] = leftContacts[k];
+	}
 	leftLinks.resize(left);
 	leftContacts.resize(left);
-	return recalled;
+	return taken.size();
 }
 
 /// Bodies, directions and levers: from the lower id to the higher, from a wall to a sphere.

@@ -60,8 +60,9 @@ public:
 	/// Reads bodies and real interactions; throws std::runtime_error naming the body where the scene cannot be taken.
 	/// `loop`: one whose readings of this step hold; without it they are made here.
 	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads, const NscdInteractionLoop* loop);
-	/// After a solve: takes in the contacts left out of it that its velocities would close; returns how many. They need another solve.
-	size_t recall();
+	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids, and in `begun`, the impulses that the solve
+	/// began with, as well; returns how many. They need another solve. After a few rounds it takes in all.
+	size_t recall(std::vector<nonsmooth::contact::Impulse>& begun);
 	/// After the last solve: finds how far bodies are to be displaced to take back overlaps and bonds' errors of length; scatter moves them.
 	void correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace, int sweeps);
 	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
@@ -106,6 +107,7 @@ private:
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
 	std::vector<Link>                        leftLinks;    // their links
 	int                                    threads = 1;
+	int                                    recalls = 0; // of this step
 	std::vector<nonsmooth::contact::Twist> before; // velocities at the beginning of the step
 	std::vector<nonsmooth::contact::Twist> external; // force and torque of other engines [N, N m]
 	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body

@@ -4,7 +4,7 @@ import random
 
 import pytest
 from yade import O
-from yade.nonsmooth import scene
+from yade.nonsmooth import contact, scene
 from yade.wrapper import (
     ContactDynamicsEngine, ForceEngine, ForceResetter, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
     Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
@@ -415,3 +415,16 @@ def test_refuses_wrong_settings(name, value):
 def test_unknown_settings_are_refused():
     with pytest.raises(Exception, match="iterationsMaximum"):
         scene.engines(iterationsMaximum=3)
+
+
+def test_contacts_recalled_in_a_step_stand_in_the_order_of_ids(tmp_path):
+    stuff = material(0.3)
+    # the flying one hits its neighbour, which nothing approaches yet, and that one hits the next: contacts 1-2, then 0-1, then 3-4 which was there before
+    for x, speed in ((2.4, 0), (1.2, 0), (0, 100), (10, 0), (11, 0)):
+        free_disk(x, 0, (speed, 0, 0), stuff)
+    begin(gravity=(0, 0, 0), dt=1e-2, reach=0.5)
+    O.step()
+    engine().dump(str(tmp_path / "problem.h5"))
+    problem = contact.load(tmp_path / "problem.h5")
+    assert [tuple(b) for b in problem.body.tolist()] == [(0, 1), (1, 2), (3, 4)]
+    assert all(O.bodies[k].state.vel[0] == pytest.approx(100 / 3, rel=1e-9) for k in (0, 1, 2))
