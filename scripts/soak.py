@@ -12,7 +12,7 @@ import argparse
 import json
 from pathlib import Path
 
-from yade.nonsmooth import errors, records
+from yade.nonsmooth import errors, output_folder
 from yade.nonsmooth.benchmark import machine
 from yade.nonsmooth.laboratory import arguments
 from yade.nonsmooth.verification import soak
@@ -37,7 +37,7 @@ def read_arguments():
 def main():
     args = read_arguments()
     out = Path(args.out)
-    records.check_writable(out.parent)
+    output_folder.claim(out.parent, "soak.py")
     with arguments.bar() as progress:
         found = soak.run(args.disks, args.steps, args.seed, progress)
     write_atomically(out, json.dumps({"machine": machine.describe(), **found}, indent=1).encode())

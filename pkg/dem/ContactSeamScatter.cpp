@@ -77,7 +77,7 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 	}
 	correction.displacements.clear();
 	turning.assign(before.size(), {});
-	if (!any || sweeps == 0) return;
+	if (!any || sweeps == 0 || relaxation.rate == 0) return;
 	contact::correctPositions(problem, settings, workspace, errors, sweeps, correction);
 	for (long k = 0; k < count; ++k)
 		if (correction.impulses[k] != 0) turnBack(k);

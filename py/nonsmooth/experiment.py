@@ -200,7 +200,7 @@ class Experiment:
         resting = self.slope.solver.meanSpeed <= stage.speed_rest or O.time >= stage.time_max - 0.5 * O.dt
         if O.time < stage.ramp or not (resting or s.failed_dry is not None):  # one that has failed is not waited for
             return
-        s.packing_fraction = self._fraction() if s.failed_dry is None else math.nan
+        s.packing_fraction = self._fraction() if s.failed_dry is None else None
         if stage.bond == "after":
             s.bonds_initial, s.contacts_initial = self.slope.solver.bond(), self.slope.solver.contacts
         s.settled, s.stage = O.time, "dry"

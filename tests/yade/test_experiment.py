@@ -20,7 +20,7 @@ END = "3"       # s: gravity's ramp, the dry rest, and some of the water's rise
 
 @pytest.fixture(scope="module")
 def section(tmp_path_factory):
-    return slope_scenes.write_quick(tmp_path_factory.mktemp("section"))
+    return slope_scenes.write_quick(tmp_path_factory.mktemp("section"), strong=True)
 
 
 def run(section, out, *options, check=True, end=END, **kwargs):

@@ -200,6 +200,11 @@ def moved(packing, **arrays):
     return dataclasses.replace(packing, **arrays)
 
 
+def inner(packing):
+    """Number of the disk nearest to the middle of all."""
+    return int(np.argmin((packing.x - packing.x.mean()) ** 2 + (packing.y - packing.y.mean()) ** 2))
+
+
 def first_to(packing, x, y):
     """The packing with its first disk elsewhere."""
     return moved(packing, x=np.r_[x, packing.x[1:]], y=np.r_[y, packing.y[1:]])
@@ -223,8 +228,8 @@ FOREIGN = {
     "one in the valley": (lambda p: first_to(p, 1000.0, 40.0), "disk 0 at .* outside the layers"),
     "one far away": (lambda p: first_to(p, 1e7, -1e7), "disk 0 at .* outside the layers"),
     "one above the slope": (lambda p: first_to(p, -700.0, 500.0), "disk 0 at .* lies .* m outside the layers"),
-    "one twice": (lambda p: first_to(p, p.x[7], p.y[7]), "overlap by more than a tenth|belongs to layer"),
-    "all at one place": (lambda p: moved(p, x=0 * p.x + p.x[7], y=0 * p.y + p.y[7], layer=p.layer), "overlap by more than a tenth|belongs to layer"),
+    "one twice": (lambda p: first_to(p, p.x[inner(p)], p.y[inner(p)]), "overlap by more than a tenth|belongs to layer"),
+    "all at one place": (lambda p: moved(p, x=0 * p.x + p.x[inner(p)], y=0 * p.y + p.y[inner(p)], layer=p.layer), "overlap by more than a tenth|belongs to layer"),
 }
 
 
