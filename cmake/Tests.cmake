@@ -11,7 +11,7 @@ if(contact_tests)
     gtest_discover_tests(contact_tests DISCOVERY_TIMEOUT 60 PROPERTIES LABELS contact TIMEOUT 600)
 endif()
 
-# What is in Python without YADE: the binding, and damaged files where python3-hypothesis is there.
+# What is in Python without YADE: the binding, and sections, packings and contact problems broken in many ways.
 function(nonsmooth_python_test name path)
     add_test(NAME ${name} COMMAND "${Python3_EXECUTABLE}" -m pytest -q -p no:cacheprovider "${CMAKE_SOURCE_DIR}/${path}")
     set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 600 ENVIRONMENT "PYTHONPATH=${NONSMOOTH_PYTHON}")
@@ -19,9 +19,9 @@ endfunction()
 nonsmooth_python_test(bindings tests/bindings)
 execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import hypothesis, h5py" RESULT_VARIABLE without_hypothesis ERROR_QUIET)
 if(without_hypothesis)
-    message(STATUS "Hypothesis or h5py not found (python3-hypothesis, python3-h5py): without the test problem_files")
+    message(STATUS "Hypothesis or h5py not found (python3-hypothesis, python3-h5py): without the test fuzz")
 else()
-    nonsmooth_python_test(problem_files tests/fuzz/test_problem_files.py)
+    nonsmooth_python_test(fuzz tests/fuzz)
 endif()
 
 if(NONSMOOTH_PLUGIN)
@@ -39,10 +39,6 @@ if(NONSMOOTH_PLUGIN)
     add_test(NAME yade COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth" "${CMAKE_SOURCE_DIR}/tests/yade/run_pytest.py")
     set_tests_properties(yade PROPERTIES LABELS yade TIMEOUT 3600 RUN_SERIAL ON
         ENVIRONMENT "NONSMOOTH_BUILD=${CMAKE_BINARY_DIR}")
-
-    # Sections and packings broken in many ways, read without YADE.
-    add_test(NAME fuzz COMMAND "${YADE_PYTHON}" -m pytest -q -p no:cacheprovider "--rootdir=${CMAKE_SOURCE_DIR}/tests/fuzz" "${CMAKE_SOURCE_DIR}/tests/fuzz")
-    set_tests_properties(fuzz PROPERTIES LABELS fuzz TIMEOUT 600)
 
     # The law broken on purpose, in a copy: the verification must notice. Builds the plugin a second time.
     add_test(NAME mutation COMMAND "${YADE_PYTHON}" "${CMAKE_SOURCE_DIR}/tests/mutation/run.py" "${CMAKE_BINARY_DIR}")
