@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The rain-triggered avalanche of Taboada and Estrada (2009), or any other section.
 
-  scripts/jiufengershan.py [--section FILE] [--disks N] [--out DIR] [--threads T] [--seed S] [--end SECONDS] [--resume]
+  scripts/jiufengershan.py [--section FILE] [--disks N] [--out DIR] [--threads T] [--seed S] [--end SECONDS] [--resume] [--no-figures]
 """
 import os, sys
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
@@ -44,6 +44,7 @@ def arguments():
     parser.add_argument("--end", type=number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
     parser.add_argument("--water", metavar="RATE", type=number(float, 0, 1e6, "m/s from 0 to 1e6"), help="rate at which the table rises [m/s] instead of the section's; 0: dry")
     parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in DIR")
+    parser.add_argument("--no-figures", action="store_true", help="tables alone: no figures, no video, nothing for ParaView")
     return parser.parse_args()
 
 
@@ -116,7 +117,7 @@ def main():
         return
     state = {**dataclasses.asdict(run.state), "overlap_worst_ever": run.slope.solver.overlapWorstEver}
     summary = results.summarise(out, s, state, threads=args.threads or os.cpu_count())
-    made, notes = results.draw(out, s, summary)
+    made, notes = ([], []) if args.no_figures else results.draw(out, s, summary)
     for note in notes:
         print(note)
     print(f"\n{'finished' if summary['finished'] else 'stopped (go on with --resume)'} at {O.time:.1f} s of simulated time, "
@@ -129,7 +130,7 @@ def main():
               f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
               f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop")
     print(dry_failure(summary["failed_dry_s"]), end="")
-    print(f"results: {out}/summary.json, series.csv, {', '.join(p.name for p in made)}")
+    print(f"results: {', '.join([f'{out}/summary.json', 'series.csv', *(p.name for p in made)])}")
 
 
 commands.run(main, "where there is a checkpoint, --resume goes on from it")

@@ -49,13 +49,19 @@ def test_records_and_figures_are_there(unbroken):
 
 
 def test_one_thread_gives_the_same_bits(section, unbroken, tmp_path):
-    run(section, tmp_path, "--threads", "1")
+    run(section, tmp_path, "--threads", "1", "--no-figures")
     assert (tmp_path / "series.csv").read_bytes() == (unbroken / "series.csv").read_bytes()
+    assert not list(tmp_path.glob("*.png")) and not (tmp_path / "vtk").exists()
+    from yade.nonsmooth import results
+    from yade.nonsmooth.section import load
+
+    made, _ = results.draw(tmp_path, load(str(section)).with_disks(int(DISKS)), json.loads((tmp_path / "summary.json").read_text()))
+    assert {"forces.png", "energy.png"} <= {path.name for path in made} and all(path.exists() for path in made)
 
 
 def test_resumed_after_an_early_end_gives_the_same_bits(section, unbroken, tmp_path):
-    run(section, tmp_path, end="1.8")
-    run(section, tmp_path, "--resume")
+    run(section, tmp_path, "--no-figures", end="1.8")
+    run(section, tmp_path, "--no-figures", "--resume")
     assert (tmp_path / "series.csv").read_bytes() == (unbroken / "series.csv").read_bytes()
 
 
@@ -128,13 +134,13 @@ def test_a_slope_that_stands_still_is_solved_more_tightly(section, tmp_path):
     """Five seconds after the settling (1.5 s), with a table at rest; a rising one keeps the tolerance."""
     from yade.nonsmooth import records
 
-    run(section, tmp_path / "dry", "--water", "0", end="7.5")
+    run(section, tmp_path / "dry", "--no-figures", "--water", "0", end="7.5")
     dry = records.read_series(tmp_path / "dry" / "series.csv")
     settled = dry["time_s"][dry["stage"] > 0][0]
     late = dry["time_s"] > settled + 5.1  # the rule is looked at once a row, 0.1 s
     assert (dry["speed_mean_m_per_s"] < 0.2).all()  # else it would count as moving
     assert set(dry["tolerance"][late]) == {0.25e-4} and set(dry["tolerance"][dry["time_s"] < settled + 4.9]) == {1e-4}
-    run(section, tmp_path / "wet", end="7.5")
+    run(section, tmp_path / "wet", "--no-figures", end="7.5")
     wet = records.read_series(tmp_path / "wet" / "series.csv")
     assert (wet["tolerance"] >= 1e-4).all()
 
@@ -144,15 +150,15 @@ def test_fast_disks_shorten_steps_and_rows_keep_their_distance(section, tmp_path
 
     short = tmp_path / "short.yaml"
     short.write_text(section.read_text().replace("path: 0.1 ", "path: 1e-4 "))
-    run(short, tmp_path / "whole")
+    run(short, tmp_path / "whole", "--no-figures")
     series = records.read_series(tmp_path / "whole" / "series.csv")
     steps_a_second = np.diff(series["step"]) / np.diff(series["time_s"])
     assert steps_a_second.min() > 99 and steps_a_second.max() > 120  # 100 with the section's longest step of 10 ms
     tenths = series["time_s"] / 0.1
     assert np.abs(tenths - np.round(tenths)).max() <= 0.5 * 1e-2 / 0.1 + 1e-6  # half a step
     assert len(set(np.round(tenths))) == len(tenths)
-    run(short, tmp_path / "broken", end="1.8")
-    run(short, tmp_path / "broken", "--resume")
+    run(short, tmp_path / "broken", "--no-figures", end="1.8")
+    run(short, tmp_path / "broken", "--no-figures", "--resume")
     assert (tmp_path / "broken" / "series.csv").read_bytes() == (tmp_path / "whole" / "series.csv").read_bytes()
 
 

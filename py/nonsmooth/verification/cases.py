@@ -12,7 +12,8 @@ import shutil
 from .. import processes
 from ..whole_files import write_atomically
 
-__all__ = ["run_cases"]
+__all__ = ["folder_of", "run_cases"]
+
 
 def run_cases(bench, function, cases):
     """Calls ``function(folder, **case)`` for every case and returns what the calls returned, in the order of ``cases``.
@@ -39,6 +40,11 @@ def name_of(function, case):
     """Name of a case's files: the function and the values, in the order of their names."""
     values = (f"{key}={value:g}" if isinstance(value, float) else f"{key}={value}" for key, value in sorted(case.items()))
     return ",".join((function.__name__.strip("_"), *values))
+
+
+def folder_of(bench, function, case):
+    """Folder in which a case left its files."""
+    return bench.folder / "cases" / name_of(function, case)
 
 
 def _one(home, function, case):

@@ -79,12 +79,12 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
 
 KEEP = ("water_at_failure_m", "front_travel_m", "centroid_travel_m", "deposit_thickness_max_m", "fb_force_at_failure_N_per_m", "speed_mean_max_m_per_s",
         "motion_s", "triggering_s", "bulking_factor", "energy_error_rel", "energy_correction_rel", "overlap_worst_rel", "iterations_mean",
-        "residual_p95_over_tolerance", "finished", "disks", "steps", "packing_fraction", "bonds_initial")
+        "residual_p95_over_tolerance", "times_s", "finished", "disks", "steps", "packing_fraction", "bonds_initial")
 
 
 def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving):
     """The shipped section with about so many disks, until its avalanche rests."""
-    from .. import experiment, packing, results, section
+    from .. import experiment, packing, records, results, section, tables
     from .. import slope as builder
 
     shipped = dataclasses.replace(section.load("jiufengershan").with_disks(disks), seed=seed)
@@ -99,9 +99,11 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving)
     summary = results.summarise(folder, s, state)
     for part in ("snapshots", "checkpoint"):
         shutil.rmtree(folder / part, ignore_errors=True)
+    series = results.chosen_rows(records.read_series(folder / "series.csv"), state)
     return {name: summary[name] for name in KEEP} | {
         "moving_s": None if run.state.moving is None else run.state.moving - run.state.t0, "water_hold_m": run.state.water_hold,
-        "settled_s": run.state.settled, "unconverged": built.solver.unconverged}
+        "settled_s": run.state.settled, "unconverged": built.solver.unconverged, "breaks_logged": len(tables.breaks(built.solver)["step"]),
+        "bonds_alive": int(series["bonds_alive"][-1]), "broken": sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))}
 
 
 # ---- sweeps over one number -----------------------------------------------------------------------

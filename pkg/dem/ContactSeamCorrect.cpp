@@ -1,0 +1,91 @@
+// Errors of position, overlaps and bonds' errors of length, taken back by displacements after the solve of a step: what they are, and what they do to bodies.
+// The equations stand in contact/solver.hpp (correctPositions) and doc/theory/stepping.rst.
+#include "ContactSeam.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace yade::nscd {
+
+namespace contact = nonsmooth::contact;
+using contact::Contact;
+using contact::Impulse;
+using contact::Twist;
+
+namespace {
+	// ℓ; a touching contact may overlap by this much. Were it pushed back to nothing, half of all contacts would stand open by a trifle, others in every step, and
+	// the solver would have to find the reactions of a packing at rest anew each time.
+	constexpr Real slight = 1e-5;
+}
+
+/// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
+bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
+{
+	constexpr Real close = 1 - 1e-9;
+	const Contact& c     = problem.contacts[k];
+	return links[k].bonded && c.adhesion > 0 && problem.impulses[k].n <= -close * c.adhesion && u.n > 0;
+}
+
+void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
+{
+	correction.displacements.clear();
+	turning.assign(before.size(), {});
+	if (sweeps == 0 || relaxation.rate == 0) return;
+	const Real h = relaxation.step, most = h * relaxation.largestSpeed;
+	const long count = (long)links.size();
+	bool       any   = false;
+	errors.resize(count);
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
+	for (long k = 0; k < count; ++k) {
+		const Contact& c   = problem.contacts[k];
+		const Impulse  u   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		auto&          e   = errors[k];
+		e.impulse          = links[k].correction;
+		e.held             = links[k].bonded && !yieldsInTension(k, u);
+		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
+		const Real off = links[k].gap - (e.held ? links[k].rest : -slight * c.length), was = e.held ? off : std::min(Real(0), off);
+		e.error        = off + h * u.n - (1 - relaxation.rate) * was;
+		if (!e.held && e.error >= 0) continue;
+		e.error = std::max(-most, std::min(most, e.error));
+		any     = any || e.error != 0;
+	}
+	if (!any) return;
+	contact::correctPositions(problem, settings, workspace, errors, sweeps, correction);
+	for (long k = 0; k < count; ++k)
+		if (correction.impulses[k] != 0) turnBack(k);
+}
+
+/// Two bodies that are drawn together or apart while they pass each other would change their angular momentum, Σ m D × v: a pair of tangential impulses takes
+/// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step.
+void ContactSeam::turnBack(long k)
+{
+	const Contact& c    = problem.contacts[k];
+	const auto     free = [this](int body) { return problem.inverseMass[body].x > 0 && problem.inverseMass[body].x == problem.inverseMass[body].y; };
+	if (!free(c.i) || !free(c.j)) return; // what holds a body takes its angular momentum
+	const auto &vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+	const auto &di = correction.displacements[c.i], &dj = correction.displacements[c.j];
+	const Real  passing  = -c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y);
+	const auto &xi = problem.positions[c.i], &xj = problem.positions[c.j];
+	const Real  distance = c.nx * (xj.x + dj.x - xi.x - di.x) + c.ny * (xj.y + dj.y - xi.y - di.y);
+	if (!(distance > 0)) return;
+	const Real p = -correction.impulses[k] * passing / distance;
+	turning[c.i].x += c.ny * p;
+	turning[c.i].y -= c.nx * p;
+	turning[c.j].x -= c.ny * p;
+	turning[c.j].y += c.nx * p;
+}
+
+/// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.
+void ContactSeam::displace(Scene& scene) const
+{
+	const long size = (long)correction.displacements.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long id = 0; id < size; ++id) {
+		const Twist& d = correction.displacements[id];
+		if (!present[id] || (d.x == 0 && d.y == 0 && d.w == 0)) continue;
+		State& s = *(*scene.bodies)[id]->state;
+		s.pos += Vector3r(d.x, d.y, 0);
+		if (d.w != 0) s.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * s.ori).normalized();
+	}
+}
+
+} // namespace yade::nscd
