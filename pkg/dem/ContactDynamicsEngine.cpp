@@ -37,8 +37,10 @@ void ContactDynamicsEngine::action()
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;
 	}
+	const Real solved = clock();
 	seam.correct(settings(), workspace, correctionSweeps);
-	const Real t2         = clock();
+	const Real t2 = clock();
+	correctionSeconds += t2 - solved;
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
 	account(sums);

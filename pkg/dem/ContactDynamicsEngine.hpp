@@ -95,6 +95,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Vector3r,centroid,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Centre of mass of moving bodies at the beginning of the last step [m]."))
 		((Vector3r,momentum,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Their momentum at the end of the last step [N s]."))
 		((Vector3r,stageSeconds,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Wall time spent so far in gathering, solving, scattering [s]."))
+		((Real,correctionSeconds,0,(Attr::readonly|Attr::noSave),"Of solving, wall time spent so far in finding the displacements that take back errors of position [s]."))
 		,
 		/* ctor */
 		,

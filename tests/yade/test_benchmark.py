@@ -21,7 +21,7 @@ QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp
          "bonded: false\n    tensile_strength: 0.0\n    residual_tensile_strength: 0.0\n    friction: 0.3\n    residual_friction: 0.3":
          "bonded: false\n    tensile_strength: 0.0\n    residual_tensile_strength: 0.0\n    friction: 0.9"}
 PROMISED = ("sweep_ns_per_contact", "sweep_speedup_over_scalar", "sweep_speedup_two_threads", "step_ms", "soft_step_ms", "step_over_soft_step",
-            "cold_sweeps_to_1e-4", "warm_sweeps_mean", "fraction_of_bandwidth_bound")
+            "cold_sweeps_to_1e-4", "warm_sweeps_mean", "fraction_of_bandwidth_bound", "correction_over_step", "correction_over_step_moving")
 
 
 @pytest.fixture(autouse=True)
@@ -72,7 +72,7 @@ def test_all_that_is_promised_is_there_and_a_number(measured):
         assert math.isfinite(summary[name]) and summary[name] > 0, name
     for name, value in numbers(summary):
         assert math.isfinite(value), name
-    stages = {"reset", "collider", "interactions", "pore_pressure", "gather", "solve", "scatter", "integrator", "other"}
+    stages = {"reset", "collider", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrator", "other"}
     assert set(summary["stage_ms"]) == stages and all(v >= 0 for v in summary["stage_ms"].values())
     assert {(m["state"], m["threads"]) for m in summary["steps"]} == {(s, t) for s in ("rest", "moving", "soft") for t in (1, 2)}
     assert {(m["state"], m["threads"]) for m in alone["steps"]} == {("rest", 1), ("moving", 1), ("soft", 1)}

@@ -320,6 +320,7 @@ def test_timing_counts_the_engine():
     e = engine()
     assert e.execCount == 20 and e.execTime > 0
     assert all(s >= 0 for s in e.stageSeconds) and sum(e.stageSeconds) <= 1e-9 * e.execTime  # parts of the whole
+    assert 0 < e.correctionSeconds < e.stageSeconds[1]
 
 
 # ---- refusals -------------------------------------------------------------------------------------

@@ -16,6 +16,8 @@ HEADLINES = {
     "soft_step_ms": "a step of YADE's soft contacts [ms]",
     "step_over_soft_step": "the one over the other",
     "simulated_second_over_soft": "the same, for a second of simulation",
+    "correction_over_step": "of that, taking back errors of position, mean over mean",
+    "correction_over_step_moving": "the same while the slope moves",
     "warm_sweeps_mean": "sweeps of a step, mean",
     "cold_sweeps_to_1e-4": "sweeps to a residual of 1e-4 from zero",
 }
@@ -27,7 +29,7 @@ def _of(measured, state, threads):
 
 def summarise(found) -> dict:
     """``found`` of suite.run with the headline figures before it, quartiles of those that have them, and the mean time of each stage."""
-    rest, soft = (_of(found["steps"], state, found["threads"]) for state in ("rest", "soft"))
+    rest, moving, soft = (_of(found["steps"], state, found["threads"]) for state in ("rest", "moving", "soft"))
     sweeps, cold = found["sweeps"], found["cold_start"]["slope"]
     step, soft_step = rest["step_ms"]["median"], soft["step_ms"]["median"]
     spreads = {"sweep_ns_per_contact": sweeps["ns_per_contact"]["best"], "sweep_speedup_over_scalar": sweeps["speedup_over_reference"]["best"],
@@ -35,6 +37,7 @@ def summarise(found) -> dict:
     return {**{name: s["median"] for name, s in spreads.items()},
             "step_over_soft_step": step / soft_step,
             "simulated_second_over_soft": step / rest["time_step_s"] / (soft_step / soft["time_step_s"]),
+            **{f"correction_over_step{which}": m["stage_ms"]["correct"]["mean"] / m["step_ms"]["mean"] for which, m in (("", rest), ("_moving", moving))},
             "stage_ms": {name: s["mean"] for name, s in rest["stage_ms"].items()},
             "cold_sweeps_to_1e-4": cold["sweeps"], "warm_sweeps_mean": rest["sweeps_mean"],
             "fraction_of_bandwidth_bound": sweeps["fraction_of_bandwidth_bound"]["working_set"],

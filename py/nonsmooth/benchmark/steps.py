@@ -14,10 +14,9 @@ from .statistics import spread
 __all__ = ["STAGES", "TimedSteps", "measure"]
 
 #: Stages of a step in their order; "other" is what no stage has.
-STAGES = ("reset", "collider", "interactions", "pore_pressure", "gather", "solve", "scatter", "integrator", "other")
+STAGES = ("reset", "collider", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrator", "other")
 STAGE_OF = {ForceResetter: "reset", Collider: "collider", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
-            NewtonIntegrator: "integrator"}  # by the class of the engine or one it is derived from ...
-SOLVER_STAGES = ("gather", "solve", "scatter")  # ... but for ContactDynamicsEngine, which has three
+            NewtonIntegrator: "integrator"}  # by the class of the engine or one it is derived from; ContactDynamicsEngine has four of its own
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
 
 
@@ -48,7 +47,9 @@ class TimedSteps:
     def _spent(self):
         spent = {name: 1e-9 * engine.execTime for engine, name in self.engines}
         if self.solver:
-            spent.update(zip(SOLVER_STAGES, self.solver.stageSeconds))
+            gather, solve, scatter = self.solver.stageSeconds
+            correct = self.solver.correctionSeconds
+            spent.update(gather=gather, solve=solve - correct, correct=correct, scatter=scatter)
         return spent
 
     def summary(self):
