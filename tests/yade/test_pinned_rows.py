@@ -17,7 +17,7 @@ from slope_scenes import write_quick
 ROWS = 200
 PINNED = {
     "slope": "b29446beebdb09daa4577c83d1a638dd43d73041f9c6ae983c0be8bdd6264f04",
-    "biaxial": "",
+    "biaxial": "0bb495a45cb3ca32c4949ea867cf2fa91373cf26ab0b304bf92d150258b5abea",
     "column": "ed46a5ce784f3e7a4885b3795d4ca5359b429c9f3eb96984485655f4ca8302ea",
 }
 
