@@ -232,10 +232,11 @@ def play(world, frame=HERE, prepared=lambda ids: None, halfway=lambda: None):
 
 
 def differences(found, expected):
-    """{name: largest difference} of two courses, in the scales of ``expected``: ℓ, the greatest speed, what stops a disk in a step, a disk's energy; counts as they are."""
+    """{name: largest difference} of two courses, in the scales of ``expected``: ℓ, the greatest speed, what stops a disk in a step, a disk's energy; counts as they are. Overlaps
+    are what a step left over: they agree a hundred times less than places do."""
     s = expected
     scales = {"place": s.length, "slip": s.length, "velocity": s.speed, "spin": s.speed / s.length, "force": s.mass * s.speed / s.step,
-              "torque": s.mass * s.speed / s.step * s.length, "losses": s.mass * s.speed**2, "time": s.step, "step": s.step, "rates": s.speed / s.length}
+              "torque": s.mass * s.speed / s.step * s.length, "losses": s.mass * s.speed**2, "time": s.step, "step": s.step, "rates": s.speed / s.length, "overlap": 100.0}
     scales |= {"wall force": scales["force"], "wall moment": scales["torque"], "water": scales["force"]}
     return {name: float(np.max(np.abs(found[name] - expected[name].astype(float)), initial=0) / scales.get(name, 1.0)) for name in expected}
 

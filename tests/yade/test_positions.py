@@ -138,6 +138,40 @@ def test_what_lifts_a_pile_is_counted_body_by_body():
     assert abs(e.energyError) < 1e-9 * low.mass * 9.81  # m g times a nanometre; rounding of m g y
 
 
+def test_a_plank_on_a_hinge_turns_as_far_as_its_lever_asks():
+    """κ of the overlap in one step, shared by inverse masses: Q = κ o/(1/m + a²/I), the disk moves by Q/m and the plank turns by −a Q/I."""
+    plank = O.bodies[O.bodies.append(scene.segments([(-3, 0), (3, 0)], material(0.0)))[0]].state
+    plank.mass, plank.inertia, plank.blockedDOFs = 500.0, (1, 1, 900.0), "xyzXY"
+    s, arm, overlap = O.bodies[free_disk(2.0, 0.49, mu=0.0)].state, 2.0, 0.01 - SLIGHT
+    begin(gravity=(0, 0, 0), relaxationRate=KAPPA, correctionSpeed=1e3)
+    O.step()
+    pseudo = KAPPA * overlap / (1 / s.mass + arm**2 / 900.0)
+    assert s.pos[1] - 0.49 == pytest.approx(pseudo / s.mass, rel=1e-9)
+    assert 2 * math.atan2(plank.ori[2], plank.ori[3]) == pytest.approx(-arm * pseudo / 900.0, rel=1e-9)
+    assert s.vel.norm() == 0 and plank.angVel[2] == 0
+
+
+def test_a_disk_that_slides_out_of_a_wall_keeps_its_speed():
+    """What is held takes the angular momentum: only two free bodies get impulses that keep it."""
+    stuff = material(0.0)
+    floor(stuff)
+    s = O.bodies[free_disk(0, 0.48, (3, 0, 0), stuff)].state
+    e = begin(gravity=(0, 0, 0), relaxationRate=0.5)
+    run(20)
+    assert s.pos[1] == pytest.approx(0.5 - SLIGHT, abs=1e-7) and tuple(s.vel) == (3, 0, 0) and e.correctionEnergy == 0  # 0.5^20
+
+
+def test_a_bond_that_is_made_in_an_overlap_has_no_length():
+    stuff = material(0.3, 0.1, tensileStrength=1e6, bondEllipseNormal=0.05, bondEllipseTangential=0.05)
+    a, b = (O.bodies[free_disk(x, 0, stuff=stuff)].state for x in (0, 0.99))
+    e = begin(gravity=(0, 0, 0), relaxationRate=0)
+    run(1)
+    assert e.bond() == 1
+    e.relaxationRate = 0.5
+    run(40)
+    assert b.pos[0] - a.pos[0] == pytest.approx(1, abs=1e-11) and e.bonds == 1  # 0.5^40, and not the 1e-5 ℓ that a contact may overlap
+
+
 def test_forces_of_other_engines_do_no_work_on_displacements():
     """What lifts a disk is counted against its weight, whatever else holds or presses it: such a force has no potential, and its work is that on the path of the velocities."""
     stuff = material(0.3)

@@ -178,6 +178,15 @@ def test_an_impact_takes_place_where_bodies_touch():
     assert b.pos[0] - a.pos[0] == pytest.approx(1.3, abs=1e-12)
 
 
+@pytest.mark.parametrize("of_floor, of_disk", [(0.2, 0.7), (0.7, 0.2)])
+def test_the_larger_of_two_coefficients_of_restitution_holds(of_floor, of_disk):
+    floor(material(0.3, restitution=of_floor))
+    s = O.bodies[free_disk(0, 0.5, (0, -2.0, 0), restitution=of_disk)].state
+    begin()
+    run(1)
+    assert s.vel[1] == pytest.approx(0.7 * 2.0, rel=1e-12)
+
+
 # ---- residual adhesion ----------------------------------------------------------------------------
 
 @pytest.mark.parametrize("gap, adhesive", [(-0.004, True), (0.9e-3, True), (1.1e-3, False), (0.03, False)])
@@ -185,9 +194,10 @@ def test_an_impact_takes_place_where_bodies_touch():
 def test_residual_adhesion_acts_while_bodies_touch(gap, adhesive, share):
     """A pull of ``share`` times the adhesion, at a gap within adhesionRange = 1e-3 ℓ or beyond it, which is known up to the reach of 0.05 ℓ."""
     strength, h = 2e4, 1e-3
-    stuff = material(0.3, residualTensileStrength=strength)
-    O.bodies.append(scene.disk((0, 0), 0.5, stuff, fixed=True))
-    disk = free_disk(1 + gap, 0, stuff=stuff)
+    stuff, length = material(0.3, residualTensileStrength=strength / 0.7), 0.7
+    O.bodies.append(scene.disk((0, 0), 0.25, stuff, fixed=True))
+    gap *= length
+    disk = O.bodies.append(scene.disk((length + gap, 0), 0.45, stuff))
     s = O.bodies[disk].state
     O.forces.setPermF(disk, (share * strength, 0, 0))
     begin(gravity=(0, 0, 0), dt=h, relaxationRate=0)
@@ -200,3 +210,38 @@ def test_residual_adhesion_acts_while_bodies_touch(gap, adhesive, share):
     assert i.phys.adhesion == pytest.approx(adhesion, rel=1e-12)
     assert s.vel[0] == pytest.approx(speed, abs=1e-12)
     assert i.phys.normal == pytest.approx(s.mass * (speed - free) / h, abs=1e-6)  # N, of 2e4
+
+
+# ---- what a step sums up --------------------------------------------------------------------------
+
+def test_forces_and_torques_of_other_engines_work():
+    """From rest: ½ m v² and ½ I ω², step by step exact, since the mean of the velocities before and after counts."""
+    a, b = (O.bodies[free_disk(x, 0)].state for x in (0, 5))
+    O.forces.setPermF(0, (200, -300, 0))
+    O.forces.setPermT(1, (0, 0, 40))
+    e = begin(gravity=(0, 0, 0))
+    run(50)
+    assert a.vel.norm() > 0 and b.angVel[2] > 0
+    assert e.externalWork == pytest.approx(0.5 * a.mass * a.vel.squaredNorm() + 0.5 * b.inertia[2] * b.angVel[2] ** 2, rel=1e-12)
+    run(1)
+    assert abs(e.energyError) < 1e-12 * e.externalWork and e.kineticEnergy > 0
+
+
+def test_figures_of_a_step_by_hand():
+    stuff = material(0.0)
+    floor(stuff)
+    places, radii, speeds = ((0, 0.49), (3, 0.2), (7, 4)), (0.5, 0.2, 1.0), ((3, 0, 0), (0, 0, 0), (0, 4, 0))
+    ids = [O.bodies.append(scene.disk(place, r, stuff)) for place, r in zip(places, radii)]
+    O.bodies.append(scene.disk((20, 20), 1.0, stuff, fixed=True))  # held bodies do not count
+    for k, v in zip(ids, speeds):
+        O.bodies[k].state.vel = v
+    e = begin(gravity=(0, 0, 0), relaxationRate=0)
+    run(1)
+    masses = [O.bodies[k].state.mass for k in ids]
+    mean = [sum(m * p[axis] for m, p in zip(masses, places)) / sum(masses) for axis in (0, 1)]
+    assert tuple(e.centroid)[:2] == pytest.approx(mean, rel=1e-12)
+    assert (e.meanSpeed, e.maxSpeed) == pytest.approx((7 / 3, 4), rel=1e-12)
+    assert tuple(e.momentum)[:2] == pytest.approx((masses[0] * 3, masses[2] * 4), rel=1e-12)
+    # two touch the floor, one of them by 0.01 of its diameter of 1 m
+    assert (e.contacts, e.candidates) == (2, 2) and (e.overlapWorst, e.overlapMean) == pytest.approx((0.01, 0.005), rel=1e-9)
+    assert e.kineticEnergy == pytest.approx(0.5 * (masses[0] * 9 + masses[2] * 16), rel=1e-12)

@@ -11,7 +11,7 @@ from contact_scenes import TIGHT, material, run
 MIRROR = {"bottom": "bottom", "top": "top", "left": "right", "right": "left"}
 TRANSPOSED = {"bottom": "left", "left": "bottom", "right": "top", "top": "right"}
 WIDTH, HEIGHT, PRESSURE = 6.4, 4.4, 1e5
-ROUNDING, SOLVED = 1e-10, 1e-8  # of 200 steps under load, in the scales of the walls; the solver's 1e-12 where the order of contacts is another
+ROUNDING, SOLVED = 1e-9, 1e-7  # of 300 steps under load, in the scales of the walls; the solver's 1e-12 where the order of contacts is another
 
 
 @pytest.fixture(autouse=True)
@@ -30,7 +30,7 @@ def disks():
     return np.column_stack((x + dice.uniform(-0.02, 0.02, 24), y + dice.uniform(-0.02, 0.02, 24))), dice.uniform(0.4, 0.5, 24)
 
 
-def pressed(names=None, order=None, length=1.0, pressure=1.0, density=1.0, steps=200):
+def pressed(names=None, order=None, length=1.0, pressure=1.0, density=1.0, steps=300):
     """A sample between two walls that follow the pressure; ``names``: what each wall is called here. Returns places of the disks, of the walls, and stresses,
     as they are called and measured in the first case."""
     O.reset()
@@ -74,7 +74,7 @@ def here():
     found = pressed()
     O.reset()
     places, walls, stresses, _ = found
-    assert walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and 0.5 < stresses.min()  # the walls have come in and press
+    assert walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and (stresses > 0.5).sum() == 3  # they have come in and press; rough platens keep it from the left one
     return found
 
 
@@ -113,11 +113,13 @@ def test_forces_of_four_walls_by_hand():
     assert (walls.width(), walls.height()) == pytest.approx((1.0, 1.0), abs=1e-9) and walls.is_free("top") and not walls.is_free("left")
     walls.drive("top", (0, -0.2))  # a platen that comes down: the disk yields nowhere
     assert not walls.is_free("top") and O.forces.permF(walls.ids["top"]).norm() == 0
-    walls.drive("top")
-    walls.drive("right", (0.5, 0))  # one that goes: nothing is pressed any more
+    walls.free("top", 100.0)
+    walls.drive("right", (0.5, 0))  # one that goes: nothing is pressed across any more
     walls.step()
-    assert walls.forces() == pytest.approx(dict.fromkeys(SIDES, 0.0), abs=1e-3)
-    assert walls.width() == pytest.approx(1.0 + 0.5 * O.dt, abs=1e-9)
+    walls.step()
+    push = 4e4 * (1 + 0.5 * O.dt)  # the width at the step's beginning
+    assert walls.forces() == pytest.approx({"bottom": push, "top": push, "left": 1e-9, "right": 1e-9}, rel=1e-9, abs=1e-6)
+    assert walls.width() == pytest.approx(1.0 + 0.5 * 2 * O.dt, abs=1e-9)
 
 
 def test_the_pressure_follows_the_lengths_of_the_sample():
@@ -148,12 +150,12 @@ def test_the_membrane_of_a_lattice_by_hand():
     """Columns one above the other: an inner disk of a side carries σ₃ times the spacing, the ends half of it and what is left to the platens."""
     x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(4) + 1e-9, np.arange(6)))
     x = x + 1e-7 * np.sin(7 * np.arange(24))  # so that no four disks lie on a circle
-    force, area = membrane.forces(x, y, np.full(24, 0.5), -0.7, 5.9, SIGMA)
+    force, area = membrane.forces(x, y, np.full(24, 0.5), -0.7, 5.6, SIGMA)
     left, right = force.reshape(6, 4, 2)[:, 0], force.reshape(6, 4, 2)[:, -1]
-    expected = SIGMA * np.array([0.5 + 0.7, 1, 1, 1, 1, 0.5 + 0.9])
+    expected = SIGMA * np.array([0.5 + 0.7, 1, 1, 1, 1, 0.5 + 0.6])
     assert left[:, 0] == pytest.approx(expected, abs=1e-5) and right[:, 0] == pytest.approx(-expected, abs=1e-5)
     assert np.abs(force[:, 1]).max() < 1e-5 and np.abs(force.reshape(6, 4, 2)[:, 1:-1]).max() == 0
-    assert area == pytest.approx(4.0 * 6.6, abs=1e-5)
+    assert area == pytest.approx(4.0 * 6.3, abs=1e-5)
 
 
 @pytest.mark.parametrize("name", ["mirror", "upside down", "shifted", "units", "ids", "pressure"])
