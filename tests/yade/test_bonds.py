@@ -180,3 +180,25 @@ def test_weaker_of_two_disks_and_the_wall_alone():
     strong.frictionAngle = weak.frictionAngle = math.atan(0.1)
     engine().updateStrengths()
     assert by_pair[1, 2].friction == pytest.approx(0.1, rel=1e-12)
+
+
+@pytest.mark.parametrize("opening, sliding, mode", [(0.65, 0.35, 1), (0.55, 0.45, 4), (0.45, 0.55, 4), (0.35, 0.65, 2)])
+def test_a_break_is_named_by_what_makes_more_than_60_per_cent_of_the_path(opening, sliding, mode):
+    free = pair(rolling=0.0, tensileStrength=1.0, bondEllipseNormal=0.02, bondEllipseTangential=0.02)
+    O.bodies[free].state.vel, O.bodies[free].state.blockedDOFs = (opening, sliding, 0), "zXYZ"
+    O.dt = 1e-3
+    while engine().bonds:  # one newton does not slow it down
+        run(1)
+        assert O.iter < 100
+    assert contacts()[0].phys.brokenMode == mode
+
+
+def test_walls_bond_only_where_they_say_so():
+    for to_all, bonds in ((False, 0), (True, 1)):
+        O.reset()
+        disk, wall = material(tensileStrength=SIGMA), material(tensileStrength=SIGMA, wall=True, bondsToAll=to_all)  # of one layer
+        O.bodies.append(scene.segments([(-5, 0), (5, 0)], wall))
+        O.bodies.append(scene.disk((0, 0.5), 0.5, disk))
+        begin(gravity=(0, 0, 0))
+        run(1)
+        assert engine().bond() == bonds

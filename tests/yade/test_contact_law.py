@@ -104,14 +104,36 @@ def test_convex_corner_is_rounded_with_one_contact(drop):
     assert s.vel.norm() ** 2 == pytest.approx(0.8**2 + 2 * G * drop_height, rel=4e-3)
 
 
-def test_one_sided_wall_lets_through_from_behind():
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_one_sided_wall_holds_on_its_side_alone(sense, side):
+    """+1 is the left of the direction of travel. Behind the wall disks pass, but one whose centre is there by less than its radius is pushed through to the front."""
     stuff = material(0.3)
-    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff, sense=-1))
-    disk = O.bodies.append(scene.disk((0, 0.6), 0.5, stuff))
-    O.bodies[disk].state.vel = (0, 0.5, 0)
-    begin(gravity=(0, 0, 0))
-    run(10)
-    assert O.bodies[disk].state.vel[1] == 0.5 and not [i for i in contacts() if i.phys.normal]
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff, sense=sense))
+    speed, rate = 0.2, 0.25
+    touching, deep, leaving, beyond = (O.bodies.append(scene.disk((x, side * y), 0.5, stuff)) for x, y in ((-3, 0.5), (-1, 0.3), (1, 0.3), (3, 0.501)))
+    for k in (touching, deep, leaving, beyond):
+        O.bodies[k].state.vel = (0, side * speed * (1 if k == leaving else -1), 0)
+    begin(gravity=(0, 0, 0), relaxationRate=rate, correctionSpeed=1e6)
+    run(1)
+    away = {k: (side * O.bodies[k].state.vel[1], side * O.bodies[k].state.pos[1]) for k in (touching, deep, leaving, beyond)}
+    front = side == sense
+    # in front overlaps are 0.2 m, behind the wall 0.8 m, less the 1e-5 ℓ that stay; 1e-12 of the solver
+    out = rate * (0.2 - 1e-5) if front else -rate * (0.8 - 1e-5)
+    assert away[deep] == pytest.approx((0 if front else -speed, 0.3 + out), abs=1e-11)
+    assert away[leaving] == pytest.approx((speed if front else 0, 0.3 + out), abs=1e-11)
+    assert away[beyond] == pytest.approx((-speed, 0.501 - speed * O.dt), abs=1e-11)  # in front 1 mm is more than a step's path
+    if front:
+        assert away[touching] == pytest.approx((0, 0.5), abs=1e-11)
+
+
+def test_a_two_sided_wall_holds_on_the_side_where_the_centre_is():
+    stuff = material(0.3)
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff))
+    disks = [O.bodies.append(scene.disk((x, y), 0.5, stuff)) for x, y in ((-2, 0.3), (2, -0.3))]
+    begin(gravity=(0, 0, 0), relaxationRate=0.25, correctionSpeed=1e6)
+    run(1)
+    assert [O.bodies[k].state.pos[1] for k in disks] == pytest.approx([0.3 + 0.25 * (0.2 - 1e-5), -0.3 - 0.25 * (0.2 - 1e-5)], abs=1e-12)
 
 
 # ---- slip along a wall ----------------------------------------------------------------------------
@@ -158,6 +180,53 @@ def test_step_weakening_drops_friction_at_the_critical_slip():
     assert contacts()[0].phys.tangensOfFrictionAngle == pytest.approx(0.1, rel=1e-12)
     wall.forgetSlip()
     assert wall.slipOf(disk) == 0
+
+
+@pytest.mark.parametrize("law, left", [("step", lambda share: 1.0 if share < 1 else 0.0), ("linear", lambda share: max(0.0, 1 - share)), ("exponential", lambda share: math.exp(-share))])
+def test_friction_and_cohesion_fall_by_the_law_of_their_wall(law, left):
+    """Two disks that do not turn are drawn along a wall at their own speeds; a step works with the slip before it, disk by disk."""
+    strong, weak, cohesion, rest, critical, h = 0.5, 0.2, 3e3, 1e3, 0.2, 2e-3
+    wall = material(strong, 0.1, kind=SlipWeakeningMat, residualTensileStrength=cohesion, criticalSlip=critical, weakening=law, weakenedFrictionAngle=math.atan(weak), weakenedTensileStrength=rest)
+    O.bodies.append(scene.segments([(-5, 0), (9, 0)], wall, piece=0.7))
+    fast, slow = disks = [O.bodies.append(scene.disk((x, 0.5), 0.5, wall)) for x in (0, 3)]
+    speeds = {fast: 1.5, slow: -0.4}
+    for k in disks:
+        s = O.bodies[k].state
+        s.blockedDOFs, s.vel = "xzXYZ", (speeds[k], 0, 0)
+    begin(dt=h)
+    weight, seen = O.bodies[fast].state.mass * G, set()
+    for step in range(1, 201):
+        before = {k: wall.slipOf(k) for k in disks}
+        O.step()
+        for i in contacts():
+            share = left(before[i.id2] / critical)
+            mu, adhesion = weak + (strong - weak) * share, rest + (cohesion - rest) * share
+            seen.add(share)
+            assert (i.phys.tangensOfFrictionAngle, i.phys.adhesion) == pytest.approx((mu, adhesion), rel=1e-12)
+            assert i.phys.normal == pytest.approx(weight, rel=1e-9)
+            assert i.phys.tangential == pytest.approx(math.copysign(mu * (weight + adhesion), speeds[i.id2]), rel=1e-9)  # along −x, n turned by +90°
+            assert i.phys.currentRollingArm == pytest.approx(0.1, rel=1e-12)  # which does not weaken
+        for k in disks:
+            assert wall.slipOf(k) == pytest.approx(abs(speeds[k]) * h * step, rel=1e-12)
+        slips = [wall.slipOf(k) for k in disks]
+        assert wall.weakenedCount() == sum(slip >= critical for slip in slips) and wall.meanSlip() == pytest.approx(sum(slips) / 2, rel=1e-12)
+    assert wall.weakenedCount() == 1 and len(seen) > (1 if law == "step" else 200)
+
+
+def test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_none():
+    wall = material(0.2, kind=SlipWeakeningMat, residualTensileStrength=1e3, criticalSlip=0.01, weakening="linear", weakenedFrictionAngle=math.atan(0.6), weakenedTensileStrength=5e3)
+    bare = material(0.3, kind=SlipWeakeningMat, criticalSlip=0.01)
+    for y, stuff in ((0, wall), (10, bare)):
+        O.bodies.append(scene.segments([(-5, y), (5, y)], stuff))
+    pressed, touching = (O.bodies.append(scene.disk((0, y), 0.5, stuff)) for y, stuff in ((0.5, wall), (10.5, bare)))
+    for k in (pressed, touching):
+        O.bodies[k].state.blockedDOFs, O.bodies[k].state.vel = "xzXYZ", (1, 0, 0)
+    begin(gravity=(0, 0, 0))
+    run(30)
+    phys = next(i.phys for i in contacts() if i.id2 == pressed)
+    assert wall.slipOf(pressed) == pytest.approx(0.03, rel=1e-12)  # held by its cohesion alone
+    assert phys.tangensOfFrictionAngle == pytest.approx(0.2, rel=1e-12) and phys.adhesion == 1e3
+    assert bare.slipOf(touching) == 0 and bare.meanSlip() == 0 and bare.weakenedCount() == 0  # nothing presses, nothing holds
 
 
 def test_linear_weakening_follows_the_slip():

@@ -55,6 +55,33 @@ def test_force_follows_size_thickness_and_volume_factor():
     assert O.engines[3].totalForce.norm() == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.parametrize("mask, wet", [(0, (1, 1, 1)), (1, (1, 0, 1)), (2, (0, 1, 1)), (4, (0, 0, 0))])
+def test_a_gradient_acts_as_it_is_on_the_bodies_of_a_mask(mask, wet):
+    stuff, gradient, factor, thickness = material(0.3), Vector3(4000, -1500, 0), 1.3, 1.7
+    radii, groups = (0.5, 0.8, 0.3), (1, 2, 3)
+    ids = [O.bodies.append(scene.disk((3 * k, 1 - k), r, stuff)) for k, r in enumerate(radii)]
+    for k, group in zip(ids, groups):
+        O.bodies[k].mask = group
+    high = O.bodies.append(scene.disk((-3, 60), 0.5, stuff))
+    begin(before=[water(gradient=gradient, mask=mask, volumeFactor=factor, thickness=thickness)])
+    run(1)
+    w, total = O.engines[3], Vector3(0, 0, 0)
+    for k, r, in_it in zip(ids, radii, wet):
+        s, force = O.bodies[k].state, in_it * gradient * math.pi * r**2 * thickness * factor  # ∇p V
+        total += force
+        assert (s.vel - O.dt * (force / s.mass + Vector3(0, -G, 0))).norm() < 1e-13 and w.isWet(k) == bool(in_it)
+    assert (w.totalForce - total).norm() < 1e-12 * gradient.norm() and w.wetCount == sum(wet)
+    assert not w.isWet(high) and O.bodies[high].state.vel[0] == 0  # above the table
+
+
+def test_a_disk_that_may_not_move_at_all_stays_dry_and_one_that_may_turn_does_not():
+    ids = disks_above_plane([5, 5, 5])
+    for k, blocked in zip(ids, ("xyzXYZ", "xyzXY", "xzXYZ")):
+        O.bodies[k].state.blockedDOFs = blocked
+    run(1)
+    assert [O.engines[3].isWet(k) for k in ids] == [False, True, True]
+
+
 def test_plane_may_stand_anywhere_and_walls_stay_dry():
     stuff = material(0.3)
     fixed = O.bodies.append(scene.disk((0, 4), 0.5, stuff, fixed=True))

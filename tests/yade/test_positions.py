@@ -3,6 +3,7 @@ import math
 
 import pytest
 from yade import O
+from yade.nonsmooth import scene
 
 from contact_scenes import begin, engine, floor, free_disk, material, momenta, run
 
@@ -102,6 +103,128 @@ def test_what_lifts_a_disk_is_counted():
     # from 0.49 m to there, as far as 0.8^99 lets it
     assert e.correctionEnergy == pytest.approx(s.mass * 9.81 * (0.01 - SLIGHT), rel=1e-7)
     assert abs(e.energyError) < 1e-9 * e.correctionEnergy + 1e-6  # J; rounding of m g y, 1e4 J
+
+
+@pytest.mark.parametrize("kappa", [0.05, 0.5, 1.0])
+@pytest.mark.parametrize("moved, bonded", [(-0.01, False), (-0.01, True), (0.01, True)])
+def test_a_step_takes_back_the_share_kappa_and_no_more_than_the_speed_allows(kappa, moved, bonded):
+    stuff = material(0.3, 0.1, tensileStrength=1e9, bondEllipseNormal=0.1, bondEllipseTangential=0.1)
+    a, b = (O.bodies[free_disk(x, 0, stuff=stuff)].state for x in (0, 1))
+    e, h = begin(gravity=(0, 0, 0), relaxationRate=kappa, correctionSpeed=1e3), 1e-3
+    run(1)
+    if bonded:
+        assert e.bond() == 1
+    b.pos += (moved, 0, 0)
+    stays = 0.0 if bonded else -SLIGHT
+    for share in (10.0, 0.7, 0.0):  # of what the rate alone would take back, as a limit of speed
+        gap = b.pos[0] - a.pos[0] - 1
+        wanted = kappa * (stays - gap)
+        e.correctionSpeed = share * abs(wanted) / h
+        O.step()
+        assert b.pos[0] - a.pos[0] - 1 == pytest.approx(gap + min(share, 1) * wanted, abs=1e-14)
+        if kappa == 1.0:  # nothing is left; put it back
+            b.pos += (gap - (b.pos[0] - a.pos[0] - 1), 0, 0)
+    assert a.vel.norm() == b.vel.norm() == 0
+
+
+def test_what_lifts_a_pile_is_counted_body_by_body():
+    """The lower disk is lifted out of the floor, and the upper one with it and out of the lower one."""
+    stuff = material(0.3)
+    floor(stuff)
+    low, high = (O.bodies[free_disk(0, y, stuff=stuff)].state for y in (0.48, 1.45))
+    e = begin(relaxationRate=KAPPA, correctionSpeed=1e3, correctionSweeps=200)
+    run(150)
+    assert (low.pos[1], high.pos[1]) == pytest.approx((0.5 - SLIGHT, 1.5 - 2 * SLIGHT), abs=1e-9)  # 0.8^150
+    assert e.correctionEnergy == pytest.approx(low.mass * 9.81 * (0.02 + 0.05 - 3 * SLIGHT), rel=1e-7)
+    assert abs(e.energyError) < 1e-9 * low.mass * 9.81  # m g times a nanometre; rounding of m g y
+
+
+def test_a_plank_on_a_hinge_turns_as_far_as_its_lever_asks():
+    """κ of the overlap in one step, shared by inverse masses: Q = κ o/(1/m + a²/I), the disk moves by Q/m and the plank turns by −a Q/I."""
+    plank = O.bodies[O.bodies.append(scene.segments([(-3, 0), (3, 0)], material(0.0)))[0]].state
+    plank.mass, plank.inertia, plank.blockedDOFs = 500.0, (1, 1, 900.0), "xyzXY"
+    s, arm, overlap = O.bodies[free_disk(2.0, 0.49, mu=0.0)].state, 2.0, 0.01 - SLIGHT
+    begin(gravity=(0, 0, 0), relaxationRate=KAPPA, correctionSpeed=1e3)
+    O.step()
+    pseudo = KAPPA * overlap / (1 / s.mass + arm**2 / 900.0)
+    assert s.pos[1] - 0.49 == pytest.approx(pseudo / s.mass, rel=1e-9)
+    assert 2 * math.atan2(plank.ori[2], plank.ori[3]) == pytest.approx(-arm * pseudo / 900.0, rel=1e-9)
+    assert s.vel.norm() == 0 and plank.angVel[2] == 0
+
+
+def test_a_disk_that_slides_out_of_a_wall_keeps_its_speed():
+    """What is held takes the angular momentum: only two free bodies get impulses that keep it."""
+    stuff = material(0.0)
+    floor(stuff)
+    s = O.bodies[free_disk(0, 0.48, (3, 0, 0), stuff)].state
+    e = begin(gravity=(0, 0, 0), relaxationRate=0.5)
+    run(20)
+    assert s.pos[1] == pytest.approx(0.5 - SLIGHT, abs=1e-7) and tuple(s.vel) == (3, 0, 0) and e.correctionEnergy == 0  # 0.5^20
+
+
+def test_a_bond_that_is_made_in_an_overlap_has_no_length():
+    stuff = material(0.3, 0.1, tensileStrength=1e6, bondEllipseNormal=0.05, bondEllipseTangential=0.05)
+    a, b = (O.bodies[free_disk(x, 0, stuff=stuff)].state for x in (0, 0.99))
+    e = begin(gravity=(0, 0, 0), relaxationRate=0)
+    run(1)
+    assert e.bond() == 1
+    e.relaxationRate = 0.5
+    run(40)
+    assert b.pos[0] - a.pos[0] == pytest.approx(1, abs=1e-11) and e.bonds == 1  # 0.5^40, and not the 1e-5 ℓ that a contact may overlap
+
+
+def test_forces_of_other_engines_do_no_work_on_displacements():
+    """What lifts a disk is counted against its weight, whatever else holds or presses it: such a force has no potential, and its work is that on the path of the velocities."""
+    stuff = material(0.3)
+    floor(stuff)
+    s = O.bodies[free_disk(0, 0.48, stuff=stuff)].state
+    O.forces.setPermF(1, (0, 0.5 * s.mass * 9.81, 0))
+    e = begin(relaxationRate=KAPPA, correctionSpeed=1e3)
+    O.step()
+    lifted = KAPPA * (0.02 - SLIGHT)
+    assert s.pos[1] == pytest.approx(0.48 + lifted, abs=1e-12) and s.vel.norm() < 1e-14
+    assert e.correctionEnergy == pytest.approx(s.mass * 9.81 * lifted, rel=1e-10) and abs(e.externalWork) < 1e-10 * s.mass
+    O.step()
+    assert abs(e.energyError) < 1e-9 * s.mass  # J; rounding of m g y
+
+
+@pytest.mark.parametrize("gravity", [(0, 0, 0), (3, -9.81, 0)])
+def test_drawing_apart_in_free_flight_gives_nothing(gravity):
+    """Action and reaction: the centre of the two stays on its path, so their weight does no work on the displacements."""
+    stuff = material(0.3)
+    ids = [O.bodies.append(scene.disk(at, r, stuff)) for at, r in (((0, 0), 0.5), ((0.6, 0.8), 0.7))]
+    for k in ids:
+        O.bodies[k].state.vel = (1, 2, 0)
+    e = begin(gravity=gravity, relaxationRate=KAPPA, correctionSpeed=1e3)
+    run(100)
+    apart = (O.bodies[ids[1]].state.pos - O.bodies[ids[0]].state.pos).norm()
+    assert apart == pytest.approx(1.2 - 1.2 * SLIGHT, abs=1e-9)
+    assert e.correctionEnergy == pytest.approx(0, abs=1e-12 * O.bodies[ids[1]].state.mass * 9.81)
+
+
+@pytest.mark.parametrize("apart, bonded", [(0.98, False), (0.98, True), (1.03, True)])
+def test_bodies_that_pass_each_other_get_what_keeps_their_angular_momentum(apart, bonded):
+    """Two disks at the distance d pass each other at the speed u. A step displaces them to d', and L = ½ m d u stays: u' = u (1 − (d' − d)/d'), ΔK = ¼ m (u'² − u²)."""
+    stuff = material(0.0, tensileStrength=1e9, bondEllipseNormal=0.2, bondEllipseTangential=1.0)
+    a, b = (O.bodies[free_disk(x, 0, stuff=stuff)].state for x in (0, 1))
+    e = begin(gravity=(0, 0, 0), relaxationRate=0.5, correctionSpeed=1e3)
+    run(1)
+    if bonded:
+        assert e.bond() == 1
+    u, mass = 2.0, a.mass
+    b.pos = (apart, 0, 0)
+    a.vel, b.vel = (0, -0.5 * u, 0), (0, 0.5 * u, 0)
+    e.forgetEnergies()
+    d = apart
+    O.step()
+    found = apart - 0.5 * (apart - 1 + (0 if bonded else SLIGHT))  # d' of the direction that the contact has
+    after = u * (1 - (found - d) / found)
+    given = 0.25 * mass * (after**2 - u**2)
+    assert b.vel[1] - a.vel[1] == pytest.approx(after, rel=1e-12) and abs(b.vel[0] - a.vel[0]) < 1e-12
+    assert e.correctionEnergy == pytest.approx(given, rel=1e-10)
+    assert e.slidingLoss == e.debondingLoss == e.impactLoss == 0
+    O.step()
+    assert abs(e.energyError) < 1e-12 * mass * u**2
 
 
 def test_disks_are_not_pushed_into_others_that_they_do_not_touch_yet():

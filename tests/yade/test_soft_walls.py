@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import scene, section, soft, worlds
-from yade.wrapper import WallPhys
+from yade.wrapper import BondEllipseEngine, WallPhys
 
 RADIUS, LENGTH, E = 0.5, 1.0, 1e9
 SIGMA = 1e5
@@ -181,3 +181,14 @@ def test_a_ductile_bond_to_a_wall_yields_and_breaks_at_its_ellipse():
         assert height < 0.03 * LENGTH
     assert height == pytest.approx(0.02 * LENGTH, rel=1e-3)  # ε_n ℓ, to a step
     assert borne == pytest.approx(F_A, rel=1e-6)
+
+
+def test_an_ellipse_without_size_is_refused():
+    body = on_a_wall(WALL)
+    wall = next(i.id1 for i in O.interactions if body.id == i.id2)
+    followed = BondEllipseEngine()
+    for axes in ((0.0, 0.1), (0.1, 0.0), (-1.0, 0.1), (0.1, math.nan)):
+        with pytest.raises(ValueError, match="half-axes must be positive"):
+            followed.add(wall, body.id, *axes, 0.3, 0.1)
+    followed.add(wall, body.id, 0.1, 0.1, 0.3, 0.1)
+    assert followed.count == 1

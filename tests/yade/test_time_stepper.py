@@ -72,6 +72,120 @@ def test_bonds_bound_the_step_and_are_crossed_in_several():
     assert steps >= 4 and s.limit in (1, 2)  # ε_n ℓ = 0.04 m in quarters at least
 
 
+# ---- the rates, and what else bounds a step -------------------------------------------------------
+
+def test_the_rate_of_two_disks_is_that_of_their_centres():
+    stuff = material(0.0)
+    for x, y, r, velocity in ((0, 0, 0.5, (1.0, 2.0, 0)), (1.2, 0, 0.7, (4.0, -2.0, 0)), (9, 9, 0.5, (50, 0, 0))):  # the last one touches nothing
+        k = O.bodies.append(scene.disk((x, y), r, stuff))
+        O.bodies[k].state.vel, O.bodies[k].state.angVel = velocity, (0, 0, 30)  # spins do not count
+    e = begin(gravity=(0, 0, 0))
+    O.step()
+    assert e.contactRate == 0 and e.bondRate == 0  # found only for a stepper
+    s = stepper(path=0.05, largest=1.0, growth=1e9)
+    O.bodies[0].state.pos, O.bodies[1].state.pos = (0, 0, 0), (1.2, 0, 0)
+    O.step()
+    assert s.limit == 0 and O.dt == 1.0  # what the step before did not find bounds nothing
+    O.dt = 1e-3
+    O.bodies[0].state.pos, O.bodies[1].state.pos = (0, 0, 0), (1.2, 0, 0)
+    s.largest = 1e-3
+    O.step()
+    assert e.contactRate == pytest.approx(5.0 / 1.2, rel=1e-12)  # |(3, −4)| over the sum of radii
+    s.largest = 1.0
+    O.step()
+    assert O.dt == pytest.approx(0.05 / (5.0 / 1.2), rel=1e-12) and s.limit == 1
+
+
+@pytest.mark.parametrize("velocity, rate", [((3.0, 0.2, 0), 0.2), ((3.0, 0, 0), 0.0), ((0.1, 0.6, 0), 0.6)])
+def test_the_rate_at_a_wall_is_normal_to_it(velocity, rate):
+    stuff, turn = material(0.0), 0.4
+    c, sn = math.cos(turn), math.sin(turn)
+    O.bodies.append(scene.segments([(-5 * c, -5 * sn), (5 * c, 5 * sn)], stuff))
+    disk = O.bodies.append(scene.disk((-0.8 * sn, 0.8 * c), 0.8, stuff))
+    O.bodies[disk].state.vel = (c * velocity[0] - sn * velocity[1], sn * velocity[0] + c * velocity[1], 0)
+    begin(gravity=(0, 0, 0))
+    stepper(largest=1e-3)
+    O.step()
+    assert engine().contactRate == pytest.approx(rate / 1.6, rel=1e-9, abs=1e-12)  # over the disk's diameter
+
+
+@pytest.mark.parametrize("velocity, rate", [((2.0, 0.1, 0), "normal"), ((0.2, 0.8, 0), "shear")])
+def test_the_rate_of_a_bond_is_that_at_which_it_crosses_its_ellipse(velocity, rate):
+    strength, h = 1e3, 1e-3
+    stuff = material(0.5, tensileStrength=strength, bondEllipseNormal=0.05, bondEllipseTangential=0.02, bondCreationDistance=0.02)
+    free = pair(0.0, stuff, bonded=True)
+    s = O.bodies[free].state
+    s.vel = velocity
+    stepper(largest=h, bondPath=0.25)
+    O.step()
+    e = engine()
+    # it yields in tension with F_a, and then there is no friction and no torque: μ (F_a + N) = 0; ℓ = 2 m
+    opening = velocity[0] - h * 2 * strength / s.mass
+    assert s.vel[0] == pytest.approx(opening, rel=1e-12) and s.vel[1] == pytest.approx(velocity[1], rel=1e-12)
+    normal, shear = opening / (0.05 * 2), velocity[1] / (0.02 * 2)
+    assert e.bondRate == pytest.approx(max(normal, shear), rel=1e-12) and (normal > shear) == (rate == "normal")
+    assert e.contactRate == pytest.approx(math.hypot(opening, velocity[1]) / 2, rel=1e-12)
+    O.engines[0].largest = O.engines[0].path = 1.0
+    O.engines[0].growth = 1e9
+    O.step()
+    assert O.dt == pytest.approx(0.25 / max(normal, shear), rel=1e-12) and O.engines[0].limit == 2
+
+
+def pile_that_is_struck(**limits):
+    stuff = material(0.3)
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff))
+    for k in range(6):
+        O.bodies.append(scene.disk((0, 0.5 + k), 0.5, stuff))
+    begin(dt=1e-4, **limits)
+    return stepper(largest=1.0, growth=1.5, path=1e9)
+
+
+def strike():
+    """A step with a blow on the top of the pile, which has to get down."""
+    O.bodies[6].state.vel = (0.1, -1, 0)
+    O.step()
+
+
+def test_a_step_does_not_grow_after_one_of_more_sweeps_than_wanted():
+    s = pile_that_is_struck()
+    for more in (0, 1, 0, 1):
+        O.dt, s.sweeps = 1e-4, 0
+        strike()
+        sweeps, was = engine().iterations, O.dt
+        assert sweeps > 1 and engine().unconverged == 0 and s.limit == 3
+        s.sweeps = sweeps - more  # as many as it took are none too many
+        strike()
+        assert (s.limit, O.dt) == ((4, was) if more else (3, 1.5 * was))
+
+
+def test_a_step_does_not_grow_after_one_that_was_not_solved():
+    s = pile_that_is_struck(maxIterations=1, checkEvery=1)
+    strike()
+    was = O.dt
+    for _ in range(3):
+        strike()
+        assert (s.limit, O.dt) == (4, was)
+    engine().maxIterations, engine().tolerance = 20000, 1e-6
+    strike()
+    assert (s.limit, O.dt) == (4, was) and engine().unconverged == 4
+    strike()
+    assert (s.limit, O.dt) == (3, 1.5 * was)
+
+
+def test_no_step_is_smaller_than_the_smallest():
+    pair(400.0, material(0.0))
+    s = stepper(smallest=2e-4, largest=1e-2, path=0.05, growth=10)
+    O.dt = 1e-5
+    O.step()
+    assert (s.limit, O.dt) == (5, 2e-4)  # ten times 1e-5 are less
+    assert engine().contactRate == pytest.approx(200.0, rel=1e-12)
+    O.step()
+    assert s.limit == 1 and O.dt == pytest.approx(0.05 / 200, rel=1e-12)
+    s.path = 0.03  # 1.5e-4 s
+    O.step()
+    assert (s.limit, O.dt) == (5, 2e-4)
+
+
 def test_slides_as_far_as_with_a_fixed_step():
     stuff = material(0.3)
     O.bodies.append(scene.segments([(-1, 0), (40, 0)], stuff, piece=5))

@@ -1,0 +1,255 @@
+"""Every refusal and every limit of an engine's settings, from both sides: what just goes, and what does not, in words that name it."""
+import math
+
+import pytest
+from yade import O
+from yade.nonsmooth import scene
+from yade.wrapper import (
+    BondEllipseEngine, Collider, ContactDynamicsEngine, ForceResetter, InsertionSortCollider, InteractionLoop, Ip2_NscdMat_NscdMat_NscdPhys, NewtonIntegrator,
+    NonsmoothTimeStepper, NscdInteractionLoop, NscdMat, PlanarNewtonIntegrator, PorePressureEngine, SlipWeakeningMat)
+
+from contact_scenes import G, begin, contacts, engine, free_disk, material, refused, run
+
+
+@pytest.fixture(autouse=True)
+def clean():
+    O.reset()
+    yield
+    O.periodic = False
+    O.reset()
+
+
+def rests(**options):
+    stuff = material(0.3, label="rock")
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff))
+    disk = free_disk(0, 0.5, stuff=stuff)
+    begin(**options)
+    return disk
+
+
+def swapped(kind, other):
+    O.engines = [other(e) if isinstance(e, kind) else e for e in O.engines]
+
+
+def plain_loop(e, physics=None, laws=None):
+    return InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors if physics is None else physics, e.lawDispatcher.functors if laws is None else laws)
+
+
+# ---- settings -------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("name, good, bad, words", [
+    ("tolerance", (1e-300, 10.0), (0.0, -1e-9, math.inf, math.nan), "positive and finite"),
+    ("maxIterations", (1,), (0, -1), "at least 1"), ("checkEvery", (1,), (0, -1), "at least 1"), ("correctionSweeps", (0, 1), (-1,), "0 or more"),
+    ("relaxationRate", (0.0, 1.0), (-1e-9, 1 + 1e-9, math.nan), "from 0 to 1"), ("correctionSpeed", (0.0, 1e9), (-1e-9, math.nan), "0 or more"),
+    ("openGap", (0.0, 10.0), (-1e-9, math.nan), "0 or more"), ("method", ("accelerated", "gaussSeidel"), ("GaussSeidel", ""), "'accelerated' or 'gaussSeidel'"),
+    ("stoppingTest", ("naturalMap", "Quad", "Maxm", "QM/16"), ("", "quad"), "'naturalMap', 'Quad', 'Maxm' or 'QM/16'")])
+def test_settings_of_the_solver(name, good, bad, words):
+    rests(maxIterations=5)
+    for value in good:
+        setattr(engine(), name, value)
+        O.step()
+    for value in bad:
+        setattr(engine(), name, value)
+        refused("ContactDynamicsEngine", name, "must be", words)
+
+
+@pytest.mark.parametrize("name, good, bad, words", [
+    ("smallest", (1e-9, 1e-2), (0.0, -1.0, math.nan, math.inf), "positive"), ("path", (1e-9, 1e9), (0.0, -1.0, math.nan, math.inf), "positive"),
+    ("bondPath", (1e-9, 1e9), (0.0, -1.0, math.nan, math.inf), "positive"), ("growth", (1.0, 1e9), (1 - 1e-9, math.nan), "at least 1"),
+    ("largest", (1e-4, 1.0), (1e-4 - 1e-9, math.nan, math.inf), "not be below smallest = 0.0001")])
+def test_settings_of_the_time_stepper(name, good, bad, words):
+    rests()
+    O.engines = [NonsmoothTimeStepper()] + O.engines
+    for value in good:
+        setattr(O.engines[0], name, value)
+        O.step()
+    for value in bad:
+        setattr(O.engines[0], name, value)
+        refused("NonsmoothTimeStepper", name, words)
+
+
+BELOW = math.pi / 2 - 1e-9
+STRENGTHS = [
+    ("density", (1e-9, 1e9), (0.0, -1.0, math.nan), "positive"), ("tensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"),
+    ("residualTensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"), ("frictionAngle", (0.0, BELOW), (-1e-9, math.pi / 2, 30.0, math.nan), "below π/2"),
+    ("residualFrictionAngle", (-1.0, 0.0, BELOW), (math.pi / 2, math.nan), "below π/2"), ("rollingFriction", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
+    ("residualRollingFriction", (-1.0, 0.0, 10.0), (math.nan,), "negative for the peak"), ("bondEllipseNormal", (1e-9, 10.0), (0.0, -1.0, math.nan), "positive"),
+    ("bondEllipseTangential", (1e-9, 10.0), (0.0, -1.0, math.nan), "positive"), ("bondCreationDistance", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
+    ("restitution", (0.0, 1.0), (-1e-9, 1 + 1e-9, math.nan), "from 0 to 1")]
+WEAK = [("weakenedFrictionAngle", (0.0, BELOW), (-1e-9, math.pi / 2, math.nan), "below π/2"), ("weakenedTensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"),
+        ("criticalSlip", (1e-9, 1e9, math.inf), (0.0, -1.0, math.nan), "positive"), ("weakening", ("step", "linear", "exponential"), ("Step", ""), "'step', 'linear' or 'exponential'")]
+
+
+@pytest.mark.parametrize("kind, name, good, bad, words", [(NscdMat, *row) for row in STRENGTHS] + [(SlipWeakeningMat, *row) for row in STRENGTHS[:1] + STRENGTHS[-1:] + WEAK])
+def test_strengths_of_a_material_that_no_contact_has(kind, name, good, bad, words):
+    rests()
+    other = material(0.2, kind=kind, label="other")
+    for value in good:
+        setattr(other, name, value)
+        O.step()
+    for value in bad:
+        setattr(other, name, value)
+        refused(name, "must be", words)
+        with pytest.raises(Exception, match=name):  # updateStrengths looks at the materials of bodies
+            O.bodies[0].material = other
+            engine().updateStrengths()
+        O.bodies[0].material = O.materials[0]
+
+
+@pytest.mark.parametrize("loop", [None, plain_loop])
+@pytest.mark.parametrize("name, value", [("weakening", "Step"), ("criticalSlip", 0.0), ("residualTensileStrength", -1.0), ("bondCreationDistance", math.nan)])
+def test_a_wall_without_sense_that_is_met(name, value, loop):
+    rests()
+    O.bodies[0].material = SlipWeakeningMat(density=2500.0, **{name: value})
+    if loop:
+        swapped(InteractionLoop, loop)
+    refused(name, "must be")
+
+
+# ---- scenes ---------------------------------------------------------------------------------------
+
+def test_a_step_of_no_length():
+    rests()
+    O.dt = 0
+    refused("O.dt = 0", "positive time step")
+
+
+def test_periodic_scenes():
+    rests()
+    swapped(Collider, lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=0.1))
+    O.periodic = True
+    O.cell.setBox(50, 50, 50)
+    refused("ContactDynamicsEngine", "periodic", "O.periodic = False")
+
+
+def test_clumps_meet_the_solver():
+    stuff = material(0.3)
+    O.bodies.appendClumped([scene.disk((x, 0), 0.5, stuff) for x in (0, 0.8)])
+    begin()
+    swapped(InteractionLoop, plain_loop)
+    swapped(NewtonIntegrator, lambda e: NewtonIntegrator(damping=0, gravity=e.gravity))
+    refused("ContactDynamicsEngine", "clump", "single spheres")
+
+
+def test_an_aspherical_body_that_may_turn_any_way_is_not_the_planar_integrators():
+    disk = free_disk()
+    O.bodies[disk].aspherical = True
+    O.bodies[disk].state.blockedDOFs = "z"
+    O.engines, O.dt = [ForceResetter(), PlanarNewtonIntegrator(damping=0)], 1e-3
+    refused("PlanarNewtonIntegrator", f"#{disk}", "aspherical", "NewtonIntegrator")
+    O.bodies[disk].aspherical = False
+    O.step()
+
+
+def test_forces_that_are_no_numbers():
+    disk = rests()
+    O.forces.setPermF(disk, (math.nan, 0, 0))
+    refused(f"body #{disk}", "force that is not finite", "engines that add forces")
+
+
+@pytest.mark.parametrize("name, value", [("pos", (math.inf, 0, 0)), ("vel", (0, math.nan, 0)), ("angVel", (0, 0, math.inf))])
+def test_states_that_are_no_numbers(name, value):
+    disk = rests()
+    swapped(Collider, lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=0.1) if name == "pos" else e)
+    setattr(O.bodies[disk].state, name, value)
+    refused(f"body #{disk}", "position or velocity that is not finite")
+
+
+@pytest.mark.parametrize("blocked", ["", "z", "zX", "zY", "XY"])
+def test_bodies_that_may_leave_the_plane(blocked):
+    disk = rests()
+    O.bodies[disk].state.blockedDOFs = blocked
+    refused(f"#{disk}", "can leave the x-y plane", "'zXY'")
+    O.bodies[disk].state.blockedDOFs = "xyzXYZ"  # does not move at all
+    O.step()
+
+
+# ---- lists of engines and functors ----------------------------------------------------------------
+
+def test_a_collider_behind_the_solver():
+    rests()
+    collider, = (e for e in O.engines if isinstance(e, Collider))
+    rest = [e for e in O.engines if e is not collider and not isinstance(e, Collider)]
+    O.engines = [e for engine_ in rest for e in ([engine_, collider] if isinstance(engine_, ContactDynamicsEngine) else [engine_])]
+    refused("PlanarGridCollider stands after it", "before")
+
+
+@pytest.mark.parametrize("without, words", [("physics", ("functor Ip2", "NscdMat")), ("laws", ("functor Law2", "SegmentGeom", "NscdPhys"))])
+def test_a_loop_without_a_functor(without, words):
+    rests()
+    swapped(InteractionLoop, lambda e: NscdInteractionLoop(
+        e.geomDispatcher.functors, [] if without == "physics" else [Ip2_NscdMat_NscdMat_NscdPhys()], [] if without == "laws" else e.lawDispatcher.functors))
+    refused("NscdInteractionLoop", "#0", "#1", "add one to the list", *words)
+
+
+def test_water_with_tables_that_do_not_fit():
+    rests(before=[PorePressureEngine(times=[1, 2], heights=[1])])
+    refused("PorePressureEngine", "times has 2", "heights 1")
+    O.engines[3].heights = [1, 2]
+    O.step()
+    O.engines[3].times = [2, 1]
+    refused("PorePressureEngine", "times must rise")
+
+
+def test_bonds_that_a_bond_ellipse_engine_cannot_follow():
+    stuff = material(0.3, bondCreationDistance=0.1)
+    for x in (0, 1, 5):
+        free_disk(x, 0, stuff=stuff)
+    begin(gravity=(0, 0, 0))
+    run(1)
+    ellipses = BondEllipseEngine()
+    for pair in ((0, 1), (0, 2), (0, 7)):
+        with pytest.raises(ValueError, match=f"bodies {pair[0]} and {pair[1]} are not bonded"):
+            ellipses.add(*pair, 0.1, 0.1, 0.3, 0.1)
+    assert ellipses.count == 0 and len(contacts()) == 1
+
+
+# ---- the Python side of a scene -------------------------------------------------------------------
+
+def test_walls_without_length_and_scenes_without_a_solver():
+    stuff = material(0.3)
+    with pytest.raises(ValueError, match="two vertices or more, not 1"):
+        scene.segments([(0, 0)], stuff)
+    with pytest.raises(ValueError, match=r"coincide at \(1, 2\)"):
+        scene.segments([(0, 0), (1, 2), (1, 2)], stuff)
+    with pytest.raises(ValueError, match="coincide"):
+        scene.segments([(0, 0), (0, 0)], stuff, closed=True)
+    O.engines = []
+    with pytest.raises(LookupError, match="no ContactDynamicsEngine: set O.engines"):
+        scene.contact_dynamics()
+    begin()
+    assert scene.contact_dynamics() is not None
+
+
+# ---- what is told, not refused --------------------------------------------------------------------
+
+def test_forces_that_nobody_resets_are_told_of_by_the_integrator(capfd):
+    free_disk()
+    O.engines, O.dt = [PlanarNewtonIntegrator(damping=0)], 1e-3
+    run(3)
+    assert "put ForceResetter() first" in capfd.readouterr().err
+    O.engines[0].warnNoForceReset = False
+    run(3)
+    assert "ForceResetter" not in capfd.readouterr().err
+
+
+def test_a_lasting_miss_is_told_after_ten_steps_and_a_heavy_one_at_once(capfd):
+    """A step matters that misses ten tolerances, with forces of more than that share of a body's weight: told at the tenth in a row, and where it is more than the whole."""
+    stuff, tolerance = material(0.3), 1e-6
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff))
+    disks = [free_disk(0, 0.5 + k, stuff=stuff) for k in range(12)]
+    O.bodies[disks[-1]].state.vel = (0, -0.4, 0)
+    e = begin(tolerance=tolerance, maxIterations=3, checkEvery=1)
+    weight, row, due, reasons = O.bodies[disks[0]].state.mass * G, 0, 0, set()
+    for _ in range(200):
+        missed = e.unconverged
+        O.step()
+        matters = e.unconverged > missed and e.residual > 10 * tolerance and e.residualForce > 10 * tolerance * weight
+        row = row + 1 if matters else 0
+        heavy = matters and e.residualForce > weight
+        due += row == 10 or heavy
+        assert e.unsolved == due
+        warned = "was not solved" in capfd.readouterr().err
+        assert warned == ((row == 10 or heavy) and due in (1, 10, 100))
+        reasons |= {("lasts", row == 10), ("heavy", heavy), ("matters", bool(matters))}
+    assert {("lasts", True), ("heavy", True), ("heavy", False), ("matters", True)} <= reasons, reasons
