@@ -6,6 +6,7 @@ import os
 import subprocess
 from dataclasses import asdict
 
+import leftovers
 import numpy as np
 import pytest
 from yade import O
@@ -341,8 +342,11 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         course.run(stop)
     course.checkpoint()
     O.reset()
+    leftovers.plant(broken, "result.json", "snapshots/begin.npz", "snapshots/2.npz", "checkpoint/checkpoint.json", "checkpoint/scene-00000900.yade")
     biaxial.run(broken, **asdict(test))
     assert (broken / "series.csv").read_bytes() == (whole / "series.csv").read_bytes()
+    names = [sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz")) for folder in (whole, broken)]
+    assert names[0] == names[1] and leftovers.found(broken) == []
     with pytest.raises(biaxial.TestError, match="other settings"):
         biaxial.Course.resume(dataclasses.replace(test, inertia=2e-4), broken)
 
@@ -359,8 +363,9 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
         assert (tmp_path / name).stat().st_size > 300
     assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.5MPa-seed1", "4MPa-seed1"]
+    leftovers.plant(tmp_path, "summary.json", "mohr.png", *(f"tests/4MPa-seed1/{name}" for name in ("result.json", "progress", "snapshots/begin.npz", "snapshots/4.npz", "vtk/disks-1.vtu")))
     again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
-    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
+    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"] and leftovers.found(tmp_path) == []
     assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau
     for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--pressing-friction", "0.1"], "add --sample pressed"), (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed")):
         refused = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=100)
