@@ -39,7 +39,8 @@ def made_heap(gates, base="smooth"):
 
 def test_a_row_measures_the_disks_that_are_there(monkeypatch):
     """Three disks that touch, the last one 0.02 m into the left wall at x = -3 m, and one in the air."""
-    table = {"x": np.array([-2.52, -1.52, -0.02, 7.0]), "y": np.array([0.5, 0.5, 1.0, 9.0]), "r": np.array([0.5, 0.5, 1.0, 0.5]),
+    x = -1.52 + math.sqrt(2)  # of the large one, which leans on a small one
+    table = {"x": np.array([-2.52, -1.52, x, 7.0]), "y": np.array([0.5, 0.5, 1.0, 9.0]), "r": np.array([0.5, 0.5, 1.0, 0.5]),
              "vx": np.array([3.0, 0.0, 0.0, 0.0]), "vy": np.array([4.0, 0.0, 0.0, 2.0]), "omega": np.array([2.0, 0.0, 3.0, 0.0])}
     monkeypatch.setattr(preparation, "disk_table", lambda stand: table)
     scene = course.Scene(made_heap(("right",)), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
@@ -48,8 +49,8 @@ def test_a_row_measures_the_disks_that_are_there(monkeypatch):
     small, large = 2000 * math.pi * 0.25, 2000 * math.pi
     assert row["energy_kinetic_J"] == pytest.approx(0.5 * (small * (25 + 0.5 * (0.5 * 2) ** 2) + large * 0.5 * 3**2 + small * 4), rel=1e-12)
     assert row["energy_potential_J"] == pytest.approx(10 * (small * (0.5 + 0.5 + 9) + large), rel=1e-12)
-    assert row["centroid_x_m"] == pytest.approx((0.25 * (-2.52 - 1.52 + 7) - 0.02) / 1.75, rel=1e-12) and row["centroid_y_m"] == pytest.approx((0.25 * 10 + 1) / 1.75, rel=1e-12)
-    assert (row["front_left_m"], row["front_m"], row["farthest_m"], row["connected_disks"]) == pytest.approx((-3.02, 0.98, 7.5, 3), rel=1e-12)
+    assert row["centroid_x_m"] == pytest.approx((0.25 * (-2.52 - 1.52 + 7) + x) / 1.75, rel=1e-12) and row["centroid_y_m"] == pytest.approx((0.25 * 10 + 1) / 1.75, rel=1e-12)
+    assert (row["front_left_m"], row["front_m"], row["farthest_m"], row["connected_disks"]) == pytest.approx((-3.02, x + 1, 7.5, 3), rel=1e-12)
     assert row["overlap_worst_rel"] == pytest.approx(0.02, rel=1e-9)  # of the disk's diameter, 1 m
     two_gates = course.Scene(made_heap(("left", "right"), "rough"), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
     assert two_gates.measure()[0]["overlap_worst_rel"] < 1e-9  # the wall is gone, and so is the floor

@@ -224,6 +224,50 @@ def test_without_a_plateau_there_is_no_residual_envelope():
     assert short["friction_residual_deg"] is None and short["cohesion_residual_kPa"] is None and "no residual envelope" in short["note"]
 
 
+def test_a_campaign_sums_up_its_seeds():
+    """σ₁ = 4 σ₃ + 2 c √4: sin φ = 3/5. Cohesions of 100 and 120 kPa: 110 ± 12.706 · 10 kPa by Student's t; the residual of one seed more is 3 σ₃ and 5 σ₃."""
+    measured = [{"seed": seed, "confining_Pa": p, "sigma3_peak_Pa": 1.1 * p, "sigma1_peak_Pa": 4.4 * p + 4 * c, "sigma3_residual_Pa": 0.9 * p, "sigma1_residual_Pa": 0.9 * n * p,
+                 "residual_between_strains": (0.05, 0.1)} for seed, c, n in ((7, 100e3, 3), (3, 120e3, 5)) for p in (1e6, 4e6, 2e6)]
+    told = campaign.summarise(SMALL.material, measured, 5.0, 2)
+    angles = [math.degrees(math.asin(0.5)), math.degrees(math.asin(4 / 6))]
+    expected = {"cohesion_peak_kPa": 110.0, "cohesion_peak_95_kPa": 12.7062 * 10, "friction_peak_deg": math.degrees(math.asin(0.6)), "friction_peak_95_deg": 0.0,
+                "cohesion_residual_kPa": 0.0, "cohesion_residual_95_kPa": 0.0, "friction_residual_deg": sum(angles) / 2, "friction_residual_95_deg": 12.7062 * (angles[1] - angles[0]) / 2}
+    assert {name: told[name] for name in expected} == pytest.approx(expected, rel=1e-5, abs=1e-6)  # t has six digits
+    assert told["seeds"] == [3, 7] and told["fit_confining_Pa"] == [1e6, 4e6, 2e6] and told["tests"] is measured and (told["wall_s"], told["threads"]) == (5.0, 2)
+    assert told["misses_peak_rel"] == pytest.approx([0.0] * 3, abs=1e-9)
+    alone = campaign.summarise(SMALL.material, measured[:3], 5.0, 2)
+    assert alone["cohesion_peak_kPa"] == pytest.approx(100.0) and alone["cohesion_peak_95_kPa"] is None and alone["friction_residual_deg"] == pytest.approx(30.0)
+    assert "one confining pressure" in campaign.summarise(SMALL.material, measured[:1], 5.0, 2)["note"]
+
+
+def test_a_test_is_measured_from_its_records(tmp_path):
+    """A made-up folder: the peak at 0.6 % of strain, the plateau over the second half, bands of what has turned since the begin."""
+    test, strain = dataclasses.replace(SMALL, strain=0.06), np.arange(1, 601) * 1e-4
+    axial = np.select([np.abs(strain - 0.00605) < 0.00101, strain < 0.0301], [9e6, 6e6], 5e6)
+    known = {"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": axial, "sigma1_bottom_Pa": axial, "sigma3_left_Pa": 1.1e6 + 0 * strain, "sigma3_right_Pa": 0.9e6 + 0 * strain}
+    with records.SeriesWriter(tmp_path / "series.csv", biaxial.COLUMNS) as series:
+        for k in range(600):
+            series.write({name: float(known[name][k]) if name in known else k + 1 if name == "step" else 0 for name in biaxial.COLUMNS})
+    noted = ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s", "wall_steps_s", "sweeps_mean", "unconverged",
+             "overlap_worst_rel", "disks", "bonds", "packing_fraction")
+    (tmp_path / "result.json").write_text(json.dumps({"key": "k", "found": {name: float(k) for k, name in enumerate(noted)}}))
+    rng = np.random.default_rng(2)
+    x, y, before = rng.uniform(0, 100, 4000), rng.uniform(0, 200, 4000), rng.uniform(-3, 3, 4000)
+    band = np.abs(-math.sin(math.radians(60)) * (x - 45) + math.cos(math.radians(60)) * (y - 90)) < 6
+    zero = np.zeros(4000)
+    for name, angle in (("begin", before), ("1", before + 0.1 * band), ("end", before - 0.3 * band)):
+        records.write_snapshot(tmp_path / "snapshots" / f"{name}.npz", time_s=0.0, step=0, water_m=0.0, x=x, y=y, r=zero + 1, angle=angle, vx=zero, vy=zero, layer=zero, wet=zero > 0, released=zero > 0)
+    told = campaign.measure(test, tmp_path)
+    assert {name: told[name] for name in noted} == {name: float(k) for k, name in enumerate(noted)}
+    assert (told["confining_Pa"], told["seed"], told["residual_between_strains"]) == (1e6, 3, (0.03, 0.06))
+    assert (told["sigma1_peak_Pa"], told["strain_peak"], told["sigma3_peak_Pa"]) == pytest.approx((9e6, 0.006, 1e6), abs=1e-4)
+    assert told["sigma1_residual_Pa"] == pytest.approx(5e6 + 1e6 / 301, rel=1e-9) and told["sigma3_residual_Pa"] == pytest.approx(1e6)  # its first row is the last of the fall
+    assert told["dilatancy_deg"] == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9) and told["volumetric_strain_end"] == pytest.approx(0.03)
+    (rising, none), (late, falling) = told["bands"], told["bands_late"]  # there is none of 4 %, so the end's
+    assert none is None and late is None and rising["rotation_rad"] == pytest.approx(0.1, rel=0.1) and rising["angle_deg"] == pytest.approx(60, abs=3)
+    assert falling["rotation_rad"] == pytest.approx(-0.3, rel=0.1) and falling["angle_deg"] == pytest.approx(60, abs=3)
+
+
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
 def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_path, sides):
     test = dataclasses.replace(SMALL, sides=sides)
