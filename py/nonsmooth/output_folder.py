@@ -23,7 +23,8 @@ class FolderError(UserError):
 def claim(folder, command, resume=False):
     """Makes a folder for the results of ``command`` (a name) and holds it until this process ends; what killed processes have left half-written in it goes.
 
-    Raises WriteError where that cannot be removed, FolderError where nothing can be written there, where another process holds the folder, and for a ``resume`` where other commands alone have written.
+    Raises FolderError where nothing can be written there, where another process holds the folder, and for a ``resume`` where other commands alone have
+    written; WriteError where what is half-written cannot be removed.
     """
     folder = Path(folder)
     try:

@@ -41,11 +41,13 @@ def series():
         "centroid_y_m": np.select([t < 0.15, t < 9.95], [330.0, 310.0], line((30, 300), (85, 150))),
         "iterations": np.where(settling, 5000, np.where(t <= 57.5 + 1e-9, 10, 30)), "residual": np.where(settling, 1.0, 1e-8 * index),
         "residual_N_per_m": np.where(settling, 1e9, 3.0 * index), "tolerance": np.where(index <= 475, 1e-6, 2e-4),
-        "overlap_worst_rel": np.select([settling, np.abs(t - 50) < 0.05], [0.5, 0.02], 0.01), "overlap_mean_rel": np.select([settling, t < 9.05, t < 10.05, np.abs(t - 50) < 0.05], [0.4, 0.003, 0.001, 0.004], 0.002),
+        "overlap_worst_rel": np.select([settling, np.abs(t - 50) < 0.05], [0.5, 0.02], 0.01),
+        "overlap_mean_rel": np.select([settling, t < 9.05, t < 10.05, np.abs(t - 50) < 0.05], [0.4, 0.003, 0.001, 0.004], 0.002),
         "energy_kinetic_J": np.where(settling, 9e9, line((30, 0), (55, 4e9), (85, 0))), "energy_water_J": np.where(t > 35, -3e9, 0.0),
         "energy_sliding_J": np.where(settling, 1e11, 6e9 * share), "energy_rolling_J": np.where(settling, 1e11, 1e9 * share),
         "energy_impact_J": np.where(settling, 1e11, 2e9 * share), "energy_bonds_J": np.where(settling, 1e11, 0.5e9 * share),
-        "energy_correction_J": np.where(settling, 1e11, 1.9e8 * share), "energy_error_rel": np.select([settling, np.abs(t - 31) < 0.05, np.abs(t - 70) < 0.05], [0.9, 0.02, -0.01], 0.0),
+        "energy_correction_J": np.where(settling, 1e11, 1.9e8 * share),
+        "energy_error_rel": np.select([settling, np.abs(t - 31) < 0.05, np.abs(t - 70) < 0.05], [0.9, 0.02, -0.01], 0.0),
     }
     return {name: known.get(name, np.zeros(COUNT)) for name in records.COLUMNS}
 

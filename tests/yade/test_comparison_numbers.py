@@ -178,7 +178,7 @@ def test_each_run_is_told_with_its_errors(told):
     runs = {run["name"]: run for run in told[0]["runs"]}
     assert set(runs) == {case.name for case in told[1].cases}
     for case in told[1].cases:
-        run = runs[case.name]
-        assert (run["world"], run["seed"], run["stiffness_Pa"], run["step_factor"], run["tolerance_factor"]) == (case.world, case.seed, case.stiffness, case.step, case.tolerance)
+        told_of = [runs[case.name][key] for key in ("world", "seed", "stiffness_Pa", "step_factor", "tolerance_factor")]
+        assert told_of == [case.world, case.seed, case.stiffness, case.step, case.tolerance]
     reference, stiffest = runs[told[1].numerics[-1].name], runs[told[1].sweep[-1].name]
     assert reference["error_against_hard"] == reference["error_against_own_world"] == stiffest["error_against_own_world"] == 0 and stiffest["error_against_hard"] > 0

@@ -279,7 +279,8 @@ def test_the_shipped_section_has_the_scales_that_it_had():
         assert dataclasses.astuple(scales.of(s)) == (0.1, 1.0, 5.0, 0.2, 0.02, 2.0, 60.0)  # to the last bit
 
 
-@pytest.mark.parametrize("size, gravity, row, mean", [(2e-3, 1.0, 5e-3, 0.05), (1e-6, 1.0, 1e-4, 1e-3), (1.0, 100.0, 0.01, 0.1), (12.0, 1.0, 0.5, 5.0), (8.0, 1.0, 0.2, 2.0), (0.4, 1.0, 0.05, 0.5)])
+@pytest.mark.parametrize("size, gravity, row, mean", [(2e-3, 1.0, 5e-3, 0.05), (1e-6, 1.0, 1e-4, 1e-3), (1.0, 100.0, 0.01, 0.1),
+                                                      (12.0, 1.0, 0.5, 5.0), (8.0, 1.0, 0.2, 2.0), (0.4, 1.0, 0.05, 0.5)])
 def test_scales_of_other_slopes(size, gravity, row, mean):
     """Rows and means are the nearest of 1, 2 and 5 times a power of ten, by ratio: √12 = 3.46 is 1.45 times less than 5 and 1.73 times more than 2."""
     other, speed, time = scaled(slope(), size, gravity)
@@ -320,7 +321,8 @@ def test_slopes_of_other_sizes_do_the_same_in_their_units(name, size, gravity, h
     assert scales.of(other).row_seconds == pytest.approx(0.1 * time, rel=1e-12)
     reference, found = play(small, history), play(other, lambda t: speed * history(t / time))
     assert len(found) == len(reference)
-    units = {"speed_max": speed, "table": size, "water_hold": size, **dict.fromkeys(("settled", "t0", "moving", "failed_dry", "table_since", "water_delay", "resting_since"), time)}
+    units = {"speed_max": speed, "table": size, "water_hold": size}
+    units |= {name: time for name in ("settled", "t0", "moving", "failed_dry", "table_since", "water_delay", "resting_since")}
     for a, b in zip(reference, found):
         for field in dataclasses.fields(a.state):
             value, scaled_value = getattr(a.state, field.name), getattr(b.state, field.name)

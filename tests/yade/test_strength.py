@@ -161,6 +161,7 @@ def test_bands_are_mirrored_with_their_sample():
     rotation = 0.3 * (np.abs(-math.sin(math.radians(57)) * (x - 45) + math.cos(math.radians(57)) * (y - 90)) < 6) + 0.01 * rng.standard_normal(5000)
     (right, none), (nothing, left) = bands.find(x, y, r, rotation), bands.find(-x, y, r, -rotation)
     assert none is None and nothing is None and (right.angle_deg, left.angle_deg) == pytest.approx((57.0, -57.0), abs=3)  # a strip is 2 m wide, the band 120 m long
-    assert (left.width, left.rotation, left.contrast, left.offset) == pytest.approx((right.width, -right.rotation, right.contrast, right.offset), rel=0.05)  # strips begin elsewhere
+    wanted = (right.width, -right.rotation, right.contrast, right.offset)
+    assert (left.width, left.rotation, left.contrast, left.offset) == pytest.approx(wanted, rel=0.05)  # strips begin elsewhere
     assert right.offset == pytest.approx(-math.sin(math.radians(57)) * -5 + math.cos(math.radians(57)) * -10, abs=2.0)  # of the band from the centre, (50, 100); a strip
     assert right.contrast > 5 and right.rotation == pytest.approx(0.3, rel=0.05)
