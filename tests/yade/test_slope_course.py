@@ -212,7 +212,7 @@ def test_rows_hold_means_and_peaks(loaded, tmp_path):
 def test_options_without_sense(option, value, tmp_path):
     # one equals sign, so that -1 is no option
     done = subprocess.run([SCRIPT, f"{option}={value}" if option != "--threads" else "--threads", *(() if option != "--threads" else (value,)), "--out", tmp_path / "out"],
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True, timeout=600)
     assert done.returncode in (1, 2) and "Traceback" not in done.stderr and option in done.stderr.splitlines()[-1]
     assert not (tmp_path / "out").exists()
 
