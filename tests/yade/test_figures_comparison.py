@@ -138,7 +138,8 @@ def test_work_and_precision():
         assert {t.get_text(): (t.xy, t.get_color().lower()) for t in ax.texts if t.get_text() != "fragile"} == {"step × 2": ((1.0, 0.1), HARD), "step × 1": ((2.0, 0.05), HARD), "E = 10 MPa": ((3.0, 0.2), SOFT)}
     other = drawn.line(both, "soft, other bonds")
     assert drawn.points(other).tolist() == [[4.0, 0.3]] and drawn.colour(other) == SOFT and other.get_markerfacecolor() == "none" and drawn.text(both, "fragile").xy == (4.0, 0.3)
-    assert list(drawn.legend(alone)) == ["hard", "soft", "scatter over seeds"]
+    # every point of both panels, which share the axis, is in sight: from the scatter to the fragile bonds
+    assert both.get_ylim() == alone.get_ylim() == pytest.approx((0.4 * 0.02, 2.5 * 0.3)) and list(drawn.legend(alone)) == ["hard", "soft", "scatter over seeds"]
     assert both.get_ylabel() == "error (see text)"
 
 

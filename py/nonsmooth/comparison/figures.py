@@ -223,9 +223,9 @@ def work_precision(panels, chance, path=None):
         ax.set_xlabel("wall time of the run's steps [s]")
         ax.grid(color="#e3e3e3", lw=0.7, which="both")
         ax.legend(loc="best")
-        values = [p[1] for p in (*hard, *soft, *aside)] + ([chance] if chance else [])
-        if values:
-            ax.set_ylim(0.4 * min(values), 2.5 * max(values))
+    values = [p[1] for _, *groups in panels for points in groups for p in points] + ([chance] if chance else [])
+    if values:  # of all panels, as they share the axis
+        fig.axes[0].set_ylim(0.4 * min(values), 2.5 * max(values))
     fig.axes[0].set_ylabel("error (see text)")
     fig.draw_without_rendering()  # now places are final
     for ax, (_, hard, soft, aside) in panes:
