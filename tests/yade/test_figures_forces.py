@@ -84,6 +84,13 @@ def test_bars_of_many_disks_join_centres_and_are_as_wide_as_the_force():
     assert forces.force_bars(s, wall, 2e6, 3.0)[:, 1:3].mean(axis=1) == pytest.approx(np.column_stack([s.cx[wall], s.cy[wall]]))
 
 
+def test_windows_look_at_the_lowest_disk_where_none_is_near_the_foot():
+    high = synthetic.few([-80.0, -78.0, -60.0], [50.0, 50.0, 40.0], [(0, 1, 1e6)], r=[1.0, 1.0, 2.0])
+    for s, x, y in ((high, -60.0, 38.0), (synthetic.few([-50.0], [40.0], [(0, -1, 1e6, -50.0, 39.0)]), -50.0, 39.0)):
+        for window in figures.force_chains(s, WALLS).axes[1:]:
+            assert window.get_xlim()[0] < x < window.get_xlim()[1] and window.get_ylim()[0] < y < window.get_ylim()[1]
+
+
 def test_chains_without_contacts_say_so():
     with pytest.raises(RecordsError, match="no contacts"):
         figures.force_chains(synthetic.few([0.0, 2.0], [1.0, 1.0]), WALLS)

@@ -73,7 +73,7 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     """The slope and the normal forces in its foot (the paper's Figure 8).
 
     ``snapshot``: a :class:`~nonsmooth.records.Snapshot` with contacts. ``walls``: see :mod:`nonsmooth.figures`.
-    Above the whole slope by layers; below two windows at the foot, with bars between the centres of touching disks,
+    Above the whole slope by layers; below two windows at the foot (or at the lowest disk, where none is near it), with bars between the centres of touching disks,
     as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
     a hairline outline so that small ones can be seen.
     """
@@ -82,6 +82,9 @@ def force_chains(snapshot, walls, path=None, pdf=False):
         raise style.RecordsError("the snapshot has no contacts, so no forces to draw; take one written with contacts")
     corner = style.foot(walls)
     near = np.abs(snapshot.x - corner[0]) < 0.12 * np.ptp(snapshot.x)
+    if not near.any():  # a mass that begins higher up
+        near = np.argmin(snapshot.y - snapshot.r)
+        corner = np.array([snapshot.x[near], (snapshot.y - snapshot.r)[near]])
     height = snapshot.y[near].max() - corner[1]
     size = 2 * np.median(snapshot.r)
     aspect = 4.95 / 4.1
