@@ -1,6 +1,6 @@
 """What a figure shows, read from its artists in data units: lines, legends, texts, arrows, disks, bars, bands and levels.
 
-Colours are told as "#rrggbb". Nothing here draws a picture.
+Colours are told as "#rrggbb". No picture is drawn.
 """
 
 import numpy as np
@@ -16,6 +16,7 @@ def keep(monkeypatch, style):
     def save(fig, path=None, pdf=False, dpi=170):
         if path is None:
             return fig
+        fig.draw_without_rendering()  # places and formulae that cannot be drawn show here
         kept[path.name] = fig
         path.touch()
         return path

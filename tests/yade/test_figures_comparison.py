@@ -113,7 +113,9 @@ def test_cost_against_stiffness():
 def test_cost_at_equal_overlap():
     point = lambda overlap, rate, stiffness=None: {"overlap_mean_rel": overlap, "rate": rate, "stiffness_Pa": stiffness}  # noqa: E731
     soft = [point(1e-3, 3.0, 1e7), point(1e-4, 9.0, 1e8)]
-    known, unknown = figures.cost_and_overlap([("at rest", point(1e-6, 5.0), soft, 16.0), ("on the move", point(1e-5, 4.0), soft, None)]).axes
+    fig = figures.cost_and_overlap([("at rest", point(1e-6, 5.0), soft, 16.0), ("on the move", point(1e-5, 4.0), soft, None)])
+    fig.draw_without_rendering()
+    known, unknown = fig.axes
     assert [ax.get_title() for ax in (known, unknown)] == ["at rest", "on the move"] and known.get_ylabel() == "wall time for a second of simulation [s]"
     for ax, overlap, rate in ((known, 1e-6, 5.0), (unknown, 1e-5, 4.0)):
         assert drawn.points(drawn.line(ax, "soft")).tolist() == [[1e-3, 3.0], [1e-4, 9.0]] and drawn.points(drawn.line(ax, "hard")).tolist() == [[overlap, rate]]

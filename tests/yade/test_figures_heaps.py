@@ -66,6 +66,7 @@ def test_runout_and_height_with_fits_and_published_laws():
     group = {"aspect": a, "runout": runout, "height": height, "fits": {"runout": (scaling.fit(a[:4], runout[:4]), None), "height": (None, scaling.fit(a[1:], height[1:]))},
              "changes": {"runout": 2.0, "height": 0.7}}
     fig = columns.runout({"ours": group, "theirs": group | {"runout": runout / 2, "fits": {"runout": (None, None), "height": (None, None)}}})
+    fig.draw_without_rendering()  # formulae that cannot be read show here
     left, right = fig.axes
     assert (left.get_title(loc="left"), left.get_ylabel()) == ("Runout", "$(L_f-L_0)/L_0$") and (right.get_title(loc="left"), right.get_ylabel()) == ("Final height", "$H_f/L_0$")
     for ax, values, name in ((left, runout, "runout"), (right, height, "height")):

@@ -102,6 +102,7 @@ def test_cost_by_size():
     sizes = [{"disks": n, "sweep_ns_per_contact": {"1": {"median": 40.0 + k}, "12": {"median": 9.0 + k}, "2": {"median": 22.0 + k}}, "step_ms": {"median": 2e-3 * n}, "bytes_per_contact": 2100 + k,
               "bytes_per_contact_scene": 1500 + k, "packing_s": 0.01 * n} for k, n in enumerate((100, 1000))]
     fig = scale.cost_by_size(sizes)
+    fig.draw_without_rendering()  # formulae that cannot be read show here
     step, sweep, memory, packing = fig.axes
     assert [(ax.get_title(loc="left"), ax.get_ylabel()) for ax in fig.axes] == [
         ("A step", "time [ms]"), ("A sweep, for each contact", "time [ns]"), ("Memory, for each contact", "memory [kB]"), ("Packing", "time [s]")]
@@ -131,3 +132,12 @@ def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):
     for ax in relative.axes:
         assert [drawn.points(one)[:, 1] for one in ax.lines if one.get_alpha() == 0.5] == [pytest.approx([0, 10, 30]), pytest.approx([0, 5, 20])]
         assert drawn.points(ax.containers[0][0])[:, 1] == pytest.approx([0, 7.5, 25]) and ax.get_ylim() == pytest.approx((-36, 36))
+
+
+def test_time_is_that_of_the_series():
+    """A series that begins at 20 s, as one since the dry rest does."""
+    late = lambda series: {name: values + 20 if name == "time_s" else values for name, values in series.items()}  # noqa: E731
+    for fig in (figures.energy(late(balance()), times={"t1": 60.0}), figures.solver(late(solved()), times={"t1": 60.0})):
+        for ax in fig.axes:
+            assert ax.get_xlim() == (20, 120) and list(drawn.uprights(ax)) == [60] and all(one.get_xdata().tolist() == (TIME + 20).tolist() for one in ax.lines if len(one.get_xdata()) > 2)
+        assert [t.get_position()[0] for t in fig.axes[0].texts] == [pytest.approx(0.4)]
