@@ -1,4 +1,4 @@
-"""Which data a run, a campaign, a heap and a comparison hand to their figures. Figures are kept instead of being written; the figures themselves have tests of their own."""
+"""Which data a run, a campaign, a heap and a comparison hand to their figures, which are kept instead of being written and have tests of their own."""
 
 import dataclasses
 import types
@@ -53,7 +53,8 @@ def run(tmp_path, monkeypatch):
 def test_a_run_hands_its_records_to_its_figures(kept, run):
     slope = section.load("jiufengershan")
     made, notes = results.draw(run.folder, slope, {"times_s": TIMES, "failed_dry_s": None})
-    assert not notes and [path.name for path in made] == ["force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png", "avalanche.pvd", "avalanche.mp4"]
+    assert not notes
+    assert [path.name for path in made] == ["force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png", "avalanche.pvd", "avalanche.mp4"]
     # t0 has a file of its own, the others take the nearest snapshot; t5 did not come
     at = {ax: [t.get_text() for t in ax.texts if "=" in t.get_text()][0] for ax in kept["snapshots.png"].axes}
     assert list(at.values()) == ["$t_{0}$ = 10.5 s", "$t_{1}$ = 40.0 s", "$t_{2}$ = 50.0 s", "$t_{3}$ = 60.0 s", "$t_{4}$ = 70.0 s"]
@@ -85,7 +86,8 @@ def test_a_campaign_draws_its_first_seed_and_the_sample_nearest_8_megapascals(ke
     tests, strain = [], np.linspace(1e-3, 0.06, 60)
     for pressure in (1e6, 6e6, 20e6):
         for seed in (3, 4):
-            tests.append({"confining_Pa": pressure, "seed": seed, "strain_peak": 0.02, "sigma1_peak_Pa": 3 * pressure, "residual_between_strains": [0.04, 0.06], "sigma1_residual_Pa": 2 * pressure,
+            tests.append({"confining_Pa": pressure, "seed": seed, "strain_peak": 0.02, "sigma1_peak_Pa": 3 * pressure, "residual_between_strains": [0.04, 0.06],
+                          "sigma1_residual_Pa": 2 * pressure,
                           "sigma3_peak_Pa": pressure, "sigma3_residual_Pa": pressure})
             home = tmp_path / "tests" / f"{pressure / 1e6:g}MPa-seed{seed}"
             (home / "snapshots").mkdir(parents=True)
@@ -93,7 +95,8 @@ def test_a_campaign_draws_its_first_seed_and_the_sample_nearest_8_megapascals(ke
                 for k, e in enumerate(strain):
                     file.write({"step": k, "strain": e, "sigma1_top_Pa": (seed - 1) * pressure, "sigma1_bottom_Pa": (seed - 1) * pressure, "volumetric_strain": 0.1 * e})
             for name, time in (("begin", 0.0), ("1", 1.0), ("2", 2.0), ("end", 9.0)):
-                s = synthetic.few([0.0, 2.0, pressure / 1e6 + seed], [0.0, 0.0, 4.0 + time], [(0, 1, 1e3 * (1 + time))], time_s=time, angle=np.array([0.02 * time, 0.0, 0.0]))
+                s = synthetic.few([0.0, 2.0, pressure / 1e6 + seed], [0.0, 0.0, 4.0 + time], [(0, 1, 1e3 * (1 + time))], time_s=time,
+                                  angle=np.array([0.02 * time, 0.0, 0.0]))
                 records.write_snapshot(home / "snapshots" / f"{name}.npz", **vars(s))
     envelope = {"cohesion_peak_kPa": 0.0, "friction_peak_deg": 30.0, "cohesion_residual_kPa": None, "friction_residual_deg": None}
     made = laboratory_report.draw(tmp_path, {"tests": tests, "seeds": [3, 4], **envelope})
@@ -150,11 +153,14 @@ def outcome(case, k):
     t = np.linspace(0, 10, 11)
     modes = {f"bonds_broken_{mode}": np.linspace(0, count + k, 11) for mode, count in BROKEN.items()}
     series = {"time_s": t, "strain": 0.01 * t, "fb_normal_N_per_m": 1e6 * (k + t), "dp_shear_N_per_m": 2e6 * (k + t), "dp_normal_effective_N_per_m": 3e6 * (k + t),
-              "energy_kinetic_J": 1e9 * (k + t), "bonds_alive": 200.0 - k - t, "water_m": k + 0.5 * t, "front_m": 100 + k + t, "speed_mean_m_per_s": 1e-3 * (k + t), **modes}
+              "energy_kinetic_J": 1e9 * (k + t), "bonds_alive": 200.0 - k - t, "water_m": k + 0.5 * t, "front_m": 100 + k + t,
+              "speed_mean_m_per_s": 1e-3 * (k + t), **modes}
     curves = {"abscissa": t, "front": (k + 1) * t, "centroid": (k + 1) * 0.5 * t, "stress": 2 + k + 0 * t, "volume": 0.001 * (k + 1) * t}
     row = np.arange(5.0)
-    return Outcome(case, {q: 1.0 + 0.1 * k for q in ("water_at_failure_m", "front_travel_m", "sigma1_peak_Pa", "sigma1_residual_Pa")}, curves, series, (row - 10, row, np.full(5, 0.8)),
-                   (row + k, 0 * row, np.full(5, 0.8)), {(0, 1): 1.0, (1, 2): 3.0 + k, (2, 3): 2.0 + k % 3}, 0.01 / (k + 1), 0.001 / (k + 1), Cost(100, 10.0 ** -(k + 1), 5.0 + k, 10.0, 20.0 + k))
+    values = {q: 1.0 + 0.1 * k for q in ("water_at_failure_m", "front_travel_m", "sigma1_peak_Pa", "sigma1_residual_Pa")}
+    forces = {(0, 1): 1.0, (1, 2): 3.0 + k, (2, 3): 2.0 + k % 3}
+    begin, end = (row - 10, row, np.full(5, 0.8)), (row + k, 0 * row, np.full(5, 0.8))
+    return Outcome(case, values, curves, series, begin, end, forces, 0.01 / (k + 1), 0.001 / (k + 1), Cost(100, 10.0 ** -(k + 1), 5.0 + k, 10.0, 20.0 + k))
 
 
 def compared(source, moving):
@@ -180,7 +186,8 @@ def test_forces_energies_and_ways_of_slopes(kept, tmp_path, slope):
     k = {case: n for n, case in enumerate(plan.cases)}
     t = np.linspace(0, 10, 11)
     (hard1, soft1), (hard2, soft2) = plan.ensemble
-    seeds = [("hard", figures.HARD.lower(), hard1), (None, figures.HARD.lower(), hard2), (f"soft, {cases.modulus_label(soft1.stiffness)}", figures.SOFT.lower(), soft1), (None, figures.SOFT.lower(), soft2)]
+    seeds = [("hard", figures.HARD.lower(), hard1), (None, figures.HARD.lower(), hard2), (f"soft, {cases.modulus_label(soft1.stiffness)}", figures.SOFT.lower(), soft1),
+             (None, figures.SOFT.lower(), soft2)]
     sweep = [("hard", figures.HARD.lower(), hard1)] + [(f"soft, {cases.modulus_label(c.stiffness)}", figures.shade(c.stiffness, [1e8, 1e9]).lower(), c) for c in plan.sweep]
 
     def holds(name, panels, expected):
@@ -192,14 +199,17 @@ def test_forces_energies_and_ways_of_slopes(kept, tmp_path, slope):
             for (_, _, y), (_, _, case) in zip(got, expected):
                 assert y == pytest.approx(value(k[case])), name
 
-    holds("forces.png", (("normal force on FB\n[MN/m]", lambda n: n + t), ("shear force on DP\n[MN/m]", lambda n: 2 * (n + t)), ("effective normal force\non DP [MN/m]", lambda n: 3 * (n + t))), seeds)
+    holds("forces.png",
+          (("normal force on FB\n[MN/m]", lambda n: n + t), ("shear force on DP\n[MN/m]", lambda n: 2 * (n + t)),
+           ("effective normal force\non DP [MN/m]", lambda n: 3 * (n + t))), seeds)
     holds("energy.png", (("kinetic energy [GJ/m]", lambda n: n + t), ("bonds that hold", lambda n: 200 - n - t), ("water table [m]", lambda n: n + 0.5 * t)), sweep)
     ways = (("way of the front [m]", lambda n: (n + 1) * t), ("way of the centre\nof mass [m]", lambda n: (n + 1) * 0.5 * t))
     holds("motion_seeds.png", ways, seeds)
     holds("motion_stiffness.png", ways, sweep)
     usual = next(c for c in plan.sweep if c.stiffness == plan.damping.stiffness)
     dark = figures.SHADES[4].lower()
-    holds("damping.png", ways, [("hard", figures.HARD.lower(), hard1), ("soft, damping 0.02 on the move", figures.SOFT.lower(), usual), ("soft, damping 0.2 throughout", dark, plan.damping)])
+    holds("damping.png", ways, [("hard", figures.HARD.lower(), hard1), ("soft, damping 0.02 on the move", figures.SOFT.lower(), usual),
+                                ("soft, damping 0.2 throughout", dark, plan.damping)])
     usual = next(c for c in plan.sweep if c.stiffness == plan.fragile.stiffness)
     holds("bond_kinds.png", (("bonds that hold", lambda n: 200 - n - t), ("place of the front [m]", lambda n: 100 + n + t)),
           [("hard", figures.HARD.lower(), hard1), ("soft, ductile bonds", figures.SOFT.lower(), usual), ("soft, fragile bonds", dark, plan.fragile)])
@@ -245,7 +255,8 @@ def test_stress_and_volume_of_biaxial_tests(kept, tmp_path):
         assert (stress.get_ylabel(), volume.get_ylabel(), volume.get_xlabel()) == ("σ₁/σ₃ [-]", "volumetric strain [%]", "axial strain [%]")
         for one, other, case in zip(stress.lines, volume.lines, chosen, strict=True):
             # strains, here up to 10, are in per cent
-            assert drawn.points(one) == pytest.approx(np.column_stack([100 * t, 2 + k[case] + 0 * t])) and drawn.points(other)[:, 1] == pytest.approx(0.1 * (k[case] + 1) * t)
+            assert drawn.points(one) == pytest.approx(np.column_stack([100 * t, 2 + k[case] + 0 * t]))
+            assert drawn.points(other)[:, 1] == pytest.approx(0.1 * (k[case] + 1) * t)
     speed = kept["speed.png"].axes[0]
     assert speed.get_ylabel() == "mean speed of disks [m/s]" and drawn.points(speed.lines[0]) == pytest.approx(np.column_stack([t, 1e-3 * (k[plan.ensemble[0][0]] + t)]))
     assert drawn.points(kept["bonds.png"].axes[0].lines[0])[:, 1] == pytest.approx(200 - k[plan.ensemble[0][0]] - t)
@@ -261,10 +272,12 @@ def test_overlaps_cost_and_precision_of_a_comparison(kept, tmp_path, slope):
     (ax,) = kept["overlaps.png"].axes
     assert drawn.points(drawn.line(ax, f"soft, {rest}")).tolist() == [[o.case.stiffness, o.overlap_rest] for o in sweep]
     assert drawn.points(drawn.line(ax, f"soft, {moving}")).tolist() == [[o.case.stiffness, o.overlap] for o in sweep]
-    assert drawn.line(ax, f"hard, {rest}: {hard.overlap_rest:.1e}").get_ydata()[0] == hard.overlap_rest and drawn.line(ax, f"hard, {moving}: {hard.overlap:.1e}").get_ydata()[0] == hard.overlap
+    assert drawn.line(ax, f"hard, {rest}: {hard.overlap_rest:.1e}").get_ydata()[0] == hard.overlap_rest
+    assert drawn.line(ax, f"hard, {moving}: {hard.overlap:.1e}").get_ydata()[0] == hard.overlap
     wall, steps = kept["cost.png"].axes
     assert drawn.points(drawn.line(wall, "soft"))[:, 1].tolist() == [o.cost.rate for o in sweep] and drawn.levels(wall)[0][0] == hard.cost.rate
-    assert drawn.points(drawn.line(steps, "soft"))[:, 1] == pytest.approx([1 / o.cost.step_s for o in sweep]) and drawn.levels(steps)[0][0] == pytest.approx(1 / hard.cost.step_s)
+    assert drawn.points(drawn.line(steps, "soft"))[:, 1] == pytest.approx([1 / o.cost.step_s for o in sweep])
+    assert drawn.levels(steps)[0][0] == pytest.approx(1 / hard.cost.step_s)
     against_hard, against_own = kept["work_precision.png"].axes
     assert (against_hard.get_title(), against_own.get_title()) == ("against the finest hard run", "against the finest run of its own world")
     for ax, kind in ((against_hard, "against_hard"), (against_own, "against_own")):

@@ -42,7 +42,8 @@ def test_a_deposit_in_parts_with_a_hole_and_nothing_alone():
     fig = figures.deposits_overlaid(apart, apart, None, [], 1.0)
     fig.canvas.draw()
     picture = np.asarray(fig.canvas.buffer_rgba())  # holes are a matter of how a path is filled: look
-    seen = [picture[len(picture) - 1 - up, across, :3].tolist() for across, up in np.rint(fig.axes[0].transData.transform([(0, 0), (3.5, 0), (11, 0.5), (8, 0.5)])).astype(int)]
+    places = np.rint(fig.axes[0].transData.transform([(0, 0), (3.5, 0), (11, 0.5), (8, 0.5)])).astype(int)
+    seen = [picture[len(picture) - 1 - up, across, :3].tolist() for across, up in places]
     grey = [0xb9, 0xb9, 0xc9]
     assert seen == [[255] * 3, grey, grey, [255] * 3]
     assert list(drawn.legend(fig)) == ["both: 100 % of the area of either", "hard alone", "soft alone"]
@@ -79,7 +80,8 @@ def test_modes_of_broken_bonds():
     hard = counts([0.1, 0.2], [0.04, 0.04], [0.0, 0.0], [0.01, 0.03])
     soft = counts([0.3, 0.3], [0.1, 0.2], [0.02, 0.02], [0.05, 0.05])
     (ax,) = figures.modes([("hard", HARD, hard), ("soft", SOFT, soft)]).axes
-    assert [t.get_text() for t in ax.get_xticklabels()] == ["tension", "shear", "torque", "several at once,\nor not known"] and ax.get_ylabel() == "broken bonds [% of those made]"
+    assert [t.get_text() for t in ax.get_xticklabels()] == ["tension", "shear", "torque", "several at once,\nor not known"]
+    assert ax.get_ylabel() == "broken bonds [% of those made]"
     assert drawn.legend(ax) == {"hard": HARD, "soft": SOFT}
     bars = [c for c in ax.containers if hasattr(c, "patches")]
     for group, fill, heights, spread, side in zip(bars, (HARD, SOFT), ((15, 4, 0, 2), (30, 15, 2, 5)), ((5 * 2**0.5, 0, 0, 2**0.5), (0, 5 * 2**0.5, 0, 0)), (-0.2, 0.2)):
@@ -98,14 +100,15 @@ def test_overlaps_against_stiffness():
     assert drawn.points(drawn.line(ax, "soft, on the way")).tolist() == [[1e7, 3e-3], [1e8, 3e-4], [1e9, 3e-5]]
     assert drawn.line(ax, "hard, before: 0.0e+00").get_ydata()[0] == 1e-12 and drawn.line(ax, "hard, on the way: 2.0e-04").get_ydata()[0] == 2e-4
     told = drawn.legend(ax)
-    assert {fill for name, fill in told.items() if name.startswith("hard")} == {HARD} and {fill for name, fill in told.items() if name.startswith("soft")} == {SOFT} and len(told) == 4
+    assert len(told) == 4 and all(fill == (HARD if name.startswith("hard") else SOFT) for name, fill in told.items())
     # dashed is at rest, in both worlds
     assert [drawn.line(ax, name).get_linestyle() for name in told] == ["-", "--", "-", "--"]
 
 
 def test_cost_against_stiffness():
     wall, steps = figures.cost(MODULI, [1.0, 3.0, 10.0], [100, 320, 1000], 2.5, 125.0).axes
-    for ax, values, level, label in ((wall, [1.0, 3.0, 10.0], 2.5, "wall time for a second of simulation [s]"), (steps, [100, 320, 1000], 125.0, "steps in a second of simulation")):
+    for ax, values, level, label in ((wall, [1.0, 3.0, 10.0], 2.5, "wall time for a second of simulation [s]"),
+                                     (steps, [100, 320, 1000], 125.0, "steps in a second of simulation")):
         assert drawn.points(drawn.line(ax, "soft")).tolist() == [list(pair) for pair in zip(MODULI, values)] and drawn.levels(ax) == [(level, HARD)]
         assert drawn.legend(ax) == {"soft": SOFT, f"hard: {level:g}": HARD} and (ax.get_xlabel(), ax.get_ylabel()) == ("Young's modulus [Pa]", label)
 
@@ -123,11 +126,13 @@ def test_cost_at_equal_overlap():
         assert drawn.text(ax, "E = 10 MPa").xy == (1e-3, 3.0) and drawn.text(ax, "E = 100 MPa").xy == (1e-4, 9.0)
     dashed, upright = known.lines[2:]
     assert drawn.points(dashed).tolist() == [[1e-4, 9.0], [1e-6, 80.0]] and drawn.points(upright).tolist() == [[1e-6, 5.0], [1e-6, 80.0]]  # 16 times as long
-    assert drawn.text(known, "×").get_text() == "× 16" and drawn.text(known, "×").xy == (1e-6, pytest.approx(20.0)) and len(unknown.lines) == 2  # half way on a logarithm
+    words = drawn.text(known, "×")
+    assert words.get_text() == "× 16" and words.xy == (1e-6, pytest.approx(20.0)) and len(unknown.lines) == 2  # half way on a logarithm
 
 
 def test_work_and_precision():
-    hard, soft, aside = [(1.0, 0.1, "step × 2"), (2.0, 0.05, "step × 1"), (9.0, 0.0, "itself")], [(3.0, 0.2, "E = 10 MPa"), (8.0, float("nan"), "lost"), (9.0, None, "lost")], [(4.0, 0.3, "fragile")]
+    hard = [(1.0, 0.1, "step × 2"), (2.0, 0.05, "step × 1"), (9.0, 0.0, "itself")]
+    soft, aside = [(3.0, 0.2, "E = 10 MPa"), (8.0, float("nan"), "lost"), (9.0, None, "lost")], [(4.0, 0.3, "fragile")]
     both, alone = figures.work_precision([("against hard", hard, soft, aside), ("against own", hard, soft, [])], 0.02).axes
     for ax in (both, alone):
         assert drawn.points(drawn.line(ax, "hard")).tolist() == [[1.0, 0.1], [2.0, 0.05]] and drawn.points(drawn.line(ax, "soft")).tolist() == [[3.0, 0.2]]
@@ -137,9 +142,11 @@ def test_work_and_precision():
         y = grey.get_patch_transform().transform_path(grey.get_path()).vertices[:, 1]
         assert y.max() == 0.02 and y.min() == 1e-12
         # words stand at their points, in the colour of their world
-        assert {t.get_text(): (t.xy, t.get_color().lower()) for t in ax.texts if t.get_text() != "fragile"} == {"step × 2": ((1.0, 0.1), HARD), "step × 1": ((2.0, 0.05), HARD), "E = 10 MPa": ((3.0, 0.2), SOFT)}
+        named = {t.get_text(): (t.xy, t.get_color().lower()) for t in ax.texts if t.get_text() != "fragile"}
+        assert named == {"step × 2": ((1.0, 0.1), HARD), "step × 1": ((2.0, 0.05), HARD), "E = 10 MPa": ((3.0, 0.2), SOFT)}
     other = drawn.line(both, "soft, other bonds")
-    assert drawn.points(other).tolist() == [[4.0, 0.3]] and drawn.colour(other) == SOFT and other.get_markerfacecolor() == "none" and drawn.text(both, "fragile").xy == (4.0, 0.3)
+    assert drawn.points(other).tolist() == [[4.0, 0.3]] and drawn.colour(other) == SOFT and other.get_markerfacecolor() == "none"
+    assert drawn.text(both, "fragile").xy == (4.0, 0.3)
     # every point of both panels, which share the axis, is in sight: from the scatter to the fragile bonds
     assert both.get_ylim() == alone.get_ylim() == pytest.approx((0.4 * 0.02, 2.5 * 0.3)) and list(drawn.legend(alone)) == ["hard", "soft", "scatter over seeds"]
     assert both.get_ylabel() == "error (see text)"
@@ -152,7 +159,8 @@ def test_without_a_scatter_there_is_no_band_of_it(chance):
 
 
 def test_convergence_of_soft_to_hard():
-    rows = [("front", [0.1, 0.01, None], 0.02, -0.5, 300.0), ("speed", [0.3, 0.2, float("nan")], None, None, None), ("overlap", [1e-2, 0.0, 1e-4], None, -1.0, 1e5), ("stress", [0.1, 0.1, 0.1], 0.05, None, 1.0)]
+    rows = [("front", [0.1, 0.01, None], 0.02, -0.5, 300.0), ("speed", [0.3, 0.2, float("nan")], None, None, None), ("overlap", [1e-2, 0.0, 1e-4], None, -1.0, 1e5),
+            ("stress", [0.1, 0.1, 0.1], 0.05, None, 1.0)]
     fig = figures.convergence(MODULI, rows)
     front, speed, overlap, stress, *rest = fig.axes
     assert [ax.get_title() for ax in fig.axes[:4]] == ["front", "speed", "overlap", "stress"] and not any(ax.get_visible() for ax in rest)

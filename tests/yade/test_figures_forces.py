@@ -103,7 +103,8 @@ TOTAL, EFFECTIVE, PORE = "$N_{DP}$  total", "$N'_{DP}$  effective", "$U_{DP}$  w
 SHEAR, BACK = "$T_{DP}$  shear on DP", "$N'_{FB}$  normal on FB"
 SHEAR_CHANGE, BACK_CHANGE = "$\\Delta T_{DP}$  since $t_0$", "$\\Delta N'_{FB}$  since $t_0$"
 # the columns in MN/m, each a straight line, which a running mean leaves as it is
-STRAIGHT = {"dp_normal_total_N_per_m": (1000, 2), "dp_normal_effective_N_per_m": (700, 1), "dp_water_N_per_m": (300, 1), "dp_shear_N_per_m": (250, -3), "fb_normal_N_per_m": (100, 4)}
+STRAIGHT = {"dp_normal_total_N_per_m": (1000, 2), "dp_normal_effective_N_per_m": (700, 1), "dp_water_N_per_m": (300, 1), "dp_shear_N_per_m": (250, -3),
+            "fb_normal_N_per_m": (100, 4)}
 
 
 def straight(**changes):
@@ -128,8 +129,8 @@ def test_each_force_is_its_column_in_meganewtons(courses):
     whole, close, water = panels(courses)
     at = lambda a, b: a + b * straight()["time_s"]  # noqa: E731
     for upper, lower in (whole, close):
-        for ax, label, values in ((upper, TOTAL, at(1000, 2)), (upper, EFFECTIVE, at(700, 1)), (upper, PORE, at(300, 1)), (lower, SHEAR, at(250, -3)), (lower, BACK, at(100, 4)),
-                                  (lower, SHEAR_CHANGE, at(30, -3)), (lower, BACK_CHANGE, at(-40, 4))):  # 0 at t0, 10 s
+        for ax, label, values in ((upper, TOTAL, at(1000, 2)), (upper, EFFECTIVE, at(700, 1)), (upper, PORE, at(300, 1)), (lower, SHEAR, at(250, -3)),
+                                  (lower, BACK, at(100, 4)), (lower, SHEAR_CHANGE, at(30, -3)), (lower, BACK_CHANGE, at(-40, 4))):  # 0 at t0, 10 s
             got = drawn.points(drawn.line(ax, label))
             assert got[:, 0] == pytest.approx(straight()["time_s"]) and got[:, 1] == pytest.approx(values, abs=1e-6), label  # sums over 1000 rows of 1e9 N/m
     assert len(water) == 2
@@ -230,7 +231,8 @@ def test_times_that_are_not_known_are_left_out(times, columns, said):
     fig = figures.forces_against_time(straight(), times)
     whole, close, water = panels(fig)
     assert len(whole) == 2 and len(close) == 2 * (columns - 1) and len(water) == columns and any(said in words for words in drawn.texts(fig))
-    assert drawn.points(drawn.line(whole[1], SHEAR_CHANGE))[:, 1] == pytest.approx((30 if times else 0) - 3 * straight()["time_s"], abs=1e-6)  # without t0 since the first row
+    change = drawn.points(drawn.line(whole[1], SHEAR_CHANGE))[:, 1]
+    assert change == pytest.approx((30 if times else 0) - 3 * straight()["time_s"], abs=1e-6)  # without t0 since the first row
 
 
 def test_a_single_row_and_none():

@@ -36,7 +36,8 @@ def test_a_collapse_is_drawn_from_above_down_to_one_scale(fallen, width, unit):
     assert upper.get_position().y0 > lower.get_position().y1 and upper.get_xlim() == lower.get_xlim()
     # from 0 to 10 m, and 6 % more on the right, of which a hundredth stands on the left; the disk ahead is out of sight
     assert upper.get_xlim() == pytest.approx((-0.01 * 10.6 / scale, 0.99 * 10.6 / scale))
-    size = [(np.ptp(ax.get_xlim()) / (ax.get_position().width * fig.get_figwidth()), np.ptp(ax.get_ylim()) / (ax.get_position().height * fig.get_figheight())) for ax in fig.axes]
+    size = [(np.ptp(ax.get_xlim()) / (ax.get_position().width * fig.get_figwidth()),
+             np.ptp(ax.get_ylim()) / (ax.get_position().height * fig.get_figheight())) for ax in fig.axes]
     assert size[0] == pytest.approx([size[0][0]] * 2) and size[1] == pytest.approx(size[0])
     for ax, (x, y) in zip(fig.axes, places):
         centres, radii, _ = drawn.disks(ax)
@@ -68,7 +69,8 @@ def test_runout_and_height_with_fits_and_published_laws():
     fig = columns.runout({"ours": group, "theirs": group | {"runout": runout / 2, "fits": {"runout": (None, None), "height": (None, None)}}})
     fig.draw_without_rendering()  # formulae that cannot be read show here
     left, right = fig.axes
-    assert (left.get_title(loc="left"), left.get_ylabel()) == ("Runout", "$(L_f-L_0)/L_0$") and (right.get_title(loc="left"), right.get_ylabel()) == ("Final height", "$H_f/L_0$")
+    assert (left.get_title(loc="left"), left.get_ylabel()) == ("Runout", "$(L_f-L_0)/L_0$")
+    assert (right.get_title(loc="left"), right.get_ylabel()) == ("Final height", "$H_f/L_0$")
     for ax, values, name in ((left, runout, "runout"), (right, height, "height")):
         assert ax.get_xlabel() == "aspect ratio $a=H_0/L_0$" and ax.get_xscale() == ax.get_yscale() == "log"
         ours, theirs = drawn.line(ax, "ours"), drawn.line(ax, "theirs")

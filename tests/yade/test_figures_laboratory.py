@@ -28,7 +28,8 @@ def test_stress_over_confining_pressure_and_volume_against_strain():
     tests = [strained(2e6, 10e6, 6e6), strained(8e6, 24e6, 20e6)]
     fig = biaxial.stress_strain(tests)
     top, bottom = fig.axes
-    assert top.get_ylabel() == "σ₁ / σ₃  [-]" and bottom.get_xlabel() == "axial strain ε₁ [%]" and bottom.get_ylabel() == "volumetric strain [%]\n(dilation positive)"
+    assert top.get_ylabel() == "σ₁ / σ₃  [-]" and bottom.get_xlabel() == "axial strain ε₁ [%]"
+    assert bottom.get_ylabel() == "volumetric strain [%]\n(dilation positive)"
     assert top.get_legend().get_title().get_text() == "σ₃ [MPa]" and list(drawn.legend(top)) == ["2", "8"]
     for name, (confining, series, told) in zip(("2", "8"), tests):
         fill = drawn.legend(top)[name]
@@ -43,7 +44,8 @@ def test_stress_over_confining_pressure_and_volume_against_strain():
         (dot,) = (drawn.points(one) for one in mine if one.get_marker() == "o")
         assert dot == pytest.approx(np.array([[1.0, told["sigma1_peak_Pa"] / confining]]))
         (plateau,) = (c.get_segments()[0] for c in top.collections if drawn.hexes(c.get_color()) == [fill])
-        assert plateau == pytest.approx(np.array([[4.0, told["sigma1_residual_Pa"] / confining], [6.0, told["sigma1_residual_Pa"] / confining]]))  # cut off at the test's end
+        assert plateau == pytest.approx(np.array([[4.0, told["sigma1_residual_Pa"] / confining],
+                                                  [6.0, told["sigma1_residual_Pa"] / confining]]))  # cut off at the test's end
         (volume,) = (drawn.points(one) for one in bottom.lines if drawn.colour(one) == fill)
         assert volume == pytest.approx(np.column_stack([100 * series["strain"], 50 * series["strain"] - 0.2]))
     assert len(set(drawn.legend(top).values())) == 2 and bottom.get_xlim()[0] == 0 and top.get_ylim()[0] == 0
@@ -154,8 +156,8 @@ def slid(material, seed, friction):
     slip = np.linspace(0, 0.2, 21)
     # the third row: the block flies
     series = [{"slip_m": slip, "normal_Pa": np.where(slip == slip[2], 0.001 * p, p), "shear_Pa": p * (peak - slip)} for p in pressures]
-    return {"material": material, "seed": seed, "pressures_Pa": pressures, "slides": slides, "friction_peak": peak, "friction_residual": residual, "cohesion_peak_kPa": 10.0,
-            "cohesion_residual_kPa": -0.2}, series
+    return {"material": material, "seed": seed, "pressures_Pa": pressures, "slides": slides, "friction_peak": peak, "friction_residual": residual,
+            "cohesion_peak_kPa": 10.0, "cohesion_residual_kPa": -0.2}, series
 
 
 def test_slides_and_the_strength_of_walls():
@@ -193,7 +195,8 @@ def test_creep_is_drawn_by_its_size_on_a_logarithm():
     wet = [("hard", "#0072b2", t, 1e-3 * t), ("soft", "#d55e00", t, 0.1 * t)]
     fig = creep_module.creep([("dry", dry), ("water", wet)])
     fig.draw_without_rendering()  # formulae that cannot be read show here
-    assert [ax.get_title() for ax in fig.axes] == ["dry", "water"] and fig.axes[0].get_ylabel() == "displacement along the joint [mm]" and drawn.legend(fig) == {"hard": "#0072b2", "soft": "#d55e00"}
+    assert [ax.get_title() for ax in fig.axes] == ["dry", "water"] and fig.axes[0].get_ylabel() == "displacement along the joint [mm]"
+    assert drawn.legend(fig) == {"hard": "#0072b2", "soft": "#d55e00"}
     for ax, curves in zip(fig.axes, (dry, wet)):
         assert ax.get_yscale() == "log" and ax.get_xlabel() == "time [s]" and ax.get_xlim()[0] == 0
         for name, fill, time, way in curves:

@@ -25,8 +25,8 @@ COURSE = ((0.0, 0.0, [0, 0, 0, 0], [0, 0, 0, 0], 0.0, 0.0), (55.04, 10.0, [1, 1,
 def files(tmp_path_factory):
     folder, made = tmp_path_factory.mktemp("frames"), []
     for k, (time, water, wet, released, way, speed) in enumerate(COURSE):
-        s = synthetic.few(X + 0.8 * way, Y - 0.6 * way, r=[3.0, 3.0, 4.0, 5.0], layer=[0, 1, 0, 1], time_s=time, water_m=water, wet=np.array(wet, bool), released=np.array(released, bool),
-                          vx=np.full(4, 0.8 * speed), vy=np.full(4, -0.6 * speed))
+        s = synthetic.few(X + 0.8 * way, Y - 0.6 * way, r=[3.0, 3.0, 4.0, 5.0], layer=[0, 1, 0, 1], time_s=time, water_m=water, wet=np.array(wet, bool),
+                          released=np.array(released, bool), vx=np.full(4, 0.8 * speed), vy=np.full(4, -0.6 * speed))
         made.append(records.write_snapshot(folder / f"{k}.npz", **vars(s)))
     return made
 
@@ -99,7 +99,8 @@ def test_frames_are_pictures_of_one_view(shown, files):
     assert at(told.frames[2], [(-40.0, 50.0)]) == ["#ffffff"] and at(told.frames[0], [(-40.0, 50.0)]) == [style.DRY[1]]
     # all of the first and the last snapshot are in sight
     everything = np.vstack([told.frames[0].centres, told.frames[2].centres])
-    assert everything[:, 0].min() > ax.get_xlim()[0] and everything[:, 0].max() < ax.get_xlim()[1] and everything[:, 1].min() > ax.get_ylim()[0] and everything[:, 1].max() < ax.get_ylim()[1]
+    (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
+    assert (everything > (x0, y0)).all() and (everything < (x1, y1)).all()
 
 
 def test_the_strip_of_forces_has_a_cursor_at_the_time_of_the_frame(shown, files):
