@@ -21,7 +21,7 @@ def fallen():
     """A block of 5 by 8 m becomes one of 10 by 4 m, both from x = 0; one disk has rolled ahead, to 30 m."""
     (x, y), (far, low) = block(0, 5, 8), block(0, 10, 4)
     far[-1], low[-1] = 30.0, 0.5
-    return [0.0, 2.5], [(x, y), (far, low)], np.full(40, 0.5)
+    return [0.5, 2.5], [(x, y), (far, low)], np.full(40, 0.5)
 
 
 @pytest.mark.parametrize("width, unit", [(5.0, "L_0"), (None, "m")])
@@ -30,7 +30,7 @@ def test_a_collapse_is_drawn_from_above_down_to_one_scale(fallen, width, unit):
     fig = columns.collapse(times, places, r, 1.25, width=width, gate=[5.0])
     upper, lower = fig.axes
     scale = width or 1.0
-    assert drawn.texts(upper) == ["t = 0.0 T (0.00 s)"] and drawn.texts(lower) == ["at rest (2.50 s)"]  # the last is the end
+    assert drawn.texts(upper) == ["t = 0.4 T (0.50 s)"] and drawn.texts(lower) == ["at rest (2.50 s)"]  # the last is the end
     assert upper.get_ylabel() == lower.get_ylabel() == ("$y/L_0$" if width else "$y$ [m]")
     assert lower.get_xlabel() == ("$x/L_0$" if width else "$x$ [m]") + "          $T=\\sqrt{H_0/g}=1.25$ s" and upper.get_xlabel() == ""
     assert upper.get_position().y0 > lower.get_position().y1 and upper.get_xlim() == lower.get_xlim()
