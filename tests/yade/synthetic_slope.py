@@ -140,6 +140,21 @@ def snapshot_arrays(count=3000, time=0.0, contacts=True, seed=1):
     return arrays
 
 
+def few(x, y, contacts=(), **changes):
+    """A Snapshot of disks given one by one, at time 0 without water: of radius 1 m, in layer 0, dry and at rest unless ``changes`` say so.
+
+    ``contacts``: (i, j, normal force [N/m]), or for wall number k (i, -1 - k, normal force, x, y of the point).
+    """
+    zero, no = np.zeros(len(x)), np.zeros(len(x), bool)
+    arrays = {"time_s": 0.0, "step": 0, "water_m": 0.0, "x": np.array(x, float), "y": np.array(y, float), "r": zero + 1.0, "angle": zero, "vx": zero, "vy": zero,
+              "layer": zero.astype(int), "wet": no, "released": no, **{name: np.asarray(value) for name, value in changes.items()}}
+    if contacts:
+        points = [c[3:] or (0.5 * (x[c[0]] + x[c[1]]), 0.5 * (y[c[0]] + y[c[1]])) for c in contacts]
+        ci, cj, cn = (np.array(part) for part in zip(*(c[:3] for c in contacts)))
+        arrays |= {"ci": ci, "cj": cj, "cn": cn.astype(float), "ct": 0.1 * cn, "cbonded": cj >= 0, "cx": np.array(points, float)[:, 0], "cy": np.array(points, float)[:, 1]}
+    return load("records")._snapshot(arrays, "made up")
+
+
 def series(columns, rows=4000, seed=2):
     """A made-up series with all ``columns``: dict of arrays."""
     rng = np.random.default_rng(seed)

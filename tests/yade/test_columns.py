@@ -9,6 +9,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+
+import drawn
 from yade import O
 from yade.nonsmooth import errors, packing, processes, records, worlds
 from yade.nonsmooth.figures import columns as figures
@@ -283,7 +285,7 @@ def made_run(a, factor=1.0, rested=True):
             "fall_time_s": 0.5, "steps": 5, "wall_s": 0.1, "overlap_worst_rel": 0.0}
 
 
-def test_report_compares_exponents_with_the_published_ones(tmp_path):
+def test_report_compares_exponents_with_the_published_ones():
     found = {f"a{a:g}": made_run(a, 2.0) for a in (0.5, 0.7, 1.0, 1.4, 2.8, 4.0, 8.0)} | {"moving": made_run(5.6, 9.0, rested=False)}
     summary = report.summarise(found)
     assert summary["at_rest"] == 7
@@ -295,8 +297,12 @@ def test_report_compares_exponents_with_the_published_ones(tmp_path):
     assert "fewer disks" not in report.table(found, summary) and report.counts(found) == "10 disks"
     found["a8"]["disks"] = 9
     assert "a8 has 9 of 10" in report.table(found, summary) and report.counts(found) == "9 to 10 disks" and report.summarise(found)["disks_fewest"] == 9
-    figures.runout({"made up": report.group(found)}, tmp_path / "runout.png")
-    assert (tmp_path / "runout.png").stat().st_size > 10_000
+    left, right = figures.runout({"made up": report.group(found)}).axes
+    for ax, name in ((left, "runout_rel"), (right, "final_height_rel")):
+        assert drawn.points(drawn.line(ax, "made up")).tolist() == [[run["aspect"], run[name]] for run in found.values() if run["rested"]]
+    # twice the published law, on both sides of a = 2
+    assert drawn.points(drawn.line(left, "fit: $5.00\\,a^{1.00\\pm0.00}$")) == pytest.approx(np.array([[0.5, 2.5], [1.4, 7.0]]))
+    assert drawn.points(drawn.line(left, "fit: $6.50\\,a^{0.70\\pm0.00}$"))[:, 0].tolist() == [2.8, 8.0]
 
 
 def test_other_fronts_have_exponents_of_their_own(monkeypatch):

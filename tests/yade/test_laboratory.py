@@ -9,6 +9,8 @@ from dataclasses import asdict
 import leftovers
 import numpy as np
 import pytest
+
+import drawn
 from yade import O
 from yade.nonsmooth import errors, processes, records, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
@@ -108,7 +110,12 @@ def test_slides_run_side_by_side_and_are_kept(tmp_path):
     series = [records.read_series(tmp_path / "tests" / t.name / "series.csv") for t in tests]
     late = series[0]["slip_m"] > 0.16
     assert series[0]["shear_Pa"][late].mean() == pytest.approx(found[0].shear_residual, rel=1e-9)  # sums in another order
-    assert wall_shear_figure.slides([(wall_shear.strength_of(tests, found), series)], tmp_path / "slides.png").stat().st_size > 10_000
+    curves, strength = wall_shear_figure.slides([(wall_shear.strength_of(tests, found), series)]).axes
+    for name, rows in zip(("0.5 MPa", "2 MPa"), series):
+        way, share = drawn.points(drawn.line(curves, name)).T
+        assert way.max() == 100 * rows["slip_m"].max() and share[way > 16].mean() == pytest.approx((rows["shear_Pa"] / rows["normal_Pa"])[rows["slip_m"] > 0.16].mean(), rel=1e-9)
+    (peaks,) = (drawn.points(one) for one in strength.lines if one.get_marker() == "o")
+    assert peaks == pytest.approx(1e-6 * np.array([[s.normal_peak, s.shear_peak] for s in found]))
     with pytest.raises(wall_shear.SlideError, match="dp-0.5MPa-seed1: two runs of one name; give each seed once"):
         wall_shear.run([tests[0], tests[0]], tmp_path, threads=1)
 

@@ -1,4 +1,4 @@
-"""Figures of a comparison. Each takes data and a path and returns the path of the PNG; hard is blue, soft orange, stiffer contacts darker."""
+"""Figures of a comparison. Each takes data and the path of a PNG, which it returns, or the Figure without one; hard is blue, soft orange, stiffer contacts darker."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _patch(geometry, **options):
 
 
 @style.styled
-def deposits_overlaid(hard, soft, begin, walls, share, path):
+def deposits_overlaid(hard, soft, begin, walls, share, path=None):
     """Both deposits over each other; ``hard``, ``soft``: outlines; ``begin``: outline before, or None; ``share``: of the area that both cover."""
     both = hard.intersection(soft)
     boxes = np.array([g.bounds for g in (hard, soft, *([begin] if begin is not None else []))])
@@ -68,7 +68,7 @@ def deposits_overlaid(hard, soft, begin, walls, share, path):
 
 
 @style.styled
-def courses(groups, columns, abscissa, path):
+def courses(groups, columns, abscissa, path=None):
     """Curves of many runs, one panel a column.
 
     ``groups``: list of (label, colour, list of {name: array}); runs of a group have one colour, the first line of it the label. ``columns``: list of (name,
@@ -91,7 +91,7 @@ def courses(groups, columns, abscissa, path):
 
 
 @style.styled
-def force_distribution(groups, path):
+def force_distribution(groups, path=None):
     """P(N/⟨N⟩) of the contacts under compression; ``groups``: list of (label, colour, forces [N/m])."""
     fig = style.figure(7.5, 4.8, layout="constrained")
     ax = fig.subplots()
@@ -112,7 +112,7 @@ def force_distribution(groups, path):
 
 
 @style.styled
-def modes(groups, path):
+def modes(groups, path=None):
     """Broken bonds by mode as parts of all bonds; ``groups``: list of (label, colour, {mode: list over seeds})."""
     names = ("tension", "shear", "torque", "mixed")
     fig = style.figure(8.5, 4.2, layout="constrained")
@@ -139,7 +139,7 @@ def _log_axes(fig, xlabel, ylabel):
 
 
 @style.styled
-def overlaps(moduli, rest, moving, hard_rest, hard_moving, path, when=("at rest", "while moving")):
+def overlaps(moduli, rest, moving, hard_rest, hard_moving, path=None, when=("at rest", "while moving")):
     """Mean overlaps [mean diameters] against stiffness [Pa], the hard run's as lines (drawn at 1e-12 where they are less); ``when``: names of both states."""
     fig = style.figure(7.5, 4.8, layout="constrained")
     ax = _log_axes(fig, "Young's modulus [Pa]", "mean overlap [mean diameters]")
@@ -152,7 +152,7 @@ def overlaps(moduli, rest, moving, hard_rest, hard_moving, path, when=("at rest"
 
 
 @style.styled
-def cost(moduli, rates, steps, hard_rate, hard_steps, path):
+def cost(moduli, rates, steps, hard_rate, hard_steps, path=None):
     """Wall time and number of steps for a second of simulation, against stiffness."""
     fig = style.figure(9.5, 4.2, layout="constrained")
     for ax, values, level, label in zip(fig.subplots(1, 2), (rates, steps), (hard_rate, hard_steps),
@@ -168,7 +168,7 @@ def cost(moduli, rates, steps, hard_rate, hard_steps, path):
 
 
 @style.styled
-def cost_and_overlap(panels, path):
+def cost_and_overlap(panels, path=None):
     """Wall time for a second of simulation against mean overlap.
 
     ``panels``: list of (title, hard, [soft, …], factor) with dictionaries as cost.measure_hard and measure_soft return, softest first, and soft over hard
@@ -198,7 +198,7 @@ def cost_and_overlap(panels, path):
 
 
 @style.styled
-def work_precision(panels, chance, path):
+def work_precision(panels, chance, path=None):
     """Error against wall time.
 
     ``panels``: list of (title, hard, soft, aside), each but the title a list of (wall [s], error, label); ``aside``: soft runs with open marks;
@@ -223,9 +223,9 @@ def work_precision(panels, chance, path):
         ax.set_xlabel("wall time of the run's steps [s]")
         ax.grid(color="#e3e3e3", lw=0.7, which="both")
         ax.legend(loc="best")
-        values = [p[1] for p in (*hard, *soft, *aside)] + ([chance] if chance else [])
-        if values:
-            ax.set_ylim(0.4 * min(values), 2.5 * max(values))
+    values = [p[1] for _, *groups in panels for points in groups for p in points] + ([chance] if chance else [])
+    if values:  # of all panels, as they share the axis
+        fig.axes[0].set_ylim(0.4 * min(values), 2.5 * max(values))
     fig.axes[0].set_ylabel("error (see text)")
     fig.draw_without_rendering()  # now places are final
     for ax, (_, hard, soft, aside) in panes:
@@ -258,7 +258,7 @@ def _name_points(ax, named, level=None):
 
 
 @style.styled
-def convergence(moduli, rows, path):
+def convergence(moduli, rows, path=None):
     """Differences from the hard run against stiffness, a panel for each of ``rows``: (title, differences, scatter or None, power or None, scale or None)."""
     across = 3
     down = -(-len(rows) // across)
@@ -288,7 +288,7 @@ def convergence(moduli, rows, path):
 
 
 @style.styled
-def network(moduli, correlations, hard, path):
+def network(moduli, correlations, hard, path=None):
     """Correlation of normal forces at the same contacts with the hard run's; ``hard``: list of (label, correlation) of other hard runs."""
     fig = style.figure(7.5, 4.2, layout="constrained")
     ax = fig.subplots()

@@ -1,9 +1,9 @@
 """Figures of a run, made from its records alone (no YADE, no display).
 
-Every function takes data and the path of a PNG, returns the path, and takes ``pdf=True`` to write a PDF beside it
-(disks and bars rasterised, text and lines as vectors). Walls are given as ``[(name, vertices (n, 2))]``, as objects
-with ``name`` and ``vertices``, or as an object that has such ``walls``. Data that lack something raise
-:class:`~nonsmooth.records.RecordsError`.
+Every function takes data and returns the matplotlib Figure it draws. With the ``path`` of a PNG it writes the figure
+there instead and returns the path; ``pdf=True`` writes a PDF beside it (disks and bars rasterised, text and lines as
+vectors). Walls are given as ``[(name, vertices (n, 2))]``, as objects with ``name`` and ``vertices``, or as an object
+that has such ``walls``. Data that lack something raise :class:`~nonsmooth.records.RecordsError`.
 """
 
 from .forces import force_chains, forces_against_time

@@ -20,11 +20,11 @@ def _colours(count):
 
 
 @style.styled
-def stress_strain(tests, path, pdf=False):
+def stress_strain(tests, path=None, pdf=False):
     """Axial stress over σ₃ and volumetric strain against axial strain (the paper's Figure 10).
 
     ``tests``: list of (σ₃ [Pa], series, measured): columns of `laboratory.biaxial.COLUMNS`, and the test's dictionary of ``summary.json``.
-    Thin: rows; thick: the means over 0.2 % of strain whose largest is the peak; dots: peaks; dashes: the mean on the plateau. Returns ``path``.
+    Thin: rows; thick: the means over 0.2 % of strain whose largest is the peak; dots: peaks; dashes: the mean on the plateau.
     """
     fig = style.figure(7.6, 7.4, layout="constrained")
     top, bottom = fig.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
@@ -45,10 +45,10 @@ def stress_strain(tests, path, pdf=False):
 
 
 @style.styled
-def mohr(summary, path, pdf=False):
+def mohr(summary, path=None, pdf=False):
     """Mohr circles at the peak and on the plateau with their envelopes (the paper's Figure 11); right: the circles of low pressure.
 
-    ``summary``: of a campaign with an envelope. Several seeds: circles of all, envelope with the mean cohesion and friction. Returns ``path``.
+    ``summary``: of a campaign with an envelope. Several seeds: circles of all, envelope with the mean cohesion and friction.
     """
     fig = style.figure(10.4, 4.6, layout="constrained")
     whole, close = fig.subplots(1, 2)
@@ -84,10 +84,10 @@ def _frame(ax, *snapshots):
 
 
 @style.styled
-def rotations(begin, panels, path, pdf=False):
+def rotations(begin, panels, path=None, pdf=False):
     """The sample coloured by the rotation of its disks since the begin of shear (the paper's Figure 9).
 
-    ``begin``: the Snapshot then; ``panels``: list of (title, Snapshot). Returns ``path``.
+    ``begin``: the Snapshot then; ``panels``: list of (title, Snapshot).
     """
     shown = [s for _, s in panels]
     ratio = max(np.ptp(s.y) for s in shown) / max(np.ptp(s.x) for s in shown)
@@ -106,8 +106,8 @@ def rotations(begin, panels, path, pdf=False):
 
 
 @style.styled
-def chains(snapshot, title, path, pdf=False):
-    """Normal forces of a sample as bars between centres, compression blue, tension red. Returns ``path``."""
+def chains(snapshot, title, path=None, pdf=False):
+    """Normal forces of a sample as bars between centres, compression blue, tension red."""
     ratio = np.ptp(snapshot.y) / np.ptp(snapshot.x)
     fig = style.figure(5.2, 5.2 * ratio + 0.7, layout="constrained")
     ax = fig.subplots()
@@ -123,10 +123,10 @@ def chains(snapshot, title, path, pdf=False):
 
 
 @style.styled
-def effects(rows, path, pdf=False):
+def effects(rows, path=None, pdf=False):
     """Angles of friction of peak and plateau against what varies, one panel an effect; dots: samples, lines: means with their 95 % interval.
 
-    ``rows``: of `laboratory.effects.run`. Returns ``path``.
+    ``rows``: of `laboratory.effects.run`.
     """
     names = list(dict.fromkeys(row["effect"] for row in rows))
     fig = style.figure(3.1 * len(names), 4.0, layout="constrained")

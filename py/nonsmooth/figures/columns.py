@@ -13,11 +13,11 @@ MARKERS = ("o", "s", "^", "D", "v", "P")
 
 
 @style.styled
-def collapse(times, places, r, unit, path, width=None, gate=None, pdf=False):
+def collapse(times, places, r, unit, path=None, width=None, gate=None, pdf=False):
     """Disks of a heap at several times, one below the other, to one scale, each with the outline of its connected mass.
 
     ``times`` [s]; ``places``: (x, y) for each, arrays of shape (n,) [m]; ``r`` [m]; ``unit``: T = √(H₀/g) [s]. ``gate``: x of lines where sides stood.
-    ``width``: L₀ [m], the unit of the axes; None: metres. The last time is called the end. Returns ``path``.
+    ``width``: L₀ [m], the unit of the axes; None: metres. The last time is called the end.
     """
     if not len(times):
         raise RecordsError("no places are kept: run the heap with frames")
@@ -58,11 +58,11 @@ def collapse(times, places, r, unit, path, width=None, gate=None, pdf=False):
 
 
 @style.styled
-def runout(groups, path, pdf=False):
+def runout(groups, path=None, pdf=False):
     """Runout and final height against the aspect ratio, on logarithmic axes, with fits and the published laws.
 
     ``groups``: {label: {"aspect", "runout", "height": arrays (n,); "fits": {"runout", "height": pairs of scaling.Fit or None}; "changes": {"runout",
-    "height": the aspect ratio between the two}}}. Returns ``path``.
+    "height": the aspect ratio between the two}}}.
     """
     fig = style.figure(10, 4.9, layout="constrained")
     panels = (("runout", "Runout", "$(L_f-L_0)/L_0$", scaling.RUNOUT), ("height", "Final height", "$H_f/L_0$", scaling.HEIGHT))

@@ -2,19 +2,20 @@
 
 import numpy as np
 
-from .style import INK, figure, save, styled
+from . import style
+from .style import INK
 
 __all__ = ["creep"]
 
 
-@styled
-def creep(panels, path):
-    """Writes the figure and returns its path.
+@style.styled
+def creep(panels, path=None):
+    """Displacement on a logarithmic axis against time, one panel a joint.
 
     ``panels``: list of (title, curves), and ``curves`` a list of (label, colour, time [s], displacement down the joint [mm]), arrays of shape (n,).
     The size of the displacement is drawn, whether down the joint or up, and 1e-6 mm where it is less.
     """
-    fig = figure(9.0, 4.2)
+    fig = style.figure(9.0, 4.2)
     axes = fig.subplots(1, len(panels), sharey=True, squeeze=False)[0]
     fig.subplots_adjust(left=0.08, right=0.98, top=0.92, bottom=0.26, wspace=0.08)
     for ax, (title, curves) in zip(axes, panels):
@@ -26,4 +27,4 @@ def creep(panels, path):
     axes[0].set_ylabel("displacement along the joint [mm]")
     handles, labels = axes[0].get_legend_handles_labels()
     fig.legend(handles, labels, loc="lower center", ncol=2)
-    return save(fig, path)
+    return style.save(fig, path)

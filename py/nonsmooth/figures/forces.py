@@ -69,19 +69,22 @@ def _force_scale(ax, reference, width):
 
 
 @style.styled
-def force_chains(snapshot, walls, path, pdf=False):
+def force_chains(snapshot, walls, path=None, pdf=False):
     """The slope and the normal forces in its foot (the paper's Figure 8).
 
     ``snapshot``: a :class:`~nonsmooth.records.Snapshot` with contacts. ``walls``: see :mod:`nonsmooth.figures`.
-    Above the whole slope by layers; below two windows at the foot, with bars between the centres of touching disks,
+    Above the whole slope by layers; below two windows at the foot (or at the lowest disk, where none is near it), with bars between the centres of touching disks,
     as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
-    a hairline outline so that small ones can be seen. Returns ``path``.
+    a hairline outline so that small ones can be seen.
     """
     walls = style.as_walls(walls)
     if len(snapshot.ci) == 0:
         raise style.RecordsError("the snapshot has no contacts, so no forces to draw; take one written with contacts")
     corner = style.foot(walls)
     near = np.abs(snapshot.x - corner[0]) < 0.12 * np.ptp(snapshot.x)
+    if not near.any():  # a mass that begins higher up
+        near = np.argmin(snapshot.y - snapshot.r)
+        corner = np.array([snapshot.x[near], (snapshot.y - snapshot.r)[near]])
     height = snapshot.y[near].max() - corner[1]
     size = 2 * np.median(snapshot.r)
     aspect = 4.95 / 4.1
@@ -173,14 +176,14 @@ def _sketch(ax):
 
 
 @style.styled
-def forces_against_time(series, times, path, pdf=False, window=1.0):
+def forces_against_time(series, times, path=None, pdf=False, window=1.0):
     """Forces on the walls against time (the paper's Figure 12).
 
     ``series``: dict of columns (:func:`nonsmooth.records.read_series`). ``times``: dict t0 to t5 [s], or an object
     with such ``times``; missing ones are left out. (a) normal force on DP: total, effective, water, and the height of
     the water table (right axis); (b) shear force on DP, normal force on FB, and their changes since t0. On the left
     the whole run, on the right the failure and triggering alone (when t1 and t3 are known). Lines are means over
-    ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind. Returns ``path``.
+    ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind.
     """
     time, water, total, effective, pore, shear, back = style.need(
         series, "time_s", "water_m", "dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_water_N_per_m",

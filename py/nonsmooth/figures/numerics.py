@@ -19,12 +19,12 @@ def _row(fig, rows, titles, time, times):
 
 
 @style.styled
-def energy(series, path, times=None, pdf=False, limit=0.02):
+def energy(series, path=None, times=None, pdf=False, limit=0.02):
     """Where the energy goes, against time, and what the balance leaves over.
 
     ``series``: dict of columns. Above: changes since the first row of kinetic and potential energy, work of the water,
     losses and correction energy per metre of width; below: the relative error of the balance in per cent with ``limit`` as a
-    dashed line. ``times``: t0 to t5 to mark. Returns ``path``.
+    dashed line. ``times``: t0 to t5 to mark.
     """
     lines = (
         ("energy_potential_J", "potential", "blue", "-"),
@@ -61,11 +61,11 @@ def energy(series, path, times=None, pdf=False, limit=0.02):
 
 
 @style.styled
-def solver(series, path, times=None, pdf=False):
+def solver(series, path=None, times=None, pdf=False):
     """Sweeps, residual and overlaps of the contact solver against time.
 
     ``series``: dict of columns. Overlaps in per cent of the mean diameter with the project's limits (2 % worst, 0.1 % mean) as lines.
-    ``times``: t0 to t5 to mark. Returns ``path``.
+    ``times``: t0 to t5 to mark.
     """
     time, sweeps, residual, tolerance, worst, mean = style.need(
         series, "time_s", "iterations", "residual", "tolerance", "overlap_worst_rel", "overlap_mean_rel"

@@ -39,13 +39,13 @@ def _foot(ax, snapshot, walls, view, first):
 
 
 @style.styled
-def snapshots(cases, walls, path, pdf=False, close_up=True):
+def snapshots(cases, walls, path=None, pdf=False, close_up=True):
     """The slope at successive times, one below the other (the paper's Figure 13).
 
     ``cases``: list of (label, :class:`~nonsmooth.records.Snapshot`), labels such as "t0". Dry disks ochre, disks that
     feel pore pressure blue, released ones pink, shades alternating with the layers; the water table as a dashed line.
     All panels have the same limits and scale; ``close_up`` adds the foot of the slope, enlarged, to each, where the
-    shear bands of the failure appear. Returns ``path``.
+    shear bands of the failure appear.
     """
     cases, walls = list(cases), style.as_walls(walls)
     if not cases:
@@ -136,12 +136,11 @@ def deposit_profile(snapshot, walls, bin_m=None):
 
 
 @style.styled
-def deposit(snapshot, initial, walls, path, pdf=False):
+def deposit(snapshot, initial, walls, path=None, pdf=False):
     """The deposit with its layers over the initial profile.
 
     ``snapshot``, ``initial``: the final and the first :class:`~nonsmooth.records.Snapshot`. Annotated: the greatest
     vertical thickness (:func:`deposit_profile`), the travel of the front (:func:`front`) and of the centre of mass.
-    Returns ``path``.
     """
     walls = style.as_walls(walls)
     x0, x1, y0, y1 = style.view([snapshot, initial], walls)

@@ -66,8 +66,10 @@ def styled(function):
     return run
 
 
-def save(fig, path, pdf=False, dpi=170):
-    """Write the PNG (and a PDF beside it), whole or not at all; returns the PNG's path."""
+def save(fig, path=None, pdf=False, dpi=170):
+    """Write the PNG (and a PDF beside it), whole or not at all; returns the PNG's path. Without one nothing is written, and the figure is returned."""
+    if path is None:
+        return fig
     path = Path(path)
     try:
         for target, fine in ((path, dpi), *([(path.with_suffix(".pdf"), 300)] if pdf else [])):

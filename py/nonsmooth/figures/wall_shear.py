@@ -8,8 +8,8 @@ MEGA = 1e6
 
 
 @style.styled
-def slides(walls, path, pdf=False):
-    """Shear stress over normal stress against slip, one panel a wall, and strengths against the normal stress for all walls. Returns ``path``.
+def slides(walls, path=None, pdf=False):
+    """Shear stress over normal stress against slip, one panel a wall, and strengths against the normal stress for all walls.
 
     ``walls``: list of (found, series): a dictionary of `laboratory.wall_shear.strength_of`, and for each of its pressures columns of
     `laboratory.wall_shear.COLUMNS`. Curves are those of the first block of each wall, dots those of all.

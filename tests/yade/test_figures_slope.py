@@ -1,0 +1,193 @@
+"""Figures of the slope in profile, read from their artists: states at the characteristic times, deposit. Needs no YADE."""
+
+import numpy as np
+import pytest
+
+import drawn
+import synthetic_slope as synthetic
+
+records, figures, style = (synthetic.load(name) for name in ("records", "figures", "figures.style"))
+SECTION = synthetic.Section()
+WALLS = [("DP", [[-100.0, 75.0], [0.0, 0.0]]), ("FB", [[0.0, 0.0], [3.0, 4.0]]), ("SS", [[3.0, 4.0], [100.0, 4.0]])]  # 3 : 4 : 5
+OCHRE, BLUE, PINK = ("#b89b6a", "#ddc99d"), ("#1f5fa8", "#4a90d0"), ("#e06aa6", "#f5a9cd")  # dry, wet, released, of even and odd layers
+
+
+# ---- at the characteristic times ------------------------------------------------------------------
+
+STATE = dict(layer=[0, 1, 2, 3, 0, 1, 0, 1], wet=[0, 0, 0, 0, 1, 1, 1, 1], released=[0, 0, 0, 0, 0, 0, 1, 1])
+FILLS = [OCHRE[0], OCHRE[1], OCHRE[0], OCHRE[1], *BLUE, *PINK]
+
+
+def state(**changes):
+    k = np.arange(8)
+    made = STATE | {name: np.array(STATE[name], bool) for name in ("wet", "released")} | changes
+    return synthetic.few(-10.0 * k - 2, 7.5 * k + 4, r=1 + 0.1 * k, **made)
+
+
+@pytest.fixture(scope="module")
+def two():
+    return figures.snapshots([("t0", state(time_s=5.0)), ("on the way", state(time_s=61.26, water_m=12.0))], WALLS)
+
+
+def test_wet_disks_are_blue_and_released_pink_in_shades_that_alternate_with_the_layers(two):
+    for ax in two.axes:
+        centres, radii, fills = drawn.disks(ax)
+        assert np.array_equal(centres, np.column_stack([state().x, state().y])) and np.array_equal(radii, state().r) and fills == FILLS
+    assert drawn.legend_patches(two.legends[0]) == [*OCHRE, *BLUE, *PINK]
+    assert [t.get_text() for t in two.legends[0].get_texts()] == ["dry", "under pore pressure", "pore pressure released", "water table", "walls: DP, FB, SS"]
+
+
+def test_panels_follow_in_time_from_the_top_with_one_scale(two):
+    upper, lower = two.axes
+    assert upper.get_position().y0 >= lower.get_position().y1 - 1e-9
+    assert (upper.get_xlim(), upper.get_ylim()) == (lower.get_xlim(), lower.get_ylim())
+    # wet is who is not released: 2 of 8
+    assert drawn.texts(upper)[-2:] == ["$t_{0}$ = 5.0 s", "water begins to rise\nno water\nwet 25 %, released 25 %"]
+    assert "on the way: 61.3 s" in drawn.texts(lower) and "water table 12.0 m\nwet 25 %, released 25 %" in drawn.texts(lower)
+
+
+def test_the_water_table_stands_at_its_height_above_the_plane(two):
+    for owner, count in ((two.axes[0], 0), (two.axes[1], 1), (two.axes[0].child_axes[0], 0), (two.axes[1].child_axes[0], 1)):
+        tables = [one for one in owner.lines if drawn.colour(one) == style.WATER]
+        assert len(tables) == count
+        for table in tables:  # 12 m along the normal (0.6, 0.8)
+            assert drawn.points(table) == pytest.approx(np.array([[-100 + 7.2, 75 + 9.6], [7.2, 9.6]]), rel=1e-12)
+    assert drawn.legend(two)["water table"] == style.WATER
+
+
+def test_walls_are_drawn_and_named_with_the_ground_below_them(two):
+    for ax in two.axes:
+        lines = [drawn.points(one).tolist() for one in ax.lines if drawn.colour(one) == style.WALL and len(one.get_xdata()) == 2 and one.get_transform() == ax.transData]
+        assert [w.tolist() for _, w in style.as_walls(WALLS)] == [one for one in lines if one in [w for _, w in WALLS]]
+        ground = [c for c in ax.collections if drawn.hexes(c.get_facecolor()) == [style.GROUND]]
+        assert len(ground) == 3
+        for filled, (_, wall) in zip(ground, WALLS):  # from the wall to below the picture
+            corners = filled.get_paths()[0].vertices
+            assert all(any(np.allclose(corner, point) for corner in corners) for point in wall) and corners[:, 1].min() < ax.get_ylim()[0]
+    (inset,) = two.axes[0].child_axes
+    assert {"DP", "SS"} <= set(drawn.texts(two.axes[0])) and "FB" not in drawn.texts(two.axes[0]) and "FB" in drawn.texts(inset)
+
+
+def test_the_close_up_shows_the_foot_from_where_its_frame_is():
+    fig = figures.snapshots([("t0", state())], WALLS)
+    (ax,), ((inset,),) = fig.axes, [fig.axes[0].child_axes]
+    (frame,) = (patch for patch in ax.patches if not patch.get_fill())
+    (x, y), (x0, x1), (y0, y1) = frame.get_xy(), inset.get_xlim(), inset.get_ylim()
+    assert (x, x + frame.get_width(), y, y + frame.get_height()) == pytest.approx((x0, x1, y0, y1), rel=1e-12) and x0 < 0 < x1 and y0 < 0 < y1
+    # disks that could be seen, with their own colours
+    centres, _, fills = drawn.disks(inset)
+    assert 0 < len(centres) < 8 and fills == [dict(zip(state().x, FILLS))[x] for x, _ in centres] and (np.abs(centres[:, 0] - (x0 + x1) / 2) < 0.6 * (x1 - x0)).all()
+    plain = figures.snapshots([("t0", state())], WALLS, close_up=False)
+    assert not plain.axes[0].child_axes and "FB" in drawn.texts(plain.axes[0])
+
+
+def test_no_snapshot_is_an_error():
+    with pytest.raises(records.RecordsError, match="no snapshot"):
+        figures.snapshots([], SECTION)
+
+
+# ---- deposit --------------------------------------------------------------------------------------
+
+LEVEL = [("DP", [[-100.0, 20.0], [0.0, 20.0]]), ("SS", [[0.0, 20.0], [300.0, 20.0]])]  # a floor at 20 m
+
+
+def steps(*blocks, **changes):
+    """Disks of half a metre on the floor: blocks of (x from, x to, height [m])."""
+    x, y = (np.concatenate(part) for part in zip(*([g.ravel() for g in np.meshgrid(np.arange(a + 0.5, b), np.arange(20.5, 20 + h))] for a, b, h in blocks)))
+    return synthetic.few(x, y, r=np.full(len(x), 0.5), **changes)
+
+
+@pytest.fixture(scope="module")
+def slid():
+    """A high block and a low one to the right of it become a low one and a high one, 100 m on: mirrored, so that a profile drawn mirrored would show."""
+    before = steps((-90, -60, 12), (-60, -30, 6))
+    after = steps((10, 40, 6), (40, 70, 12))
+    after.layer[:] = (after.y > 24).astype(int) + (after.y > 28)
+    return before, after, figures.deposit(after, before, LEVEL)
+
+
+def test_the_deposit_lies_over_the_initial_surface(slid):
+    before, after, fig = slid
+    (ax,) = fig.axes
+    centres, radii, fills = drawn.disks(ax)
+    assert np.array_equal(centres, np.column_stack([after.x, after.y])) and np.array_equal(radii, after.r)
+    told = drawn.legend(fig)
+    assert list(told)[:3] == ["layer 3 (top)", "layer 2", "layer 1"] and fills == [told[("layer 1", "layer 2", "layer 3 (top)")[k]] for k in after.layer]
+    (initial,) = (one for one in ax.lines if one.get_linestyle() == "--" and len(one.get_xdata()) > 2)
+    x, top = drawn.points(initial).T
+    assert top[x < -61.5] == pytest.approx(32) and top[x > -58.5] == pytest.approx(26) and -90 < x[0] < -87 and -33 < x[-1] < -30  # bins of 3 m
+    assert told["initial surface"] == drawn.colour(initial)
+
+
+def test_ways_are_those_of_front_centre_and_thickness(slid):
+    _, _, fig = slid
+    (ax,) = fig.axes
+    words = [t for t in drawn.texts(ax) if ":" in t]
+    # the centre: (12 · -75 + 6 · -45)/18 = -65 before, (6 · 25 + 12 · 55)/18 = 45 after
+    assert words == ["thickest: 12 m", "front: 100 m", "centre of mass: 110 m"]
+    (low, high, _, both), (start, end, _, on), (tail, head, _, way) = drawn.arrows(ax)
+    assert both == "<|-|>" and low[0] == high[0] and 40 < low[0] < 70 and (low[1], high[1]) == pytest.approx((20, 32))
+    # the front is 0.1 % of the area behind the last disk, which is in the last row
+    assert on == way == "-|>" and (start[0], end[0]) == pytest.approx((-30, 70), abs=1e-9) and start[1] == end[1]
+    assert tail == pytest.approx([-65, 25]) and head == pytest.approx([45, 25])
+    open_mark, full = (one for one in ax.lines if one.get_marker() == "o")
+    assert drawn.points(open_mark)[0] == pytest.approx(tail) and drawn.points(full)[0] == pytest.approx(head)
+    assert open_mark.get_markerfacecolor() == "white" and full.get_markerfacecolor() == style.INK
+    told = drawn.handles(fig)
+    assert (told["centre of mass before"].get_markerfacecolor(), told["and after"].get_markerfacecolor()) == ("white", style.INK)
+
+
+def test_deposit_profile_measures_thickness_and_front():
+    """A rectangle of disks, 20 m thick on level ground, with one disk flown far ahead."""
+    gx, gy = np.meshgrid(np.arange(0.5, 200), np.arange(0.5, 20))
+    x = np.r_[gx.ravel(), 900.0]
+    s = synthetic.few(x, np.r_[gy.ravel(), 80.0], r=np.full(len(x), 0.5))
+    at, base, surface = figures.deposit_profile(s, [("DP", [[-100.0, 0.0], [0.0, 0.0]]), ("SS", [[0.0, 0.0], [1000.0, 0.0]])])
+    there = np.isfinite(surface)
+    assert surface[there] - base[there] == pytest.approx(20.0)
+    assert 197 < at[there].max() < 203 and at[there].min() < 3  # bins of 3 m
+    assert figures.front(s) == pytest.approx(200, abs=1)  # a disk
+
+
+def test_thickness_is_above_the_lowest_wall():
+    s = synthetic.few(np.arange(0.5, 30), np.full(30, 12.0), r=np.full(30, 0.5))
+    at, base, surface = figures.deposit_profile(s, [("DP", [[0.0, 9.0], [30.0, 6.0]]), ("SS", [[0.0, 3.0], [15.0, 4.5]]), ("upright", [[5.0, 0.0], [5.0, 30.0]])], bin_m=3)
+    assert surface == pytest.approx(12.5) and at == pytest.approx(np.arange(1.5, 30, 3))
+    assert base == pytest.approx(np.where(at <= 15, 3 + 0.1 * at, 9 - 0.1 * at))
+
+
+def test_a_mirrored_slope_gives_the_mirrored_profile():
+    s = steps((-90, -60, 12), (-60, -30, 6))  # 20 bins of 3 m, whichever end they begin at
+    walls = style.as_walls([("DP", [[-100.0, 8.0], [-50.0, 3.0]]), ("SS", [[-50.0, 3.0], [0.0, 4.0]])])
+    x, base, surface = figures.deposit_profile(s, walls, bin_m=3)
+    back, base_back, surface_back = figures.deposit_profile(synthetic.few(-s.x, s.y, r=s.r), [(name, w * (-1, 1)) for name, w in walls], bin_m=3)
+    assert back == pytest.approx(-x[::-1]) and base_back == pytest.approx(base[::-1]) and surface_back.tolist() == surface[::-1].tolist() and surface[0] > surface[-1]
+
+
+# ---- the plane and the view -----------------------------------------------------------------------
+
+def test_water_table_is_parallel_to_the_plane_at_its_height():
+    plane = SECTION.walls[0][1]
+    moved = style.water_points(style.as_walls(SECTION), 22.5) - plane
+    assert moved == pytest.approx(22.5 * np.array([synthetic.NORMAL, synthetic.NORMAL]))
+    assert style.water_points([("DP", plane[::-1])], 22.5) - plane[::-1] == pytest.approx(moved)  # up, whichever end comes first
+    assert style.water_points([("SS", plane)], 1.0) is None
+
+
+def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
+    left, right = synthetic.few([-50.0, -10.0], [10.0, 40.0]), synthetic.few([-40.0, 120.0], [5.0, 30.0])
+    x0, x1, y0, y1 = style.view([left, right], style.as_walls(WALLS))
+    # 1.2 % of 170 m on the left, 3 % on the right; 9 % of 35 m below, 3 % above
+    assert (x0, x1, y0, y1) == pytest.approx((-50 - 2.04, 120 + 5.1, 5 - 3.15, 40 + 1.05))
+    assert style.view([left], style.as_walls(WALLS))[1] == pytest.approx(6 + 0.03 * 56)  # 12 % of the 50 m before the foot behind it
+
+
+@pytest.mark.parametrize("wide, length", [(37.0, 5), (100.0, 20), (250.0, 50), (1600.0, 200)])
+def test_scale_bar_is_as_long_as_it_says(wide, length):
+    fig = style.figure(4, 2)
+    ax = fig.add_axes([0, 0, 1, 1])
+    style.frame(ax, -wide / 4, 3 * wide / 4, 0, wide / 2)
+    style.scale_bar(ax, x=0.9, share=0.2)
+    (bar,) = ax.lines
+    assert drawn.texts(ax) == [f"{length} m"] and np.ptp(bar.get_xdata()) * wide == pytest.approx(length) and max(bar.get_xdata()) == 0.9
+    assert bar.get_transform() == ax.transAxes
