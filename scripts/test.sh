@@ -17,5 +17,8 @@ status=0
 # The tests in YADE last and talking: they take longest, and their summary is what one wants to see.
 ctest --test-dir "$NONSMOOTH_BUILD" -LE '^yade$' -j "$(nproc)" --no-tests=ignore --progress || status=1
 ctest --test-dir "$NONSMOOTH_BUILD" -L '^yade$' --no-tests=error --verbose || status=1
-if [ "$status" -eq 0 ]; then echo "All tests passed."; else echo "Some tests FAILED (see above)."; fi
+# the last line says what nothing was held against (tests/yade/oracles.py: in CI that is an error)
+without=
+[ -x "$NONSMOOTH_BUILD/oracle/siconos_solve" ] || without=" NOT HELD: Siconos was not asked, its kept answers alone were (install libsiconos-numerics-dev)."
+if [ "$status" -eq 0 ]; then echo "All tests passed.$without"; else echo "Some tests FAILED (see above).$without"; fi
 exit "$status"

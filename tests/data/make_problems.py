@@ -13,9 +13,11 @@ import dataclasses
 import tempfile
 from pathlib import Path
 
-import h5py
 from yade import O
 from yade.nonsmooth import experiment, packing, records, results, section, slope
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from deflated import deflate
 
 EVERY = 0.5  # s of the simulation between two problems that are kept for the choice
 
@@ -48,18 +50,6 @@ def run(disks, folder):
     return times, problems
 
 
-def compress(source, target):
-    """The same datasets, each deflated: our reader and h5py notice nothing."""
-    with h5py.File(source, "r") as old, h5py.File(target, "w") as new:
-        new.attrs.update(old.attrs)
-
-        def copy(name, item):  # a walk goes on as long as this returns None
-            if isinstance(item, h5py.Dataset):
-                new.create_dataset(name, data=item[()], compression="gzip", compression_opts=9, shuffle=True)
-
-        old.visititems(copy)
-
-
 def main():
     args = arguments()
     with tempfile.TemporaryDirectory() as folder:
@@ -70,7 +60,7 @@ def main():
                 sys.exit(f"error: the slope did not reach the moment of {name}")
             last = max(t for t in problems if t < at + 0.5 * O.dt)
             target = Path(args.out) / name
-            compress(problems[last], target)
+            deflate(problems[last], target)
             print(f"{target}: t = {last:.2f} s, {target.stat().st_size / 1000:.0f} kB")
 
 

@@ -1,7 +1,8 @@
-"""Siconos solves the same contact problems (tests/oracle); skipped where it is not installed."""
+"""Siconos solves the same contact problems (tests/oracle); skipped where it is not installed, see oracles.py. tests/contact holds kept answers."""
 
 import subprocess
 from dataclasses import replace
+from pathlib import Path
 
 import docutils.core
 import numpy as np
@@ -9,10 +10,14 @@ import pytest
 from yade.nonsmooth import contact, verification
 from yade.nonsmooth.verification import Bench, disk_problems, siconos, siconos_solve
 
-try:
-    PROGRAM = siconos_solve.program()
-except siconos_solve.OracleError as missing:
-    pytest.skip(str(missing), allow_module_level=True)
+import oracles
+
+DATA = Path(__file__).resolve().parents[1] / "data"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def program(request):
+    return oracles.siconos(request.config)
 
 
 def one_contact(adhesion=0.0):
@@ -58,6 +63,25 @@ def test_random_problems_agree(tmp_path, check):
     assert outcome.passed, "\n".join(f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed)
 
 
+def kept_cluster(number):
+    """One of the twenty problems of tests/data/siconos_clusters.h5, with Siconos's answer in it; each ends with its floor."""
+    kept = contact.load(DATA / "siconos_clusters.h5")
+    ends = np.concatenate([[0], np.flatnonzero(~kept.inverse_mass.any(axis=1)) + 1])
+    bodies = slice(ends[number], ends[number + 1])
+    contacts = (kept.body[:, 0] >= bodies.start) & (kept.body[:, 0] < bodies.stop)
+    chosen = {name: value[bodies if name in ("inverse_mass", "free_velocity", "velocity", "position") else contacts]
+              for name, value in vars(kept).items() if name != "time_step"}
+    return contact.ContactProblem(**{**chosen, "time_step": kept.time_step, "body": chosen["body"] - np.int32(bodies.start)})
+
+
+@pytest.mark.parametrize("number", [0, 9, 18, 19])
+def test_kept_answers_are_what_siconos_says_today(tmp_path, number):
+    problem = kept_cluster(number)
+    answer = siconos_solve.solve_with_siconos(problem, tmp_path, 1e-13, 1000000)
+    assert np.abs(answer.velocity - problem.velocity).max() < 1e-10  # the tolerance, times 1,000 for the condition of W
+    assert len(problem.length) > number + 3
+
+
 @pytest.mark.parametrize("what", ["friction", "rolling_arm", "adhesion", "bias", "lever"])
 def test_a_law_that_is_off_by_a_thousandth_would_show(tmp_path, what):
     problem = disk_problems.random_cluster(15, 18, rolling=True, cohesion=True)
@@ -73,6 +97,6 @@ def test_derivation_is_sound_markup(check):
 
 @pytest.mark.parametrize("arguments, said", [
     ([], "usage"), (["nowhere.h5", "out.h5"], "nowhere.h5"), (["a", "b", "--tolerance", "-1"], "--tolerance"), (["a", "b", "--speed"], "--speed")])
-def test_refuses_bad_input(tmp_path, arguments, said):
-    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=tmp_path)
+def test_refuses_bad_input(program, tmp_path, arguments, said):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 2 and said in done.stderr
