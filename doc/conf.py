@@ -20,6 +20,7 @@ extensions = [
     "package_modules",  # modules of the package, from their docstrings
     "section_keys",     # keys of a section file, from the schema
     "records_columns",  # columns of series.csv, from the package
+    "measured",         # numbers and tables, from files that commands wrote
     "pictures",         # figures that a run has made, where they are there
     "checked_script",   # the README's script is the one that the tests run
 ]
@@ -27,7 +28,7 @@ extensions = [
 needs_sphinx = "5.3"
 default_role = "literal"  # `name` in the package's docstrings
 highlight_language = "none"  # code blocks name theirs
-exclude_patterns = ["ext", "figures", "examples"]
+exclude_patterns = ["ext", "figures", "measured", "examples"]
 smartquotes = False  # 'zXY' and --resume are code
 math_eqref_format = "({number})"
 

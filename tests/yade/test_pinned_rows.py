@@ -16,9 +16,9 @@ from slope_scenes import write_quick
 
 ROWS = 200
 PINNED = {
-    "slope": "",
-    "biaxial": "",
-    "column": "",
+    "slope": "b29446beebdb09daa4577c83d1a638dd43d73041f9c6ae983c0be8bdd6264f04",
+    "biaxial": "0bb495a45cb3ca32c4949ea867cf2fa91373cf26ab0b304bf92d150258b5abea",
+    "column": "ed46a5ce784f3e7a4885b3795d4ca5359b429c9f3eb96984485655f4ca8302ea",
 }
 
 
@@ -47,6 +47,7 @@ def slope_series(folder):
 def biaxial_series(folder):
     shape = pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82, friction=0.0)
     test = biaxial.Test(materials.load("wwr"), 1e6, shape, strain=biaxial.ROW_STRAIN * (ROWS + 2), sides="rigid", tolerance=1e-4, step=0.2)
+    pressing.prepare(shape, folder / "pressing")
     biaxial.run(folder, **asdict(test))
     return folder / "series.csv"
 

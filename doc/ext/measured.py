@@ -1,0 +1,66 @@
+"""Numbers and tables of documentation pages, from files that commands wrote and that are kept as doc/measured/NAME.json.
+
+``:measured:`NAME KEY[*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary), times FACTOR, as Python's FORMAT writes it.
+``.. measured-tables:: NAME`` shows the tables of a check's result.json (scripts/verify.py), or those whose title begins with the directive's text.
+A file or key that is not there is an error of the build: a page must not show what nobody measured.
+"""
+import json
+import pathlib
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+
+import rst
+
+HOME = pathlib.Path(__file__).resolve().parents[1] / "measured"
+
+
+def load(name, env):
+    env.note_dependency(str(HOME / f"{name}.json"))
+    return json.loads((HOME / f"{name}.json").read_text())
+
+
+def number(text, env):
+    """What the role's text stands for. Raises ValueError that says what is wrong."""
+    try:
+        name, key, form = text.split()
+    except ValueError:
+        raise ValueError(f"{text!r}: give NAME KEY FORMAT") from None
+    key, _, factor = key.partition("*")
+    try:
+        value = load(name, env)
+        for part in key.split("."):
+            value = value[part]
+        return format(value * float(factor or 1), form)
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{text!r}: {type(error).__name__} {error}") from None
+
+
+def role(kind, raw, text, line, inliner, options={}, content=[]):  # noqa: B006 (docutils' signature)
+    try:
+        return [nodes.Text(number(text, inliner.document.settings.env).replace("-", "\u2212"))], []
+    except ValueError as error:
+        message = inliner.reporter.error(f"measured: {error}", line=line)
+        return [inliner.problematic(raw, raw, message)], [message]
+
+
+class Tables(Directive):
+    required_arguments = 1
+    has_content = True
+
+    def run(self):
+        env, begins = self.state.document.settings.env, "\n".join(self.content)
+        chosen = [table for table in load(self.arguments[0], env)["tables"] if table[0].startswith(begins)]
+        if not chosen:
+            raise self.error(f"{self.arguments[0]}: no table begins with {begins!r}")
+        found = []
+        for title, header, rows in chosen:
+            found.append(nodes.rubric(text=title))
+            found += rst.parse(self, rst.table(header, rows, [40] + [20] * (len(header) - 1)), env.docname)
+        return found
+
+
+def setup(app):
+    app.add_role("measured", role)
+    app.add_directive("measured-tables", Tables)
+    return {"parallel_read_safe": True}
