@@ -1,5 +1,4 @@
 """What several test files share: an empty scene, commands called in this process, and the small slope's one run."""
-import os
 import runpy
 import signal
 import sys
@@ -53,3 +52,11 @@ def whole(tmp_path_factory):
 
     O.reset()
     return watched_slope.run(tmp_path_factory.mktemp("whole") / "out")
+
+
+@pytest.fixture(scope="session")
+def known(whole):
+    """The whole run's series by hand: see by_hand.Known."""
+    from by_hand import Known
+
+    return Known(whole)

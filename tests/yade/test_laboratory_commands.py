@@ -2,10 +2,9 @@
 import json
 import math
 
-import numpy as np
 import pytest
 from yade.nonsmooth import records
-from yade.nonsmooth.laboratory import calibration, campaign, effects, materials, wall_shear
+from yade.nonsmooth.laboratory import calibration, effects, materials
 
 
 def made_up(material, disks, with_residual):

@@ -138,7 +138,7 @@ def walls_of(m):
     for name, ids in m.built.walls.items():
         first, last = O.bodies[ids[0]], O.bodies[ids[-1]]
         ends = [b.state.pos + sign * b.shape.halfLength * (b.state.ori * Vector3(1, 0, 0)) for b, sign in ((first, -1), (last, 1))]
-        found[name] = [tuple(round(float(c), 6) for c in e[:2]) for e in ends]
+        found[name] = [tuple(round(float(c), 6) for c in tuple(e)[:2]) for e in ends]
     return found
 
 

@@ -67,7 +67,7 @@ def steps():
     mass = np.array([O.bodies[int(i)].state.mass for i in t["id"]])
     inertia = 0.5 * mass * t["r"] ** 2
     pieces = [i for ids in built.walls.values() for i in ids]
-    places = np.array([O.bodies[i].state.pos[:2] for i in pieces])
+    places = np.array([tuple(O.bodies[i].state.pos)[:2] for i in pieces])
     bodies = lambda: np.array([tables.bodies(solver)[name] for name in ("x", "y", "vx", "vy", "omega")])  # noqa: E731
     experiment.advance(60)
     found = []
@@ -75,7 +75,7 @@ def steps():
     for _ in range(60):
         before = bodies()
         experiment.advance()
-        on_walls = np.array([(*O.forces.f(i)[:2], O.forces.t(i)[2]) for i in pieces])
+        on_walls = np.array([(*tuple(O.forces.f(i))[:2], O.forces.t(i)[2]) for i in pieces])
         wet, _ = tables.water(built.water, first, built.count)
         lift = wet[:, None] * math.pi * (t["r"] ** 2)[:, None] / 0.82 * 9810 * math.cos(math.radians(chosen.dip)) * np.array(chosen.normal)
         counters = np.array([getattr(solver, name) for name in ("slidingLoss", "rollingLoss", "debondingLoss", "impactLoss", "externalWork", "wallWork", "correctionEnergy")])
@@ -213,12 +213,12 @@ def test_soft_forces_cancel_and_move_the_disks(damping):
         before = tables.bodies(built.solver)
         experiment.advance()
         after = tables.bodies(built.solver)
-        f, on_walls = (np.array([(*O.forces.f(int(i))[:2], O.forces.t(int(i))[2]) for i in which]) for which in (ids, pieces))
+        f, on_walls = (np.array([(*tuple(O.forces.f(int(i)))[:2], O.forces.t(int(i))[2]) for i in which]) for which in (ids, pieces))
         wet, _ = tables.water(built.water, built.first_disk, built.count)
         lift = wet[:, None] * math.pi * (r**2)[:, None] / 0.82 * 9810 * math.cos(math.radians(chosen.dip)) * n
         size = np.abs(f[:, :2]).sum()
         assert np.abs(f[:, :2].sum(0) + on_walls[:, :2].sum(0) - lift.sum(0)).max() < 1e-9 * size  # actio est reactio, to rounding
-        places, walls = np.c_[before["x"], before["y"]], np.array([O.bodies[i].state.pos[:2] for i in pieces])
+        places, walls = np.c_[before["x"], before["y"]], np.array([tuple(O.bodies[i].state.pos)[:2] for i in pieces])
         moment = cross(places, f[:, :2]).sum() + f[:, 2].sum() + cross(walls, on_walls[:, :2]).sum() + on_walls[:, 2].sum() - cross(places, lift).sum()
         assert abs(moment) < 1e-9 * size * 40  # the same, at places of some 40 m
         v0, v1 = (np.c_[t["vx"], t["vy"]] for t in (before, after))

@@ -31,8 +31,7 @@ class Watch:
         self.solver, self.water = built.solver, built.water
         self.pieces = [i for ids in built.walls.values() for i in ids]
         self.wall_of = [name for name, ids in built.walls.items() for _ in ids]
-        self.way = np.array([(O.bodies[i].state.ori * Vector3(1, 0, 0))[:2] for i in self.pieces])
-        self.place = np.array([O.bodies[i].state.pos[:2] for i in self.pieces])
+        self.way = np.array([tuple(O.bodies[i].state.ori * Vector3(1, 0, 0)) for i in self.pieces])[:, :2]
         self.first, self.count = built.first_disk, built.count
         self.newton = O.engines[-1]
         t = tables.bodies(self.solver)
@@ -55,8 +54,8 @@ class Watch:
             self.begun = self.contacts()
         losses, slip = self._of_contacts(self._last, after, O.time - began)
         self._seen.append((
-            O.iter, O.time, O.time - began, self.newton.gravity[:2], self._last, after, [(*O.forces.f(i)[:2], O.forces.t(i)[2]) for i in self.pieces],
-            water.totalForce[:2], water.height, *tables.water(water, self.first, self.count), [getattr(self.solver, name) for name in self.COUNTERS],
+            O.iter, O.time, O.time - began, tuple(self.newton.gravity)[:2], self._last, after, [(*tuple(O.forces.f(i))[:2], O.forces.t(i)[2]) for i in self.pieces],
+            tuple(water.totalForce)[:2], water.height, *tables.water(water, self.first, self.count), [getattr(self.solver, name) for name in self.COUNTERS],
             losses, slip))
         self._last = after
 
@@ -130,6 +129,8 @@ def run(folder, watched=True, **changes):
     ``changes``: fields of experiment.Experiment.
     """
     import pytest
+
+    folder.mkdir(parents=True)
 
     chosen = section.load(str(SMALL))
     built = slope.build(chosen, packing.cached_pack(chosen))
