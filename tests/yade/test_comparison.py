@@ -7,10 +7,11 @@ import os
 import shutil
 from pathlib import Path
 
+import leftovers
 import numpy as np
 import pytest
 
-from yade.nonsmooth import packing, section, slope, worlds
+from yade.nonsmooth import output_folder, packing, section, slope, worlds
 from yade.nonsmooth.benchmark import machine
 from yade.nonsmooth.comparison import (answers, biaxial_report, biaxials, cases, collapses, cost, cost_report, course, deposits, figures, losses, options,
                                        precision, report, runs, slopes, summary)
@@ -365,6 +366,10 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     gone = copy / "runs" / "soft-1e07Pa-seed1" / "result.json"
     gone.unlink()
     before = {path: path.stat().st_mtime_ns for path in copy.glob("runs/*/result.json")}
+    leftovers.plant(copy, "summary.json", "report.html", "figures/deposits.png", *(f"runs/{run}/{name}" for run in ("hard-step1-tolerance1-seed1", "soft-1e07Pa-seed1")
+                                                                                      for name in ("result.json", "t0.npz", "snapshots/00000050.npz", "checkpoint/checkpoint.json")))
+    output_folder.claim(copy, "compare_hard_soft.py", resume=True)  # as the command does
+    assert leftovers.found(copy) == []
     again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, without=course.PARTS,
                               options={"end": 1.0}, resume=True)
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()

@@ -1,4 +1,4 @@
-"""Laboratory tests: measures on made-up data with known answers, walls against eq. 4, and a small biaxial test."""
+"""Laboratory tests: the membrane, walls against eq. 4, campaigns of made-up and of small tests."""
 import dataclasses
 import json
 import math
@@ -6,12 +6,13 @@ import os
 import subprocess
 from dataclasses import asdict
 
+import leftovers
 import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import errors, processes, records, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
-from yade.nonsmooth.laboratory import bands, biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, strength, wall_shear
+from yade.nonsmooth.laboratory import biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, strength, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
@@ -21,93 +22,6 @@ def clean():
     O.reset()
     yield
     O.reset()
-
-
-# ---- curves and envelopes -------------------------------------------------------------------------
-
-def test_envelope_finds_the_line_that_touches_all_circles():
-    c, angle = 88e3, math.radians(38.5)
-    minor = np.array([0.25, 0.5, 1, 2, 4, 8, 16]) * 1e6
-    major = minor * math.tan(math.pi / 4 + angle / 2) ** 2 + 2 * c * math.tan(math.pi / 4 + angle / 2)
-    found = strength.envelope(minor, major)
-    assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(38.5, rel=1e-9)  # rounding
-    assert np.abs(found.misses).max() < 1e-12
-    assert found.strength(minor) == pytest.approx(major, rel=1e-9)
-    # circles whose line would cut the axis below zero: without cohesion the best is the mean of t/s, weighed by s/t
-    bent = strength.envelope(minor, minor * np.linspace(3.6, 4.4, 7))
-    s, t = minor * (np.linspace(3.6, 4.4, 7) + 1) / 2, minor * (np.linspace(3.6, 4.4, 7) - 1) / 2
-    assert bent.cohesion == 0 and math.sin(math.radians(bent.friction_deg)) == pytest.approx((s / t).sum() / (s**2 / t**2).sum(), rel=1e-9)
-    with pytest.raises(ValueError, match="two confining pressures"):
-        strength.envelope([1e6, 1e6], [4e6, 4.1e6])
-
-
-def made_curve(noise=0.0):
-    strain = np.arange(1, 601) * 1e-4
-    rng = np.random.default_rng(1)
-    axial = 27e6 + 8e6 * np.exp(-((strain - 0.015) / 0.006) ** 2) + noise * rng.standard_normal(len(strain))
-    # dε_v/dε₁ = 0.5 everywhere: sin ψ = 0.5/2.5
-    return {"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": 1.01 * axial, "sigma1_bottom_Pa": 0.99 * axial,
-            "sigma3_left_Pa": np.full(600, 8e6), "sigma3_right_Pa": np.full(600, 8.2e6)}
-
-
-def test_curve_measures_peak_plateau_and_dilatancy():
-    c = strength.curve(made_curve(), (0.04, 0.06))
-    assert c.peak == pytest.approx(35e6, rel=5e-3)  # the window of 0.2 % of strain takes (0.1/0.6)²/3 of the bump away
-    assert c.peak_strain == pytest.approx(0.015, abs=1e-4)
-    assert c.residual == pytest.approx(27e6, rel=1e-6) and c.residual_confining == pytest.approx(8.1e6, rel=1e-12)
-    assert c.dilatancy_deg == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9)
-    assert c.imbalance == pytest.approx(1.01 / 0.99 - 1, rel=1e-9)
-
-
-def test_a_peak_is_a_mean_over_strain_and_not_over_rows():
-    """Platens that take up their speed make rows that cover little strain; here the first ten cover 0.01 %, all others 0.01 % each."""
-    strain = np.concatenate((np.arange(1, 11) * 1e-5, np.arange(2, 101) * 1e-4))
-    stress = np.where(strain < 5.5e-4, 8.0, 2.0)  # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
-    begin, mean = strength.running_mean(strain, stress, 2e-3)
-    assert mean[0] == pytest.approx(3.5, rel=1e-12) and begin[0] == 0 and begin[-1] == pytest.approx(0.008)  # rounding
-    assert mean[-1] == pytest.approx(2.0, rel=1e-12) and len(begin) == 90
-    c = strength.curve({"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": stress, "sigma1_bottom_Pa": stress,
-                        "sigma3_left_Pa": 0 * strain, "sigma3_right_Pa": 0 * strain}, (0.005, 0.01))
-    assert (c.peak, c.peak_strain, c.residual) == pytest.approx((3.5, 1e-3, 2.0), rel=1e-12)
-
-
-def test_the_shortest_test_can_be_measured():
-    end = strength.SHORTEST - 1e-9  # a test ends once it is as near
-    short = {name: np.interp(np.linspace(1, 40, 40) / 40 * end, made_curve()["strain"], values) for name, values in made_curve().items()}
-    assert strength.curve(short, (strength.PLATEAU * strength.SHORTEST, strength.SHORTEST)).peak > 0
-
-
-def test_a_curve_without_a_plateau_is_refused():
-    short = {name: values[:300] for name, values in made_curve().items()}
-    with pytest.raises(ValueError, match="before the plateau"):
-        strength.curve(short, (0.04, 0.06))
-
-
-def test_confidence_over_seeds_is_students():
-    e = strength.Estimate.of([38.0, 39.0, 40.0])
-    assert e.mean == 39.0 and e.half_width == pytest.approx(4.3027 / math.sqrt(3), rel=1e-4)  # t(0.975, 2 degrees of freedom) has 5 digits
-    assert math.isnan(strength.Estimate.of([38.0]).half_width)
-
-
-# ---- bands ----------------------------------------------------------------------------------------
-
-def test_bands_are_found_with_their_angle_and_width():
-    rng = np.random.default_rng(2)
-    x, y = rng.uniform(0, 100, 6000), rng.uniform(0, 200, 6000)
-    r = np.full(6000, 1.0)
-    # a band of 12 m, six diameters, that rises at 60° to the right through (45, 90); and a weaker one of 10 m at −55°
-    offset = lambda deg, px, py: -math.sin(math.radians(deg)) * (x - px) + math.cos(math.radians(deg)) * (y - py)  # noqa: E731
-    rotation = 0.3 * (np.abs(offset(60, 45, 90)) < 6) - 0.2 * (np.abs(offset(-55, 50, 100)) < 5) + 0.01 * rng.standard_normal(6000)
-    left, right = bands.find(x, y, r, rotation)
-    assert left.angle_deg == pytest.approx(60, abs=3) and right.angle_deg == pytest.approx(-55, abs=3)  # a strip is 2 m wide, the band 120 m long
-    assert left.width == pytest.approx(6, abs=1) and right.width == pytest.approx(5, abs=1)  # one strip
-    assert left.rotation > 0.2 and right.rotation < -0.13
-
-
-def test_no_band_in_even_rotation():
-    rng = np.random.default_rng(3)
-    x, y = rng.uniform(0, 100, 4000), rng.uniform(0, 200, 4000)
-    assert bands.find(x, y, np.ones(4000), rng.standard_normal(4000)) == (None, None)
 
 
 # ---- the membrane ---------------------------------------------------------------------------------
@@ -341,8 +255,11 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         course.run(stop)
     course.checkpoint()
     O.reset()
+    leftovers.plant(broken, "result.json", "snapshots/begin.npz", "snapshots/2.npz", "checkpoint/checkpoint.json", "checkpoint/scene-00000900.yade")
     biaxial.run(broken, **asdict(test))
     assert (broken / "series.csv").read_bytes() == (whole / "series.csv").read_bytes()
+    names = [sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz")) for folder in (whole, broken)]
+    assert names[0] == names[1] and leftovers.found(broken) == []
     with pytest.raises(biaxial.TestError, match="other settings"):
         biaxial.Course.resume(dataclasses.replace(test, inertia=2e-4), broken)
 
@@ -359,8 +276,9 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
         assert (tmp_path / name).stat().st_size > 300
     assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.5MPa-seed1", "4MPa-seed1"]
+    leftovers.plant(tmp_path, "summary.json", "mohr.png", *(f"tests/4MPa-seed1/{name}" for name in ("result.json", "progress", "snapshots/begin.npz", "snapshots/4.npz", "vtk/disks-1.vtu")))
     again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
-    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
+    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"] and leftovers.found(tmp_path) == []
     assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau
     for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--pressing-friction", "0.1"], "add --sample pressed"), (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed")):
         refused = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=100)
