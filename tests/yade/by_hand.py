@@ -138,7 +138,8 @@ class Known:
         return np.array([int((rows[:, 8] > 0).sum()) for rows in self.watch.rows])
 
     def broken(self, mode):
-        return np.searchsorted(np.sort(self.breaks["step"][self.breaks["mode"] == mode]), self.series["step"], side="right")
+        """A break is listed with the number of steps made before its own."""
+        return np.searchsorted(np.sort(self.breaks["step"][self.breaks["mode"] == mode]), self.series["step"], side="left")
 
     def bonds_broken_tension(self):
         return self.broken("tension")

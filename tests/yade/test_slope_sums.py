@@ -49,7 +49,7 @@ def test_rows_of_the_series_and_snapshots_balance_by_themselves(whole):
         # the water's force is that of the row's last step: it may have changed by so much since the row before
         allowed = 1e-9 * weight + (np.abs(np.diff(lift[[rows[0] - 1, *rows]])) * seconds).sum()
         worst, largest = max(worst, np.abs(gained - given).max() - allowed), max(largest, np.abs(gained).max())
-    assert worst <= 0 and largest > 0.05 * weight
+    assert worst <= 0 and largest > 0.01 * weight  # N s in a tenth of a second: the slope sped up by 1 m/s² and more
 
 
 @pytest.fixture(scope="module")
@@ -142,20 +142,20 @@ def test_each_loss_is_the_work_of_its_own_impulses(steps):
 
 # ---- bonds ----------------------------------------------------------------------------------------
 
-def bonds_add_up(series, breaks, made):
-    """Bonds that hold and broken ones are the bonds made at every row, and the list of breaks has those of each mode."""
+def bonds_add_up(series, breaks, made, begun):
+    """Bonds that hold and broken ones are the bonds made at every row, and the list of breaks has those of each mode; ``begun``: steps of a break's number that are
+    counted in a row of that number, 0 or 1."""
     broken = {mode: series[f"bonds_broken_{mode}"] for mode in MODES}
-    begun = series["bonds_alive"] + sum(broken.values()) > 0
-    assert (series["bonds_alive"] + sum(broken.values()) == made)[begun].all() and begun[-1]
+    assert (series["bonds_alive"] + sum(broken.values()) == made).all()
     for mode, counts in broken.items():
         listed = breaks["step"][breaks["mode"] == mode]
-        assert [int((listed <= step).sum()) for step in series["step"]] == counts.tolist(), mode
+        assert [int((listed < step + begun).sum()) for step in series["step"]] == counts.tolist(), mode
     assert len(breaks["step"]) == made - series["bonds_alive"][-1] > 0
     assert len({*zip(breaks["disk1"].tolist(), breaks["disk2"].tolist())}) == len(breaks["step"])  # each breaks once
 
 
 def test_bonds_that_hold_and_broken_ones_are_those_made(whole):
-    bonds_add_up(whole.series, records.read_breaks(whole.folder / "breaks.csv"), whole.summary["bonds_initial"])
+    bonds_add_up(whole.series, records.read_breaks(whole.folder / "breaks.csv"), whole.summary["bonds_initial"], 0)  # rigid disks: the number of steps before the one in which it broke
 
 
 def test_breaks_are_where_and_when_bonds_were_lost(whole):
@@ -163,15 +163,15 @@ def test_breaks_are_where_and_when_bonds_were_lost(whole):
     watch, breaks = whole.watch, records.read_breaks(whole.folder / "breaks.csv")
     bonded = [{(int(a), int(b)) for a, b, *_, held in rows[:, :9] if held} for rows in watch.rows]
     for k, (before, after) in enumerate(zip(bonded, bonded[1:])):
-        between = (breaks["step"] > whole.series["step"][k]) & (breaks["step"] <= whole.series["step"][k + 1])
+        between = (breaks["step"] >= whole.series["step"][k]) & (breaks["step"] < whole.series["step"][k + 1])
         listed = {*zip(breaks["disk1"][between].tolist(), breaks["disk2"][between].tolist())}
         lost = {(max(a - watch.first, -1), b - watch.first) for a, b in before - after}
         assert lost == listed and not after - before
-    at = np.searchsorted(watch.steps.iter, breaks["step"])
+    at = np.searchsorted(watch.steps.iter, breaks["step"] + 1)
     two = breaks["disk2"]
     x, y = watch.steps.before[at, 0, two], watch.steps.before[at, 1, two]
     assert (np.hypot(breaks["x_m"] - x, breaks["y_m"] - y) < 1.2 * watch.r[two]).all()  # at the rim of the second disk, but for a gap
-    assert np.allclose(breaks["time_s"], watch.steps.time[at], atol=6e-3)  # of the step's begin or end
+    assert np.allclose(breaks["time_s"], (watch.steps.time - watch.steps.dt)[at], atol=1e-9)  # the step's begin
 
 
 # ---- springs --------------------------------------------------------------------------------------
@@ -193,7 +193,7 @@ def soft_run(tmp_path_factory):
 
 
 def test_soft_bonds_that_hold_and_broken_ones_are_those_made(soft_run):
-    bonds_add_up(*soft_run)
+    bonds_add_up(*soft_run, 1)  # springs: of steps made when it was noticed
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.2])
