@@ -31,7 +31,7 @@ def in_process(monkeypatch, capsys):
         before, status = signal.getsignal(signal.SIGINT), 0
         capsys.readouterr()
         try:
-            runpy.run_path(str(SCRIPTS / name), run_name="__main__")
+            runpy.run_path(str(SCRIPTS / name), run_name="command")  # YADE writes labels of engines into __main__
         except SystemExit as end:
             status = end.code or 0
         finally:
