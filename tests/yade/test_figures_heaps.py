@@ -18,10 +18,10 @@ def block(left, wide, high):
 
 @pytest.fixture(scope="module")
 def fallen():
-    """A block of 5 by 8 m becomes one of 10 by 4 m, both from x = 0; one disk has rolled ahead, to 30 m."""
+    """A block of 5 by 8 m becomes one of 10 by 4 m, both from x = 0; one disk has rolled ahead, to 30 m. Who was on the left is on the right."""
     (x, y), (far, low) = block(0, 5, 8), block(0, 10, 4)
     far[-1], low[-1] = 30.0, 0.5
-    return [0.5, 2.5], [(x, y), (far, low)], np.full(40, 0.5)
+    return [0.5, 2.5], [(x, y), (far[::-1], low[::-1])], np.full(40, 0.5)
 
 
 @pytest.mark.parametrize("width, unit", [(5.0, "L_0"), (None, "m")])

@@ -137,6 +137,12 @@ def test_ways_are_those_of_front_centre_and_thickness(slid):
     assert (told["centre of mass before"].get_markerfacecolor(), told["and after"].get_markerfacecolor()) == ("white", style.INK)
 
 
+def test_the_centre_of_mass_weighs_disks_by_their_area():
+    before, after = (synthetic.few([x, x + 10.0], [22.0, 32.0], r=[1.0, 3.0]) for x in (-80.0, 40.0))
+    tail, head, _, _ = drawn.arrows(figures.deposit(after, before, LEVEL).axes[0])[2]
+    assert tail == pytest.approx([-71, 31]) and head == pytest.approx([49, 31])  # nine tenths on the way to the large one
+
+
 def test_deposit_profile_measures_thickness_and_front():
     """A rectangle of disks, 20 m thick on level ground, with one disk flown far ahead."""
     gx, gy = np.meshgrid(np.arange(0.5, 200), np.arange(0.5, 20))

@@ -118,6 +118,17 @@ def test_the_strip_of_forces_has_a_cursor_at_the_time_of_the_frame(shown, files)
     assert [band[:2] for band in drawn.bands(strip)] == [(5, 50), (60, 92)]  # t2 is not known
 
 
+def test_forces_are_means_over_a_second_once_the_avalanche_moves(shown, files):
+    t = np.linspace(0, 100, 1001)
+    jumps = np.zeros(1001)
+    jumps[200], jumps[750] = 22e6, 22e6  # 20 s, before t3, and 75 s
+    told = shown(files, fps=10, series={"time_s": t, **{name: jumps for name, *_ in video.FORCES}}, times=TIMES)
+    for name, label, _ in video.FORCES:
+        force = drawn.points(drawn.line(told.fig.axes[1], label))[:, 1]
+        assert force[[199, 200, 201]].tolist() == [0, 22, 0]
+        assert force[[744, 745, 750, 755, 756]] == pytest.approx([0, 2, 2, 2, 0], abs=1e-9)  # 11 rows of 0.1 s
+
+
 def test_a_wide_and_a_tall_slope_keep_equal_scales(shown, files, tmp_path):
     tall = [records.write_snapshot(tmp_path / f"{k}.npz", **vars(synthetic.few([-1.0, 2.0], [0.0, 500.0]))) for k in range(2)]
     for paths in (files, tall):
