@@ -244,4 +244,31 @@ TEST(Manufactured, FromZeroTheSolverGetsThere)
 		}
 }
 
+/// Looks at the residual every so many sweeps, and what it takes then.
+struct Course {
+	int checkEvery, sweeps, restarts;
+};
+
+TEST(Manufactured, SweepsAndRestartsAreAsManyAsTheRuleMakes)
+{
+	const std::pair<Recipe, std::vector<Course>> cases[] = {
+		{ { 71, 25, 1.0, true }, { { 1, 164, 7 }, { 3, 171, 4 }, { 10, 230, 3 }, { 30, 570, 1 }, { 50, 750, 0 } } },
+		{ { 54, 60, 0, false }, { { 1, 91, 3 }, { 3, 114, 2 }, { 10, 180, 0 }, { 30, 180, 0 }, { 50, 200, 0 } } },
+		{ { 53, 60, 0, true }, { { 1, 202, 6 }, { 3, 225, 5 }, { 10, 340, 4 }, { 30, 510, 3 }, { 50, 850, 2 } } },
+	};
+	for (const auto& [recipe, courses] : cases)
+		for (const Course& course : courses) {
+			SCOPED_TRACE(nameOf(recipe) + ", a look every " + std::to_string(course.checkEvery));
+			Problem        p = manufactured(recipe).problem;
+			SolverSettings s;
+			s.tolerance           = 1e-10;
+			s.maxIterations       = 2000;
+			s.checkEvery          = course.checkEvery;
+			const auto statistics = solve(p, s);
+			EXPECT_TRUE(statistics.converged);
+			EXPECT_EQ(statistics.iterations, course.sweeps);
+			EXPECT_EQ(statistics.restarts, course.restarts);
+		}
+}
+
 } // namespace

@@ -81,6 +81,68 @@ TEST(Positions, AWallStandsAndADrivenOneDoesNotMove)
 	EXPECT_EQ(d[1].y, 0);
 }
 
+TEST(Positions, BondsHoldTheirErrorsTogether)
+{
+	// two bonds: d1 − d0 = 2 q1 − q2 = −e1 and d2 − d1 = 2 q2 − q1 = −e2 for masses one; one is pulled, the other pushed
+	const Scene    scene = row({ 0.01, -0.004 });
+	const double   e1 = 0.01, e2 = -0.004, q1 = -(2 * e1 + e2) / 3, q2 = -(e1 + 2 * e2) / 3;
+	SolverSettings settings;
+	for (const bool reference : { false, true }) {
+		settings.reference = reference;
+		const auto d       = displaced(scene.problem, { { e1, true }, { e2, true } }, 200, settings);
+		EXPECT_NEAR(d[0].x, -q1, 1e-12); // 200 sweeps, each a quarter of what the one before left
+		EXPECT_NEAR(d[1].x, q1 - q2, 1e-12);
+		EXPECT_NEAR(d[2].x, q2, 1e-12);
+	}
+}
+
+TEST(Positions, SweepsBeginWithTheImpulsesOfTheStepBefore)
+{
+	// none is made: what the impulses alone do, those that pull taken only where a bond holds
+	const Scene    scene = row({ -0.02, 0.01, -0.01 });
+	const double   m     = scene.mass(scene.disks[0]);
+	SolverSettings settings;
+	for (const bool reference : { false, true }) {
+		settings.reference = reference;
+		const auto d       = displaced(scene.problem, { { -0.02, false, 0.03 * m }, { 0.01, true, -0.02 * m }, { -0.01, false, -0.05 * m } }, 0, settings);
+		EXPECT_NEAR(d[0].x, -0.03, rounding);
+		EXPECT_NEAR(d[1].x, 0.03 + 0.02, rounding);
+		EXPECT_NEAR(d[2].x, -0.02, rounding);
+		EXPECT_EQ(d[3].x, 0);
+	}
+}
+
+TEST(Positions, SweepsAreExtrapolatedByNesterovsNumbers)
+{
+	// two contacts of three disks of one mass by hand, contact after contact
+	const Scene scene = row({ -0.03, 0.001 });
+	const double e[2] = { -0.03, 0.001 };
+	for (const Method method : { Method::GaussSeidel, Method::Accelerated })
+		for (const int sweeps : { 1, 2, 3, 5 })
+			for (const bool reference : { false, true }) {
+				double q[2] = {}, before[2] = {}, theta[2] = { 1, 1 };
+				for (int k = 0; k < sweeps; ++k) {
+					const double beta = method == Method::Accelerated && k > 0 ? (theta[0] - 1) / theta[1] : 0;
+					double       y[2];
+					for (int c = 0; c < 2; ++c) {
+						y[c]      = q[c] + beta * (q[c] - before[c]);
+						before[c] = q[c];
+					}
+					q[0]     = std::max(0.0, y[0] - 0.5 * (2 * y[0] - y[1] + e[0])); // W = 2 on the diagonal, −1 beside it
+					q[1]     = std::max(0.0, y[1] - 0.5 * (2 * y[1] - q[0] + e[1]));
+					theta[0] = k > 0 ? theta[1] : 1;
+					theta[1] = 0.5 * (1 + std::sqrt(1 + 4 * theta[0] * theta[0]));
+				}
+				SolverSettings settings;
+				settings.method    = method;
+				settings.reference = reference;
+				const auto d       = displaced(scene.problem, { { e[0], false }, { e[1], false } }, sweeps, settings);
+				EXPECT_NEAR(d[0].x, -q[0], rounding) << sweeps;
+				EXPECT_NEAR(d[1].x, q[0] - q[1], rounding) << sweeps;
+				EXPECT_NEAR(d[2].x, q[1], rounding) << sweeps;
+			}
+}
+
 std::vector<PositionError> errorsOf(const Problem& problem)
 {
 	std::vector<PositionError> errors;

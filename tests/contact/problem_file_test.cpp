@@ -69,6 +69,31 @@ TEST_F(ProblemFile, KeepsEveryBit)
 	EXPECT_EQ(names(), std::vector<std::string> { "step.h5" });
 }
 
+TEST_F(ProblemFile, KeepsEveryNumberOfAContactInItsPlace)
+{
+	Contact c;
+	c.i = 1, c.j = 2;
+	double number = 0.5;
+	double Contact::*const numbers[] = { &Contact::nx, &Contact::ny, &Contact::leverNi, &Contact::leverTi, &Contact::leverNj, &Contact::leverTj, &Contact::biasN,
+		                             &Contact::biasT, &Contact::biasR, &Contact::adhesion, &Contact::friction, &Contact::rollingArm, &Contact::length };
+	for (double Contact::*const x : numbers)
+		c.*x = number += 1;
+	RecordedProblem out { lattice(3, 1).problem, {}, step };
+	out.problem.contacts = { c };
+	out.problem.impulses = { { 1, 2, 3 } };
+	out.problem.velocities.resize(out.problem.bodyCount());
+	out.warmStart = { { 4, 5, 6 } };
+	write(path, out);
+	const RecordedProblem in = read(path);
+	ASSERT_EQ(in.problem.contactCount(), 1u);
+	EXPECT_EQ(in.problem.contacts[0].i, 1);
+	EXPECT_EQ(in.problem.contacts[0].j, 2);
+	for (double Contact::*const x : numbers)
+		EXPECT_EQ(in.problem.contacts[0].*x, c.*x) << "where " << c.*x << " was";
+	EXPECT_TRUE(sameBits(in.problem.impulses, out.problem.impulses));
+	EXPECT_TRUE(sameBits(in.warmStart, out.warmStart));
+}
+
 TEST_F(ProblemFile, AnEmptyProblemIsOneToo)
 {
 	write(path, { {}, {}, step });

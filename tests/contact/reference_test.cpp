@@ -78,16 +78,13 @@ TEST(Reference, AccelerationSolvesTheColdPacking)
 	const Result fast = solveCold(Method::Accelerated, 300), plain = solveCold(Method::GaussSeidel, 300);
 
 	EXPECT_EQ(fast.statistics.iterations, 300);
-	EXPECT_LE(fast.statistics.residual.relative(), 1e-4); // the engine's default tolerance
-	EXPECT_GT(fast.statistics.residual.relative(), 1e-12); // 300 sweeps cannot be exact: a residual of zero would be a broken measure
-	// LMGC90 carries 0.9985 + 0.0019; what a cold start leaves to rattlers and gaps that may still close is below 2 %
-	EXPECT_NEAR(fast.carried, 1, 0.02);
-	EXPECT_GT(fast.floor, 0.95); // the sides take some 1.5 % by friction
-
-	// targets.md has plain sweeps behind by a factor of 100 after 100 sweeps on a packing of this kind; 10 leaves room for other packings
-	EXPECT_GT(plain.statistics.residual.relative(), 10 * fast.statistics.residual.relative());
-	EXPECT_GT(plain.statistics.residual.relative(), 3e-4);
-	EXPECT_LT(plain.carried, 0.9); // and most of the weight falls freely: the creep of a loose solve
+	// sweeps are deterministic; distances are not rounded alike by every libm, which moves the last digits of a residual
+	EXPECT_NEAR(fast.statistics.residual.relative(), 7.0e-6, 0.4e-6); // below the engine's default tolerance of 1e-4
+	EXPECT_NEAR(plain.statistics.residual.relative(), 1.54e-3, 0.05e-3); // two hundred times as much
+	// LMGC90 carries 0.9985 + 0.0019; a cold start leaves some to rattlers and gaps that may still close
+	EXPECT_NEAR(fast.carried, 0.9972, 0.0005);
+	EXPECT_NEAR(fast.floor, 0.9843, 0.0005); // the sides take the rest by friction
+	EXPECT_NEAR(plain.carried, 0.522, 0.001); // nearly half of the weight falls freely: the creep of a loose solve
 
 	// what is not carried falls: Newton's law for the sum, to rounding over 15,000 contacts
 	for (const Result& r : { fast, plain })
