@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 
 from .errors import UserError
+from .whole_files import remove_parts_below
 
 __all__ = ["FolderError", "claim"]
 
@@ -20,9 +21,10 @@ class FolderError(UserError):
 
 
 def claim(folder, command, resume=False):
-    """Makes a folder for the results of ``command`` (a name) and holds it until this process ends.
+    """Makes a folder for the results of ``command`` (a name) and holds it until this process ends; what killed processes have left half-written in it goes.
 
-    Raises FolderError where nothing can be written there, where another process holds the folder, and for a ``resume`` where other commands alone have written.
+    Raises FolderError where nothing can be written there, where another process holds the folder, and for a ``resume`` where other commands alone have
+    written; WriteError where what is half-written cannot be removed.
     """
     folder = Path(folder)
     try:
@@ -32,13 +34,14 @@ def claim(folder, command, resume=False):
     except OSError as error:
         raise FolderError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out") from None
     _held[place] = lock  # open as long as the process lives: the system unlocks it, however that ends
+    alone = True
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         del _held[place]
         raise FolderError(f"{folder}: another run is writing into this folder; wait for its end, stop it, or give another with --out") from None
     except OSError:
-        pass  # a file system without locks
+        alone = False  # a file system without locks: nobody knows
     lock.seek(0)
     names = lock.read().splitlines()
     if resume and names and command not in names:
@@ -50,3 +53,5 @@ def claim(folder, command, resume=False):
             os.fsync(lock.fileno())
         except OSError as error:
             raise FolderError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out, or free some space") from None
+    if alone:
+        remove_parts_below(folder, LOCK)

@@ -4,7 +4,7 @@ Characteristic times (paper, section 6; the rules are ours):
 
 * t0: the water table begins to rise; a slope that failed before that, by its dry weight, has neither t0 nor t1 to t3;
 * t1, failure: the mean of N_FB over one second first comes within 2 % of its largest value before t2, the strength of the foot;
-  where there is no backstop, the slope begins to move (mean speed 0.2 m/s, see experiment.py);
+  where there is no backstop, the slope begins to move (mean speed 0.2 m/s, see course.py);
 * t2: D_c is reached by one per cent of the disks that fit along the dipping plane;
 * t3: the mean of T_DP over one second has fallen by 90 % of its value at t2;
 * t4: the largest kinetic energy;
@@ -44,7 +44,7 @@ def forget(folder):
 
 
 def forget_later(folder, stage, step):
-    """Removes snapshots of times that a run resumed in ``stage`` (of experiment.State) at ``step`` has not reached yet, and half-written files."""
+    """Removes snapshots of times that a run resumed in ``stage`` (of course.State) at ``step`` has not reached yet, and half-written files."""
     folder = Path(folder)
     later = [path for path in whole(folder / SNAPSHOTS, "*.npz") if path.stem.isdecimal() and int(path.stem) > step]
     _remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"))
@@ -65,14 +65,15 @@ def chosen_rows(series, state):
 
 
 def mean_of(series, name, end, span):
-    """Mean of a column over the ``span`` seconds up to ``end`` [s]."""
+    """Mean of a column over the rows of the ``span`` seconds up to ``end`` [s], a row's time; 0: that row alone. NaN where there is none."""
     t = series["time_s"]
-    chosen = (t > end - span - 1e-9) & (t <= end + 1e-9)
+    row = (t[-1] - t[0]) / max(1, len(t) - 1)  # each tells of so long before its time, which it meets to half a step
+    chosen = (t > end - max(span, row) + 0.5 * row - 1e-9) & (t <= end + 1e-9)
     return float(np.mean(series[name][chosen])) if chosen.any() else math.nan
 
 
 def characteristic_times(series, section, state) -> dict[str, float | None]:
-    """t0 … t5 [s] of a run; None for those that did not come. ``state``: the fields of experiment.State as a mapping."""
+    """t0 … t5 [s] of a run; None for those that did not come. ``state``: the fields of course.State as a mapping."""
     t = series["time_s"]
     times = dict.fromkeys(("t0", "t1", "t2", "t3", "t4", "t5"))
     if state.get("failed_dry") is not None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from .errors import UserError
 
-__all__ = ["WriteError", "beside", "remove_parts", "sync_folder", "whole", "write_arrays", "write_atomically"]
+__all__ = ["WriteError", "beside", "remove_parts", "remove_parts_below", "sync_folder", "whole", "write_arrays", "write_atomically"]
 
 PART = ".part-"  # begins the names of files that are being written
 
@@ -52,6 +52,13 @@ def remove_parts(*folders):
                 path.unlink(missing_ok=True)
             except OSError as error:
                 raise WriteError(f"{path}: left from a run that was killed, and cannot be removed ({error.strerror}); remove it") from None
+
+
+def remove_parts_below(folder, held):
+    """The same in the folder and all below it, but for hidden ones, and those with a file of the name ``held``: another process may be writing there."""
+    for path, below, _ in os.walk(folder):
+        below[:] = [name for name in below if not name.startswith(".") and not Path(path, name, held).exists()]
+        remove_parts(path)
 
 
 def sync_folder(folder):

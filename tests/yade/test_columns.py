@@ -1,17 +1,18 @@
-"""Heaps: measures and fits on made-up data, and small columns and piles in both worlds."""
+"""Heaps: rows and reports of made-up runs, and small columns and piles in both worlds."""
 import dataclasses
 import json
 import math
 import os
 import subprocess
 from dataclasses import asdict
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import errors, packing, processes, records, worlds
 from yade.nonsmooth.figures import columns as figures
-from yade.nonsmooth.heaps import column, course, grains, measures, pile, preparation, report, scaling, study
+from yade.nonsmooth.heaps import column, course, grains, pile, preparation, report, scaling, study
 from yade.wrapper import NewtonIntegrator
 
 COARSE = dict(path=0.2)
@@ -29,77 +30,45 @@ def hard(heap, tolerance=1e-3):
     return worlds.Hard(time_step=heap.time_step(**COARSE), tolerance=tolerance)
 
 
-# ---- measures ---------------------------------------------------------------------------------------
+# ---- rows and results -------------------------------------------------------------------------------
 
-def row(count, first=0.5, radius=0.5):
-    """``count`` disks side by side on y = 0, the first at x = ``first``."""
-    return first + 2 * radius * np.arange(count), np.full(count, radius), np.full(count, radius)
-
-
-def test_front_is_that_of_the_connected_mass():
-    x, y, r = row(20)
-    more = lambda *new: tuple(np.append(a, b) for a, b in zip((x, y, r), zip(*new)))  # noqa: E731
-    # a disk that has rolled ahead, a pair of them, and one in the air
-    x1, y1, r1 = more((25.0, 0.5, 0.5), (30.0, 0.5, 0.5), (31.0, 0.5, 0.5), (10.0, 7.0, 0.5))
-    mass = measures.connected(x1, y1, r1)
-    assert mass[:20].all() and not mass[20:].any()
-    assert measures.fronts(x1, r1, mass) == (0.0, 20.0)
-    # gaps of 4 % of a diameter hold the mass together, of 6 % not: TOUCH lies between
-    for gap, joined in ((0.04, True), (0.06, False)):
-        x2, y2, r2 = more((20.5 + gap, 0.5, 0.5))
-        assert measures.connected(x2, y2, r2)[-1] == joined
+def made_heap(gates, base="smooth"):
+    """What a row and a result ask of a heap."""
+    return SimpleNamespace(density=2000.0, gravity=10.0, base=base, gates=lambda: gates, place=lambda: -3.0, packing=None, disks=4, plain=lambda: {})
 
 
-def test_gaps_lists_each_pair_once():
-    x, y, r = np.array([0.0, 1.0, 0.0, 5.0]), np.array([0.0, 0.0, 1.2, 5.0]), np.array([0.5, 0.5, 0.6, 0.5])
-    i, j, gap = measures.gaps(x, y, r, 0.2)
-    assert list(zip(i, j)) == [(0, 1), (0, 2)]
-    assert gap == pytest.approx([0.0, 0.1], abs=1e-15)  # rounding
+def test_a_row_measures_the_disks_that_are_there(monkeypatch):
+    """Three disks that touch, the last one 0.02 m into the left wall at x = -3 m, and one in the air."""
+    x = -1.52 + math.sqrt(2)  # of the large one, which leans on a small one
+    table = {"x": np.array([-2.52, -1.52, x, 7.0]), "y": np.array([0.5, 0.5, 1.0, 9.0]), "r": np.array([0.5, 0.5, 1.0, 0.5]),
+             "vx": np.array([3.0, 0.0, 0.0, 0.0]), "vy": np.array([4.0, 0.0, 0.0, 2.0]), "omega": np.array([2.0, 0.0, 3.0, 0.0])}
+    monkeypatch.setattr(preparation, "disk_table", lambda stand: table)
+    scene = course.Scene(made_heap(("right",)), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
+    row, joined = scene.measure()
+    assert joined.tolist() == [True, True, True, False]
+    small, large = 2000 * math.pi * 0.25, 2000 * math.pi
+    assert row["energy_kinetic_J"] == pytest.approx(0.5 * (small * (25 + 0.5 * (0.5 * 2) ** 2) + large * 0.5 * 3**2 + small * 4), rel=1e-12)
+    assert row["energy_potential_J"] == pytest.approx(10 * (small * (0.5 + 0.5 + 9) + large), rel=1e-12)
+    assert row["centroid_x_m"] == pytest.approx((0.25 * (-2.52 - 1.52 + 7) + x) / 1.75, rel=1e-12) and row["centroid_y_m"] == pytest.approx((0.25 * 10 + 1) / 1.75, rel=1e-12)
+    assert (row["front_left_m"], row["front_m"], row["farthest_m"], row["connected_disks"]) == pytest.approx((-3.02, x + 1, 7.5, 3), rel=1e-12)
+    assert row["overlap_worst_rel"] == pytest.approx(0.02, rel=1e-9)  # of the disk's diameter, 1 m
+    two_gates = course.Scene(made_heap(("left", "right"), "rough"), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
+    assert two_gates.measure()[0]["overlap_worst_rel"] < 1e-9  # the wall is gone, and so is the floor
+    assert course.Scene(made_heap(("left",)), None, SimpleNamespace(width=10.3), SimpleNamespace(base=[])).measure()[0]["overlap_worst_rel"] == pytest.approx(0.2, rel=1e-9)
 
 
-def test_surface_and_repose_of_a_triangle():
-    """A heap of disks in rows under two lines of 20°: the tops of disks make the surface a little bumpy."""
-    slope, d = math.tan(math.radians(20)), 1.0
-    places = [(x, 0.5 + k * d) for k in range(40) for x in np.arange(-100, 100.5, d) if 0.5 + k * d + 0.5 <= slope * (100 - abs(x)) + 0.5]
-    x, y = np.array(places).T
-    r = np.full(len(x), 0.5)
-    at, height = measures.surface(x, y, r, np.ones(len(x), bool))
-    assert height.max() == pytest.approx(slope * 100, abs=1.0)  # rows are one diameter high
-    # steps of a diameter over a flank of about 100
-    assert measures.repose(at, height) == pytest.approx((20.0, 20.0), abs=0.5)
-
-
-def test_overlap_of_pairs_walls_and_glued_disks():
-    x, y, r = np.array([0.5, 1.49]), np.array([0.49, 0.5]), np.array([0.5, 0.5])
-    fixed = (np.array([2.47, 3.4]), np.array([0.5, 0.5]), np.array([0.5, 0.5]))
-    mean, worst = measures.overlap(x, y, r, [y], fixed)
-    # the pair and the glued disk overlap by 1 % and 2 %, the floor by 1 % and 0; glued disks among themselves do not count
-    pair = 1 - math.hypot(0.99, 0.01)
-    assert worst == pytest.approx(0.02, rel=1e-9) and mean == pytest.approx((pair + 0.02 + 0.01 + 0) / 4, rel=1e-9)
-
-
-# ---- fits -------------------------------------------------------------------------------------------
-
-def test_exponents_of_made_up_laws():
-    law = scaling.RUNOUT[0]
-    a = np.array([0.5, 0.7, 1.0, 1.4, 2.8, 4, 5.6, 8])
-    low, high = scaling.exponents(a, law(a), law.change)
-    assert (low.factor, low.exponent) == pytest.approx((2.5, 1.0), rel=1e-9) and (high.factor, high.exponent) == pytest.approx((3.25, 0.7), rel=1e-9)
-    assert low.exponent_95 < 1e-6 and low.points == 4
-    # noise of 5 %: the interval holds the truth in about 95 of 100 draws; below 88 or without a miss in 200 something is wrong (4 standard deviations)
-    rng = np.random.default_rng(1)
-    hits = 0
-    for _ in range(200):
-        f = scaling.fit(a[:4], law(a[:4]) * np.exp(0.05 * rng.standard_normal(4)))
-        hits += abs(f.exponent - 1) < f.exponent_95
-    assert 176 <= hits < 200
-    assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[0] is None  # two points fit any power law
-    assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[1] is not None
-    assert scaling.exponents([0.998, 0.999, 1.0, 1.001], [1, 2, 3, 4], 2.0) == (None, None)  # seeds of one aspect ratio
-    with pytest.raises(grains.HeapError, match="two or more"):
-        scaling.fit([1, 1], [2, 3])
-    with pytest.raises(grains.HeapError, match="above 0"):
-        scaling.fit([1, 2], [2, 0])
+def test_a_result_is_in_units_of_its_box():
+    """L0 = 4 m, H0 = 10 m; from -3 m the front has come to 9 m, the left one to -7 m, and 6 m of height are left."""
+    x, r = np.arange(-6.5, 8.6), np.full(16, 0.5)
+    series = {name: np.array([0.0, 1.0]) for name in course.COLUMNS} | {"front_m": np.array([1.0, 9.0]), "front_left_m": np.array([-3.0, -7.0]), "height_m": np.array([10.0, 6.0]),
+              "overlap_mean_rel": np.array([0.1, 0.3]), "overlap_worst_rel": np.array([0.6, 0.5]), "step": np.array([0, 70]), "wall_s": np.array([0.0, 2.5])}
+    found = {gates: course.Result(made_heap(gates), "hard", {}, 4.0, 10.0, series, x, r, r, np.ones(16, bool), True, 1e-3) for gates in (("right",), ("left", "right"))}
+    column_, pile_ = (found[gates].summary() for gates in found)
+    assert (column_["runout_rel"], pile_["runout_rel"]) == pytest.approx((2.0, 1.0), rel=1e-12)  # (9 + 3)/4 − 1, and half of (9 + 7)/4 − 1
+    for told in (column_, pile_):
+        assert (told["aspect"], told["final_height_rel"], told["fall_time_s"]) == pytest.approx((2.5, 1.5, 1.0), rel=1e-12)
+        assert (told["steps"], told["wall_s"], told["overlap_mean_rel"], told["overlap_worst_rel"]) == (70, 2.5, 0.2, 0.6)
+    assert len(column_["repose_deg"]) == 1 and len(pile_["repose_deg"]) == 2
 
 
 # ---- parameters -------------------------------------------------------------------------------------
@@ -328,6 +297,23 @@ def test_report_compares_exponents_with_the_published_ones(tmp_path):
     assert "a8 has 9 of 10" in report.table(found, summary) and report.counts(found) == "9 to 10 disks" and report.summarise(found)["disks_fewest"] == 9
     figures.runout({"made up": report.group(found)}, tmp_path / "runout.png")
     assert (tmp_path / "runout.png").stat().st_size > 10_000
+
+
+def test_other_fronts_have_exponents_of_their_own(monkeypatch):
+    """Rows of touching disks of 1 m that reach as far as the law says, and some disks beyond them, 0.3 m apart: they belong to fronts over larger gaps alone."""
+    law, ratios, places = scaling.RUNOUT[0], (0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 8.0), {}
+    for a in ratios:
+        x = 7.5 + np.arange(round(200 * (1 + float(law(a)))))
+        x = np.append(x, x[-1] + 1.3 * np.arange(1, 1 + round(20 * a)))
+        places[f"a{a:g}"] = ([0.0], [(x[:200], 0 * x[:200] + 0.5), (x, 0 * x + 0.5)], np.full(len(x), 0.5))
+    monkeypatch.setattr(report.study, "frames", lambda folder: places[folder])
+    found = {f"a{a:g}": {**made_run(a), "width_m": 200.0} for a in ratios} | {"moving": made_run(5.6, rested=False)}
+    fronts = {one["front"]: (one["below"], one["above"]) for one in report.by_front(found, {name: name for name in found})}
+    assert list(fronts) == [f"gaps below {g:g} % of a diameter" for g in (0.5, 1, 5, 20, 50)] + ["95 % of the mass", "99 % of the mass"]
+    near, far = fronts["gaps below 5 % of a diameter"], fronts["gaps below 50 % of a diameter"]
+    assert near == pytest.approx((1.0, 0.7), abs=0.01)  # a disk in 250
+    longer = [scaling.exponents(ratios, [float(law(a)) + 1.3 * round(20 * a) / 200 for a in ratios], 2.0)[k].exponent for k in (0, 1)]
+    assert far == pytest.approx(tuple(longer), abs=0.01) and abs(far[1] - near[1]) > 0.01
 
 
 def command(*arguments):

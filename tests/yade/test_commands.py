@@ -9,6 +9,7 @@ import subprocess
 import time
 from pathlib import Path
 
+import leftovers
 import pytest
 import slope_scenes
 from contact_scenes import material
@@ -363,11 +364,39 @@ def test_a_fresh_run_takes_all_records_of_the_old_one_away_and_nothing_else(tmp_
 
 
 def test_half_written_files_are_no_snapshots(tmp_path):
-    for name in ("00000100.npz", ".part-0123abcd-00000150.npz"):
-        (tmp_path / name).write_text("")
-    assert [path.name for path in whole_files.whole(tmp_path, "*.npz")] == ["00000100.npz"]
+    leftovers.plant(tmp_path, "00000100.npz")
+    (tmp_path / "00000100.npz").write_text("")
+    (tmp_path / "00000050.npz").write_text("")
+    assert [path.name for path in whole_files.whole(tmp_path, "*.npz")] == ["00000050.npz", "00000100.npz"]
+
+
+def test_nothing_lists_files_but_asks_for_whole_ones():
+    """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, folders of the benchmark's cache, the processor's caches."""
     package = Path(whole_files.__file__).resolve().parent
-    assert not [path for path in package.rglob("*.py") if re.search(r"\.glob\(\"\*\.npz", path.read_text())]  # all ask for whole ones
+    lists = [path.name for path in sorted([*package.rglob("*.py"), *SCRIPTS.rglob("*.py")])
+             for _ in re.findall(r"\.r?glob\(|\.iterdir\(|listdir\(|scandir\(|os\.walk\(", path.read_text())]
+    assert sorted(lists) == ["machine.py", "section.py", "states.py", *["whole_files.py"] * 3]
+
+
+def test_what_killed_processes_left_half_written_goes_with_the_claim(tmp_path):
+    names = [f"{home}{name}" for home in ("", "figures/", "runs/a/", "runs/a/snapshots/", "tests/b/vtk/") for name in ("summary.json", "00000100.npz")]
+    others = ["runs/held/00000100.npz", "runs/held/snapshots/00000100.npz", ".cache/packings/a.npz"]
+    leftovers.plant(tmp_path, *names, *others)
+    for name in names:
+        (tmp_path / name).write_text("whole")
+    (tmp_path / "runs" / "held" / output_folder.LOCK).write_text("column.py\n")  # another command's, which may be running
+    output_folder.claim(tmp_path, "compare_hard_soft.py", resume=True)
+    assert [Path(name).parent.as_posix() for name in leftovers.found(tmp_path)] == [Path(name).parent.as_posix() for name in sorted([*others, *others])]
+    assert all((tmp_path / name).read_text() == "whole" for name in names)
+    output_folder.claim(tmp_path / "runs" / "held", "column.py", resume=True)
+    assert len(leftovers.found(tmp_path)) == 2  # those of the hidden folder
+
+
+def test_a_folder_that_another_process_holds_keeps_what_it_is_writing(tmp_path):
+    output_folder.claim(tmp_path, "jiufengershan.py")
+    leftovers.plant(tmp_path, "summary.json")  # by this process
+    status, _, lines = ended(start("column.py", "--aspect", 1, "--disks", 60, "--out", tmp_path))
+    assert status == 1 and "another run is writing into this folder" in lines[-2] and len(leftovers.found(tmp_path)) == 2
 
 
 def test_a_series_without_rows_is_one_message(tmp_path, section):

@@ -5,11 +5,13 @@ import json
 import math
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
+import leftovers
 import numpy as np
 import pytest
 
-from yade.nonsmooth import packing, section, slope, worlds
+from yade.nonsmooth import output_folder, packing, section, slope, worlds
 from yade.nonsmooth.benchmark import machine
 from yade.nonsmooth.comparison import (answers, biaxial_report, biaxials, cases, collapses, cost, cost_report, course, deposits, figures, losses, options,
                                        precision, report, runs, slopes, summary)
@@ -364,6 +366,10 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     gone = copy / "runs" / "soft-1e07Pa-seed1" / "result.json"
     gone.unlink()
     before = {path: path.stat().st_mtime_ns for path in copy.glob("runs/*/result.json")}
+    leftovers.plant(copy, "summary.json", "report.html", "figures/deposits.png", *(f"runs/{run}/{name}" for run in ("hard-step1-tolerance1-seed1", "soft-1e07Pa-seed1")
+                                                                                      for name in ("result.json", "t0.npz", "snapshots/00000050.npz", "checkpoint/checkpoint.json")))
+    output_folder.claim(copy, "compare_hard_soft.py", resume=True)  # as the command does
+    assert leftovers.found(copy) == []
     again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, without=course.PARTS,
                               options={"end": 1.0}, resume=True)
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()
@@ -393,6 +399,28 @@ def test_a_column_in_both_worlds(tmp_path):
     assert 1 / 3 < found["hard"].values["front_travel_m"] / found["soft"].values["front_travel_m"] < 3
     assert found["soft"].overlap > 1e-4 > found["hard"].overlap
     assert len(found["hard"].forces) > 30 and len(found["soft"].forces) > 30
+
+
+def test_a_collapse_is_measured_from_its_records(tmp_path):
+    """The front goes 3 m, the centre of mass 3 m and 4 m; it moves while its energy is above a hundredth of the largest."""
+    series = {"time_s": [0.0, 1.0, 2.0, 3.0], "front_m": [2.0, 3.0, 4.0, 5.0], "centroid_x_m": [1.0, 2.0, 4.0, 4.0], "centroid_y_m": [5.0, 4.0, 1.0, 1.0],
+              "energy_kinetic_J": [0.0, 100.0, 2.0, 0.5], "overlap_mean_rel": [0.01, 0.02, 0.04, 0.5]}
+    places = {f"{when}_{name}": np.arange(2.0) + k + 1 for k, when in enumerate(("begin", "end")) for name in "xyr"}
+    np.savez(tmp_path / "record.npz", **{f"series_{name}": values for name, values in series.items()}, **places, pairs=np.array([[0, 1], [1, 5]]), forces=np.array([3.0, 4.0]))
+    told = {"repose_deg": [20.0, -24.0, None], "runout_rel": 1.5, "final_height_rel": 0.7, "time_s": 3.0, "rested": True, "steps": 300, "time_step_s": 0.01, "wall_s": 6.0}
+    found = collapses.PILE.measure(cases.Case("hard", "", 100, 1), tmp_path, told)
+    assert found.values == {"runout_rel": 1.5, "final_height_rel": 0.7, "front_travel_m": 3.0, "repose_deg": 22.0, "rest_s": 3.0} and found.notes == []
+    assert found.curves["front"].tolist() == [0, 1, 2, 3] and found.curves["centroid"].tolist() == pytest.approx([0, math.sqrt(2), 5, 5])
+    assert (found.overlap, found.overlap_rest) == (pytest.approx(0.03), 0.01) and found.forces == {(0, 1): 3.0, (1, 5): 4.0}
+    assert (found.cost.wall_s, found.cost.simulated_s, found.cost.rate) == pytest.approx((6.0, 3.0, 2.0)) and found.begin[0].tolist() == [1, 2] and found.end[2].tolist() == [2, 3]
+    restless = collapses.PILE.measure(cases.Case("hard", "", 100, 1), tmp_path, {**told, "rested": False, "repose_deg": [None]})
+    assert restless.values["rest_s"] is None and restless.values["repose_deg"] is None and restless.notes == ["stopped before it was at rest"]
+
+
+def test_the_overlap_of_a_snapshot_is_of_pairs_of_disks():
+    """Overlaps of 2 % of the mean diameter and none; what touches a wall does not count."""
+    made = SimpleNamespace(x=np.array([0.0, 1.47, 4.0]), y=np.zeros(3), r=np.array([0.5, 1.0, 0.5]), ci=np.array([0, 1, 2]), cj=np.array([1, 2, -1]))
+    assert biaxials._overlap(made) == pytest.approx(0.01, rel=1e-9)
 
 
 def test_the_limit_of_stiffness_is_that_of_the_heap():

@@ -1,4 +1,4 @@
-"""Laboratory tests: measures on made-up data with known answers, walls against eq. 4, and a small biaxial test."""
+"""Laboratory tests: the membrane, walls against eq. 4, campaigns of made-up and of small tests."""
 import dataclasses
 import json
 import math
@@ -6,12 +6,13 @@ import os
 import subprocess
 from dataclasses import asdict
 
+import leftovers
 import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import errors, processes, records, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
-from yade.nonsmooth.laboratory import bands, biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, strength, wall_shear
+from yade.nonsmooth.laboratory import biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, strength, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
@@ -21,93 +22,6 @@ def clean():
     O.reset()
     yield
     O.reset()
-
-
-# ---- curves and envelopes -------------------------------------------------------------------------
-
-def test_envelope_finds_the_line_that_touches_all_circles():
-    c, angle = 88e3, math.radians(38.5)
-    minor = np.array([0.25, 0.5, 1, 2, 4, 8, 16]) * 1e6
-    major = minor * math.tan(math.pi / 4 + angle / 2) ** 2 + 2 * c * math.tan(math.pi / 4 + angle / 2)
-    found = strength.envelope(minor, major)
-    assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(38.5, rel=1e-9)  # rounding
-    assert np.abs(found.misses).max() < 1e-12
-    assert found.strength(minor) == pytest.approx(major, rel=1e-9)
-    # circles whose line would cut the axis below zero: without cohesion the best is the mean of t/s, weighed by s/t
-    bent = strength.envelope(minor, minor * np.linspace(3.6, 4.4, 7))
-    s, t = minor * (np.linspace(3.6, 4.4, 7) + 1) / 2, minor * (np.linspace(3.6, 4.4, 7) - 1) / 2
-    assert bent.cohesion == 0 and math.sin(math.radians(bent.friction_deg)) == pytest.approx((s / t).sum() / (s**2 / t**2).sum(), rel=1e-9)
-    with pytest.raises(ValueError, match="two confining pressures"):
-        strength.envelope([1e6, 1e6], [4e6, 4.1e6])
-
-
-def made_curve(noise=0.0):
-    strain = np.arange(1, 601) * 1e-4
-    rng = np.random.default_rng(1)
-    axial = 27e6 + 8e6 * np.exp(-((strain - 0.015) / 0.006) ** 2) + noise * rng.standard_normal(len(strain))
-    # dε_v/dε₁ = 0.5 everywhere: sin ψ = 0.5/2.5
-    return {"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": 1.01 * axial, "sigma1_bottom_Pa": 0.99 * axial,
-            "sigma3_left_Pa": np.full(600, 8e6), "sigma3_right_Pa": np.full(600, 8.2e6)}
-
-
-def test_curve_measures_peak_plateau_and_dilatancy():
-    c = strength.curve(made_curve(), (0.04, 0.06))
-    assert c.peak == pytest.approx(35e6, rel=5e-3)  # the window of 0.2 % of strain takes (0.1/0.6)²/3 of the bump away
-    assert c.peak_strain == pytest.approx(0.015, abs=1e-4)
-    assert c.residual == pytest.approx(27e6, rel=1e-6) and c.residual_confining == pytest.approx(8.1e6, rel=1e-12)
-    assert c.dilatancy_deg == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9)
-    assert c.imbalance == pytest.approx(1.01 / 0.99 - 1, rel=1e-9)
-
-
-def test_a_peak_is_a_mean_over_strain_and_not_over_rows():
-    """Platens that take up their speed make rows that cover little strain; here the first ten cover 0.01 %, all others 0.01 % each."""
-    strain = np.concatenate((np.arange(1, 11) * 1e-5, np.arange(2, 101) * 1e-4))
-    stress = np.where(strain < 5.5e-4, 8.0, 2.0)  # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
-    begin, mean = strength.running_mean(strain, stress, 2e-3)
-    assert mean[0] == pytest.approx(3.5, rel=1e-12) and begin[0] == 0 and begin[-1] == pytest.approx(0.008)  # rounding
-    assert mean[-1] == pytest.approx(2.0, rel=1e-12) and len(begin) == 90
-    c = strength.curve({"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": stress, "sigma1_bottom_Pa": stress,
-                        "sigma3_left_Pa": 0 * strain, "sigma3_right_Pa": 0 * strain}, (0.005, 0.01))
-    assert (c.peak, c.peak_strain, c.residual) == pytest.approx((3.5, 1e-3, 2.0), rel=1e-12)
-
-
-def test_the_shortest_test_can_be_measured():
-    end = strength.SHORTEST - 1e-9  # a test ends once it is as near
-    short = {name: np.interp(np.linspace(1, 40, 40) / 40 * end, made_curve()["strain"], values) for name, values in made_curve().items()}
-    assert strength.curve(short, (strength.PLATEAU * strength.SHORTEST, strength.SHORTEST)).peak > 0
-
-
-def test_a_curve_without_a_plateau_is_refused():
-    short = {name: values[:300] for name, values in made_curve().items()}
-    with pytest.raises(ValueError, match="before the plateau"):
-        strength.curve(short, (0.04, 0.06))
-
-
-def test_confidence_over_seeds_is_students():
-    e = strength.Estimate.of([38.0, 39.0, 40.0])
-    assert e.mean == 39.0 and e.half_width == pytest.approx(4.3027 / math.sqrt(3), rel=1e-4)  # t(0.975, 2 degrees of freedom) has 5 digits
-    assert math.isnan(strength.Estimate.of([38.0]).half_width)
-
-
-# ---- bands ----------------------------------------------------------------------------------------
-
-def test_bands_are_found_with_their_angle_and_width():
-    rng = np.random.default_rng(2)
-    x, y = rng.uniform(0, 100, 6000), rng.uniform(0, 200, 6000)
-    r = np.full(6000, 1.0)
-    # a band of 12 m, six diameters, that rises at 60° to the right through (45, 90); and a weaker one of 10 m at −55°
-    offset = lambda deg, px, py: -math.sin(math.radians(deg)) * (x - px) + math.cos(math.radians(deg)) * (y - py)  # noqa: E731
-    rotation = 0.3 * (np.abs(offset(60, 45, 90)) < 6) - 0.2 * (np.abs(offset(-55, 50, 100)) < 5) + 0.01 * rng.standard_normal(6000)
-    left, right = bands.find(x, y, r, rotation)
-    assert left.angle_deg == pytest.approx(60, abs=3) and right.angle_deg == pytest.approx(-55, abs=3)  # a strip is 2 m wide, the band 120 m long
-    assert left.width == pytest.approx(6, abs=1) and right.width == pytest.approx(5, abs=1)  # one strip
-    assert left.rotation > 0.2 and right.rotation < -0.13
-
-
-def test_no_band_in_even_rotation():
-    rng = np.random.default_rng(3)
-    x, y = rng.uniform(0, 100, 4000), rng.uniform(0, 200, 4000)
-    assert bands.find(x, y, np.ones(4000), rng.standard_normal(4000)) == (None, None)
 
 
 # ---- the membrane ---------------------------------------------------------------------------------
@@ -310,6 +224,50 @@ def test_without_a_plateau_there_is_no_residual_envelope():
     assert short["friction_residual_deg"] is None and short["cohesion_residual_kPa"] is None and "no residual envelope" in short["note"]
 
 
+def test_a_campaign_sums_up_its_seeds():
+    """σ₁ = 4 σ₃ + 2 c √4: sin φ = 3/5. Cohesions of 100 and 120 kPa: 110 ± 12.706 · 10 kPa by Student's t; the residual of one seed more is 3 σ₃ and 5 σ₃."""
+    measured = [{"seed": seed, "confining_Pa": p, "sigma3_peak_Pa": 1.1 * p, "sigma1_peak_Pa": 4.4 * p + 4 * c, "sigma3_residual_Pa": 0.9 * p, "sigma1_residual_Pa": 0.9 * n * p,
+                 "residual_between_strains": (0.05, 0.1)} for seed, c, n in ((7, 100e3, 3), (3, 120e3, 5)) for p in (1e6, 4e6, 2e6)]
+    told = campaign.summarise(SMALL.material, measured, 5.0, 2)
+    angles = [math.degrees(math.asin(0.5)), math.degrees(math.asin(4 / 6))]
+    expected = {"cohesion_peak_kPa": 110.0, "cohesion_peak_95_kPa": 12.7062 * 10, "friction_peak_deg": math.degrees(math.asin(0.6)), "friction_peak_95_deg": 0.0,
+                "cohesion_residual_kPa": 0.0, "cohesion_residual_95_kPa": 0.0, "friction_residual_deg": sum(angles) / 2, "friction_residual_95_deg": 12.7062 * (angles[1] - angles[0]) / 2}
+    assert {name: told[name] for name in expected} == pytest.approx(expected, rel=1e-5, abs=1e-6)  # t has six digits
+    assert told["seeds"] == [3, 7] and told["fit_confining_Pa"] == [1e6, 4e6, 2e6] and told["tests"] is measured and (told["wall_s"], told["threads"]) == (5.0, 2)
+    assert told["misses_peak_rel"] == pytest.approx([0.0] * 3, abs=1e-9)
+    alone = campaign.summarise(SMALL.material, measured[:3], 5.0, 2)
+    assert alone["cohesion_peak_kPa"] == pytest.approx(100.0) and alone["cohesion_peak_95_kPa"] is None and alone["friction_residual_deg"] == pytest.approx(30.0)
+    assert "one confining pressure" in campaign.summarise(SMALL.material, measured[:1], 5.0, 2)["note"]
+
+
+def test_a_test_is_measured_from_its_records(tmp_path):
+    """A made-up folder: the peak at 0.6 % of strain, the plateau over the second half, bands of what has turned since the begin."""
+    test, strain = dataclasses.replace(SMALL, strain=0.06), np.arange(1, 601) * 1e-4
+    axial = np.select([np.abs(strain - 0.00605) < 0.00101, strain < 0.0301], [9e6, 6e6], 5e6)
+    known = {"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": axial, "sigma1_bottom_Pa": axial, "sigma3_left_Pa": 1.1e6 + 0 * strain, "sigma3_right_Pa": 0.9e6 + 0 * strain}
+    with records.SeriesWriter(tmp_path / "series.csv", biaxial.COLUMNS) as series:
+        for k in range(600):
+            series.write({name: float(known[name][k]) if name in known else k + 1 if name == "step" else 0 for name in biaxial.COLUMNS})
+    noted = ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s", "wall_steps_s", "sweeps_mean", "unconverged",
+             "overlap_worst_rel", "disks", "bonds", "packing_fraction")
+    (tmp_path / "result.json").write_text(json.dumps({"key": "k", "found": {name: float(k) for k, name in enumerate(noted)}}))
+    rng = np.random.default_rng(2)
+    x, y, before = rng.uniform(0, 100, 4000), rng.uniform(0, 200, 4000), rng.uniform(-3, 3, 4000)
+    band = np.abs(-math.sin(math.radians(60)) * (x - 45) + math.cos(math.radians(60)) * (y - 90)) < 6
+    zero = np.zeros(4000)
+    for name, angle in (("begin", before), ("1", before + 0.1 * band), ("end", before - 0.3 * band)):
+        records.write_snapshot(tmp_path / "snapshots" / f"{name}.npz", time_s=0.0, step=0, water_m=0.0, x=x, y=y, r=zero + 1, angle=angle, vx=zero, vy=zero, layer=zero, wet=zero > 0, released=zero > 0)
+    told = campaign.measure(test, tmp_path)
+    assert {name: told[name] for name in noted} == {name: float(k) for k, name in enumerate(noted)}
+    assert (told["confining_Pa"], told["seed"], told["residual_between_strains"]) == (1e6, 3, (0.03, 0.06))
+    assert (told["sigma1_peak_Pa"], told["strain_peak"], told["sigma3_peak_Pa"]) == pytest.approx((9e6, 0.006, 1e6), abs=1e-4)
+    assert told["sigma1_residual_Pa"] == pytest.approx(5e6 + 1e6 / 301, rel=1e-9) and told["sigma3_residual_Pa"] == pytest.approx(1e6)  # its first row is the last of the fall
+    assert told["dilatancy_deg"] == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9) and told["volumetric_strain_end"] == pytest.approx(0.03)
+    (rising, none), (late, falling) = told["bands"], told["bands_late"]  # there is none of 4 %, so the end's
+    assert none is None and late is None and rising["rotation_rad"] == pytest.approx(0.1, rel=0.1) and rising["angle_deg"] == pytest.approx(60, abs=3)
+    assert falling["rotation_rad"] == pytest.approx(-0.3, rel=0.1) and falling["angle_deg"] == pytest.approx(60, abs=3)
+
+
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
 def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_path, sides):
     test = dataclasses.replace(SMALL, sides=sides)
@@ -341,8 +299,11 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         course.run(stop)
     course.checkpoint()
     O.reset()
+    leftovers.plant(broken, "result.json", "snapshots/begin.npz", "snapshots/2.npz", "checkpoint/checkpoint.json", "checkpoint/scene-00000900.yade")
     biaxial.run(broken, **asdict(test))
     assert (broken / "series.csv").read_bytes() == (whole / "series.csv").read_bytes()
+    names = [sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz")) for folder in (whole, broken)]
+    assert names[0] == names[1] and leftovers.found(broken) == []
     with pytest.raises(biaxial.TestError, match="other settings"):
         biaxial.Course.resume(dataclasses.replace(test, inertia=2e-4), broken)
 
@@ -359,8 +320,9 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
         assert (tmp_path / name).stat().st_size > 300
     assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.5MPa-seed1", "4MPa-seed1"]
+    leftovers.plant(tmp_path, "summary.json", "mohr.png", *(f"tests/4MPa-seed1/{name}" for name in ("result.json", "progress", "snapshots/begin.npz", "snapshots/4.npz", "vtk/disks-1.vtu")))
     again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
-    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
+    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"] and leftovers.found(tmp_path) == []
     assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau
     for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--pressing-friction", "0.1"], "add --sample pressed"), (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed")):
         refused = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=100)

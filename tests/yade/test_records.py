@@ -199,6 +199,18 @@ def test_messages_name_the_file_and_the_remedy(tmp_path):
         records.read_series(tmp_path / "empty.csv")
 
 
+def test_rows_since_settled_are_those_after_stage_0():
+    series = {"step": np.arange(6), "stage": np.array([0, 0, 0, 1, 2, 2]), "x": np.arange(6.0)}
+    assert records.since_settled(series)["step"].tolist() == [3, 4, 5] and records.since_settled(series)["x"].tolist() == [3.0, 4.0, 5.0]
+    for whole in ({**series, "stage": np.zeros(6, int)}, {"step": np.arange(6)}):  # still settling; of a version without stages
+        assert records.since_settled(whole) is whole
+
+
+def test_all_losses_are_columns():
+    """Kinetic and potential energy, what water and walls do, and the correction are none."""
+    assert set(records.LOSSES) == {f"energy_{name}_J" for name in ("sliding", "rolling", "impact", "bonds")} <= set(records.COLUMNS)
+
+
 def test_every_known_column_is_documented():
     for name, column in records.COLUMNS.items():
         assert column.unit and column.description, name

@@ -1,4 +1,4 @@
-"""A slope's course: one that fails by its own weight, one of another size, forces on walls between two rows, options without sense."""
+"""A slope's course in its scene: one that fails by its own weight, what is done where the rules decide, forces on walls between two rows, options without sense."""
 
 import dataclasses
 import json
@@ -12,7 +12,7 @@ import yaml
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import experiment, packing, records, results, scales, section, slope
+from yade.nonsmooth import course, experiment, packing, records, results, section, slope
 from yade.nonsmooth.wall_forces import WallForces
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -88,60 +88,64 @@ def test_the_failure_is_found_also_where_it_comes_at_rest_or_late():
 
 
 class Stub:
-    """What the course asks of the solver and of the water, as a run would have it."""
+    """What the course asks of the solver, of the water and of a wall's material, and the names of what it has them do."""
 
-    def __init__(self, speed):
-        self.meanSpeed, self.height, self.times, self.heights, self.tolerance = speed, 1.5, [], [], 1e-6
+    def __init__(self):
+        self.height, self.times, self.heights, self.tolerance, self.contacts, self.done = 0.0, [], [], 0.0, 900, []
+
+    def bond(self):
+        self.done.append("bond")
+        return 800
+
+    def __getattr__(self, name):  # forgetEnergies, forgetSlip, forgetReleases
+        if not name.startswith("forget"):
+            raise AttributeError(name)
+        return lambda: self.done.append(name)
 
 
-@pytest.mark.parametrize("at_t0, speeds, failed", [
-    (1e-3, (1e-3, 0.25), False),         # stood, and water moves it
-    (0.15, (0.1, 0.01, 0.25), False),    # comes to rest after t0
-    (0.15, (0.17, 0.19, 0.21), True),    # never stood, and goes on
-    (0.25, (0.3, 0.4), True)])           # on the move at t0
-def test_only_a_slope_that_has_stood_fails_by_water(at_t0, speeds, failed, loaded, tmp_path, monkeypatch):
+def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
+    """The rules are tested in test_course.py; here it is that they reach the scene."""
     run = experiment.Experiment(loaded, tmp_path)
-    table = experiment.tables.bodies(loaded.solver)
+    table, saved = experiment.tables.bodies(loaded.solver), []
     monkeypatch.setattr(experiment.tables, "bodies", lambda _: table)
-    solver = run.slope.solver = Stub(at_t0)
-    run.slope.water = Stub(0.0)
-    monkeypatch.setattr(run, "snapshot", lambda *_, **__: None)
-    monkeypatch.setattr(run, "checkpoint", lambda: None)
-    s = run.state
-    s.settled, s.stage = O.time - 100.0, "dry"
-    run._dry()
-    for solver.meanSpeed in speeds:
-        s.speed_max = max(s.speed_max, solver.meanSpeed)
-        run._water()
-    assert s.moving is not None and (s.failed_dry is not None) == failed
-    assert s.water_hold == (0.0 if at_t0 >= 0.2 else 1.5)  # where it was when the slope moved
+    solver = run.slope.solver = Stub()
+    water = run.slope.water = Stub()
+    material = Stub()
+    monkeypatch.setattr(type(run.slope), "wall_material", lambda *_: material)
+    monkeypatch.setattr(run, "snapshot", lambda path, contacts=False: saved.append((path.name, contacts)))
+    monkeypatch.setattr(run, "checkpoint", lambda: saved.append(run.state.stage))
+    monkeypatch.setattr(run, "_fraction", lambda: 0.83)
+    monkeypatch.setattr(run, "section", dataclasses.replace(run.section, stages=dataclasses.replace(run.section.stages, settle=dataclasses.replace(
+        run.section.stages.settle, bond="after"))))
 
+    def decide(time, speed, height):
+        run._decide(course.Seen(time, 1e-2, speed, height))
 
-# ---- sizes ----------------------------------------------------------------------------------------
-def test_the_shipped_section_has_the_scales_that_it_had():
-    shipped = section.load("jiufengershan")
-    for s in (shipped, shipped.with_disks(3000)):
-        assert dataclasses.astuple(scales.of(s)) == (0.1, 1.0, 5.0, 0.2, 0.02, 2.0, 60.0)  # to the last bit
-
-
-@pytest.mark.parametrize("size, gravity", [(1e-3, 9.81), (1.0, 981.0), (10.0, 9.81)])
-def test_scales_of_other_slopes(size, gravity):
-    shipped = section.load("jiufengershan")
-    layers = tuple(dataclasses.replace(layer, vertices=tuple((size * x, size * y) for x, y in layer.vertices)) for layer in shipped.layers)
-    other = scales.of(dataclasses.replace(shipped, layers=layers, gravity=gravity, numerics=dataclasses.replace(shipped.numerics, time_step=1e-5)))
-    speed, time = math.sqrt(size * gravity / 9.81), math.sqrt(size * 9.81 / gravity)
-    assert (other.moving_speed, other.stopped_speed, other.going_speed, other.approach_speed) == pytest.approx((0.2 * speed, 0.02 * speed, 2 * speed, 60 * speed))
-    assert other.still_seconds == pytest.approx(5 * time)
-    for seconds, exact in ((other.row_seconds, 0.1 * time), (other.mean_seconds, time)):
-        assert 1 / 1.6 < seconds / exact < 1.6  # the largest step among 1, 2, 5, 10 is 2.5, half of it by ratio 1.58
-        assert float(f"{seconds:.0e}") == seconds and f"{seconds:.0e}"[0] in "125"
-    assert other.mean_seconds >= other.row_seconds
-
-
-def test_rows_are_no_closer_than_steps():
-    shipped = section.load("jiufengershan")
-    coarse = dataclasses.replace(shipped, numerics=dataclasses.replace(shipped.numerics, time_step=0.25))
-    assert scales.of(coarse).row_seconds == 0.25
+    run.state = course.State()
+    decide(3.0, 1e-3, 0.0)  # gravity grows until 4 s
+    assert saved == solver.done == water.done == [] and run._gravity(3.0)[1] == pytest.approx(-0.75 * 9.81) and run._gravity(5.0)[1] == -9.81
+    decide(5.0, 1e-3, 0.0)
+    assert saved == ["dry"] and solver.done == ["bond", "forgetEnergies"] and water.done == ["forgetReleases"] and material.done == ["forgetSlip"] * 3
+    assert (run.state.packing_fraction, run.state.bonds_initial, run.state.contacts_initial) == (0.83, 800, 900) and water.times == []
+    decide(8.0, 1e-3, 0.0)
+    assert saved[1:] == [("t0.npz", True), "water"] and run.state.front0 == pytest.approx(np.max(table["x"] + table["r"]), abs=20)  # but for a thousandth of the area
+    assert (water.times, water.heights, solver.tolerance) == ([8.0, 158.0], [0.0, 150.0], 0.0)
+    numerics = run.section.numerics
+    decide(20.0, 0.1, 12.0)
+    assert solver.tolerance == numerics.tolerance and water.heights == [0.0, 150.0]
+    run.state = course.noted(run.state, course.Seen(20.1, 1e-2, 0.3, 12.1), run.scales)
+    decide(20.1, 0.3, 12.1)
+    assert solver.tolerance == numerics.tolerance_moving and water.heights == [12.1]
+    decide(22.1, 0.01, 12.1)
+    assert solver.tolerance == numerics.tolerance and (water.times, water.heights) == ([10.0, 160.0], [0.0, 150.0])  # two seconds later than before
+    run.hard, run.damping = False, (0.2, 0.04)
+    run.state = course.noted(run.state, course.Seen(40.0, 1e-2, 20.0, 30.0), run.scales)
+    decide(40.0, 20.0, 30.0)
+    assert run.newton.damping == pytest.approx(0.04, rel=1e-12) and saved[3:] == []
+    decide(50.0, 0.1, 30.0)
+    assert run.newton.damping == pytest.approx(0.2 - 0.16 * 0.05, rel=1e-12)  # 0.1 of a tenth of 20 m/s
+    decide(55.0, 0.1, 30.0)
+    assert saved[3:] == [("end.npz", True)] and run.state.stage == "done"
 
 
 # ---- walls ----------------------------------------------------------------------------------------
@@ -208,7 +212,7 @@ def test_rows_hold_means_and_peaks(loaded, tmp_path):
 def test_options_without_sense(option, value, tmp_path):
     # one equals sign, so that -1 is no option
     done = subprocess.run([SCRIPT, f"{option}={value}" if option != "--threads" else "--threads", *(() if option != "--threads" else (value,)), "--out", tmp_path / "out"],
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True, timeout=600)
     assert done.returncode in (1, 2) and "Traceback" not in done.stderr and option in done.stderr.splitlines()[-1]
     assert not (tmp_path / "out").exists()
 

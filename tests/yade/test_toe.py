@@ -1,10 +1,15 @@
-"""The passive strength of a slab's toe against sums done by hand."""
+"""The passive strength of a slab's toe against sums done by hand. Needs no YADE."""
 import dataclasses
 import math
+import sys
+from pathlib import Path
 
 import pytest
-from yade.nonsmooth import results, section, toe
 
+sys.path.insert(0, str(Path(__file__).parent))
+import synthetic_slope as synthetic  # noqa: E402
+
+results, section, toe = (synthetic.load(name) for name in ("results", "section", "toe"))
 SHIPPED = section.load("jiufengershan")
 BETA = math.radians(21)
 BULK = 2500 * 0.84 * 9.81  # N/m³
@@ -44,3 +49,40 @@ def test_a_run_is_set_beside_its_toe_by_height_and_by_force():
     assert told["fb_force_at_failure_over_passive"] == pytest.approx(200e6 / found.push_N_per_m, rel=1e-12)
     stood = results._passive(SHIPPED, 0.84, None, None)
     assert stood["water_at_failure_over_passive"] is None and stood["fb_force_at_failure_over_passive"] is None
+
+
+def board(dip, volume="disk", length=400.0, thick=20.0, size=1.0):
+    """A rectangular slab on a plane that dips by ``dip`` degrees, to the left where that is negative; its foot is at (30, 7) m."""
+    b, way = math.radians(abs(dip)), 1 if dip >= 0 else -1
+    places = [(-s * math.cos(b) + n * math.sin(b), s * math.sin(b) + n * math.cos(b)) for s, n in ((0, 0), (length, 0), (length, thick), (0, thick))]
+    foot = (size * 30.0, size * 7.0)
+    layer = section.Layer("slab", "rock", tuple((foot[0] + size * way * x, foot[1] + size * y) for x, y in places))
+    return dataclasses.replace(SHIPPED, layers=(layer,), water=dataclasses.replace(SHIPPED.water, point=foot, dip=dip, volume=volume))
+
+
+@pytest.mark.parametrize("dip", [20.0, -20.0])
+@pytest.mark.parametrize("volume", ["disk", "bulk"])
+@pytest.mark.parametrize("size", [1.0, 0.01])
+def test_a_rectangular_slab_fails_where_a_quadratic_equation_says(dip, volume, size):
+    """Push and resistance are polynomials of the height h: ½ K u h² + μ u L h + P(0) − R(0) = 0."""
+    fraction, friction_deg, mu, length, thick, cohesion = 0.8, 35.0, 0.3, 400.0 * size, 20.0 * size, 20e3 * size
+    b, k = math.radians(20.0), math.tan(math.radians(45 + friction_deg / 2)) ** 2
+    bulk, lift = 2500 * fraction * 9.81, 9810 * math.cos(b) * (fraction if volume == "disk" else 1.0)
+    push = bulk * length * thick * (math.sin(b) - mu * math.cos(b))
+    resistance = k * bulk * math.cos(b) * thick**2 / 2 + 2 * cohesion * math.sqrt(k) * thick
+    p, q = mu * length / k, 2 * (resistance - push) / (k * lift)
+    height = -p + math.sqrt(p * p + q)
+    assert 0.05 * thick < height < 0.95 * thick
+    found = toe.passive(board(dip, volume, size=size), cohesion, friction_deg, fraction)
+    assert found.thickness_m == pytest.approx(thick, rel=1e-9)  # rounding of turned vertices
+    assert (found.push_dry, found.resistance_dry) == pytest.approx((push, resistance), rel=1e-8)
+    assert found.water_m == pytest.approx(height, rel=1e-7) and found.push_N_per_m == pytest.approx(push + mu * lift * length * height, rel=1e-7)
+
+
+def test_the_toe_is_the_lower_end():
+    """A slab that is thinner at its crown has its thickness where it is held, whichever way it dips."""
+    for dip in (20.0, -20.0):
+        made = board(dip)
+        wedge = dataclasses.replace(made, layers=(dataclasses.replace(made.layers[0], vertices=made.layers[0].vertices[:2] + made.layers[0].vertices[3:]),))
+        # 20 m at the foot, nothing at the crown; looked for within a hundredth of the length
+        assert toe.passive(wedge, 20e3, 35.0, 0.8).thickness_m == pytest.approx(20.0, rel=0.02)

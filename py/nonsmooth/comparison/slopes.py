@@ -68,7 +68,7 @@ def prepare(case: Case):
 
 
 def run(folder, **plain):
-    """Runs a case in the (empty) scene, its records below ``folder``; returns its experiment.State and counts as a dictionary."""
+    """Runs a case in the (empty) scene, its records below ``folder``; returns its course.State and counts as a dictionary."""
     from yade import O
 
     from .. import experiment, slope, worlds

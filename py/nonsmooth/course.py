@@ -1,0 +1,187 @@
+"""What decides the course of a slope's run: functions of the state and of what a row sees of the slope, which give the next state. Needs no YADE.
+
+Rules:
+
+* bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
+* settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
+* failed dry: the mean speed has reached 2 m/s before t0, or is 0.2 m/s then, or comes to that without having been below 0.02 m/s since. The water does not
+  rise, or no further; the slope is followed until it rests;
+* t0: the dry rest ends, the water begins to rise;
+* moving: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
+  is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
+  it falls with the speed, down to ``tolerance``. A slope that comes to rest again without having got going does not count as moving: the
+  table then goes on rising;
+* still: the slope does not move and its water table has stood at one height for 5 s: the tolerance is a quarter of ``tolerance``, since
+  nothing but the solver's error is left to move a disk, and over a minute a looser solve breaks a bond or two that bear all they can;
+* rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their distance in time, from the beginning on;
+* speeds and times in this list are those of the shipped section, and scaled for another (:mod:`.scales`);
+* with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the integrator's damping;
+* end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+__all__ = ["STAGES", "Seen", "State", "after", "care", "damping", "foreseen", "gravity_share", "keeps_frame", "noted", "next_row", "tolerance", "water_table"]
+
+STAGES = ("settle", "dry", "water")  # by their number in the series
+FRAME_ROWS = 5           # between two snapshots, for the video and the figures
+SLOW_FRACTION = 0.1      # of the largest mean speed, see above
+STILL_SHARE = 0.25       # the tolerance of a slope that is still, of itself
+# for the progress bar alone
+SETTLING, MOTION, RISE = 8.0, 55.0, 25.0  # s of a usual settling and of a usual avalanche; m of water that a usual slope bears
+
+
+@dataclass
+class State:
+    """Where the experiment stands, all of which goes into checkpoints; times in s of the simulation, None while they have not come."""
+
+    stage: str = "settle"  # settle, dry, water, done
+    settled: float | None = None
+    t0: float | None = None
+    moving: float | None = None
+    failed_dry: float | None = None  # the slope did not wait for the water
+    stood: bool = False  # at t0 or since, before it moved
+    water_hold: float | None = None
+    table: float = 0.0  # height of the water table ...
+    table_since: float = 0.0  # ... and the time since when it has been there
+    water_delay: float = 0.0  # how long the table stood still while the slope moved and came to rest again
+    front0: float | None = None
+    speed_max: float = 0.0
+    resting_since: float | None = None
+    bonds_initial: int = 0
+    contacts_initial: int = 0
+    packing_fraction: float | None = 0.0
+    frames: int = 0
+    overlap_mean_worst: float = 0.0
+    wall_s: float = 0.0
+    wall_packing_s: float = 0.0
+    wall_steps_s: float = 0.0  # of wall_s: steps alone, without records ...
+    wall_moving_s: float = 0.0  # ... and of these, the ones of the water stage
+    moving_s: float = 0.0  # ... and how much they simulated
+    first_step: int = 0
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a row sees of the slope: ``time`` [s] and length of the last ``step`` [s], mean ``speed`` [m/s], height of the ``water`` table [m], None where
+    the section has none."""
+
+    time: float
+    step: float
+    speed: float
+    water: float | None = None
+
+
+# ---- the state --------------------------------------------------------------------------------------
+def noted(state, seen, scales):
+    """The State with what counts before a row is written: whether the slope got going before the water, and its largest mean speed since it counts."""
+    failed_dry = seen.time if state.stage != "water" and state.failed_dry is None and seen.speed >= scales.going_speed else state.failed_dry
+    return replace(state, failed_dry=failed_dry, speed_max=max(state.speed_max, seen.speed) if state.stage == "water" or failed_dry is not None else 0.0)
+
+
+def after(state, seen, section, scales):
+    """The State after a row that :func:`noted` has seen: in the same stage, or in the next."""
+    return {"settle": _settle, "dry": _dry, "water": _water}[state.stage](state, seen, section, scales)
+
+
+def _settle(state, seen, section, scales):
+    stage = section.stages.settle
+    resting = seen.speed <= stage.speed_rest or _passed(seen, stage.time_max)
+    if seen.time < stage.ramp or not (resting or state.failed_dry is not None):  # one that has failed is not waited for
+        return state
+    return replace(state, stage="dry", settled=seen.time, table_since=seen.time)
+
+
+def _dry(state, seen, section, scales):
+    if not _passed(seen, state.settled + section.stages.dry):
+        return state
+    failed_dry = seen.time if state.failed_dry is None and seen.speed >= scales.moving_speed else state.failed_dry
+    state = replace(state, stage="water", t0=seen.time, failed_dry=failed_dry, stood=seen.speed < scales.stopped_speed)
+    return state if failed_dry is None else replace(state, moving=failed_dry, water_hold=0.0)
+
+
+def _water(state, seen, section, scales):
+    stages, s = section.stages, replace(state, stood=state.stood or seen.speed < scales.stopped_speed)
+    follows, rises = stages.water_hold == "motion", seen.water is not None
+    if s.moving is None and seen.speed >= scales.moving_speed:
+        s = replace(s, moving=seen.time, failed_dry=s.failed_dry if s.stood else seen.time, water_hold=seen.water if rises and (follows or not s.stood) else s.water_hold)
+    elif s.moving is not None and s.failed_dry is None and seen.speed < scales.stopped_speed and s.speed_max < scales.going_speed:
+        if rises and follows:
+            s = replace(s, water_delay=s.water_delay + (seen.time - s.moving), water_hold=None)
+        s = replace(s, moving=None)
+    if rises and s.water_hold is None and not isinstance(stages.water_hold, str) and seen.water >= stages.water_hold:
+        s = replace(s, water_hold=float(stages.water_hold))
+    resting = s.moving is not None and seen.speed < stages.end.rest_fraction * s.speed_max
+    since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
+    height = seen.water if rises else 0.0
+    over = _passed(seen, s.settled + stages.end.time) or (resting and _passed(seen, stages.end.rest_hold, since))
+    return replace(s, stage="done" if over else "water", resting_since=since, table=height, table_since=s.table_since if height == s.table else seen.time)
+
+
+def _passed(seen, time, since=0.0):
+    """Whether a row is the first at or after a time [s], to half a step."""
+    return seen.time - since >= time - 0.5 * seen.step
+
+
+# ---- what follows from it ---------------------------------------------------------------------------
+def water_table(state, section):
+    """Times [s] and heights [m] of the water table, two lists; None before t0."""
+    if state.t0 is None or section.water is None:
+        return None
+    if state.water_hold is not None:
+        return [state.t0], [state.water_hold]
+    water = section.water
+    times, heights = (list(map(float, column)) for column in zip(*water.table))
+    if water.rate:
+        span = section.stages.end.time
+        times.append(times[-1] + span)
+        heights.append(heights[-1] + water.rate * span)
+    return [state.t0 + state.water_delay + t for t in times], heights
+
+
+def care(state, seen, scales):
+    """How exactly contacts want to be computed in the water stage: (from 0 at rest to 1 on the move, whether the slope is still)."""
+    # reactions at rest depend on how the mass came to rest, so more care while it slows down
+    flowing = 0.0 if state.moving is None else min(1.0, seen.speed / (SLOW_FRACTION * state.speed_max))
+    return flowing, state.moving is None and seen.time - state.table_since >= scales.still_seconds
+
+
+def tolerance(flowing, still, numerics):
+    """Of the solver, from what :func:`care` returned."""
+    return max((STILL_SHARE if still else 1.0) * numerics.tolerance, flowing * numerics.tolerance_moving)
+
+
+def damping(flowing, rest, moving):
+    """Of the integrator with soft contacts, whose values are ``rest`` and ``moving``; ``flowing``: as :func:`care` returned it."""
+    return (1 - flowing) * rest + flowing * moving
+
+
+def gravity_share(time, settle):
+    """The part of gravity that acts at a time [s]: it grows linearly during the ramp of the settling stage."""
+    return min(1.0, time / settle.ramp) if settle.ramp > 0 else 1.0
+
+
+def next_row(time, step, seconds):
+    """Number of the row that ends next, counted from time 0, where rows are ``seconds`` apart: on the same steps after a resume."""
+    return math.floor((time + 0.5 * step) / seconds) + 1
+
+
+def keeps_frame(state, row):
+    """Whether a snapshot is taken at a row, by its number."""
+    return (state.stage != "settle" or state.failed_dry is not None) and row % FRAME_ROWS == 0
+
+
+def foreseen(state, time, section):
+    """Simulated time at which the run may end [s]: an estimate for the progress bar."""
+    stages = section.stages
+    if state.stage == "done":
+        return time
+    settled = state.settled if state.settled is not None else max(SETTLING, time)
+    if state.moving is not None:
+        return max(min(state.moving + MOTION, settled + stages.end.time), time)
+    rate = section.water.rate if section.water else 0
+    rise = RISE / rate if rate and stages.water_hold == "motion" else stages.end.time
+    return max(min(settled + stages.dry + rise + MOTION, settled + stages.end.time), time)
