@@ -3,6 +3,7 @@
 from pathlib import Path
 
 SHIPPED = Path(__file__).resolve().parents[2] / "py" / "nonsmooth" / "sections" / "jiufengershan.yaml"
+SMALL = Path(__file__).resolve().parents[1] / "data" / "small_slope.yaml"
 QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 1.5",
          "dry: 3.0": "dry: 0.5", "tolerance: 1e-6": "tolerance: 1e-4", "max_iterations: 300": "max_iterations: 60"}
 

@@ -1,175 +1,132 @@
-"""The slope's course: same bits on any number of threads and after a kill, and bad input refused before anything is lost."""
+"""The slope's command: same bits on any number of threads and after stops of all kinds, and bad input refused before anything is lost."""
 
 import json
-import os
 import shutil
-import signal
 import subprocess
-import time
-from pathlib import Path
 
-import numpy as np
 import pytest
-import slope_scenes
+from conftest import SCRIPTS
+from slope_scenes import SMALL
+from yade.nonsmooth import records, results
 
-ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "scripts" / "jiufengershan.py"
-DISKS = "400"   # coarse: enough for walls, layers and water to act
-END = "3"       # s: gravity's ramp, the dry rest, and some of the water's rise
-
-
-@pytest.fixture(scope="module")
-def section(tmp_path_factory):
-    return slope_scenes.write_quick(tmp_path_factory.mktemp("section"), strong=True)
+RECORDS = ("series.csv", "breaks.csv", "t0.npz", "end.npz")
+SLOPE = "jiufengershan.py"
 
 
-def run(section, out, *options, check=True, end=END, **kwargs):
-    done = subprocess.run([SCRIPT, "--section", section, "--disks", DISKS, "--out", out, "--end", end, *options], capture_output=True,
-                          text=True, **kwargs)
-    if check:
-        assert done.returncode == 0, done.stdout + done.stderr
-    return done
+def bytes_of(folder):
+    return {name: (folder / name).read_bytes() for name in RECORDS} | {p.name: p.read_bytes() for p in (folder / "snapshots").iterdir()}
 
 
-@pytest.fixture(scope="module")
-def unbroken(section, tmp_path_factory):
-    out = tmp_path_factory.mktemp("unbroken")
-    run(section, out, "--threads", "2")
-    return out
-
-
-def test_records_and_figures_are_there(unbroken):
-    summary = json.loads((unbroken / "summary.json").read_text())
-    assert summary["disks"] == pytest.approx(400, abs=4)  # counts of layers are rounded
-    # so few disks have hardly a bulk; where it can be measured, it is a dense packing
-    assert summary["packing_fraction"] is None or 0.80 < summary["packing_fraction"] < 0.90
-    assert summary["finished"] is False and summary["failed_dry_s"] is None and summary["times_s"]["t0"] == pytest.approx(2.0)  # 1.5 + 0.5 s
-    for name in ("series.csv", "force_chains.png", "forces.png", "snapshots.png", "energy.png", "solver.png"):
-        assert (unbroken / name).stat().st_size > 1000
-
-
-def test_one_thread_gives_the_same_bits(section, unbroken, tmp_path):
-    run(section, tmp_path, "--threads", "1", "--no-figures")
-    assert (tmp_path / "series.csv").read_bytes() == (unbroken / "series.csv").read_bytes()
+def test_one_thread_gives_the_same_bits(whole, tmp_path):
+    """The command in a process of its own, on one thread, against the run in this process, on all."""
+    done = subprocess.run([SCRIPTS / SLOPE, "--section", SMALL, "--out", tmp_path, "--threads", "1", "--no-figures"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert bytes_of(tmp_path) == bytes_of(whole.folder)
+    told = json.loads((tmp_path / "summary.json").read_text())
+    clocks = ("wall_s", "wall_packing_s", "threads")
+    assert {k: v for k, v in told.items() if k not in clocks} == {k: v for k, v in whole.summary.items() if k not in clocks} and told["threads"] == 1
+    for name in ("water_at_failure_m", "front_travel_m"):
+        assert f"{name:28s} {told[name]:.4g}\n" in done.stdout
+    assert f"finished at {records.read_series(tmp_path / 'series.csv')['time_s'][-1]:.1f} s of simulated time" in done.stdout
+    assert f"reached at {told['water_passive_m']:.1f} m of water" in done.stdout and f"failed at {told['water_at_failure_over_passive']:.2f} of that height" in done.stdout
     assert not list(tmp_path.glob("*.png")) and not (tmp_path / "vtk").exists()
-    from yade.nonsmooth import results
-    from yade.nonsmooth.section import load
-
-    made, _ = results.draw(tmp_path, load(str(section)).with_disks(int(DISKS)), json.loads((tmp_path / "summary.json").read_text()))
-    assert {"forces.png", "energy.png"} <= {path.name for path in made} and all(path.exists() for path in made)
 
 
-def test_resumed_after_an_early_end_gives_the_same_bits(section, unbroken, tmp_path):
-    run(section, tmp_path, "--no-figures", end="1.8")
-    run(section, tmp_path, "--no-figures", "--resume")
-    assert (tmp_path / "series.csv").read_bytes() == (unbroken / "series.csv").read_bytes()
+def test_figures_are_drawn_from_the_records(whole, tmp_path):
+    made, notes = results.draw(shutil.copytree(whole.folder, tmp_path / "out"), whole.section, whole.summary)
+    assert {p.name for p in made} >= {"force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png"}
+    assert all(p.stat().st_size > 1000 for p in made) and all("video" in note or "ffmpeg" in note for note in notes)
 
 
-def test_resumed_after_a_kill_gives_the_same_bits(section, unbroken, tmp_path):
-    process = subprocess.Popen([SCRIPT, "--section", section, "--disks", DISKS, "--out", tmp_path], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                               start_new_session=True)
-    series = tmp_path / "series.csv"
-    for _ in range(1200):  # killed some rows after the last checkpoint, at no particular moment
-        if series.exists() and len(series.read_bytes().splitlines()) > 23:
-            break
-        time.sleep(0.1)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
-    run(section, tmp_path, "--resume")
-    assert series.read_bytes() == (unbroken / "series.csv").read_bytes()
+def test_an_early_end_and_a_resume_give_the_same_bits(whole, in_process, tmp_path):
+    """Stopped while water acts, while the plane weakens and the table is held, while disks are released, and while it rests; each part goes on from a checkpoint."""
+    s, state = whole.series, whole.state
+    weakens = s["time_s"][(s["weakened_disks"] > 5) & (s["weakened_disks"] < 0.5 * s["weakened_disks"].max())][0]
+    released = s["time_s"][s["released_disks"] > 0.5 * s["released_disks"].max()][0]
+    stops = {"settles": 0.1, "wet": 0.5 * (state["t0"] + state["moving"]), "weakens": weakens, "released": released, "rests": state["resting_since"] + 0.1}
+    assert list(stops.values()) == sorted(stops.values())
+    words = ("--section", SMALL, "--out", tmp_path, "--no-figures")
+    for k, (name, end) in enumerate(stops.items()):
+        done = in_process(SLOPE, *words, "--end", end, *(["--resume"] if k else []))
+        assert done.status == 0 and "--resume" in done.out, done.err
+        told = json.loads((tmp_path / "checkpoint" / "checkpoint.json").read_text())["state"]
+        if name != "settles":
+            assert told["stage"] == "water" and (told["water_hold"] is not None) == (name != "wet") and (told["resting_since"] is not None) == (name == "rests"), name
+    assert s["wet_disks"][s["time_s"] < stops["wet"]][-1] > 20
+    assert in_process(SLOPE, *words, "--resume").status == 0
+    assert bytes_of(tmp_path) == bytes_of(whole.folder)
+    again = in_process(SLOPE, *words, "--resume")  # it has ended: nothing is left to do
+    assert again.status == 0 and bytes_of(tmp_path) == bytes_of(whole.folder)
 
 
-def refused(*options, **kwargs):
-    done = subprocess.run([SCRIPT, *options], capture_output=True, text=True, **kwargs)
-    assert done.returncode != 0
-    assert "Traceback" not in done.stderr, done.stderr
-    return done.stderr
+def test_a_slope_that_stands_still_is_solved_more_tightly(in_process, tmp_path):
+    """Some 1.06 s after the settling, with a table at rest; a rising one keeps the tolerance, see test_whole_slope."""
+    done = in_process(SLOPE, "--section", SMALL, "--water", 0, "--end", 2.5, "--out", tmp_path, "--no-figures")
+    assert done.status == 0, done.err
+    s = records.read_series(tmp_path / "series.csv")
+    settled = s["time_s"][s["stage"] == 0][-1]
+    late, early = s["time_s"] > settled + 1.06 + 0.04, s["time_s"] < settled + 1.06 - 0.02  # looked at once a row, 0.02 s
+    assert (s["speed_mean_m_per_s"][s["stage"] == 2] < 0.04).all() and late.sum() > 10  # else it would count as moving
+    assert set(s["tolerance"][late]) == {0.25e-4} and set(s["tolerance"][early]) == {1e-4}
+    assert (s["water_m"] == 0).all() and (s["wet_disks"] == 0).all()
 
 
-def test_resume_without_a_checkpoint(tmp_path):
-    message = refused("--disks", DISKS, "--out", tmp_path, "--resume")
+# ---- what is refused ------------------------------------------------------------------------------
+
+@pytest.fixture
+def refused(in_process):
+    """The last line that the command says before it ends with status 1."""
+
+    def call(*words):
+        done = in_process(SLOPE, *words)
+        assert done.status == 1 and "Traceback" not in done.err, done.err
+        return done.last
+
+    return call
+
+
+@pytest.fixture
+def settling(in_process, tmp_path):
+    """The folder of a run that stopped while it settled."""
+    assert in_process(SLOPE, "--section", SMALL, "--end", 0.1, "--out", tmp_path / "out").status == 0
+    return tmp_path / "out"
+
+
+def test_resume_without_a_checkpoint(refused, tmp_path):
+    message = refused("--section", SMALL, "--out", tmp_path, "--resume")
     assert "checkpoint.json" in message and "without --resume" in message
 
 
-def test_truncated_checkpoint_is_refused_and_nothing_is_lost(section, unbroken, tmp_path):
-    out = tmp_path / "copy"
-    shutil.copytree(unbroken, out)
-    scene = next((out / "checkpoint").glob("scene-*.yade"))
+def test_truncated_checkpoint_is_refused_and_nothing_is_lost(refused, settling):
+    scene = next((settling / "checkpoint").glob("scene-*.yade"))
     scene.write_bytes(scene.read_bytes()[:1000])
-    before = (out / "series.csv").read_bytes()
-    message = refused("--section", section, "--disks", DISKS, "--out", out, "--resume")
+    before = (settling / "series.csv").read_bytes()
+    message = refused("--section", SMALL, "--out", settling, "--resume")
     assert scene.name in message and "truncated" in message
-    assert (out / "series.csv").read_bytes() == before
+    assert (settling / "series.csv").read_bytes() == before
 
 
-def test_checkpoint_of_another_section(section, unbroken):
-    assert "other settings" in refused("--section", section, "--disks", "450", "--out", unbroken, "--resume")
+def test_checkpoint_of_another_section(refused, settling):
+    for words in (("--disks", 250), ("--seed", 4), ("--water", 1)):
+        assert "other settings" in refused("--section", SMALL, *words, "--out", settling, "--resume")
 
 
-def test_unwritable_output(tmp_path):
+def test_unwritable_output(refused, tmp_path):
     blocker = tmp_path / "file"
     blocker.write_text("")
-    message = refused("--disks", DISKS, "--out", blocker / "out")
+    message = refused("--section", SMALL, "--out", blocker / "out")
     assert "cannot be written" in message and "--out" in message
 
 
-def test_unreadable_packing(tmp_path):
+def test_unreadable_packing(refused, tmp_path):
     path = tmp_path / "packing.txt"
     path.write_text("1.0 2.0 0.5\n1.0 nan 0.5\n")
     message = refused("--packing", path, "--out", tmp_path / "out")
     assert "packing.txt" in message and "2" in message
 
 
-def test_unknown_key_in_the_section(tmp_path):
+def test_unknown_key_in_the_section(refused, tmp_path):
     path = tmp_path / "slope.yaml"
-    text = slope_scenes.SHIPPED.read_text()
-    path.write_text(text.replace("gravity: 9.81", "gravity: 9.81\ncolour: red"))
+    path.write_text(SMALL.read_text().replace("gravity: 9.81", "gravity: 9.81\ncolour: red"))
     message = refused("--section", path, "--out", tmp_path / "out")
-    assert "slope.yaml" in message and "colour" in message
-
-
-
-
-def test_a_slope_that_stands_still_is_solved_more_tightly(section, tmp_path):
-    """Five seconds after the settling (1.5 s), with a table at rest; a rising one keeps the tolerance."""
-    from yade.nonsmooth import records
-
-    run(section, tmp_path / "dry", "--no-figures", "--water", "0", end="7.5")
-    dry = records.read_series(tmp_path / "dry" / "series.csv")
-    settled = dry["time_s"][dry["stage"] > 0][0]
-    late = dry["time_s"] > settled + 5.1  # the rule is looked at once a row, 0.1 s
-    assert (dry["speed_mean_m_per_s"] < 0.2).all()  # else it would count as moving
-    assert set(dry["tolerance"][late]) == {0.25e-4} and set(dry["tolerance"][dry["time_s"] < settled + 4.9]) == {1e-4}
-    run(section, tmp_path / "wet", "--no-figures", end="7.5")
-    wet = records.read_series(tmp_path / "wet" / "series.csv")
-    assert (wet["tolerance"] >= 1e-4).all()
-
-
-def test_fast_disks_shorten_steps_and_rows_keep_their_distance(section, tmp_path):
-    from yade.nonsmooth import records
-
-    short = tmp_path / "short.yaml"
-    short.write_text(section.read_text().replace("path: 0.1 ", "path: 1e-4 "))
-    run(short, tmp_path / "whole", "--no-figures")
-    series = records.read_series(tmp_path / "whole" / "series.csv")
-    steps_a_second = np.diff(series["step"]) / np.diff(series["time_s"])
-    assert steps_a_second.min() > 99 and steps_a_second.max() > 120  # 100 with the section's longest step of 10 ms
-    tenths = series["time_s"] / 0.1
-    assert np.abs(tenths - np.round(tenths)).max() <= 0.5 * 1e-2 / 0.1 + 1e-6  # half a step
-    assert len(set(np.round(tenths))) == len(tenths)
-    run(short, tmp_path / "broken", "--no-figures", end="1.8")
-    run(short, tmp_path / "broken", "--no-figures", "--resume")
-    assert (tmp_path / "broken" / "series.csv").read_bytes() == (tmp_path / "whole" / "series.csv").read_bytes()
-
-
-def test_bonds_can_be_made_after_gravity_has_grown(section, unbroken, tmp_path):
-    from yade.nonsmooth import records
-
-    later = tmp_path / "later.yaml"
-    later.write_text(section.read_text().replace("    ramp: 1.0", "    bond: after\n    ramp: 1.0"))
-    run(later, tmp_path / "out", end="1.7")
-    first, usual = (json.loads((folder / "summary.json").read_text()) for folder in (tmp_path / "out", unbroken))
-    assert 300 > first["bonds_initial"] > 100 and first["bonds_initial"] != usual["bonds_initial"]  # 400 coarse disks have little more than 200 neighbours
-    series = records.read_series(tmp_path / "out" / "series.csv")
-    assert (series["bonds_alive"][series["stage"] == 0] == 0).all()
-    assert series["bonds_alive"][series["stage"] > 0][0] > 0.9 * first["bonds_initial"]
+    assert "slope.yaml" in message and "colour" in message and not (tmp_path / "out").exists()

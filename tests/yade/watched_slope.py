@@ -1,0 +1,148 @@
+"""The small slope run from its first step to its rest while every step is written down: what its records are to be recomputed from.
+
+`Watch` holds plain arrays, so tests read it after the scene has gone. SI units, per metre of thickness.
+"""
+from dataclasses import asdict
+from types import SimpleNamespace
+
+import numpy as np
+from slope_scenes import SMALL
+from yade import O
+from yade.minieigenHP import Vector3
+from yade.nonsmooth import experiment, packing, records, results, section, slope, tables
+
+DUMPED = 40  # rows between two contact problems that are kept
+
+
+class Watch:
+    """Steps and rows of an experiment while it runs.
+
+    ``steps``: arrays with a first axis of steps: ``iter``, ``time`` (at the end), ``dt``, ``gravity`` (2), ``before`` and ``after`` (columns of
+    tables.bodies: x, y, angle, vx, vy, omega; shape (6, disks)), ``walls`` (pieces, 3: force and torque on them), ``water`` (2: the force on all disks),
+    ``height``, ``wet``, ``released``, ``counters`` (:data:`COUNTERS`), ``losses`` (sliding, rolling, impact, bonds: by hand), ``slip`` (of each disk on DP).
+    ``begun``, ``rows``: the contact table after two steps and at each row, see :meth:`contacts`; ``dumps``: every :data:`DUMPED` rows the number of the row and its contact problem.
+    """
+
+    COUNTERS = ("slidingLoss", "rollingLoss", "debondingLoss", "impactLoss", "externalWork", "wallWork", "correctionEnergy", "energyError", "kineticEnergy", "potentialEnergy")
+    BODY = ("x", "y", "angle", "vx", "vy", "omega")
+
+    def __init__(self, built, folder):
+        self.folder, self.dumps = folder, []
+        self.solver, self.water = built.solver, built.water
+        self.pieces = [i for ids in built.walls.values() for i in ids]
+        self.wall_of = [name for name, ids in built.walls.items() for _ in ids]
+        self.way = np.array([tuple(O.bodies[i].state.ori * Vector3(1, 0, 0)) for i in self.pieces])[:, :2]
+        self.first, self.count = built.first_disk, built.count
+        self.newton = O.engines[-1]
+        t = tables.bodies(self.solver)
+        self.r = t["r"]
+        states = [O.bodies[int(i)].state for i in t["id"]]
+        self.mass, self.inertia = np.array([s.mass for s in states]), np.array([s.inertia[2] for s in states])
+        self._seen, self.rows = [], []
+        self._last = self._bodies()
+
+    def _bodies(self):
+        t = tables.bodies(self.solver)
+        return np.array([t[name] for name in self.BODY])
+
+    def step(self):
+        """A step of the experiment, written down."""
+        began = O.time
+        self._advance()
+        after, water = self._bodies(), self.water
+        if O.iter == 2:
+            self.begun = self.contacts()
+        losses, slip = self._of_contacts(self._last, after, O.time - began)
+        self._seen.append((
+            O.iter, O.time, O.time - began, tuple(self.newton.gravity)[:2], self._last, after, [(*tuple(O.forces.f(i))[:2], O.forces.t(i)[2]) for i in self.pieces],
+            tuple(water.totalForce)[:2], water.height, *tables.water(water, self.first, self.count), [getattr(self.solver, name) for name in self.COUNTERS],
+            losses, slip))
+        self._last = after
+
+    def contacts(self):
+        """The contact table with the lower id first and the normal from it to the other, in the order of ids."""
+        rows = np.frombuffer(self.solver.contactTable()).reshape(-1, 12).copy()
+        rows[rows[:, 0] > rows[:, 1], 5:7] *= -1
+        rows[:, :2] = np.sort(rows[:, :2], axis=1)
+        return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
+
+    def _of_contacts(self, before, after, h):
+        """What contacts dissipated in a step [J], in the order of records.LOSSES: their impulses times the mean of the relative velocities before and after it. And how
+        far each disk slipped on DP [m]."""
+        table = self.contacts()
+        n, t, torque, nx, ny, gap = table[:, 2:8].T
+        i, j = table[:, :2].astype(int).T - self.first
+        wall = i < 0  # they stand still
+        u = []
+        for x, y, _, vx, vy, w in (before, after):
+            lever_i, lever_j = (np.where(wall, 0, self.r[i]) + 0.5 * gap, self.r[j] + 0.5 * gap)
+            dx, dy, wi = (vx[j] - np.where(wall, 0, vx[i]), vy[j] - np.where(wall, 0, vy[i]), np.where(wall, 0, w[i]))
+            u.append((dx * nx + dy * ny, -dx * ny + dy * nx - w[j] * lever_j - wi * lever_i, w[j] - wi))
+        normal, sliding, rolling = (-0.5 * h * force * (a + b) for force, a, b in zip((n, t, torque), *u))
+        slip, dp = np.zeros(self.count), wall & np.isin(table[:, 0], [i for i, name in zip(self.pieces, self.wall_of) if name == "DP"]) & (n > 0)
+        np.add.at(slip, j[dp], np.abs(h * u[1][1][dp]))
+        return (sliding.sum(), rolling.sum(), normal[n >= 0].sum(), normal[n < 0].sum()), slip
+
+    def row(self, *_):
+        """Called after each row."""
+        if len(self.rows) % DUMPED == DUMPED - 1:
+            path = self.folder / f"row-{len(self.rows)}.h5"
+            self.solver.dump(str(path))
+            self.dumps.append((len(self.rows), path))
+        self.rows.append(self.contacts())
+
+    def begin(self, patch):
+        """Every step of experiments is watched from now on. ``patch``: a pytest.MonkeyPatch."""
+        self._advance = experiment.advance
+        patch.setattr(experiment, "advance", self.step)
+
+    def end(self):
+        names = ("iter", "time", "dt", "gravity", "before", "after", "walls", "water", "height", "wet", "released", "counters", "losses", "slip")
+        self.steps = SimpleNamespace(**{name: np.array(part) for name, part in zip(names, zip(*self._seen))})
+        del self._seen, self.solver, self.water, self.newton
+
+    # ---- what follows from the steps ----------------------------------------------------------
+    def counter(self, name):
+        """Of the solver after every step."""
+        return self.steps.counters[:, self.COUNTERS.index(name)]
+
+    def kinetic(self, at="after"):
+        """Kinetic energy [J] of the disks, by hand."""
+        _, _, _, vx, vy, w = np.moveaxis(getattr(self.steps, at), 1, 0)
+        return 0.5 * ((self.mass * (vx**2 + vy**2)).sum(1) + (self.inertia * w**2).sum(1))
+
+    def potential(self, at="after"):
+        """−Σ m g·x [J] with the gravity of each step, by hand."""
+        x, y, *_ = np.moveaxis(getattr(self.steps, at), 1, 0)
+        return -((self.mass * x).sum(1) * self.steps.gravity[:, 0] + (self.mass * y).sum(1) * self.steps.gravity[:, 1])
+
+    def on_walls(self, name):
+        """Normal force into a wall and shear force along it in every step [N/m], two arrays: sums over its pieces by hand."""
+        of = [k for k, wall in enumerate(self.wall_of) if wall == name]
+        f, (c, s) = self.steps.walls[:, of], self.way[of].T
+        return (f[:, :, 0] * s - f[:, :, 1] * c).sum(1), (f[:, :, 0] * c + f[:, :, 1] * s).sum(1)
+
+
+def run(folder, watched=True, **changes):
+    """The small slope until it rests, in this process: a namespace with ``folder``, ``section``, ``state``, ``series``, ``summary``, ``watch``.
+
+    ``changes``: fields of experiment.Experiment.
+    """
+    import pytest
+
+    folder.mkdir(parents=True)
+
+    chosen = section.load(str(SMALL))
+    built = slope.build(chosen, packing.cached_pack(chosen))
+    with pytest.MonkeyPatch.context() as patch:
+        watch = Watch(built, folder.parent) if watched else None
+        if watched:
+            watch.begin(patch)
+        run = experiment.Experiment(built, folder, progress=watch.row if watched else None, **changes)
+        run.run()
+        if watched:
+            watch.end()
+    state = asdict(run.state) | {"overlap_worst_ever": built.solver.overlapWorstEver}
+    summary = results.summarise(folder, chosen, state, threads=2)
+    O.reset()
+    return SimpleNamespace(folder=folder, section=chosen, state=state, series=records.read_series(folder / "series.csv"), summary=summary, watch=watch)
