@@ -168,6 +168,7 @@ class Experiment:
     def _settled(self):
         """Gravity acts, the slope rests: what has moved until now counts no longer."""
         s, solver = self.state, self.slope.solver
+        self.newton.gravity = self._gravity(O.time)  # that of the last step was the one of its begin
         s.packing_fraction = self._fraction() if s.failed_dry is None else None
         if self.section.stages.settle.bond == "after":
             s.bonds_initial, s.contacts_initial = solver.bond(), solver.contacts
