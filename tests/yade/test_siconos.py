@@ -58,6 +58,12 @@ def test_random_problems_agree(tmp_path, check):
     assert outcome.passed, "\n".join(f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed)
 
 
+@pytest.mark.parametrize("check", [siconos.siconos_packing, siconos.siconos_slope_at_failure, siconos.siconos_avalanche])
+def test_steps_of_packings_agree_in_the_quick_form(tmp_path, check):
+    outcome = check(Bench(tmp_path, quick=True))
+    assert outcome.passed, "\n".join(f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed)
+
+
 @pytest.mark.parametrize("what", ["friction", "rolling_arm", "adhesion", "bias", "lever"])
 def test_a_law_that_is_off_by_a_thousandth_would_show(tmp_path, what):
     problem = disk_problems.random_cluster(15, 18, rolling=True, cohesion=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import shutil
+from pathlib import Path
 
 import numpy as np
 
@@ -20,9 +21,8 @@ SLOPE_STEPS = (40e-3, 20e-3, 10e-3, 5e-3, 2.5e-3)
 TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7)
 TOLERANCES_MOVING = (2e-3, 2e-4, 2e-5)
 SLOPE_SEEDS = range(1, 21)  # packings to choose from
-STANDS = 1.0                # m of water that a packing must bear to be looked at
-COMPARED, BETWEEN = 10, 3   # packings that compare the defaults with the finest value of each number, and those of the values between
 STEP, TOLERANCE, TOLERANCE_MOVING = 10e-3, 1e-6, 2e-4  # of the shipped section
+SMALL = Path(__file__).resolve().parents[3] / "tests" / "data" / "small_slope.yaml"  # of the source checkout: 320 disks that do all within ten seconds of their time
 WIDTH, HEIGHT = 30.0, 60.0  # m, of the bonded sample: about 500 disks of 1 to 4 m
 SPEED, RAMP = 0.05, 4.0     # m/s of the platen in compression, and seconds in which it is reached
 PULL = 0.02                 # m/s in tension
@@ -83,12 +83,14 @@ KEEP = ("water_at_failure_m", "front_travel_m", "centroid_travel_m", "deposit_th
 
 
 def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving):
-    """The shipped section with about so many disks, until its avalanche rests."""
+    """The shipped section with about so many disks, or with ``disks`` = 0 the small section of the tests, until its avalanche rests."""
     from .. import experiment, packing, records, results, section, tables
     from .. import slope as builder
 
-    shipped = dataclasses.replace(section.load("jiufengershan").with_disks(disks), seed=seed)
-    numerics = dataclasses.replace(shipped.numerics, time_step=time_step, path=shipped.numerics.path * time_step / STEP, tolerance=tolerance, tolerance_moving=tolerance_moving, max_iterations=1000)
+    chosen = section.load("jiufengershan").with_disks(disks) if disks else section.load(str(SMALL))
+    shipped = dataclasses.replace(chosen, seed=seed)
+    numerics = dataclasses.replace(shipped.numerics, time_step=time_step, path=shipped.numerics.path * time_step / shipped.numerics.time_step, tolerance=tolerance,
+                                   tolerance_moving=tolerance_moving, max_iterations=1000)
     rock = shipped.materials["rock"]
     rock = dataclasses.replace(rock, tensile_strength=strength * rock.tensile_strength, residual_tensile_strength=strength * rock.residual_tensile_strength)
     s = dataclasses.replace(shipped, numerics=numerics, materials={**shipped.materials, "rock": rock})
@@ -275,7 +277,30 @@ PRECISION = {
 KINDS = {"compression": dict(pull=0, speed=SPEED, strain=0.002), "tension": dict(pull=1, speed=PULL, strain=0.001)}
 
 
-@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=2400, quick=None)
+@dataclasses.dataclass(frozen=True)
+class Slopes:
+    """What :func:`slope_convergence` looks at: ``disks`` and ``strength`` of :func:`slope`; values of its numbers, coarse to fine, with the default of each; packings that
+    ``compared`` default and finest, and those of the values ``between``; the water [m] that a packing must bear to be looked at (``stands``)."""
+
+    disks: int
+    strength: float
+    steps: tuple
+    step: float
+    tolerances: tuple
+    tolerance: float
+    tolerances_moving: tuple
+    moving: float
+    compared: int
+    between: int
+    stands: float
+    limits: tuple  # of the change of the water at failure and of the runout, relative
+
+
+FULL = Slopes(1000, 2.0, SLOPE_STEPS, STEP, TOLERANCES, TOLERANCE, TOLERANCES_MOVING, TOLERANCE_MOVING, 10, 3, 1.0, (0.05, 0.15))
+QUICK = Slopes(0, 1.0, (5e-3, 2.5e-3), 5e-3, (1e-4, 1e-5), 1e-4, (2e-3, 5e-4), 2e-3, 2, 2, 0.2, (0.15, 0.5))
+
+
+@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=2400, quick=15)
 def slope_convergence(bench):
     """The whole experiment of the shipped section, coarse: 1,000 disks instead of 21,000, bonds twice as strong, because layers of one to two disks
     do not bear the dry slope with those of the paper. Packings that do not bear it with these either, and move before the water has
@@ -288,55 +313,56 @@ def slope_convergence(bench):
     single disks. So a change is taken as the mean over packings, packing by packing: ten for the defaults against the finest value of each
     number, three for the values between, which show where a trend begins. (With three packings for all, the runout's mean change had a
     standard error of 9 %, which cannot tell 15 % from nothing.)
+
+    In a quick run the small section of the tests takes its place, with two packings, the default and one finer value of each number; so
+    few scatter more, and the limits are three times as wide.
     """
-    disks = 1000
+    k = QUICK if bench.quick else FULL
     # what counts most first, so that an interrupted check has something of everything
-    at = [(h, TOLERANCE, TOLERANCE_MOVING) for h in SLOPE_STEPS] + [(STEP, r, TOLERANCE_MOVING) for r in TOLERANCES]
-    at += [(STEP, TOLERANCE, r) for r in TOLERANCES_MOVING]
-    default = (STEP, TOLERANCE, TOLERANCE_MOVING)
-    compared = {default, (SLOPE_STEPS[-1], TOLERANCE, TOLERANCE_MOVING), (STEP, TOLERANCES[-1], TOLERANCE_MOVING), (STEP, TOLERANCE, TOLERANCES_MOVING[-1])}
-    case = lambda seed, h, r, m: dict(disks=disks, seed=seed, strength=2.0, time_step=h, tolerance=r, tolerance_moving=m)  # noqa: E731
-    standing, fallen = _standing(bench, lambda seed: case(seed, *default))
-    cases = [case(s, *numbers) for numbers in dict.fromkeys(at) for s in standing[:COMPARED if numbers in compared else BETWEEN]]
+    default = (k.step, k.tolerance, k.moving)
+    at = [(h, *default[1:]) for h in k.steps] + [(k.step, r, k.moving) for r in k.tolerances] + [(*default[:2], r) for r in k.tolerances_moving]
+    compared = {default, (k.steps[-1], *default[1:]), (k.step, k.tolerances[-1], k.moving), (*default[:2], k.tolerances_moving[-1])}
+    case = lambda seed, h, r, m: dict(disks=k.disks, seed=seed, strength=k.strength, time_step=h, tolerance=r, tolerance_moving=m)  # noqa: E731
+    standing, fallen = _standing(bench, k, lambda seed: case(seed, *default))
+    cases = [case(s, *numbers) for numbers in dict.fromkeys(at) for s in standing[:k.compared if numbers in compared else k.between]]
     found = run_cases(bench, slope, cases)
-    axes = (("time_step", STEP, {"tolerance": TOLERANCE, "tolerance_moving": TOLERANCE_MOVING}),
-            ("tolerance", TOLERANCE, {"time_step": STEP, "tolerance_moving": TOLERANCE_MOVING}),
-            ("tolerance_moving", TOLERANCE_MOVING, {"time_step": STEP, "tolerance": TOLERANCE}))
+    axes = (("time_step", k.step, {"tolerance": k.tolerance, "tolerance_moving": k.moving}), ("tolerance", k.tolerance, {"time_step": k.step, "tolerance_moving": k.moving}),
+            ("tolerance_moving", k.moving, {"time_step": k.step, "tolerance": k.tolerance}))
     claims, tables, failure, runout = [], [], [], []
     for quantity, name, panels, limit, why in (
-            ("water_hold_m", "water at failure", failure, 0.05,
+            ("water_hold_m", "water at failure", failure, k.limits[0],
              "which bond breaks first differs with anything that differs, by up to 6 % of the height in one packing"),
-            ("front_travel_m", "travel of the front", runout, 0.15,
+            ("front_travel_m", "travel of the front", runout, k.limits[1],
              "runs of one packing differ by 10 % and more without a trend, for collisions amplify every difference")):
         for key, default, fixed in axes:
             if quantity == "water_hold_m" and key == "tolerance_moving":
                 continue  # begins to count after the failure
             sweep = Sweep.of(cases, found, key, quantity, default, **fixed)
             panels.append((sweep, 1, f"{name} [m]"))
-            tables.append((f"{name.capitalize()}, mean of {COMPARED} packings ({BETWEEN} between default and finest)", [f"{sweep.varied} [{sweep.unit}]", f"{name} [m]", "its standard error",
+            tables.append((f"{name.capitalize()}, mean of {k.compared} packings ({k.between} between default and finest)", [f"{sweep.varied} [{sweep.unit}]", f"{name} [m]", "its standard error",
                                                                                         "change from the finest [%]"], list(sweep.rows(1))))
             mean, error = sweep.change(sweep.default, sweep.finest)
             claims.append(near(f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error), 1 + mean, 1, absolute=limit, against="the finest",
                                why=f"{why}; between packings it scatters by {100 * sweep.scatter():.0f} %"))
     keys = ("disks", "steps", "iterations_mean", "residual_p95_over_tolerance", "unconverged", "energy_error_rel", "energy_correction_rel", "overlap_worst_rel")
     tables.append(("All runs", ["seed", "time step [s]", "tolerance", "in motion", *keys],
-                   [[str(c["seed"]), *(f"{c[k]:g}" for k in ("time_step", "tolerance", "tolerance_moving")), *(f"{f[k]:.4g}" for k in keys)]
+                   [[str(c["seed"]), *(f"{c[name]:g}" for name in ("time_step", "tolerance", "tolerance_moving")), *(f"{f[key]:.4g}" for key in keys)]
                     for c, f in zip(cases, found)]))
     thin = "thin: single packings, thick: mean, dashed: the shipped section's value"
     return Outcome(claims, plots=[
-        (sheet(bench, "convergence_failure.png", "Failure of the slope, 1,000 disks", failure),
+        (sheet(bench, "convergence_failure.png", f"Failure of the slope, {found[0]['disks']:,} disks", failure),
          f"Height of the water table when the slope begins to move (mean speed 0.2 m/s); {thin}"),
-        (sheet(bench, "convergence_runout.png", "Runout of the avalanche, 1,000 disks", runout),
+        (sheet(bench, "convergence_runout.png", f"Runout of the avalanche, {found[0]['disks']:,} disks", runout),
          f"Distance that the front has gone when the avalanche rests; {thin}")], tables=tables,
         remarks=[f"Left out, as they did not stand dry: packings of seed {', '.join(map(str, fallen))}."] if fallen else [])
 
 
-def _standing(bench, case):
+def _standing(bench, kind, case):
     """Seeds of the first packings that bear the dry slope, as many as are compared, and of those that were passed over. ``case``: of a seed."""
     seeds, standing, fallen = list(SLOPE_SEEDS), [], []
-    while seeds and len(standing) < COMPARED:
-        lacking = COMPARED - len(standing)
+    while seeds and len(standing) < kind.compared:
+        lacking = kind.compared - len(standing)
         now, seeds = seeds[:lacking], seeds[lacking:]
         for seed, found in zip(now, run_cases(bench, slope, [case(s) for s in now])):
-            (standing if found["water_hold_m"] is not None and found["water_hold_m"] > STANDS else fallen).append(seed)
+            (standing if found["water_hold_m"] is not None and found["water_hold_m"] > kind.stands else fallen).append(seed)
     return standing, fallen

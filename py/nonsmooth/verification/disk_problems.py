@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -9,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..contact import ContactProblem
 
-__all__ = ["of_disks", "random_cluster"]
+__all__ = ["below", "of_disks", "random_cluster"]
 
 
 def of_disks(x, y, r, walls=(), *, inverse_mass=None, free_velocity=None, density=2500.0, gravity=9.81, time_step=5e-3, reach=0.05,
@@ -57,6 +58,14 @@ def of_disks(x, y, r, walls=(), *, inverse_mass=None, free_velocity=None, densit
         body=np.vstack(body).astype(np.int32), normal=np.vstack(normal), lever=np.vstack(lever), bias=bias, adhesion=np.zeros(len(gap)),
         friction=np.full(len(gap), float(friction)), rolling_arm=rolling * length, length=length, warm_start=np.zeros((len(gap), 3)),
         impulse=np.zeros((len(gap), 3)), position=places)
+
+
+def below(problem, height) -> ContactProblem:
+    """The problem with the contacts alone whose disks have their centres below a height [m]."""
+    moves = problem.inverse_mass.any(axis=1)
+    kept = np.all((problem.position[problem.body, 1] < height) | ~moves[problem.body], axis=1)
+    own = {field.name for field in dataclasses.fields(problem)} - {"time_step", "inverse_mass", "free_velocity", "velocity", "position"}
+    return dataclasses.replace(problem, **{name: getattr(problem, name)[kept] for name in own})
 
 
 def random_cluster(seed, disks, *, rolling=False, cohesion=False) -> ContactProblem:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 from matplotlib.figure import Figure
 
 from .. import contact
+from . import disk_problems, sweep_methods
 from . import lmgc90_packing as lp
-from . import sweep_methods
 from .claims import Outcome, at_least, at_most, between, near
 from .registry import check
 
@@ -92,14 +90,6 @@ def _side_by_side(curves):
     return figure, "Residual against work. A point is a look at the residual, every ten sweeps."
 
 
-def _below(problem, height):
-    """The problem with the contacts alone whose disks have their centres below a height [m]."""
-    moves = problem.inverse_mass.any(axis=1)
-    kept = np.all((problem.position[problem.body, 1] < height) | ~moves[problem.body], axis=1)
-    own = {field.name for field in dataclasses.fields(problem)} - {"time_step", "inverse_mass", "free_velocity", "velocity", "position"}
-    return dataclasses.replace(problem, **{name: getattr(problem, name)[kept] for name in own})
-
-
 def _sweeps_to_carry(problem, weight, method, step, most):
     """Sweeps from zero impulses until walls and floor first bear ``weight`` [N s]; infinite where they do not."""
     start, goes_on = "cold", method == "gaussSeidel"  # an accelerated sweep remembers those before it, so each look begins anew
@@ -129,7 +119,7 @@ def sweeps_by_thickness(bench):
     found, rows = {}, []
     for share in (1 / 8, 1 / 4, 1 / 2, 1)[: 3 if bench.quick else 4]:
         bench.progress(f"{share:g} of the height")
-        part = problem if share == 1 else _below(problem, floor + share * height)
+        part = problem if share == 1 else disk_problems.below(problem, floor + share * height)
         layers = share * height / diameter
         weight = 0.99 * lp.carried(part, contact.solve(part, start="cold", tolerance=1e-6, max_iterations=50_000, check_every=50).impulse)
         found[layers] = (_sweeps_to_carry(part, weight, "accelerated", 5, 500), _sweeps_to_carry(part, weight, "gaussSeidel", 50, 10_000))
