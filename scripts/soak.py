@@ -12,7 +12,7 @@ import argparse
 import json
 from pathlib import Path
 
-from yade.nonsmooth import errors, output_folder
+from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.benchmark import machine
 from yade.nonsmooth.laboratory import arguments
 from yade.nonsmooth.verification import soak
@@ -56,7 +56,4 @@ def main():
     print("nothing grew")
 
 
-try:
-    main()
-except errors.UserError as error:
-    sys.exit(f"error: {error}")
+commands.run(main)

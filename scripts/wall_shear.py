@@ -35,7 +35,6 @@ def read_arguments():
 def main():
     args = read_arguments()
     out = Path(args.out)
-    output_folder.claim(out, "wall_shear.py", args.resume)
     chosen = []
     for name in args.material:
         m = materials.load(name)
@@ -46,6 +45,7 @@ def main():
         if m.bonded and not m.tensile_strength > 0:
             raise errors.UserError(f"--bonded with {name}: its tensile strength is 0, so such bonds bear nothing; add --tensile-strength KPA")
         chosen.append(m)
+    output_folder.claim(out, "wall_shear.py", args.resume)
     groups = [[wall_shear.Test(m, 1e6 * p, seed) for p in args.pressures] for m in chosen for seed in args.seeds]
     with arguments.bar() as progress:
         slides = wall_shear.run([t for group in groups for t in group], out, args.threads, args.resume, progress)

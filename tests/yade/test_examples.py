@@ -1,4 +1,5 @@
 """The pairs of example scripts: a soft YADE script and its Contact Dynamics twin, and what each lesson shows."""
+import json
 import math
 import os
 import re
@@ -215,3 +216,51 @@ def test_hard_slope_fails_at_the_water_of_statics_and_stands_where_it_is_rough(t
     dry = output("hard_slope.py", tmp_path, seconds=3, friction=1.0)
     assert "statics: the slab stands even" in dry and "\nthe slab stands\n" in dry
     assert abs(number(dry, "travel of the front [m]")) < 1e-3
+
+
+def test_soft_slope_fails_at_the_water_of_statics_too(tmp_path):
+    text = output("soft_slope.py", tmp_path, young=1e8, dt=1e-3, rate=1.5, seconds=3)
+    asked, failed = number(text, "water at failure by statics [m]"), number(text, "water at failure [m]")
+    # it moves when the third row is wet, and water that rises at 1.5 m/s takes half a second or less, 0.8 m, until it has moved by 2 cm
+    assert asked < failed < asked + 0.8
+    assert number(text, "travel of the front [m]") > 0.02
+
+
+def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):
+    """One of eight runs is made, the others are those of an earlier call; the table and the figure have all."""
+    header, line = "# t centroid largest", "{:.1f} {:.3f} {:.3f}"
+    curves = {}
+    for case, joint in (("dry", "0.6 0"), ("water", "0.65 0.5")):
+        for k, (model, names, numbers) in enumerate((("hard", "", ""), ("soft", "", ""), ("soft_100MPa", " young dt", " 100000000.0 0.001"), ("soft_damping_0.02", " damping", " 0.02"))):
+            key = f"{case}_{model}"
+            if key == "dry_hard":
+                continue
+            curves[key] = rate = 0.5 * (k + 1) + 4 * (case == "water")  # mm/s
+            (tmp_path / f"{key}.table").write_text(f"seconds friction water{names} save\n2.0 {joint}{numbers} '{key}.part'\n")
+            (tmp_path / f"{key}.txt").write_text("\n".join([header, *(line.format(0.1 * n, 0.1 * n * rate, 0.2 * n * rate) for n in range(1, 21))]) + "\n")
+    (tmp_path / ".run").write_text("wedge.py\n")
+    done = in_process("wedge.py", "--seconds", 2, "--resume", "--out", tmp_path)
+    assert done.status == 0, done.err
+    runs = {f"{r['case']}_{r['model']}": r for r in json.loads((tmp_path / "summary.json").read_text())["runs"]}
+    assert list(runs) == [f"{case}_{model}" for case in ("dry", "water") for model in ("hard", "soft", "soft_100MPa", "soft_damping_0.02")]
+    for key, rate in curves.items():
+        found = [runs[key][name] for name in ("displacement_mm", "largest_mm", "creep_mm_per_min")]
+        assert found == pytest.approx([2 * rate, 4 * rate, 60 * rate], abs=0.06)  # three digits in the file, a line through ten of its points
+    assert abs(runs["dry_hard"]["displacement_mm"]) < 0.01 and (tmp_path / "dry_hard.txt").exists()  # it stands
+    assert (tmp_path / "wedge.png").stat().st_size > 10_000 and "dry     hard" in done.out
+
+
+def test_the_block_of_the_front_page_slides_as_it_says(tmp_path):
+    """README.md: in the first second it gains 3.2 m/s, which is g (sin 30° − 0.2 cos 30°)."""
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"} | dict(NONSMOOTH_BUILD=os.path.dirname(os.environ["YADE_PREFIX"]))
+    with open(os.path.join(ROOT, "doc", "examples", "falling_block.py")) as file:
+        text = file.read().replace("range(1, 16)", "range(1, 2)")
+    assert "range(1, 2)" in text
+    script = tmp_path / "block.py"
+    script.write_text(text)
+    done = subprocess.run([os.path.join(ROOT, "scripts", "yade-nonsmooth"), script, "--threads", "1"], env=environment, text=True, capture_output=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    speed, bonds = re.search(r"1 s: mean speed +(\S+) m/s, +(\d+) bonds left", done.stdout).groups()
+    # (sin 30° − 0.2 cos 30°) g t from rest; three digits are printed, and the block settles onto the slope within the first steps
+    assert float(speed) == pytest.approx(9.81 * (0.5 - 0.2 * math.cos(math.pi / 6)), rel=0.01)
+    assert int(bonds) == int(re.search(r"bonds made: (\d+)", done.stdout).group(1))
