@@ -2,7 +2,6 @@
 
 import dataclasses
 import json
-import math
 import subprocess
 from pathlib import Path
 
@@ -209,24 +208,22 @@ def test_rows_hold_means_and_peaks(loaded, tmp_path):
 # ---- options --------------------------------------------------------------------------------------
 @pytest.mark.parametrize("option, value", [("--water", "nan"), ("--water", "-1"), ("--water", "inf"), ("--end", "-1"), ("--end", "nan"), ("--end", "0"),
                                            ("--disks", "0"), ("--disks", "1000000000000"), ("--disks", "300.5"), ("--seed", "-1"), ("--seed", "9" * 99), ("--threads", "5000")])
-def test_options_without_sense(option, value, tmp_path):
-    # one equals sign, so that -1 is no option
-    done = subprocess.run([SCRIPT, f"{option}={value}" if option != "--threads" else "--threads", *(() if option != "--threads" else (value,)), "--out", tmp_path / "out"],
-                          capture_output=True, text=True, timeout=600)
-    assert done.returncode in (1, 2) and "Traceback" not in done.stderr and option in done.stderr.splitlines()[-1]
+def test_options_without_sense(option, value, in_process, tmp_path):
+    done = in_process("jiufengershan.py", f"{option}={value}", "--out", tmp_path / "out")  # one word, so that -1 is no option
+    assert done.status == 2 and "Traceback" not in done.err and option in done.last
     assert not (tmp_path / "out").exists()
 
 
-def test_water_on_a_section_without(tmp_path):
+def test_water_on_a_section_without(in_process, tmp_path):
     text = SHIPPED.read_text()
     begin, end = text.index("\nwater:"), text.index("\nstages:")
     (tmp_path / "dry.yaml").write_text(text[:begin] + text[end:])
-    done = subprocess.run([SCRIPT, "--section", tmp_path / "dry.yaml", "--water", "1", "--out", tmp_path / "out"], capture_output=True, text=True)
-    assert done.returncode == 1 and "has no water" in done.stderr and "Traceback" not in done.stderr
+    done = in_process("jiufengershan.py", "--section", tmp_path / "dry.yaml", "--water", 1, "--out", tmp_path / "out")
+    assert done.status == 1 and "has no water" in done.last
 
 
-def test_a_packing_of_another_slope(loose, tmp_path):
+def test_a_packing_of_another_slope(in_process, loose, tmp_path):
     made = packing.pack(loose, 1)
     packing.write_text(dataclasses.replace(made, layer=0 * made.layer), tmp_path / "p.txt")
-    done = subprocess.run([SCRIPT, "--section", loose.source, "--disks", "300", "--packing", tmp_path / "p.txt", "--out", tmp_path / "out"], capture_output=True, text=True)
-    assert done.returncode == 1 and "p.txt: no disk belongs to layer 1 (L2)" in done.stderr and "Traceback" not in done.stderr
+    done = in_process("jiufengershan.py", "--section", loose.source, "--disks", 300, "--packing", tmp_path / "p.txt", "--out", tmp_path / "out")
+    assert done.status == 1 and "p.txt: no disk belongs to layer 1 (L2)" in done.last

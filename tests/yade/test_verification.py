@@ -54,6 +54,23 @@ def test_quick_check_holds(name, quick_run):
     assert result.claims and not failed, "\n".join(failed)
 
 
+#: Checks of other modules whose quick form nothing else runs; those of Siconos stand in test_siconos.
+OTHERS = ("whole-avalanche", "slope-convergence", "sweeps-in-a-running-scene", "sweeps-to-a-residual", "ways-to-solve", "sweeps-by-thickness")
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_quick_form_of_a_long_check_holds(name, tmp_path):
+    assert ALL[name].quick_seconds is not None
+    result, = runner.run_checks([ALL[name]], tmp_path, quick=True, threads=2)
+    assert not result.error, (tmp_path / "checks" / name / "error.txt").read_text()
+    failed = [f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}" for c in result.claims if not c.passed]
+    assert result.claims and not failed, "\n".join(failed)
+
+
+def test_every_check_has_a_quick_form():
+    assert [c.name for c in ALL.values() if c.quick_seconds is None] == []
+
+
 def test_strength_of_a_bonded_sample_converges(tmp_path):
     result, = runner.run_checks([ALL["strength-convergence"]], tmp_path, quick=True)
     assert not result.error

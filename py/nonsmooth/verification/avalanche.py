@@ -62,7 +62,8 @@ def whole_avalanche(bench):
     The solver may make 1,000 sweeps a step here, instead of the section's 300. The same packings run once more with a tolerance in motion of 1e-3 instead of 2e-4,
     which saves sweeps; what it does to the results stands in a table of its own.
 
-    In a quick run two packings of the small section of the tests take their place, with its own numerics.
+    In a quick run two packings of the small section of the tests take their place, with its own numerics; what is taken back of errors of position weighs more where a
+    fall is a few diameters deep.
     """
     disks, seeds, step, tolerance, tight = (0, SEEDS[:2], QUICK.step, QUICK.tolerance, QUICK.moving) if bench.quick else (DISKS, SEEDS, STEP, TOLERANCE, TOLERANCE_MOVING)
     looser = 5 * tight
@@ -78,7 +79,7 @@ def whole_avalanche(bench):
                 why="the project's limit; larger errors could hide a loss that is not accounted for"),
         at_most("largest fall of a loss that should only grow, of the energy turned over", max(map(_falls, series)), 1e-3,
                 why="rounding and unfinished solves may return a little energy, a wrong sign would return all of it"),
-        at_most("energy given by taking back errors of position, of the energy turned over", worst("energy_correction_rel"), 0.002,
+        at_most("energy given by taking back errors of position, of the energy turned over", worst("energy_correction_rel"), 0.01 if bench.quick else 0.002,
                 why="it is spurious; with a bias on the velocity it was some per cent, which a runout shows"),
         at_most("worst overlap, of ℓ", worst("overlap_worst_rel"), 0.02, why="the project's limit for the fastest impact of a run"),
     ]
