@@ -1,6 +1,7 @@
 """Numbers and tables of documentation pages, from files that commands wrote and that are kept as doc/measured/NAME.json.
 
-``:measured:`NAME KEY[*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary), times FACTOR, as Python's FORMAT writes it.
+``:measured:`NAME KEY[/KEY][*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary), over another one and times FACTOR if these are given, as
+Python's FORMAT writes it.
 ``.. measured-tables:: NAME`` shows the tables of a check's result.json (scripts/verify.py), or those whose title begins with the directive's text.
 A file or key that is not there is an error of the build: a page must not show what nobody measured.
 """
@@ -20,6 +21,14 @@ def load(name, env):
     return json.loads((HOME / f"{name}.json").read_text())
 
 
+def at(name, key, env):
+    """The file's value at a key."""
+    value = load(name, env)
+    for part in key.split("."):
+        value = value[part]
+    return value
+
+
 def number(text, env):
     """What the role's text stands for. Raises ValueError that says what is wrong."""
     try:
@@ -28,11 +37,10 @@ def number(text, env):
         raise ValueError(f"{text!r}: give NAME KEY FORMAT") from None
     key, _, factor = key.partition("*")
     try:
-        value = load(name, env)
-        for part in key.split("."):
-            value = value[part]
-        return format(value * float(factor or 1), form)
-    except (OSError, KeyError, TypeError, ValueError) as error:
+        upper, _, lower = key.partition("/")
+        value = at(name, upper, env) / (at(name, lower, env) if lower else 1) * float(factor or 1)
+        return format(value, form)
+    except (OSError, KeyError, TypeError, ValueError, ZeroDivisionError) as error:
         raise ValueError(f"{text!r}: {type(error).__name__} {error}") from None
 
 

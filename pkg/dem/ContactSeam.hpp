@@ -20,6 +20,7 @@ struct Relaxation {
 	Real step;         // h [s]
 	Real rate;         // κ, share of an overlap or bond error that one step takes back
 	Real largestSpeed; // of that correction [m/s]
+	Real slack;        // overlaps and bond errors up to this [ℓ] stay
 	Real openGap;      // a gap wider than this [ℓ] that will not close in the step is left out
 };
 
@@ -103,7 +104,7 @@ private:
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
-	Relaxation                             relaxation { 1, 0, 0, 0 };
+	Relaxation                             relaxation { 1, 0, 0, 0, 0 };
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
 	std::vector<Link>                        leftLinks;    // their links
 	int                                    threads = 1;

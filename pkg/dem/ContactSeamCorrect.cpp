@@ -12,9 +12,8 @@ using contact::Impulse;
 using contact::Twist;
 
 namespace {
-	// ℓ; a touching contact may overlap by this much. Were it pushed back to nothing, half of all contacts would stand open by a trifle, others in every step, and
-	// the solver would have to find the reactions of a packing at rest anew each time.
-	constexpr Real slight = 1e-5;
+	/// What of an error of a bond's length, either way, goes beyond the slack.
+	Real beyond(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
 }
 
 /// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
@@ -42,8 +41,9 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 		e.impulse          = links[k].correction;
 		e.held             = links[k].bonded && !yieldsInTension(k, u);
 		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
-		const Real off = links[k].gap - (e.held ? links[k].rest : -slight * c.length), was = e.held ? off : std::min(Real(0), off);
-		e.error        = off + h * u.n - (1 - relaxation.rate) * was;
+		const Real slack = relaxation.slack * c.length, off = links[k].gap - (e.held ? links[k].rest : 0);
+		e.error = e.held ? beyond(off + h * u.n, slack) - (1 - relaxation.rate) * beyond(off, slack)
+		                 : off + h * u.n + slack - (1 - relaxation.rate) * std::min(Real(0), off + slack);
 		if (!e.held && e.error >= 0) continue;
 		e.error = std::max(-most, std::min(most, e.error));
 		any     = any || e.error != 0;

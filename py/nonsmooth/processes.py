@@ -39,8 +39,10 @@ def call(function, folder, arguments, threads=1):
     write_atomically(request, json.dumps({"module": function.__module__, "function": function.__name__, "arguments": arguments, "parent": os.getpid()}).encode())
     for name in ("found.json", "refused.txt"):
         (folder / name).unlink(missing_ok=True)
-    # waiting threads must not spin where processes share the cores
-    environment = {**os.environ, "OMP_WAIT_POLICY": "passive"} if threads == 1 else None
+    # the log's last line is to be the last that was said: standard output unbuffered, as errors are
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    if threads == 1:  # waiting threads must not spin where processes share the cores
+        environment["OMP_WAIT_POLICY"] = "passive"
     with open(folder / "log.txt", "wb") as log:
         status = _run([_yade(), "-n", "-x", f"-j{threads}", str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
     try:

@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import math
-import os
 import shutil
 from pathlib import Path
 
@@ -410,7 +409,7 @@ def test_the_limit_of_stiffness_is_that_of_the_heap():
 def test_the_script_refuses_in_one_line(tmp_path):
     import subprocess
 
-    script = Path(os.environ["YADE_PREFIX"]).parents[1] / "scripts" / "compare_hard_soft.py"
+    script = Path(__file__).resolve().parents[2] / "scripts" / "compare_hard_soft.py"
     for words, wanted in ((("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
                           (("--cost", "--scenario", "pile"), "--cost"),
                           (("--scenario", "column", "--aspect", "6"), "--stiffness 1e+08"),

@@ -16,9 +16,9 @@ from slope_scenes import write_quick
 
 ROWS = 200
 PINNED = {
-    "slope": "b29446beebdb09daa4577c83d1a638dd43d73041f9c6ae983c0be8bdd6264f04",
-    "biaxial": "0bb495a45cb3ca32c4949ea867cf2fa91373cf26ab0b304bf92d150258b5abea",
-    "column": "ed46a5ce784f3e7a4885b3795d4ca5359b429c9f3eb96984485655f4ca8302ea",
+    "slope": "7f9543e64bc6ec45844f1c0f2fedb5ac1ab97ade9fe14339b56640496bfc762f",
+    "biaxial": "9df81c0623fb5cfc27fbaa2c2756cc5f3b16239ad0c8bef63b805f8913fb5bcb",
+    "column": "9ea561a2e1a869f1ec91015496eb15de330e2b7a83515a6571a0e4066a1a2639",
 }
 
 

@@ -123,7 +123,7 @@ run(12)
 
 
 @pytest.mark.parametrize("name, value", [
-    ("tolerance", math.inf), ("tolerance", math.nan), ("relaxationRate", math.nan), ("correctionSpeed", -1.0), ("correctionSpeed", math.nan), ("openGap", -0.1),
+    ("tolerance", math.inf), ("tolerance", math.nan), ("relaxationRate", math.nan), ("correctionSpeed", -1.0), ("correctionSlack", -0.1), ("correctionSlack", 1.0), ("correctionSlack", math.nan), ("correctionSpeed", math.nan), ("openGap", -0.1),
     ("openGap", math.nan)])
 def test_settings_without_sense(name, value):
     rests_on_a_floor(**{name: value})

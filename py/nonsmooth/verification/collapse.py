@@ -105,10 +105,10 @@ def _sheet(bench, profiles, kinds, seed):
     figure = style.figure(6.5, 3.6, layout="constrained")
     ax = figure.subplots()
     first = profiles[seed, *kinds["h"]]
-    ax.plot(first["x0"], first["height0"], color="#999999", lw=1)
+    ax.plot(first["x0"], first["height0"], color="#999999", lw=1, label="at rest")
     for kind, look in (("h", dict(color="#0072B2", lw=1.8)), ("h/4", dict(color="#D55E00", lw=1.2)), ("h/4, nothing taken back", dict(color="#000000", lw=0.8, ls="--"))):
         ax.plot(profiles[seed, *kinds[kind]]["x"], profiles[seed, *kinds[kind]]["height"], label=kind, **look)
-    ax.set(xlabel="x [m]", ylabel="height [m]", aspect="equal")
+    ax.set(xlabel="x [m]", ylabel="height [m]", aspect="equal", xlim=(0, None), ylim=(0, None))
     ax.legend(frameon=False)
     style.save(figure, bench.folder / "collapse.png")
     return figure
