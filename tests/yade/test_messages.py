@@ -41,7 +41,7 @@ def plain_loop(e, physics=None, laws=None):
     ("tolerance", (1e-300, 10.0), (0.0, -1e-9, math.inf, math.nan), "positive and finite"),
     ("maxIterations", (1,), (0, -1), "at least 1"), ("checkEvery", (1,), (0, -1), "at least 1"), ("correctionSweeps", (0, 1), (-1,), "0 or more"),
     ("relaxationRate", (0.0, 1.0), (-1e-9, 1 + 1e-9, math.nan), "from 0 to 1"), ("correctionSpeed", (0.0, 1e9), (-1e-9, math.nan), "0 or more"),
-    ("openGap", (0.0, 10.0), (-1e-9, math.nan), "0 or more"), ("method", ("accelerated", "gaussSeidel"), ("GaussSeidel", ""), "'accelerated' or 'gaussSeidel'"),
+    ("correctionSlack", (0.0, 1 - 1e-9), (-1e-9, 1.0, math.nan), "from 0 to less than 1"), ("openGap", (0.0, 10.0), (-1e-9, math.nan), "0 or more"), ("method", ("accelerated", "gaussSeidel"), ("GaussSeidel", ""), "'accelerated' or 'gaussSeidel'"),
     ("stoppingTest", ("naturalMap", "Quad", "Maxm", "QM/16"), ("", "quad"), "'naturalMap', 'Quad', 'Maxm' or 'QM/16'")])
 def test_settings_of_the_solver(name, good, bad, words):
     rests(maxIterations=5)

@@ -57,7 +57,7 @@ def test_powers_of_two_as_units_change_no_bit(here):
 
 def test_far_from_the_origin_only_the_last_bits_of_places_are_lost(here):
     lost = 2.0**-33 / here.step / here.speed  # as in test_symmetries_contacts.py
-    assert_same(play(WORLD, Frame(shift=(-2.0**20, 2.0**20))), here, 300 * lost, place=300 * lost, wall_moment=1e6 * lost)
+    assert_same(play(WORLD, Frame(shift=(-2.0**20, 2.0**20))), here, 1000 * lost, place=1000 * lost, wall_moment=1e6 * lost)
 
 
 @pytest.mark.parametrize("change", [lambda w: replace(w, order=tuple(range(len(w.disks)))[::-1]), shuffled, lambda w: replace(w, walls_last=True)])
