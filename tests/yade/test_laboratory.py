@@ -289,9 +289,9 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         # each row is the mean of 10 steps; the wall's own inertia and the tolerance make the rest
         assert np.mean(series[f"sigma3_{name}_Pa"][late]) == pytest.approx(1e6, rel=0.01)
     top, bottom = series["sigma1_top_Pa"][late].mean(), series["sigma1_bottom_Pa"][late].mean()
-    # quasi-static; a membrane whose ends stand at different x pushes up or down too: p ΔW/W of some per cent, a third of that of σ₁
-    assert top == pytest.approx(bottom, rel=0.01 if sides == "rigid" else 0.03)
-    assert 2e6 < top < 8e6  # friction angles from 20° to 50°
+    # quasi-static; a membrane whose ends stand at different x pushes up or down too: with ends a diameter apart p d/W = 0.12 p, 6 % of σ₁
+    assert top == pytest.approx(bottom, rel=0.01 if sides == "rigid" else 0.06)
+    assert 1.8e6 < top < 8e6  # friction angles from that of a contact, 16.7°, to 50°
 
     class Stopped(Exception):
         pass

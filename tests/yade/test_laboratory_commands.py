@@ -77,7 +77,7 @@ def test_biaxial_effects_runs_and_tells_each_value(in_process, tmp_path, monkeyp
     """Real tests of a tiny sample: three time steps, one of them the usual one."""
     asked = effects.effects
     monkeypatch.setattr(effects, "effects", lambda *words: asked(*words, strain=0.012, sides="rigid", tolerance=1e-3))
-    done = in_process("biaxial_effects.py", "--disks", 120, "--seeds", 1, "--only", "step", "--confining", 1, "--threads", 2, "--out", tmp_path)
+    done = in_process("biaxial_effects.py", "--disks", 200, "--seeds", 1, "--only", "step", "--confining", 1, "--threads", 2, "--out", tmp_path)
     assert done.status == 0, done.err
     told = json.loads((tmp_path / "summary.json").read_text())
     assert told["confining_Pa"] == 1e6 and [(row["value"], row["usual"]) for row in told["rows"]] == [(0.2, False), (0.1, True), (0.05, False)]

@@ -194,7 +194,7 @@ WHERE = {
         "--step-share": (("--step-share", 0.6), lambda a: a.named["step_share"], 0.6),
         "--without": (("--without", "numerics", "bonds"), lambda a: a.named["without"], ["numerics", "bonds"]),
         "--cost": (("--cost",), lambda a: (a.words[1], a.words[2]), (cost.SOURCE, cost.DISKS)),
-        "--steps": (("--cost", "--steps", 315), lambda a: a.words[5], 321),
+        "--steps": (("--cost", "--steps", 315), lambda a: a.words[5], 315),
         "--end": (("--end", 12), lambda a: a.named["options"]["end"], 12.0),
         "--confining": (("--scenario", "biaxial", "--confining", 2), lambda a: a.named["options"]["confining"], 2e6),
         "--strain": (("--scenario", "biaxial", "--strain", 0.05), lambda a: a.named["options"]["strain"], 0.05),
@@ -276,7 +276,7 @@ def asked(in_process, monkeypatch, tmp_path, files):
             patch.setattr(holder, function, asks)
             done = in_process(name, *words, "--out", out)
         assert done.status in (1, 2) and "Traceback" not in done.err, done.err
-        return asks if done.last == "error: asked" else None
+        return asks if done.last.endswith("error: asked") else None  # behind a bar that is gone
 
     return ask
 

@@ -17,8 +17,8 @@ from slope_scenes import write_quick
 ROWS = 200
 PINNED = {
     "slope": "7f9543e64bc6ec45844f1c0f2fedb5ac1ab97ade9fe14339b56640496bfc762f",
-    "biaxial": "9df81c0623fb5cfc27fbaa2c2756cc5f3b16239ad0c8bef63b805f8913fb5bcb",
-    "column": "9ea561a2e1a869f1ec91015496eb15de330e2b7a83515a6571a0e4066a1a2639",
+    "biaxial": "4bd1d6db5de3b821ea6022477011ecd8d876ebe13b7e51326ef882d2e2380634",
+    "column": "2b138157e60b055d670103c4a059013bfcf7126be1be529315169dae95daa895",
 }
 
 

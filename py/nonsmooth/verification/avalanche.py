@@ -77,8 +77,8 @@ def whole_avalanche(bench):
     claims = [
         at_most("largest error of the energy balance, of the energy turned over", worst("energy_error_rel"), 0.01,
                 why="the project's limit; larger errors could hide a loss that is not accounted for"),
-        at_most("largest fall of a loss that should only grow, of the energy turned over", max(map(_falls, series)), 1e-3,
-                why="rounding and unfinished solves may return a little energy, a wrong sign would return all of it"),
+        at_most("largest fall of a loss that should only grow, of the energy turned over", max(map(_falls, series)), 5e-3 if bench.quick else 1e-3,
+                why="rounding and solves to the tolerance, a hundred times looser in a quick run, may return a little energy; a wrong sign would return all of it"),
         at_most("energy given by taking back errors of position, of the energy turned over", worst("energy_correction_rel"), 0.01 if bench.quick else 0.002,
                 why="it is spurious; with a bias on the velocity it was some per cent, which a runout shows"),
         at_most("worst overlap, of ℓ", worst("overlap_worst_rel"), 0.02, why="the project's limit for the fastest impact of a run"),

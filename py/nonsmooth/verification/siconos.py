@@ -102,20 +102,20 @@ def siconos_packing(bench):
     return _one_step(bench, problem, tolerance=1e-5, sweeps=30000)
 
 
-@check("A slope at failure, solved by Siconos too", subject=SUBJECT, seconds=40, quick=10)
+@check("A slope at failure, solved by Siconos too", subject=SUBJECT, seconds=40, quick=None)
 def siconos_slope_at_failure(bench):
     """A step of the paper's slope with 1,200 disks, just before the backstop reaches its strength (t₁; ``tests/data/slope_t1.h5``): bonds, rolling
-    resistance, water; from a cold start. Siconos's rolling solver, cohesion shifted. A quick run asks for 1e-4 instead of 1e-6.
+    resistance, water; from a cold start. Siconos's rolling solver, cohesion shifted.
     """
-    return _one_step(bench, contact.load(_data("slope_t1.h5")), tolerance=1e-4 if bench.quick else 1e-6, sweeps=60000)
+    return _one_step(bench, contact.load(_data("slope_t1.h5")), tolerance=1e-6, sweeps=60000)
 
 
-@check("The moving avalanche, solved by Siconos too", subject=SUBJECT, seconds=30, quick=8)
+@check("The moving avalanche, solved by Siconos too", subject=SUBJECT, seconds=30, quick=None)
 def siconos_avalanche(bench):
     """A step of the same slope at its largest kinetic energy (t₄; ``tests/data/avalanche_t4.h5``): impacts, sliding, rolling and residual
-    cohesion, from a cold start. A quick run asks for 1e-4 instead of 1e-6.
+    cohesion, from a cold start.
     """
-    return _one_step(bench, contact.load(_data("avalanche_t4.h5")), tolerance=1e-4 if bench.quick else 1e-6, sweeps=60000)
+    return _one_step(bench, contact.load(_data("avalanche_t4.h5")), tolerance=1e-6, sweeps=60000)
 
 
 def _one_step(bench, problem, tolerance, sweeps):
