@@ -142,6 +142,13 @@ def test_sizes():
     assert not np.array_equal(grains.sizes_along(c, 20.0, "left")[:5], radii[:5])
 
 
+def test_a_step_takes_the_fastest_disk_over_its_path():
+    c = column.Column(disks=2000, diameter=0.02, aspect=4.0, gravity=5.0)
+    width, height = c.box()
+    assert height == pytest.approx(4.0 * width, rel=1e-12) and c.fall_time() == pytest.approx(math.sqrt(height / 5.0), rel=1e-12)
+    assert c.time_step(0.3) * math.sqrt(2 * 5.0 * height) == pytest.approx(0.3 * 0.02, rel=1e-12)
+
+
 # ---- runs -------------------------------------------------------------------------------------------
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 from nonsmooth import geometry  # noqa: E402
-from nonsmooth.section import FOLDER, SectionError, load, shipped  # noqa: E402
+from nonsmooth.section import FOLDER, Disks, SectionError, load, shipped  # noqa: E402
 
 TEXT = (FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8")
 
@@ -74,6 +74,20 @@ def test_vectors_and_water(section):
     assert section.water.gradient == pytest.approx([9810 * math.cos(b) * n for n in section.normal])
     assert section.water.height(22.5) == 22.5
     assert section.water.point == (0.0, 0.0)
+
+
+def test_the_water_rises_by_its_table_and_then_at_its_rate(section):
+    water = dataclasses.replace(section.water, table=((0.0, 2.0), (10.0, 4.0), (20.0, 3.0)), rate=0.5)
+    assert water.height(np.array([-5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 24.0])) == pytest.approx([2, 2, 3, 4, 3.5, 3, 5])  # exact but for rounding
+
+
+@pytest.mark.parametrize("distribution, median", [("uniform_by_volume", 8 / 5), ("uniform_by_number", 5 / 2)])
+def test_sizes_by_quantile(distribution, median):
+    """From the smallest to the largest; the median of d⁻² between 1 and 4 is 2 · 1 · 4/(1 + 4)."""
+    disks = Disks(1.0, 4.0, distribution, 0.84)
+    assert disks.diameters([0.0, 0.5, 1.0]) == pytest.approx([1, median, 4])
+    quantiles = (np.arange(10_000) + 0.5) / 10_000
+    assert disks.mean_square == pytest.approx(np.mean(disks.diameters(quantiles) ** 2), rel=1e-6)  # by the rule of midpoints
 
 
 def test_table_1(section):

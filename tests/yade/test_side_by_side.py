@@ -72,3 +72,12 @@ def test_two_runs_of_one_folder_are_refused_before_any_runs(tmp_path, called):
     with pytest.raises(MadeUpError, match="^a: two runs of one name"):
         side_by_side.run(made(tmp_path, "a", "b", "a"), 1, error=MadeUpError)
     assert called == [] and not (tmp_path / "a").exists()
+
+
+def test_a_run_has_done_what_it_has_noted_and_all_once_it_has_a_result(tmp_path):
+    assert kept_runs.share(tmp_path) == 0
+    for noted, share in (("0.2500", 0.25), ("1.0000", 0.99), ("", 0), ("half", 0)):
+        (tmp_path / "progress").write_text(noted)
+        assert kept_runs.share(tmp_path) == share
+    kept_runs.keep(tmp_path, "k", {})
+    assert kept_runs.share(tmp_path) == 1

@@ -1,4 +1,5 @@
 """One scene in both worlds: a disk comes to rest on a wall, a pair of disks is bonded, a disk slides on a slope."""
+import dataclasses
 import math
 
 import pytest
@@ -45,3 +46,12 @@ def test_disk_slides_on_the_wall(world):
     damped = (1 - world.damping) if world.name == "soft" else 1.0
     # two per cent: the soft contact swings about its depth at first
     assert O.bodies[i].state.vel[0] == pytest.approx(free * damped * O.time, rel=0.02)
+
+
+def test_the_soft_step_is_a_share_of_the_smallest_limit():
+    light = dataclasses.replace(ROCK, density=625.0)
+    world = worlds.Soft(stiffness=1e8, diameter=(1.0, 1.0), step_share=0.3)
+    limit = world.equivalent(ROCK).step_limit
+    # a quarter of the mass: half of the period
+    assert world.step_for([ROCK]) == pytest.approx(0.3 * limit, rel=1e-12) and world.step_for([ROCK, light]) == world.step_for([light, ROCK]) == pytest.approx(0.15 * limit, rel=1e-9)
+    assert WORLDS[0].step_for([ROCK, light]) == 2e-3

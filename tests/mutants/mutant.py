@@ -1,0 +1,92 @@
+"""What a mutant is, and how it gets into a copy of the sources.
+
+Those of the C++ (below pkg/) all stand in one copy, which is built once: the environment variable NONSMOOTH_MUTANT, read when the library is loaded, chooses one
+by its number, and without it the copy computes as the original does. Others, one at a time, take the place of the text that they change.
+"""
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+SYMBOL = "nonsmooth_mutant"  # of C, so that Python can set it too
+HEADER = f"extern \"C\" int {SYMBOL};\n"
+SOURCE = f"""#include <cstdlib>
+extern "C" {{
+int {SYMBOL} = [] {{ const char* number = std::getenv("NONSMOOTH_MUTANT"); return number ? std::atoi(number) : 0; }}();
+}}
+"""
+
+
+class TableError(ValueError):
+    """A mutant that cannot be applied; the message says which and why."""
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """``edits``: (file, text that occurs there once, what takes its place); ``broken``: what is wrong, in words; ``tests``: that should see it, one is enough,
+    of
+
+        test_records.py::test_x     pytest in YADE, below tests/yade
+        plain:test_figures.py, fuzz/test_x.py, bindings/…  pytest without YADE, which is quicker; "plain:" stands for tests/yade
+        gtest:Law.*                 GoogleTest, a filter
+        check:landing               scripts/verify.py; all that are named must see it
+
+    ``slow``: a run of half a minute or more, which only --all makes.
+    """
+
+    name: str
+    broken: str
+    edits: tuple
+    tests: tuple
+    slow: bool = False
+
+    @property
+    def number(self):
+        """Of the switch: the same one whatever stands before it in the table, so that objects need not be built again."""
+        return zlib.crc32(self.name.encode()) >> 1
+
+    @property
+    def compiled(self):
+        return self.edits[0][0].startswith("pkg/")
+
+    @property
+    def files(self):
+        return {file for file, _, _ in self.edits}
+
+
+def mutant(name, file, old, new, broken, *tests, slow=False):
+    """A Mutant of one line."""
+    return Mutant(name, broken, ((file, old, new),), tests, slow)
+
+
+def place(root, mutated, file, old):
+    """Text of the file below ``root``, and where ``old`` stands in it. Raises TableError where it does not occur once."""
+    path = Path(root) / file
+    text = path.read_text() if path.exists() else ""
+    if text.count(old) != 1:
+        raise TableError(f"mutant {mutated.name}: `{old}` occurs {text.count(old)} times in {file} and must occur once: adapt tests/mutants/mutants")
+    return text, text.index(old)
+
+
+def switched(old, alternatives):
+    """``old``, an expression or a statement of C++, or one of the ``alternatives`` {number: text} where that is chosen."""
+    if old.endswith(";"):
+        return " ".join(f"if ({SYMBOL} == {number}) {{ {new} }} else" for number, new in alternatives.items()) + f" {{ {old} }}"
+    return "(" + " : ".join(f"{SYMBOL} == {number} ? ({new})" for number, new in alternatives.items()) + f" : ({old}))"
+
+
+def switch_all(root, mutants):
+    """Makes the compiled ones of the Mutants in the sources below ``root``."""
+    spans = {}  # file: {(begin, old): {number: new}}
+    for mutated in mutants:
+        for file, old, new in mutated.edits if mutated.compiled else ():
+            spans.setdefault(file, {}).setdefault((place(root, mutated, file, old)[1], old), {})[mutated.number] = new
+    for file, found in spans.items():
+        path = Path(root) / file
+        text, before = path.read_text(), None
+        for (begin, old), alternatives in sorted(found.items(), reverse=True):
+            if before is not None and begin + len(old) > before:
+                raise TableError(f"mutants {sorted(alternatives)} of {file} stand in what another one changes: `{old}`")
+            text, before = text[:begin] + switched(old, alternatives) + text[begin + len(old):], begin
+        path.write_text(text)
+    (Path(root) / "pkg" / "contact" / "mutant.hpp").write_text(HEADER)
+    (Path(root) / "pkg" / "contact" / "mutant.cpp").write_text(SOURCE)

@@ -1,0 +1,75 @@
+"""Runs pytest for one mutant after the other in children of a process that has imported what takes time, YADE included where it runs in YADE.
+
+  scripts/yade-nonsmooth tests/mutants/server.py IN OUT      or python3 instead of the launcher
+
+IN and OUT are numbers of open pipes. A line in, {"arguments", "environment", "number", "output", "limit"}, all of them JSON, gives a line out: the status of
+pytest, null where the child was stopped after ``limit`` seconds. Nothing of the package under test is imported here, so a child reads it anew.
+"""
+import contextlib
+import ctypes
+import json
+import os
+import re
+import signal
+import sys
+import time
+
+import matplotlib.backends.backend_agg  # noqa: F401
+import matplotlib.figure  # noqa: F401
+import meshio  # noqa: F401
+import pytest
+import scipy.spatial  # noqa: F401
+import scipy.stats  # noqa: F401
+import shapely.geometry  # noqa: F401
+import yaml  # noqa: F401
+
+
+def choose(number):
+    """Sets the switch of a library that was loaded before; others read the environment."""
+    with open("/proc/self/maps") as maps:
+        libraries = set(re.findall(r"/\S*/nonsmooth_engines\.so", maps.read()))
+    for library in libraries:
+        with contextlib.suppress(ValueError):  # one without mutants
+            ctypes.c_int.in_dll(ctypes.CDLL(library), "nonsmooth_mutant").value = number
+
+
+def child(job):
+    os.setsid()
+    output = os.open(job["output"], os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+    for stream in (1, 2):
+        os.dup2(output, stream)
+    os.environ.update(job["environment"])
+    choose(job["number"])
+    status = 3
+    try:
+        status = int(pytest.main(job["arguments"]))
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+
+
+def serve(job):
+    """Status of a child for the job; what it has started ends with it."""
+    asked_by, pid, until = os.getppid(), os.fork(), time.monotonic() + job["limit"]
+    if pid == 0:
+        child(job)
+    while True:
+        ended, status = os.waitpid(pid, os.WNOHANG)
+        if ended or time.monotonic() > until or os.getppid() != asked_by:  # nobody waits for it any more
+            break
+        time.sleep(0.02)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(pid, signal.SIGKILL)
+    if not ended:
+        os.waitpid(pid, 0)
+        return None
+    return os.waitstatus_to_exitcode(status)
+
+
+if "nonsmooth" in sys.modules or "yade.nonsmooth" in sys.modules:
+    sys.exit("the package under test is imported already")
+with os.fdopen(int(sys.argv[1])) as jobs, os.fdopen(int(sys.argv[2]), "w") as answers:
+    print("ready", file=answers, flush=True)
+    for line in jobs:
+        print(json.dumps(serve(json.loads(line))), file=answers, flush=True)
