@@ -1,6 +1,6 @@
 """A slope experiment: bond, load, rest dry, raise the water, follow the avalanche until it rests.
 
-What decides its course stands in :mod:`.course`; here it is looked at, and what was decided is done. All that a run goes on with stands in
+What decides its course stands in :mod:`yade.nonsmooth.course`; here it is looked at, and what was decided is done. All that a run goes on with stands in
 :class:`~nonsmooth.course.State`, which goes into checkpoints; nothing depends on wall time.
 
 * a step is ``numerics.time_step``, or as short as the speeds of contacts want it (NonsmoothTimeStepper, where the section gives a ``path``);
