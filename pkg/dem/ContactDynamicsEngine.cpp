@@ -64,7 +64,7 @@ void ContactDynamicsEngine::validate() const
 	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
 	if (!(relaxationRate >= 0 && relaxationRate <= 1)) refuse("relaxationRate", relaxationRate, "from 0 to 1");
 	if (!(correctionSpeed >= 0)) refuse("correctionSpeed", correctionSpeed, "0 or more [m/s]");
-	if (!(correctionSlack >= 0 && correctionSlack < 1)) refuse("correctionSlack", correctionSlack, "from 0 to less than 1 [l]");
+	if (!(correctionSlack >= 0 && correctionSlack < 1)) refuse("correctionSlack", correctionSlack, "from 0 to less than 1 [ℓ]");
 	if (!(openGap >= 0)) refuse("openGap", openGap, "0 or more [ℓ]");
 	if (method != "accelerated" && method != "gaussSeidel") fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
 	try {

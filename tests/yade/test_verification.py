@@ -68,8 +68,8 @@ def test_quick_form_of_a_long_check_holds(name, tmp_path):
 
 
 def test_every_other_check_has_a_quick_form():
-    # these take as long in a smaller form, or do not hold there; scripts/verify.py runs them in full
-    assert [c.name for c in ALL.values() if c.quick_seconds is None] == ["siconos-slope-at-failure", "siconos-avalanche", "sweeps-to-a-residual"]
+    # these do not hold at a looser tolerance; scripts/verify.py runs them in full
+    assert [c.name for c in ALL.values() if c.quick_seconds is None] == ["siconos-slope-at-failure", "siconos-avalanche"]
 
 
 def test_strength_of_a_bonded_sample_converges(tmp_path):

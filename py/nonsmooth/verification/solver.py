@@ -17,7 +17,7 @@ METHODS = (("accelerated", "accelerated"), ("gaussSeidel", "plain Gauss-Seidel")
 WAYS = (("accelerated", "accelerated", 10), ("accelerated, looked at every 50", "accelerated", 50), ("plain Gauss-Seidel", "gaussSeidel", 10))
 
 
-@check("Sweeps to a residual, from a cold start and from known forces", subject=SUBJECT, seconds=50, quick=None)
+@check("Sweeps to a residual, from a cold start and from known forces", subject=SUBJECT, seconds=50, quick=20)
 def sweeps_to_a_residual(bench):
     """News crosses about one contact a sweep, so plain Gauss-Seidel needs as many sweeps as a diffusion across the packing, some 30 disks
     deep: thousands. Nesterov's extrapolation makes a wave of it. On 16,901 disks in a box of the same thickness, an earlier computation had
