@@ -1,5 +1,7 @@
 """Sweeps that the solver needs, and its stopping tests, on the packing of 5,000 disks by LMGC90."""
 
+import dataclasses
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -13,6 +15,7 @@ from .registry import check
 SUBJECT = "The solver"
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
 METHODS = (("accelerated", "accelerated"), ("gaussSeidel", "plain Gauss-Seidel"))
+ORDERS = 21  # orders of the contacts, at random: sweeps to 1e-4 follow the order
 #: Name, method and interval of the looks at the residual.
 WAYS = (("accelerated", "accelerated", 10), ("accelerated, looked at every 50", "accelerated", 50), ("plain Gauss-Seidel", "gaussSeidel", 10))
 
@@ -31,6 +34,10 @@ def sweeps_to_a_residual(bench):
 
     Warm is from LMGC90's forces. Its solution has a residual of 2e-6 with our levers, so nothing is left to do above that. Forces of a step
     before are looked at in :code:`sweeps-in-a-running-scene`.
+
+    The number of sweeps to 1e-4 from a cold start follows the order in which contacts are swept, which follows the order in which a problem
+    lists them: a single one says little. So it is the median over random orders that is claimed, and the file's own order stands in the
+    table beside it.
 
     Below 1e-5 the restarts of the extrapolation decide. It begins anew where the residual is larger than two looks before; looked at every
     10 sweeps, which is the default, noise makes it do so hundreds of times on the way to 1e-6 from a cold start. With a look every 50 it
@@ -52,9 +59,11 @@ def sweeps_to_a_residual(bench):
     climb = [_after(dump, problem, "accelerated", n) for n in range(10, 301, 10)]
     lifted = next((n for n, _, carried in climb if carried >= 0.99), np.inf)
     plain = {n: _after(dump, problem, "gaussSeidel", n) for n in (100, 1000)}
-    fast = found["cold", "accelerated", 1e-4][0]
+    bench.progress("cold, accelerated, 1e-4, by orders")
+    orders = np.array([contact.solve(_reordered(problem, seed), start="cold", tolerance=1e-4, max_iterations=cap).iterations for seed in range(ORDERS)])
+    fast = np.median(orders)
     claims = [
-        between("cold, accelerated: sweeps to 1e-4", fast.iterations, 70, 150, against="100 in earlier computations",
+        between(f"cold, accelerated: sweeps to 1e-4, median of {ORDERS} orders of contacts", fast, 70, 150, against="100 in earlier computations",
                 why="about 100 at this thickness, whatever the size; a factor of 1.5"),
         between("cold, accelerated: sweeps until 0.99 of the weight is carried", lifted, 70, 150, against="100 on 16,901 disks",
                 why="a factor of 1.5 for another packing; looked at every 10"),
@@ -63,7 +72,7 @@ def sweeps_to_a_residual(bench):
         between("cold, plain: the same after 1,000 sweeps", plain[1000][2], 0.7, 0.95, against="0.84 on 16,901 disks", why="the same"),
         between("cold, plain: residual after 1,000 sweeps", plain[1000][1], 1e-4, 5e-4, against="2.3e-4 on 16,901 disks",
                 why="a factor of 2"),
-        at_least("cold: plain sweeps over accelerated ones to 1e-4", found["cold", "plain Gauss-Seidel", 1e-4][0].iterations / fast.iterations, 8,
+        at_least("cold: plain sweeps over accelerated ones to 1e-4", found["cold", "plain Gauss-Seidel", 1e-4][0].iterations / fast, 8,
                  why="acceleration was worth a factor of 20 to 50 in reaching a share of the weight; in residual less, since plain sweeps smooth first"),
         near("cold, accelerated: share carried at 1e-5", found["cold", "accelerated", 1e-5][1].carried, 1, absolute=0.02,
              why="gaps of up to g h² = 0.25 mm may still close within the step"),
@@ -78,10 +87,18 @@ def sweeps_to_a_residual(bench):
     _, left, carried = climb[9]
     remark = (f"After 100 accelerated sweeps this packing carries {carried:.3f} of its weight at a residual of {left:.1e}, "
               f"less than the 0.9945 at 4.0e-5 of the other one; "
-              f"it needs {lifted:g} to 0.99.")
+              f"it needs {lifted:g} to 0.99. To 1e-4 it takes {found['cold', 'accelerated', 1e-4][0].iterations} sweeps in the order of the file, and "
+              f"{orders.min()} to {orders.max()}, half of them {np.quantile(orders, 0.25):g} to {np.quantile(orders, 0.75):g}, in random ones.")
     return Outcome(claims=claims,
     tables=[("Sweeps until the independent residual is reached, and the share of the weight carried then.", heads, rows)],
                    plots=[_convergence(curves)], remarks=[remark])
+
+
+def _reordered(problem, seed):
+    """The same problem with its contacts in another order."""
+    order = np.random.default_rng(seed).permutation(len(problem.normal))
+    by_contact = ("body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length", "warm_start", "impulse")
+    return dataclasses.replace(problem, **{name: np.asarray(getattr(problem, name))[order] for name in by_contact})
 
 
 def _sweep_counts(cap, every):
