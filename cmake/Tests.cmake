@@ -35,12 +35,21 @@ if(NONSMOOTH_PLUGIN)
         target_compile_options(nonsmooth_gate_wrong PRIVATE -DYADE_OPENGL)
     endif()
 
-    # pytest runs inside YADE: the tests see YADE as its users' scripts do.
-    add_test(NAME yade COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth" "${CMAKE_SOURCE_DIR}/tests/yade/run_pytest.py")
-    set_tests_properties(yade PROPERTIES LABELS yade TIMEOUT 3600 RUN_SERIAL ON
-        ENVIRONMENT "NONSMOOTH_BUILD=${CMAKE_BINARY_DIR}")
+    # What a viewer does to the list of interactions, which slim builds of YADE have not (tests/yade/test_engine.py).
+    add_library(nonsmooth_drawing_lock SHARED tests/yade/drawing_lock.cpp)
+    target_link_libraries(nonsmooth_drawing_lock PRIVATE nonsmooth_yade)
 
-    # The law broken on purpose, in a copy: the verification must notice. Builds the plugin a second time.
-    add_test(NAME mutation COMMAND "${YADE_PYTHON}" "${CMAKE_SOURCE_DIR}/tests/mutation/run.py" "${CMAKE_BINARY_DIR}")
-    set_tests_properties(mutation PROPERTIES LABELS mutation TIMEOUT 3600 RUN_SERIAL ON)
+    # pytest runs inside YADE: the tests see YADE as its users' scripts do. Two processes share the files of tests.
+    set(shared "${CMAKE_BINARY_DIR}/tests_taken")
+    add_test(NAME yade_begin COMMAND "${CMAKE_COMMAND}" -E rm -rf "${shared}")
+    set_tests_properties(yade_begin PROPERTIES LABELS yade FIXTURES_SETUP tests_taken)
+    foreach(part 1 2)
+        add_test(NAME yade_${part} COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth" "${CMAKE_SOURCE_DIR}/tests/yade/run_pytest.py" --share "${shared}")
+        set_tests_properties(yade_${part} PROPERTIES LABELS yade TIMEOUT 3600 FIXTURES_REQUIRED tests_taken
+            ENVIRONMENT "NONSMOOTH_BUILD=${CMAKE_BINARY_DIR}")
+    endforeach()
+
+    # The software broken on purpose, in copies: the tests must notice. Builds the plugin a second time.
+    add_test(NAME mutants COMMAND "${YADE_PYTHON}" "${CMAKE_SOURCE_DIR}/tests/mutants/run.py" "${CMAKE_BINARY_DIR}")
+    set_tests_properties(mutants PROPERTIES LABELS mutants TIMEOUT 3600 RUN_SERIAL ON)
 endif()

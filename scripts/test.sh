@@ -16,7 +16,7 @@ export PATH=/usr/bin:/bin:/usr/sbin CTEST_OUTPUT_ON_FAILURE=1
 status=0
 # The tests in YADE last and talking: they take longest, and their summary is what one wants to see.
 ctest --test-dir "$NONSMOOTH_BUILD" -LE '^yade$' -j "$(nproc)" --no-tests=ignore --progress || status=1
-ctest --test-dir "$NONSMOOTH_BUILD" -L '^yade$' --no-tests=error --verbose || status=1
+ctest --test-dir "$NONSMOOTH_BUILD" -L '^yade$' -j "$(nproc)" --no-tests=error --verbose || status=1
 # the last line says what nothing was held against (tests/yade/oracles.py: in CI that is an error)
 without=
 [ -x "$NONSMOOTH_BUILD/oracle/siconos_solve" ] || without=" NOT HELD: Siconos was not asked, its kept answers alone were (install libsiconos-numerics-dev)."

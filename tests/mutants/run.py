@@ -5,9 +5,12 @@
 
 BUILD is the build folder of the checkout (default: build); all is done in copies in BUILD/mutants. Without --all some thirty mutants are tried: those of the
 law at large, of files that have changed since --base (default: where the branch left main, on main the commit before), and some of all others. The status is 1
-where a mutant survives that is not among those known to, where the copy without mutants fails, or where a mutant cannot be applied.
+where a mutant survives that is not among those known to, where the copy without mutants fails, or where a mutant cannot be applied. What became of each stands in
+BUILD/mutants/verdicts.json too.
 """
 import argparse
+import json
+import os
 import random
 import subprocess
 import sys
@@ -22,6 +25,7 @@ from mutants import KNOWN, MUTANTS
 from workplace import ROOT, BuildError, Place, build, mutated_sources
 
 COUNT = 30  # mutants of the quick part
+OUTCOMES = (judging.CAUGHT, judging.CRASHED, judging.TIMEOUT, judging.SURVIVED, judging.BROKEN)
 
 
 def read_arguments():
@@ -133,6 +137,17 @@ def show_checks(verdicts, known):
     return [f"the check {name} notices no mutant" for name in sorted(known) if whole and not any(name in v.noticed for v in law.values())]
 
 
+def write(path, verdicts, seconds):
+    """What became of the mutants as JSON, with the commit."""
+    outcomes = [v.outcome for v in verdicts.values()]
+    found = {"commit": (git("rev-parse", "HEAD") or [None])[0], "changed_since": bool(git("status", "--porcelain", "--untracked-files=no")), "table": len(MUTANTS),
+             "tried": len(outcomes), "wall_s": seconds, **{name.lower(): outcomes.count(name) for name in OUTCOMES}, "known_to_survive": len(KNOWN),
+             "mutants": [{"name": m.name, "file": m.edits[0][0], "broken": m.broken, "outcome": v.outcome.lower(), "by": v.by} for m, v in verdicts.items()]}
+    part = path.with_name(f".part-{path.name}")
+    part.write_text(json.dumps(found, indent=1) + "\n")
+    os.replace(part, path)
+
+
 def main():
     args, began = read_arguments(), time.monotonic()
     if args.list:
@@ -161,8 +176,8 @@ def main():
 
     problems = show_checks(verdicts, known)
     count = lambda outcome: sum(v.outcome == outcome for v in verdicts.values())  # noqa: E731
-    outcomes = (judging.CAUGHT, judging.CRASHED, judging.TIMEOUT, judging.SURVIVED, judging.BROKEN)
-    print(f"\n{len(verdicts)} mutants of {len(MUTANTS)}: {', '.join(f'{count(o)} {o}' for o in outcomes)}; {time.monotonic() - began:.0f} s")
+    print(f"\n{len(verdicts)} mutants of {len(MUTANTS)}: {', '.join(f'{count(o)} {o}' for o in OUTCOMES)}; {time.monotonic() - began:.0f} s")
+    write(work / "verdicts.json", verdicts, round(time.monotonic() - began))
     for m, v in verdicts.items():
         if v.outcome in (judging.SURVIVED, judging.BROKEN):
             if m.name in KNOWN and v.outcome == judging.SURVIVED:

@@ -1,11 +1,46 @@
-"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [PYTEST ARGUMENTS]."""
+"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [--share DIR] [PYTEST ARGUMENTS].
+
+--share DIR: several of these commands at a time share the tests, file by file, by what they write into DIR, which is empty before the first of them.
+"""
 import os
 import sys
 
 import pytest
 
+
+class Shared:
+    """Runs the tests of files that no other process has taken."""
+
+    def __init__(self, folder):
+        self._folder, self._ours = folder, {}
+        os.makedirs(folder, exist_ok=True)
+
+    def _take(self, file):
+        try:
+            os.close(os.open(os.path.join(self._folder, file), os.O_CREAT | os.O_EXCL | os.O_WRONLY))
+        except FileExistsError:
+            return False
+        return True
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_protocol(self, item):
+        file = item.path.name
+        if file not in self._ours:
+            self._ours[file] = self._take(file)
+        return None if self._ours[file] else True  # True: done, by somebody else
+
+    def pytest_terminal_summary(self, terminalreporter):
+        terminalreporter.section("files that this process has taken")
+        terminalreporter.line(" ".join(sorted(file for file, ours in self._ours.items() if ours)))
+
+
 here = os.path.dirname(os.path.realpath(sys.argv[0]))
-arguments = sys.argv[1:]
+arguments, plugins = sys.argv[1:], []
+if "--share" in arguments:
+    k = arguments.index("--share")
+    plugins.append(Shared(arguments[k + 1]))
+    del arguments[k:k + 2]
 if not any(os.path.exists(a.split("::")[0]) for a in arguments):
     arguments.append(here)
-sys.exit(int(pytest.main(["-ra", "--rootdir=" + here, "-p", "no:cacheprovider", *arguments])))
+status = pytest.main(["-ra", "--durations=20", "--durations-min=5", "--rootdir=" + here, "-p", "no:cacheprovider", *arguments], plugins)
+sys.exit(int(status))

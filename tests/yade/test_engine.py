@@ -1,6 +1,11 @@
 """ContactDynamicsEngine in a scene: stacks, momentum, impact, driven walls, other engines, energies, refusals, save and load."""
+import ctypes
 import math
+import os
 import random
+import threading
+import time
+from pathlib import Path
 
 import pytest
 from yade import O
@@ -10,6 +15,8 @@ from yade.wrapper import (
     Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
 
 from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, launch, loose_heap, material, momenta, refused, run
+
+BUILD = Path(os.environ.get("NONSMOOTH_BUILD", Path(__file__).resolve().parents[2] / "build"))
 
 
 @pytest.fixture(autouse=True)
@@ -432,3 +439,34 @@ def test_contacts_recalled_in_a_step_stand_in_the_order_of_ids(tmp_path):
     # each closes its gap of 0.2 m in the step, and no more
     assert sum(speeds) == pytest.approx(100, rel=1e-9)
     assert (speeds[1] - speeds[0], speeds[2] - speeds[1]) == pytest.approx((20, 20), rel=1e-9)
+
+
+def test_the_list_of_interactions_is_not_rewritten_while_a_viewer_walks_along_it():
+    drawing = ctypes.CDLL(str(BUILD / "libnonsmooth_drawing_lock.so"))
+    floor(material())
+    free_disk(0, 0.5)
+    free_disk(0, 1.5)
+    begin()
+    run(2)
+    assert len(contacts()) == 2  # none is made or lost any more, which YADE itself has wait for a viewer
+    O.resetTime()  # in step 0 the list is put into order
+    begun, end = threading.Event(), threading.Event()
+
+    def draw():
+        drawing.nonsmooth_begin_drawing()
+        begun.set()
+        end.wait()
+        drawing.nonsmooth_end_drawing()
+
+    viewer = threading.Thread(target=draw)
+    viewer.start()
+    begun.wait()
+    try:
+        O.run(1, False)
+        time.sleep(0.3)  # a step takes less than a millisecond; one that comes late is not there either
+        assert O.iter == 0
+    finally:
+        end.set()
+        viewer.join()
+    O.wait()
+    assert O.iter == 1

@@ -5,6 +5,7 @@ import math
 import os
 import subprocess
 from dataclasses import asdict
+from types import SimpleNamespace
 
 import leftovers
 import numpy as np
@@ -273,6 +274,21 @@ def test_a_test_is_measured_from_its_records(tmp_path):
     (rising, none), (late, falling) = told["bands"], told["bands_late"]  # there is none of 4 %, so the end's
     assert none is None and late is None and rising["rotation_rad"] == pytest.approx(0.1, rel=0.1) and rising["angle_deg"] == pytest.approx(60, abs=3)
     assert falling["rotation_rad"] == pytest.approx(-0.3, rel=0.1) and falling["angle_deg"] == pytest.approx(60, abs=3)
+
+
+@pytest.mark.parametrize("sides", ["rigid", "flexible"])
+def test_a_row_of_a_test_by_hand(sides):
+    """A sample of 12 m² that had 10, 4 m high and so 3 m wide."""
+    rows = []
+    engine = SimpleNamespace(bonds=5, brokenTension=1, brokenShear=2, brokenTorque=3, brokenMixed=4, contacts=9, meanSpeed=0.1, overlapWorst=1e-4)
+    course = SimpleNamespace(sample=SimpleNamespace(engine=engine, walls=SimpleNamespace(height=lambda: 4.0)), columns=biaxial.COLUMNS, series=SimpleNamespace(write=rows.append),
+                             test=dataclasses.replace(SMALL, sides=sides), state={"begin_time": O.time - 7, "strain": 0.02, "area": 10.0, "rate": 3.0, "unit_s": 0.5})
+    biaxial.Course._row(course, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, 12.0, 25.0, 1e-3, 6)
+    left, right = (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)  # a membrane's pressure is given
+    known = {"step": O.iter, "time_s": 7.0, "strain": 0.02, "volumetric_strain": 0.2, "sigma1_top_Pa": 20.0, "sigma1_bottom_Pa": 22.0, "sigma3_left_Pa": left, "sigma3_right_Pa": right,
+             "inertial_number": 1.5, "bonds_alive": 5, "bonds_broken_tension": 1, "bonds_broken_shear": 2, "bonds_broken_torque": 3, "bonds_broken_mixed": 4, "contacts": 9,
+             "speed_mean_m_per_s": 0.1, "iterations_mean": 25.0, "residual_worst": 1e-3, "unconverged": 6, "overlap_worst_rel": 1e-4}
+    assert rows == [pytest.approx(known, rel=1e-12)]  # division and subtraction round
 
 
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])

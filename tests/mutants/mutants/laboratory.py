@@ -50,7 +50,7 @@ MUTANTS = (
     mutant("lab-effect", LAB + "effects.py", "(major - minor) / (major + minor)", "(major - minor) / major", "the apparent angle of friction has one stress below",
            "test_laboratory.py::test_effects_compare_each_value_with_the_usual_one_sample_by_sample"),
     mutant("lab-campaign", LAB + "campaign.py", "[1e-3 * f.cohesion for f in fits]", "[1e-6 * f.cohesion for f in fits]", "cohesion in megapascals is called kilopascals",
-           "test_laboratory.py::test_an_envelope_is_the_mean_over_seeds_with_its_interval"),
+           "test_laboratory.py::test_a_campaign_sums_up_its_seeds"),
     mutant("lab-misfit", LAB + "calibration.py", "(found[1] - w.friction_deg) / DEGREES", "(w.friction_deg - found[1]) / DEGREES",
            "a calibration seeks the angle the wrong way", "test_laboratory.py::test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped"),
     mutant("lab-pressure", LAB + "membrane.py", "near = 0.6 * r.max()", "near = 6 * r.max()", "the membrane ends some diameters from the platens",
