@@ -21,7 +21,7 @@ from yade.nonsmooth.whole_files import write_atomically
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="soak.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--steps", type=int, default=1_000_000, metavar="N", help="time steps of 5 ms (default: %(default)s, some hours)")
+    parser.add_argument("--steps", type=int, default=1_000_000, metavar="N", help="time steps of 5 ms (default: %(default)s, half an hour)")
     parser.add_argument("--disks", type=int, default=500, metavar="N", help="disks in the drum (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of their sizes (default: %(default)s)")
     parser.add_argument("--out", default="out/soak.json", metavar="FILE", help="file for the result (default: %(default)s)")
