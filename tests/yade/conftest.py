@@ -16,6 +16,7 @@ def empty():
     """An empty scene before and after the test."""
     O.reset()
     yield
+    O.trackEnergy = O.timingEnabled = O.periodic = False
     O.reset()
 
 

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from yade import O
 from yade.nonsmooth import checkpoints, contact
 from yade.nonsmooth.benchmark import cold_start, report, states, statistics, sweeps
 
@@ -24,11 +23,7 @@ PROMISED = ("sweep_ns_per_contact", "sweep_speedup_over_scalar", "sweep_speedup_
             "cold_sweeps_to_1e-4", "warm_sweeps_mean", "fraction_of_bandwidth_bound", "correction_over_step", "correction_over_step_moving")
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def run(*options, **environment):

@@ -17,11 +17,7 @@ JUST = 1e-6  # the relative margin of issue 2, acceptance 5
 ZONE = 1e-4  # a small ellipse [ℓ]: a margin of 1e-6 leaves it within seconds
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def pair(gap=0.0, angle=0.0, bonded=1, layers=(0, 0), **more):

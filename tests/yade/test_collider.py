@@ -12,11 +12,7 @@ from contact_scenes import begin, bits, box, engine, loose_heap, material, run
 REACH = 0.05
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def collider():

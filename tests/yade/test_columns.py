@@ -21,11 +21,7 @@ COARSE = dict(path=0.2)
 SMALL = dict(disks=200, aspect=1.5)
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def hard(heap, tolerance=1e-3):

@@ -13,11 +13,7 @@ DIP = math.radians(21)
 ALONG, NORMAL = Vector3(math.cos(DIP), -math.sin(DIP), 0), Vector3(math.sin(DIP), math.cos(DIP), 0)
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def incline(mu, rolling=0.0, radius=0.5, piece=0.25, turns=True, wall=None, length=8.0, dip=DIP):

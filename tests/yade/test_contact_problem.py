@@ -17,11 +17,7 @@ from contact_scenes import begin, box, engine, loose_heap, material, run
 BUILD = Path(os.environ.get("NONSMOOTH_BUILD", Path(__file__).resolve().parents[2] / "build"))
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.fixture

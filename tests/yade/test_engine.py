@@ -19,12 +19,7 @@ from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_di
 BUILD = Path(os.environ.get("NONSMOOTH_BUILD", Path(__file__).resolve().parents[2] / "build"))
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.trackEnergy = O.timingEnabled = False
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 # ---- balance of forces and momentum ---------------------------------------------------------------

@@ -15,16 +15,12 @@ import drawn
 from yade import O
 from yade.nonsmooth import errors, processes, records, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
-from yade.nonsmooth.laboratory import biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, strength, wall_shear
+from yade.nonsmooth.laboratory import biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, wall_shear
 
 ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 # ---- the membrane ---------------------------------------------------------------------------------

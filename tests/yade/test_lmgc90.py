@@ -11,11 +11,7 @@ from yade.nonsmooth.verification import Bench, lmgc90, solver
 from contact_scenes import begin, box, engine, loose_heap, material, run
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.mark.parametrize("check", [lmgc90.lmgc90_step_in_our_arrays, lmgc90.lmgc90_step_by_us, lmgc90.lmgc90_packing_stays_at_rest,

@@ -11,12 +11,7 @@ from yade.wrapper import (
 from contact_scenes import G, begin, contacts, engine, free_disk, material, refused, run
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.periodic = False
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def rests(**options):

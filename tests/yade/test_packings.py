@@ -1,16 +1,11 @@
 """The quick variants of the checks of packings hold: friction of frictionless disks, statistics of forces."""
 import numpy as np
 import pytest
-from yade import O
 from yade.nonsmooth.verification import packings
 from yade.nonsmooth.verification.registry import Bench
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.mark.parametrize("check", [packings.frictionless_packing, packings.force_network])

@@ -7,7 +7,6 @@ import hashlib
 from dataclasses import asdict
 
 import pytest
-from yade import O
 from yade.nonsmooth import experiment, packing, section, slope
 from yade.nonsmooth.heaps import column, study
 from yade.nonsmooth.laboratory import biaxial, materials, pressing
@@ -22,11 +21,7 @@ PINNED = {
 }
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def first_rows(path):

@@ -16,11 +16,7 @@ NORMAL = Vector3(math.sin(DIP), math.cos(DIP), 0)
 DOWN = Vector3(math.cos(DIP), -math.sin(DIP), 0)
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def water(heights=(10,), times=(0,), normal=NORMAL, **more):

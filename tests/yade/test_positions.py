@@ -11,11 +11,7 @@ KAPPA = 0.2
 SLIGHT = 1e-4  # ℓ, correctionSlack as it is unless set: an error that is left as it is
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def hexagonal_block(overlap, side=20, stuff=None):

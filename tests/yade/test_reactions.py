@@ -9,11 +9,7 @@ from yade.nonsmooth import scene
 from contact_scenes import G, begin, contacts, engine, floor, free_disk, material, momenta, run
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 # ---- directions -----------------------------------------------------------------------------------

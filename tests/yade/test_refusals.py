@@ -14,11 +14,7 @@ from yade.wrapper import (
 from contact_scenes import G, begin, contacts, engine, launch, material, refused, run
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def free_disk(x=0.0, y=0.0, stuff=None, velocity=(0, 0, 0)):

@@ -5,11 +5,7 @@ from yade import O
 from contact_scenes import begin, box, engine, loose_heap, material, run, state
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-8])

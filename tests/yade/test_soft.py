@@ -19,11 +19,7 @@ E = 1e9  # Pa
 RAMP = 5e-3
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def parameters(model="cohesion_moment", rock=ROCK, **more):

@@ -16,11 +16,7 @@ same = dict(rel=1e-9)  # rounding
 MODES = ("brokenTension", "brokenShear", "brokenTorque", "brokenMixed")
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def begin(disks, gravity=(0, 0, 0), wall=False):

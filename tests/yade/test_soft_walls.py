@@ -18,11 +18,7 @@ WEAK = dataclasses.replace(WALL, bonded=False, slip_weakening=section.SlipWeaken
 RAMP = 5e-3
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def on_a_wall(m, model="cohesion_moment", turned=False, gap=0.0, bond=True, **more):

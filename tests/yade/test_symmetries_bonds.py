@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from yade import O
 
-from contact_scenes import engine
 from symmetries import BINARY, FRAMES, Disk, Frame, Line, World, assert_bits, assert_same, play, shuffled
 
 ROUNDING, SOLVED = 1e-9, 1e-8  # as in test_symmetries_contacts.py
@@ -30,11 +29,7 @@ def brittle():
 WORLD = brittle()
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.fixture(scope="module")

@@ -33,11 +33,7 @@ def pressed(seed=6):
 WORLDS = {"heap": heap(), "pressed": pressed()}
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.fixture(scope="module", params=WORLDS)

@@ -6,7 +6,7 @@ from yade.nonsmooth import scene
 from yade.nonsmooth.laboratory import membrane
 from yade.nonsmooth.laboratory.walls import SIDES, Walls
 
-from contact_scenes import TIGHT, material, run
+from contact_scenes import TIGHT, material
 
 MIRROR = {"bottom": "bottom", "top": "top", "left": "right", "right": "left"}
 TRANSPOSED = {"bottom": "left", "left": "bottom", "right": "top", "top": "right"}
@@ -14,11 +14,7 @@ WIDTH, HEIGHT, PRESSURE = 6.4, 4.4, 1e5
 ROUNDING, SOLVED = 1e-9, 1e-7  # of 300 steps under load, in the scales of the walls; the solver's 1e-12 where the order of contacts is another
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 # ---- walls ----------------------------------------------------------------------------------------

@@ -29,11 +29,7 @@ def slope(law="step"):
 WORLDS = {"step": slope("step"), "exponential": slope("exponential")}
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.fixture(scope="module", params=WORLDS)

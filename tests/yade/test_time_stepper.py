@@ -8,11 +8,7 @@ from yade.nonsmooth import scene
 from yade.wrapper import NonsmoothTimeStepper
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def stepper(**options):

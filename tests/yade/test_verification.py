@@ -24,11 +24,7 @@ ALL = {c.name: c for c in verification.load_checks()}
 QUICK = [c.name for c in ALL.values() if module_of(c) in OURS and c.quick_seconds is not None]
 
 
-@pytest.fixture(autouse=True)
-def clean():
-    O.reset()
-    yield
-    O.reset()
+pytestmark = pytest.mark.usefixtures("empty")
 
 
 def verify(*arguments):
