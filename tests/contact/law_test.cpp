@@ -61,6 +61,30 @@ TEST(Law, ProjectionTakesTheNormalFirst)
 	EXPECT_EQ(apart.r, 0);
 }
 
+TEST(Law, InverseDelassusOfBodiesThatAreHeavierOneWay)
+{
+	Contact c;
+	c.nx      = 0.6;
+	c.ny      = 0.8;
+	c.leverNi = 2;
+	c.leverTi = -1;
+	c.leverNj = 3;
+	c.leverTj = -4;
+	c.length  = 0.5;
+	const InverseMass light { 0.2, 0.5, 0.1 }, heavy { 0.3, 0.4, 0.7 }, held {};
+	const Impulse     w = inverseDelassus(c, light, heavy);
+	EXPECT_NEAR(1 / w.n, 0.36 * 0.5 + 0.64 * 0.9 + 4 * 0.1 + 9 * 0.7, 1e-14); // n_x², n_y², levers squared; rounding
+	EXPECT_NEAR(1 / w.t, 0.64 * 0.5 + 0.36 * 0.9 + 1 * 0.1 + 16 * 0.7, 1e-14);
+	EXPECT_NEAR(1 / w.r, 0.1 + 0.7, 1e-15);
+	const Impulse none = inverseDelassus(c, held, held);
+	EXPECT_EQ(none.n, 0);
+	EXPECT_EQ(none.t, 0);
+	EXPECT_EQ(none.r, 0);
+	const Impulse level = inverseDelassus(c, { 0.2, 0.2, 0 }, held); // a row that no impulse moves
+	EXPECT_NEAR(level.n, 5, 1e-14);
+	EXPECT_NEAR(level.r, 5 * 0.25, 1e-14);
+}
+
 TEST(Law, ProjectionIsIdempotent)
 {
 	const Contact c = contact(1, 0.5, 0.1);

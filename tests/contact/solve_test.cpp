@@ -117,6 +117,31 @@ TEST_P(OneContact, BiasIsTheGapThatMayClose)
 	EXPECT_NEAR(p.velocities[1].x, 0.5, rounding);
 }
 
+TEST_P(OneContact, EachRowHasItsBias)
+{
+	// W = I and nothing at a threshold but the first row's zero: P = −(q + b)
+	const Impulse biases[] = { { 0.1, 0, 0 }, { 0, 0.02, 0 }, { 0, 0, -0.03 }, { 0.1, 0.02, -0.03 } };
+	for (const Impulse& b : biases) {
+		Problem p           = single({ -1, 0.1, 0.02 });
+		p.contacts[0].biasN = b.n;
+		p.contacts[0].biasT = b.t;
+		p.contacts[0].biasR = b.r;
+		solve(p, exact(GetParam()));
+		expectNear(p.impulses[0], { 1 - b.n, -0.1 - b.t, -0.02 - b.r }, rounding);
+	}
+}
+
+TEST_P(OneContact, ABodyThatIsTurnedPushesByItsLever)
+{
+	Problem p             = single({ 0, 0, 0 });
+	p.freeVelocity[0]     = { 0, 0, 2 }; // held, and turned
+	p.contacts[0].leverNi = 0.5;
+	p.contacts[0].friction = p.contacts[0].rollingArm = 0;
+	solve(p, exact(GetParam()));
+	EXPECT_NEAR(p.velocities[1].x, 0.5 * 2, rounding); // U_n = v − λ w = 0
+	EXPECT_NEAR(p.impulses[0].n, 1, rounding);
+}
+
 TEST_P(OneContact, DiskWithALeverRolls)
 {
 	// a disk that slides with v = 1 on a floor: Coulomb's impulse is limited by what makes it roll, P_t = −m v/3
@@ -145,6 +170,17 @@ TEST_P(OneContact, DrivenBodyPushes)
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, OneContact, ::testing::Values(Method::GaussSeidel, Method::Accelerated));
+
+TEST(Residual, IsASpeedRowByRow)
+{
+	// W = I, thresholds out of reach: what is missed is the velocity itself, a turn times the length
+	Problem p              = single({ 0.3, 0.2, 0.05 });
+	p.contacts[0].adhesion = 10;
+	p.contacts[0].length   = 2;
+	const SpeedResidual s = naturalMapSpeeds(p);
+	EXPECT_NEAR(s.rms, std::sqrt(0.09 + 0.04 + 0.01), rounding);
+	EXPECT_NEAR(s.largest, s.rms, rounding);
+}
 
 TEST(Residual, ZeroAtTheAnalyticSolution)
 {

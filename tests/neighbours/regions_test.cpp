@@ -74,6 +74,24 @@ TEST(Regions, TheLargestAroundIsThatOfTheSquareAndTheEightAroundIt)
 		EXPECT_EQ(found[regions.of(k)], std::abs(k % 5 - 2) <= 1 && std::abs(k / 5 - 2) <= 1 ? 7 : 1) << k;
 }
 
+TEST(Regions, DifferencesAreThoseOfTheSquareAndTheEightAroundItEachWay)
+{
+	std::vector<Disk> disks;
+	for (int y = 0; y < 5; ++y)
+		for (int x = 0; x < 5; ++x)
+			disks.push_back({ width * (x + 0.5), width * (y + 0.5), 0.3 });
+	Regions regions;
+	regions.build(disks, width);
+	for (const Vector& v : { Vector { 3, 0 }, { -3, 0 }, { 0, 3 }, { 0, -3 } }) {
+		std::vector<Vector> velocities(25, Vector { 1, -2 });
+		velocities[12] = { 1 + v.x, -2 + v.y }; // the middle
+		std::vector<double> found;
+		regions.differences(2, velocities, found);
+		for (int k = 0; k < 25; ++k)
+			EXPECT_EQ(found[regions.of(k)], std::abs(k % 5 - 2) <= 1 && std::abs(k / 5 - 2) <= 1 ? 3 : 0) << k;
+	}
+}
+
 TEST(Regions, DisksThatAreNotThereHaveNoSquare)
 {
 	const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -80,6 +80,19 @@ def test_bond_breaks_just_above_its_threshold_and_records_how(name, angle):
         assert ZONE <= moved / LENGTH <= 1.05 * ZONE
 
 
+@pytest.mark.parametrize("rolling", [0.0, 10.0])
+def test_a_bond_breaks_in_shear_whatever_its_rolling_friction(rolling):
+    free = pair(rolling=rolling)
+    O.bodies[free].state.blockedDOFs = "zXYZ"  # so that it can yield in shear alone
+    load(free, normal=PUSH, shear=1.001 * MU * (F_A + PUSH))
+    for _ in range(10000):
+        O.step()
+        if engine().bonds == 0:
+            break
+    e = engine()
+    assert (e.brokenTension, e.brokenShear, e.brokenTorque, e.brokenMixed) == (0, 1, 0, 0)
+
+
 def test_reactions_at_the_threshold():
     free = pair()
     load(free, normal=PUSH, shear=0.5 * MU * (F_A + PUSH), torque=0.5 * ROLLING * (F_A + PUSH))

@@ -150,12 +150,14 @@ def test_turning_wall_drags_a_disk():
 def test_forces_of_other_engines_are_respected():
     stuff = material(0.3)
     floor(stuff)
-    flying, pushed = free_disk(-5, 3, stuff=stuff), free_disk(5, 0.5, stuff=stuff)
+    flying, pushed, turned = free_disk(-5, 3, stuff=stuff), free_disk(5, 0.5, stuff=stuff), free_disk(-8, 9, stuff=stuff)
     O.bodies[pushed].state.blockedDOFs = "zXYZ"
     mass = O.bodies[flying].state.mass
     begin(before=[ForceEngine(force=(2 * mass, 5 * mass, 0), ids=[flying, pushed])])
+    O.forces.setPermT(turned, (0, 0, 40))
     run(100)
     t = O.time
+    assert O.bodies[turned].state.angVel[2] == pytest.approx(40 * t / O.bodies[turned].state.inertia[2], rel=1e-12)
     assert tuple(O.bodies[flying].state.vel)[:2] == pytest.approx((2 * t, (5 - G) * t), rel=1e-12)
     # on the floor: 2 m against μ (m g − 5 m)
     assert O.bodies[pushed].state.vel[0] == pytest.approx((2 - 0.3 * (G - 5)) * t, rel=1e-9)
@@ -434,6 +436,17 @@ def test_contacts_recalled_in_a_step_stand_in_the_order_of_ids(tmp_path):
     # each closes its gap of 0.2 m in the step, and no more
     assert sum(speeds) == pytest.approx(100, rel=1e-9)
     assert (speeds[1] - speeds[0], speeds[2] - speeds[1]) == pytest.approx((20, 20), rel=1e-9)
+
+
+def test_contacts_that_came_late_stand_in_the_order_of_ids_too(tmp_path):
+    first, late, early = (free_disk(x, 0) for x in (0, -5, 1))
+    begin(gravity=(0, 0, 0))
+    run(2)
+    O.bodies[late].state.pos = (-1, 0, 0)
+    run(1)
+    assert [(i.id1, i.id2) for i in O.interactions] == [(first, early), (first, late)]  # as YADE has them
+    engine().dump(str(tmp_path / "problem.h5"))
+    assert contact.load(tmp_path / "problem.h5").body.tolist() == [[first, late], [first, early]]
 
 
 def test_the_list_of_interactions_is_not_rewritten_while_a_viewer_walks_along_it():

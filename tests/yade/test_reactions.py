@@ -226,11 +226,12 @@ def test_forces_and_torques_of_other_engines_work():
 def test_figures_of_a_step_by_hand():
     stuff = material(0.0)
     floor(stuff)
-    places, radii, speeds = ((0, 0.49), (3, 0.2), (7, 4)), (0.5, 0.2, 1.0), ((3, 0, 0), (0, 0, 0), (0, 4, 0))
+    places, radii, speeds = ((0, 0.392), (3, 0.2), (7, 4)), (0.4, 0.2, 1.0), ((3, 0, 0), (0, 0, 0), (0, 4, 0))
     ids = [O.bodies.append(scene.disk(place, r, stuff)) for place, r in zip(places, radii)]
     O.bodies.append(scene.disk((20, 20), 1.0, stuff, fixed=True))  # held bodies do not count
     for k, v in zip(ids, speeds):
         O.bodies[k].state.vel = v
+    O.bodies[ids[2]].state.angVel = (0, 0, 5)
     e = begin(gravity=(0, 0, 0), relaxationRate=0)
     run(1)
     masses = [O.bodies[k].state.mass for k in ids]
@@ -238,6 +239,6 @@ def test_figures_of_a_step_by_hand():
     assert tuple(e.centroid)[:2] == pytest.approx(mean, rel=1e-12)
     assert (e.meanSpeed, e.maxSpeed) == pytest.approx((7 / 3, 4), rel=1e-12)
     assert tuple(e.momentum)[:2] == pytest.approx((masses[0] * 3, masses[2] * 4), rel=1e-12)
-    # two touch the floor, one of them by 0.01 of its diameter of 1 m
+    # two touch the floor, one of them by 0.01 of its diameter of 0.8 m
     assert (e.contacts, e.candidates) == (2, 2) and (e.overlapWorst, e.overlapMean) == pytest.approx((0.01, 0.005), rel=1e-9)
-    assert e.kineticEnergy == pytest.approx(0.5 * (masses[0] * 9 + masses[2] * 16), rel=1e-12)
+    assert e.kineticEnergy == pytest.approx(0.5 * (masses[0] * 9 + masses[2] * 16 + 0.5 * masses[2] * 25), rel=1e-12)  # I = ½ m r²
