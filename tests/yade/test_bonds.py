@@ -4,6 +4,7 @@ import math
 import numpy as np
 import pytest
 from yade import O
+from yade.minieigenHP import Quaternion
 from yade.nonsmooth import scene, tables
 
 from contact_scenes import begin, contacts, engine, material, run
@@ -151,6 +152,34 @@ def test_bond_opened_in_tension_keeps_its_new_length():
     assert s.pos[0] == pytest.approx(opened, abs=1e-9)
 
 
+def moved(normal=0.0, tangential=0.0, turned=(0.0, 0.0)):
+    """Whether a bond with half-axes of 0.02 and 0.01 ℓ holds after its second disk was moved [ℓ], and both were turned [rad]."""
+    free = pair(bondEllipseNormal=0.02, bondEllipseTangential=0.01)
+    O.bodies[free].state.blockedDOFs = "xyzXYZ"
+    O.bodies[free].state.pos = (LENGTH * (1 + normal), LENGTH * tangential, 0)
+    for k, angle in zip((0, free), turned):
+        O.bodies[k].state.ori = Quaternion((0, 0, 1), angle)
+    run(1)
+    return contacts()[0].phys.bonded
+
+
+@pytest.mark.parametrize("normal, tangential", [(1, 0), (0, 1), (0, -1), (0.8, 0.6), (0.6, -0.8)])
+def test_a_bond_holds_inside_its_ellipse(normal, tangential):
+    # the frame follows the disks, by angles of a hundredth: 1 % of the path along the other axis, which is as long again at most
+    assert moved(0.97 * 0.02 * normal, 0.97 * 0.01 * tangential)
+    O.reset()
+    assert not moved(1.03 * 0.02 * normal, 1.03 * 0.01 * tangential)
+
+
+@pytest.mark.parametrize("turned", [(1, 0), (0, 1), (-0.5, 0.5), (0.5, 0.5), (3, -3)])
+def test_a_bond_is_marked_where_the_disks_touch(turned):
+    """Disks that turn by θ₁ and θ₂ move the two points apart by R (θ₁ + θ₂); those that roll on each other not at all."""
+    share = abs(sum(turned))
+    for path in (0.97, 1.03):  # of the half-axis; R = ℓ/2
+        assert moved(turned=[path * 0.02 * t for t in turned]) == (path * share < 1)
+        O.reset()
+
+
 @pytest.mark.parametrize("gap, bonded", [(0.0099, 1), (0.0101, 0)])
 def test_bonds_are_made_below_the_creation_distance(gap, bonded):
     pair(gap=gap * LENGTH, bonded=bonded)
@@ -163,6 +192,20 @@ def test_bonds_are_made_within_a_layer_only():
     assert engine().bond() == 0  # it has one
     O.reset()
     pair(bonded=1, layers=(0, 1), bondsToAll=True)
+
+
+@pytest.mark.parametrize("layers, share", [((0, 1), 0), ((3, 3), 1), ((-1, -1), 1)])
+def test_residual_adhesion_acts_within_a_layer_and_not_between_two(layers, share):
+    pair(bonded=int(layers == (3, 3)), layers=layers, residualTensileStrength=0.25 * SIGMA)
+    assert contacts()[0].phys.residualTensileForce == share * 0.25 * F_A
+
+
+def test_residual_adhesion_on_a_wall_is_the_walls():
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], material(wall=True, layer=7, residualTensileStrength=3e4)))
+    O.bodies.append(scene.disk((0, RADIUS), RADIUS, material(layer=0, residualTensileStrength=1e4)))
+    begin()
+    run(1)
+    assert contacts()[0].phys.residualTensileForce == LENGTH * 3e4
 
 
 def test_unbond_counts_nothing_as_broken():
