@@ -118,6 +118,12 @@ def test_forces_of_four_walls_by_hand():
     assert walls.width() == pytest.approx(1.0 + 0.5 * 2 * O.dt, abs=1e-9)
 
 
+def test_stresses_are_forces_over_the_wall_that_bears_them(monkeypatch):
+    walls = Walls.around(2.0, 4.0, material(), material())
+    monkeypatch.setattr(walls, "forces", lambda: dict.fromkeys(SIDES, 8.0))
+    assert walls.stresses() == pytest.approx({"bottom": 4.0, "top": 4.0, "left": 2.0, "right": 2.0}, rel=1e-12)
+
+
 def test_the_pressure_follows_the_lengths_of_the_sample():
     stuff = material(0.0)
     walls = Walls.around(4.0, 3.0, stuff, stuff)

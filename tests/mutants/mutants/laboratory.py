@@ -40,7 +40,7 @@ MUTANTS = (
     mutant("lab-walls", LAB + "walls.py", "+ self._pushes.get(wall, 0.0)", "- self._pushes.get(wall, 0.0)", "the push on a free wall counts as one of the disks",
            "test_symmetries_laboratory.py::test_forces_of_four_walls_by_hand"),
     mutant("lab-stress", LAB + "walls.py", "(width if OUTWARDS[wall][0] == 1 else height)", "(height if OUTWARDS[wall][0] == 1 else width)",
-           "stresses are over the other side's length", "test_symmetries_laboratory.py::test_forces_of_four_walls_by_hand"),
+           "stresses are over the other side's length", "test_symmetries_laboratory.py::test_stresses_are_forces_over_the_wall_that_bears_them"),
     mutant("lab-volume", LAB + "biaxial.py", 'area / s["area"] - 1', '1 - area / s["area"]', "dilation is compaction",
            "test_laboratory.py::test_a_row_of_a_test_by_hand"),
     mutant("lab-slide", LAB + "wall_shear.py", '"normal_Pa": normal / width, "shear_Pa": shear / width', '"normal_Pa": shear / width, "shear_Pa": normal / width',
