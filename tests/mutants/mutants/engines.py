@@ -11,7 +11,7 @@ WALL, WALL_LAW, FOLLOWER = "pkg/dem/WallPhys.cpp", "pkg/dem/Law2_SegmentGeom_Wal
 MUTANTS = (
     # ---- seam: gather
     mutant("gather-torque", SEAM, "if (w.w > 0) v.w += h * m[2] * w.w;", "if (w.w > 0) v.w += m[2] * w.w;", "a torque of another engine lacks the time step",
-           "test_engine.py::test_forces_of_other_engines_are_respected"),
+           "test_bonds.py::test_reactions_at_the_threshold"),
     mutant("gather-closing", SEAM, "reading.gap + 1.2 * relaxation.step * closing <= widest", "reading.gap - 1.2 * relaxation.step * closing <= widest",
            "a gap that closes is left out of the solve", "test_engine.py::test_fast_approach_is_solved_before_it_overlaps",
            "test_engine.py::test_gaps_that_stay_open_are_left_out"),
