@@ -2,13 +2,11 @@
 import runpy
 import signal
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from shell import SCRIPTS
 from yade import O
-
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 
 
 @pytest.fixture

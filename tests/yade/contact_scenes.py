@@ -2,10 +2,10 @@
 import math
 import os
 import random
-import subprocess
 
 import numpy as np
 import pytest
+import shell
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
@@ -72,13 +72,8 @@ def refused(*words):
 
 def launch(script, *arguments):
     """Runs a script by the launcher in a process of its own."""
-    here = os.path.dirname(os.path.realpath(__file__))
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    environment["NONSMOOTH_BUILD"] = os.path.dirname(os.environ["YADE_PREFIX"])
-    environment["PYTHONPATH"] = here
-    environment["OMP_WAIT_POLICY"] = "passive"  # threads of a busy machine must not wait for each other in spin loops
-    return subprocess.run([os.path.join(here, "..", "..", "scripts", "yade-nonsmooth"), str(script), *arguments],
-                          env=environment, text=True, capture_output=True, timeout=300)
+    # threads of a busy machine must not wait for each other in spin loops
+    return shell.run("yade-nonsmooth", script, *arguments, limit=300, PYTHONPATH=os.path.dirname(os.path.realpath(__file__)), OMP_WAIT_POLICY="passive")
 
 
 def state(ids):

@@ -3,17 +3,16 @@ import dataclasses
 import json
 import math
 import os
-import subprocess
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+import shell
 from yade.nonsmooth import checkpoints, contact
 from yade.nonsmooth.benchmark import cold_start, report, states, statistics, sweeps
 
 ROOT = Path(__file__).resolve().parents[2]
-COMMAND = [ROOT / "scripts" / "yade-nonsmooth", ROOT / "scripts" / "benchmark.py"]
 DISKS = 350
 # The shipped section, loose and soon settled; so few disks do not hold on a plane as smooth as its own, nor from every seed.
 QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 4.0", "seed: 1 ": "seed: 3 ",
@@ -27,8 +26,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 
 def run(*options, **environment):
-    everything = {**os.environ, "NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"]), **environment}
-    return subprocess.run([*map(str, COMMAND), *map(str, options)], env=everything, text=True, capture_output=True, timeout=600)
+    return shell.run("benchmark.py", *options, **environment)
 
 
 @pytest.fixture(scope="module")

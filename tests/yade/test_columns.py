@@ -2,13 +2,12 @@
 import dataclasses
 import json
 import math
-import os
-import subprocess
 from dataclasses import asdict
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import shell
 
 import drawn
 from yade import O
@@ -326,10 +325,7 @@ def test_other_fronts_have_exponents_of_their_own(monkeypatch):
 
 
 def command(*arguments):
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    environment["NONSMOOTH_BUILD"] = os.path.dirname(os.environ["YADE_PREFIX"])
-    script = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts", "column.py")
-    return subprocess.run([script, *map(str, arguments)], env=environment, text=True, capture_output=True, timeout=600)
+    return shell.run("column.py", *arguments)
 
 
 def test_command_writes_series_summary_and_figures(tmp_path):

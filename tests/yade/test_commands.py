@@ -11,15 +11,16 @@ from pathlib import Path
 
 import leftovers
 import pytest
+import shell
 import slope_scenes
 from contact_scenes import material
+from shell import SCRIPTS
 from yade import O
 from yade.nonsmooth import checkpoints, commands, errors, interrupts, output_folder, processes, records, results, scene, side_by_side, stepping, whole_files
 from yade.nonsmooth.laboratory import calibration, campaign, materials
 from yade.wrapper import NonsmoothTimeStepper
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
-ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"} | {"NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"])}
+ENVIRONMENT = shell.environment()
 SLOPE = ("--disks", "300", "--threads", "1", "--seed", "1")
 
 

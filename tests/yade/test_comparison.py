@@ -11,6 +11,7 @@ import drawn
 import leftovers
 import numpy as np
 import pytest
+import shell
 
 from yade.nonsmooth import output_folder, packing, section, slope, worlds
 from yade.nonsmooth.benchmark import machine
@@ -439,12 +440,9 @@ def test_the_limit_of_stiffness_is_that_of_the_heap():
 
 
 def test_the_script_refuses_in_one_line(tmp_path):
-    import subprocess
-
-    script = Path(__file__).resolve().parents[2] / "scripts" / "compare_hard_soft.py"
     for words, wanted in ((("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
                           (("--cost", "--scenario", "pile"), "--cost"),
                           (("--scenario", "column", "--aspect", "6"), "--stiffness 1e+08"),
                           (("--scenario", "biaxial", "--source", "no-such-rock"), "no-such-rock")):
-        done = subprocess.run([script, *words, "--out", tmp_path], capture_output=True, text=True)
+        done = shell.run("compare_hard_soft.py", *words, "--out", tmp_path)
         assert done.returncode != 0 and wanted in done.stderr and "Traceback" not in done.stderr

@@ -7,25 +7,23 @@ import json
 import math
 import os
 import shutil
-import subprocess
 from dataclasses import asdict
 from pathlib import Path
 
 import pytest
+import shell
 import slope_scenes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from yade import O
 from yade.nonsmooth import checkpoints, errors, experiment, section, whole_files
 
-ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = int(os.environ.get("NONSMOOTH_FUZZ_CHECKPOINTS", "100"))
 DISKS = 200
 
 
 def make(source, out, end):
-    done = subprocess.run([ROOT / "scripts" / "yade-nonsmooth", Path(__file__).with_name("killed_run.py"), source, str(DISKS), out, end, "0", "--threads", "1"],
-                          text=True, capture_output=True, timeout=300)
+    done = shell.run("yade-nonsmooth", Path(__file__).with_name("killed_run.py"), source, DISKS, out, end, 0, "--threads", 1, limit=300)
     assert done.returncode == 0, done.stderr
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in sorted(out.rglob("*")) if path.is_file()}
 

@@ -6,6 +6,7 @@ import re
 import subprocess
 
 import pytest
+import shell
 from yade import utils
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
@@ -67,9 +68,7 @@ def test_every_lesson_has_a_table_that_yade_reads_and_numerics_to_set(lesson):
 
 def launched(name, folder, line):
     """What an example prints with a line of a table, "FILE:NUMBER", handed over as yade-batch does."""
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    environment |= dict(NONSMOOTH_BUILD=os.path.dirname(os.environ["YADE_PREFIX"]), YADE_BATCH=line)
-    done = subprocess.run([os.path.join(EXAMPLES, name)], cwd=folder, env=environment, text=True, capture_output=True, timeout=600)
+    done = shell.run(os.path.join(EXAMPLES, name), cwd=folder, YADE_BATCH=line)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -252,13 +251,12 @@ def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):
 
 def test_the_block_of_the_front_page_slides_as_it_says(tmp_path):
     """README.md: in the first second it gains 3.2 m/s, which is g (sin 30° − 0.2 cos 30°)."""
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"} | dict(NONSMOOTH_BUILD=os.path.dirname(os.environ["YADE_PREFIX"]))
     with open(os.path.join(ROOT, "doc", "examples", "falling_block.py")) as file:
         text = file.read().replace("range(1, 16)", "range(1, 2)")
     assert "range(1, 2)" in text
     script = tmp_path / "block.py"
     script.write_text(text)
-    done = subprocess.run([os.path.join(ROOT, "scripts", "yade-nonsmooth"), script, "--threads", "1"], env=environment, text=True, capture_output=True, timeout=120)
+    done = shell.run("yade-nonsmooth", script, "--threads", 1, limit=120)
     assert done.returncode == 0, done.stderr
     speed, bonds = re.search(r"1 s: mean speed +(\S+) m/s, +(\d+) bonds left", done.stdout).groups()
     # (sin 30° − 0.2 cos 30°) g t from rest; three digits are printed, and the block settles onto the slope within the first steps

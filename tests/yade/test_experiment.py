@@ -2,10 +2,9 @@
 
 import json
 import shutil
-import subprocess
 
 import pytest
-from conftest import SCRIPTS
+import shell
 from slope_scenes import SMALL
 from yade.nonsmooth import records, results
 
@@ -19,7 +18,7 @@ def bytes_of(folder):
 
 def test_one_thread_gives_the_same_bits(whole, tmp_path):
     """The command in a process of its own, on one thread, against the run in this process, on all."""
-    done = subprocess.run([SCRIPTS / SLOPE, "--section", SMALL, "--out", tmp_path, "--threads", "1", "--no-figures"], capture_output=True, text=True)
+    done = shell.run(SLOPE, "--section", SMALL, "--out", tmp_path, "--threads", 1, "--no-figures")
     assert done.returncode == 0, done.stdout + done.stderr
     assert bytes_of(tmp_path) == bytes_of(whole.folder)
     told = json.loads((tmp_path / "summary.json").read_text())

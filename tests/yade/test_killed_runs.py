@@ -12,20 +12,21 @@ import time
 from pathlib import Path
 
 import pytest
+import shell
 import slope_scenes
+from shell import SCRIPTS
 
-ROOT = Path(__file__).resolve().parents[2]
 KILLS = int(os.environ.get("NONSMOOTH_KILLS", "4"))
 DISKS, END = "600", "2.5"  # s: settled at 1.5, rows, bonds that break, the water's rise from 2.0
 BEGINNING = 40  # accesses to files in which a run over an old folder removes the old records and writes its first checkpoints
 
 
 def command(section, out, look, *options):
-    return [ROOT / "scripts" / "yade-nonsmooth", Path(__file__).with_name("killed_run.py"), section, DISKS, out, END, str(look), "--threads", "1", *options]
+    return [SCRIPTS / "yade-nonsmooth", Path(__file__).with_name("killed_run.py"), section, DISKS, out, END, look, "--threads", 1, *options]
 
 
 def run(*arguments):
-    return subprocess.run(command(*arguments), text=True, capture_output=True, timeout=600)
+    return shell.run(*command(*arguments))
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +64,7 @@ def test_a_killed_run_goes_on_with_the_same_bytes(section, whole, other, tmp_pat
     if number % 4 == 0:  # over the folder of an earlier run: the same one, or another
         shutil.copytree(unbroken if number % 8 == 0 else other, out)
     if number % 4 == 3:
-        process = subprocess.Popen(command(section, out, 0), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen([str(word) for word in command(section, out, 0)], env=shell.environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(chance.uniform(0.3, 1.0) * seconds)
         process.kill()
         process.wait()

@@ -2,22 +2,19 @@
 import dataclasses
 import json
 import math
-import os
-import subprocess
 from dataclasses import asdict
 from types import SimpleNamespace
 
 import leftovers
 import numpy as np
 import pytest
+import shell
 
 import drawn
 from yade import O
 from yade.nonsmooth import errors, processes, records, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, wall_shear
-
-ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
 
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -328,10 +325,8 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
 
 
 def test_the_script_writes_a_summary_and_figures(tmp_path):
-    command = [os.path.join(ROOT, "scripts", name) for name in ("yade-nonsmooth", "biaxial.py")]
-    environment = {**os.environ, "NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"])}
     options = ["--disks", "150", "--diameter", "1", "2", "--fraction", "0.82", "--confining", "0.5,4", "--strain", "0.03", "--sides", "rigid", "--step", "0.2", "--tolerance", "1e-4", "--threads", "2", "--out", str(tmp_path)]
-    done = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=600)
+    done = shell.run("biaxial.py", *options)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert len(summary["tests"]) == 2 and 20 < summary["friction_peak_deg"] < 55  # a sample of 150 disks is no material
@@ -340,13 +335,13 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
         assert (tmp_path / name).stat().st_size > 300
     assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.5MPa-seed1", "4MPa-seed1"]
     leftovers.plant(tmp_path, "summary.json", "mohr.png", *(f"tests/4MPa-seed1/{name}" for name in ("result.json", "progress", "snapshots/begin.npz", "snapshots/4.npz", "vtk/disks-1.vtu")))
-    again = subprocess.run([*command, *options, "--resume"], env=environment, text=True, capture_output=True, timeout=600)
+    again = shell.run("biaxial.py", *options, "--resume")
     assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"] and leftovers.found(tmp_path) == []
     assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau
     for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--pressing-friction", "0.1"], "add --sample pressed"), (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed")):
-        refused = subprocess.run([*command, *options], env=environment, text=True, capture_output=True, timeout=100)
+        refused = shell.run("biaxial.py", *options, limit=100)
         assert refused.returncode != 0 and message in refused.stderr + refused.stdout
-    bad = subprocess.run([*command, "--confining", "4,x"], env=environment, text=True, capture_output=True, timeout=100)
+    bad = shell.run("biaxial.py", "--confining", "4,x", limit=100)
     assert bad.returncode != 0 and "give pressures in MPa" in bad.stderr + bad.stdout
 
 

@@ -7,6 +7,7 @@ import sys
 import textwrap
 
 import pytest
+import shell
 from yade.nonsmooth import processes, servers
 
 from contact_scenes import launch
@@ -37,8 +38,7 @@ LOOPBACK = "0100007F"  # 127.0.0.1 as /proc/net/tcp writes it
 
 
 def run_program(name, *arguments, **changes):
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    return subprocess.run([os.path.join(PREFIX, "bin", name), *map(str, arguments)], env={**environment, **changes}, text=True, capture_output=True, timeout=120)
+    return shell.run(os.path.join(PREFIX, "bin", name), *arguments, limit=120, **changes)
 
 
 @pytest.fixture

@@ -7,11 +7,11 @@ import importlib.util
 import os
 import re
 import shutil
-import subprocess
 import sys
 import textwrap
 
 import pytest
+import shell
 import yade.config
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
@@ -21,10 +21,7 @@ BUILD = os.path.dirname(PREFIX)
 
 
 def run(command, **changes):
-    environment = {**os.environ, "NONSMOOTH_BUILD": BUILD, **changes}
-    environment.pop("OMP_NUM_THREADS", None)  # YADE's own -j, not a choice of the user
-    return subprocess.run([str(c) for c in command], env=environment, text=True, timeout=120,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return shell.run(*command, limit=120, **changes)
 
 
 @pytest.fixture

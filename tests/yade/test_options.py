@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from conftest import SCRIPTS
+from shell import SCRIPTS
 from slope_scenes import SMALL
 from yade.nonsmooth import errors, experiment, packing, section, slope
 from yade.nonsmooth.benchmark import scale, suite

@@ -2,11 +2,11 @@
 
 import dataclasses
 import json
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+import shell
 import yaml
 
 from yade import O
@@ -15,7 +15,6 @@ from yade.nonsmooth import course, experiment, packing, records, results, sectio
 from yade.nonsmooth.wall_forces import WallForces
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "scripts" / "jiufengershan.py"
 SHIPPED = ROOT / "py" / "nonsmooth" / "sections" / "jiufengershan.yaml"
 
 
@@ -39,7 +38,7 @@ def failed(tmp_path_factory):
     source = written(folder / "weak.yaml", materials__dp__friction=0.0, materials__dp__residual_friction=0.0, materials__rock__tensile_strength=1.0,
                      materials__rock__residual_tensile_strength=0.0, materials__fb__tensile_strength=1.0, stages__settle__ramp=1.0, stages__dry=0.5,
                      stages__end__time=8.0, numerics__tolerance=1e-4, numerics__max_iterations=30)
-    done = subprocess.run([SCRIPT, "--section", source, "--disks", "300", "--out", folder / "out", "--threads", "1"], capture_output=True, text=True)
+    done = shell.run("jiufengershan.py", "--section", source, "--disks", 300, "--out", folder / "out", "--threads", 1)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder / "out", done.stdout
 

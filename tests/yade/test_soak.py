@@ -1,19 +1,14 @@
 """The soak: a short one runs and writes its result, and what grows is noticed."""
 import json
-import os
-import subprocess
 
 import pytest
+import shell
 from yade import O
 from yade.nonsmooth.verification import soak
 
-SCRIPT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts", "soak.py")
-
 
 def command(*arguments):
-    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
-    environment["NONSMOOTH_BUILD"] = os.path.dirname(os.environ["YADE_PREFIX"])
-    return subprocess.run([SCRIPT, *map(str, arguments)], env=environment, text=True, capture_output=True, timeout=300)
+    return shell.run("soak.py", *arguments, limit=300)
 
 
 def test_a_short_soak(tmp_path):

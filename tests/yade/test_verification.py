@@ -1,11 +1,10 @@
 """The quick checks of single contacts, bonds and impacts, and the framework that runs checks."""
 import json
 import math
-import os
-import subprocess
 
 import docutils.core
 import pytest
+import shell
 from matplotlib.figure import Figure
 from yade import O
 from yade.nonsmooth import verification
@@ -29,10 +28,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 def verify(*arguments):
     """Runs the command in a process of its own; with one thread, as for scenes of a few bodies two would only wait for each other."""
-    root = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
-    environment = {**os.environ, "NONSMOOTH_BUILD": os.path.dirname(os.environ["YADE_PREFIX"])}
-    command = [os.path.join(root, "scripts", name) for name in ("yade-nonsmooth", "verify.py")]
-    return subprocess.run([*command, *arguments, "--threads", "1"], env=environment, text=True, capture_output=True, timeout=600)
+    return shell.run("verify.py", *arguments, "--threads", 1)
 
 
 @pytest.fixture(scope="module")
