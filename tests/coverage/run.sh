@@ -16,7 +16,7 @@ command -v gcovr >/dev/null && /usr/bin/python3 -c "import coverage" 2>/dev/null
 mkdir -p "$work"
 
 known() { sed -n "s/^$1:[A-Z]*=//p" "$main/CMakeCache.txt"; }
-# -O1 without inlining: lines stay where they were written; the unity build would hide which file a line is of from nobody, so it stays
+# -O1 and nothing inlined, so that lines count where they are written
 cmake -G Ninja -S "$root" -B "$build" -DYADE_PREFIX="$(known YADE_PREFIX)" -DYADE_HEADERS="$(known YADE_HEADERS)" -DCMAKE_BUILD_TYPE=Coverage \
     -DCMAKE_CXX_FLAGS_COVERAGE="-O1 -fno-inline --coverage -fprofile-update=atomic" -DCMAKE_SHARED_LINKER_FLAGS_COVERAGE=--coverage \
     -DCMAKE_MODULE_LINKER_FLAGS_COVERAGE=--coverage -DCMAKE_EXE_LINKER_FLAGS_COVERAGE=--coverage -DNONSMOOTH_BENCHMARKS=OFF -DNONSMOOTH_CHECKS=OFF \

@@ -46,8 +46,11 @@ def read_arguments():
 
 
 def git(*words):
-    """Lines that git says in the checkout; none where it cannot."""
-    done = subprocess.run(["git", "-C", ROOT, *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    """Lines that git says in the checkout; none where it cannot, or is not there."""
+    try:
+        done = subprocess.run(["git", "-C", ROOT, *words], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    except FileNotFoundError:
+        return []
     return done.stdout.split("\n")[:-1] if done.returncode == 0 else []
 
 
