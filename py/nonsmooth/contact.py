@@ -87,7 +87,7 @@ class Solution:
 
 
 _BODIES = {"inverse_mass": 3, "free_velocity": 3, "velocity": 3}
-_CONTACTS = {"normal": 2, "lever": 4, "bias": 3, "adhesion": 0, "friction": 0, "rolling_arm": 0, "length": 0, "warm_start": 3, "impulse": 3}
+CONTACT_ARRAYS = {"normal": 2, "lever": 4, "bias": 3, "adhesion": 0, "friction": 0, "rolling_arm": 0, "length": 0, "warm_start": 3, "impulse": 3}
 
 
 def load(path) -> ContactProblem:
@@ -113,7 +113,7 @@ def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
             raise ProblemError(f"{what}: {name} must be an array")
     bodies, contacts = len(problem.inverse_mass), len(problem.normal)
     shapes = {name: (bodies, columns) for name, columns in _BODIES.items()}
-    shapes.update({name: (contacts, columns) if columns else (contacts,) for name, columns in _CONTACTS.items()})
+    shapes.update({name: (contacts, columns) if columns else (contacts,) for name, columns in CONTACT_ARRAYS.items()})
     shapes["body"] = (contacts, 2)
     if problem.position is not None:
         shapes["position"] = (bodies, 2)

@@ -10,7 +10,6 @@ BUILD/mutants/verdicts.json too.
 """
 import argparse
 import json
-import os
 import random
 import subprocess
 import sys
@@ -23,6 +22,9 @@ import judge as judging
 from mutant import TableError, place as look_up
 from mutants import KNOWN, MUTANTS
 from workplace import ROOT, BuildError, Place, build, mutated_sources
+
+sys.path.insert(0, str(ROOT / "py"))
+from nonsmooth.whole_files import write_atomically
 
 COUNT = 30  # mutants of the quick part
 OUTCOMES = (judging.CAUGHT, judging.CRASHED, judging.TIMEOUT, judging.SURVIVED, judging.BROKEN)
@@ -140,15 +142,12 @@ def show_checks(verdicts, known):
     return [f"the check {name} notices no mutant" for name in sorted(known) if whole and not any(name in v.noticed for v in law.values())]
 
 
-def write(path, verdicts, seconds):
+def write(path, verdicts, counts, seconds):
     """What became of the mutants as JSON, with the commit."""
-    outcomes = [v.outcome for v in verdicts.values()]
     found = {"commit": (git("rev-parse", "HEAD") or [None])[0], "changed_since": bool(git("status", "--porcelain", "--untracked-files=no")), "table": len(MUTANTS),
-             "tried": len(outcomes), "wall_s": seconds, **{name.lower(): outcomes.count(name) for name in OUTCOMES}, "known_to_survive": len(KNOWN),
+             "tried": len(verdicts), "wall_s": seconds, **{name.lower(): count for name, count in counts.items()}, "known_to_survive": len(KNOWN),
              "mutants": [{"name": m.name, "file": m.edits[0][0], "broken": m.broken, "outcome": v.outcome.lower(), "by": v.by} for m, v in verdicts.items()]}
-    part = path.with_name(f".part-{path.name}")
-    part.write_text(json.dumps(found, indent=1) + "\n")
-    os.replace(part, path)
+    write_atomically(path, (json.dumps(found, indent=1) + "\n").encode())
 
 
 def main():
@@ -178,9 +177,10 @@ def main():
             place.close()
 
     problems = show_checks(verdicts, known)
-    count = lambda outcome: sum(v.outcome == outcome for v in verdicts.values())  # noqa: E731
-    print(f"\n{len(verdicts)} mutants of {len(MUTANTS)}: {', '.join(f'{count(o)} {o}' for o in OUTCOMES)}; {time.monotonic() - began:.0f} s")
-    write(work / "verdicts.json", verdicts, round(time.monotonic() - began))
+    counts = {outcome: sum(v.outcome == outcome for v in verdicts.values()) for outcome in OUTCOMES}
+    seconds = round(time.monotonic() - began)
+    print(f"\n{len(verdicts)} mutants of {len(MUTANTS)}: {', '.join(f'{count} {outcome}' for outcome, count in counts.items())}; {seconds} s")
+    write(work / "verdicts.json", verdicts, counts, seconds)
     for m, v in verdicts.items():
         if v.outcome in (judging.SURVIVED, judging.BROKEN):
             if m.name in KNOWN and v.outcome == judging.SURVIVED:

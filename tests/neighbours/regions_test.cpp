@@ -29,6 +29,20 @@ namespace {
 		return swarm;
 	}
 
+	/// A disk in each of 25 squares, row by row.
+	Regions fiveByFive()
+	{
+		std::vector<Disk> disks;
+		for (int y = 0; y < 5; ++y)
+			for (int x = 0; x < 5; ++x)
+				disks.push_back({ width * (x + 0.5), width * (y + 0.5), 0.3 });
+		Regions regions;
+		regions.build(disks, width);
+		return regions;
+	}
+
+	bool isAroundTheMiddle(int k) { return std::abs(k % 5 - 2) <= 1 && std::abs(k / 5 - 2) <= 1; }
+
 	double difference(const Vector& a, const Vector& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 }
 
@@ -60,35 +74,25 @@ TEST(Regions, BoundTheDifferencesOfDisksNearEachOtherAndNotThoseOfAll)
 
 TEST(Regions, TheLargestAroundIsThatOfTheSquareAndTheEightAroundIt)
 {
-	std::vector<Disk> disks;
-	for (int y = 0; y < 5; ++y)
-		for (int x = 0; x < 5; ++x)
-			disks.push_back({ width * (x + 0.5), width * (y + 0.5), 0.3 });
-	Regions regions;
-	regions.build(disks, width);
+	Regions regions = fiveByFive();
 	ASSERT_EQ(regions.count(), 25);
 	std::vector<double> values(25, 1.0), found;
 	values[regions.of(12)] = 7; // the middle
 	regions.largestAround(values, found);
 	for (int k = 0; k < 25; ++k)
-		EXPECT_EQ(found[regions.of(k)], std::abs(k % 5 - 2) <= 1 && std::abs(k / 5 - 2) <= 1 ? 7 : 1) << k;
+		EXPECT_EQ(found[regions.of(k)], isAroundTheMiddle(k) ? 7 : 1) << k;
 }
 
 TEST(Regions, DifferencesAreThoseOfTheSquareAndTheEightAroundItEachWay)
 {
-	std::vector<Disk> disks;
-	for (int y = 0; y < 5; ++y)
-		for (int x = 0; x < 5; ++x)
-			disks.push_back({ width * (x + 0.5), width * (y + 0.5), 0.3 });
-	Regions regions;
-	regions.build(disks, width);
+	Regions regions = fiveByFive();
 	for (const Vector& v : { Vector { 3, 0 }, { -3, 0 }, { 0, 3 }, { 0, -3 } }) {
 		std::vector<Vector> velocities(25, Vector { 1, -2 });
 		velocities[12] = { 1 + v.x, -2 + v.y }; // the middle
 		std::vector<double> found;
 		regions.differences(2, velocities, found);
 		for (int k = 0; k < 25; ++k)
-			EXPECT_EQ(found[regions.of(k)], std::abs(k % 5 - 2) <= 1 && std::abs(k / 5 - 2) <= 1 ? 3 : 0) << k;
+			EXPECT_EQ(found[regions.of(k)], isAroundTheMiddle(k) ? 3 : 0) << k;
 	}
 }
 

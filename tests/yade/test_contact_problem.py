@@ -9,12 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from shell import BUILD
 from yade import O
 from yade.nonsmooth import contact, tables
 
 from contact_scenes import begin, box, engine, loose_heap, material, run
-
-BUILD = Path(os.environ.get("NONSMOOTH_BUILD", Path(__file__).resolve().parents[2] / "build"))
 
 
 pytestmark = pytest.mark.usefixtures("empty")

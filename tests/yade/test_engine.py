@@ -1,13 +1,12 @@
 """ContactDynamicsEngine in a scene: stacks, momentum, impact, driven walls, other engines, energies, refusals, save and load."""
 import ctypes
 import math
-import os
 import random
 import threading
 import time
-from pathlib import Path
 
 import pytest
+from shell import BUILD
 from yade import O
 from yade.nonsmooth import contact, scene
 from yade.wrapper import (
@@ -15,9 +14,6 @@ from yade.wrapper import (
     Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
 
 from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, launch, loose_heap, material, momenta, refused, run
-
-BUILD = Path(os.environ.get("NONSMOOTH_BUILD", Path(__file__).resolve().parents[2] / "build"))
-
 
 pytestmark = pytest.mark.usefixtures("empty")
 

@@ -7,10 +7,10 @@ import subprocess
 
 import pytest
 import shell
+from shell import PREFIX, ROOT, SCRIPTS
 from yade import utils
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
-EXAMPLES = os.path.join(ROOT, "scripts", "examples")
+EXAMPLES = os.path.join(SCRIPTS, "examples")
 #: lesson: titles of its marked blocks
 LESSONS = {
     "pile": ["numerics", "material", "functors, engines, time step"],
@@ -117,7 +117,7 @@ def test_yade_batch_runs_the_lines_of_a_table(tmp_path):
     table = tmp_path / "short.table"
     table.write_text("description slope seconds\ngentle 15 0.1\nsteep 35 0.1\n")
     environment = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_BATCH")}
-    batch = os.path.join(os.environ["YADE_PREFIX"], "bin", "yade-batch")
+    batch = os.path.join(PREFIX, "bin", "yade-batch")
     done = subprocess.run([batch, "-j1", "--log", "short.@.log", str(table), os.path.join(EXAMPLES, "hard_incline.py")], cwd=tmp_path, env=environment, text=True,
                           capture_output=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr

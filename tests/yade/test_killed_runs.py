@@ -22,7 +22,7 @@ BEGINNING = 40  # accesses to files in which a run over an old folder removes th
 
 
 def command(section, out, look, *options):
-    return [SCRIPTS / "yade-nonsmooth", Path(__file__).with_name("killed_run.py"), section, DISKS, out, END, look, "--threads", 1, *options]
+    return [str(word) for word in (SCRIPTS / "yade-nonsmooth", Path(__file__).with_name("killed_run.py"), section, DISKS, out, END, look, "--threads", 1, *options)]
 
 
 def run(*arguments):
@@ -64,7 +64,7 @@ def test_a_killed_run_goes_on_with_the_same_bytes(section, whole, other, tmp_pat
     if number % 4 == 0:  # over the folder of an earlier run: the same one, or another
         shutil.copytree(unbroken if number % 8 == 0 else other, out)
     if number % 4 == 3:
-        process = subprocess.Popen([str(word) for word in command(section, out, 0)], env=shell.environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(command(section, out, 0), env=shell.environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(chance.uniform(0.3, 1.0) * seconds)
         process.kill()
         process.wait()

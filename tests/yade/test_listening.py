@@ -8,11 +8,11 @@ import textwrap
 
 import pytest
 import shell
+from shell import PREFIX
 from yade.nonsmooth import processes, servers
 
 from contact_scenes import launch
 
-PREFIX = os.environ["YADE_PREFIX"]
 
 # What a process listens on, from the kernel: local addresses of its own sockets that are in state LISTEN.
 LISTENING = textwrap.dedent("""

@@ -12,12 +12,10 @@ import textwrap
 
 import pytest
 import shell
+from shell import BUILD, PREFIX, ROOT
 import yade.config
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 LAUNCHER = os.path.join(ROOT, "scripts", "yade-nonsmooth")
-PREFIX = os.environ["YADE_PREFIX"]
-BUILD = os.path.dirname(PREFIX)
 
 
 def run(command, **changes):
@@ -65,7 +63,7 @@ def links_to_prefix(folder, without):
     for name in ("yade", "yade-batch"):
         program = os.path.join(folder, "bin", name)
         with open(program) as source:
-            text = source.read().replace(PREFIX, str(folder))
+            text = source.read().replace(str(PREFIX), str(folder))
         os.remove(program)
         with open(program, "w") as changed:
             changed.write(text)

@@ -2,20 +2,16 @@
 
 import dataclasses
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shell
 import yaml
-
+from slope_scenes import SHIPPED
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import course, experiment, packing, records, results, section, slope
 from yade.nonsmooth.wall_forces import WallForces
-
-ROOT = Path(__file__).resolve().parents[2]
-SHIPPED = ROOT / "py" / "nonsmooth" / "sections" / "jiufengershan.yaml"
 
 
 def written(path, **keys):

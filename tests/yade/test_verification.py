@@ -47,7 +47,7 @@ def test_quick_check_holds(name, quick_run):
 
 
 #: Checks of other modules whose quick form nothing else runs; those of Siconos stand in test_siconos.
-OTHERS = ("whole-avalanche", "slope-convergence", "sweeps-to-a-residual", "sweeps-in-a-running-scene", "ways-to-solve", "sweeps-by-thickness")
+OTHERS = ("whole-avalanche", "slope-convergence", "sweeps-to-a-residual", "sweeps-in-a-running-scene", "ways-to-solve", "sweeps-by-thickness", "collapse-of-rounded-places")
 
 
 @pytest.mark.parametrize("name", OTHERS)

@@ -97,8 +97,7 @@ def sweeps_to_a_residual(bench):
 def _reordered(problem, seed):
     """The same problem with its contacts in another order."""
     order = np.random.default_rng(seed).permutation(len(problem.normal))
-    by_contact = ("body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length", "warm_start", "impulse")
-    return dataclasses.replace(problem, **{name: np.asarray(getattr(problem, name))[order] for name in by_contact})
+    return dataclasses.replace(problem, **{name: np.asarray(getattr(problem, name))[order] for name in ("body", *contact.CONTACT_ARRAYS)})
 
 
 def _sweep_counts(cap, every):
