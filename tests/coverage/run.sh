@@ -18,7 +18,7 @@ mkdir -p "$work"
 known() { sed -n "s/^$1:[A-Z]*=//p" "$main/CMakeCache.txt"; }
 # -O1 and nothing inlined, so that lines count where they are written
 cmake -G Ninja -S "$root" -B "$build" -DYADE_PREFIX="$(known YADE_PREFIX)" -DYADE_HEADERS="$(known YADE_HEADERS)" -DCMAKE_BUILD_TYPE=Coverage \
-    -DCMAKE_CXX_FLAGS_COVERAGE="-O1 -fno-inline --coverage -fprofile-update=atomic" -DCMAKE_SHARED_LINKER_FLAGS_COVERAGE=--coverage \
+    -DCMAKE_CXX_FLAGS_COVERAGE="-O1 -fno-inline --coverage -fprofile-update=atomic -include $root/tests/coverage/dump.hpp" -DCMAKE_SHARED_LINKER_FLAGS_COVERAGE=--coverage \
     -DCMAKE_MODULE_LINKER_FLAGS_COVERAGE=--coverage -DCMAKE_EXE_LINKER_FLAGS_COVERAGE=--coverage -DNONSMOOTH_BENCHMARKS=OFF -DNONSMOOTH_CHECKS=OFF \
     >"$work/build.log" 2>&1 || { cat "$work/build.log"; exit 1; }
 ninja -C "$build" >"$work/build.log" 2>&1 || { tail -n 40 "$work/build.log"; exit 1; }
