@@ -21,7 +21,7 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 		BodyReading& r    = readings[id];
 		r.radius          = -1;
 		r.present         = (bool)body;
-		r.clumped = r.plain = false;
+		r.clumped = r.plain = r.aspherical = r.bounded = r.planar = r.moved = false;
 		if (!body) continue;
 		if (!body->state) {
 			stateless = std::max(stateless, id);
@@ -34,16 +34,34 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 			if (exactly || dynamic_cast<const Sphere*>(shape)) r.radius = static_cast<const Sphere*>(shape)->radius;
 			r.plain = exactly && !body->isClump();
 		}
-		r.pos     = s.pos;
-		r.ori     = s.ori;
-		r.vx      = s.vel[0];
-		r.vy      = s.vel[1];
-		r.spin    = s.angVel[2];
+		readMotion(s, r);
 		r.mass    = s.mass;
 		r.inertia = s.inertia[2];
 		r.blocked = s.blockedDOFs;
+		constexpr unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
+		r.planar     = s.vel[2] == 0 && s.angVel[0] == 0 && s.angVel[1] == 0 && (s.blockedDOFs & planar) == planar;
+		r.aspherical = body->isAspherical() && !(s.blockedDOFs & State::DOF_RXRYRZ);
+		r.bounded    = (bool)body->bound;
 	}
 	if (stateless >= 0) throw std::runtime_error("body #" + std::to_string(stateless) + " has no state: set Body.state = State(...)");
+}
+
+void readMotion(const State& state, BodyReading& reading)
+{
+	reading.pos  = state.pos;
+	reading.ori  = state.ori;
+	reading.vx   = state.vel[0];
+	reading.vy   = state.vel[1];
+	reading.spin = state.angVel[2];
+}
+
+void writeMotion(const BodyReading& reading, State& state)
+{
+	state.pos       = reading.pos;
+	state.ori       = reading.ori;
+	state.vel[0]    = reading.vx;
+	state.vel[1]    = reading.vy;
+	state.angVel[2] = reading.spin;
 }
 
 } // namespace yade::nscd

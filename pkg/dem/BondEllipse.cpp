@@ -22,12 +22,12 @@ void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real
 	phys.yieldPath  = Vector3r::Zero();
 }
 
-NscdPhys::Mode bondMode(const NscdPhys& phys)
+NscdPhys::Mode bondMode(const Vector3r& yieldPath)
 {
-	const Real sum = phys.yieldPath.sum();
+	const Real sum = yieldPath.sum();
 	if (!(sum > 0)) return NscdPhys::Mixed;
 	int            most;
-	const Real     largest = phys.yieldPath.maxCoeff(&most);
+	const Real     largest = yieldPath.maxCoeff(&most);
 	constexpr Real clear   = 0.6; // of the whole path, for one mode to name the break
 	return largest > clear * sum ? static_cast<NscdPhys::Mode>(NscdPhys::Tension + most) : NscdPhys::Mixed;
 }

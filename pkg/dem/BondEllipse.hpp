@@ -34,7 +34,14 @@ template <class Marks, class Place> std::pair<Real, Real> bondDisplacement(const
 	return { d.dot(n), n[0] * d[1] - n[1] * d[0] };
 }
 
+/// Whether the marked point has left the ellipse. `Bond`: as Marks, with the half-axes that NscdPhys has.
+template <class Bond, class Place> bool isOutside(const Bond& bond, const Place& first, const Place& second)
+{
+	const auto [dn, dt] = bondDisplacement(bond, first, second);
+	return std::pow(dn / bond.ellipseNormal, 2) + std::pow(dt / bond.ellipseTangential, 2) >= 1;
+}
+
 /// How a bond that has left its ellipse was broken, from the paths along which it yielded.
-NscdPhys::Mode bondMode(const NscdPhys& phys);
+NscdPhys::Mode bondMode(const Vector3r& yieldPath);
 
 } // namespace yade::nscd

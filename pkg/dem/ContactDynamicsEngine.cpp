@@ -2,7 +2,6 @@
 #include "BondEllipse.hpp"
 #include "Gravity.hpp"
 #include "NonsmoothTimeStepper.hpp"
-#include "NscdInteractionLoop.hpp"
 #include "PythonBytes.hpp"
 #include "SceneCheck.hpp"
 #include "Seldom.hpp"
@@ -27,7 +26,10 @@ void ContactDynamicsEngine::action()
 	const int  threads = nscd::threadsOf(*this);
 
 	const Real t0 = clock();
-	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads, NscdInteractionLoop::before(*this));
+	nscd::Turn turn(*this, threads);
+	auto&      resident = turn.resident();
+	if (!resident.hasContacts()) resident.takeContacts(*scene, threads);
+	seam.gather(*scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads);
 	warmStart       = seam.problem.impulses;
 	stepSolved      = scene->dt;
 	const Real t1         = clock();
@@ -43,8 +45,9 @@ void ContactDynamicsEngine::action()
 	correctionSeconds += t2 - solved;
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
-	account(sums);
+	account(sums, resident);
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
+	turn.end();
 	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
 }
 
@@ -86,7 +89,7 @@ contact::SolverSettings ContactDynamicsEngine::settings() const
 	return s;
 }
 
-void ContactDynamicsEngine::account(const nscd::StepSums& s)
+void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Resident& resident)
 {
 	kineticEnergy   = s.kinetic;
 	potentialEnergy = s.potential;
@@ -119,7 +122,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	brokenShear += s.broken[NscdPhys::Shear];
 	brokenTorque += s.broken[NscdPhys::Torque];
 	brokenMixed += s.broken[NscdPhys::Mixed];
-	if (s.broken[NscdPhys::Tension] + s.broken[NscdPhys::Shear] + s.broken[NscdPhys::Torque] + s.broken[NscdPhys::Mixed] > 0) recordBreaks();
+	if (s.broken[NscdPhys::Tension] + s.broken[NscdPhys::Shear] + s.broken[NscdPhys::Torque] + s.broken[NscdPhys::Mixed] > 0) recordBreaks(resident);
 	contactRate = s.contactRate;
 	bondRate    = s.bondRate;
 	meanSpeed = s.bodies > 0 ? s.speed / s.bodies : 0;
@@ -128,14 +131,19 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	momentum  = s.momentum;
 }
 
-void ContactDynamicsEngine::recordBreaks()
+void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 {
 	for (const nscd::Link& link : seam.links) {
-		if (link.broken == NscdPhys::None) continue;
-		const Vector3r& at = link.geom->contactPoint;
-		const int       a = link.interaction->getId1(), b = link.interaction->getId2();
-		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(a, b)), Real(std::max(a, b)), Real(link.broken), at[0], at[1] });
+		const nscd::Reading& r = seam.readingOf(link);
+		if (r.broken == NscdPhys::None) continue;
+		const Vector3r at = resident.contactPoint(r);
+		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(r.first, r.second)), Real(std::max(r.first, r.second)), Real(r.broken), at[0], at[1] });
 	}
+}
+
+void ContactDynamicsEngine::view() const
+{
+	nscd::Resident::of(*Omega::instance().getScene())->show(nscd::threadsOf(*this));
 }
 
 void ContactDynamicsEngine::dump(const std::string& path) const
@@ -182,6 +190,7 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 int ContactDynamicsEngine::bond()
 {
 	scene = Omega::instance().getScene().get();
+	view();
 	int count = 0;
 	for (const auto& i : *scene->interactions) {
 		if (!i->isReal()) continue;
@@ -200,6 +209,7 @@ int ContactDynamicsEngine::bond()
 int ContactDynamicsEngine::unbond()
 {
 	scene = Omega::instance().getScene().get();
+	view();
 	int count = 0;
 	for (const auto& i : *scene->interactions) {
 		auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr;
@@ -213,6 +223,7 @@ int ContactDynamicsEngine::unbond()
 void ContactDynamicsEngine::updateStrengths()
 {
 	scene = Omega::instance().getScene().get();
+	view();
 	for (const auto& b : *scene->bodies) // before anything is changed
 		if (const auto* material = b ? dynamic_cast<const NscdMat*>(b->material.get()) : nullptr) material->validate();
 	for (const auto& i : *scene->interactions)
@@ -245,6 +256,7 @@ boost::python::dict ContactDynamicsEngine::energies() const
 
 boost::python::object ContactDynamicsEngine::bodyTable() const
 {
+	view();
 	std::vector<double> rows;
 	for (const auto& b : *Omega::instance().getScene()->bodies) {
 		const auto* sphere = b ? dynamic_cast<const Sphere*>(b->shape.get()) : nullptr;
@@ -261,6 +273,7 @@ boost::python::object ContactDynamicsEngine::breakTable() const { return nscd::a
 
 boost::python::object ContactDynamicsEngine::contactTable() const
 {
+	view();
 	std::vector<double> rows;
 	for (const auto& i : *Omega::instance().getScene()->interactions) {
 		const auto* phys = i->isReal() ? dynamic_cast<const NscdPhys*>(i->phys.get()) : nullptr;

@@ -14,6 +14,7 @@
 #include "ContactSeam.hpp"
 #include <contact/solver.hpp>
 #include <core/GlobalEngine.hpp>
+#include <core/Omega.hpp>
 
 namespace yade {
 
@@ -32,6 +33,12 @@ public:
 	boost::python::object bodyTable() const;
 	boost::python::object contactTable() const;
 	boost::python::object breakTable() const;
+	/// Brings YADE's bodies and interactions up to date.
+	void view() const;
+	/// A scene is saved as it is: its engines come before its bodies and interactions.
+	void preSave(ContactDynamicsEngine&) { view(); }
+	long        viewsSoFar() const { return nscd::Resident::of(*Omega::instance().getScene())->shown; }
+	std::string viewedBy() const { return nscd::Resident::of(*Omega::instance().getScene())->shownTo; }
 	/// Writes the last step's contact problem, see contact/problem_file.hpp.
 	void dump(const std::string& path) const;
 	// clang-format off
@@ -100,6 +107,9 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		,
 		/* ctor */
 		,
+		.def("view",&ContactDynamicsEngine::view,"Bring O.bodies and O.interactions up to date. They are so whenever a run has ended, in every engine that acts between two of ours, and in what is saved; only while a run goes on in the background they follow some times a second.")
+		.add_property("views",&ContactDynamicsEngine::viewsSoFar,"Times so far that O.bodies and O.interactions were brought up to date; steps between two of them stay in arrays, and cost less.")
+		.add_property("viewedBy",&ContactDynamicsEngine::viewedBy,"For whom they were the last time: an engine, the end of a run, or others.")
 		.def("bond",&ContactDynamicsEngine::bond,"Make a bond wherever two bodies of one layer (or a wall that bonds to all and a body) have a gap below bondCreationDistance; run a step first, so that interactions exist. Returns the number made.")
 		.def("unbond",&ContactDynamicsEngine::unbond,"Remove all bonds. Returns their number.")
 		.def("updateStrengths",&ContactDynamicsEngine::updateStrengths,"Take the strengths of all present contacts from the bodies' materials anew (they are copied when a contact is made); bonds and reactions stay.")
@@ -117,8 +127,8 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 private:
 	void                                 validate() const;
 	nonsmooth::contact::SolverSettings   settings() const;
-	void                                 account(const nscd::StepSums& sums);
-	void                                 recordBreaks();
+	void                                 account(const nscd::StepSums& sums, const nscd::Resident& resident);
+	void                                 recordBreaks(const nscd::Resident& resident);
 	void                                 report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
 	void                                 reportOverlap();
 

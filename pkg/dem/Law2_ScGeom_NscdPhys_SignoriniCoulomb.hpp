@@ -26,18 +26,21 @@ public:
 	/// Follows a bond of bodies at two places, in the bond's order (see nscd::BondPair), with the gap [m] they have now.
 	template <class Place> void followBond(NscdPhys& phys, Real gap, const Place& first, const Place& second) const
 	{
-		const auto [dn, dt] = nscd::bondDisplacement(phys, first, second);
-		const Real zone     = std::pow(dn / phys.ellipseNormal, 2) + std::pow(dt / phys.ellipseTangential, 2);
-		if (zone >= 1) {
-			phys.bonded     = false;
-			phys.brokenMode = nscd::bondMode(phys);
-			phys.brokenStep = scene->iter;
-			phys.breaks     = true;
-		} else if (phys.yielded)
+		if (nscd::isOutside(phys, first, second)) breakBond(phys);
+		else if (phys.yielded)
 			phys.restGap = std::max(phys.restGap, gap);
 	}
+	/// Ends a bond that has left its ellipse in this step.
+	void breakBond(NscdPhys& phys) const
+	{
+		phys.bonded     = false;
+		phys.brokenMode = nscd::bondMode(phys.yieldPath);
+		phys.brokenStep = scene->iter;
+		phys.breaks     = true;
+	}
 	/// Whether a contact with that gap is kept; one whose bond broke in this step stays for the step, to be counted.
-	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.breaks || gap <= reach * phys.length; }
+	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.breaks || isWithinReach(gap, phys.length); }
+	bool isWithinReach(Real gap, Real length) const { return gap <= reach * length; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Law2_ScGeom_NscdPhys_SignoriniCoulomb,LawFunctor,
 R"""(Nonsmooth cohesive contact of rigid bodies: Signorini's condition with a tensile threshold, Coulomb friction and rolling friction, all

@@ -1,8 +1,8 @@
 #include "PorePressureEngine.hpp"
 #include "Gravity.hpp"
-#include "NscdInteractionLoop.hpp"
 #include "PythonBytes.hpp"
 #include "YadeFeatures.hpp"
+#include "seam/Resident.hpp"
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
@@ -45,9 +45,8 @@ void PorePressureEngine::action()
 	releasedCount           = 0;
 	totalForce              = Vector3r::Zero();
 
-	const NscdInteractionLoop* loop = NscdInteractionLoop::before(*this);
-	if (!loop) nscd::readBodies(*scene, nscd::threadsOf(*this), ownReadings);
-	const auto&  bodies = loop ? loop->bodyReadings() : ownReadings;
+	nscd::Turn   turn(*this, nscd::threadsOf(*this));
+	const auto&  bodies = turn.resident().bodies;
 	const size_t size   = bodies.size();
 	released.resize(size, 0);
 	wet.assign(size, 0);
@@ -65,6 +64,7 @@ void PorePressureEngine::action()
 		++wetCount;
 		totalForce += force;
 	}
+	turn.end();
 }
 
 } // namespace yade
