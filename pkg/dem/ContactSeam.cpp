@@ -4,6 +4,7 @@
 #include "SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
+#include <contact/plane/disk_contact.hpp>
 #include <neighbours/bucket_sort.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -279,18 +280,15 @@ Contact ContactSeam::frameOf(const Reading& reading, const Found& ids) const
 	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
 	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? ids.falling : s1 && !s2;
 	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
+	const int  i = swapped ? id2 : id1, j = swapped ? id1 : id2;
+	if (s1 && s2) return contact::plane::diskFrame(i, j, nx, ny, radius[i], radius[j], reading.gap);
 	Contact    c;
-	c.i  = swapped ? id2 : id1;
-	c.j  = swapped ? id1 : id2;
+	c.i  = i;
+	c.j  = j;
 	c.nx = nx;
 	c.ny = ny;
-	if (s1 && s2) {
-		c.leverTi = (swapped ? r2 : r1) + 0.5 * reading.gap;
-		c.leverTj = -((swapped ? r1 : r2) + 0.5 * reading.gap);
-		return c;
-	}
 	const auto lever = [&](int id) { return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x, reading.geom->contactPoint[1] - problem.positions[id].y }; };
-	const auto ri = lever(c.i), rj = lever(c.j);
+	const auto ri = lever(i), rj = lever(j);
 	c.leverNi = ny * ri.x - nx * ri.y;
 	c.leverTi = ri.x * nx + ri.y * ny;
 	// exactly none through a sphere's centre

@@ -3,6 +3,7 @@
 #include "ContactSeam.hpp"
 #include <algorithm>
 #include <cmath>
+#include <contact/plane/bond.hpp>
 
 namespace yade::nscd {
 
@@ -19,9 +20,7 @@ namespace {
 /// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
 bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
 {
-	constexpr Real close = 1 - 1e-9;
-	const Contact& c     = problem.contacts[k];
-	return links[k].bonded && c.adhesion > 0 && problem.impulses[k].n <= -close * c.adhesion && u.n > 0;
+	return links[k].bonded && contact::plane::yieldsInTension(problem.contacts[k], problem.impulses[k], u);
 }
 
 void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)

@@ -3,6 +3,7 @@
 #include "Prefetch.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
+#include <contact/plane/bond.hpp>
 
 namespace yade::nscd {
 
@@ -105,14 +106,10 @@ void ContactSeam::scatterContact(size_t k)
 	phys.yielded        = false;
 	if (links[k].broken != NscdPhys::None) phys.breaks = false; // it is counted now
 	if (!phys.bonded) return;
-	const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-	constexpr Real close = 1 - 1e-9;
-	if (yieldsInTension(k, u)) {
-		phys.yielded = true;
-		phys.yieldPath[0] += std::max(Real(0), h * u.n);
-	}
-	if (std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)) phys.yieldPath[1] += std::abs(h * u.t);
-	if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) phys.yieldPath[2] += std::abs(h * u.r) * 0.5 * c.length;
+	const Impulse u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+	const auto    path = contact::plane::yieldOfStep(c, p, u, h);
+	phys.yielded       = contact::plane::yieldsInTension(c, p, u);
+	if (path.any()) phys.yieldPath += Vector3r(path.tension, path.shear, path.torque); // seldom, and what is not written need not go back to memory
 }
 
 /// The sum of the contacts' impulses on every body, walls included.

@@ -5,6 +5,7 @@
 #include "Prefetch.hpp"
 #include "SceneCheck.hpp"
 #include "YadeFeatures.hpp"
+#include <contact/plane/disk_contact.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
@@ -20,15 +21,15 @@ namespace {
 	/// What Ig2_Sphere_Sphere_ScGeom writes and rigid contacts read, in the same order of operations.
 	void updateGeometry(ScGeom& geom, const Vector3r& x1, const Vector3r& x2, Real r1, Real r2)
 	{
-		Vector3r   normal = x2 - x1;
-		const Real norm   = normal.norm();
-		normal /= norm;
-		const Real overlap    = r1 + r2 - norm;
-		geom.contactPoint     = x1 + (r1 - 0.5 * overlap) * normal;
-		geom.penetrationDepth = overlap;
+		// disks may be a little out of one plane, see nscd::flatness
+		const Real dz = x2[2] - x1[2];
+		const auto c  = nonsmooth::contact::plane::diskContact({ x1[0], x1[1] }, { x2[0], x2[1] }, r1, r2, dz);
+		const Real nz = dz / c.distance;
+		geom.contactPoint     = Vector3r(c.point.x, c.point.y, x1[2] + (r1 + 0.5 * c.gap) * nz);
+		geom.penetrationDepth = -c.gap;
 		geom.radius1          = r1;
 		geom.radius2          = r2;
-		geom.normal           = normal;
+		geom.normal           = Vector3r(c.nx, c.ny, nz);
 	}
 
 	/// The one functor of this class, and not of one derived from it; null where there is none.
