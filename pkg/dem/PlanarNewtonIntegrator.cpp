@@ -1,4 +1,5 @@
 #include "PlanarNewtonIntegrator.hpp"
+#include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include "YadeFeatures.hpp"
 #include <core/Scene.hpp>
@@ -8,9 +9,18 @@ namespace yade {
 YADE_PLUGIN((PlanarNewtonIntegrator));
 
 namespace {
+	namespace plane = nonsmooth::contact::plane;
+	static_assert(plane::blockedX == State::DOF_X && plane::blockedY == State::DOF_Y && plane::blockedTurn == State::DOF_RZ && plane::blockedAll == State::DOF_ALL);
+
 	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them.
 	void integrate(State& s, const Vector3r& force, const Vector3r& torque, const Vector3r& gravity, Real dt)
 	{
+		if (nscd::staysInPlane(s)) {
+			plane::Motion m = nscd::motionOf(s);
+			plane::integrate(m, { force[0], force[1], torque[2] }, s.mass, s.inertia[2], s.blockedDOFs, { gravity[0], gravity[1] }, dt);
+			nscd::setMotion(s, m);
+			return;
+		}
 		if (s.blockedDOFs != State::DOF_ALL) {
 			Vector3r a = Vector3r::Zero(), w = Vector3r::Zero();
 			for (int i = 0; i < 3; ++i) {

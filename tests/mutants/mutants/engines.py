@@ -3,6 +3,7 @@ from mutant import mutant
 
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/ContactSeam.cpp", "pkg/dem/ContactSeamScatter.cpp", "pkg/dem/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
+TO_PLANE = "pkg/dem/PlaneMotion.hpp"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 PHYS, MAT, SEGMENT = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.cpp"
 BONDS, BONDS_H, LAW_H = "pkg/dem/BondEllipse.cpp", "pkg/dem/BondEllipse.hpp", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
@@ -105,9 +106,15 @@ MUTANTS = (
     mutant("water-mask", WATER, "(mask != 0 && !(*scene->bodies)[id]->maskOk(mask))", "false", "the mask is not heeded",
            "test_pore_pressure.py::test_a_gradient_acts_as_it_is_on_the_bodies_of_a_mask"),
     # ---- integrator, collider, loop
-    mutant("newton-turn", NEWTON, "AngleAxisr(speed * dt, s.angVel / speed)", "AngleAxisr(-speed * dt, s.angVel / speed)", "disks turn the other way than their spin",
-           "test_engine.py::test_own_loop_and_integrator_have_the_bits_of_yades"),
+    mutant("newton-turn", NEWTON, "AngleAxisr(speed * dt, s.angVel / speed)", "AngleAxisr(-speed * dt, s.angVel / speed)", "bodies in space turn the other way than their spin",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
     mutant("newton-torque", NEWTON, "torque[i] / s.inertia[i]", "torque[i] / s.mass", "a torque has the mass in the place of the inertia",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
+    mutant("newton-tilted", TO_PLANE, "s.ori.x() == 0", "true", "a disk that was turned out of the plane counts as one in it",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
+    mutant("newton-leaves", TO_PLANE, "(s.blockedDOFs & out) == out", "true", "a body that may leave the plane does not",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
+    mutant("newton-spin", TO_PLANE, "s.angVel[2] = m.velocity.w;", "s.angVel[2] = m.velocity.x;", "the spin of a disk is its velocity",
            "test_engine.py::test_own_loop_and_integrator_have_the_bits_of_yades"),
     mutant("collider-foresight", COLLIDER_H, "foresight * scene->dt * speed", "0.1 * scene->dt * speed", "fast disks get their contacts too late",
            "test_collider.py::test_far_disks_have_contacts_while_they_are_fast", "test_collider.py::test_leaving_far_slow_disks_out_changes_no_bit"),
