@@ -2,7 +2,7 @@
 #pragma once
 
 #include <contact/plane/motion.hpp>
-#include <core/State.hpp>
+#include <core/Body.hpp>
 
 namespace yade::nscd {
 
