@@ -1,4 +1,5 @@
 #include "BodyReading.hpp"
+#include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include <pkg/common/Sphere.hpp>
 
@@ -38,8 +39,7 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 		r.mass    = s.mass;
 		r.inertia = s.inertia[2];
 		r.blocked = s.blockedDOFs;
-		constexpr unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-		r.planar     = s.vel[2] == 0 && s.angVel[0] == 0 && s.angVel[1] == 0 && (s.blockedDOFs & planar) == planar;
+		r.planar     = staysInPlane(s);
 		r.aspherical = body->isAspherical() && !(s.blockedDOFs & State::DOF_RXRYRZ);
 		r.bounded    = (bool)body->bound;
 	}
@@ -48,20 +48,8 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 
 void readMotion(const State& state, BodyReading& reading)
 {
-	reading.pos  = state.pos;
-	reading.ori  = state.ori;
-	reading.vx   = state.vel[0];
-	reading.vy   = state.vel[1];
-	reading.spin = state.angVel[2];
-}
-
-void writeMotion(const BodyReading& reading, State& state)
-{
-	state.pos       = reading.pos;
-	state.ori       = reading.ori;
-	state.vel[0]    = reading.vx;
-	state.vel[1]    = reading.vy;
-	state.angVel[2] = reading.spin;
+	reading.motion = motionOf(state);
+	reading.z      = state.pos[2];
 }
 
 } // namespace yade::nscd

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "NscdPhys.hpp"
+#include <contact/plane/bond.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
@@ -34,10 +35,13 @@ struct Reading {
 
 /// What a bond of two disks needs besides, as NscdPhys has it.
 struct BondReading {
-	Vector3r anchor1, anchor2, axis, yieldPath;
-	Real     ellipseNormal, ellipseTangential;
-	bool     yielded;
+	nonsmooth::contact::plane::BondMarks   marks;
+	nonsmooth::contact::plane::BondEllipse zone;
+	nonsmooth::contact::plane::YieldPath   path;
+	bool                                   yielded;
 };
+
+inline Vector3r pathOf(const BondReading& bond) { return Vector3r(bond.path.tension, bond.path.shear, bond.path.torque); }
 
 /// Component of a unit normal along z up to which it lies in the plane.
 constexpr Real flatness = 1e-6;
@@ -111,7 +115,10 @@ inline void read(const Found& found, Reading& r, BondReading& bond)
 	r.bonded             = phys.bonded;
 	r.slips              = phys.countsSlip();
 	readThresholds(r);
-	if (r.bonded) bond = { phys.anchor1, phys.anchor2, phys.axis, phys.yieldPath, phys.ellipseNormal, phys.ellipseTangential, phys.yielded };
+	if (r.bonded) bond = { { { phys.anchor1[0], phys.anchor1[1] }, { phys.anchor2[0], phys.anchor2[1] }, { phys.axis[0], phys.axis[1] } },
+			         { phys.ellipseNormal, phys.ellipseTangential },
+			         { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] },
+			         phys.yielded };
 }
 
 } // namespace yade::nscd

@@ -3,6 +3,7 @@
 #include "SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
+#include <contact/plane/disk_contact.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
@@ -90,7 +91,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	inertia.assign(size, 0);
 	const Real h     = relaxation.step;
 	const auto first = std::find_if(read.begin(), read.end(), [](const BodyReading& b) { return b.present && b.radius > 0; });
-	const Real plane = first == read.end() ? 0 : first->pos[2]; // in which all disks lie
+	const Real plane = first == read.end() ? 0 : first->z; // in which all disks lie
 	int        bad   = -1; // body with an unusable state; reported after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
 	for (long id = 0; id < size; ++id) {
@@ -99,7 +100,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		const unsigned d = s.blocked;
 		present[id]      = 1;
 		radius[id]       = s.radius;
-		before[id]       = { s.vx, s.vy, s.spin };
+		before[id]       = s.motion.velocity;
 		mass[id]         = s.mass;
 		inertia[id]      = s.inertia;
 		auto& w          = problem.inverseMass[id];
@@ -108,7 +109,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		if (!(d & State::DOF_RZ)) w.w = 1 / s.inertia;
 		const Vector3r &f = scene.forces.getForce(id), &m = scene.forces.getTorque(id);
 		external[id]          = { f[0], f[1], m[2] };
-		problem.positions[id] = { s.pos[0], s.pos[1] };
+		problem.positions[id] = s.motion.position;
 		Twist v      = before[id];
 		if (w.x > 0) v.x += h * (f[0] * w.x + gravity[0]);
 		if (w.y > 0) v.y += h * (f[1] * w.y + gravity[1]);
@@ -117,13 +118,14 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 
 		const bool     moves  = !w.isFixed();
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-		if (!std::isfinite(v.x + v.y + v.w + s.pos[0] + s.pos[1] + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped
-		    || w.x < 0 || w.y < 0 || w.w < 0 || (s.radius > 0 && !(std::abs(s.pos[2] - plane) <= flatness * s.radius)))
+		if (!std::isfinite(v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped
+		    || w.x < 0 || w.y < 0 || w.w < 0 || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
 			bad = std::max(bad, (int)id);
 	}
 	if (bad >= 0) {
 		const Body& body = *(*scene.bodies)[bad];
 		if (body.isClump() || body.isClumpMember()) refuse(body, "belongs to a clump", "clumps are not supported; use single spheres");
+		resident->showBody(bad);
 		const State& s = *body.state;
 		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum())) refuse(body, "has a position or velocity that is not finite", "look at the forces and velocities set by the script");
 		const auto     number = [](Real value) { return boost::lexical_cast<string>(value); };
@@ -252,18 +254,15 @@ Contact ContactSeam::frameOf(const Reading& reading) const
 	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
 	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? id1 > id2 : s1 && !s2;
 	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
+	const int  i = swapped ? id2 : id1, j = swapped ? id1 : id2;
+	if (s1 && s2) return contact::plane::diskFrame(i, j, nx, ny, radius[i], radius[j], reading.gap);
 	Contact    c;
-	c.i  = swapped ? id2 : id1;
-	c.j  = swapped ? id1 : id2;
+	c.i  = i;
+	c.j  = j;
 	c.nx = nx;
 	c.ny = ny;
-	if (s1 && s2) {
-		c.leverTi = (swapped ? r2 : r1) + 0.5 * reading.gap;
-		c.leverTj = -((swapped ? r1 : r2) + 0.5 * reading.gap);
-		return c;
-	}
 	const auto lever = [&](int id) { return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x, reading.geom->contactPoint[1] - problem.positions[id].y }; };
-	const auto ri = lever(c.i), rj = lever(c.j);
+	const auto ri = lever(i), rj = lever(j);
 	c.leverNi = ny * ri.x - nx * ri.y;
 	c.leverTi = ri.x * nx + ri.y * ny;
 	// exactly none through a sphere's centre

@@ -3,6 +3,7 @@
 #include "ContactSeam.hpp"
 #include <algorithm>
 #include <cmath>
+#include <contact/plane/bond.hpp>
 
 namespace yade::nscd {
 
@@ -19,9 +20,7 @@ namespace {
 /// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
 bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
 {
-	constexpr Real close = 1 - 1e-9;
-	const Contact& c     = problem.contacts[k];
-	return readingOf(links[k]).bonded && c.adhesion > 0 && problem.impulses[k].n <= -close * c.adhesion && u.n > 0;
+	return readingOf(links[k]).bonded && contact::plane::yieldsInTension(problem.contacts[k], problem.impulses[k], u);
 }
 
 void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
@@ -83,10 +82,7 @@ void ContactSeam::displace()
 	for (long id = 0; id < size; ++id) {
 		const Twist& d = correction.displacements[id];
 		if (!present[id] || (d.x == 0 && d.y == 0 && d.w == 0)) continue;
-		BodyReading& b = resident->bodies[id];
-		b.pos += Vector3r(d.x, d.y, 0);
-		if (d.w != 0) b.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * b.ori).normalized();
-		resident->moved(id);
+		resident->displace(id, d);
 	}
 }
 

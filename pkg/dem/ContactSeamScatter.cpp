@@ -2,6 +2,7 @@
 #include "ContactSeam.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
+#include <contact/plane/bond.hpp>
 
 namespace yade::nscd {
 
@@ -113,15 +114,17 @@ void ContactSeam::scatterContact(size_t k)
 	if (!inArrays || r.broken != NscdPhys::None) phys.yielded = false;
 	if (r.broken != NscdPhys::None) phys.breaks = false; // it is counted now
 	if (!r.bonded) return;
-	const Impulse  u       = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-	constexpr Real close   = 1 - 1e-9;
-	BondReading&   bond    = resident->bonds[links[k].slot];
-	Vector3r&      path    = inArrays ? bond.yieldPath : phys.yieldPath;
-	bool&          yielded = inArrays ? bond.yielded : phys.yielded;
-	yielded                = yieldsInTension(k, u);
-	if (yielded) path[0] += std::max(Real(0), h * u.n);
-	if (std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)) path[1] += std::abs(h * u.t);
-	if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) path[2] += std::abs(h * u.r) * 0.5 * c.length;
+	const Impulse u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+	const auto    path = contact::plane::yieldOfStep(c, p, u, h);
+	const bool    opens = contact::plane::yieldsInTension(c, p, u);
+	if (inArrays) {
+		BondReading& bond = resident->bonds[links[k].slot];
+		bond.yielded      = opens;
+		bond.path.add(path);
+	} else {
+		phys.yielded = opens;
+		if (path.any()) phys.yieldPath += Vector3r(path.tension, path.shear, path.torque); // seldom, and what is not written need not go back to memory
+	}
 }
 
 /// The sum of the contacts' impulses on every body, walls included.
@@ -172,8 +175,8 @@ void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
 		const Reading& r = readingOf(links[k]);
 		if (!r.bonded) continue;
 		const bool inArrays = r.keeper == Reading::Arrays;
-		const BondReading& bond = resident->bonds[links[k].slot];
-		const Real along = inArrays ? bond.ellipseNormal : r.phys->ellipseNormal, across = inArrays ? bond.ellipseTangential : r.phys->ellipseTangential;
+		const auto& zone = resident->bonds[links[k].slot].zone;
+		const Real along = inArrays ? zone.normal : r.phys->ellipseNormal, across = inArrays ? zone.tangential : r.phys->ellipseTangential;
 		sums.bondRate    = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
 	}
 }

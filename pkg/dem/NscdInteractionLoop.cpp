@@ -5,6 +5,8 @@
 #include "SceneCheck.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
+#include <contact/plane/disk_contact.hpp>
+#include <contact/plane/thresholds.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
@@ -16,6 +18,7 @@ YADE_PLUGIN((NscdInteractionLoop));
 
 namespace {
 	using nscd::fetch, nscd::soon, nscd::Reading;
+	namespace plane = nonsmooth::contact::plane;
 
 	/// The one functor of this class, and not of one derived from it; null where there is none.
 	template <class Functor, class List> const Functor* exactly(const List& functors)
@@ -95,8 +98,9 @@ void NscdInteractionLoop::action()
 	const auto& bodies = resident.bodies;
 	const long  size = (long)bodies.size(), count = (long)resident.order.size();
 	resident.places.resize(size);
+	const auto isOurs   = [](const nscd::BodyReading& b) { return b.plain && b.planar; };
 	const auto keeperOf = [&](const Reading& r) {
-		if (!ours.spheres || !ours.law || !r.phys || !bodies[r.first].plain || !bodies[r.second].plain || typeid(*r.phys) != typeid(NscdPhys)) return Reading::Functors;
+		if (!ours.spheres || !ours.law || !r.phys || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]) || typeid(*r.phys) != typeid(NscdPhys)) return Reading::Functors;
 		const auto& cache = r.interaction->functorCache;
 		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? Reading::Arrays : Reading::Functors;
 	};
@@ -105,7 +109,7 @@ void NscdInteractionLoop::action()
 	{
 #pragma omp for schedule(static) nowait
 		for (long id = 0; id < size; ++id)
-			if (bodies[id].present) resident.places[id] = { bodies[id].pos[0], bodies[id].pos[1] };
+			if (bodies[id].present) resident.places[id] = bodies[id].motion.position;
 #pragma omp for schedule(static) reduction(+ : changes, others)
 		for (long k = 0; k < count; ++k) {
 			const int slot = resident.order[k].slot;
@@ -129,28 +133,27 @@ void NscdInteractionLoop::action()
 bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, nscd::BondReading& bond, const Ours& ours) const
 {
 	const auto &p1 = resident.bodies[r.first], &p2 = resident.bodies[r.second];
-	Vector3r    normal = p2.pos - p1.pos;
-	const Real  norm   = normal.norm();
-	normal /= norm;
-	r.nx  = normal[0];
-	r.ny  = normal[1];
-	r.nz  = normal[2];
-	r.gap = -(p1.radius + p2.radius - norm);
+	const Real  dz = p2.z - p1.z; // disks may be a little out of one plane, see nscd::flatness
+	const auto  at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius, dz);
+	r.nx  = at.nx;
+	r.ny  = at.ny;
+	r.nz  = dz / at.distance;
+	r.gap = at.gap;
 	if (r.broken != NscdPhys::None && !r.phys->breaks) r.broken = NscdPhys::None; // that was the step before
 	bool       refresh = r.wasRead; // a script may have changed its strengths
 	const bool swap    = r.first > r.second;
 	r.wasRead          = false;
 	if (r.bonded) {
-		if (nscd::isOutside(bond, swap ? p2 : p1, swap ? p1 : p2)) {
+		if (!plane::bondLives(plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion), bond.zone)) {
 			r.phys->restGap   = r.restGap;
-			r.phys->yieldPath = bond.yieldPath;
+			r.phys->yieldPath = nscd::pathOf(bond);
 			r.phys->yielded   = bond.yielded;
 			ours.law->breakBond(*r.phys);
 			r.bonded = false;
 			r.broken = r.phys->brokenMode;
 			refresh  = true;
 		} else if (bond.yielded)
-			r.restGap = std::max(r.restGap, r.gap);
+			r.restGap = plane::grownRestGap(r.restGap, r.gap);
 	}
 	const bool stays = r.bonded || r.broken != NscdPhys::None;
 	if (!stays && (!ours.law->isWithinReach(r.gap, r.length) || (ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap)))) return false;
@@ -158,7 +161,7 @@ bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, nsc
 		r.phys->updateThresholds(r.gap, ours.law->adhesionRange);
 		nscd::readThresholds(r);
 	} else if (!r.bonded)
-		r.adhesion = r.gap <= ours.law->adhesionRange * r.length ? r.residualAdhesion : 0;
+		r.adhesion = plane::touches(r.gap, ours.law->adhesionRange, r.length) ? r.residualAdhesion : 0;
 	if (!(std::abs(r.nz) <= nscd::flatness)) r.usable = false;
 	return true;
 }
@@ -180,7 +183,7 @@ long NscdInteractionLoop::visitOthers(nscd::Resident& resident, const Ours& ours
 		if (!isThere(i.getId1()) || !isThere(i.getId2())) return false;
 		const auto &p1 = bodies[i.getId1()], &p2 = bodies[i.getId2()];
 		if (!p1.plain || !p2.plain || !ours.spheres || i.functorCache.geom.get() != ours.spheres) return false;
-		return std::pow(ours.spheres->interactionDetectionFactor * (p1.radius + p2.radius), 2) - (p2.pos - p1.pos).squaredNorm() < 0;
+		return std::pow(ours.spheres->interactionDetectionFactor * (p1.radius + p2.radius), 2) - (p2.place() - p1.place()).squaredNorm() < 0;
 	};
 	std::vector<char> near(resident.potential.size(), 1);
 	for (size_t k = 0; k < near.size(); ++k) {

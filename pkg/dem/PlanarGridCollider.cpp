@@ -42,8 +42,8 @@ void PlanarGridCollider::action()
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : turned)
 	for (long id = 0; id < size; ++id) {
 		const auto& b  = bodies[id];
-		disks[id]      = b.present && b.plain ? Disk { b.pos[0], b.pos[1], b.radius } : Disk { 0, 0, -1 };
-		velocities[id] = { b.vx, b.vy };
+		disks[id]      = b.present && b.plain ? Disk { b.motion.position.x, b.motion.position.y, b.radius } : Disk { 0, 0, -1 };
+		velocities[id] = { b.motion.velocity.x, b.motion.velocity.y };
 		turned         = turned || hasTurned(id);
 	}
 	if (renewShapes(turned)) anew = true;

@@ -8,8 +8,11 @@ namespace yade {
 YADE_PLUGIN((PlanarNewtonIntegrator));
 
 namespace {
-	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them. `S`: a State, or what of one moves.
-	template <class S> void integrate(S& s, const Vector3r& force, const Vector3r& torque, const Vector3r& gravity, Real dt)
+	namespace plane = nonsmooth::contact::plane;
+	static_assert(plane::blockedX == State::DOF_X && plane::blockedY == State::DOF_Y && plane::blockedTurn == State::DOF_RZ && plane::blockedAll == State::DOF_ALL);
+
+	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them, of a body that moves in space.
+	void integrate(State& s, const Vector3r& force, const Vector3r& torque, const Vector3r& gravity, Real dt)
 	{
 		if (s.blockedDOFs != State::DOF_ALL) {
 			Vector3r a = Vector3r::Zero(), w = Vector3r::Zero();
@@ -27,25 +30,6 @@ namespace {
 			s.ori            = Quaternionr(AngleAxisr(speed * dt, s.angVel / speed)) * s.ori;
 		}
 		s.ori.normalize();
-	}
-
-	struct Moving {
-		Vector3r    pos;
-		Quaternionr ori;
-		Vector3r    vel, angVel, inertia;
-		Real        mass;
-		unsigned    blockedDOFs;
-	};
-
-	void integrate(nscd::BodyReading& b, const Vector3r& force, const Vector3r& torque, const Vector3r& gravity, Real dt)
-	{
-		Moving m { b.pos, b.ori, Vector3r(b.vx, b.vy, 0), Vector3r(0, 0, b.spin), Vector3r(b.inertia, b.inertia, b.inertia), b.mass, b.blocked };
-		integrate<Moving>(m, force, torque, gravity, dt);
-		b.pos  = m.pos;
-		b.ori  = m.ori;
-		b.vx   = m.vel[0];
-		b.vy   = m.vel[1];
-		b.spin = m.angVel[2];
 	}
 }
 
@@ -76,17 +60,18 @@ void PlanarNewtonIntegrator::action()
 			bad = std::max(bad, (int)id);
 			continue;
 		}
+		const Vector3r &force = scene->forces.getForce(id), &torque = scene->forces.getTorque(id);
 		if (b.planar) {
-			integrate(b, scene->forces.getForce(id), scene->forces.getTorque(id), gravity, scene->dt);
+			plane::integrate(b.motion, { force[0], force[1], torque[2] }, b.mass, b.inertia, b.blocked, { gravity[0], gravity[1] }, scene->dt);
 			b.moved = true;
 		} else { // with motions that the arrays do not know
 			State& s = *(*scene->bodies)[id]->state;
-			integrate<State>(s, scene->forces.getForce(id), scene->forces.getTorque(id), gravity, scene->dt);
+			integrate(s, force, torque, gravity, scene->dt);
 			nscd::readMotion(s, b);
 		}
 		if (!b.bounded) continue;
 		const Bound& bound    = *(*scene->bodies)[id]->bound;
-		const Real   farthest = (b.pos - bound.refPos).cwiseAbs().maxCoeff();
+		const Real   farthest = (b.place() - bound.refPos).cwiseAbs().maxCoeff();
 		moved                 = std::max(moved, farthest == 0 || farthest < bound.sweepLength ? 0.5 : 2.0);
 	}
 	if (bad >= 0)

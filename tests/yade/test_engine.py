@@ -8,10 +8,11 @@ import time
 import pytest
 from shell import BUILD
 from yade import O
+from yade.minieigenHP import Quaternion
 from yade.nonsmooth import contact, scene
 from yade.wrapper import (
     ContactDynamicsEngine, ForceEngine, ForceResetter, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
+    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner, TorqueEngine)
 
 from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, launch, loose_heap, material, momenta, refused, run
 
@@ -264,6 +265,29 @@ def test_own_loop_and_integrator_have_the_bits_of_yades():
     ours, theirs = course(lambda e: e), course(plain)
     assert ours[0] > 20 and ours[4] > 0 and len(ours[3]) > 50
     assert ours == theirs
+
+
+@pytest.mark.parametrize("blocked", ["", "x", "yZ", "zXY", "xyzXYZ"])
+def test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too(blocked):
+    def flight(engines_of):
+        O.reset()
+        stuff = material(0.3)
+        for k in range(3):  # turned and spinning in space; in the plane; spinning in it, but turned out of it
+            disk = free_disk(2 * k, 0, stuff=stuff)
+            state = O.bodies[disk].state
+            state.blockedDOFs = blocked
+            state.inertia = (2, 2, 2)
+            state.vel, state.angVel = ((3, -2, 1), (1, 5, -7)) if k == 0 else ((1, 2, 0), (0, 0, 3))
+            if k != 1:
+                state.ori = Quaternion((1, 0, 2), 0.7)
+        begin()
+        O.engines = [ForceResetter(), ForceEngine(ids=[0, 1, 2], force=(10, 20, -5)), TorqueEngine(ids=[0, 1, 2], moment=(1, -2, 3)),
+                     engines_of(integrator())]
+        O.engines[-1].gravity = (0.5, -G, 0.25)
+        run(50)
+        return [tuple(b.state.pos) + tuple(b.state.vel) + tuple(b.state.angVel) + tuple(b.state.ori) for b in O.bodies]
+
+    assert flight(lambda e: e) == flight(plain)
 
 
 def test_what_an_engine_between_loop_and_solver_changes_counts_in_the_same_step():

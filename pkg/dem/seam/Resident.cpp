@@ -1,4 +1,5 @@
 #include "Resident.hpp"
+#include "../PlaneMotion.hpp"
 #include "../Prefetch.hpp"
 #include "Audience.hpp"
 #include <chrono>
@@ -25,7 +26,9 @@ namespace {
 	/// Whether a state has what was written into it, or read from it, the last time.
 	bool isAs(const State& s, const BodyReading& known)
 	{
-		return s.pos == known.pos && s.vel[0] == known.vx && s.vel[1] == known.vy && s.angVel[2] == known.spin && s.ori.coeffs() == known.ori.coeffs();
+		const auto& m = known.motion;
+		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w
+		        && s.ori.z() == m.rotation.z && s.ori.w() == m.rotation.w;
 	}
 }
 
@@ -112,10 +115,18 @@ void Resident::hold(int threads)
 		if (Interaction* i = readings[k].interaction) holders[k] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()), i->geom, i->phys };
 }
 
-void Resident::moved(size_t id)
+void Resident::displace(size_t id, const nonsmooth::contact::Twist& d)
 {
-	bodies[id].moved = true;
-	if (!bodies[id].planar) showBody(id);
+	BodyReading& b = bodies[id];
+	if (b.planar) {
+		nonsmooth::contact::plane::displace(b.motion, d);
+		b.moved = true;
+		return;
+	}
+	State& s = *(*container.lock())[id]->state;
+	s.pos += Vector3r(d.x, d.y, 0);
+	if (d.w != 0) s.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * s.ori).normalized();
+	readMotion(s, b);
 }
 
 void Resident::showBody(size_t id)
@@ -126,14 +137,14 @@ void Resident::showBody(size_t id)
 	const auto kept     = container.lock();
 	const auto& body    = (*kept)[id];
 	if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return; // gone, or changed by somebody else meanwhile
-	writeMotion(b, *body->state);
+	setMotion(*body->state, b.motion);
 	if (id < asShown.size()) asShown[id] = b;
 }
 
 Vector3r Resident::contactPoint(const Reading& r) const
 {
 	if (r.wasRead || r.keeper != Reading::Arrays) return r.geom->contactPoint;
-	const Vector3r at(places[r.first].x, places[r.first].y, bodies[r.first].pos[2]), normal(r.nx, r.ny, r.nz);
+	const Vector3r at(places[r.first].x, places[r.first].y, bodies[r.first].z), normal(r.nx, r.ny, r.nz);
 	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
 }
 
@@ -156,7 +167,7 @@ void Resident::showContact(int slot) const
 	}
 	if (r.bonded) {
 		phys.restGap   = r.restGap;
-		phys.yieldPath = bonds[slot].yieldPath;
+		phys.yieldPath = pathOf(bonds[slot]);
 		phys.yielded   = bonds[slot].yielded;
 	}
 	if (!r.reacts) return;

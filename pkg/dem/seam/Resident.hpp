@@ -44,8 +44,8 @@ public:
 	/// Makes sure that what it points to stays, whatever other threads erase.
 	void hold(int threads);
 
-	/// Moves a body whose reading has changed: its state follows at once where it has motions that the arrays do not know.
-	void moved(size_t id);
+	/// Moves a body by d [m, m, rad]; velocities stay.
+	void displace(size_t id, const nonsmooth::contact::Twist& d);
 	/// Brings a body's state up to date.
 	void showBody(size_t id);
 

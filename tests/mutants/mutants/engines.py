@@ -3,6 +3,7 @@ from mutant import mutant
 
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/ContactSeam.cpp", "pkg/dem/ContactSeamScatter.cpp", "pkg/dem/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
+TO_PLANE = "pkg/dem/PlaneMotion.hpp"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 PHYS, MAT, SEGMENT = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.cpp"
 BONDS, BONDS_H, LAW_H = "pkg/dem/BondEllipse.cpp", "pkg/dem/BondEllipse.hpp", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
@@ -17,8 +18,9 @@ MUTANTS = (
            "test_engine.py::test_gaps_that_stay_open_are_left_out"),
     mutant("gather-recall", SEAM, "gapAfter(k) < -unseen * leftContacts[k].length", "gapAfter(k) < -leftContacts[k].length",
            "contacts left out are recalled a diameter too late", "test_engine.py::test_who_is_hit_hits_the_next_without_overlap"),
-    mutant("gather-lever", SEAM, "c.leverTj = -((swapped ? r1 : r2) + 0.5 * reading.gap);", "c.leverTj = -((swapped ? r2 : r1) + 0.5 * reading.gap);",
-           "the lever of the second disk is the first one's", "test_engine.py::test_momentum_is_conserved_without_external_forces"),
+    mutant("gather-lever", SEAM, "contact::plane::diskFrame(i, j, nx, ny, radius[i], radius[j], reading.gap)",
+           "contact::plane::diskFrame(i, j, nx, ny, radius[j], radius[i], reading.gap)", "the levers of two disks are exchanged",
+           "test_reactions.py::test_a_wheel_drives_another_by_the_ratio_of_their_radii"),
     mutant("gather-wall-lever", SEAM, "c.leverNi = ny * ri.x - nx * ri.y;", "c.leverNi = nx * ri.y - ny * ri.x;", "the normal lever of a wall has the wrong sign",
            "test_reactions.py::test_a_wall_feels_the_moment_of_what_lies_on_it", "test_engine.py::test_turning_wall_drags_a_disk"),
     mutant("gather-impact", SEAM, "c.biasN = reading.restitution * approach;", "c.biasN = -reading.restitution * approach;",
@@ -43,8 +45,8 @@ MUTANTS = (
            "test_contact_law.py::test_slip_survives_joints_and_is_the_path"),
     mutant("scatter-slip-open", SCATTER, "problem.impulses[k].n + c.adhesion <= 0", "problem.impulses[k].n + c.adhesion < 0", "disks that fly over a wall slip on it",
            "test_contact_law.py::test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_none"),
-    mutant("scatter-yield-mode", SCATTER, "std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)", "std::abs(p.t) >= close * contact::rollingThreshold(c, p.n)",
-           "a bond counts as sheared at the rolling threshold", "test_bonds.py::test_a_bond_breaks_in_shear_whatever_its_rolling_friction"),
+    mutant("scatter-yield-mode", SCATTER, "Vector3r(path.tension, path.shear, path.torque)", "Vector3r(path.tension, path.torque, path.shear)",
+           "a bond that rolls counts as sheared", "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
     mutant("scatter-work", SCATTER, "0.5 * p.n * (u0.n + u1.n)", "p.n * u1.n", "the work of normal impulses is that of the velocity afterwards",
            "test_engine.py::test_energy_of_a_collapse_closes"),
     mutant("scatter-losses", SCATTER, "(p.n < 0 ? sums.debonding : sums.impact)", "(p.n > 0 ? sums.debonding : sums.impact)",
@@ -105,9 +107,15 @@ MUTANTS = (
     mutant("water-mask", WATER, "(mask != 0 && !(*scene->bodies)[id]->maskOk(mask))", "false", "the mask is not heeded",
            "test_pore_pressure.py::test_a_gradient_acts_as_it_is_on_the_bodies_of_a_mask"),
     # ---- integrator, collider, loop
-    mutant("newton-turn", NEWTON, "AngleAxisr(speed * dt, s.angVel / speed)", "AngleAxisr(-speed * dt, s.angVel / speed)", "disks turn the other way than their spin",
-           "test_engine.py::test_own_loop_and_integrator_have_the_bits_of_yades"),
+    mutant("newton-turn", NEWTON, "AngleAxisr(speed * dt, s.angVel / speed)", "AngleAxisr(-speed * dt, s.angVel / speed)", "bodies in space turn the other way than their spin",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
     mutant("newton-torque", NEWTON, "torque[i] / s.inertia[i]", "torque[i] / s.mass", "a torque has the mass in the place of the inertia",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
+    mutant("newton-tilted", TO_PLANE, "s.ori.x() == 0", "true", "a disk that was turned out of the plane counts as one in it",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
+    mutant("newton-leaves", TO_PLANE, "(s.blockedDOFs & out) == out", "true", "a body that may leave the plane does not",
+           "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
+    mutant("newton-spin", TO_PLANE, "s.angVel[2] = m.velocity.w;", "s.angVel[2] = m.velocity.x;", "the spin of a disk is its velocity",
            "test_engine.py::test_own_loop_and_integrator_have_the_bits_of_yades"),
     mutant("collider-foresight", COLLIDER_H, "foresight * scene->dt * speed", "0.1 * scene->dt * speed", "fast disks get their contacts too late",
            "test_collider.py::test_far_disks_have_contacts_while_they_are_fast", "test_collider.py::test_leaving_far_slow_disks_out_changes_no_bit"),
@@ -118,9 +126,9 @@ MUTANTS = (
     mutant("loop-erase", LOOP, "wanted && law->keeps(phys, gap)", "law->keeps(phys, gap)", "contacts of slow disks that have parted stay",
            "test_collider.py::test_leaving_far_slow_disks_out_changes_no_bit", "test_collider.py::test_far_disks_have_contacts_while_they_are_fast"),
     # ---- strengths and bonds
-    mutant("phys-residual", PHYS, "bonded ? friction : residualFriction", "friction", "a contact without a bond has the bond's friction",
+    mutant("phys-residual", PHYS, "set(currentFriction, now.friction);", "set(currentFriction, bond.friction);", "a contact without a bond has the bond's friction",
            "test_bonds.py::test_debonded_contact_slides_with_residual_friction_at_once"),
-    mutant("phys-adhesion", PHYS, "(touching ? residualTensileForce : 0)", "residualTensileForce", "residual adhesion acts over the whole reach",
+    mutant("phys-adhesion", PHYS, "plane::touches(gap, adhesionRange, length)", "true", "residual adhesion acts over the whole reach",
            "test_reactions.py::test_residual_adhesion_acts_while_bodies_touch"),
     mutant("phys-weaker", PHYS, "std::min(va, vb)", "std::max(va, vb)", "the stronger of two disks rules", "test_bonds.py::test_weaker_of_two_disks_and_the_wall_alone"),
     mutant("phys-layers", PHYS, "(sameLayer || anyWall)", "true", "residual adhesion acts between layers",
@@ -131,13 +139,14 @@ MUTANTS = (
            "test_whole_slope.py::test_a_column_is_what_the_steps_say[slip_mean_dp_m]", slow=True),
     mutant("mat-weakened", MAT, "return s >= criticalSlip;", "return s > 0;", "every disk that has slipped counts as weakened",
            "test_whole_slope.py::test_a_column_is_what_the_steps_say[weakened_disks]", slow=True),
-    mutant("bond-axes", LAW_H, "std::pow(dt / phys.ellipseTangential, 2)", "std::pow(dt / phys.ellipseNormal, 2)", "the ellipse of a bond is a circle",
+    mutant("bond-axes", LAW_H, "plane::bondLives(nscd::bondDisplacement(phys, first, second), { phys.ellipseNormal, phys.ellipseTangential })",
+           "plane::bondLives(nscd::bondDisplacement(phys, first, second), { phys.ellipseNormal, phys.ellipseNormal })", "the ellipse of a bond is a circle",
            "test_bonds.py::test_a_bond_holds_inside_its_ellipse"),
     mutant("bond-mark", BONDS_H, "secondRadius * normal", "-secondRadius * normal", "a bond is marked on the far side of its second disk",
            "test_bonds.py::test_a_bond_is_marked_where_the_disks_touch"),
-    mutant("bond-length", LAW_H, "std::max(phys.restGap, gap)", "phys.restGap", "a bond that was pulled out springs back",
+    mutant("bond-length", LAW_H, "plane::grownRestGap(phys.restGap, gap)", "phys.restGap", "a bond that was pulled out springs back",
            "test_bonds.py::test_bond_opened_in_tension_keeps_its_new_length"),
-    mutant("bond-mode", BONDS, "static_cast<NscdPhys::Mode>(NscdPhys::Tension + most)", "static_cast<NscdPhys::Mode>(NscdPhys::Torque - most)",
+    mutant("bond-mode", BONDS, "plane::breakMode({ phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] })", "plane::breakMode({ phys.yieldPath[2], phys.yieldPath[1], phys.yieldPath[0] })",
            "broken in tension and by torque are exchanged", "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
     # ---- walls
     mutant("segment-behind", SEGMENT, "(segment.sense != 0 && near.distance < -radius)", "false", "a one-sided wall catches disks from behind",
@@ -152,6 +161,7 @@ MUTANTS = (
            "test_soft_walls.py::test_a_wall_weakens_after_the_same_slip_in_both_worlds"),
     mutant("soft-wall-rolling", WALL_LAW, "Vector3r(0, 0, phys.rollingTorque)", "Vector3r(0, 0, -phys.rollingTorque)",
            "a soft wall drives the rolling that it should resist", "test_soft_walls.py::test_rolling_is_resisted_as_the_wall_says"),
-    mutant("soft-ellipse", FOLLOWER, "std::pow(dt / ellipses[k][1], 2)", "std::pow(dt / ellipses[k][0], 2)", "the ellipse of a soft bond is a circle",
+    mutant("soft-ellipse", FOLLOWER, "plane::bondLives(displacement, { ellipses[k][0], ellipses[k][1] })", "plane::bondLives(displacement, { ellipses[k][0], ellipses[k][0] })",
+           "the ellipse of a soft bond is a circle",
            "test_soft.py::test_a_ductile_bond_yields_and_breaks_where_the_hard_one_does"),
 )
