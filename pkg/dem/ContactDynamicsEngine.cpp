@@ -7,7 +7,6 @@
 #include "SceneCheck.hpp"
 #include "Seldom.hpp"
 #include "YadeFeatures.hpp"
-#include <chrono>
 #include <contact/problem_file.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -21,31 +20,28 @@ namespace contact = nonsmooth::contact;
 
 void ContactDynamicsEngine::action()
 {
+	using nscd::Stage;
+	nscd::StageTimer timer(&clock, Stage::Gather);
 	validate();
-	const auto clock   = [] { return std::chrono::duration<Real>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
 	const auto gravity = nscd::gravityOf(*scene);
 	const int  threads = nscd::threadsOf(*this);
-
-	const Real t0 = clock();
 	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads, NscdInteractionLoop::before(*this));
-	warmStart       = seam.problem.impulses;
-	stepSolved      = scene->dt;
-	const Real t1         = clock();
-	auto       statistics = contact::solve(seam.problem, settings(), &workspace);
+	warmStart  = seam.problem.impulses;
+	stepSolved = scene->dt;
+	timer.next(Stage::Solve);
+	auto statistics = contact::solve(seam.problem, settings(), &workspace);
 	while (seam.recall(warmStart) > 0) {
 		const int before = statistics.iterations;
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;
 	}
-	const Real solved = clock();
+	timer.next(Stage::Correct);
 	seam.correct(settings(), workspace, correctionSweeps);
-	const Real t2 = clock();
-	correctionSeconds += t2 - solved;
+	timer.next(Stage::Scatter);
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
 	account(sums);
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
-	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
 }
 
 void ContactDynamicsEngine::validate() const
@@ -241,6 +237,21 @@ boost::python::dict ContactDynamicsEngine::energies() const
 	d["correction"] = correctionEnergy;
 	d["error"]      = energyError;
 	return d;
+}
+
+boost::python::dict ContactDynamicsEngine::stageSeconds() const
+{
+	boost::python::dict d;
+	for (size_t k = 0; k < clock.seconds.size(); ++k)
+		d[clock.names[k]] = clock.seconds[k];
+	return d;
+}
+
+nscd::StageClock* nscd::StageClock::of(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (auto* solver = engine->dead ? nullptr : dynamic_cast<ContactDynamicsEngine*>(engine.get())) return &solver->clock;
+	return nullptr;
 }
 
 boost::python::object ContactDynamicsEngine::bodyTable() const

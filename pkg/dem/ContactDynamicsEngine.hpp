@@ -12,6 +12,7 @@
 #pragma once
 
 #include "ContactSeam.hpp"
+#include "StageClock.hpp"
 #include <contact/solver.hpp>
 #include <core/GlobalEngine.hpp>
 
@@ -29,6 +30,7 @@ public:
 	void forgetEnergies();
 	void forgetBreaks() { breakLog.clear(); }
 	boost::python::dict energies() const;
+	boost::python::dict stageSeconds() const;
 	boost::python::object bodyTable() const;
 	boost::python::object contactTable() const;
 	boost::python::object breakTable() const;
@@ -95,11 +97,10 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,maxSpeed,0,(Attr::readonly|Attr::noSave),"Largest speed at the end of the last step [m/s]."))
 		((Vector3r,centroid,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Centre of mass of moving bodies at the beginning of the last step [m]."))
 		((Vector3r,momentum,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Their momentum at the end of the last step [N s]."))
-		((Vector3r,stageSeconds,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Wall time spent so far in gathering, solving, scattering [s]."))
-		((Real,correctionSeconds,0,(Attr::readonly|Attr::noSave),"Of solving, wall time spent so far in finding the displacements that take back errors of position [s]."))
 		,
 		/* ctor */
 		,
+		.add_property("stageSeconds",&ContactDynamicsEngine::stageSeconds,"Wall time so far by the stages of a step [s], a dictionary in their order: collide (:yref:`PlanarGridCollider`), interactions (:yref:`NscdInteractionLoop`); gather (the contact problem of the step, all checks included), solve (its sweeps), correct (finding the displacements that take back errors of position) and scatter (reactions and sums) of this engine; integrate (:yref:`PlanarNewtonIntegrator`). A stage that an engine of YADE's own does has 0, see O.timingEnabled for that; what other engines do is not in it. Not saved.")
 		.def("bond",&ContactDynamicsEngine::bond,"Make a bond wherever two bodies of one layer (or a wall that bonds to all and a body) have a gap below bondCreationDistance; run a step first, so that interactions exist. Returns the number made.")
 		.def("unbond",&ContactDynamicsEngine::unbond,"Remove all bonds. Returns their number.")
 		.def("updateStrengths",&ContactDynamicsEngine::updateStrengths,"Take the strengths of all present contacts from the bodies' materials anew (they are copied when a contact is made); bonds and reactions stay.")
@@ -113,6 +114,8 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 	);
 	// clang-format on
 	DECLARE_LOGGER;
+
+	nscd::StageClock clock;
 
 private:
 	void                                 validate() const;

@@ -4,6 +4,7 @@
 #include "PorePressureEngine.hpp"
 #include "Prefetch.hpp"
 #include "SceneCheck.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -103,6 +104,7 @@ const NscdInteractionLoop* NscdInteractionLoop::ofLastStep(const Scene& scene)
 
 void NscdInteractionLoop::action()
 {
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Interactions);
 	auto& list = *scene->interactions;
 	readIn     = never; // until all is read; a step's number comes again after O.resetTime()
 	if (!nscd::hasSolver(*scene))

@@ -1,5 +1,6 @@
 #include "PlanarGridCollider.hpp"
 #include "NscdInteractionLoop.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Scene.hpp>
@@ -22,6 +23,7 @@ namespace {
 
 void PlanarGridCollider::action()
 {
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Collide);
 	if (scene->isPeriodic) throw std::runtime_error("PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
 	if (!(sureReach >= 0))
 		throw std::runtime_error("PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach) + ": give a gap in units of ℓ that is not negative");

@@ -1,5 +1,6 @@
 #include "PlanarNewtonIntegrator.hpp"
 #include "Prefetch.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include <core/Scene.hpp>
 
@@ -32,6 +33,7 @@ namespace {
 
 void PlanarNewtonIntegrator::action()
 {
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Integrate);
 	const Cell& cell = *scene->cell;
 	if (damping != 0 || scene->isPeriodic || densityScaling || mask > 0 || scene->trackEnergy || cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero()) {
 		NewtonIntegrator::action();

@@ -65,7 +65,7 @@ def test_all_that_is_promised_is_there_and_a_number(measured):
         assert math.isfinite(summary[name]) and summary[name] > 0, name
     for name, value in numbers(summary):
         assert math.isfinite(value), name
-    stages = {"reset", "collider", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrator", "other"}
+    stages = {"reset", "collide", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrate", "other"}
     assert set(summary["stage_ms"]) == stages and all(v >= 0 for v in summary["stage_ms"].values())
     assert {(m["state"], m["threads"]) for m in summary["steps"]} == {(s, t) for s in ("rest", "moving", "soft") for t in (1, 2)}
     assert {(m["state"], m["threads"]) for m in alone["steps"]} == {("rest", 1), ("moving", 1), ("soft", 1)}
