@@ -11,6 +11,7 @@
 // momentum (Σ m D × v), pairs of tangential impulses keep it. No overlap adds up, and the energy that it costs is counted (correctionEnergy).
 #pragma once
 
+#include "Advance.hpp"
 #include "ContactSeam.hpp"
 #include "StageClock.hpp"
 #include <contact/solver.hpp>
@@ -101,6 +102,9 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		/* ctor */
 		,
 		.add_property("stageSeconds",&ContactDynamicsEngine::stageSeconds,"Wall time so far by the stages of a step [s], a dictionary in their order: collide (:yref:`PlanarGridCollider`), interactions (:yref:`NscdInteractionLoop`); gather (the contact problem of the step, all checks included), solve (its sweeps), correct (finding the displacements that take back errors of position) and scatter (reactions and sums) of this engine; integrate (:yref:`PlanarNewtonIntegrator`). A stage that an engine of YADE's own does has 0, see O.timingEnabled for that; what other engines do is not in it. Not saved.")
+		.add_property("stepsLeft",+[](const ContactDynamicsEngine&) { return nscd::stepsLeft(*Omega::instance().getScene()); },"Steps that :yref:`advance<ContactDynamicsEngine.advance>` has yet to make, the present one included: 1 in its last step, 0 where none is under way, and more than any number of steps where it only knows until when.")
+		.def("advance",&nscd::advance,(boost::python::arg("steps")=boost::python::object(),boost::python::arg("until")=boost::python::object()),"Make so many steps, each as O.step() makes it, or as many as end before less than half a step is missing to the time ``until`` [s], and no more of either where both are given; returns how many. They are made in the calling thread, while other threads of Python run on; signals are heard every 20 ms, so Ctrl-C raises KeyboardInterrupt after a step. It can be called without an instance, in scenes of any engines. What an engine refuses is raised as O.step() raises it, with the engine's message. Raises RuntimeError while O.run is at work, within a step of the same scene, with O.subStepping, and where an engine has replaced the scene; ValueError for negative steps, a time that is not finite, or neither of the two; TypeError for what is no number. O.pause, O.stopAtIter and O.stopAtTime belong to O.run and end nothing here.")
+		.staticmethod("advance")
 		.def("bond",&ContactDynamicsEngine::bond,"Make a bond wherever two bodies of one layer (or a wall that bonds to all and a body) have a gap below bondCreationDistance; run a step first, so that interactions exist. Returns the number made.")
 		.def("unbond",&ContactDynamicsEngine::unbond,"Remove all bonds. Returns their number.")
 		.def("updateStrengths",&ContactDynamicsEngine::updateStrengths,"Take the strengths of all present contacts from the bodies' materials anew (they are copied when a contact is made); bonds and reactions stay.")
