@@ -32,6 +32,16 @@ namespace {
 		geom.normal           = normal;
 	}
 
+	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just now, some steps ago, or loaded.
+	void forgetShear(const shared_ptr<Interaction>& I, Scene& scene)
+	{
+		if (typeid(*I->geom) != typeid(ScGeom) || !nscd::physOf(*I->phys)) return;
+		auto& geom = static_cast<ScGeom&>(*I->geom);
+		// a new contact has no axes, which nothing else can be asked to write; its shear increment is made of the velocities
+		geom.precompute(*Body::byId(I->getId1(), &scene)->state, *Body::byId(I->getId2(), &scene)->state, &scene, I, Vector3r(geom.normal), true, Vector3r::Zero());
+		geom.shearInc = Vector3r::Zero();
+	}
+
 	/// The one functor of this class, and not of one derived from it; null where there is none.
 	template <class Functor, class List> const Functor* exactly(const List& functors)
 	{
@@ -170,6 +180,8 @@ void NscdInteractionLoop::action()
 		}
 		try {
 			if (!visit(I, *scene, *this)) list.requestErase(I);
+			else if (p1.plain && p2.plain && I->isReal())
+				forgetShear(I, *scene);
 			readings.take(k, *I);
 		} catch (const std::exception& e) {
 #pragma omp critical

@@ -2,7 +2,7 @@
 //
 // Interactions, their geometry, their physics and the states of their bodies lie all over the memory, so the loop of 50,000 of them waits
 // for memory most of the time. This one asks for what it will need some interactions ahead, and writes a disk's contact without the
-// shear increments that soft laws need. Everything else goes through the functors as ever. Fields that both loops write have the same bits.
+// shear increments that soft laws need: these are zero. Everything else goes through the functors as ever. All other fields have the bits of YADE's loop.
 // What the solver takes of a contact is read on the way, while it is at hand.
 #pragma once
 
@@ -32,8 +32,8 @@ public:
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
 as fast. Contacts of two :yref:`spheres<Sphere>` with :yref:`NscdPhys` are kept up to date without their functor: position, normal and overlap are those
-of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, stay as they were when the
-contact began. :yref:`ContactDynamicsEngine` takes from it what it has read of bodies and contacts, and spares itself the way, unless an engine other than
+of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, are zero. :yref:`ContactDynamicsEngine`
+takes from it what it has read of bodies and contacts, and spares itself the way, unless an engine other than
 :yref:`PorePressureEngine` stands between the two and may have changed them: engines that only add forces are better put before this one. With periodic
 boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on

@@ -266,6 +266,26 @@ def test_own_loop_and_integrator_have_the_bits_of_yades():
     assert ours == theirs
 
 
+def test_what_soft_laws_need_of_a_contact_of_disks_is_zero(tmp_path):
+    cohesive_heap()
+    walls = sum(1 for b in O.bodies if b.state.blockedDOFs == "xyzXYZ")
+
+    def shears():
+        return [i.geom.shearInc.norm() for i in contacts() if min(i.id1, i.id2) >= walls]
+
+    for _ in range(400):  # those just made, and those that are followed
+        run(1)
+        assert not any(shears())
+    assert len(shears()) > 50
+    O.save(str(tmp_path / "state.yade.gz"))
+    O.load(str(tmp_path / "state.yade.gz"))
+    run(1)
+    assert len(shears()) > 50 and not any(shears())
+    O.engines = [plain(e) for e in O.engines]
+    run(1)
+    assert any(shears())  # as YADE's own loop has them
+
+
 def test_what_an_engine_between_loop_and_solver_changes_counts_in_the_same_step():
     # the solver takes what the loop has read only where nothing that may change it stands between
     stuff = material(0.3)
