@@ -44,6 +44,22 @@ void ContactDynamicsEngine::action()
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
 }
 
+void ContactDynamicsEngine::growGravity(NewtonIntegrator& newton, Real time)
+{
+	if (gravityRamp == 0) return;
+	const auto refuse = [](const char* name, const string& value, const char* what) {
+		throw std::runtime_error(string("ContactDynamicsEngine: ") + name + " = " + value + ": it must be " + what);
+	};
+	const auto text = [](Real value) { return boost::lexical_cast<string>(value); };
+	if (!(gravityRamp > 0) || !std::isfinite(gravityRamp)) refuse("gravityRamp", text(gravityRamp), "0 or more, and finite [s]");
+	if (!std::isfinite(gravityBegin)) refuse("gravityBegin", text(gravityBegin), "finite [s]");
+	for (int i = 0; i < 3; ++i)
+		if (!std::isfinite(finalGravity[i])) refuse("finalGravity", text(finalGravity[0]) + ", " + text(finalGravity[1]) + ", " + text(finalGravity[2]), "finite [m/s²]");
+	const Real share = std::max(Real(0), std::min(Real(1), (time - gravityBegin) / gravityRamp));
+	newton.gravity   = share * finalGravity;
+	if (share == 1) gravityRamp = 0;
+}
+
 void ContactDynamicsEngine::validate() const
 {
 	const auto fail   = [](const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); };

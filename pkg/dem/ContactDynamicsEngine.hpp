@@ -16,6 +16,7 @@
 #include "StageClock.hpp"
 #include <contact/solver.hpp>
 #include <core/GlobalEngine.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
 
 namespace yade {
 
@@ -29,6 +30,8 @@ public:
 	/// Takes the strengths of all contacts from the materials anew.
 	void updateStrengths();
 	void forgetEnergies();
+	/// While the ramp of gravity lasts: gives the integrator what is due in a step that begins at `time` [s]; ends the ramp when all of it is due.
+	void growGravity(NewtonIntegrator& newton, Real time);
 	void forgetBreaks() { breakLog.clear(); }
 	boost::python::dict energies() const;
 	boost::python::dict stageSeconds() const;
@@ -58,6 +61,9 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,correctionSlack,1e-4,,"Overlaps and errors of bonds' lengths up to this [ℓ] stay as they are; a packing whose least errors are taken back in every step does not come to rest."))
 		((int,correctionSweeps,10,,"Sweeps in which these displacements are found; what they leave is taken back by later steps."))
 		((Real,openGap,0.05,,"A contact whose gap is wider [ℓ], and would stay so at 1.2 times its present speed of approach, is left out of the step's solve, unless the solution would close it after all."))
+		((Vector3r,finalGravity,Vector3r::Zero(),,"Gravity at the end of its ramp [m/s²], see gravityRamp."))
+		((Real,gravityBegin,0,,"O.time at which the ramp of gravity begins [s]; until then there is none."))
+		((Real,gravityRamp,0,,"Time in which gravity grows in proportion from nothing to finalGravity [s]: at the head of each step the integrator's gravity becomes what is due at O.time. When it has grown the ramp is over, and this is 0 again; 0: the integrator's gravity is left alone."))
 		((int,iterations,0,(Attr::readonly|Attr::noSave),"Sweeps of the last step."))
 		((Real,residual,0,(Attr::readonly|Attr::noSave),"Residual of the last step [-]."))
 		((Real,residualForce,0,(Attr::readonly|Attr::noSave),"The same as a force: rms over contacts of what the reactions miss of the law's graphs [N]."))

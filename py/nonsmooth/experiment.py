@@ -9,6 +9,7 @@ What decides its course stands in :mod:`yade.nonsmooth.course`; here it is looke
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import asdict
 from pathlib import Path
@@ -89,7 +90,7 @@ class Experiment:
             row = course.next_row(O.time, O.dt, self.scales.row_seconds)
             first, began = O.time, time.perf_counter()
             while O.time < row * self.scales.row_seconds - 0.5 * O.dt:
-                if self.state.stage == "settle":
+                if self.state.stage == "settle" and not self.hard:
                     self.newton.gravity = self._gravity(O.time)
                 before = O.time
                 advance()
@@ -160,6 +161,8 @@ class Experiment:
             s.bonds_initial = solver.bond()
         advance()
         s.contacts_initial = solver.contacts
+        if self.hard:  # from here on it grows by itself
+            solver.finalGravity, solver.gravityBegin, solver.gravityRamp = self._gravity(math.inf), 0.0, self.section.stages.settle.ramp
 
     def _gravity(self, time):
         """Gravity [m/s²] at a time [s]."""
