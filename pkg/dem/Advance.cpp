@@ -98,6 +98,7 @@ namespace {
 	{
 		if (Omega::instance().isRunning()) refuse("O.run() is making steps in the background: call O.pause() or O.wait() first");
 		if (scene.subStepping) refuse("O.subStepping is on, and a step is more than one call then: set O.subStepping = False, or call O.step()");
+		if (present.scene == &scene) refuse("it is making steps of this scene already: call it between two steps, not from an engine or another thread");
 		if (scene.subStep >= 0 && !broken.is(scene))
 			refuse("step " + std::to_string(scene.iter) + " has begun and is not over: call it between two steps and not from an engine; where an error has ended the step, call O.step() to finish it");
 	}
@@ -116,6 +117,7 @@ long advance(const py::object& steps, const py::object& until)
 	if (count == endless && end == never) refuseValue("give steps, until [s], or both");
 	const shared_ptr<Scene> scene = Omega::instance().getScene(); // held: an engine may end it, and its step goes on
 	check(*scene);
+	if (count == 0) return 0;
 	const Entered entered(*scene, count, end);
 	Unlocked      unlocked;
 	using Steady                = std::chrono::steady_clock;

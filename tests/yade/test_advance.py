@@ -215,12 +215,38 @@ def test_it_is_refused_while_a_run_is_at_work():
         O.run(1, wait=True)  # until the thread has ended
 
 
-@pytest.mark.parametrize("make", [O.step, lambda: ContactDynamicsEngine.advance(1)])
-def test_it_is_refused_within_a_step_of_the_scene(make):
+@pytest.mark.parametrize("make, words", [
+    (O.step, "ContactDynamicsEngine.advance: step 0 has begun and is not over: call it between two steps and not from an engine"),
+    (lambda: ContactDynamicsEngine.advance(1), "ContactDynamicsEngine.advance: it is making steps of this scene already: call it between two steps, not from an engine")])
+def test_it_is_refused_within_a_step_of_the_scene(make, words):
     O.engines = [ForceResetter(), looking("ContactDynamicsEngine.advance(1)")]
-    with pytest.raises(RuntimeError, match="ContactDynamicsEngine.advance: step 0 has begun and is not over: call it between two steps and not from an engine"):
+    with pytest.raises(RuntimeError, match=words):
         make()
     assert O.iter == 0
+
+
+def test_it_is_refused_while_another_thread_is_at_it():
+    refusals, over = [], threading.Event()
+
+    def disturb():
+        while not (over.is_set() or refusals):
+            try:
+                ContactDynamicsEngine.advance(0)
+            except RuntimeError as error:
+                refusals.append(str(error))
+
+    other = threading.Thread(target=disturb)
+    other.start()
+    try:
+        for _ in range(50):  # until the other thread has had its turn within one of them
+            ContactDynamicsEngine.advance(200_000)
+            if refusals:
+                break
+    finally:
+        over.set()
+        other.join()
+    assert refusals == ["ContactDynamicsEngine.advance: it is making steps of this scene already: call it between two steps, not from an engine or another thread"]
+    assert O.iter > 0 and O.iter % 200_000 == 0
 
 
 def test_a_step_that_o_step_has_broken_off_is_finished_by_it():

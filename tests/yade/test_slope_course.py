@@ -12,6 +12,7 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import course, experiment, packing, records, results, section, slope
 from yade.nonsmooth.wall_forces import WallForces
+from yade.wrapper import WallForceEngine
 
 
 def written(path, **keys):
@@ -185,6 +186,7 @@ def test_forces_between_rows_are_counted(loaded):
 
 def test_rows_hold_means_and_peaks(loaded, tmp_path, monkeypatch):
     run, normal, advance = experiment.Experiment(loaded, tmp_path), [], experiment.advance
+    assert O.iter == 2 and [e.seconds for e in O.engines if isinstance(e, WallForceEngine)] == [0, 0, 0]  # steps without weight belong to no row
 
     def step_by_step(until):
         while O.time < until - 0.5 * O.dt:

@@ -118,6 +118,7 @@ MUTANTS = (
     mutant("advance-running", ADVANCE, "Omega::instance().isRunning()", "false", "two threads make steps of one scene", "test_advance.py::test_it_is_refused_while_a_run_is_at_work"),
     mutant("advance-inside", ADVANCE, "scene.subStep >= 0 && !broken.is(scene)", "false", "an engine may advance its own scene",
            "test_advance.py::test_it_is_refused_within_a_step_of_the_scene", "test_advance.py::test_a_step_that_o_step_has_broken_off_is_finished_by_it"),
+    mutant("advance-twice", ADVANCE, "present.scene == &scene", "false", "two threads advance one scene", "test_advance.py::test_it_is_refused_while_another_thread_is_at_it"),
     mutant("advance-broken", ADVANCE, "broken = { scene.get(), scene->iter };", ";", "nothing goes on after an engine has refused a step",
            "test_advance.py::test_what_an_engine_refuses_is_raised_with_its_words"),
     mutant("advance-replaced", ADVANCE, "Omega::instance().getScene() != scene", "false", "a scene that is no longer there goes on",
