@@ -6,7 +6,6 @@
 #include "SceneCheck.hpp"
 #include "Seldom.hpp"
 #include "YadeFeatures.hpp"
-#include <chrono>
 #include <contact/problem_file.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -20,35 +19,48 @@ namespace contact = nonsmooth::contact;
 
 void ContactDynamicsEngine::action()
 {
+	using nscd::Stage;
+	nscd::StageTimer timer(&clock, Stage::Gather);
 	validate();
-	const auto clock   = [] { return std::chrono::duration<Real>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
 	const auto gravity = nscd::gravityOf(*scene);
 	const int  threads = nscd::threadsOf(*this);
-
-	const Real t0 = clock();
 	nscd::Turn turn(*this, threads);
 	auto&      resident = turn.resident();
-	if (!resident.hasContacts()) resident.takeContacts(*scene, threads);
+	if (!resident.hasContacts()) resident.takeContacts(*scene);
 	seam.gather(*scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads);
-	warmStart       = seam.problem.impulses;
-	stepSolved      = scene->dt;
-	const Real t1         = clock();
-	auto       statistics = contact::solve(seam.problem, settings(), &workspace);
+	warmStart  = seam.problem.impulses;
+	stepSolved = scene->dt;
+	timer.next(Stage::Solve);
+	auto statistics = contact::solve(seam.problem, settings(), &workspace);
 	while (seam.recall(warmStart) > 0) {
 		const int before = statistics.iterations;
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;
 	}
-	const Real solved = clock();
+	timer.next(Stage::Correct);
 	seam.correct(settings(), workspace, correctionSweeps);
-	const Real t2 = clock();
-	correctionSeconds += t2 - solved;
+	timer.next(Stage::Scatter);
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
 	account(sums, resident);
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
 	turn.end();
-	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
+}
+
+void ContactDynamicsEngine::growGravity(NewtonIntegrator& newton, Real time)
+{
+	if (gravityRamp == 0) return;
+	const auto refuse = [](const char* name, const string& value, const char* what) {
+		throw std::runtime_error(string("ContactDynamicsEngine: ") + name + " = " + value + ": it must be " + what);
+	};
+	const auto text = [](Real value) { return boost::lexical_cast<string>(value); };
+	if (!(gravityRamp > 0) || !std::isfinite(gravityRamp)) refuse("gravityRamp", text(gravityRamp), "0 or more, and finite [s]");
+	if (!std::isfinite(gravityBegin)) refuse("gravityBegin", text(gravityBegin), "finite [s]");
+	for (int i = 0; i < 3; ++i)
+		if (!std::isfinite(finalGravity[i])) refuse("finalGravity", text(finalGravity[0]) + ", " + text(finalGravity[1]) + ", " + text(finalGravity[2]), "finite [m/s²]");
+	const Real share = std::max(Real(0), std::min(Real(1), (time - gravityBegin) / gravityRamp));
+	newton.gravity   = share * finalGravity;
+	if (share == 1) gravityRamp = 0;
 }
 
 void ContactDynamicsEngine::validate() const
@@ -143,7 +155,7 @@ void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 
 void ContactDynamicsEngine::view() const
 {
-	nscd::Resident::of(*Omega::instance().getScene())->show(nscd::threadsOf(*this));
+	nscd::Resident::of(*Omega::instance().getScene())->show();
 }
 
 void ContactDynamicsEngine::dump(const std::string& path) const
@@ -252,6 +264,21 @@ boost::python::dict ContactDynamicsEngine::energies() const
 	d["correction"] = correctionEnergy;
 	d["error"]      = energyError;
 	return d;
+}
+
+boost::python::dict ContactDynamicsEngine::stageSeconds() const
+{
+	boost::python::dict d;
+	for (size_t k = 0; k < clock.seconds.size(); ++k)
+		d[clock.names[k]] = clock.seconds[k];
+	return d;
+}
+
+nscd::StageClock* nscd::StageClock::of(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (auto* solver = engine->dead ? nullptr : dynamic_cast<ContactDynamicsEngine*>(engine.get())) return &solver->clock;
+	return nullptr;
 }
 
 boost::python::object ContactDynamicsEngine::bodyTable() const

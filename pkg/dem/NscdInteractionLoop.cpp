@@ -3,6 +3,7 @@
 #include "PlanarGridCollider.hpp"
 #include "Prefetch.hpp"
 #include "SceneCheck.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
 #include <contact/plane/disk_contact.hpp>
@@ -19,6 +20,16 @@ YADE_PLUGIN((NscdInteractionLoop));
 namespace {
 	using nscd::fetch, nscd::soon, nscd::Reading;
 	namespace plane = nonsmooth::contact::plane;
+
+	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just now, some steps ago, or loaded.
+	void forgetShear(const shared_ptr<Interaction>& I, Scene& scene)
+	{
+		if (typeid(*I->geom) != typeid(ScGeom) || !nscd::physOf(*I->phys)) return;
+		auto& geom = static_cast<ScGeom&>(*I->geom);
+		// a new contact has no axes, which nothing else can be asked to write; its shear increment is made of the velocities
+		geom.precompute(*Body::byId(I->getId1(), &scene)->state, *Body::byId(I->getId2(), &scene)->state, &scene, I, Vector3r(geom.normal), true, Vector3r::Zero());
+		geom.shearInc = Vector3r::Zero();
+	}
 
 	/// The one functor of this class, and not of one derived from it; null where there is none.
 	template <class Functor, class List> const Functor* exactly(const List& functors)
@@ -67,7 +78,8 @@ namespace {
 
 void NscdInteractionLoop::action()
 {
-	auto& list = *scene->interactions;
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Interactions);
+	auto&                  list = *scene->interactions;
 	if (!nscd::hasSolver(*scene))
 		for (const auto& law : lawDispatcher->functors)
 			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get())) throw std::runtime_error("NscdInteractionLoop: " + nscd::noSolver(*scene));
@@ -75,7 +87,7 @@ void NscdInteractionLoop::action()
 	nscd::Turn     turn(*this, threads);
 	nscd::Resident& resident = turn.resident();
 	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0) {
-		resident.show(threads);
+		resident.show();
 		resident.potentialOf = nscd::Resident::never;
 		InteractionLoop::action();
 		turn.end();
@@ -88,12 +100,12 @@ void NscdInteractionLoop::action()
 
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
 	const Ours now { exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors), exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
-	if (now.spheres != ours.spheres || now.law != ours.law) resident.show(threads);
+	if (now.spheres != ours.spheres || now.law != ours.law) resident.show();
 	ours = now;
-	if (!resident.hasBodies()) resident.takeBodies(*scene, threads);
-	if (resident.hasContacts()) resident.hold(threads);
+	if (!resident.hasBodies()) resident.takeBodies(*scene);
+	if (resident.hasContacts()) resident.hold();
 	else
-		resident.takeContacts(*scene, threads);
+		resident.takeContacts(*scene);
 
 	const auto& bodies = resident.bodies;
 	const long  size = (long)bodies.size(), count = (long)resident.order.size();
@@ -177,7 +189,8 @@ long NscdInteractionLoop::visitOthers(nscd::Resident& resident, const Ours& ours
 	for (const int slot : slots)
 		for (const int id : { resident.readings[slot].first, resident.readings[slot].second })
 			if (isThere(id)) resident.showBody(id);
-	const auto& bodies = resident.bodies;
+	const auto& bodies  = resident.bodies;
+	const auto  isPlain = [&](int id) { return isThere(id) && bodies[id].plain; };
 	// a pair of disks that is out of reach need not be shown to its functor
 	const auto isOutOfReach = [&](const Interaction& i) {
 		if (!isThere(i.getId1()) || !isThere(i.getId2())) return false;
@@ -204,6 +217,7 @@ long NscdInteractionLoop::visitOthers(nscd::Resident& resident, const Ours& ours
 		bool                           stays = false;
 		try {
 			stays = visit(I, *scene, *this);
+			if (stays && isPlain(I->getId1()) && isPlain(I->getId2()) && I->isReal()) forgetShear(I, *scene);
 		} catch (const std::exception& e) {
 #pragma omp critical
 			error = e.what();

@@ -1,8 +1,8 @@
 // YADE's interaction loop, faster for contacts of disks.
 //
 // Interactions, their geometry, their physics and the states of their bodies lie all over the memory, so the loop of 50,000 of them waits
-// for memory most of the time. This one keeps contacts of disks in arrays (seam/Resident.hpp), without the shear increments that soft laws need, and their
-// interactions follow when somebody looks. Everything else goes through the functors as ever. Fields that both loops write have the same bits.
+// for memory most of the time. This one keeps contacts of disks in arrays (seam/Resident.hpp), without the shear increments that soft laws need, which are zero; their
+// interactions follow when somebody looks. Everything else goes through the functors as ever. All other fields have the bits of YADE's loop.
 #pragma once
 
 #include <core/InteractionLoop.hpp>
@@ -25,8 +25,7 @@ public:
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
 as fast. Contacts of two :yref:`spheres<Sphere>` with :yref:`NscdPhys` are kept up to date without their functor: position, normal and overlap are those
-of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, stay as they were when the
-contact began. With periodic
+of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, are zero. With periodic
 boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:

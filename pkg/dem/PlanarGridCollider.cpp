@@ -1,4 +1,5 @@
 #include "PlanarGridCollider.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
 #include <boost/make_shared.hpp>
@@ -22,6 +23,7 @@ namespace {
 
 void PlanarGridCollider::action()
 {
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Collide);
 	if (scene->isPeriodic) throw std::runtime_error("PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
 	if (!(sureReach >= 0))
 		throw std::runtime_error("PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach) + ": give a gap in units of ℓ that is not negative");
@@ -75,8 +77,8 @@ bool PlanarGridCollider::renewShapes(bool turned)
 		const auto& b = Body::byId(side.id, scene);
 		if (b && b->shape != side.shape) renewed.push_back(side.id);
 	}
-	if (!renewed.empty()) resident->show(threads);
-	if (!resident->hasBodies()) resident->takeBodies(*scene, threads);
+	if (!renewed.empty()) resident->show();
+	if (!resident->hasBodies()) resident->takeBodies(*scene);
 	for (const Body::id_t id : renewed) {
 		const auto& b = Body::byId(id, scene);
 		if (!b) continue;

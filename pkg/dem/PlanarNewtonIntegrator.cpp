@@ -1,4 +1,5 @@
 #include "PlanarNewtonIntegrator.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
 #include <core/Scene.hpp>
@@ -35,12 +36,13 @@ namespace {
 
 void PlanarNewtonIntegrator::action()
 {
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Integrate);
 	const int       threads = nscd::threadsOf(*this);
 	nscd::Turn      turn(*this, threads);
 	nscd::Resident& resident = turn.resident();
 	const Cell&     cell     = *scene->cell;
 	if (damping != 0 || scene->isPeriodic || densityScaling || mask > 0 || scene->trackEnergy || cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero()) {
-		resident.show(threads);
+		resident.show();
 		NewtonIntegrator::action();
 		turn.end();
 		return;

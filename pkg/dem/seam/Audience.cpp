@@ -1,4 +1,5 @@
 #include "Audience.hpp"
+#include "../Advance.hpp"
 #include "../ContactDynamicsEngine.hpp"
 #include "../NonsmoothTimeStepper.hpp"
 #include "../NscdInteractionLoop.hpp"
@@ -6,6 +7,7 @@
 #include "../PlanarNewtonIntegrator.hpp"
 #include "../PorePressureEngine.hpp"
 #include "../SceneCheck.hpp"
+#include "../WallForceEngine.hpp"
 #include <core/Omega.hpp>
 #include <pkg/common/ForceResetter.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
@@ -18,7 +20,7 @@ namespace {
 	template <class... Classes> bool isOneOf(const Engine& engine) { return ((typeid(engine) == typeid(Classes)) || ...); }
 
 	/// Reads and writes neither bodies nor interactions. Of these classes themselves, since a derived one may.
-	bool isBlind(const Engine& engine) { return isOneOf<ForceResetter, NonsmoothTimeStepper>(engine); }
+	bool isBlind(const Engine& engine) { return isOneOf<ForceResetter, NonsmoothTimeStepper, WallForceEngine>(engine); }
 
 	/// Whether the engine's own isActivated is PeriodicEngine's, or Recorder's, which asks that one.
 	bool isPlainlyPeriodic(const Engine& engine)
@@ -31,10 +33,13 @@ namespace {
 	string whyTheStepIsTheLast(const Scene& scene)
 	{
 		if (!scene._nextEngines.empty()) return "other engines";
+		if (stepsLeft(scene) > 0) return ""; // advance() shows all when it ends, however it ends
 		if (!Omega::instance().isRunning() || scene.stopAtIter == scene.iter + 1 || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime)) return "the end of the run";
 		return "";
 	}
 }
+
+bool othersMayLook(const Scene& scene) { return Omega::instance().isRunning() || stepsLeft(scene) > 0; }
 
 bool takesTurns(const Engine& engine)
 {

@@ -12,6 +12,9 @@ namespace yade::nscd {
 /// Who looks between the end of this engine's turn and the next turn of one of ours; empty: nobody.
 string whoLooksAfter(const Scene& scene, const Engine& engine);
 
+/// Whether steps are made while other threads of Python run.
+bool othersMayLook(const Scene& scene);
+
 /// Whether the engine's turns are ours: it takes what others have changed, and shows what it did.
 bool takesTurns(const Engine& engine);
 

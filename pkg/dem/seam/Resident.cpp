@@ -3,7 +3,6 @@
 #include "../Prefetch.hpp"
 #include "Audience.hpp"
 #include <chrono>
-#include <core/Omega.hpp>
 #include <map>
 #include <neighbours/bucket_sort.hpp>
 
@@ -15,10 +14,9 @@ namespace {
 	/// Shows what a thread leaves when it ends: YADE starts one for each O.run, and O.pause() may end it behind our last look.
 	struct ThreadEnd {
 		std::weak_ptr<Resident> last;
-		int                     threads = 1;
 		~ThreadEnd()
 		{
-			if (const auto resident = last.lock()) resident->show(threads);
+			if (const auto resident = last.lock()) resident->show();
 		}
 	};
 	thread_local ThreadEnd threadEnd;
@@ -46,16 +44,16 @@ std::shared_ptr<Resident> Resident::of(Scene& scene)
 	return found;
 }
 
-void Resident::takeBodies(Scene& scene, int threads)
+void Resident::takeBodies(Scene& scene)
 {
 	readBodies(scene, threads, bodies);
-	if (Omega::instance().isRunning()) asShown = bodies;
+	if (othersMayLook(scene)) asShown = bodies;
 	else
 		asShown.clear();
 	bodiesOwned = true;
 }
 
-void Resident::takeContacts(Scene& scene, int threads)
+void Resident::takeContacts(Scene& scene)
 {
 	auto&      list = *scene.interactions;
 	const int  size = int(bodies.size());
@@ -100,11 +98,10 @@ void Resident::takeContacts(Scene& scene, int threads)
 	potential.clear();
 	for (long k = 0; unreal > 0 && k < all; ++k)
 		if (!found[k].geom) potential.push_back(list[k]);
-	potentialOf   = never;
 	contactsOwned = true;
 }
 
-void Resident::hold(int threads)
+void Resident::hold()
 {
 	if (held) return;
 	held = true;
@@ -181,7 +178,7 @@ void Resident::showContact(int slot) const
 	phys.shearForce    = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(sign * phys.tangential * Vector3r(-ny, nx, 0));
 }
 
-void Resident::show(int threads)
+void Resident::show(const string& who)
 {
 	const std::lock_guard<std::recursive_mutex> guard(lock);
 	const double                                begin = clockNow();
@@ -207,7 +204,10 @@ void Resident::show(int threads)
 			showBody(id);
 		}
 	}
-	if (bodiesOwned || contactsOwned) ++shown;
+	if (bodiesOwned || contactsOwned) {
+		++shown;
+		shownTo = who;
+	}
 	bodiesOwned = contactsOwned = false;
 	lastShown                   = clockNow();
 	costOfShow                  = lastShown - begin;
@@ -275,38 +275,34 @@ bool Resident::isBehind(const Scene& scene) const
 	return bodies.size() != scene.bodies->size() || !scene.bodies->checkedByCollider || list.dirty || list.size() != interactionsSeen;
 }
 
-Turn::Turn(Engine& engine_, int threads_)
+Turn::Turn(Engine& engine_, int threads)
         : engine(engine_)
-        , threads(threads_)
         , data(Resident::of(*engine_.scene))
         , locked(data->lock)
 {
-	Scene& scene = *engine.scene;
-	if ((data->bodiesOwned || data->contactsOwned) && data->isBehind(scene)) data->show(threads);
-	if (!data->bodiesOwned) data->takeBodies(scene, threads);
+	Scene& scene  = *engine.scene;
+	data->threads = threads;
+	if ((data->bodiesOwned || data->contactsOwned) && data->isBehind(scene)) data->show();
+	if (!data->bodiesOwned) data->takeBodies(scene);
 }
 
 void Turn::end()
 {
 	Scene& scene = *engine.scene;
 	string who   = whoLooksAfter(scene, engine);
-	if (who.empty() && Omega::instance().isRunning()) {
+	if (who.empty() && othersMayLook(scene)) {
 		// others may look at any time: as often as it costs a fiftieth
-		threadEnd.last    = data;
-		threadEnd.threads = threads;
+		threadEnd.last = data;
 		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfShow)) who = "others, now and then";
 	}
-	if (!who.empty()) {
-		data->show(threads);
-		data->shownTo = who;
-	}
+	if (!who.empty()) data->show(who);
 	data->interactionsSeen = scene.interactions->size();
 	ended                  = true;
 }
 
 Turn::~Turn()
 {
-	if (!ended) data->show(threads);
+	if (!ended) data->show();
 }
 
 } // namespace yade::nscd

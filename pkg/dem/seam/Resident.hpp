@@ -36,13 +36,13 @@ public:
 	bool hasBodies() const { return bodiesOwned; }
 	bool hasContacts() const { return contactsOwned; }
 
-	void takeBodies(Scene& scene, int threads);
+	void takeBodies(Scene& scene);
 	/// Takes all interactions that are real, and notes the others.
-	void takeContacts(Scene& scene, int threads);
+	void takeContacts(Scene& scene);
 	/// Writes all into YADE's objects, which own it from now on.
-	void show(int threads);
+	void show(const string& who = "whoever asked");
 	/// Makes sure that what it points to stays, whatever other threads erase.
-	void hold(int threads);
+	void hold();
 
 	/// Moves a body by d [m, m, rad]; velocities stay.
 	void displace(size_t id, const nonsmooth::contact::Twist& d);
@@ -84,6 +84,7 @@ private:
 	void showContact(int slot) const;
 	bool isBehind(const Scene& scene) const;
 
+	int                                      threads = 1; // those of the last turn
 	std::recursive_mutex                     lock; // an engine's turn, or a look from another thread
 	boost::weak_ptr<BodyContainer>           container;
 	bool                                     bodiesOwned = false, contactsOwned = false, held = false;
@@ -108,7 +109,6 @@ public:
 
 private:
 	Engine&                                engine;
-	int                                    threads;
 	std::shared_ptr<Resident>              data;
 	std::unique_lock<std::recursive_mutex> locked;
 	bool                                   ended = false;

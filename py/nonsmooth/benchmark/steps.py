@@ -8,20 +8,22 @@ from pathlib import Path
 from yade import O
 from yade.wrapper import Collider, ContactDynamicsEngine, ForceResetter, InteractionLoop, NewtonIntegrator, PorePressureEngine
 
+from ..stepping import advance
 from . import states
 from .statistics import spread
 
 __all__ = ["STAGES", "TimedSteps", "measure"]
 
-#: Stages of a step in their order; "other" is what no stage has.
-STAGES = ("reset", "collider", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrator", "other")
-STAGE_OF = {ForceResetter: "reset", Collider: "collider", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
-            NewtonIntegrator: "integrator"}  # by the class of the engine or one it is derived from; ContactDynamicsEngine has four of its own
+#: Stages of a step in their order, those of ContactDynamicsEngine.stageSeconds among them; "other" is what no stage has.
+STAGES = ("reset", "collide", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrate", "other")
+STAGE_OF = {ForceResetter: "reset", Collider: "collide", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
+            NewtonIntegrator: "integrate"}  # by the class of the engine or one it is derived from: what YADE's own timers count
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
 
 
 class TimedSteps:
-    """Times steps of the present scene with YADE's own timers and a clock around each step.
+    """Times steps of the present scene by ContactDynamicsEngine.stageSeconds, by YADE's own timers where no engine of the plugin is at work, and by a clock around
+    each step.
 
     ``rows``: one dictionary a step: wall time [s] by stage, "step" for all of it and "other" for what no stage has.
     """
@@ -34,8 +36,7 @@ class TimedSteps:
 
     def run(self, steps, warm_up=WARM_UP):
         """Makes so many steps, and before them ``warm_up`` that are not kept."""
-        for _ in range(warm_up):
-            O.step()
+        advance(warm_up)
         for _ in range(steps):
             before, begin = self._spent(), time.perf_counter()
             O.step()
@@ -46,11 +47,7 @@ class TimedSteps:
 
     def _spent(self):
         spent = {name: 1e-9 * engine.execTime for engine, name in self.engines}
-        if self.solver:
-            gather, solve, scatter = self.solver.stageSeconds
-            correct = self.solver.correctionSeconds
-            spent.update(gather=gather, solve=solve - correct, correct=correct, scatter=scatter)
-        return spent
+        return spent | (self.solver.stageSeconds if self.solver else {})
 
     def summary(self):
         """{"step_ms": spread, "stage_ms": {name: spread}} in the order of STAGES, see statistics.spread."""

@@ -5,6 +5,7 @@ SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/ContactSeam.cpp", "pkg/dem/ContactSeam
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
 TO_PLANE = "pkg/dem/PlaneMotion.hpp"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
+CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
 PHYS, MAT, SEGMENT = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.cpp"
 BONDS, BONDS_H, LAW_H = "pkg/dem/BondEllipse.cpp", "pkg/dem/BondEllipse.hpp", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 WALL, WALL_LAW, FOLLOWER = "pkg/dem/WallPhys.cpp", "pkg/dem/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp", "pkg/dem/BondEllipseEngine.cpp"
@@ -106,6 +107,30 @@ MUTANTS = (
     mutant("water-columns", WATER, "char(isWet(id))", "char(isReleased(id))", "the table of wet disks is that of released ones", "test_pore_pressure.py"),
     mutant("water-mask", WATER, "(mask != 0 && !(*scene->bodies)[id]->maskOk(mask))", "false", "the mask is not heeded",
            "test_pore_pressure.py::test_a_gradient_acts_as_it_is_on_the_bodies_of_a_mask"),
+    # ---- stages, many steps, gravity that grows
+    mutant("clock-next", CLOCK, "begin = now;", ";", "a stage has the time of those before it as well", "test_engine.py::test_timing_counts_the_engine"),
+    mutant("clock-scatter", ENGINE, "timer.next(Stage::Scatter);", ";", "nothing is counted for scattering", "test_engine.py::test_timing_counts_the_engine"),
+    mutant("advance-until", ADVANCE, "time < until - 0.5 * step", "time < until", "steps go on to beyond a time, even by rounding alone",
+           "test_advance.py::test_it_ends_with_the_step_that_is_nearest_to_a_time"),
+    mutant("advance-left", ADVANCE, "--present.left;", ";", "no step of an advance is the last", "test_advance.py::test_engines_know_how_many_steps_are_left"),
+    mutant("advance-restore", ADVANCE, "present.set(scene, left, until);", "present.set(nullptr, 0, never);", "a scene that another one advances forgets its own course",
+           "test_advance.py::test_an_engine_may_advance_another_scene"),
+    mutant("advance-signals", ADVANCE, "PyErr_CheckSignals() != 0", "false", "Ctrl-C is not heard", "test_advance.py::test_a_signal_that_is_only_noted_ends_nothing",
+           "test_advance.py::test_ctrl_c_ends_it_between_two_steps"),
+    mutant("advance-running", ADVANCE, "Omega::instance().isRunning()", "false", "two threads make steps of one scene", "test_advance.py::test_it_is_refused_while_a_run_is_at_work"),
+    mutant("advance-inside", ADVANCE, "scene.subStep >= 0 && !broken.is(scene)", "false", "an engine may advance its own scene",
+           "test_advance.py::test_it_is_refused_within_a_step_of_the_scene", "test_advance.py::test_a_step_that_o_step_has_broken_off_is_finished_by_it"),
+    mutant("advance-twice", ADVANCE, "present.scene == &scene", "false", "two threads advance one scene", "test_advance.py::test_it_is_refused_while_another_thread_is_at_it"),
+    mutant("advance-broken", ADVANCE, "broken = { scene.get(), scene->iter };", ";", "nothing goes on after an engine has refused a step",
+           "test_advance.py::test_what_an_engine_refuses_is_raised_with_its_words"),
+    mutant("advance-replaced", ADVANCE, "Omega::instance().getScene() != scene", "false", "a scene that is no longer there goes on",
+           "test_advance.py::test_it_ends_where_an_engine_puts_another_scene_in_the_place_of_this_one"),
+    mutant("gravity-begin", ENGINE, "(time - gravityBegin) / gravityRamp", "time / gravityRamp", "gravity grows before its time",
+           "test_gravity.py::test_it_grows_in_proportion_and_is_then_left_alone"),
+    mutant("gravity-over", ENGINE, "if (share == 1) gravityRamp = 0;", ";", "a ramp never ends, and nobody else can set gravity",
+           "test_gravity.py::test_it_grows_in_proportion_and_is_then_left_alone"),
+    mutant("gravity-first", GRAVITY, "solver->growGravity(*newton, scene.time);", "solver->growGravity(*newton, scene.time - scene.dt);",
+           "gravity lags a step behind", "test_gravity.py::test_it_grows_in_proportion_and_is_then_left_alone"),
     # ---- integrator, collider, loop
     mutant("newton-turn", NEWTON, "AngleAxisr(speed * dt, s.angVel / speed)", "AngleAxisr(-speed * dt, s.angVel / speed)", "bodies in space turn the other way than their spin",
            "test_engine.py::test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too"),
@@ -123,6 +148,8 @@ MUTANTS = (
            "test_collider.py::test_masks_are_heeded"),
     mutant("collider-walls", COLLIDER, "2 * factor - 1", "1", "walls get their contacts too late", "test_collider.py::test_potential_interactions_exist_with_walls_alone",
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
+    mutant("loop-shear", LOOP, "geom.shearInc = Vector3r::Zero();", ";", "contacts of disks keep the shear increment with which they began",
+           "test_engine.py::test_what_soft_laws_need_of_a_contact_of_disks_is_zero"),
     mutant("loop-erase", LOOP, "wanted && law->keeps(phys, gap)", "law->keeps(phys, gap)", "contacts of slow disks that have parted stay",
            "test_collider.py::test_leaving_far_slow_disks_out_changes_no_bit", "test_collider.py::test_far_disks_have_contacts_while_they_are_fast"),
     # ---- strengths and bonds
