@@ -24,7 +24,8 @@ constexpr int    inputs = 1000000;
 constexpr double height = 0.37; // of the plane above z = 0, which must not matter
 
 /// Half of all numbers.
-constexpr std::array<double, 18> odd { 0.0,    -0.0, 1.0, -1.0, 0.5, -0.5, 2.0, -3.0, 5e-324, -5e-324, 1e-310, -1e-170, 1e-160, 1e-17, 1e17, -1e150, 1e200, 1.4142135623730951 };
+constexpr std::array<double, 18> odd { 0.0,    -0.0,    1.0,    -1.0,   0.5,    -0.5, 2.0,  -3.0,  1.4142135623730951,
+	                               5e-324, -5e-324, 1e-310, -1e-170, 1e-160, 1e-17, 1e17, -1e150, 1e200 };
 
 class Inputs {
 public:
