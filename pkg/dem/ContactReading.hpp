@@ -30,7 +30,6 @@ struct Reading {
 	bool         wasRead = true; // its geometry and thresholds are those of the interaction
 	bool         leftOut = false; // of the last solve, and bears nothing
 	bool         reacts = false; // its reactions are not yet those of the interaction
-	bool         gone = false;   // to be forgotten at the end of the loop
 };
 
 /// What a bond of two disks needs besides, as NscdPhys has it.

@@ -117,14 +117,12 @@ void ContactSeam::scatterContact(size_t k)
 	const Impulse u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 	const auto    path = contact::plane::yieldOfStep(c, p, u, h);
 	const bool    opens = contact::plane::yieldsInTension(c, p, u);
-	if (inArrays) {
-		BondReading& bond = resident->bonds[links[k].slot];
-		bond.yielded      = opens;
-		bond.path.add(path);
-	} else {
-		phys.yielded = opens;
-		if (path.any()) phys.yieldPath += Vector3r(path.tension, path.shear, path.torque); // seldom, and what is not written need not go back to memory
-	}
+	BondReading& bond = resident->bonds[links[k].slot];
+	bond.yielded      = opens;
+	bond.path.add(path);
+	if (inArrays) return;
+	phys.yielded = opens;
+	if (path.any()) phys.yieldPath += Vector3r(path.tension, path.shear, path.torque); // seldom, and what is not written need not go back to memory
 }
 
 /// The sum of the contacts' impulses on every body, walls included.

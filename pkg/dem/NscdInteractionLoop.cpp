@@ -9,6 +9,7 @@
 #include <contact/plane/disk_contact.hpp>
 #include <contact/plane/thresholds.hpp>
 #include <core/Scene.hpp>
+#include <neighbours/thread_part.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -116,26 +117,33 @@ void NscdInteractionLoop::action()
 		const auto& cache = r.interaction->functorCache;
 		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? Reading::Arrays : Reading::Functors;
 	};
-	long changes = 0, others = 0;
+	struct Part {
+		std::vector<int> others, gone; // contacts that go through their functors, and that are forgotten: places in the order
+	};
+	std::vector<Part> parts(threads);
 #pragma omp parallel num_threads(threads)
 	{
+		Part& part = nonsmooth::neighbours::partOfThread(parts);
 #pragma omp for schedule(static) nowait
 		for (long id = 0; id < size; ++id)
 			if (bodies[id].present) resident.places[id] = bodies[id].motion.position;
-#pragma omp for schedule(static) reduction(+ : changes, others)
+#pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k) {
 			const int slot = resident.order[k].slot;
 			Reading&  r    = resident.readings[slot];
 			if (r.keeper == Reading::Unknown) r.keeper = keeperOf(r);
-			if (r.keeper == Reading::Functors) ++others;
-			else if (!follow(resident, r, resident.bonds[slot], ours)) {
-				r.gone = true;
-				++changes;
-			}
+			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
+			else if (!follow(resident, r, resident.bonds[slot], ours))
+				part.gone.push_back(int(k));
 		}
 	}
-	if (others > 0 || !resident.potential.empty()) changes += visitOthers(resident, ours, threads);
-	if (changes > 0) resident.merge(list);
+	std::vector<int> others;
+	for (const Part& part : parts) {
+		others.insert(others.end(), part.others.begin(), part.others.end());
+		resident.gone.insert(resident.gone.end(), part.gone.begin(), part.gone.end());
+	}
+	if (!others.empty() || !resident.potential.empty()) visitOthers(resident, others, ours, threads);
+	resident.merge(list);
 	std::sort(resident.potential.begin(), resident.potential.end(), [](const auto& a, const auto& b) { return a->linIx < b->linIx; });
 	resident.potentialOf = scene->subStepping ? nscd::Resident::never : scene->iter; // a script may do anything between sub-steps
 	turn.end();
@@ -178,16 +186,13 @@ bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, nsc
 	return true;
 }
 
-/// Contacts that go through their functors, and interactions that may become contacts. Returns how many contacts have come or gone.
-long NscdInteractionLoop::visitOthers(nscd::Resident& resident, const Ours& ours, int threads)
+/// Contacts that go through their functors, and interactions that may become contacts.
+void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads)
 {
-	auto&            list = *scene->interactions;
-	std::vector<int> slots;
-	for (const auto& place : resident.order)
-		if (resident.readings[place.slot].keeper == Reading::Functors) slots.push_back(place.slot);
+	auto&      list    = *scene->interactions;
 	const auto isThere = [&](int id) { return id >= 0 && id < (int)resident.bodies.size() && resident.bodies[id].present; };
-	for (const int slot : slots)
-		for (const int id : { resident.readings[slot].first, resident.readings[slot].second })
+	for (const int k : others)
+		for (const int id : { resident.order[k].low, resident.order[k].high })
 			if (isThere(id)) resident.showBody(id);
 	const auto& bodies  = resident.bodies;
 	const auto  isPlain = [&](int id) { return isThere(id) && bodies[id].plain; };
@@ -208,12 +213,13 @@ long NscdInteractionLoop::visitOthers(nscd::Resident& resident, const Ours& ours
 	}
 
 	std::string error; // thrown after the loop, since threads may not
-	long        changes = 0;
-	const long  known = (long)slots.size(), all = known + (long)near.size();
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : changes)
+	const long  known = (long)others.size(), all = known + (long)near.size();
+	std::vector<char> ends(known, 0);
+#pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < all; ++k) {
 		if (k >= known && !near[k - known]) continue;
-		const shared_ptr<Interaction>& I = k < known ? list[resident.readings[slots[k]].interaction->linIx] : resident.potential[k - known];
+		const int                      slot = k < known ? resident.order[others[k]].slot : -1;
+		const shared_ptr<Interaction>& I    = k < known ? list[resident.readings[slot].interaction->linIx] : resident.potential[k - known];
 		bool                           stays = false;
 		try {
 			stays = visit(I, *scene, *this);
@@ -224,13 +230,10 @@ long NscdInteractionLoop::visitOthers(nscd::Resident& resident, const Ours& ours
 		}
 		if (k >= known) {
 			if (!stays) list.requestErase(I);
-			changes += I->isReal();
 		} else if (stays && I->isReal())
-			nscd::read(nscd::look(*I), resident.readings[slots[k]], resident.bonds[slots[k]]);
-		else {
-			resident.readings[slots[k]].gone = true;
-			++changes;
-		}
+			nscd::read(nscd::look(*I), resident.readings[slot], resident.bonds[slot]);
+		else
+			ends[k] = 1;
 	}
 	if (!error.empty()) throw std::runtime_error(error);
 	size_t left = 0;
@@ -240,7 +243,8 @@ long NscdInteractionLoop::visitOthers(nscd::Resident& resident, const Ours& ours
 			resident.potential[left++] = i;
 	}
 	resident.potential.resize(left);
-	return changes;
+	for (long k = 0; k < known; ++k)
+		if (ends[k]) resident.gone.push_back(others[k]);
 }
 
 /// The collider whose reach of this step holds; null where another engine may have changed bodies since, or a script.

@@ -37,7 +37,7 @@ private:
 	};
 	const PlanarGridCollider* colliderBefore() const;
 	bool                      follow(const nscd::Resident& resident, nscd::Reading& r, nscd::BondReading& bond, const Ours& ours) const;
-	long                      visitOthers(nscd::Resident& resident, const Ours& ours, int threads);
+	void                      visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 
 	Ours ours { nullptr, nullptr, nullptr }; // of the last turn
 };

@@ -46,15 +46,18 @@ std::shared_ptr<Resident> Resident::of(Scene& scene)
 
 void Resident::takeBodies(Scene& scene)
 {
+	const double begin = clockNow();
 	readBodies(scene, threads, bodies);
 	if (othersMayLook(scene)) asShown = bodies;
 	else
 		asShown.clear();
 	bodiesOwned = true;
+	costOfLook += clockNow() - begin;
 }
 
 void Resident::takeContacts(Scene& scene)
 {
+	const double begin = clockNow();
 	auto&      list = *scene.interactions;
 	const int  size = int(bodies.size());
 	const long all  = (long)list.size();
@@ -82,6 +85,7 @@ void Resident::takeContacts(Scene& scene)
 	holders.clear();
 	freeSlots.clear();
 	come.clear();
+	gone.clear();
 	held = false;
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
@@ -99,6 +103,7 @@ void Resident::takeContacts(Scene& scene)
 	for (long k = 0; unreal > 0 && k < all; ++k)
 		if (!found[k].geom) potential.push_back(list[k]);
 	contactsOwned = true;
+	costOfLook += clockNow() - begin;
 }
 
 void Resident::hold()
@@ -210,7 +215,7 @@ void Resident::show(const string& who)
 	}
 	bodiesOwned = contactsOwned = false;
 	lastShown                   = clockNow();
-	costOfShow                  = lastShown - begin;
+	costOfLook                  = lastShown - begin;
 }
 
 int Resident::slotOf(const shared_ptr<Interaction>& interaction)
@@ -237,14 +242,19 @@ void Resident::add(const shared_ptr<Interaction>& interaction)
 
 void Resident::merge(InteractionContainer& list)
 {
+	if (come.empty() && gone.empty()) return;
 	const auto before = [](const Place& a, const Place& b) { return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high); };
 	std::sort(come.begin(), come.end(), before);
+	std::sort(gone.begin(), gone.end());
 	merged.clear();
 	merged.reserve(order.size() + come.size());
 	auto next = come.begin();
-	for (const Place& place : order) {
-		Reading& r = readings[place.slot];
-		if (r.gone) {
+	auto leaving = gone.begin();
+	for (size_t k = 0; k < order.size(); ++k) {
+		const Place& place = order[k];
+		if (leaving != gone.end() && size_t(*leaving) == k) {
+			++leaving;
+			Reading&   r           = readings[place.slot];
 			const auto interaction = list[r.interaction->linIx];
 			list.requestErase(interaction);
 			potential.push_back(interaction);
@@ -259,6 +269,7 @@ void Resident::merge(InteractionContainer& list)
 	}
 	merged.insert(merged.end(), next, come.end());
 	come.clear();
+	gone.clear();
 	order.swap(merged);
 }
 
@@ -291,9 +302,9 @@ void Turn::end()
 	Scene& scene = *engine.scene;
 	string who   = whoLooksAfter(scene, engine);
 	if (who.empty() && othersMayLook(scene)) {
-		// others may look at any time: as often as it costs a fiftieth
+		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
 		threadEnd.last = data;
-		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfShow)) who = "others, now and then";
+		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfLook)) who = "others, now and then";
 	}
 	if (!who.empty()) data->show(who);
 	data->interactionsSeen = scene.interactions->size();

@@ -54,7 +54,7 @@ public:
 
 	/// Takes a real interaction for a new contact; `merge` gives it its place.
 	void add(const shared_ptr<Interaction>& interaction);
-	/// Takes up the contacts that were added, and leaves out those that are gone, whose interactions become potential ones.
+	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential ones.
 	void merge(InteractionContainer& list);
 	/// Leaves out of the potential interactions those that are no longer in the list.
 	void forgetErased(InteractionContainer& list);
@@ -63,6 +63,7 @@ public:
 	std::vector<Reading>     readings; // by slot
 	std::vector<BondReading> bonds;    // by slot, of contacts that the arrays keep
 	std::vector<Place>       order;
+	std::vector<int>         gone; // places in the order of contacts that are to be left out
 	/// Interactions that are not real, in the order of their list after the last loop; and the step of that loop.
 	std::vector<shared_ptr<Interaction>> potential;
 	long                                 potentialOf = never;
@@ -95,7 +96,7 @@ private:
 	std::vector<Place>                       come, merged;
 	std::vector<int>                         bucket;
 	std::vector<Found>                       found; // by place in the list of interactions
-	double                                   lastShown = 0, costOfShow = 0; // by a clock [s]
+	double                                   lastShown = 0, costOfLook = 0; // by a clock [s]; of the last time, with what was taken since
 };
 
 /// An engine's turn. Throws std::runtime_error where bodies cannot be read.
