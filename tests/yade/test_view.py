@@ -1,7 +1,6 @@
 """O.bodies, O.interactions and O.forces are true whenever somebody looks, and what was changed through them is taken up, whether steps stay in arrays or not."""
 import time
 
-import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import scene
@@ -172,3 +171,78 @@ def test_what_is_changed_between_two_runs_is_taken_up(what):
     if what not in ("restitution", "isActive", "dt", "integrator", "loop"):  # of which the disks may not feel anything
         untouched = course("run", busy)
         assert untouched[0] != unwatched[0], "it changed nothing, so nothing was tested"
+
+
+def test_a_loaded_scene_goes_on_in_the_arrays_with_the_same_bits(tmp_path):
+    busy()
+    advance("run", 60)
+    O.save(str(tmp_path / "half.yade.gz"))
+
+    def rest(way):
+        O.load(str(tmp_path / "half.yade.gz"))
+        advance(way, STEPS)
+        return everything()[:3]
+
+    assert rest("run") == rest("stepped")
+    assert engine().brokenTension + engine().brokenShear > 5
+
+
+def test_what_is_saved_within_a_run_is_true(tmp_path):
+    """A PyRunner saves the scene; what is loaded is what another run has at that step."""
+    busy()
+    O.engines = O.engines + [PyRunner(command=f"O.save('{tmp_path / 'within.yade.gz'}')", iterPeriod=70)]
+    advance("run", STEPS)
+    O.load(str(tmp_path / "within.yade.gz"))
+    saved, step = engine().bodyTable(), O.iter
+    O.reset()
+    busy()
+    advance("stepped", step)
+    assert engine().bodyTable() == saved and 1 < step < STEPS
+
+
+def test_engines_that_look_now_and_then_see_the_truth(tmp_path):
+    """By step, by time and by the clock: each sees what a watcher of every step sees."""
+    def seen(**period):
+        O.reset()
+        busy()
+        rows = []
+        O.seen = lambda: rows.append((O.iter, engine().bodyTable(), plain([i.phys.normalForce for i in O.interactions if i.isReal])))
+        O.engines = O.engines + [PyRunner(command="O.seen()", **period)]
+        advance("run", STEPS)
+        return {row[0]: row[1:] for row in rows}, engine().views
+
+    every, views = seen(iterPeriod=1, initRun=True)
+    assert len(every) == STEPS
+    for period in (dict(iterPeriod=17), dict(virtPeriod=0.05), dict(iterPeriod=1, firstIterRun=40, nDo=3), dict(iterPeriod=30, initRun=True)):
+        some, views = seen(**period)
+        assert 1 < len(some) < 60 and views < STEPS / 2, (period, len(some), views)
+        assert all(every[step] == row for step, row in some.items()), period
+
+
+def test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost():
+    """Reads follow within some tenths of a second; a written velocity and a bond that is ended stay so."""
+    ids, driven = busy()
+    O.run()
+    try:
+        first = O.bodies[ids[0]].state.pos[1]
+        until = time.time() + 30
+        while O.bodies[ids[0]].state.pos[1] == first and time.time() < until:
+            time.sleep(0.02)
+        assert O.bodies[ids[0]].state.pos[1] != first
+        O.bodies[driven].state.vel = (0, 400, 0)
+        while O.bodies[driven].state.pos[1] < 100 and time.time() < until:
+            time.sleep(0.02)
+        assert O.bodies[driven].state.pos[1] >= 100
+        O.bodies[driven].state.pos = (-2000, 0, 0)
+        while O.bodies[driven].state.pos[1] > -5 and time.time() < until:
+            time.sleep(0.02)
+        assert O.bodies[driven].state.pos[0] < -1900
+    finally:
+        O.pause()
+    last = None
+    while last != O.iter:  # O.pause() does not wait for the step that is being made
+        last = O.iter
+        time.sleep(0.3)
+    before = everything()[:2]
+    engine().view()
+    assert everything()[:2] == before  # nothing was left in the arrays

@@ -4,6 +4,8 @@ from mutant import mutant
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/ContactSeam.cpp", "pkg/dem/ContactSeamScatter.cpp", "pkg/dem/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
 TO_PLANE = "pkg/dem/PlaneMotion.hpp"
+RESIDENT, AUDIENCE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Audience.cpp"
+SAME, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
 PHYS, MAT, SEGMENT = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.cpp"
@@ -26,16 +28,16 @@ MUTANTS = (
            "test_reactions.py::test_a_wall_feels_the_moment_of_what_lies_on_it", "test_engine.py::test_turning_wall_drags_a_disk"),
     mutant("gather-impact", SEAM, "c.biasN = reading.restitution * approach;", "c.biasN = -reading.restitution * approach;",
            "restitution draws on instead of throwing back", "test_reactions.py::test_a_disk_bounces_step_by_step_as_the_rules_say"),
-    mutant("gather-rest", SEAM, "reading.bonded ? reading.restGap : 0", "0", "a bond forgets the gap over which it was made",
+    mutant("gather-rest", CORRECT, "e.held ? r.restGap : 0", "0", "a bond forgets the gap over which it was made",
            "test_positions.py::test_a_bond_finds_its_length_from_both_sides"),
-    mutant("gather-swapped", SEAM, "c.i != (ids.falling ? ids.high : ids.low)", "c.i == (ids.falling ? ids.high : ids.low)",
+    mutant("gather-swapped", SEAM, "c.i != reading.first", "c.i == reading.first",
            "forces in the interaction have the wrong sign", "test_reactions.py::test_forces_are_told_as_they_act_on_the_second_body"),
     mutant("gather-held", SEAM, "problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed()", "false", "a reaction stays between bodies that are held",
            "test_refusals.py::test_no_reaction_stays_between_bodies_that_are_held"),
-    mutant("gather-order", SEAM, "return a.high < b.high;", "return a.reading < b.reading;", "contacts stand in YADE's order and not in that of ids",
+    mutant("gather-order", RESIDENT, "return a.high < b.high;", "return a.slot < b.slot;", "contacts stand in YADE's order and not in that of ids",
            "test_engine.py::test_contacts_that_came_late_stand_in_the_order_of_ids_too"),
     # ---- seam: scatter
-    mutant("scatter-torque", SCATTER, "phys.torque         = p.r / h;", "phys.torque = p.r;", "the rolling reaction is an impulse",
+    mutant("scatter-torque", SCATTER, "r.torque            = p.r / h;", "r.torque = p.r;", "the rolling reaction is an impulse",
            "test_bonds.py::test_reactions_at_the_threshold"),
     mutant("scatter-shear", SCATTER, "Vector3r(-c.ny, c.nx, 0)", "Vector3r(c.ny, -c.nx, 0)", "the shear force has the wrong sign",
            "test_reactions.py::test_forces_are_told_as_they_act_on_the_second_body"),
@@ -52,7 +54,7 @@ MUTANTS = (
            "test_engine.py::test_energy_of_a_collapse_closes"),
     mutant("scatter-losses", SCATTER, "(p.n < 0 ? sums.debonding : sums.impact)", "(p.n > 0 ? sums.debonding : sums.impact)",
            "what bonds and what impacts cost is exchanged", "test_slope_sums.py::test_each_loss_is_the_work_of_its_own_impulses"),
-    mutant("scatter-overlap", SCATTER, "std::max(Real(0), -links[k].gap) / c.length", "std::max(Real(0), -links[k].gap)", "overlaps are in metres and not in diameters",
+    mutant("scatter-overlap", SCATTER, "std::max(Real(0), -r.gap) / c.length", "std::max(Real(0), -r.gap)", "overlaps are in metres and not in diameters",
            "test_reactions.py::test_figures_of_a_step_by_hand"),
     mutant("scatter-wall-work", SCATTER, "sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));",
            "sums.wallWork += 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));", "the work of driven walls has the wrong sign",
@@ -61,11 +63,11 @@ MUTANTS = (
            "test_reactions.py::test_figures_of_a_step_by_hand"),
     mutant("scatter-centre", SCATTER, "sums.centre += mass[id] * at;", "sums.centre += at;", "the centre of mass does not know masses",
            "test_whole_slope.py::test_a_column_is_what_the_steps_say[centroid_x_m]", slow=True),
-    mutant("scatter-touching", SCATTER, "(p.n != 0 || links[k].gap <= 0)", "(p.n != 0 && links[k].gap <= 0)",
+    mutant("scatter-touching", SCATTER, "(p.n != 0 || r.gap <= 0)", "(p.n != 0 && r.gap <= 0)",
            "bonds over a gap that bear a force do not count as contacts", "test_whole_slope.py::test_a_column_is_what_the_steps_say[contacts]", slow=True),
     mutant("scatter-wall-rate", SCATTER, "std::abs(u.n) / c.length", "std::abs(u.t) / c.length", "the step follows the slip on walls and not the approach",
            "test_time_stepper.py::test_the_rate_at_a_wall_is_normal_to_it"),
-    mutant("scatter-bond-rate", SCATTER, "std::abs(u.t) / phys.ellipseTangential", "std::abs(u.t) / phys.ellipseNormal", "the rate of bonds has one half-axis for both",
+    mutant("scatter-bond-rate", SCATTER, "std::abs(u.t) / across", "std::abs(u.t) / along", "the rate of bonds has one half-axis for both",
            "test_time_stepper.py::test_the_rate_of_a_bond_is_that_at_which_it_crosses_its_ellipse"),
     # ---- errors of position
     mutant("correct-share", CORRECT, "(1 - relaxation.rate) * std::min(Real(0), off + slack)", "relaxation.rate * std::min(Real(0), off + slack)",
@@ -98,11 +100,11 @@ MUTANTS = (
     # ---- water
     mutant("water-dip", WATER, "Vector3r(unitWeight * cosDip * normal)", "Vector3r(unitWeight * normal)", "the pressure does not know the dip",
            "test_pore_pressure.py::test_force_acts_below_the_table_along_the_planes_normal"),
-    mutant("water-release", WATER, "(b.pos - reference[id]).dot(downhill) > releaseDistance", "(b.pos - reference[id]).norm() > releaseDistance",
+    mutant("water-release", WATER, "(place - reference[id]).dot(downhill) > releaseDistance", "(place - reference[id]).norm() > releaseDistance",
            "disks are released by any way and not by one downslope", "test_pore_pressure.py::test_release_is_for_good_after_the_distance_downslope"),
     mutant("water-table", WATER, "(time - times[k - 1])", "(times[k] - time)", "the table falls between two times where it rises",
            "test_pore_pressure.py::test_table_of_heights_is_linear_between_and_constant_outside"),
-    mutant("water-plane", WATER, "(b.pos - planePoint).dot(normal) >= height", "b.pos.dot(normal) >= height", "the plane goes through the origin",
+    mutant("water-plane", WATER, "(place - planePoint).dot(normal) >= height", "place.dot(normal) >= height", "the plane goes through the origin",
            "test_pore_pressure.py::test_plane_may_stand_anywhere_and_walls_stay_dry"),
     mutant("water-columns", WATER, "char(isWet(id))", "char(isReleased(id))", "the table of wet disks is that of released ones", "test_pore_pressure.py"),
     mutant("water-mask", WATER, "(mask != 0 && !(*scene->bodies)[id]->maskOk(mask))", "false", "the mask is not heeded",
@@ -150,7 +152,7 @@ MUTANTS = (
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
     mutant("loop-shear", LOOP, "geom.shearInc = Vector3r::Zero();", ";", "contacts of disks keep the shear increment with which they began",
            "test_engine.py::test_what_soft_laws_need_of_a_contact_of_disks_is_zero"),
-    mutant("loop-erase", LOOP, "wanted && law->keeps(phys, gap)", "law->keeps(phys, gap)", "contacts of slow disks that have parted stay",
+    mutant("loop-erase", LOOP, "(ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap))", "false", "contacts of slow disks that have parted stay",
            "test_collider.py::test_leaving_far_slow_disks_out_changes_no_bit", "test_collider.py::test_far_disks_have_contacts_while_they_are_fast"),
     # ---- strengths and bonds
     mutant("phys-residual", PHYS, "set(currentFriction, now.friction);", "set(currentFriction, bond.friction);", "a contact without a bond has the bond's friction",
@@ -173,8 +175,29 @@ MUTANTS = (
            "test_bonds.py::test_a_bond_is_marked_where_the_disks_touch"),
     mutant("bond-length", LAW_H, "plane::grownRestGap(phys.restGap, gap)", "phys.restGap", "a bond that was pulled out springs back",
            "test_bonds.py::test_bond_opened_in_tension_keeps_its_new_length"),
-    mutant("bond-mode", BONDS, "plane::breakMode({ phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] })", "plane::breakMode({ phys.yieldPath[2], phys.yieldPath[1], phys.yieldPath[0] })",
+    mutant("bond-mode", BONDS, "plane::breakMode({ yieldPath[0], yieldPath[1], yieldPath[2] })", "plane::breakMode({ yieldPath[2], yieldPath[1], yieldPath[0] })",
            "broken in tension and by torque are exchanged", "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
+    # ---- what stays in arrays, and who looks at it
+    mutant("view-motion", RESIDENT, "setMotion(*body->state, b.motion);", ";", "bodies do not follow when somebody looks", SAME),
+    mutant("view-geometry", RESIDENT, "geom.normal           = Vector3r(r.nx, r.ny, r.nz);", ";", "normals of contacts do not follow", SAME),
+    mutant("view-point", RESIDENT, "bodies[r.first].radius - 0.5 * -r.gap", "bodies[r.first].radius + 0.5 * -r.gap", "contact points lie beyond the gap", SAME),
+    mutant("view-thresholds", RESIDENT, "phys.currentRollingArm                              = r.rollingArm;", "phys.currentRollingArm = 0;", "rolling thresholds do not follow", SAME),
+    mutant("view-reactions", RESIDENT, "phys.torque        = r.torque;", ";", "rolling reactions do not follow", SAME),
+    mutant("view-sign", RESIDENT, "const bool swapped = r.first > r.second;", "const bool swapped = false;", "forces of contacts in the other order of ids have the wrong sign", SAME),
+    mutant("view-left-out", RESIDENT, "r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(sign * phys.tangential * Vector3r(-ny, nx, 0))", "Vector3r(sign * phys.tangential * Vector3r(-ny, nx, 0))",
+           "a contact that was left out of the solve shows a zero with a sign", "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[bonded]"),
+    mutant("view-foreign", RESIDENT, "!isAs(*body->state, asShown[id])", "false", "what another thread writes into a body is overwritten",
+           "test_view.py::test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost"),
+    mutant("take-refresh", LOOP, "bool       refresh = r.wasRead;", "bool refresh = false;", "strengths that a script has changed are not taken up",
+           "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]", "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[residualRollingArm]"),
+    mutant("take-yield", SCATTER, "bond.yielded      = opens;", "bond.yielded = false;", "bonds that opened do not keep their length in the arrays",
+           "test_view.py::test_a_loaded_scene_goes_on_in_the_arrays_with_the_same_bits", "test_bonds.py::test_bond_opened_in_tension_keeps_its_new_length"),
+    mutant("audience-steps", AUDIENCE, "iter - p.iterLast >= p.iterPeriod", "iter - p.iterLast > p.iterPeriod", "an engine that acts every so many steps sees an old state", LOOKS),
+    mutant("audience-time", AUDIENCE, "time - p.virtLast >= p.virtPeriod * (1 - 1e-9)", "time - p.virtLast >= 1.5 * p.virtPeriod", "one that acts by simulated time does", LOOKS),
+    mutant("audience-first", AUDIENCE, "return iter == p.firstIterRun;", "return false;", "one that first acts in a given step does", LOOKS),
+    mutant("audience-others", AUDIENCE, "if (!periodic) return true;", "if (!periodic) return false;", "engines of which nothing is known are thought to look at nothing",
+           "test_engine.py::test_what_an_engine_between_loop_and_solver_changes_counts_in_the_same_step", "test_engine.py::test_own_loop_and_integrator_have_the_bits_of_yades",
+           "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[integrator]"),
     # ---- walls
     mutant("segment-behind", SEGMENT, "(segment.sense != 0 && near.distance < -radius)", "false", "a one-sided wall catches disks from behind",
            "test_contact_law.py::test_a_one_sided_wall_holds_on_its_side_alone"),
