@@ -1,4 +1,4 @@
-// The only place where YADE's scene and the solver's arrays meet: gather a contact problem, scatter its solution.
+// A step's contact problem made of the bodies and contacts that stay in arrays (seam/Resident.hpp), and its solution taken back to them: gather, scatter.
 //
 // The order of contacts is that of body ids, and each contact runs from the lower id to the higher (from the wall to the sphere), whatever
 // order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
