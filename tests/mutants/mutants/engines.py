@@ -4,7 +4,7 @@ from mutant import mutant
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/ContactSeam.cpp", "pkg/dem/ContactSeamScatter.cpp", "pkg/dem/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
 TO_PLANE = "pkg/dem/PlaneMotion.hpp"
-RESIDENT, AUDIENCE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Audience.cpp"
+RESIDENT, AUDIENCE, READING = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Audience.cpp", "pkg/dem/ContactReading.hpp"
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
@@ -48,7 +48,7 @@ MUTANTS = (
            "test_contact_law.py::test_slip_survives_joints_and_is_the_path"),
     mutant("scatter-slip-open", SCATTER, "problem.impulses[k].n + c.adhesion <= 0", "problem.impulses[k].n + c.adhesion < 0", "disks that fly over a wall slip on it",
            "test_contact_law.py::test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_none"),
-    mutant("scatter-yield-mode", SCATTER, "Vector3r(path.tension, path.shear, path.torque)", "Vector3r(path.tension, path.torque, path.shear)",
+    mutant("scatter-yield-mode", READING, "Vector3r(bond.path.tension, bond.path.shear, bond.path.torque)", "Vector3r(bond.path.tension, bond.path.shear + bond.path.torque, 0)",
            "a bond that rolls counts as sheared", "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
     mutant("scatter-work", SCATTER, "0.5 * p.n * (u0.n + u1.n)", "p.n * u1.n", "the work of normal impulses is that of the velocity afterwards",
            "test_engine.py::test_energy_of_a_collapse_closes"),
