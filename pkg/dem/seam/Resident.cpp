@@ -28,6 +28,16 @@ namespace {
 		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w
 		        && s.ori.z() == m.rotation.z && s.ori.w() == m.rotation.w;
 	}
+
+	/// Brings the state of the body of that id up to date, but for one that is gone, or was changed by somebody else since it was as in `asShown`.
+	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<BodyReading>& asShown)
+	{
+		if (!b.moved) return;
+		b.moved = false;
+		if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return;
+		setMotion(*body->state, b.motion);
+		if (id < asShown.size()) asShown[id] = b;
+	}
 }
 
 std::shared_ptr<Resident> Resident::of(Scene& scene)
@@ -133,14 +143,7 @@ void Resident::displace(size_t id, const nonsmooth::contact::Twist& d)
 
 void Resident::showBody(size_t id)
 {
-	BodyReading& b = bodies[id];
-	if (!b.moved) return;
-	b.moved             = false;
-	const auto kept     = container.lock();
-	const auto& body    = (*kept)[id];
-	if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return; // gone, or changed by somebody else meanwhile
-	setMotion(*body->state, b.motion);
-	if (id < asShown.size()) asShown[id] = b;
+	if (bodies[id].moved) write(bodies[id], (*container.lock())[id], id, asShown);
 }
 
 Vector3r Resident::contactPoint(const Reading& r) const
@@ -206,7 +209,7 @@ void Resident::show(const string& who)
 		for (long id = 0; id < count; ++id) {
 			if (id + (long)later < count) fetch<sizeof(Body)>((*kept)[id + later].get());
 			if (id + (long)soon < count && (*kept)[id + soon]) fetch<sizeof(State)>((*kept)[id + soon]->state.get());
-			showBody(id);
+			write(bodies[id], (*kept)[id], id, asShown); // threads would wait for each other if each body asked for the container
 		}
 	}
 	if (bodiesOwned || contactsOwned) {
