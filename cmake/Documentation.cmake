@@ -9,7 +9,7 @@ if(NONSMOOTH_PLUGIN AND EXISTS "${CMAKE_SOURCE_DIR}/doc/conf.py")
     add_dependencies(doc nonsmooth_gate nonsmooth_engines)
     if(NONSMOOTH_TESTS)
         add_test(NAME documentation COMMAND ${sphinx_command})
-        set_tests_properties(documentation PROPERTIES LABELS doc TIMEOUT 900)
+        set_tests_properties(documentation PROPERTIES LABELS doc TIMEOUT 900 COST 60)
         # the script of the README, word for word (doc/ext/checked_script.py)
         add_test(NAME readme_script COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth"
             "${CMAKE_SOURCE_DIR}/doc/examples/falling_block.py" --threads 1)

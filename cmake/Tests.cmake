@@ -23,7 +23,7 @@ endif()
 # What is in Python without YADE: the binding, and sections, packings and contact problems broken in many ways.
 function(nonsmooth_python_test name path)
     add_test(NAME ${name} COMMAND "${Python3_EXECUTABLE}" -m pytest -q -p no:cacheprovider "${CMAKE_SOURCE_DIR}/${path}")
-    set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 600 ENVIRONMENT "PYTHONPATH=${NONSMOOTH_PYTHON}")
+    set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 600 COST 30 ENVIRONMENT "PYTHONPATH=${NONSMOOTH_PYTHON}")
 endfunction()
 nonsmooth_python_test(bindings tests/bindings)
 execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import hypothesis, h5py" RESULT_VARIABLE without_hypothesis ERROR_QUIET)
@@ -47,13 +47,14 @@ if(NONSMOOTH_PLUGIN)
     # What a viewer does to the list of interactions, which slim builds of YADE have not (tests/yade/test_engine.py).
     add_library(nonsmooth_drawing_lock SHARED tests/yade/drawing_lock.cpp)
     target_link_libraries(nonsmooth_drawing_lock PRIVATE nonsmooth_yade)
+    set_target_properties(nonsmooth_drawing_lock PROPERTIES NONSMOOTH_UNOPTIMISED ON)
 
-    # pytest runs inside YADE: the tests see YADE as its users' scripts do. Two processes share the files of tests.
+    # pytest runs inside YADE: the tests see YADE as its users' scripts do. Two processes of one thread share the files of tests.
     set(shared "${CMAKE_BINARY_DIR}/tests_taken")
     add_test(NAME yade_begin COMMAND "${CMAKE_COMMAND}" -E rm -rf "${shared}")
     set_tests_properties(yade_begin PROPERTIES LABELS yade FIXTURES_SETUP tests_taken)
     foreach(part 1 2)
-        add_test(NAME yade_${part} COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth" "${CMAKE_SOURCE_DIR}/tests/yade/run_pytest.py" --share "${shared}")
+        add_test(NAME yade_${part} COMMAND "${CMAKE_SOURCE_DIR}/scripts/yade-nonsmooth" "${CMAKE_SOURCE_DIR}/tests/yade/run_pytest.py" --threads 1 --share "${shared}")
         set_tests_properties(yade_${part} PROPERTIES LABELS yade TIMEOUT 3600 FIXTURES_REQUIRED tests_taken
             ENVIRONMENT "NONSMOOTH_BUILD=${CMAKE_BINARY_DIR}")
     endforeach()

@@ -72,7 +72,7 @@ namespace {
 
 	struct Shown {
 		Scene& scene;
-		~Shown() { Resident::of(scene)->show("the end of advance()"); }
+		~Shown() { Resident::of(scene)->show("the end of advance()", true); }
 	};
 
 	[[noreturn]] void refuse(const string& why) { throw std::runtime_error("ContactDynamicsEngine.advance: " + why); }

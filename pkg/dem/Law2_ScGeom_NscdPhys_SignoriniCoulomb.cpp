@@ -33,6 +33,7 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 		if (const auto* wall = dynamic_cast<const SegmentGeom*>(&geom))
 			if (!wall->owned) return false;
 	phys.updateThresholds(gap, adhesionRange);
+	phys.touched = true;
 	return true;
 }
 

@@ -131,7 +131,8 @@ void NscdInteractionLoop::action()
 		for (long k = 0; k < count; ++k) {
 			const int slot = resident.order[k].slot;
 			Reading&  r    = resident.readings[slot];
-			if (r.keeper == Reading::Unknown) r.keeper = keeperOf(r);
+			// functors in use and the contact's own are what they were, or it was read anew; its bodies may have changed
+			if (r.keeper == Reading::Unknown || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second])) r.keeper = keeperOf(r);
 			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
 			else if (!follow(resident, r, resident.bonds[slot], ours))
 				part.gone.push_back(int(k));
@@ -231,7 +232,7 @@ void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vecto
 		if (k >= known) {
 			if (!stays) list.requestErase(I);
 		} else if (stays && I->isReal())
-			nscd::read(nscd::look(*I), resident.readings[slot], resident.bonds[slot]);
+			resident.readSlot(nscd::look(*I), slot);
 		else
 			ends[k] = 1;
 	}

@@ -15,11 +15,16 @@
 
 namespace yade::nscd {
 
-/// YADE's own number of threads, or what the engine's ompThreads allows of it.
+/// Bodies that give a thread enough to do for waiting for the others at each loop's end.
+constexpr size_t bodiesForAThread = 500;
+
+/// YADE's own number of threads, or what the engine's ompThreads allows of it; where that is not set, not more than a small scene has a use for: on a busy
+/// machine threads that wait for each other make its steps many times longer. Bits do not depend on it.
 inline int threadsOf([[maybe_unused]] const Engine& engine)
 {
 #ifdef YADE_OPENMP
-	return engine.ompThreads > 0 ? std::min(engine.ompThreads, omp_get_max_threads()) : omp_get_max_threads();
+	const int all = omp_get_max_threads();
+	return engine.ompThreads > 0 ? std::min(engine.ompThreads, all) : int(std::clamp<size_t>(engine.scene->bodies->size() / bodiesForAThread, 1, all));
 #else
 	return 1;
 #endif

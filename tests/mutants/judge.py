@@ -52,7 +52,7 @@ def verify(place, names, number=0):
     """Runs checks, by name or module; returns ({check: holds}, output). One that is missing did not come to its end."""
     out = place.folder / "verify"
     shutil.rmtree(out, ignore_errors=True)
-    status, said = place.run([place.source / "scripts" / "yade-nonsmooth", "scripts/verify.py", "--quick", "--out", out, "--only", *names], number, LIMIT)
+    status, said = place.run([place.source / "scripts" / "yade-nonsmooth", "scripts/verify.py", "--quick", "--threads", "1", "--out", out, "--only", *names], number, LIMIT)
     holds = {}
     for path in (out / "checks").glob("*/result.json"):
         result = json.loads(path.read_text())

@@ -1,6 +1,6 @@
 """Runs pytest for one mutant after the other in children of a process that has imported what takes time, YADE included where it runs in YADE.
 
-  scripts/yade-nonsmooth tests/mutants/server.py IN OUT      or python3 instead of the launcher
+  scripts/yade-nonsmooth tests/mutants/server.py IN OUT --threads N      or python3 instead of the launcher
 
 IN and OUT are numbers of open pipes. A line in, {"arguments", "environment", "number", "output", "limit"}, all of them JSON, gives a line out: the status of
 pytest, null where the child was stopped after ``limit`` seconds. Nothing of the package under test is imported here, so a child reads it anew.

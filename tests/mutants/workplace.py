@@ -51,9 +51,9 @@ def build(source, folder, main_build, targets):
     options = [f"-D{key}={value}" for key, value in known.items() if key.partition(":")[0] in ("YADE_PREFIX", "YADE_HEADERS", "CMAKE_CXX_COMPILER_LAUNCHER")]
     if not any("LAUNCHER" in o for o in options) and shutil.which("ccache"):
         options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
-    # -O1, and few large translation units: most of the time goes into YADE's headers
+    # -O1: fast enough for tests of seconds, and much of the time goes into YADE's headers
     options += ["-DCMAKE_BUILD_TYPE=Mutation", "-DCMAKE_CXX_FLAGS_MUTATION=-O1 -DNDEBUG", f"-DCMAKE_CXX_FLAGS=-include {source}/pkg/contact/mutant.hpp",
-                "-DNONSMOOTH_UNITY_BATCH=8", "-DNONSMOOTH_BENCHMARKS=OFF", "-DNONSMOOTH_CHECKS=OFF"]
+                "-DNONSMOOTH_BENCHMARKS=OFF", "-DNONSMOOTH_CHECKS=OFF"]
     for command in (["cmake", "-G", "Ninja", "-S", source, "-B", folder, *options], ["ninja", "-C", folder, *targets]):
         done = subprocess.run([str(c) for c in command], env=TOOLS, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode:
@@ -157,9 +157,10 @@ class Server:
     def __init__(self, place, yade):
         asks, answers = os.pipe(), os.pipe()
         program = [place.source / "scripts" / "yade-nonsmooth", "tests/mutants/server.py"] if yade else ["/usr/bin/python3", "tests/mutants/server.py"]
+        threads = ["--threads", "1"] if yade else []  # several work side by side
         environment = {**CLEAN, "NONSMOOTH_BUILD": str(place.build)} | ({} if yade else {"PYTHONPATH": str(place.build / "python")})
         with open(place.folder / f"server-{'yade' if yade else 'plain'}.log", "w") as log:
-            self._process = subprocess.Popen([str(c) for c in (*program, asks[0], answers[1])], env=environment, cwd=place.source, stdin=subprocess.DEVNULL,
+            self._process = subprocess.Popen([str(c) for c in (*program, asks[0], answers[1], *threads)], env=environment, cwd=place.source, stdin=subprocess.DEVNULL,
                                              stdout=log, stderr=log, pass_fds=(asks[0], answers[1]))
         os.close(asks[0])
         os.close(answers[1])

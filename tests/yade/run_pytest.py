@@ -1,11 +1,17 @@
-"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [--share DIR] [PYTEST ARGUMENTS].
+"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [--threads N] [--share DIR] [PYTEST ARGUMENTS].
 
---share DIR: several of these commands at a time share the tests, file by file, by what they write into DIR, which is empty before the first of them.
+--threads N: as the launcher takes it; programs that tests start have as many unless the test says otherwise.
+--share DIR: several of these commands at a time share the tests, file by file, by what they write into DIR, which is empty before the first of them. Give each
+one thread: a thread that waits for another one at each loop's end, while others' have the cores, makes steps of small scenes forty times longer.
 """
 import os
 import sys
 
 import pytest
+
+
+# Files that take long, the longest first, so that those who share them end at about the same time.
+LONG = [f"test_{name}.py" for name in ("verification", "laboratory", "examples", "commands", "benchmark", "comparison", "packings", "columns", "soft_walls", "killed_runs")]
 
 
 class Shared:
@@ -22,6 +28,9 @@ class Shared:
             return False
         return True
 
+    def pytest_collection_modifyitems(self, items):
+        items.sort(key=lambda item: LONG.index(item.path.name) if item.path.name in LONG else len(LONG))
+
     @pytest.hookimpl(tryfirst=True)
     def pytest_runtest_protocol(self, item):
         file = item.path.name
@@ -36,6 +45,9 @@ class Shared:
 
 here = os.path.dirname(os.path.realpath(sys.argv[0]))
 arguments, plugins = sys.argv[1:], []
+if "--threads" in arguments:
+    k = arguments.index("--threads")
+    del arguments[k:k + 2]
 if "--share" in arguments:
     k = arguments.index("--share")
     plugins.append(Shared(arguments[k + 1]))

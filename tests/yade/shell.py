@@ -10,8 +10,8 @@ BUILD = PREFIX.parent
 
 
 def environment(**changes):
-    """A user's: without the number of threads that YADE has set for itself, and with the build under test."""
-    return {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"} | {"NONSMOOTH_BUILD": str(BUILD)} | changes
+    """A user's, with the build under test; commands that are not told how many threads to take have as many as this process."""
+    return {**os.environ, "NONSMOOTH_BUILD": str(BUILD), **changes}
 
 
 def run(program, *arguments, limit=600, cwd=None, **changes):

@@ -226,8 +226,8 @@ WHERE = {
 
 #: command: option: the file and the test that run it to its end.
 RUN = {
-    "jiufengershan.py": {"--threads": "test_experiment.py::test_one_thread_gives_the_same_bits", "--end": "test_experiment.py::test_an_early_end_and_a_resume_give_the_same_bits",
-                         "--no-figures": "test_experiment.py::test_one_thread_gives_the_same_bits"},
+    "jiufengershan.py": {"--threads": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits", "--end": "test_experiment.py::test_an_early_end_and_a_resume_give_the_same_bits",
+                         "--no-figures": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits"},
     "soak.py": {"--out": "test_soak.py::test_a_short_soak", "--threads": "test_soak.py::test_a_short_soak"},
     "verify.py": {"--list": "test_options.py::test_checks_are_listed"},
     "wedge.py": {"--resume": "test_examples.py::test_the_wedge_runs_what_is_not_there_and_draws_all"},

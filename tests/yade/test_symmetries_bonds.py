@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from yade import O
 
+from contact_scenes import launch
 from symmetries import BINARY, FRAMES, Disk, Frame, Line, World, assert_bits, assert_same, play, shuffled
 
 ROUNDING, SOLVED = 1e-9, 1e-8  # as in test_symmetries_contacts.py
@@ -72,9 +73,21 @@ def test_a_scene_saved_and_loaded_in_between_changes_no_bit(here, tmp_path):
     assert_bits(play(WORLD, halfway=again), here)
 
 
-def test_one_and_two_threads_have_the_same_bits(here):
-    def alone(ids):
-        for e in O.engines:
-            e.ompThreads = 1
-
-    assert_bits(play(WORLD, prepared=alone), here)
+def test_one_and_two_threads_have_the_same_bits(here, tmp_path):
+    script = tmp_path / "threads.py"
+    script.write_text("""
+import os, sys
+import numpy as np
+from yade import O
+from symmetries import play
+from test_symmetries_bonds import WORLD
+def asked(ids):
+    for e in O.engines:
+        e.ompThreads = int(os.environ["OMP_NUM_THREADS"])
+np.savez(sys.argv[1], **play(WORLD, prepared=asked))
+""")
+    for threads in (1, 2):
+        done = launch(script, tmp_path / f"{threads}.npz", "--threads", threads)
+        assert done.returncode == 0, done.stderr
+        with np.load(tmp_path / f"{threads}.npz") as found:
+            assert_bits(found, here)

@@ -60,25 +60,45 @@ bool mayAct(const Engine& engine, long iter, Real time)
 	        || (p.iterPeriod > 0 && iter - p.iterLast >= p.iterPeriod);
 }
 
-string whoLooksAfter(const Scene& scene, const Engine& engine)
+bool onlyPythonBefore(const Scene& scene, const Engine& engine)
 {
-	// outside a step somebody called the engine by hand; in sub-steps somebody looks after each
-	if (scene.subStepping || scene.subStep < 0) return "whoever called " + named(engine);
+	if (scene.subStepping || scene.subStep < 0) return false;
+	const auto& all  = scene.engines;
+	auto        here = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.get() == &engine; });
+	if (here == all.end()) return false;
+	while (here != all.begin()) {
+		const Engine& before = **--here;
+		if (takesTurns(before)) return true;
+		if (!isBlind(before) && !isPlainlyPeriodic(before)) return false;
+	}
+	return true;
+}
+
+Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
+{
+	// outside a step somebody called the engine by hand; in sub-steps somebody looks after each, and YADE's engines may act in between
+	if (scene.subStepping || scene.subStep < 0) return { "whoever called " + named(engine), false };
 	const auto& all  = scene.engines;
 	const auto  here = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.get() == &engine; });
-	if (here == all.end()) return "whoever called " + named(engine);
-	for (auto next = here + 1; next != all.end(); ++next) {
-		if ((*next)->dead) continue;
-		if (takesTurns(**next)) return "";
-		if (mayAct(**next, scene.iter, scene.time)) return named(**next);
+	if (here == all.end()) return { "whoever called " + named(engine), false };
+	Viewer     found;
+	const auto passes = [&](const Engine& e, long iter, Real time) {
+		if (e.dead) return false;
+		if (takesTurns(e)) return true;
+		if (!mayAct(e, iter, time)) return false;
+		found.isPython = isPlainlyPeriodic(e) && (found.name.empty() || found.isPython);
+		if (found.name.empty()) found.name = named(e);
+		return false;
+	};
+	for (auto next = here + 1; next != all.end(); ++next)
+		if (passes(**next, scene.iter, scene.time)) return found;
+	if (const string why = whyTheStepIsTheLast(scene); !why.empty()) {
+		found.isPython = scene._nextEngines.empty() && (found.name.empty() || found.isPython);
+		if (found.name.empty()) found.name = why;
 	}
-	if (const string why = whyTheStepIsTheLast(scene); !why.empty()) return why;
-	for (auto next = all.begin(); next != here + 1; ++next) {
-		if ((*next)->dead) continue;
-		if (takesTurns(**next)) return "";
-		if (mayAct(**next, scene.iter + 1, scene.time + scene.dt)) return named(**next);
-	}
-	return "";
+	for (auto next = all.begin(); next != here + 1; ++next)
+		if (passes(**next, scene.iter + 1, scene.time + scene.dt)) return found;
+	return found;
 }
 
 } // namespace yade::nscd

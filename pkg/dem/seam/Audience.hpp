@@ -9,8 +9,16 @@
 
 namespace yade::nscd {
 
-/// Who looks between the end of this engine's turn and the next turn of one of ours; empty: nobody.
-string whoLooksAfter(const Scene& scene, const Engine& engine);
+struct Viewer {
+	string name; // empty: nobody
+	bool   isPython = false; // changes contacts by attributes and by O.interactions, or not at all
+};
+
+/// Who looks between the end of this engine's turn and the next turn of one of ours.
+Viewer whoLooksAfter(const Scene& scene, const Engine& engine);
+
+/// Whether only Python, and nobody else's C++, can have had a turn since the last one of ours in this step, or since the step began.
+bool onlyPythonBefore(const Scene& scene, const Engine& engine);
 
 /// Whether steps are made while other threads of Python run.
 bool othersMayLook(const Scene& scene);

@@ -104,8 +104,7 @@ void Resident::takeContacts(Scene& scene)
 			fetch<partOfGeometry>(ahead.geom);
 			fetch<sizeof(NscdPhys)>(ahead.phys);
 		}
-		read(found[order[k].slot], readings[k], bonds[k]);
-		if (readings[k].phys && readings[k].phys->touched) readings[k].phys->touched = false;
+		readSlot(found[order[k].slot], int(k));
 	}
 	for (long k = 0; k < count; ++k)
 		order[k].slot = int(k);
@@ -114,6 +113,46 @@ void Resident::takeContacts(Scene& scene)
 		if (!found[k].geom) potential.push_back(list[k]);
 	contactsOwned = true;
 	costOfLook += clockNow() - begin;
+}
+
+void Resident::readSlot(const Found& found, int slot)
+{
+	Reading& r = readings[slot];
+	read(found, r, bonds[slot]);
+	if (r.phys && r.phys->touched) r.phys->touched = false;
+}
+
+/// Takes contacts again that only Python can have changed since they were shown; returns false where all interactions have to be gone through.
+bool Resident::takeKnown(Scene& scene)
+{
+	const double begin = clockNow();
+	auto&        list  = *scene.interactions;
+	if (list.size() != order.size() + potential.size()) return false;
+	const auto isThere = [&](const shared_ptr<Interaction>& i) { return i->linIx >= 0 && size_t(i->linIx) < list.size() && list[i->linIx] == i; };
+	for (const auto& i : potential)
+		if (!isThere(i) || i->isReal()) return false;
+	const long count = (long)order.size();
+	bool       other = false;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
+	for (long k = 0; k < count; ++k) {
+		if (k + (long)later < count) fetch<sizeof(Interaction)>(readings[order[k + later].slot].interaction);
+		if (k + (long)soon < count && readings[order[k + soon].slot].phys) fetch<1>(&readings[order[k + soon].slot].phys->touched);
+		const int     slot = order[k].slot;
+		const Holder& held = holders[slot];
+		Interaction&  i    = *held.interaction;
+		Reading&      r    = readings[slot];
+		if (!isThere(held.interaction) || i.geom != held.geom || i.phys != held.phys || i.getId1() != r.first) other = true;
+		else if (r.keeper != Reading::Arrays || r.phys->touched)
+			readSlot(look(i), slot);
+		else {
+			r.active = i.isActive;
+			r.reacts = r.leftOut = false;
+		}
+	}
+	if (other) return false;
+	contactsOwned = true;
+	costOfLook += clockNow() - begin;
+	return true;
 }
 
 void Resident::hold()
@@ -186,7 +225,7 @@ void Resident::showContact(int slot) const
 	phys.shearForce    = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(sign * phys.tangential * Vector3r(-ny, nx, 0));
 }
 
-void Resident::show(const string& who)
+void Resident::show(const string& who, bool staysKnown)
 {
 	const std::lock_guard<std::recursive_mutex> guard(lock);
 	const double                                begin = clockNow();
@@ -202,7 +241,9 @@ void Resident::show(const string& who)
 			}
 			showContact(order[k].slot);
 		}
+		if (staysKnown) hold();
 	}
+	contactsKnown = staysKnown && (contactsOwned || contactsKnown);
 	if (kept && bodiesOwned) {
 		const long count = (long)std::min(bodies.size(), kept->size());
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -239,7 +280,7 @@ int Resident::slotOf(const shared_ptr<Interaction>& interaction)
 void Resident::add(const shared_ptr<Interaction>& interaction)
 {
 	const int slot = slotOf(interaction), a = interaction->getId1(), b = interaction->getId2();
-	read(look(*interaction), readings[slot], bonds[slot]);
+	readSlot(look(*interaction), slot);
 	come.push_back({ std::min(a, b), std::max(a, b), slot });
 }
 
@@ -296,20 +337,25 @@ Turn::Turn(Engine& engine_, int threads)
 {
 	Scene& scene  = *engine.scene;
 	data->threads = threads;
-	if ((data->bodiesOwned || data->contactsOwned) && data->isBehind(scene)) data->show();
+	if (data->isBehind(scene)) {
+		if (data->bodiesOwned || data->contactsOwned) data->show();
+		data->contactsKnown = false;
+	}
 	if (!data->bodiesOwned) data->takeBodies(scene);
+	if (data->contactsKnown && onlyPythonBefore(scene, engine)) data->takeKnown(scene);
+	data->contactsKnown = false;
 }
 
 void Turn::end()
 {
 	Scene& scene = *engine.scene;
-	string who   = whoLooksAfter(scene, engine);
-	if (who.empty() && othersMayLook(scene)) {
+	Viewer viewer = whoLooksAfter(scene, engine);
+	if (viewer.name.empty() && othersMayLook(scene)) {
 		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
 		threadEnd.last = data;
-		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfLook)) who = "others, now and then";
+		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfLook)) viewer = { "others, now and then", true };
 	}
-	if (!who.empty()) data->show(who);
+	if (!viewer.name.empty()) data->show(viewer.name, viewer.isPython);
 	data->interactionsSeen = scene.interactions->size();
 	ended                  = true;
 }

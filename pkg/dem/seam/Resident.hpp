@@ -10,6 +10,9 @@
 // Other threads may look and write while a run goes on in the background. The objects are shown some times a second then, and what others have
 // written into a state, or set in a contact's physics, since it was last shown is left as it is and taken up.
 //
+// Where only Python looks, as at the end of O.step(), the arrays stay known: the next turn looks whether each interaction is still there, and reads those that
+// were written to. What Python sets in an NscdPhys leaves a mark (touched); C++ that changes one outside an engine's turn sets the mark itself.
+//
 // O.forces stays where forces are added up, in every step: it is not kept twice.
 #pragma once
 
@@ -39,8 +42,8 @@ public:
 	void takeBodies(Scene& scene);
 	/// Takes all interactions that are real, and notes the others.
 	void takeContacts(Scene& scene);
-	/// Writes all into YADE's objects, which own it from now on.
-	void show(const string& who = "whoever asked");
+	/// Writes all into YADE's objects, which own it from now on; `staysKnown`: only Python can have changed them when contacts are taken again.
+	void show(const string& who = "whoever asked", bool staysKnown = false);
 	/// Makes sure that what it points to stays, whatever other threads erase.
 	void hold();
 
@@ -52,6 +55,8 @@ public:
 	/// Of two disks, at the time when their geometry was found [m].
 	Vector3r contactPoint(const Reading& r) const;
 
+	/// Reads a real interaction, with what a script has written into it.
+	void readSlot(const Found& found, int slot);
 	/// Takes a real interaction for a new contact; `merge` gives it its place.
 	void add(const shared_ptr<Interaction>& interaction);
 	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential ones.
@@ -81,6 +86,7 @@ private:
 		shared_ptr<IGeom>       geom;
 		shared_ptr<IPhys>       phys;
 	};
+	bool takeKnown(Scene& scene);
 	int  slotOf(const shared_ptr<Interaction>& interaction);
 	void showContact(int slot) const;
 	bool isBehind(const Scene& scene) const;
@@ -89,6 +95,7 @@ private:
 	std::recursive_mutex                     lock; // an engine's turn, or a look from another thread
 	boost::weak_ptr<BodyContainer>           container;
 	bool                                     bodiesOwned = false, contactsOwned = false, held = false;
+	bool                                     contactsKnown = false; // not owned, but as they were shown unless Python has changed them
 	size_t                                   interactionsSeen = 0; // at the end of the last turn
 	std::vector<BodyReading>                 asShown; // during a run in the background: what the states had when they were last written or read
 	std::vector<Holder>                      holders; // by slot
