@@ -148,8 +148,11 @@ TEST(Blocks, AllInstructionsGiveTheSameBits)
 TEST(Blocks, FetchingAheadChangesNoBit)
 {
 	for (const BlockKernels* kernels : availableKernels()) {
+		const Problem p = mixed();
 		ContactBlocks one;
-		layOut(mixed(), 1, one);
+		layOut(p, 1, one);
+		for (std::size_t part = 0; part < one.partCount(); ++part)
+			fillIn(p, *kernels, part, one);
 		ContactBlocks       other  = one;
 		std::vector<Motion> bodies(mixed().bodyCount() + 1), same(bodies.size());
 		for (std::size_t b = 0; b + 1 < bodies.size(); ++b)
