@@ -1,6 +1,6 @@
 // What a solve does once, whatever the number of sweeps, beside the time of a sweep; and the same of the correction of positions.
 //
-// Solves of 20 and 120 sweeps, each with one look at the residual, give the sweep and what is left at none: `once`. Problems alternate in one workspace. Where the
+// Solves of 1 and 101 sweeps, each with one look at the residual, give the sweep and what is left at none: `once`. Problems alternate in one workspace. Where the
 // packing rests, they differ in numbers alone; where it moves, contacts come and go and bodies go to another strip. All times are the shortest of some.
 #include "problem.hpp"
 #include <benchmark/benchmark.h>
@@ -11,7 +11,7 @@ using namespace nonsmooth::contact;
 
 namespace {
 
-constexpr int few = 20, many = 120, correctionSweeps = 10, repetitions = 15;
+constexpr int few = 1, many = 101, correctionSweeps = 10, repetitions = 25;
 
 enum class State { Rests, Moves };
 

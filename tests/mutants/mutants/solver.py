@@ -58,8 +58,6 @@ MUTANTS = (
            "an order is kept though a contact's second body is another one", "gtest:Kept.*"),
     mutant("kept-simple", SURVEY, "newSimple || fits != result.simple[k]", "newSimple", "contacts stay in blocks that they do not fit into any more", "gtest:Kept.*"),
     mutant("kept-strips", CUT, "moved || strip != result.stripOfBody[b]", "moved", "an order is kept though bodies are in other strips", "gtest:Kept.*"),
-    mutant("kept-bins", CUT, "moved || bin != scratch.binOfBody[b]", "moved", "strips are kept though bodies have gone far", "gtest:Kept.*"),
-    mutant("kept-fixed", SURVEY, "j & Survey::moves ? c.j : ~c.j", "c.j", "a body that is held from now on moves as before", "gtest:Kept.*:Blocks.*"),
     mutant("kept-after-refusal", BLOCKS, "if (!whole) seen.pairsKept = seen.simpleKept = false;", "if (false) seen.pairsKept = seen.simpleKept = false;",
            "what a refused problem left counts as the last one", "gtest:Kept.*"),
     mutant("kept-numbers", SOLVER, "fillIn(problem, kernels, s, laidOut);", "if (!laidOut.kept) fillIn(problem, kernels, s, laidOut);",
@@ -67,7 +65,7 @@ MUTANTS = (
     mutant("fill-bias", KERNELS, "at.set(k, &Block::biasN, contact(&Contact::biasN));", "at.set(k, &Block::biasN, contact(&Contact::biasT));",
            "blocks take the tangential bias for the normal one", "gtest:Blocks.*:Momentum.*:Pinned.*"),
     mutant("fill-threshold", KERNELS, "clamp<V>(impulse(&Impulse::t), maxOf<V>(zero, friction * pressed))", "clamp<V>(impulse(&Impulse::t), maxOf<V>(zero, friction * n))", "a warm start loses the friction of bonds that pull", "gtest:Kept.*:Blocks.*:Reference.*"),
-    mutant("position-normals", KERNELS, "at.get(k, &Block::nx) * n, fy = at.get(k, &Block::ny) * n", "at.get(k, &Block::nx) * n, fy = at.get(k, &Block::nx) * n",
+    mutant("position-normals", KERNELS, "at.get(k, &Block::ny) * n", "at.get(k, &Block::nx) * n",
            "normal impulses of displacements push along x and y alike", "gtest:Positions.*"),
     # ---- order of the sweep
     mutant("colours-of-one", ORDER, "if (MovablePair::moves(j)) used[j] |= bit;", "if (MovablePair::moves(j)) used[j] |= 0;",
