@@ -16,7 +16,7 @@ ROOT=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
 SUITE=trixie
 root=$(cache_dir)/debian13
 # tests in YADE that take seconds and go through every engine, the packing and the readers
-FAST=(test_load test_contact_law test_bonds test_engine test_positions test_pinned_rows test_collider test_pore_pressure test_section test_packing test_worlds)
+FAST=(test_load test_contact_law test_bonds test_engine test_positions test_pinned_rows test_collider test_view test_pore_pressure test_section test_packing test_worlds)
 DISKS=600
 
 not_tried() { printf '\n!! Debian 13 was NOT tried: %s\n' "$*" >&2; exit 0; }

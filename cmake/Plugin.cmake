@@ -51,7 +51,7 @@ endfunction()
 nonsmooth_gate(nonsmooth_gate)
 
 # One translation unit that includes YADE's headers takes 40 s: few and large ones, but two at a time.
-file(GLOB engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp")
+file(GLOB engine_sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/pkg/dem/*.cpp" "${CMAKE_SOURCE_DIR}/pkg/dem/seam/*.cpp")
 list(FILTER engine_sources EXCLUDE REGEX "/LayoutCheck\\.cpp$")
 if(NOT engine_sources)
     file(WRITE "${CMAKE_BINARY_DIR}/no_engines.cpp" "// pkg/dem holds no engines yet\n")

@@ -58,6 +58,8 @@ def methods(cls):
     """(signature, text) of a class's own methods that have a docstring."""
     found = []
     for name, value in cls.__dict__.items():
+        static = isinstance(value, staticmethod)
+        value = value.__func__ if static else value
         if name.startswith("_") or "function" not in type(value).__name__:
             continue
         heads = re.split(r"\n(?=%s\()" % re.escape(name), value.__doc__ or "")
@@ -65,7 +67,7 @@ def methods(cls):
             match = re.match(r"\s*%s\( ?(.*?)\) -> (\w+) ?:\n(.*)" % re.escape(name), head, re.S)
             if not match or not match.group(3).strip():
                 continue
-            arguments = re.findall(r"\((\w+)\)(\w+)", match.group(1))[1:]
+            arguments = re.findall(r"\((\w+)\)(\w+)", match.group(1))[0 if static else 1:]
             result = "" if match.group(2) == "None" else f" -> {match.group(2)}"
             found.append((f"{name}({', '.join(a for _, a in arguments)}){result}", inspect.cleandoc(match.group(3))))
     return found

@@ -1,4 +1,5 @@
 #include "BodyReading.hpp"
+#include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include <pkg/common/Sphere.hpp>
 
@@ -21,7 +22,7 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 		BodyReading& r    = readings[id];
 		r.radius          = -1;
 		r.present         = (bool)body;
-		r.clumped = r.plain = false;
+		r.clumped = r.plain = r.aspherical = r.bounded = r.planar = r.moved = false;
 		if (!body) continue;
 		if (!body->state) {
 			stateless = std::max(stateless, id);
@@ -34,16 +35,21 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 			if (exactly || dynamic_cast<const Sphere*>(shape)) r.radius = static_cast<const Sphere*>(shape)->radius;
 			r.plain = exactly && !body->isClump();
 		}
-		r.pos     = s.pos;
-		r.ori     = s.ori;
-		r.vx      = s.vel[0];
-		r.vy      = s.vel[1];
-		r.spin    = s.angVel[2];
+		readMotion(s, r);
 		r.mass    = s.mass;
 		r.inertia = s.inertia[2];
 		r.blocked = s.blockedDOFs;
+		r.planar     = staysInPlane(s);
+		r.aspherical = body->isAspherical() && !(s.blockedDOFs & State::DOF_RXRYRZ);
+		r.bounded    = (bool)body->bound;
 	}
 	if (stateless >= 0) throw std::runtime_error("body #" + std::to_string(stateless) + " has no state: set Body.state = State(...)");
+}
+
+void readMotion(const State& state, BodyReading& reading)
+{
+	reading.motion = motionOf(state);
+	reading.z      = state.pos[2];
 }
 
 } // namespace yade::nscd

@@ -15,21 +15,20 @@ BondPair bondPair(const Body& b1, const Body& b2)
 void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius)
 {
 	markPoints(phys, *pair.first->state, *pair.second->state, normal, secondRadius);
-	phys.restGap    = std::max(gap, Real(0));
+	phys.restGap    = nonsmooth::contact::plane::firstRestGap(gap);
 	phys.bonded     = true;
 	phys.yielded    = false;
 	phys.brokenMode = NscdPhys::None;
 	phys.yieldPath  = Vector3r::Zero();
 }
 
-NscdPhys::Mode bondMode(const NscdPhys& phys)
+NscdPhys::Mode bondMode(const Vector3r& yieldPath)
 {
-	const Real sum = phys.yieldPath.sum();
-	if (!(sum > 0)) return NscdPhys::Mixed;
-	int            most;
-	const Real     largest = phys.yieldPath.maxCoeff(&most);
-	constexpr Real clear   = 0.6; // of the whole path, for one mode to name the break
-	return largest > clear * sum ? static_cast<NscdPhys::Mode>(NscdPhys::Tension + most) : NscdPhys::Mixed;
+	namespace plane = nonsmooth::contact::plane;
+	using plane::BreakMode;
+	static_assert(int(BreakMode::Tension) == NscdPhys::Tension && int(BreakMode::Shear) == NscdPhys::Shear && int(BreakMode::Torque) == NscdPhys::Torque
+	              && int(BreakMode::Mixed) == NscdPhys::Mixed);
+	return static_cast<NscdPhys::Mode>(plane::breakMode({ yieldPath[0], yieldPath[1], yieldPath[2] }));
 }
 
 } // namespace yade::nscd

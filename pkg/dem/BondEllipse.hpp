@@ -1,7 +1,9 @@
-// The elliptic zone of a bond (Figure 2b of Taboada and Estrada 2009), from positions and rotations of two bodies.
+// The elliptic zone of a bond (Figure 2b of Taboada and Estrada 2009), from positions and rotations of two bodies in space: walls may stand in any way.
+// The equations, and the same for bodies in the plane, are in contact/plane/bond.hpp.
 #pragma once
 
 #include "NscdPhys.hpp"
+#include <contact/plane/bond.hpp>
 #include <core/Body.hpp>
 
 namespace yade::nscd {
@@ -26,8 +28,8 @@ template <class Marks> void markPoints(Marks& marks, const State& first, const S
 /// Marks the bond's points at its creation. `normal` points from the first body to the second, `gap` [m] may be negative.
 void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius);
 
-/// (d_n, d_t) of the marked point in the ellipse's axes [m]; `Place`: a State, or anything else with `pos` and `ori`.
-template <class Marks, class Place> std::pair<Real, Real> bondDisplacement(const Marks& marks, const Place& first, const Place& second)
+/// Of the marked point, in the ellipse's axes; `Place`: a State, or anything else with `pos` and `ori`.
+template <class Marks, class Place> nonsmooth::contact::plane::BondDisplacement bondDisplacement(const Marks& marks, const Place& first, const Place& second)
 {
 	const Vector3r d = second.pos + second.ori * marks.anchor2 - first.pos - first.ori * marks.anchor1;
 	const Vector3r n = first.ori * marks.axis;
@@ -35,6 +37,6 @@ template <class Marks, class Place> std::pair<Real, Real> bondDisplacement(const
 }
 
 /// How a bond that has left its ellipse was broken, from the paths along which it yielded.
-NscdPhys::Mode bondMode(const NscdPhys& phys);
+NscdPhys::Mode bondMode(const Vector3r& yieldPath);
 
 } // namespace yade::nscd

@@ -10,6 +10,8 @@ namespace yade {
 YADE_PLUGIN((BondEllipseEngine));
 
 namespace {
+	namespace plane = nonsmooth::contact::plane;
+
 	struct Marks {
 		Vector3r anchor1, anchor2, axis;
 	};
@@ -61,9 +63,9 @@ void BondEllipseEngine::action()
 	for (size_t k = 0; k < pairs.size(); ++k) {
 		const auto contact = scene->interactions->find(pairs[k][0], pairs[k][1]);
 		if (!holds(contact.get())) continue;
-		const auto [dn, dt] = nscd::bondDisplacement(
+		const auto displacement = nscd::bondDisplacement(
 		        Marks { anchors1[k], anchors2[k], axes[k] }, *Body::byId(pairs[k][0], scene)->state, *Body::byId(pairs[k][1], scene)->state);
-		if (std::pow(dn / ellipses[k][0], 2) + std::pow(dt / ellipses[k][1], 2) >= 1) {
+		if (!plane::bondLives(displacement, { ellipses[k][0], ellipses[k][1] })) {
 			breakBond(*contact->phys, residuals[k]);
 			++broken;
 			continue;

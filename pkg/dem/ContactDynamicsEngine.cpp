@@ -2,12 +2,10 @@
 #include "BondEllipse.hpp"
 #include "Gravity.hpp"
 #include "NonsmoothTimeStepper.hpp"
-#include "NscdInteractionLoop.hpp"
 #include "PythonBytes.hpp"
 #include "SceneCheck.hpp"
 #include "Seldom.hpp"
 #include "YadeFeatures.hpp"
-#include <chrono>
 #include <contact/problem_file.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -21,31 +19,48 @@ namespace contact = nonsmooth::contact;
 
 void ContactDynamicsEngine::action()
 {
+	using nscd::Stage;
+	nscd::StageTimer timer(&clock, Stage::Gather);
 	validate();
-	const auto clock   = [] { return std::chrono::duration<Real>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
 	const auto gravity = nscd::gravityOf(*scene);
 	const int  threads = nscd::threadsOf(*this);
-
-	const Real t0 = clock();
-	seam.gather(*scene, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads, NscdInteractionLoop::before(*this));
-	warmStart       = seam.problem.impulses;
-	stepSolved      = scene->dt;
-	const Real t1         = clock();
-	auto       statistics = contact::solve(seam.problem, settings(), &workspace);
+	nscd::Turn turn(*this, threads);
+	auto&      resident = turn.resident();
+	if (!resident.hasContacts()) resident.takeContacts(*scene);
+	seam.gather(*scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads);
+	warmStart  = seam.problem.impulses;
+	stepSolved = scene->dt;
+	timer.next(Stage::Solve);
+	auto statistics = contact::solve(seam.problem, settings(), &workspace);
 	while (seam.recall(warmStart) > 0) {
 		const int before = statistics.iterations;
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;
 	}
-	const Real solved = clock();
+	timer.next(Stage::Correct);
 	seam.correct(settings(), workspace, correctionSweeps);
-	const Real t2 = clock();
-	correctionSeconds += t2 - solved;
+	timer.next(Stage::Scatter);
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
-	account(sums);
+	account(sums, resident);
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
-	stageSeconds += Vector3r(t1 - t0, t2 - t1, clock() - t2);
+	turn.end();
+}
+
+void ContactDynamicsEngine::growGravity(NewtonIntegrator& newton, Real time)
+{
+	if (gravityRamp == 0) return;
+	const auto refuse = [](const char* name, const string& value, const char* what) {
+		throw std::runtime_error(string("ContactDynamicsEngine: ") + name + " = " + value + ": it must be " + what);
+	};
+	const auto text = [](Real value) { return boost::lexical_cast<string>(value); };
+	if (!(gravityRamp > 0) || !std::isfinite(gravityRamp)) refuse("gravityRamp", text(gravityRamp), "0 or more, and finite [s]");
+	if (!std::isfinite(gravityBegin)) refuse("gravityBegin", text(gravityBegin), "finite [s]");
+	for (int i = 0; i < 3; ++i)
+		if (!std::isfinite(finalGravity[i])) refuse("finalGravity", text(finalGravity[0]) + ", " + text(finalGravity[1]) + ", " + text(finalGravity[2]), "finite [m/s²]");
+	const Real share = std::max(Real(0), std::min(Real(1), (time - gravityBegin) / gravityRamp));
+	newton.gravity   = share * finalGravity;
+	if (share == 1) gravityRamp = 0;
 }
 
 void ContactDynamicsEngine::validate() const
@@ -86,7 +101,7 @@ contact::SolverSettings ContactDynamicsEngine::settings() const
 	return s;
 }
 
-void ContactDynamicsEngine::account(const nscd::StepSums& s)
+void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Resident& resident)
 {
 	kineticEnergy   = s.kinetic;
 	potentialEnergy = s.potential;
@@ -119,7 +134,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	brokenShear += s.broken[NscdPhys::Shear];
 	brokenTorque += s.broken[NscdPhys::Torque];
 	brokenMixed += s.broken[NscdPhys::Mixed];
-	if (s.broken[NscdPhys::Tension] + s.broken[NscdPhys::Shear] + s.broken[NscdPhys::Torque] + s.broken[NscdPhys::Mixed] > 0) recordBreaks();
+	if (s.broken[NscdPhys::Tension] + s.broken[NscdPhys::Shear] + s.broken[NscdPhys::Torque] + s.broken[NscdPhys::Mixed] > 0) recordBreaks(resident);
 	contactRate = s.contactRate;
 	bondRate    = s.bondRate;
 	meanSpeed = s.bodies > 0 ? s.speed / s.bodies : 0;
@@ -128,14 +143,19 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s)
 	momentum  = s.momentum;
 }
 
-void ContactDynamicsEngine::recordBreaks()
+void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 {
 	for (const nscd::Link& link : seam.links) {
-		if (link.broken == NscdPhys::None) continue;
-		const Vector3r& at = link.geom->contactPoint;
-		const int       a = link.interaction->getId1(), b = link.interaction->getId2();
-		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(a, b)), Real(std::max(a, b)), Real(link.broken), at[0], at[1] });
+		const nscd::Reading& r = seam.readingOf(link);
+		if (r.broken == NscdPhys::None) continue;
+		const Vector3r at = resident.contactPoint(r);
+		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(r.first, r.second)), Real(std::max(r.first, r.second)), Real(r.broken), at[0], at[1] });
 	}
+}
+
+void ContactDynamicsEngine::view() const
+{
+	nscd::Resident::of(*Omega::instance().getScene())->show();
 }
 
 void ContactDynamicsEngine::dump(const std::string& path) const
@@ -182,6 +202,7 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 int ContactDynamicsEngine::bond()
 {
 	scene = Omega::instance().getScene().get();
+	view();
 	int count = 0;
 	for (const auto& i : *scene->interactions) {
 		if (!i->isReal()) continue;
@@ -200,6 +221,7 @@ int ContactDynamicsEngine::bond()
 int ContactDynamicsEngine::unbond()
 {
 	scene = Omega::instance().getScene().get();
+	view();
 	int count = 0;
 	for (const auto& i : *scene->interactions) {
 		auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr;
@@ -213,6 +235,7 @@ int ContactDynamicsEngine::unbond()
 void ContactDynamicsEngine::updateStrengths()
 {
 	scene = Omega::instance().getScene().get();
+	view();
 	for (const auto& b : *scene->bodies) // before anything is changed
 		if (const auto* material = b ? dynamic_cast<const NscdMat*>(b->material.get()) : nullptr) material->validate();
 	for (const auto& i : *scene->interactions)
@@ -243,8 +266,24 @@ boost::python::dict ContactDynamicsEngine::energies() const
 	return d;
 }
 
+boost::python::dict ContactDynamicsEngine::stageSeconds() const
+{
+	boost::python::dict d;
+	for (size_t k = 0; k < clock.seconds.size(); ++k)
+		d[clock.names[k]] = clock.seconds[k];
+	return d;
+}
+
+nscd::StageClock* nscd::StageClock::of(const Scene& scene)
+{
+	for (const auto& engine : scene.engines)
+		if (auto* solver = engine->dead ? nullptr : dynamic_cast<ContactDynamicsEngine*>(engine.get())) return &solver->clock;
+	return nullptr;
+}
+
 boost::python::object ContactDynamicsEngine::bodyTable() const
 {
+	view();
 	std::vector<double> rows;
 	for (const auto& b : *Omega::instance().getScene()->bodies) {
 		const auto* sphere = b ? dynamic_cast<const Sphere*>(b->shape.get()) : nullptr;
@@ -261,6 +300,7 @@ boost::python::object ContactDynamicsEngine::breakTable() const { return nscd::a
 
 boost::python::object ContactDynamicsEngine::contactTable() const
 {
+	view();
 	std::vector<double> rows;
 	for (const auto& i : *Omega::instance().getScene()->interactions) {
 		const auto* phys = i->isReal() ? dynamic_cast<const NscdPhys*>(i->phys.get()) : nullptr;

@@ -11,9 +11,13 @@
 // momentum (Σ m D × v), pairs of tangential impulses keep it. No overlap adds up, and the energy that it costs is counted (correctionEnergy).
 #pragma once
 
+#include "Advance.hpp"
 #include "ContactSeam.hpp"
+#include "StageClock.hpp"
 #include <contact/solver.hpp>
 #include <core/GlobalEngine.hpp>
+#include <core/Omega.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
 
 namespace yade {
 
@@ -27,11 +31,20 @@ public:
 	/// Takes the strengths of all contacts from the materials anew.
 	void updateStrengths();
 	void forgetEnergies();
+	/// While the ramp of gravity lasts: gives the integrator what is due in a step that begins at `time` [s]; ends the ramp when all of it is due.
+	void growGravity(NewtonIntegrator& newton, Real time);
 	void forgetBreaks() { breakLog.clear(); }
 	boost::python::dict energies() const;
+	boost::python::dict stageSeconds() const;
 	boost::python::object bodyTable() const;
 	boost::python::object contactTable() const;
 	boost::python::object breakTable() const;
+	/// Brings YADE's bodies and interactions up to date.
+	void view() const;
+	/// A scene is saved as it is: its engines come before its bodies and interactions.
+	void preSave(ContactDynamicsEngine&) { view(); }
+	long        viewsSoFar() const { return nscd::Resident::of(*Omega::instance().getScene())->shown; }
+	std::string viewedBy() const { return nscd::Resident::of(*Omega::instance().getScene())->shownTo; }
 	/// Writes the last step's contact problem, see contact/problem_file.hpp.
 	void dump(const std::string& path) const;
 	// clang-format off
@@ -55,6 +68,9 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,correctionSlack,1e-4,,"Overlaps and errors of bonds' lengths up to this [ℓ] stay as they are; a packing whose least errors are taken back in every step does not come to rest."))
 		((int,correctionSweeps,10,,"Sweeps in which these displacements are found; what they leave is taken back by later steps."))
 		((Real,openGap,0.05,,"A contact whose gap is wider [ℓ], and would stay so at 1.2 times its present speed of approach, is left out of the step's solve, unless the solution would close it after all."))
+		((Vector3r,finalGravity,Vector3r::Zero(),,"Gravity at the end of its ramp [m/s²], see gravityRamp."))
+		((Real,gravityBegin,0,,"O.time at which the ramp of gravity begins [s]; until then there is none."))
+		((Real,gravityRamp,0,,"Time in which gravity grows in proportion from nothing to finalGravity [s]: at the head of each step the integrator's gravity becomes what is due at O.time. When it has grown the ramp is over, and this is 0 again; 0: the integrator's gravity is left alone."))
 		((int,iterations,0,(Attr::readonly|Attr::noSave),"Sweeps of the last step."))
 		((Real,residual,0,(Attr::readonly|Attr::noSave),"Residual of the last step [-]."))
 		((Real,residualForce,0,(Attr::readonly|Attr::noSave),"The same as a force: rms over contacts of what the reactions miss of the law's graphs [N]."))
@@ -95,11 +111,16 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,maxSpeed,0,(Attr::readonly|Attr::noSave),"Largest speed at the end of the last step [m/s]."))
 		((Vector3r,centroid,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Centre of mass of moving bodies at the beginning of the last step [m]."))
 		((Vector3r,momentum,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Their momentum at the end of the last step [N s]."))
-		((Vector3r,stageSeconds,Vector3r::Zero(),(Attr::readonly|Attr::noSave),"Wall time spent so far in gathering, solving, scattering [s]."))
-		((Real,correctionSeconds,0,(Attr::readonly|Attr::noSave),"Of solving, wall time spent so far in finding the displacements that take back errors of position [s]."))
 		,
 		/* ctor */
 		,
+		.def("view",&ContactDynamicsEngine::view,"Bring O.bodies and O.interactions up to date. They are so whenever a run has ended, in every engine that acts between two of ours, and in what is saved; only while a run goes on in the background they follow some times a second.")
+		.add_property("views",&ContactDynamicsEngine::viewsSoFar,"Times so far that O.bodies and O.interactions were brought up to date; steps between two of them stay in arrays, and cost less.")
+		.add_property("viewedBy",&ContactDynamicsEngine::viewedBy,"For whom they were the last time: an engine, the end of a run, or others.")
+		.add_property("stageSeconds",&ContactDynamicsEngine::stageSeconds,"Wall time so far by the stages of a step [s], a dictionary in their order: collide (:yref:`PlanarGridCollider`), interactions (:yref:`NscdInteractionLoop`); gather (the contact problem of the step, all checks included), solve (its sweeps), correct (finding the displacements that take back errors of position) and scatter (reactions and sums) of this engine; integrate (:yref:`PlanarNewtonIntegrator`). A stage that an engine of YADE's own does has 0, see O.timingEnabled for that; what other engines do is not in it. Not saved.")
+		.add_property("stepsLeft",+[](const ContactDynamicsEngine&) { return nscd::stepsLeft(*Omega::instance().getScene()); },"Steps that :yref:`advance<ContactDynamicsEngine.advance>` has yet to make, the present one included: 1 in its last step, 0 where none is under way, and more than any number of steps where it only knows until when.")
+		.def("advance",&nscd::advance,(boost::python::arg("steps")=boost::python::object(),boost::python::arg("until")=boost::python::object()),"Make so many steps, each as O.step() makes it, or as many as end before less than half a step is missing to the time ``until`` [s], and no more of either where both are given; returns how many. They are made in the calling thread, while other threads of Python run on; signals are heard every 20 ms, so Ctrl-C raises KeyboardInterrupt after a step. It can be called without an instance, in scenes of any engines. What an engine refuses is raised as O.step() raises it, with the engine's message. Raises RuntimeError while O.run is at work, within a step of the same scene, with O.subStepping, and where an engine has replaced the scene; ValueError for negative steps, a time that is not finite, or neither of the two; TypeError for what is no number. O.pause, O.stopAtIter and O.stopAtTime belong to O.run and end nothing here.")
+		.staticmethod("advance")
 		.def("bond",&ContactDynamicsEngine::bond,"Make a bond wherever two bodies of one layer (or a wall that bonds to all and a body) have a gap below bondCreationDistance; run a step first, so that interactions exist. Returns the number made.")
 		.def("unbond",&ContactDynamicsEngine::unbond,"Remove all bonds. Returns their number.")
 		.def("updateStrengths",&ContactDynamicsEngine::updateStrengths,"Take the strengths of all present contacts from the bodies' materials anew (they are copied when a contact is made); bonds and reactions stay.")
@@ -114,11 +135,13 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 	// clang-format on
 	DECLARE_LOGGER;
 
+	nscd::StageClock clock;
+
 private:
 	void                                 validate() const;
 	nonsmooth::contact::SolverSettings   settings() const;
-	void                                 account(const nscd::StepSums& sums);
-	void                                 recordBreaks();
+	void                                 account(const nscd::StepSums& sums, const nscd::Resident& resident);
+	void                                 recordBreaks(const nscd::Resident& resident);
 	void                                 report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
 	void                                 reportOverlap();
 

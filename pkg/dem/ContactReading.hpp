@@ -1,25 +1,46 @@
-// What a step's contact problem takes from one interaction, side by side in memory.
+// What a step takes from one interaction, side by side in memory: geometry and physics of an interaction lie far apart, and to fetch them is most of the work.
 //
-// Geometry and physics of an interaction lie far apart, and to fetch them is most of the work. NscdInteractionLoop has them at hand and leaves a reading of each,
-// so that ContactSeam need not go to them again; behind any other loop ContactSeam makes the readings itself.
+// Readings stay from step to step (seam/Resident.hpp). Those of two disks under our own law are kept up to date by themselves, and their interactions follow when
+// somebody looks; the others are read anew after their functors have been called.
 #pragma once
 
 #include "NscdPhys.hpp"
+#include <contact/plane/bond.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
 
 struct Reading {
-	Interaction*  interaction;
-	const ScGeom* geom;
-	NscdPhys*     phys; // null where the interaction has another physics
-	Real          nx, ny, gap; // along the interaction's own order of bodies
-	Real          restGap, restitution, adhesion, friction, rollingArm, length;
-	Real          normal, tangential, torque, correction; // of the last step
-	int           broken; // NscdPhys::brokenMode if the bond broke in this step
-	bool          bonded, slips;
-	bool          usable; // its numbers make sense, and its normal lies in the plane
+	/// Who keeps a contact up to date: it has to be looked at; the arrays; functors, through the interaction.
+	enum Keeper : unsigned char { Unknown, Arrays, Functors };
+
+	Interaction* interaction = nullptr; // null: the place is free
+	ScGeom*      geom = nullptr;
+	NscdPhys*    phys = nullptr; // null where the interaction has another physics
+	int          first = -1, second = -1; // bodies, in the interaction's own order
+	Real         nx = 0, ny = 0, nz = 0, gap = 0; // along that order
+	Real         restGap = 0, restitution = 0, adhesion = 0, friction = 0, rollingArm = 0, length = 0;
+	Real         residualAdhesion = 0; // of a touching contact without a bond
+	Real         normal = 0, tangential = 0, torque = 0, correction = 0; // of the last step
+	int          broken = 0; // NscdPhys::brokenMode if the bond broke in this step
+	Keeper       keeper = Unknown;
+	bool         bonded = false, slips = false;
+	bool         usable = false; // its numbers make sense, and its normal lies in the plane
+	bool         active = true;  // Interaction::isActive
+	bool         wasRead = true; // its geometry and thresholds are those of the interaction
+	bool         leftOut = false; // of the last solve, and bears nothing
+	bool         reacts = false; // its reactions are not yet those of the interaction
 };
+
+/// What a bond of two disks needs besides, as NscdPhys has it.
+struct BondReading {
+	nonsmooth::contact::plane::BondMarks   marks;
+	nonsmooth::contact::plane::BondEllipse zone;
+	nonsmooth::contact::plane::YieldPath   path;
+	bool                                   yielded;
+};
+
+inline Vector3r pathOf(const BondReading& bond) { return Vector3r(bond.path.tension, bond.path.shear, bond.path.torque); }
 
 /// Component of a unit normal along z up to which it lies in the plane.
 constexpr Real flatness = 1e-6;
@@ -32,11 +53,6 @@ inline bool makeSense(const NscdPhys& phys)
 	        && sum <= std::numeric_limits<Real>::max();
 }
 
-/// The bodies of a reading; `first` is negative where there is nothing to take.
-struct ReadIds {
-	int first, second;
-};
-
 /// The cohesive physics of an interaction, null if it has another; the usual two classes are recognised without a search.
 inline NscdPhys* physOf(IPhys& phys)
 {
@@ -45,40 +61,63 @@ inline NscdPhys* physOf(IPhys& phys)
 	return dynamic_cast<NscdPhys*>(&phys);
 }
 
-/// Reads a real interaction.
-inline Reading read(Interaction& interaction, const ScGeom& geom, NscdPhys* phys)
+/// Takes thresholds and what they rest on from an interaction's physics.
+inline void readThresholds(Reading& r)
 {
-	if (!phys) return { &interaction, &geom, nullptr, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, NscdPhys::None, false, false, false };
-	return { &interaction,          &geom,           phys,
-		 geom.normal[0],        geom.normal[1],  -geom.penetrationDepth,
-		 phys->restGap,         phys->restitution, phys->adhesion, phys->currentFriction, phys->currentRollingArm, phys->length,
-		 phys->normal,          phys->tangential, phys->torque, phys->correction,
-		 phys->breaks ? phys->brokenMode : int(NscdPhys::None),
-		 phys->bonded,          phys->countsSlip(), std::abs(geom.normal[2]) <= flatness && makeSense(*phys) };
+	const NscdPhys& phys = *r.phys;
+	r.adhesion           = phys.adhesion;
+	r.friction           = phys.currentFriction;
+	r.rollingArm         = phys.currentRollingArm;
+	r.residualAdhesion   = phys.residualTensileForce;
+	r.usable             = std::abs(r.nz) <= flatness && makeSense(phys);
 }
 
-/// Readings of a whole list of interactions, in its order.
-struct Readings {
-	std::vector<ReadIds> ids;
-	std::vector<Reading> contacts;
-
-	void resize(size_t count)
-	{
-		ids.resize(count);
-		contacts.resize(count);
-	}
-	/// Reads the interaction at place k of the list, or notes that it has no contact.
-	void take(size_t k, Interaction& interaction)
-	{
-		ids[k].first = -1;
-		if (!interaction.isReal() || !interaction.isActive) return;
-		take(k, interaction, static_cast<const ScGeom&>(*interaction.geom), physOf(*interaction.phys));
-	}
-	void take(size_t k, Interaction& interaction, const ScGeom& geom, NscdPhys* phys)
-	{
-		ids[k]      = { interaction.getId1(), interaction.getId2() };
-		contacts[k] = read(interaction, geom, phys);
-	}
+/// What an interaction itself says; `geom` is null where it is not real.
+struct Found {
+	Interaction* interaction;
+	ScGeom*      geom;
+	IPhys*       phys;
+	int          first, second;
+	bool         active;
 };
+
+inline Found look(Interaction& i)
+{
+	return { &i, i.isReal() ? static_cast<ScGeom*>(i.geom.get()) : nullptr, i.phys.get(), i.getId1(), i.getId2(), i.isActive };
+}
+
+/// Reads a real interaction.
+inline void read(const Found& found, Reading& r, BondReading& bond)
+{
+	r             = Reading {};
+	r.interaction = found.interaction;
+	r.geom        = found.geom;
+	r.phys        = physOf(*found.phys);
+	r.first       = found.first;
+	r.second      = found.second;
+	r.active      = found.active;
+	if (!r.phys) return;
+	const ScGeom&   geom = *r.geom;
+	const NscdPhys& phys = *r.phys;
+	r.nx                 = geom.normal[0];
+	r.ny                 = geom.normal[1];
+	r.nz                 = geom.normal[2];
+	r.gap                = -geom.penetrationDepth;
+	r.restGap            = phys.restGap;
+	r.restitution        = phys.restitution;
+	r.length             = phys.length;
+	r.normal             = phys.normal;
+	r.tangential         = phys.tangential;
+	r.torque             = phys.torque;
+	r.correction         = phys.correction;
+	r.broken             = phys.breaks ? phys.brokenMode : int(NscdPhys::None);
+	r.bonded             = phys.bonded;
+	r.slips              = phys.countsSlip();
+	readThresholds(r);
+	if (r.bonded) bond = { { { phys.anchor1[0], phys.anchor1[1] }, { phys.anchor2[0], phys.anchor2[1] }, { phys.axis[0], phys.axis[1] } },
+			         { phys.ellipseNormal, phys.ellipseTangential },
+			         { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] },
+			         phys.yielded };
+}
 
 } // namespace yade::nscd

@@ -1,10 +1,9 @@
 #include "ContactSeam.hpp"
-#include "NscdInteractionLoop.hpp"
 #include "Prefetch.hpp"
 #include "SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
-#include <neighbours/bucket_sort.hpp>
+#include <contact/plane/disk_contact.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade::nscd {
@@ -20,58 +19,63 @@ namespace {
 
 	constexpr int    mostRecalls = 4; // solves of a step after which all contacts left out are taken in
 
-	void forgetReactions(NscdPhys& phys)
-	{
-		phys.normal = phys.tangential = phys.torque = phys.correction = 0;
-		phys.normalForce = phys.shearForce = Vector3r::Zero();
-	}
-
 	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
 	{
 		throw std::runtime_error("ContactDynamicsEngine: body #" + std::to_string(body.getId()) + " " + why + ": " + remedy);
 	}
 }
 
-void ContactSeam::gather(Scene& scene, const Vector3r& gravity, const Relaxation& how, int threadCount, const NscdInteractionLoop* loop)
+void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, const Relaxation& how, int threadCount)
 {
 	relaxation = how;
 	recalls    = 0;
 	threads    = threadCount;
-	if (!loop) readBodies(scene, threads, ownBodies);
-	gatherBodies(scene, gravity, loop ? loop->bodyReadings() : ownBodies);
-	checkShapes(scene, loop ? loop->bodyReadings() : ownBodies);
+	resident   = &from;
+	gatherBodies(scene, gravity);
+	checkShapes(scene, resident->bodies);
 	if (scene.iter % tidyPeriod == 0) tidy(scene);
-	if (!loop) readContacts(scene);
-	const Readings& read = loop ? loop->contactReadings() : ownContacts;
-	arrange(read, scene.bodies->size());
-	divide(scene, read);
-	const size_t count = ordered.size(), solved = solvedBefore.back();
+	divide(scene);
+	const auto&  order = resident->order;
+	const size_t count = order.size(), solved = solvedBefore.back(), leftOut = leftBefore.back();
 	problem.contacts.resize(solved);
 	problem.impulses.resize(solved);
 	links.resize(solved);
-	leftContacts.resize(count - solved);
-	leftLinks.resize(count - solved);
+	leftContacts.resize(leftOut);
+	leftLinks.resize(leftOut);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long part = 0; part < (long)chunksOf(count); ++part) {
 		const size_t begin = part * sumChunk;
-		size_t       in = solvedBefore[part], left = begin - in;
+		size_t       in = solvedBefore[part], left = leftBefore[part];
 		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k) {
-			const Found&   ids     = ordered[k];
-			const Reading& reading = read.contacts[ids.reading];
-			if (ids.solved) {
-				problem.impulses[in] = gatherContact(reading, ids, problem.contacts[in], links[in]);
+			const int slot = order[k].slot;
+			if (partOf[k] == Solved) {
+				problem.impulses[in] = gatherContact(slot, problem.contacts[in], links[in]);
 				++in;
-			} else {
-				gatherContact(reading, ids, leftContacts[left], leftLinks[left]);
-				if (reading.normal != 0) forgetReactions(*reading.phys);
+			} else if (partOf[k] == Left) {
+				gatherContact(slot, leftContacts[left], leftLinks[left]);
+				forgetReactions(slot);
 				++left;
 			}
 		}
 	}
 }
 
-void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read)
+/// A contact that is left out of the solve bears nothing.
+void ContactSeam::forgetReactions(int slot)
 {
+	Reading& r = resident->readings[slot];
+	r.leftOut = r.reacts = true;
+	if (r.normal == 0) return;
+	r.normal = r.tangential = r.torque = r.correction = 0;
+	if (r.keeper == Reading::Arrays) return;
+	NscdPhys& phys = *r.phys;
+	phys.normal = phys.tangential = phys.torque = phys.correction = 0;
+	phys.normalForce = phys.shearForce = Vector3r::Zero();
+}
+
+void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
+{
+	const auto& read = resident->bodies;
 	const long size = (long)read.size();
 	// also what a script or an engine after the integrator has added to a list that counts as summed up: ForceResetter does not see it
 	scene.forces.addMaxId(Body::id_t(size));
@@ -87,7 +91,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 	inertia.assign(size, 0);
 	const Real h     = relaxation.step;
 	const auto first = std::find_if(read.begin(), read.end(), [](const BodyReading& b) { return b.present && b.radius > 0; });
-	const Real plane = first == read.end() ? 0 : first->pos[2]; // in which all disks lie
+	const Real plane = first == read.end() ? 0 : first->z; // in which all disks lie
 	int        bad   = -1; // body with an unusable state; reported after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
 	for (long id = 0; id < size; ++id) {
@@ -96,7 +100,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 		const unsigned d = s.blocked;
 		present[id]      = 1;
 		radius[id]       = s.radius;
-		before[id]       = { s.vx, s.vy, s.spin };
+		before[id]       = s.motion.velocity;
 		mass[id]         = s.mass;
 		inertia[id]      = s.inertia;
 		auto& w          = problem.inverseMass[id];
@@ -105,7 +109,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 		if (!(d & State::DOF_RZ)) w.w = 1 / s.inertia;
 		const Vector3r &f = scene.forces.getForce(id), &m = scene.forces.getTorque(id);
 		external[id]          = { f[0], f[1], m[2] };
-		problem.positions[id] = { s.pos[0], s.pos[1] };
+		problem.positions[id] = s.motion.position;
 		Twist v      = before[id];
 		if (w.x > 0) v.x += h * (f[0] * w.x + gravity[0]);
 		if (w.y > 0) v.y += h * (f[1] * w.y + gravity[1]);
@@ -114,13 +118,14 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity, const std:
 
 		const bool     moves  = !w.isFixed();
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-		if (!std::isfinite(v.x + v.y + v.w + s.pos[0] + s.pos[1] + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped
-		    || w.x < 0 || w.y < 0 || w.w < 0 || (s.radius > 0 && !(std::abs(s.pos[2] - plane) <= flatness * s.radius)))
+		if (!std::isfinite(v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped
+		    || w.x < 0 || w.y < 0 || w.w < 0 || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
 			bad = std::max(bad, (int)id);
 	}
 	if (bad >= 0) {
 		const Body& body = *(*scene.bodies)[bad];
 		if (body.isClump() || body.isClumpMember()) refuse(body, "belongs to a clump", "clumps are not supported; use single spheres");
+		resident->showBody(bad);
 		const State& s = *body.state;
 		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum())) refuse(body, "has a position or velocity that is not finite", "look at the forces and velocities set by the script");
 		const auto     number = [](Real value) { return boost::lexical_cast<string>(value); };
@@ -154,69 +159,39 @@ void ContactSeam::tidy(Scene& scene)
 	}
 }
 
-void ContactSeam::readContacts(Scene& scene)
-{
-	auto&      list  = *scene.interactions;
-	const long count = (long)list.size();
-	ownContacts.resize(count);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < count; ++k) {
-		if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
-		if (k + (long)soon < count) {
-			const Interaction& ahead = *list[k + soon];
-			if (ahead.geom) fetch<partOfGeometry>(ahead.geom.get());
-			if (ahead.phys) fetch<partOfPhysics>(ahead.phys.get());
-		}
-		ownContacts.take(k, *list[k]);
-	}
-}
-
-/// Puts what was read into the order of (lower id, higher id).
-void ContactSeam::arrange(const Readings& readings, size_t bodies)
-{
-	const auto taken = [&](const ReadIds& ids) {
-		return ids.first >= 0 && (size_t)std::max(ids.first, ids.second) < bodies && present[ids.first] && present[ids.second];
-	};
-	const auto each = [&](auto take) {
-		for (size_t k = 0; k < readings.ids.size(); ++k) {
-			const ReadIds& ids = readings.ids[k];
-			if (!taken(ids)) continue;
-			const int low = std::min(ids.first, ids.second), high = std::max(ids.first, ids.second);
-			take(low, Found { low, high, int(k), ids.first > ids.second, true });
-		}
-	};
-	nonsmooth::neighbours::sortIntoBuckets(bodies, each, bucket, ordered);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (long)bodies; ++k)
-		std::sort(ordered.begin() + bucket[k], ordered.begin() + bucket[k + 1], [](const Found& a, const Found& b) { return a.high < b.high; });
-}
-
 /// Tells the contacts that need not be solved for from the others, and counts these, so that each can be gathered where it stays.
-void ContactSeam::divide(const Scene& scene, const Readings& readings)
+void ContactSeam::divide(const Scene& scene)
 {
-	const size_t count = ordered.size();
+	const auto&  order = resident->order;
+	const size_t count = order.size();
 	long         bad   = (long)count; // the first one that cannot be taken, reported after the loop
+	partOf.resize(count);
 	solvedBefore.assign(chunksOf(count) + 1, 0);
+	leftBefore.assign(chunksOf(count) + 1, 0);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
 	for (long part = 0; part < (long)chunksOf(count); ++part)
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
-			const Reading& reading = readings.contacts[ordered[k].reading];
+			const Reading& reading = resident->readings[order[k].slot];
+			partOf[k]               = None;
+			if (!reading.active || !present[reading.first] || !present[reading.second]) continue;
 			if (!reading.usable) bad = std::min(bad, (long)k);
 			if (!reading.phys) continue;
-			ordered[k].solved = mustBeSolved(reading, ordered[k]);
-			solvedBefore[part + 1] += ordered[k].solved;
+			partOf[k] = mustBeSolved(reading) ? Solved : Left;
+			++(partOf[k] == Solved ? solvedBefore : leftBefore)[part + 1];
 		}
-	if (bad < (long)count) refuseContact(scene, readings.contacts[ordered[bad].reading]);
-	for (size_t part = 1; part < solvedBefore.size(); ++part)
+	if (bad < (long)count) refuseContact(scene, resident->readings[order[bad].slot]);
+	for (size_t part = 1; part < solvedBefore.size(); ++part) {
 		solvedBefore[part] += solvedBefore[part - 1];
+		leftBefore[part] += leftBefore[part - 1];
+	}
 }
 
 /// A contact is left out where it is open and will not close in the step.
-bool ContactSeam::mustBeSolved(const Reading& reading, const Found& ids) const
+bool ContactSeam::mustBeSolved(const Reading& reading) const
 {
 	const Real widest = relaxation.openGap * reading.length;
 	if (reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
-	const Contact c       = frameOf(reading, ids);
+	const Contact c       = frameOf(reading);
 	const Real    closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
 	return reading.gap + 1.2 * relaxation.step * closing <= widest;
 }
@@ -226,7 +201,7 @@ size_t ContactSeam::recall(std::vector<Impulse>& begun)
 {
 	const auto gapAfter = [this](size_t k) {
 		const Contact& c = leftContacts[k];
-		return leftLinks[k].gap + relaxation.step * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
+		return readingOf(leftLinks[k]).gap + relaxation.step * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
 	};
 	bool needed = false;
 	for (size_t k = 0; k < leftLinks.size() && !needed; ++k)
@@ -273,24 +248,21 @@ size_t ContactSeam::recall(std::vector<Impulse>& begun)
 }
 
 /// Bodies, directions and levers: from the lower id to the higher, from a wall to a sphere.
-Contact ContactSeam::frameOf(const Reading& reading, const Found& ids) const
+Contact ContactSeam::frameOf(const Reading& reading) const
 {
-	const int  id1 = ids.falling ? ids.high : ids.low, id2 = ids.falling ? ids.low : ids.high;
+	const int  id1 = reading.first, id2 = reading.second;
 	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
-	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? ids.falling : s1 && !s2;
+	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? id1 > id2 : s1 && !s2;
 	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
+	const int  i = swapped ? id2 : id1, j = swapped ? id1 : id2;
+	if (s1 && s2) return contact::plane::diskFrame(i, j, nx, ny, radius[i], radius[j], reading.gap);
 	Contact    c;
-	c.i  = swapped ? id2 : id1;
-	c.j  = swapped ? id1 : id2;
+	c.i  = i;
+	c.j  = j;
 	c.nx = nx;
 	c.ny = ny;
-	if (s1 && s2) {
-		c.leverTi = (swapped ? r2 : r1) + 0.5 * reading.gap;
-		c.leverTj = -((swapped ? r1 : r2) + 0.5 * reading.gap);
-		return c;
-	}
 	const auto lever = [&](int id) { return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x, reading.geom->contactPoint[1] - problem.positions[id].y }; };
-	const auto ri = lever(c.i), rj = lever(c.j);
+	const auto ri = lever(i), rj = lever(j);
 	c.leverNi = ny * ri.x - nx * ri.y;
 	c.leverTi = ri.x * nx + ri.y * ny;
 	// exactly none through a sphere's centre
@@ -300,18 +272,12 @@ Contact ContactSeam::frameOf(const Reading& reading, const Found& ids) const
 }
 
 /// Fills in a contact and its link; returns the impulses of the step before.
-Impulse ContactSeam::gatherContact(const Reading& reading, const Found& ids, Contact& result, Link& link) const
+Impulse ContactSeam::gatherContact(int slot, Contact& result, Link& link) const
 {
-	const Real gap = reading.gap, h = relaxation.step;
-	Contact    c = frameOf(reading, ids);
-	link         = { reading.interaction, reading.geom, reading.phys };
-	link.bonded  = reading.bonded;
-	link.broken  = reading.broken;
-	link.slips   = reading.slips;
-	link.swapped = c.i != (ids.falling ? ids.high : ids.low);
-	link.gap     = gap;
-	link.correction = reading.correction;
-	link.rest    = reading.bonded ? reading.restGap : 0;
+	const Reading& reading = resident->readings[slot];
+	const Real     gap = reading.gap, h = relaxation.step;
+	Contact        c = frameOf(reading);
+	link         = { slot, c.i != reading.first, reading.correction };
 	if (!reading.bonded && gap > 0) c.biasN = gap / h;
 	if (reading.restitution > 0 && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone

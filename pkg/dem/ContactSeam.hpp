@@ -1,17 +1,12 @@
-// The only place where YADE's scene and the solver's arrays meet: gather a contact problem, scatter its solution.
+// A step's contact problem made of the bodies and contacts that stay in arrays (seam/Resident.hpp), and its solution taken back to them: gather, scatter.
 //
 // The order of contacts is that of body ids, and each contact runs from the lower id to the higher (from the wall to the sphere), whatever
 // order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
 #pragma once
 
-#include "BodyReading.hpp"
-#include "ContactReading.hpp"
+#include "seam/Resident.hpp"
 #include <contact/solver.hpp>
 #include <core/Scene.hpp>
-
-namespace yade {
-class NscdInteractionLoop;
-}
 
 namespace yade::nscd {
 
@@ -24,18 +19,11 @@ struct Relaxation {
 	Real openGap;      // a gap wider than this [ℓ] that will not close in the step is left out
 };
 
-/// One gathered contact's way back to YADE.
+/// A gathered contact's place in Resident::readings.
 struct Link {
-	Interaction*  interaction;
-	const ScGeom* geom    = nullptr;
-	NscdPhys*    phys    = nullptr;
-	Real         gap     = 0; // at the beginning of the step [m]
-	Real         rest    = 0; // of that, what a bond keeps [m]
-	Real         correction = 0; // NscdPhys::correction of the step before [kg m]
-	int          broken  = 0; // NscdPhys::brokenMode if the bond broke in this step
-	bool         swapped = false; // runs against the interaction's own order
-	bool         bonded  = false;
-	bool         slips   = false; // on a wall that counts slip
+	int  slot       = -1;
+	bool swapped    = false; // runs against the interaction's own order
+	Real correction = 0;     // pseudo-impulse of the step before [kg m]
 };
 
 /// What a step did, summed in a fixed order.
@@ -58,47 +46,41 @@ struct StepSums {
 
 class ContactSeam {
 public:
-	/// Reads bodies and real interactions; throws std::runtime_error naming the body where the scene cannot be taken.
-	/// `loop`: one whose readings of this step hold; without it they are made here.
-	void gather(Scene& scene, const Vector3r& gravity, const Relaxation& relaxation, int threads, const NscdInteractionLoop* loop);
+	/// Makes the contact problem of a step; throws std::runtime_error naming the body where the scene cannot be taken.
+	void gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
 	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids, and in `begun`, the impulses that the solve
 	/// began with, as well; returns how many. They need another solve. After a few rounds it takes in all.
 	size_t recall(std::vector<nonsmooth::contact::Impulse>& begun);
 	/// After the last solve: finds how far bodies are to be displaced to take back overlaps and bonds' errors of length; scatter moves them.
 	void correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace, int sweeps);
-	/// Writes reactions into the interactions, average contact forces into O.forces, and slip into the walls.
+	/// Takes reactions to the contacts, average contact forces to O.forces, and slip to the walls.
 	/// `rates`: also how fast contacts and bonds change, for the choice of the next step.
 	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads, bool rates);
 
 	nonsmooth::contact::Problem problem;
 	std::vector<Link>           links;
+	const Reading&              readingOf(const Link& link) const { return resident->readings[link.slot]; }
 
 private:
-	/// A reading's place in the order of contacts.
-	struct Found {
-		int  low, high; // ids
-		int  reading;
-		bool falling; // from the higher id to the lower
-		bool solved;  // takes part in the solve
-	};
+	/// What becomes of a contact in a step.
+	enum Part : char { None, Solved, Left };
 
 	/// Contacts or bodies that one thread takes at a time; fixed, so that sums do not depend on the number of threads.
 	static constexpr size_t sumChunk = 1024;
 	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
 
-	void gatherBodies(Scene& scene, const Vector3r& gravity, const std::vector<BodyReading>& read);
+	void gatherBodies(Scene& scene, const Vector3r& gravity);
 	void tidy(Scene& scene);
-	void readContacts(Scene& scene);
-	void arrange(const Readings& readings, size_t bodies);
-	void divide(const Scene& scene, const Readings& readings);
-	bool mustBeSolved(const Reading& reading, const Found& ids) const;
-	nonsmooth::contact::Contact frameOf(const Reading& reading, const Found& ids) const;
-	nonsmooth::contact::Impulse gatherContact(const Reading& reading, const Found& ids, nonsmooth::contact::Contact& result, Link& link) const;
+	void divide(const Scene& scene);
+	bool mustBeSolved(const Reading& reading) const;
+	nonsmooth::contact::Contact frameOf(const Reading& reading) const;
+	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
+	void forgetReactions(int slot);
 	void scatterContact(size_t k);
 	void sumReactions();
 	void scatterForces(Scene& scene);
 	void turnBack(long k);
-	void displace(Scene& scene) const;
+	void displace();
 	bool yieldsInTension(size_t k, const nonsmooth::contact::Impulse& u) const;
 	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
 	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
@@ -116,11 +98,9 @@ private:
 	nonsmooth::contact::PositionCorrection         correction;    // none where there are no displacements
 	std::vector<nonsmooth::contact::Twist>         turning;       // of bodies: impulses that keep the angular momentum, see turnBack [N s]
 	std::vector<char>                      present;
-	std::vector<int>                       bucket;
-	std::vector<BodyReading>               ownBodies; // made where no loop has made them
-	Readings                               ownContacts;
-	std::vector<Found>                     ordered;
-	std::vector<size_t>                    solvedBefore; // contacts to be solved before each chunk of `ordered`, and all
+	Resident*                              resident = nullptr; // during a step
+	std::vector<Part>                      partOf;             // by place in the order of contacts
+	std::vector<size_t>                    solvedBefore, leftBefore; // contacts to be solved, and left out, before each chunk of them, and all
 	std::vector<Real>                      radius; // of spheres, negative for other shapes
 	std::vector<Real>                      mass, inertia;
 };

@@ -3,6 +3,7 @@
 #include "ContactSeam.hpp"
 #include <algorithm>
 #include <cmath>
+#include <contact/plane/bond.hpp>
 
 namespace yade::nscd {
 
@@ -19,9 +20,7 @@ namespace {
 /// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
 bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
 {
-	constexpr Real close = 1 - 1e-9;
-	const Contact& c     = problem.contacts[k];
-	return links[k].bonded && c.adhesion > 0 && problem.impulses[k].n <= -close * c.adhesion && u.n > 0;
+	return readingOf(links[k]).bonded && contact::plane::yieldsInTension(problem.contacts[k], problem.impulses[k], u);
 }
 
 void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
@@ -38,10 +37,11 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 		const Contact& c   = problem.contacts[k];
 		const Impulse  u   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 		auto&          e   = errors[k];
+		const Reading& r   = readingOf(links[k]);
 		e.impulse          = links[k].correction;
-		e.held             = links[k].bonded && !yieldsInTension(k, u);
+		e.held             = r.bonded && !yieldsInTension(k, u);
 		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
-		const Real slack = relaxation.slack * c.length, off = links[k].gap - (e.held ? links[k].rest : 0);
+		const Real slack = relaxation.slack * c.length, off = r.gap - (e.held ? r.restGap : 0);
 		e.error = e.held ? beyond(off + h * u.n, slack) - (1 - relaxation.rate) * beyond(off, slack)
 		                 : off + h * u.n + slack - (1 - relaxation.rate) * std::min(Real(0), off + slack);
 		if (!e.held && e.error >= 0) continue;
@@ -75,16 +75,14 @@ void ContactSeam::turnBack(long k)
 }
 
 /// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.
-void ContactSeam::displace(Scene& scene) const
+void ContactSeam::displace()
 {
 	const long size = (long)correction.displacements.size();
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long id = 0; id < size; ++id) {
 		const Twist& d = correction.displacements[id];
 		if (!present[id] || (d.x == 0 && d.y == 0 && d.w == 0)) continue;
-		State& s = *(*scene.bodies)[id]->state;
-		s.pos += Vector3r(d.x, d.y, 0);
-		if (d.w != 0) s.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * s.ori).normalized();
+		resident->displace(id, d);
 	}
 }
 

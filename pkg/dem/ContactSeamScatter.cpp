@@ -1,8 +1,8 @@
 // What a step's solution means for YADE: reactions and forces written back, and the sums over contacts and bodies.
 #include "ContactSeam.hpp"
-#include "Prefetch.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
+#include <contact/plane/bond.hpp>
 
 namespace yade::nscd {
 
@@ -57,9 +57,8 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		for (long part = 0; part < (long)chunksC; ++part) {
 			const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
 			for (size_t k = begin; k < end; ++k) {
-				if (k + soon < count) fetch<partOfPhysics>(links[k + soon].phys);
 				scatterContact(k);
-				slip[part] |= links[k].slips;
+				slip[part] |= readingOf(links[k]).slips;
 			}
 			StepSums sums; // by themselves, since `parts` shares cache lines between threads
 			sumContacts(begin, end, sums);
@@ -68,14 +67,15 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		}
 	}
 	scatterForces(scene);
-	displace(scene);
+	displace();
 
 	// slip goes into materials that many contacts share, so one after the other
 	for (size_t part = 0; part < chunksC; ++part)
 		for (size_t k = part * sumChunk; slip[part] && k < std::min((part + 1) * sumChunk, count); ++k) {
 			const Contact& c = problem.contacts[k];
-			if (!links[k].slips || problem.impulses[k].n + c.adhesion <= 0) continue;
-			links[k].phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
+			const Reading& r = readingOf(links[k]);
+			if (!r.slips || problem.impulses[k].n + c.adhesion <= 0) continue;
+			r.phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
 		}
 
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -87,32 +87,42 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	return total;
 }
 
-/// Writes a contact's reactions into its interaction, and what a bond has yielded.
+/// Takes a contact's reactions to where it is kept, and what a bond has yielded.
 void ContactSeam::scatterContact(size_t k)
 {
 	const Real     h    = relaxation.step;
 	const Contact& c    = problem.contacts[k];
 	const Impulse& p    = problem.impulses[k];
-	NscdPhys&      phys = *links[k].phys;
-	phys.normal         = p.n / h;
-	phys.tangential     = p.t / h;
-	phys.torque         = p.r / h;
-	const Real q        = correction.displacements.empty() ? 0 : correction.impulses[k];
-	if (phys.correction != q) phys.correction = q;
-	const Real sign     = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
-	phys.normalForce    = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
-	phys.shearForce     = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
-	phys.yielded        = false;
-	if (links[k].broken != NscdPhys::None) phys.breaks = false; // it is counted now
-	if (!phys.bonded) return;
-	const Impulse  u     = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-	constexpr Real close = 1 - 1e-9;
-	if (yieldsInTension(k, u)) {
-		phys.yielded = true;
-		phys.yieldPath[0] += std::max(Real(0), h * u.n);
+	Reading&       r    = resident->readings[links[k].slot];
+	r.normal            = p.n / h;
+	r.tangential        = p.t / h;
+	r.torque            = p.r / h;
+	r.correction        = correction.displacements.empty() ? 0 : correction.impulses[k];
+	r.reacts            = true;
+	r.leftOut           = false;
+	const bool inArrays = r.keeper == Reading::Arrays;
+	NscdPhys&  phys     = *r.phys;
+	if (!inArrays) {
+		const Real sign  = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
+		phys.normal      = r.normal;
+		phys.tangential  = r.tangential;
+		phys.torque      = r.torque;
+		phys.correction  = r.correction;
+		phys.normalForce = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
+		phys.shearForce  = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
 	}
-	if (std::abs(p.t) >= close * contact::slidingThreshold(c, p.n)) phys.yieldPath[1] += std::abs(h * u.t);
-	if (std::abs(p.r) >= close * contact::rollingThreshold(c, p.n)) phys.yieldPath[2] += std::abs(h * u.r) * 0.5 * c.length;
+	if (!inArrays || r.broken != NscdPhys::None) phys.yielded = false;
+	if (r.broken != NscdPhys::None) phys.breaks = false; // it is counted now
+	if (!r.bonded) return;
+	const Impulse u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+	const auto    path = contact::plane::yieldOfStep(c, p, u, h);
+	const bool    opens = contact::plane::yieldsInTension(c, p, u);
+	BondReading& bond = resident->bonds[links[k].slot];
+	bond.yielded      = opens;
+	bond.path.add(path);
+	if (inArrays) return;
+	phys.yielded = opens;
+	if (path.any()) phys.yieldPath += Vector3r(path.tension, path.shear, path.torque); // seldom, and what is not written need not go back to memory
 }
 
 /// The sum of the contacts' impulses on every body, walls included.
@@ -160,9 +170,12 @@ void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
 			sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
 		else if (!(dx * dx + dy * dy < (1 - 1e-9) * most * most)) // the root, which is slow, only where it may be the largest
 			sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
-		if (!links[k].phys->bonded) continue;
-		const NscdPhys& phys = *links[k].phys;
-		sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / phys.ellipseNormal, std::abs(u.t) / phys.ellipseTangential));
+		const Reading& r = readingOf(links[k]);
+		if (!r.bonded) continue;
+		const bool inArrays = r.keeper == Reading::Arrays;
+		const auto& zone = resident->bonds[links[k].slot].zone;
+		const Real along = inArrays ? zone.normal : r.phys->ellipseNormal, across = inArrays ? zone.tangential : r.phys->ellipseTangential;
+		sums.bondRate    = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
 	}
 }
 
@@ -171,6 +184,7 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 	for (size_t k = begin; k < end; ++k) {
 		const Contact&  c    = problem.contacts[k];
 		const Impulse&  p    = problem.impulses[k];
+		const Reading&  r    = readingOf(links[k]);
 		const Impulse   u0   = contact::relativeVelocity(c, before[c.i], before[c.j]);
 		const Impulse   u1   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 		// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
@@ -179,17 +193,17 @@ void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
 		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
 		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
 		// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
-		const bool held    = links[k].gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
-		const Real overlap = held ? 0 : std::max(Real(0), -links[k].gap) / c.length;
+		const bool held    = r.gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
+		const Real overlap = held ? 0 : std::max(Real(0), -r.gap) / c.length;
 		sums.overlap += overlap;
 		if (overlap > sums.worstOverlap) {
 			sums.worstOverlap = overlap;
 			sums.worstIds[0]  = std::min(c.i, c.j);
 			sums.worstIds[1]  = std::max(c.i, c.j);
 		}
-		sums.touching += (p.n != 0 || links[k].gap <= 0);
-		sums.bonds += links[k].bonded;
-		if (links[k].broken != NscdPhys::None) ++sums.broken[links[k].broken];
+		sums.touching += (p.n != 0 || r.gap <= 0);
+		sums.bonds += r.bonded;
+		if (r.broken != NscdPhys::None) ++sums.broken[r.broken];
 	}
 }
 

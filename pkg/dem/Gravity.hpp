@@ -6,17 +6,14 @@
 
 namespace yade::nscd {
 
-inline const NewtonIntegrator* findNewton(const Scene& scene)
+inline NewtonIntegrator* findNewton(const Scene& scene)
 {
 	for (const auto& engine : scene.engines)
-		if (const auto* newton = engine->dead ? nullptr : dynamic_cast<const NewtonIntegrator*>(engine.get())) return newton;
+		if (auto* newton = engine->dead ? nullptr : dynamic_cast<NewtonIntegrator*>(engine.get())) return newton;
 	return nullptr;
 }
 
-inline Vector3r gravityOf(const Scene& scene)
-{
-	const auto* newton = findNewton(scene);
-	return newton ? newton->gravity : Vector3r(Vector3r::Zero());
-}
+/// That of the present step; while the ramp of the scene's ContactDynamicsEngine lasts the integrator gets it here, whoever asks first.
+Vector3r gravityOf(const Scene& scene);
 
 } // namespace yade::nscd

@@ -1,13 +1,9 @@
 // The part of the nonsmooth cohesive law that belongs to one contact: does it exist, does its bond live, what are its thresholds.
 //
-// Bond (Taboada and Estrada 2009, section 2.2.2, Figure 2b). At creation the point P_j of body j that is nearest to body i is marked on j,
-// and the place it takes on i is the centre of an ellipse fixed to i, with the half-axes ε_n ℓ along the normal and ε_t ℓ along the
-// tangent of that moment. With d the displacement of P_j from the centre, seen from i, the bond lives while
-//     (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 ,
-// and is lost for good when it leaves; peak strengths hold until then, residual ones from then on. All is computed from positions and
-// rotations, so no error adds up over steps. Deviation: none. Choices where the paper is silent: a bond that has opened in tension
-// keeps its new length under compression (eq. 1 knows no gap); a contact that is not bonded has the residual adhesion while
-// its gap is below adhesionRange; i is the wall, or the body of lower id.
+// Bond (Taboada and Estrada 2009, section 2.2.2, Figure 2b; equations in contact/plane/bond.hpp): it lives in an ellipse fixed to the first of its
+// bodies and is lost for good when it leaves; peak strengths hold until then, residual ones from then on (contact/plane/thresholds.hpp).
+// Deviation: none. Choices where the paper is silent: a bond that has opened in tension keeps its new length under compression (eq. 1 knows
+// no gap); a contact that is not bonded has the residual adhesion while its gap is below adhesionRange; the first body is the wall, or that of lower id.
 // The reactions themselves are found by ContactDynamicsEngine for all contacts at once.
 #pragma once
 
@@ -26,18 +22,22 @@ public:
 	/// Follows a bond of bodies at two places, in the bond's order (see nscd::BondPair), with the gap [m] they have now.
 	template <class Place> void followBond(NscdPhys& phys, Real gap, const Place& first, const Place& second) const
 	{
-		const auto [dn, dt] = nscd::bondDisplacement(phys, first, second);
-		const Real zone     = std::pow(dn / phys.ellipseNormal, 2) + std::pow(dt / phys.ellipseTangential, 2);
-		if (zone >= 1) {
-			phys.bonded     = false;
-			phys.brokenMode = nscd::bondMode(phys);
-			phys.brokenStep = scene->iter;
-			phys.breaks     = true;
-		} else if (phys.yielded)
-			phys.restGap = std::max(phys.restGap, gap);
+		namespace plane = nonsmooth::contact::plane;
+		if (!plane::bondLives(nscd::bondDisplacement(phys, first, second), { phys.ellipseNormal, phys.ellipseTangential })) breakBond(phys);
+		else if (phys.yielded)
+			phys.restGap = plane::grownRestGap(phys.restGap, gap);
+	}
+	/// Ends a bond that has left its ellipse in this step.
+	void breakBond(NscdPhys& phys) const
+	{
+		phys.bonded     = false;
+		phys.brokenMode = nscd::bondMode(phys.yieldPath);
+		phys.brokenStep = scene->iter;
+		phys.breaks     = true;
 	}
 	/// Whether a contact with that gap is kept; one whose bond broke in this step stays for the step, to be counted.
-	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.breaks || gap <= reach * phys.length; }
+	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.breaks || isWithinReach(gap, phys.length); }
+	bool isWithinReach(Real gap, Real length) const { return gap <= reach * length; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Law2_ScGeom_NscdPhys_SignoriniCoulomb,LawFunctor,
 R"""(Nonsmooth cohesive contact of rigid bodies: Signorini's condition with a tensile threshold, Coulomb friction and rolling friction, all

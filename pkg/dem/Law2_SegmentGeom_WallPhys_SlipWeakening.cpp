@@ -1,4 +1,5 @@
 #include "Law2_SegmentGeom_WallPhys_SlipWeakening.hpp"
+#include <contact/plane/thresholds.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 
@@ -7,13 +8,12 @@ namespace yade {
 YADE_PLUGIN((Law2_SegmentGeom_WallPhys_SlipWeakening));
 
 namespace {
-	struct Strengths {
-		Real adhesion, friction, rollingArm;
-	};
+	using nonsmooth::contact::plane::Thresholds;
 
-	Strengths strengths(const WallPhys& phys, Real left)
+	Thresholds strengths(const WallPhys& phys, Real left)
 	{
-		Strengths s { phys.bonded ? phys.tensileForce : 0, phys.bonded ? phys.friction : phys.residualFriction, phys.bonded ? phys.rollingArm : phys.residualRollingArm };
+		Thresholds s = nonsmooth::contact::plane::thresholdsOf(
+		        { phys.tensileForce, phys.friction, phys.rollingArm }, { 0, phys.residualFriction, phys.residualRollingArm }, phys.bonded, true);
 		if (phys.wallMaterial) phys.wallMaterial->weaken(s.adhesion, s.friction, phys.length, left);
 		return s;
 	}
@@ -37,7 +37,7 @@ bool Law2_SegmentGeom_WallPhys_SlipWeakening::go(shared_ptr<IGeom>& ig, shared_p
 		left = phys.wallMaterial->remaining(phys.body);
 	}
 	const auto normalForce = [&] { return phys.kn * (geom.penetrationDepth - (phys.bonded ? phys.restPenetration : 0)); };
-	Strengths  s           = strengths(phys, left);
+	Thresholds s           = strengths(phys, left);
 	Real       normal = normalForce(), held = s.adhesion + normal;
 	if (phys.bonded && phys.fragile && (held < 0 || shear.norm() > s.friction * held || std::abs(phys.rollingTorque) > s.rollingArm * held)) {
 		phys.bonded = false;

@@ -148,6 +148,9 @@ void checkLayout()
 	check("GlobalEngine", "dead", &GlobalEngine::dead, true);
 	check("GlobalEngine", "label", &GlobalEngine::label, std::string("probe"));
 	check("PeriodicEngine", "virtPeriod", &PeriodicEngine::virtPeriod, 5.625);
+	check("PeriodicEngine", "iterPeriod", &PeriodicEngine::iterPeriod, 52L);
+	check("PeriodicEngine", "firstIterRun", &PeriodicEngine::firstIterRun, 53L);
+	check("PeriodicEngine", "iterLast", &PeriodicEngine::iterLast, 54L);
 	check("PeriodicEngine", "nDone", &PeriodicEngine::nDone, 48L);
 	check("GlobalStiffnessTimeStepper", "active", &TimeStepper::active, false);
 	check("GlobalStiffnessTimeStepper", "timeStepUpdateInterval", &TimeStepper::timeStepUpdateInterval, 49u);

@@ -1,11 +1,15 @@
 #include "NscdInteractionLoop.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "PlanarGridCollider.hpp"
-#include "PorePressureEngine.hpp"
 #include "Prefetch.hpp"
 #include "SceneCheck.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
+#include "seam/Resident.hpp"
+#include <contact/plane/disk_contact.hpp>
+#include <contact/plane/thresholds.hpp>
 #include <core/Scene.hpp>
+#include <neighbours/thread_part.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -15,20 +19,17 @@ namespace yade {
 YADE_PLUGIN((NscdInteractionLoop));
 
 namespace {
-	using nscd::fetch, nscd::later, nscd::soon;
+	using nscd::fetch, nscd::soon, nscd::Reading;
+	namespace plane = nonsmooth::contact::plane;
 
-	/// What Ig2_Sphere_Sphere_ScGeom writes and rigid contacts read, in the same order of operations.
-	void updateGeometry(ScGeom& geom, const Vector3r& x1, const Vector3r& x2, Real r1, Real r2)
+	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just now, some steps ago, or loaded.
+	void forgetShear(const shared_ptr<Interaction>& I, Scene& scene)
 	{
-		Vector3r   normal = x2 - x1;
-		const Real norm   = normal.norm();
-		normal /= norm;
-		const Real overlap    = r1 + r2 - norm;
-		geom.contactPoint     = x1 + (r1 - 0.5 * overlap) * normal;
-		geom.penetrationDepth = overlap;
-		geom.radius1          = r1;
-		geom.radius2          = r2;
-		geom.normal           = normal;
+		if (typeid(*I->geom) != typeid(ScGeom) || !nscd::physOf(*I->phys)) return;
+		auto& geom = static_cast<ScGeom&>(*I->geom);
+		// a new contact has no axes, which nothing else can be asked to write; its shear increment is made of the velocities
+		geom.precompute(*Body::byId(I->getId1(), &scene)->state, *Body::byId(I->getId2(), &scene)->state, &scene, I, Vector3r(geom.normal), true, Vector3r::Zero());
+		geom.shearInc = Vector3r::Zero();
 	}
 
 	/// The one functor of this class, and not of one derived from it; null where there is none.
@@ -76,40 +77,21 @@ namespace {
 	}
 }
 
-const NscdInteractionLoop* NscdInteractionLoop::before(const Engine& engine)
-{
-	const Scene& scene = *engine.scene;
-	if (scene.subStepping) return nullptr;
-	const NscdInteractionLoop* loop = nullptr;
-	for (const auto& other : scene.engines) {
-		if (other.get() == &engine) break;
-		if (other->dead) continue;
-		if (const auto* found = dynamic_cast<const NscdInteractionLoop*>(other.get())) loop = found;
-		else if (!dynamic_cast<const PorePressureEngine*>(other.get())) // which only adds forces
-			loop = nullptr;
-	}
-	const bool holds = loop && loop->hasRead(scene.iter) && loop->contactReadings().ids.size() == scene.interactions->size()
-	        && loop->bodyReadings().size() == scene.bodies->size();
-	return holds ? loop : nullptr;
-}
-
-const NscdInteractionLoop* NscdInteractionLoop::ofLastStep(const Scene& scene)
-{
-	for (const auto& engine : scene.engines)
-		if (const auto* loop = engine->dead ? nullptr : dynamic_cast<const NscdInteractionLoop*>(engine.get()))
-			if (loop->hasRead(scene.iter - 1)) return loop;
-	return nullptr;
-}
-
 void NscdInteractionLoop::action()
 {
-	auto& list = *scene->interactions;
-	readIn     = never; // until all is read; a step's number comes again after O.resetTime()
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Interactions);
+	auto&                  list = *scene->interactions;
 	if (!nscd::hasSolver(*scene))
 		for (const auto& law : lawDispatcher->functors)
 			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get())) throw std::runtime_error("NscdInteractionLoop: " + nscd::noSolver(*scene));
+	const int      threads = nscd::threadsOf(*this);
+	nscd::Turn     turn(*this, threads);
+	nscd::Resident& resident = turn.resident();
 	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0) {
+		resident.show();
+		resident.potentialOf = nscd::Resident::never;
 		InteractionLoop::action();
+		turn.end();
 		return;
 	}
 	lawDispatcher->scene = physDispatcher->scene = geomDispatcher->scene = scene;
@@ -117,71 +99,155 @@ void NscdInteractionLoop::action()
 	physDispatcher->updateScenePtr();
 	lawDispatcher->updateScenePtr();
 
-	const int threads = nscd::threadsOf(*this);
-	const auto* collider = colliderBefore();
-	if (!collider) nscd::readBodies(*scene, threads, ownBodies);
-	bodies              = collider ? &collider->bodyReadings() : &ownBodies;
-	const auto& places  = *bodies;
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
-	const auto* spheres = exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors);
-	const auto* law     = exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors);
+	const Ours now { exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors), exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
+	if (now.spheres != ours.spheres || now.law != ours.law) resident.show();
+	ours = now;
+	if (!resident.hasBodies()) resident.takeBodies(*scene);
+	if (resident.hasContacts()) resident.hold();
+	else
+		resident.takeContacts(*scene);
 
-	const long  count = (long)list.size();
+	const auto& bodies = resident.bodies;
+	const long  size = (long)bodies.size(), count = (long)resident.order.size();
+	resident.places.resize(size);
+	const auto isOurs   = [](const nscd::BodyReading& b) { return b.plain && b.planar; };
+	const auto keeperOf = [&](const Reading& r) {
+		if (!ours.spheres || !ours.law || !r.phys || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]) || typeid(*r.phys) != typeid(NscdPhys)) return Reading::Functors;
+		const auto& cache = r.interaction->functorCache;
+		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? Reading::Arrays : Reading::Functors;
+	};
+	struct Part {
+		std::vector<int> others, gone; // contacts that go through their functors, and that are forgotten: places in the order
+	};
+	std::vector<Part> parts(threads);
+#pragma omp parallel num_threads(threads)
+	{
+		Part& part = nonsmooth::neighbours::partOfThread(parts);
+#pragma omp for schedule(static) nowait
+		for (long id = 0; id < size; ++id)
+			if (bodies[id].present) resident.places[id] = bodies[id].motion.position;
+#pragma omp for schedule(static)
+		for (long k = 0; k < count; ++k) {
+			const int slot = resident.order[k].slot;
+			Reading&  r    = resident.readings[slot];
+			if (r.keeper == Reading::Unknown) r.keeper = keeperOf(r);
+			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
+			else if (!follow(resident, r, resident.bonds[slot], ours))
+				part.gone.push_back(int(k));
+		}
+	}
+	std::vector<int> others;
+	for (const Part& part : parts) {
+		others.insert(others.end(), part.others.begin(), part.others.end());
+		resident.gone.insert(resident.gone.end(), part.gone.begin(), part.gone.end());
+	}
+	if (!others.empty() || !resident.potential.empty()) visitOthers(resident, others, ours, threads);
+	resident.merge(list);
+	std::sort(resident.potential.begin(), resident.potential.end(), [](const auto& a, const auto& b) { return a->linIx < b->linIx; });
+	resident.potentialOf = scene->subStepping ? nscd::Resident::never : scene->iter; // a script may do anything between sub-steps
+	turn.end();
+}
+
+/// Brings a contact of two disks up to date, in the order of operations of Ig2_Sphere_Sphere_ScGeom and of the law's functor; returns false where it is forgotten.
+bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, nscd::BondReading& bond, const Ours& ours) const
+{
+	const auto &p1 = resident.bodies[r.first], &p2 = resident.bodies[r.second];
+	const Real  dz = p2.z - p1.z; // disks may be a little out of one plane, see nscd::flatness
+	const auto  at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius, dz);
+	r.nx  = at.nx;
+	r.ny  = at.ny;
+	r.nz  = dz / at.distance;
+	r.gap = at.gap;
+	if (r.broken != NscdPhys::None && !r.phys->breaks) r.broken = NscdPhys::None; // that was the step before
+	bool       refresh = r.wasRead; // a script may have changed its strengths
+	const bool swap    = r.first > r.second;
+	r.wasRead          = false;
+	if (r.bonded) {
+		if (!plane::bondLives(plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion), bond.zone)) {
+			r.phys->restGap   = r.restGap;
+			r.phys->yieldPath = nscd::pathOf(bond);
+			r.phys->yielded   = bond.yielded;
+			ours.law->breakBond(*r.phys);
+			r.bonded = false;
+			r.broken = r.phys->brokenMode;
+			refresh  = true;
+		} else if (bond.yielded)
+			r.restGap = plane::grownRestGap(r.restGap, r.gap);
+	}
+	const bool stays = r.bonded || r.broken != NscdPhys::None;
+	if (!stays && (!ours.law->isWithinReach(r.gap, r.length) || (ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap)))) return false;
+	if (refresh) {
+		r.phys->updateThresholds(r.gap, ours.law->adhesionRange);
+		nscd::readThresholds(r);
+	} else if (!r.bonded)
+		r.adhesion = plane::touches(r.gap, ours.law->adhesionRange, r.length) ? r.residualAdhesion : 0;
+	if (!(std::abs(r.nz) <= nscd::flatness)) r.usable = false;
+	return true;
+}
+
+/// Contacts that go through their functors, and interactions that may become contacts.
+void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads)
+{
+	auto&      list    = *scene->interactions;
+	const auto isThere = [&](int id) { return id >= 0 && id < (int)resident.bodies.size() && resident.bodies[id].present; };
+	for (const int k : others)
+		for (const int id : { resident.order[k].low, resident.order[k].high })
+			if (isThere(id)) resident.showBody(id);
+	const auto& bodies  = resident.bodies;
+	const auto  isPlain = [&](int id) { return isThere(id) && bodies[id].plain; };
+	// a pair of disks that is out of reach need not be shown to its functor
+	const auto isOutOfReach = [&](const Interaction& i) {
+		if (!isThere(i.getId1()) || !isThere(i.getId2())) return false;
+		const auto &p1 = bodies[i.getId1()], &p2 = bodies[i.getId2()];
+		if (!p1.plain || !p2.plain || !ours.spheres || i.functorCache.geom.get() != ours.spheres) return false;
+		return std::pow(ours.spheres->interactionDetectionFactor * (p1.radius + p2.radius), 2) - (p2.place() - p1.place()).squaredNorm() < 0;
+	};
+	std::vector<char> near(resident.potential.size(), 1);
+	for (size_t k = 0; k < near.size(); ++k) {
+		const Interaction& i = *resident.potential[k];
+		if (isOutOfReach(i)) near[k] = 0;
+		else
+			for (const int id : { i.getId1(), i.getId2() })
+				if (isThere(id)) resident.showBody(id);
+	}
+
 	std::string error; // thrown after the loop, since threads may not
-	readings.resize(count);
+	const long  known = (long)others.size(), all = known + (long)near.size();
+	std::vector<char> ends(known, 0);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < count; ++k) {
-		if (k + (long)later < count) fetch<sizeof(Interaction)>(list[k + later].get());
-		if (k + (long)soon < count) {
-			const Interaction& ahead = *list[k + soon];
-			if (ahead.geom) fetch<nscd::partOfGeometry>(ahead.geom.get());
-			if (ahead.phys) fetch<sizeof(NscdPhys)>(ahead.phys.get());
-		}
-		const shared_ptr<Interaction>& I = list[k];
-		const auto &p1 = places[I->getId1()], &p2 = places[I->getId2()];
-		if (p1.plain && p2.plain) {
-			if (spheres && I->functorCache.geom.get() == spheres && !I->isReal()) {
-				const Real reach = spheres->interactionDetectionFactor * (p1.radius + p2.radius);
-				if (std::pow(reach, 2) - (p2.pos - p1.pos).squaredNorm() < 0) {
-					readings.ids[k].first = -1;
-					continue;
-				}
-			} else if (law && I->functorCache.constLaw.get() == law && I->functorCache.geom.get() == spheres && typeid(*I->phys) == typeid(NscdPhys)) {
-				auto& geom = static_cast<ScGeom&>(*I->geom);
-				auto& phys = static_cast<NscdPhys&>(*I->phys);
-				updateGeometry(geom, p1.pos, p2.pos, p1.radius, p2.radius);
-				const Real gap  = -geom.penetrationDepth;
-				const bool swap = I->getId1() > I->getId2();
-				if (phys.bonded) law->followBond(phys, gap, swap ? p2 : p1, swap ? p1 : p2);
-				const bool wanted = !collider || phys.bonded || phys.breaks || collider->wants(I->getId1(), I->getId2(), p1.radius + p2.radius + gap);
-				if (wanted && law->keeps(phys, gap)) {
-					phys.updateThresholds(gap, law->adhesionRange);
-					if (I->isActive) {
-						readings.take(k, *I, geom, &phys);
-						continue;
-					}
-				} else
-					list.requestErase(I);
-				readings.ids[k].first = -1;
-				continue;
-			}
-		}
+	for (long k = 0; k < all; ++k) {
+		if (k >= known && !near[k - known]) continue;
+		const int                      slot = k < known ? resident.order[others[k]].slot : -1;
+		const shared_ptr<Interaction>& I    = k < known ? list[resident.readings[slot].interaction->linIx] : resident.potential[k - known];
+		bool                           stays = false;
 		try {
-			if (!visit(I, *scene, *this)) list.requestErase(I);
-			readings.take(k, *I);
+			stays = visit(I, *scene, *this);
+			if (stays && isPlain(I->getId1()) && isPlain(I->getId2()) && I->isReal()) forgetShear(I, *scene);
 		} catch (const std::exception& e) {
 #pragma omp critical
 			error = e.what();
 		}
+		if (k >= known) {
+			if (!stays) list.requestErase(I);
+		} else if (stays && I->isReal())
+			nscd::read(nscd::look(*I), resident.readings[slot], resident.bonds[slot]);
+		else
+			ends[k] = 1;
 	}
 	if (!error.empty()) throw std::runtime_error(error);
-	unreal.clear();
-	for (long k = 0; k < count; ++k)
-		if (readings.ids[k].first < 0 && !list[k]->isReal()) unreal.emplace_back(list[k]->getId1(), list[k]->getId2());
-	if (!scene->subStepping) readIn = scene->iter; // or a script may change what was read before others use it
+	size_t left = 0;
+	for (auto& i : resident.potential) {
+		if (i->isReal()) resident.add(i);
+		else
+			resident.potential[left++] = i;
+	}
+	resident.potential.resize(left);
+	for (long k = 0; k < known; ++k)
+		if (ends[k]) resident.gone.push_back(others[k]);
 }
 
-/// The collider whose readings of this step hold; null where another engine may have changed bodies since, or a script.
+/// The collider whose reach of this step holds; null where another engine may have changed bodies since, or a script.
 const PlanarGridCollider* NscdInteractionLoop::colliderBefore() const
 {
 	const PlanarGridCollider* collider = nullptr;
@@ -189,7 +255,7 @@ const PlanarGridCollider* NscdInteractionLoop::colliderBefore() const
 		if (engine.get() == this) break;
 		if (!engine->dead) collider = dynamic_cast<const PlanarGridCollider*>(engine.get());
 	}
-	return collider && !scene->subStepping && collider->hasRead(scene->iter) ? collider : nullptr;
+	return collider && !scene->subStepping && collider->hasRun(scene->iter) ? collider : nullptr;
 }
 
 } // namespace yade

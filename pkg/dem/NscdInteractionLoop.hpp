@@ -1,51 +1,45 @@
 // YADE's interaction loop, faster for contacts of disks.
 //
 // Interactions, their geometry, their physics and the states of their bodies lie all over the memory, so the loop of 50,000 of them waits
-// for memory most of the time. This one asks for what it will need some interactions ahead, and writes a disk's contact without the
-// shear increments that soft laws need. Everything else goes through the functors as ever. Fields that both loops write have the same bits.
-// What the solver takes of a contact is read on the way, while it is at hand.
+// for memory most of the time. This one keeps contacts of disks in arrays (seam/Resident.hpp), without the shear increments that soft laws need, which are zero; their
+// interactions follow when somebody looks. Everything else goes through the functors as ever. All other fields have the bits of YADE's loop.
 #pragma once
 
-#include "BodyReading.hpp"
-#include "ContactReading.hpp"
 #include <core/InteractionLoop.hpp>
 
 namespace yade {
 
+class Law2_ScGeom_NscdPhys_SignoriniCoulomb;
+class Ig2_Sphere_Sphere_ScGeom;
 class PlanarGridCollider;
+namespace nscd {
+	class Resident;
+	struct Reading;
+	struct BondReading;
+}
 
 class NscdInteractionLoop : public InteractionLoop {
 public:
 	void action() override;
-	/// The loop of the engine's scene whose readings hold for `engine` in this step: null where an engine that may have changed bodies or contacts stands
-	/// between the two, or where a script may have.
-	static const NscdInteractionLoop* before(const Engine& engine);
-	/// The loop that visited every interaction in the step before this one; null where another may have been at work.
-	static const NscdInteractionLoop* ofLastStep(const Scene& scene);
-	/// Whether this loop went through the interactions of step `iteration`, and so has readings of them, in the order of their list, and of the bodies.
-	bool                                  hasRead(long iteration) const { return iteration == readIn; }
-	const nscd::Readings&                 contactReadings() const { return readings; }
-	const std::vector<nscd::BodyReading>& bodyReadings() const { return *bodies; }
-	/// Pairs of bodies whose interactions were not real after that step, in the order of the list.
-	const std::vector<std::pair<Body::id_t, Body::id_t>>& unrealPairs() const { return unreal; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
 as fast. Contacts of two :yref:`spheres<Sphere>` with :yref:`NscdPhys` are kept up to date without their functor: position, normal and overlap are those
-of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, stay as they were when the
-contact began. :yref:`ContactDynamicsEngine` takes from it what it has read of bodies and contacts, and spares itself the way, unless an engine other than
-:yref:`PorePressureEngine` stands between the two and may have changed them: engines that only add forces are better put before this one. With periodic
+of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, are zero. With periodic
 boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:
+	/// The functors that a contact of two disks may do without, each null where there is none; and the collider whose reach holds.
+	struct Ours {
+		const Ig2_Sphere_Sphere_ScGeom*                    spheres;
+		const Law2_ScGeom_NscdPhys_SignoriniCoulomb*       law;
+		const PlanarGridCollider*                          collider;
+	};
 	const PlanarGridCollider* colliderBefore() const;
+	bool                      follow(const nscd::Resident& resident, nscd::Reading& r, nscd::BondReading& bond, const Ours& ours) const;
+	void                      visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 
-	const std::vector<nscd::BodyReading>*          bodies = nullptr; // own, or those of the collider
-	std::vector<nscd::BodyReading>                 ownBodies;
-	nscd::Readings                                 readings;
-	std::vector<std::pair<Body::id_t, Body::id_t>> unreal;
-	static constexpr long                          never  = std::numeric_limits<long>::min();
-	long                                           readIn = never; // step
+	Ours ours { nullptr, nullptr, nullptr }; // of the last turn
 };
 REGISTER_SERIALIZABLE(NscdInteractionLoop);
 

@@ -1,5 +1,6 @@
 #include "NscdPhys.hpp"
 #include <boost/make_shared.hpp>
+#include <contact/plane/thresholds.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -10,13 +11,15 @@ YADE_PLUGIN((NscdPhys)(SlipWeakeningPhys)(Ip2_NscdMat_NscdMat_NscdPhys));
 
 void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 {
+	namespace plane = nonsmooth::contact::plane;
+	const plane::Thresholds bond { tensileForce, friction, rollingArm }, residual { residualTensileForce, residualFriction, residualRollingArm };
+	const plane::Thresholds now = plane::thresholdsOf(bond, residual, bonded, plane::touches(gap, adhesionRange, length));
 	// most keep theirs, and what is not written need not go back to memory
-	const auto set      = [](Real& threshold, Real value) { if (threshold != value) threshold = value; };
-	const bool touching = gap <= adhesionRange * length;
-	set(adhesion, bonded ? tensileForce : (touching ? residualTensileForce : 0));
-	set(currentFriction, bonded ? friction : residualFriction);
-	set(currentRollingArm, bonded ? rollingArm : residualRollingArm);
-	set(tangensOfFrictionAngle, currentFriction);
+	const auto set = [](Real& threshold, Real value) { if (threshold != value) threshold = value; };
+	set(adhesion, now.adhesion);
+	set(currentFriction, now.friction);
+	set(currentRollingArm, now.rollingArm);
+	set(tangensOfFrictionAngle, now.friction);
 }
 
 void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)

@@ -17,40 +17,43 @@ public:
 	virtual void updateThresholds(Real gap, Real adhesionRange);
 	virtual void addSlip(Real) { }
 	virtual bool countsSlip() const { return false; }
+	/// A script has set an attribute; nscd::Resident takes it up.
+	void postLoad(NscdPhys&) { touched = true; }
+	bool touched = false;
 	// attributes in the order of their use: see nscd::partOfPhysics
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdPhys,FrictPhys,
 R"""(Contact of two :yref:`NscdMats<NscdMat>`: reactions of the last step, thresholds, and the bond. Forces act on the second body;
 :yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the averages over the last step.)""",
-		((Real,normal,0,,"Normal reaction N [N], compression positive."))
-		((Real,tangential,0,,"Tangential reaction T [N], along the contact normal (from the body of lower id) turned by +90°."))
-		((Real,torque,0,,"Rolling reaction Γ [N m] on the body of higher id, counter-clockwise positive."))
+		((Real,normal,0,Attr::triggerPostLoad,"Normal reaction N [N], compression positive."))
+		((Real,tangential,0,Attr::triggerPostLoad,"Tangential reaction T [N], along the contact normal (from the body of lower id) turned by +90°."))
+		((Real,torque,0,Attr::triggerPostLoad,"Rolling reaction Γ [N m] on the body of higher id, counter-clockwise positive."))
 		((Real,length,0,Attr::readonly,"Mean diameter ℓ [m] of the two bodies; the disk's diameter at a wall."))
 		((Real,adhesion,0,(Attr::readonly|Attr::noSave),"F_a [N] in force."))
 		((Real,currentFriction,0,(Attr::readonly|Attr::noSave),"μ_s in force."))
 		((Real,currentRollingArm,0,(Attr::readonly|Attr::noSave),"μ_r ℓ in force [m]."))
 		((Real,restGap,0,(Attr::readonly|Attr::hidden),"Gap [m] that a bond keeps unless it yields in tension."))
-		((Real,restitution,0,,"Coefficient of restitution."))
+		((Real,restitution,0,Attr::triggerPostLoad,"Coefficient of restitution."))
 		((Real,correction,0,(Attr::readonly|Attr::hidden),"Pseudo-impulse of the last correction of positions [kg m], from which the next one starts."))
 		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did."))
 		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque, 4 mixed."))
-		((bool,bonded,false,,"A bond holds."))
+		((bool,bonded,false,Attr::triggerPostLoad,"A bond holds."))
 		((bool,yielded,false,(Attr::readonly|Attr::hidden),"The bond yielded in tension in the last step."))
-		((bool,bondable,false,,"A bond may be made here on request."))
+		((bool,bondable,false,Attr::triggerPostLoad,"A bond may be made here on request."))
 		((bool,breaks,false,(Attr::readonly|Attr::hidden|Attr::noSave),"The bond broke in this step, and is not counted yet; not brokenStep == O.iter, which O.resetTime() makes true again."))
 		((Vector3r,yieldPath,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Path [m] yielded in tension, shear and rolling, by which a break is classified."))
-		((Real,residualTensileForce,0,,"F_a of a touching contact that is not bonded [N]."))
-		((Real,residualFriction,0,,"μ_s of a contact that is not bonded."))
-		((Real,residualRollingArm,0,,"μ_r ℓ of a contact that is not bonded [m]."))
-		((Real,tensileForce,0,,"F_a of a bond [N] (eq. 2)."))
-		((Real,friction,0,,"μ_s of a bond."))
-		((Real,rollingArm,0,,"μ_r ℓ of a bond [m]."))
-		((Real,ellipseNormal,0,,"ε_n ℓ [m]."))
-		((Real,ellipseTangential,0,,"ε_t ℓ [m]."))
+		((Real,residualTensileForce,0,Attr::triggerPostLoad,"F_a of a touching contact that is not bonded [N]."))
+		((Real,residualFriction,0,Attr::triggerPostLoad,"μ_s of a contact that is not bonded."))
+		((Real,residualRollingArm,0,Attr::triggerPostLoad,"μ_r ℓ of a contact that is not bonded [m]."))
+		((Real,tensileForce,0,Attr::triggerPostLoad,"F_a of a bond [N] (eq. 2)."))
+		((Real,friction,0,Attr::triggerPostLoad,"μ_s of a bond."))
+		((Real,rollingArm,0,Attr::triggerPostLoad,"μ_r ℓ of a bond [m]."))
+		((Real,ellipseNormal,0,Attr::triggerPostLoad,"ε_n ℓ [m]."))
+		((Real,ellipseTangential,0,Attr::triggerPostLoad,"ε_t ℓ [m]."))
 		((Vector3r,anchor1,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Centre of the bond's ellipse, in the frame of the body of lower id (a wall where there is one)."))
 		((Vector3r,anchor2,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"The material point that must stay in the ellipse, in the frame of the other body."))
 		((Vector3r,axis,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Normal axis of the ellipse in the frame of the first of the two."))
-		((Real,creationDistance,0,,"Δ ℓ [m]."))
+		((Real,creationDistance,0,Attr::triggerPostLoad,"Δ ℓ [m]."))
 		,
 		createIndex();
 	);

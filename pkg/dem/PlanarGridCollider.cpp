@@ -1,6 +1,7 @@
 #include "PlanarGridCollider.hpp"
-#include "NscdInteractionLoop.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
+#include "seam/Resident.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Scene.hpp>
 #include <neighbours/thread_part.hpp>
@@ -22,17 +23,20 @@ namespace {
 
 void PlanarGridCollider::action()
 {
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Collide);
 	if (scene->isPeriodic) throw std::runtime_error("PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
 	if (!(sureReach >= 0))
 		throw std::runtime_error("PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach) + ": give a gap in units of ℓ that is not negative");
 	if (!std::isfinite(verletDist))
 		throw std::runtime_error("PlanarGridCollider: verletDist = " + boost::lexical_cast<string>(verletDist) + ": give a length [m], or a negative number of smallest radii");
 	threads = nscd::threadsOf(*this);
-	readIn  = never; // until all is read; a step's number comes again after O.resetTime()
+	ranIn   = never; // until all is done; a step's number comes again after O.resetTime()
+	nscd::Turn turn(*this, threads);
+	resident           = &turn.resident();
+	const auto& bodies = resident->bodies;
 	scene->interactions->iterColliderLastRun = -1;
 	scene->forces.addMaxId(scene->bodies->size());
 	bool anew = changed();
-	nscd::readBodies(*scene, threads, bodies);
 	const long size = (long)bodies.size();
 	disks.resize(size);
 	velocities.resize(size);
@@ -40,8 +44,8 @@ void PlanarGridCollider::action()
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : turned)
 	for (long id = 0; id < size; ++id) {
 		const auto& b  = bodies[id];
-		disks[id]      = b.present && b.plain ? Disk { b.pos[0], b.pos[1], b.radius } : Disk { 0, 0, -1 };
-		velocities[id] = { b.vx, b.vy };
+		disks[id]      = b.present && b.plain ? Disk { b.motion.position.x, b.motion.position.y, b.radius } : Disk { 0, 0, -1 };
+		velocities[id] = { b.motion.velocity.x, b.motion.velocity.y };
 		turned         = turned || hasTurned(id);
 	}
 	if (renewShapes(turned)) anew = true;
@@ -49,9 +53,8 @@ void PlanarGridCollider::action()
 	boundSides();
 
 	// nobody else adds or removes interactions during a step; a script may have, between two
-	const bool                 touched = scene->interactions->size() != sizeLeft;
-	const NscdInteractionLoop* loop    = anew || touched ? nullptr : NscdInteractionLoop::ofLastStep(*scene);
-	if (loop) eraseUnreal(*loop);
+	const bool touched = scene->interactions->size() != sizeLeft;
+	if (!anew && !touched && resident->potentialOf == scene->iter - 1) eraseUnreal();
 	else
 		forget();
 	if (anew || moved()) search();
@@ -59,7 +62,9 @@ void PlanarGridCollider::action()
 	takeDisks();
 	takeSides();
 	sizeLeft = scene->interactions->size();
-	if (!scene->subStepping) readIn = scene->iter; // or a script may change what was read before others use it
+	if (!scene->subStepping) ranIn = scene->iter; // or a script may change bodies before others use what was found
+	turn.end();
+	resident = nullptr;
 }
 
 /// Ends the contacts of bodies whose shape was replaced: they hold what was made for the old one. Returns whether there are any.
@@ -72,6 +77,8 @@ bool PlanarGridCollider::renewShapes(bool turned)
 		const auto& b = Body::byId(side.id, scene);
 		if (b && b->shape != side.shape) renewed.push_back(side.id);
 	}
+	if (!renewed.empty()) resident->show();
+	if (!resident->hasBodies()) resident->takeBodies(*scene);
 	for (const Body::id_t id : renewed) {
 		const auto& b = Body::byId(id, scene);
 		if (!b) continue;
@@ -112,7 +119,7 @@ void PlanarGridCollider::listSides()
 	boundDispatcher->scene = scene;
 	boundDispatcher->updateScenePtr();
 	for (const auto& b : *scene->bodies) {
-		if (!b || !b->shape || !b->isBounded() || bodies[b->getId()].plain) continue;
+		if (!b || !b->shape || !b->isBounded() || resident->bodies[b->getId()].plain) continue;
 		b->shape->boundFunctor = boundDispatcher->getFunctor1D(b->shape);
 		if (b->shape->boundFunctor) sides.push_back({ b->getId(), {}, {}, b->shape });
 	}
@@ -122,6 +129,7 @@ void PlanarGridCollider::boundSides()
 {
 	for (Side& side : sides) {
 		const auto& b = Body::byId(side.id, scene);
+		resident->showBody(side.id);
 		b->shape->boundFunctor->go(b->shape, b->bound, b->state->se3, b.get());
 		side.box = { b->bound->min[0], b->bound->min[1], b->bound->max[0], b->bound->max[1] };
 	}
@@ -131,25 +139,32 @@ void PlanarGridCollider::boundSides()
 void PlanarGridCollider::forget()
 {
 	scene->interactions->conditionalyEraseNonReal(*this, scene);
+	resident->potential.clear();
 	std::fill(known.begin(), known.end(), 0);
 	for (SidePair& pair : sidePairs)
 		pair.known = false;
 }
 
 /// Erases what the loop found not to be real; with a body that is no disk an interaction may stay potential.
-void PlanarGridCollider::eraseUnreal(const NscdInteractionLoop& loop)
+void PlanarGridCollider::eraseUnreal()
 {
-	for (auto [a, b] : loop.unrealPairs()) {
-		if (a > b) std::swap(a, b);
+	auto& potential = resident->potential;
+	size_t left      = 0;
+	for (size_t k = 0; k < potential.size(); ++k) {
+		const auto   i = potential[k];
+		const auto [a, b] = std::minmax({ i->getId1(), i->getId2() });
 		if (disks[a].r < 0 || disks[b].r < 0) {
 			const auto pair = sidePairOf(a, b);
-			if (!pair || !pair->known) eraseIfUnreal(a, b);
+			if (pair && pair->known) potential[left++] = i;
+			else
+				eraseIfUnreal(a, b);
 			continue;
 		}
 		eraseIfUnreal(a, b);
 		const auto begin = pairs.second.begin() + pairs.begin[a], end = pairs.second.begin() + pairs.begin[a + 1], at = std::lower_bound(begin, end, b);
 		if (at != end && *at == b) known[at - pairs.second.begin()] = 0;
 	}
+	potential.resize(left);
 }
 
 /// The noted pair of two bodies one of which is no disk; null where there is none.
@@ -260,6 +275,7 @@ void PlanarGridCollider::searchSides()
 		else if (pair.known)
 			eraseIfUnreal(sides[pair.side].id, pair.disk);
 	}
+	resident->forgetErased(*scene->interactions);
 }
 
 /// Finds how fast each disk is against those near it, where that decides which pairs are wanted.
@@ -339,8 +355,10 @@ void PlanarGridCollider::takeSides()
 
 void PlanarGridCollider::insert(Body::id_t a, Body::id_t b)
 {
-	if (nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene)) && !scene->interactions->found(a, b))
-		scene->interactions->insert(boost::make_shared<Interaction>(a, b));
+	if (!nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene)) || scene->interactions->found(a, b)) return;
+	const auto interaction = boost::make_shared<Interaction>(a, b);
+	scene->interactions->insert(interaction);
+	if (resident->hasContacts()) resident->potential.push_back(interaction);
 }
 
 vector<Body::id_t> PlanarGridCollider::probeBoundingVolume(const Bound& bound)

@@ -15,14 +15,15 @@
 // S_s + foresight h D'_s <= a_s in all squares. Squares are wide enough that disks which meet have been in neighbouring ones until a disk has gone `farPath`.
 #pragma once
 
-#include "BodyReading.hpp"
 #include <neighbours/disk_grid.hpp>
 #include <neighbours/regions.hpp>
 #include <pkg/common/Collider.hpp>
 
 namespace yade {
 
-class NscdInteractionLoop;
+namespace nscd {
+	class Resident;
+}
 
 class PlanarGridCollider : public Collider {
 public:
@@ -31,9 +32,8 @@ public:
 	void               invalidatePersistentData() override { reference.clear(); }
 	/// For InteractionContainer::conditionalyEraseNonReal: none that is not real is kept.
 	bool shouldBeErased(Body::id_t, Body::id_t, Scene*) const { return true; }
-	/// Whether the bodies were read in step `iteration`.
-	bool                                  hasRead(long iteration) const { return iteration == readIn; }
-	const std::vector<nscd::BodyReading>& bodyReadings() const { return bodies; }
+	/// Whether it ran in step `iteration`.
+	bool hasRun(long iteration) const { return iteration == ranIn; }
 	/// Whether two disks that far apart [m], within the reach, should have an interaction in this step.
 	bool wants(Body::id_t a, Body::id_t b, Real distance) const
 	{
@@ -77,7 +77,7 @@ private:
 	void      listSides();
 	void      boundSides();
 	void      forget();
-	void      eraseUnreal(const NscdInteractionLoop& loop);
+	void      eraseUnreal();
 	bool      moved();
 	Real      listed() const { return std::min(factor, 1 + sureReach); }
 	void      search();
@@ -97,9 +97,9 @@ private:
 	size_t                                    sizeLeft = 0; // of O.interactions at the end of the last run
 	Real                                      factor = 1; // reach of disks in sums of radii
 	Real                                      verletDistOfLists = 0; // the attribute as it was when they were made
-	std::vector<nscd::BodyReading>            bodies;
-	static constexpr long                     never  = std::numeric_limits<long>::min();
-	long                                      readIn = never; // step
+	nscd::Resident*                           resident = nullptr; // during a turn
+	static constexpr long                     never = std::numeric_limits<long>::min();
+	long                                      ranIn = never; // step
 	std::vector<nonsmooth::neighbours::Disk>  disks, reference; // by body, now and when pairs were looked up; none where that must be done anew
 	nonsmooth::neighbours::DiskGrid           grid;
 	nonsmooth::neighbours::Pairs              pairs, before;

@@ -1,6 +1,7 @@
 #include "PlanarNewtonIntegrator.hpp"
-#include "Prefetch.hpp"
+#include "StageClock.hpp"
 #include "YadeFeatures.hpp"
+#include "seam/Resident.hpp"
 #include <core/Scene.hpp>
 
 namespace yade {
@@ -8,7 +9,10 @@ namespace yade {
 YADE_PLUGIN((PlanarNewtonIntegrator));
 
 namespace {
-	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them.
+	namespace plane = nonsmooth::contact::plane;
+	static_assert(plane::blockedX == State::DOF_X && plane::blockedY == State::DOF_Y && plane::blockedTurn == State::DOF_RZ && plane::blockedAll == State::DOF_ALL);
+
+	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them, of a body that moves in space.
 	void integrate(State& s, const Vector3r& force, const Vector3r& torque, const Vector3r& gravity, Real dt)
 	{
 		if (s.blockedDOFs != State::DOF_ALL) {
@@ -32,41 +36,51 @@ namespace {
 
 void PlanarNewtonIntegrator::action()
 {
-	const Cell& cell = *scene->cell;
+	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Integrate);
+	const int       threads = nscd::threadsOf(*this);
+	nscd::Turn      turn(*this, threads);
+	nscd::Resident& resident = turn.resident();
+	const Cell&     cell     = *scene->cell;
 	if (damping != 0 || scene->isPeriodic || densityScaling || mask > 0 || scene->trackEnergy || cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero()) {
+		resident.show();
 		NewtonIntegrator::action();
+		turn.end();
 		return;
 	}
 	scene->forces.sync();
 	if (warnNoForceReset && scene->forces.lastReset < scene->iter)
 		LOG_WARN("O.forces were last reset in step " << scene->forces.lastReset << ": put ForceResetter() first in O.engines.");
-	const auto& bodies = *scene->bodies;
-	const long  count  = (long)bodies.size();
-	int         bad    = -1;
-	Real        moved  = 0; // 2 where a body has left its bounding box's margin, 0.5 where it has not: what the collider asks for
-#pragma omp parallel for schedule(static) num_threads(nscd::threadsOf(*this)) reduction(max : bad, moved)
+	auto&      bodies = resident.bodies;
+	const long count  = (long)bodies.size();
+	int        bad    = -1;
+	Real       moved  = 0; // 2 where a body has left its bounding box's margin, 0.5 where it has not: what the collider asks for
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad, moved)
 	for (long id = 0; id < count; ++id) {
-		if (id + (long)nscd::later < count) nscd::fetch<sizeof(Body)>(bodies[id + nscd::later].get());
-		if (id + (long)nscd::soon < count && bodies[id + nscd::soon]) {
-			nscd::fetch<sizeof(State)>(bodies[id + nscd::soon]->state.get());
-			nscd::fetch<sizeof(Bound)>(bodies[id + nscd::soon]->bound.get());
-		}
-		const auto& body = bodies[id];
-		if (!body) continue;
-		State& s = *body->state;
-		if (body->isClump() || body->isClumpMember() || (body->isAspherical() && !(s.blockedDOFs & State::DOF_RXRYRZ))) {
+		nscd::BodyReading& b = bodies[id];
+		if (!b.present) continue;
+		if (b.clumped || b.aspherical) {
 			bad = std::max(bad, (int)id);
 			continue;
 		}
-		integrate(s, scene->forces.getForce(id), scene->forces.getTorque(id), gravity, scene->dt);
-		if (!body->bound) continue;
-		const Real farthest = (s.pos - body->bound->refPos).cwiseAbs().maxCoeff();
-		moved               = std::max(moved, farthest == 0 || farthest < body->bound->sweepLength ? 0.5 : 2.0);
+		const Vector3r &force = scene->forces.getForce(id), &torque = scene->forces.getTorque(id);
+		if (b.planar) {
+			plane::integrate(b.motion, { force[0], force[1], torque[2] }, b.mass, b.inertia, b.blocked, { gravity[0], gravity[1] }, scene->dt);
+			b.moved = true;
+		} else { // with motions that the arrays do not know
+			State& s = *(*scene->bodies)[id]->state;
+			integrate(s, force, torque, gravity, scene->dt);
+			nscd::readMotion(s, b);
+		}
+		if (!b.bounded) continue;
+		const Bound& bound    = *(*scene->bodies)[id]->bound;
+		const Real   farthest = (b.place() - bound.refPos).cwiseAbs().maxCoeff();
+		moved                 = std::max(moved, farthest == 0 || farthest < bound.sweepLength ? 0.5 : 2.0);
 	}
 	if (bad >= 0)
 		throw std::runtime_error(
 		        "PlanarNewtonIntegrator: body #" + std::to_string(bad) + " is aspherical or belongs to a clump: use single spheres, or NewtonIntegrator");
 	maxVelocitySq = moved;
+	turn.end();
 }
 
 } // namespace yade

@@ -1,8 +1,8 @@
 #include "PorePressureEngine.hpp"
 #include "Gravity.hpp"
-#include "NscdInteractionLoop.hpp"
 #include "PythonBytes.hpp"
 #include "YadeFeatures.hpp"
+#include "seam/Resident.hpp"
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
@@ -45,26 +45,27 @@ void PorePressureEngine::action()
 	releasedCount           = 0;
 	totalForce              = Vector3r::Zero();
 
-	const NscdInteractionLoop* loop = NscdInteractionLoop::before(*this);
-	if (!loop) nscd::readBodies(*scene, nscd::threadsOf(*this), ownReadings);
-	const auto&  bodies = loop ? loop->bodyReadings() : ownReadings;
+	nscd::Turn   turn(*this, nscd::threadsOf(*this));
+	const auto&  bodies = turn.resident().bodies;
 	const size_t size   = bodies.size();
 	released.resize(size, 0);
 	wet.assign(size, 0);
 	for (size_t id = reference.size(); id < size; ++id)
-		reference.push_back(bodies[id].present ? bodies[id].pos : Vector3r(Vector3r::Zero()));
+		reference.push_back(bodies[id].present ? bodies[id].place() : Vector3r(Vector3r::Zero()));
 	for (size_t id = 0; id < size; ++id) {
 		const auto& b = bodies[id];
 		if (!b.present || b.blocked == State::DOF_ALL || b.radius < 0 || (mask != 0 && !(*scene->bodies)[id]->maskOk(mask))) continue;
-		if (!released[id] && (b.pos - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
+		const Vector3r place = b.place();
+		if (!released[id] && (place - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
 		releasedCount += released[id];
-		if (released[id] || height <= 0 || (b.pos - planePoint).dot(normal) >= height) continue;
+		if (released[id] || height <= 0 || (place - planePoint).dot(normal) >= height) continue;
 		const Vector3r force = slope * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
 		scene->forces.addForce(id, force);
 		wet[id] = 1;
 		++wetCount;
 		totalForce += force;
 	}
+	turn.end();
 }
 
 } // namespace yade

@@ -7,7 +7,6 @@
 // volumeFactor = 1/(packing fraction) gives each disk its share of the pores as well.
 #pragma once
 
-#include "BodyReading.hpp"
 #include <core/GlobalEngine.hpp>
 
 namespace yade {
@@ -56,8 +55,6 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		.def("forgetReleases",&PorePressureEngine::forgetReleases,"Count ways downslope anew from the present positions.")
 	);
 	// clang-format on
-private:
-	std::vector<nscd::BodyReading> ownReadings; // made where no loop has made them
 };
 REGISTER_SERIALIZABLE(PorePressureEngine);
 

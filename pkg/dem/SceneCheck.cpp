@@ -9,12 +9,13 @@
 
 namespace yade::nscd {
 
+string named(const Engine& engine) { return engine.getClassName() + (engine.label.empty() ? "" : " '" + engine.label + "'"); }
+
 namespace {
 	[[noreturn]] void fail(const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); }
 
 	string number(Real value) { return boost::lexical_cast<string>(value); }
 	string body(Body::id_t id) { return "body #" + std::to_string(id); }
-	string named(const Engine& engine) { return engine.getClassName() + (engine.label.empty() ? "" : " '" + engine.label + "'"); }
 
 	/// The engines of one kind in the list, see checkEngines.
 	struct Kind {
@@ -159,8 +160,8 @@ void refuseContact(const Scene& scene, const Reading& reading)
 		}
 	}
 	if (!reading.phys) fail(pair + " has a " + i.phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
-	if (!reading.usable && std::abs(reading.geom->normal[2]) > flatness)
-		fail(pair + " has a normal that leaves the x-y plane, of which only a part would act (z component " + number(reading.geom->normal[2])
+	if (!reading.usable && std::abs(reading.nz) > flatness)
+		fail(pair + " has a normal that leaves the x-y plane, of which only a part would act (z component " + number(reading.nz)
 		     + "; centres at z = " + number(b1->state->pos[2]) + " and " + number(b2->state->pos[2]) + " m): put all disks at one z, and walls upright to the plane");
 	fail(pair + " has numbers without sense: friction " + number(reading.friction) + ", tensile force " + number(reading.adhesion) + " N, rolling arm "
 	     + number(reading.rollingArm) + " m, mean diameter " + number(reading.length) + " m, restitution " + number(reading.restitution)

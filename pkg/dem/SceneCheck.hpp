@@ -9,6 +9,9 @@
 
 namespace yade::nscd {
 
+/// An engine's class and label, for messages.
+string named(const Engine& engine);
+
 /// Refuses lists of engines that leave out, double or disturb the solver's work. Throws std::runtime_error that names the engine and what would do.
 void checkEngines(const Scene& scene, const Engine& solver);
 

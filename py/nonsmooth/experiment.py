@@ -9,6 +9,7 @@ What decides its course stands in :mod:`yade.nonsmooth.course`; here it is looke
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import asdict
 from pathlib import Path
@@ -56,10 +57,9 @@ class Experiment:
         self.layers = slope.layers_of(built) if layers is None else layers
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
-        self.forces = WallForces(built.walls)
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         # soft steps are thousands a row, and as cheap as a look at the walls
-        self._every = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
+        self.forces = WallForces(built.walls, 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES)))
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
@@ -87,14 +87,11 @@ class Experiment:
     def _run(self, end, interrupted):
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
             row = course.next_row(O.time, O.dt, self.scales.row_seconds)
-            first, began = O.time, time.perf_counter()
-            while O.time < row * self.scales.row_seconds - 0.5 * O.dt:
-                if self.state.stage == "settle":
-                    self.newton.gravity = self._gravity(O.time)
-                before = O.time
+            first, began, ends = O.time, time.perf_counter(), row * self.scales.row_seconds
+            while self.state.stage == "settle" and not self.hard and O.time < ends - 0.5 * O.dt:
+                self.newton.gravity = self._gravity(O.time)
                 advance()
-                if O.iter % self._every == 0:
-                    self.forces.add(O.time - before)
+            advance(until=ends)
             self._count(O.time - first, time.perf_counter() - began)
             self._advance(row)
             if interrupted():
@@ -160,6 +157,9 @@ class Experiment:
             s.bonds_initial = solver.bond()
         advance()
         s.contacts_initial = solver.contacts
+        self.forces.forget()
+        if self.hard:  # from here on it grows by itself
+            solver.finalGravity, solver.gravityBegin, solver.gravityRamp = self._gravity(math.inf), 0.0, self.section.stages.settle.ramp
 
     def _gravity(self, time):
         """Gravity [m/s²] at a time [s]."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from yade import O
+from yade.wrapper import ContactDynamicsEngine
 
 from .errors import UserError
 
@@ -13,14 +14,16 @@ class StepError(UserError, RuntimeError):
     """A step that an engine refused; the message is the engine's."""
 
 
-def advance(steps=1):
-    """Makes ``steps`` steps, none if that is 0 or less. Raises StepError where an engine refuses one.
+def advance(steps=None, until=None):
+    """Makes ``steps`` steps, none if that is 0 or less, or as many as end before less than half a step is missing to the time ``until`` [s], or no more of
+    either; one if nothing is said. Returns how many. Raises StepError where an engine refuses one.
 
-    ``O.run(steps, wait=True)`` makes them in a thread of YADE's own. A refusal there is lost where it comes before the waiting begins, and the script goes on with
-    a scene that has stopped; 0 steps never end; and Ctrl-C is not heard before the last.
+    This is ``ContactDynamicsEngine.advance`` in scenes of any engines. ``O.run(steps, wait=True)`` makes them in a thread of YADE's own. A refusal there is lost
+    where it comes before the waiting begins, and the script goes on with a scene that has stopped; 0 steps never end; and Ctrl-C is not heard before the last.
     """
-    for _ in range(steps):
-        try:
-            O.step()
-        except (RuntimeError, ValueError) as refusal:
-            raise StepError(f"step {O.iter}: {refusal}") from None
+    if steps is None and until is None:
+        steps = 1
+    try:
+        return ContactDynamicsEngine.advance(steps if steps is None else max(0, steps), until)
+    except (RuntimeError, ValueError) as refusal:
+        raise StepError(f"step {O.iter}: {refusal}") from None

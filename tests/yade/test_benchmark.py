@@ -65,8 +65,10 @@ def test_all_that_is_promised_is_there_and_a_number(measured):
         assert math.isfinite(summary[name]) and summary[name] > 0, name
     for name, value in numbers(summary):
         assert math.isfinite(value), name
-    stages = {"reset", "collider", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrator", "other"}
-    assert set(summary["stage_ms"]) == stages and all(v >= 0 for v in summary["stage_ms"].values())
+    stages = {"reset", "collide", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrate", "other"}
+    assert set(summary["stage_ms"]) == {"rest", "moving"}
+    for found in summary["stage_ms"].values():
+        assert set(found) == stages and all(v >= 0 for v in found.values())
     assert {(m["state"], m["threads"]) for m in summary["steps"]} == {(s, t) for s in ("rest", "moving", "soft") for t in (1, 2)}
     assert {(m["state"], m["threads"]) for m in alone["steps"]} == {("rest", 1), ("moving", 1), ("soft", 1)}
     for name, (low, high) in summary["quartiles"].items():
@@ -82,6 +84,17 @@ def test_stages_add_up_to_the_step(measured):
         assert sum(s["mean"] for s in m["stage_ms"].values()) == pytest.approx(m["step_ms"]["mean"], rel=1e-9)  # "other" is the rest: rounding
         # engines' own clocks lie inside the step's
         assert 0 <= m["stage_ms"]["other"]["mean"] < 0.5 * m["step_ms"]["mean"]
+
+
+def test_what_a_step_costs_outside_its_solve_stands_over_the_solve(measured):
+    (summary, printed), _ = measured[1]
+    assert set(summary["outside_solve_over_solve"]) == {"rest", "moving"}
+    for state, ratio in summary["outside_solve_over_solve"].items():
+        ms = summary["stage_ms"][state]
+        solve = ms["solve"] + ms["correct"]
+        assert ratio == pytest.approx((sum(ms.values()) - solve) / solve, rel=1e-9)  # rounding: stages add up to the step
+        assert ms == {name: s["mean"] for name, s in next(m for m in summary["steps"] if (m["state"], m["threads"]) == (state, 2))["stage_ms"].items()}
+        assert f"{ratio:.4g}" in printed
 
 
 def test_the_states_are_what_they_are_called(measured):

@@ -8,10 +8,11 @@ import time
 import pytest
 from shell import BUILD
 from yade import O
+from yade.minieigenHP import Quaternion
 from yade.nonsmooth import contact, scene
 from yade.wrapper import (
-    ContactDynamicsEngine, ForceEngine, ForceResetter, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner)
+    Collider, ContactDynamicsEngine, ForceEngine, ForceResetter, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
+    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner, TorqueEngine)
 
 from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, launch, loose_heap, material, momenta, refused, run
 
@@ -266,6 +267,49 @@ def test_own_loop_and_integrator_have_the_bits_of_yades():
     assert ours == theirs
 
 
+@pytest.mark.parametrize("blocked", ["", "x", "yZ", "zXY", "xyzXYZ"])
+def test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too(blocked):
+    def flight(engines_of):
+        O.reset()
+        stuff = material(0.3)
+        for k in range(3):  # turned and spinning in space; in the plane; spinning in it, but turned out of it
+            disk = free_disk(2 * k, 0, stuff=stuff)
+            state = O.bodies[disk].state
+            state.blockedDOFs = blocked
+            state.inertia = (2, 2, 2)
+            state.vel, state.angVel = ((3, -2, 1), (1, 5, -7)) if k == 0 else ((1, 2, 0), (0, 0, 3))
+            if k != 1:
+                state.ori = Quaternion((1, 0, 2), 0.7)
+        begin()
+        O.engines = [ForceResetter(), ForceEngine(ids=[0, 1, 2], force=(10, 20, -5)), TorqueEngine(ids=[0, 1, 2], moment=(1, -2, 3)),
+                     engines_of(integrator())]
+        O.engines[-1].gravity = (0.5, -G, 0.25)
+        run(50)
+        return [tuple(b.state.pos) + tuple(b.state.vel) + tuple(b.state.angVel) + tuple(b.state.ori) for b in O.bodies]
+
+    assert flight(lambda e: e) == flight(plain)
+
+
+def test_what_soft_laws_need_of_a_contact_of_disks_is_zero(tmp_path):
+    cohesive_heap()
+    walls = sum(1 for b in O.bodies if b.state.blockedDOFs == "xyzXYZ")
+
+    def shears():
+        return [i.geom.shearInc.norm() for i in contacts() if min(i.id1, i.id2) >= walls]
+
+    for _ in range(400):  # those just made, and those that are followed
+        run(1)
+        assert not any(shears())
+    assert len(shears()) > 50
+    O.save(str(tmp_path / "state.yade.gz"))
+    O.load(str(tmp_path / "state.yade.gz"))
+    run(1)
+    assert len(shears()) > 50 and not any(shears())
+    O.engines = [plain(e) for e in O.engines]
+    run(1)
+    assert any(shears())  # as YADE's own loop has them
+
+
 def test_what_an_engine_between_loop_and_solver_changes_counts_in_the_same_step():
     # the solver takes what the loop has read only where nothing that may change it stands between
     stuff = material(0.3)
@@ -317,10 +361,20 @@ def test_timing_counts_the_engine():
     O.timingEnabled = True
     cohesive_heap()
     run(20)
-    e = engine()
+    e, spent = engine(), engine().stageSeconds
     assert e.execCount == 20 and e.execTime > 0
-    assert all(s >= 0 for s in e.stageSeconds) and sum(e.stageSeconds) <= 1e-9 * e.execTime  # parts of the whole
-    assert 0 < e.correctionSeconds < e.stageSeconds[1]
+    assert list(spent) == ["collide", "interactions", "gather", "solve", "correct", "scatter", "integrate"] and all(s > 0 for s in spent.values())
+    # YADE's own timers stand around the same work
+    for kind, stages in ((Collider, ("collide",)), (InteractionLoop, ("interactions",)), (ContactDynamicsEngine, ("gather", "solve", "correct", "scatter")),
+                         (NewtonIntegrator, ("integrate",))):
+        assert sum(spent[name] for name in stages) <= 1e-9 * next(x for x in O.engines if isinstance(x, kind)).execTime, kind
+
+
+def test_stages_of_yades_own_engines_are_left_to_yades_own_timers():
+    simple_scene()
+    O.engines = [plain(e) for e in O.engines]
+    run(2)
+    assert {name for name, seconds in engine().stageSeconds.items() if seconds == 0} == {"interactions", "integrate"}
 
 
 # ---- refusals -------------------------------------------------------------------------------------
@@ -439,7 +493,7 @@ def test_contacts_that_came_late_stand_in_the_order_of_ids_too(tmp_path):
     begin(gravity=(0, 0, 0))
     run(2)
     O.bodies[late].state.pos = (-1, 0, 0)
-    run(1)
+    run(2)  # it comes in the first of them, and is read with the others in the second
     assert [(i.id1, i.id2) for i in O.interactions] == [(first, early), (first, late)]  # as YADE has them
     engine().dump(str(tmp_path / "problem.h5"))
     assert contact.load(tmp_path / "problem.h5").body.tolist() == [[first, late], [first, early]]

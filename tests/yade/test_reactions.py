@@ -113,6 +113,20 @@ def test_contacts_give_no_moment_in_all():
     assert (after - linear).norm() < 1e-12 * scale and turned == pytest.approx(angular, abs=1e-12 * 4 * scale)  # rounding, arms of 4 m
 
 
+@pytest.mark.parametrize("driver_first", [True, False])
+def test_a_wheel_drives_another_by_the_ratio_of_their_radii(driver_first):
+    stuff, driver, driven = material(0.5), 0.75, 0.25
+    ids = [O.bodies.append(scene.disk((0, 0 if drives else driver + driven), driver if drives else driven, stuff, fixed=drives))
+           for drives in ((True, False) if driver_first else (False, True))]
+    big, small = ids if driver_first else ids[::-1]
+    O.bodies[big].state.angVel = (0, 0, 2)
+    O.bodies[small].state.blockedDOFs = "xzXY"
+    begin(gravity=(0, 0, 0))
+    O.forces.setPermF(small, (0, -1e6, 0))  # friction can give 500 N s in a step, and 2 · 3 I/r = 368 are asked
+    run(2)
+    assert O.bodies[small].state.angVel[2] == pytest.approx(-2 * driver / driven, rel=1e-9)  # 1e-12 is the solver's
+
+
 # ---- impacts --------------------------------------------------------------------------------------
 
 def bounces(e, mass, y, v, h, steps):

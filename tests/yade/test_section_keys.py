@@ -10,7 +10,7 @@ from slope_scenes import SMALL
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import experiment, packing, results, section, slope, toe
-from yade.wrapper import NonsmoothTimeStepper, PlanarGridCollider
+from yade.wrapper import NewtonIntegrator, NonsmoothTimeStepper, PlanarGridCollider
 
 SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
 
@@ -99,7 +99,7 @@ def make(tmp_path):
         run = None
         if end != 0.0:
             run = experiment.Experiment(built, tmp_path, progress=lambda stage, now, _: rows.append(
-                (now, stage, O.engines[-1].gravity[1], built.solver.tolerance, built.water.height, built.solver.bonds)))
+                (now, stage, next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity[1], built.solver.tolerance, built.water.height, built.solver.bonds)))
             run.run(end)
         return Made(chosen, built, run, rows)
 
@@ -157,7 +157,7 @@ BASE = data()
 WHERE = {
     ("name",): ({("name",): "another"}, lambda m: m.section.name, "another"),  # and in summary.json, see test_whole_slope
     ("description",): ({("description",): "free text"}, lambda m: m.section.description, "free text"),
-    ("gravity",): ({("gravity",): 3.7}, lambda m: tuple(O.engines[-1].gravity), (0, -3.7, 0)),
+    ("gravity",): ({("gravity",): 3.7}, lambda m: tuple(m.of(NewtonIntegrator).gravity), (0, -3.7, 0)),
     ("seed",): ({("seed",): 77, ("disks", "packing_fraction"): 0.7}, lambda m: packing.pack(m.section).x.tolist(), lambda m: packing.pack(m.section, 77).x.tolist()),
     ("walls", "*", "name"): ({("walls", 2, "name"): "floor"}, lambda m: list(m.built.walls), ["DP", "FB", "floor"]),
     ("walls", "*", "material"): ({("walls", 2, "material"): "fb"}, lambda m: m.wall("SS").frictionAngle, angle(0.6)),

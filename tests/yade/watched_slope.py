@@ -45,8 +45,13 @@ class Watch:
         t = tables.bodies(self.solver)
         return np.array([t[name] for name in self.BODY])
 
-    def step(self):
-        """A step of the experiment, written down."""
+    def advance(self, steps=1, until=None):
+        """Steps of the experiment, as stepping.advance makes them, each written down."""
+        while steps > 0 if until is None else O.time < until - 0.5 * O.dt:
+            self._step()
+            steps -= 1
+
+    def _step(self):
         began = O.time
         self._advance()
         after, water = self._bodies(), self.water
@@ -94,7 +99,7 @@ class Watch:
     def begin(self, patch):
         """Every step of experiments is watched from now on. ``patch``: a pytest.MonkeyPatch."""
         self._advance = experiment.advance
-        patch.setattr(experiment, "advance", self.step)
+        patch.setattr(experiment, "advance", self.advance)
 
     def end(self):
         names = ("iter", "time", "dt", "gravity", "before", "after", "walls", "water", "height", "wet", "released", "counters", "losses", "slip")

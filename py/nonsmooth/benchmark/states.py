@@ -146,7 +146,6 @@ def _move(built, progress):
 
 def _run_soft(progress):
     steps = round(SOFT_SECONDS / O.dt)
-    for k in range(steps):
-        advance()
-        if k % PROGRESS_STEPS == 0:
-            progress(k / steps)
+    for k in range(0, steps, PROGRESS_STEPS):
+        advance(min(PROGRESS_STEPS, steps - k))
+        progress(k / steps)

@@ -8,22 +8,27 @@ from pathlib import Path
 from yade import O
 from yade.wrapper import Collider, ContactDynamicsEngine, ForceResetter, InteractionLoop, NewtonIntegrator, PorePressureEngine
 
+from ..stepping import advance
 from . import states
 from .statistics import spread
 
 __all__ = ["STAGES", "TimedSteps", "measure"]
 
-#: Stages of a step in their order; "other" is what no stage has.
-STAGES = ("reset", "collider", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrator", "other")
-STAGE_OF = {ForceResetter: "reset", Collider: "collider", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
-            NewtonIntegrator: "integrator"}  # by the class of the engine or one it is derived from; ContactDynamicsEngine has four of its own
+#: Stages of a step in their order, those of ContactDynamicsEngine.stageSeconds among them; "other" is what no stage has.
+STAGES = ("reset", "collide", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrate", "other")
+STAGE_OF = {ForceResetter: "reset", Collider: "collide", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
+            NewtonIntegrator: "integrate"}  # by the class of the engine or one it is derived from: what YADE's own timers count
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
 
 
-class TimedSteps:
-    """Times steps of the present scene with YADE's own timers and a clock around each step.
+BLOCK = 10    # steps that are made and timed together, as a run makes them: after each look from Python contacts and bodies are read anew
 
-    ``rows``: one dictionary a step: wall time [s] by stage, "step" for all of it and "other" for what no stage has.
+
+class TimedSteps:
+    """Times steps of the present scene by ContactDynamicsEngine.stageSeconds, by YADE's own timers where no engine of the plugin is at work, and by a clock around
+    BLOCK of them at a time.
+
+    ``rows``: one dictionary a block: wall time [s] of one of its steps by stage, "step" for all of it and "other" for what no stage has.
     """
 
     def __init__(self):
@@ -34,23 +39,19 @@ class TimedSteps:
 
     def run(self, steps, warm_up=WARM_UP):
         """Makes so many steps, and before them ``warm_up`` that are not kept."""
-        for _ in range(warm_up):
-            O.step()
-        for _ in range(steps):
+        advance(warm_up)
+        for made in range(0, steps, BLOCK):
+            count = min(BLOCK, steps - made)
             before, begin = self._spent(), time.perf_counter()
-            O.step()
-            step = time.perf_counter() - begin
-            row = {name: after - before[name] for name, after in self._spent().items()}
+            advance(count)
+            step = (time.perf_counter() - begin) / count
+            row = {name: (after - before[name]) / count for name, after in self._spent().items()}
             self.rows.append({**row, "other": step - sum(row.values()), "step": step})
         return self
 
     def _spent(self):
         spent = {name: 1e-9 * engine.execTime for engine, name in self.engines}
-        if self.solver:
-            gather, solve, scatter = self.solver.stageSeconds
-            correct = self.solver.correctionSeconds
-            spent.update(gather=gather, solve=solve - correct, correct=correct, scatter=scatter)
-        return spent
+        return spent | (self.solver.stageSeconds if self.solver else {})
 
     def summary(self):
         """{"step_ms": spread, "stage_ms": {name: spread}} in the order of STAGES, see statistics.spread."""

@@ -33,6 +33,7 @@ SOURCE, DISKS = "jiufengershan", 20000  # the paper's slope
 STATES = ("moving", "rest")
 STIFFNESSES = (1e7, 1e8, 1e9, 1e10)  # Pa
 RELAX_SECONDS = 1.0  # of simulation, soft
+NOTED = 20  # steps between two notes of how far they are
 WARM_UP, LOOKS = 10, 5  # steps before those that are timed; blocks of these, after each of which the overlap is taken
 
 
@@ -82,8 +83,8 @@ def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_s
     bonds = _bond(built, order, held)
     relax_steps = max(1, round(relax / O.dt))
     note = Progress(folder)
-    for k in range(relax_steps):
-        advance()
+    for k in range(0, relax_steps, NOTED):
+        advance(min(NOTED, relax_steps - k))
         note(0.9 * k / relax_steps)
     walls, overlaps, made, simulated = _timed(steps, built.solver)
     return _found(simulated / made, made, walls, overlaps, built.solver.contacts, built.solver.meanSpeed) | {

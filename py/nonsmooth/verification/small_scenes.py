@@ -9,6 +9,7 @@ from yade.wrapper import NewtonIntegrator, NscdMat
 
 from .. import scene
 from ..scene import contact_dynamics as engine
+from ..stepping import advance
 
 __all__ = ["DENSITY", "G", "TIGHT", "begin", "contacts", "disk", "engine", "material", "run", "set_gravity", "wall", "weight"]
 
@@ -58,8 +59,7 @@ def set_gravity(x, y):
 
 
 def run(steps):
-    for _ in range(steps):  # O.run(wait=True) sleeps 40 ms a call
-        O.step()
+    advance(steps)
 
 
 def contacts():

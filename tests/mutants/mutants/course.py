@@ -2,7 +2,8 @@
 from mutant import mutant
 
 PY = "py/nonsmooth/"
-FORCES, COURSE, RESULTS, RECORDS, TABLES = (PY + name for name in ("wall_forces.py", "experiment.py", "results.py", "records.py", "tables.py"))
+WALLS = "pkg/dem/WallForceEngine.cpp"
+COURSE, RESULTS, RECORDS, TABLES = (PY + name for name in ("experiment.py", "results.py", "records.py", "tables.py"))
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "worlds.py", "toe.py"))
 SECTION, READER, CHECKS, GEOMETRY = (PY + name for name in ("section.py", "section_reader.py", "section_checks.py", "geometry.py"))
 RULES = PY + "course.py"
@@ -17,12 +18,16 @@ def column(name):
 
 MUTANTS = (
     # ---- forces on walls
-    mutant("walls-shear", FORCES, "shear += x * c + y * s", "shear -= x * c + y * s", "the walls' shear has the wrong sign",
-           "test_slope_course.py::test_forces_between_rows_are_counted"),
-    mutant("walls-normal", FORCES, "normal += x * s - y * c", "normal += x * c - y * s", "the walls' normal has the components exchanged",
-           "test_slope_course.py::test_forces_between_rows_are_counted"),
-    mutant("walls-mean", FORCES, "sums[0] += normal * seconds", "sums[0] += normal * 1e-2", "means over a row do not know how long a step is",
-           "test_slope_course.py::test_forces_between_rows_are_counted"),
+    mutant("walls-shear", WALLS, "x * way[0] + y * way[1]", "-x * way[0] - y * way[1]", "the walls' shear has the wrong sign", "test_wall_forces.py"),
+    mutant("walls-normal", WALLS, "x * way[1] - y * way[0]", "x * way[0] - y * way[1]", "the walls' normal has the components exchanged", "test_wall_forces.py"),
+    mutant("walls-mean", WALLS, "inwards * lasted", "inwards * scene->dt", "means over a row take the length of a step as it was asked for, and not as O.time has it",
+           "test_wall_forces.py::test_sums_have_the_bits_of_looks_after_each_step"),
+    mutant("walls-peak", WALLS, "seconds == 0 || inwards > peak", "inwards > peak", "a wall that is only pulled at has a peak of nothing",
+           "test_wall_forces.py::test_signs_and_what_is_forgotten"),
+    mutant("walls-period", WALLS, "(scene->iter + 1) % period != 0", "scene->iter % period != 0", "the steps that count are each one late",
+           "test_wall_forces.py::test_sums_have_the_bits_of_looks_after_each_step"),
+    mutant("walls-first", COURSE, "        self.forces.forget()\n", "", "the first row counts the steps in which bonds are made",
+           "test_slope_course.py::test_rows_hold_means_and_peaks"),
     # ---- course
     mutant("course-hold", RULES, "water_hold=seen.water if rises and (follows or not s.stood) else s.water_hold)", "water_hold=s.water_hold)",
            "the water table goes on rising while the slope moves", "plain:test_course.py::test_where_the_table_stays"),

@@ -1,0 +1,103 @@
+// A cohesive bond of two bodies in the plane (Taboada and Estrada 2009, section 2.2.2, Figure 2b): marked points, zone, yield, break.
+//
+// When a bond is made, the point P of the second body that is nearest to the first is marked on both, a₁ on the first and a₂ on the second, with the normal n₀
+// seen from the first. Later, with d the displacement of P from the place it had on the first body, in the axes of that moment,
+//     d = x₂ + q₂ a₂ q₂* − x₁ − q₁ a₁ q₁* ,   n = q₁ n₀ q₁* ,   d_n = d·n ,   d_t = n × d ,
+// the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 and is lost for good when it leaves. All comes from positions and rotations, so no error adds up.
+// A bond at its threshold yields. In a step of length h with relative velocities U and impulses P (thresholds as in contact/law.hpp) it yields by
+//     h U_n where P_n = −h F_a and U_n > 0 ,   |h U_t| where |P_t| = μ_s (h F_a + P_n) ,   |h w| ℓ/2 where |P_r| = μ_r ℓ (h F_a + P_n) .
+// The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break. In tension it keeps the longest gap it has had.
+// Sign: d_n > 0 where the bodies have parted, d_t > 0 where the second has gone counter-clockwise about the first. Units: m, s, N s.
+// The first body is the wall, or that of lower id. Deviation from the paper: none; the 0.6 is ours, the paper tells no modes of mixed breaks.
+#pragma once
+
+#include <contact/law.hpp>
+#include <contact/plane/motion.hpp>
+
+namespace nonsmooth::contact::plane {
+
+/// Points and normal as seen from their bodies.
+struct BondMarks {
+	Point first, second; // P in the frame of each body [m]
+	Point normal;        // in that of the first
+};
+
+/// Half-axes of the zone [m].
+struct BondEllipse {
+	double normal, tangential; // ε_n ℓ, ε_t ℓ
+};
+
+struct BondDisplacement {
+	double normal, tangential; // [m]
+};
+
+struct YieldPath {
+	double tension = 0, shear = 0, torque = 0; // [m]
+	bool   any() const { return tension != 0 || shear != 0 || torque != 0; }
+	void   add(const YieldPath& other)
+	{
+		tension += other.tension;
+		shear += other.shear;
+		torque += other.torque;
+	}
+};
+
+/// How a bond ended; None while it lives.
+enum class BreakMode { None = 0, Tension, Shear, Torque, Mixed };
+
+/// Marks a bond; `normal` from the first body to the second, `secondRadius` of the second body, which is a disk [m].
+inline BondMarks markBond(const Motion& first, const Motion& second, const Point& normal, double secondRadius)
+{
+	const Point &x1 = first.position, &x2 = second.position;
+	const Point  p { x2.x - secondRadius * normal.x, x2.y - secondRadius * normal.y };
+	return { rotateBack(first.rotation, { p.x - x1.x, p.y - x1.y }), rotateBack(second.rotation, { p.x - x2.x, p.y - x2.y }), rotateBack(first.rotation, normal) };
+}
+
+inline BondDisplacement bondDisplacement(const BondMarks& marks, const Motion& first, const Motion& second)
+{
+	const Point a1 = rotate(first.rotation, marks.first), a2 = rotate(second.rotation, marks.second), n = rotate(first.rotation, marks.normal);
+	const double dx = second.position.x + a2.x - first.position.x - a1.x, dy = second.position.y + a2.y - first.position.y - a1.y;
+	return { dx * n.x + dy * n.y, n.x * dy - n.y * dx };
+}
+
+/// Whether a bond is inside its zone.
+inline bool bondLives(const BondDisplacement& d, const BondEllipse& zone)
+{
+	const double n = d.normal / zone.normal, t = d.tangential / zone.tangential;
+	return !(n * n + t * t >= 1);
+}
+
+/// The gap [m] that a bond keeps which is made over `gap`, negative where the bodies overlap.
+inline double firstRestGap(double gap) { return std::max(gap, 0.0); }
+
+/// That of a bond which yielded in tension in the step before and now spans `gap` [m].
+inline double grownRestGap(double restGap, double gap) { return std::max(restGap, gap); }
+
+/// A threshold counts as reached at this share of it.
+constexpr double reached = 1 - 1e-9;
+
+/// Whether a bond with impulses p and velocities u at the end of the step has reached its tensile threshold and opens: it keeps its new length.
+inline bool yieldsInTension(const Contact& c, const Impulse& p, const Impulse& u) { return c.adhesion > 0 && p.n <= -reached * c.adhesion && u.n > 0; }
+
+/// By how much a bond yields in a step of length h [s].
+inline YieldPath yieldOfStep(const Contact& c, const Impulse& p, const Impulse& u, double h)
+{
+	YieldPath y;
+	if (yieldsInTension(c, p, u)) y.tension = std::max(0.0, h * u.n);
+	if (std::abs(p.t) >= reached * slidingThreshold(c, p.n)) y.shear = std::abs(h * u.t);
+	if (std::abs(p.r) >= reached * rollingThreshold(c, p.n)) y.torque = std::abs(h * u.r) * 0.5 * c.length;
+	return y;
+}
+
+/// How a bond that has left its zone was broken.
+inline BreakMode breakMode(const YieldPath& path)
+{
+	constexpr double clear = 0.6; // of the whole path, for one mode to name the break
+	const double     bound = clear * (path.tension + (path.shear + path.torque));
+	if (!(bound > 0)) return BreakMode::Mixed;
+	if (path.tension > bound) return BreakMode::Tension;
+	if (path.shear > bound) return BreakMode::Shear;
+	return path.torque > bound ? BreakMode::Torque : BreakMode::Mixed;
+}
+
+} // namespace nonsmooth::contact::plane

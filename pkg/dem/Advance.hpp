@@ -1,0 +1,16 @@
+// Many steps from the caller's thread: ContactDynamicsEngine.advance.
+#pragma once
+
+#include <boost/python.hpp>
+#include <core/Scene.hpp>
+
+namespace yade::nscd {
+
+/// See ContactDynamicsEngine.advance; `steps` and `until` may be None.
+long advance(const boost::python::object& steps, const boost::python::object& until);
+
+/// Steps that an advance() of this scene has yet to make, the present one included: 1 in the last, 0 where none is under way. It looks at `until` with the
+/// present length of the step, so ask after NonsmoothTimeStepper. An exception or a signal may end an advance() before.
+long stepsLeft(const Scene& scene);
+
+} // namespace yade::nscd

@@ -1,0 +1,84 @@
+#include "Audience.hpp"
+#include "../Advance.hpp"
+#include "../ContactDynamicsEngine.hpp"
+#include "../NonsmoothTimeStepper.hpp"
+#include "../NscdInteractionLoop.hpp"
+#include "../PlanarGridCollider.hpp"
+#include "../PlanarNewtonIntegrator.hpp"
+#include "../PorePressureEngine.hpp"
+#include "../SceneCheck.hpp"
+#include "../WallForceEngine.hpp"
+#include <core/Omega.hpp>
+#include <pkg/common/ForceResetter.hpp>
+#include <pkg/common/PeriodicEngines.hpp>
+#include <pkg/common/PyRunner.hpp>
+#include <pkg/common/Recorder.hpp>
+
+namespace yade::nscd {
+
+namespace {
+	template <class... Classes> bool isOneOf(const Engine& engine) { return ((typeid(engine) == typeid(Classes)) || ...); }
+
+	/// Reads and writes neither bodies nor interactions. Of these classes themselves, since a derived one may.
+	bool isBlind(const Engine& engine) { return isOneOf<ForceResetter, NonsmoothTimeStepper, WallForceEngine>(engine); }
+
+	/// Whether the engine's own isActivated is PeriodicEngine's, or Recorder's, which asks that one.
+	bool isPlainlyPeriodic(const Engine& engine)
+	{
+		return isOneOf<PyRunner>(engine) || dynamic_cast<const Recorder*>(&engine) || engine.getClassName() == "VTKRecorder" || engine.getClassName() == "SnapshotEngine"
+		        || engine.getClassName() == "DomainLimiter";
+	}
+
+	/// Why nobody of ours comes next after the step, where that is so.
+	string whyTheStepIsTheLast(const Scene& scene)
+	{
+		if (!scene._nextEngines.empty()) return "other engines";
+		if (stepsLeft(scene) > 0) return ""; // advance() shows all when it ends, however it ends
+		if (!Omega::instance().isRunning() || scene.stopAtIter == scene.iter + 1 || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime)) return "the end of the run";
+		return "";
+	}
+}
+
+bool othersMayLook(const Scene& scene) { return Omega::instance().isRunning() || stepsLeft(scene) > 0; }
+
+bool takesTurns(const Engine& engine)
+{
+	return isOneOf<PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, ContactDynamicsEngine, PlanarNewtonIntegrator>(engine);
+}
+
+bool mayAct(const Engine& engine, long iter, Real time)
+{
+	if (isBlind(engine)) return false;
+	const auto* periodic = isPlainlyPeriodic(engine) ? dynamic_cast<const PeriodicEngine*>(&engine) : nullptr;
+	if (!periodic) return true;
+	const PeriodicEngine& p = *periodic;
+	if (p.nDone == 0 && p.firstIterRun > 0) return iter == p.firstIterRun;
+	if (p.nDone == 0 || iter < p.iterLast) return true; // it may run at once
+	if (p.nDo >= 0 && p.nDone >= p.nDo) return false;
+	constexpr Real sure = 0.2; // s; until it is asked
+	return (p.virtPeriod > 0 && time - p.virtLast >= p.virtPeriod * (1 - 1e-9)) || (p.realPeriod > 0 && PeriodicEngine::getClock() - p.realLast >= p.realPeriod - sure)
+	        || (p.iterPeriod > 0 && iter - p.iterLast >= p.iterPeriod);
+}
+
+string whoLooksAfter(const Scene& scene, const Engine& engine)
+{
+	// outside a step somebody called the engine by hand; in sub-steps somebody looks after each
+	if (scene.subStepping || scene.subStep < 0) return "whoever called " + named(engine);
+	const auto& all  = scene.engines;
+	const auto  here = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.get() == &engine; });
+	if (here == all.end()) return "whoever called " + named(engine);
+	for (auto next = here + 1; next != all.end(); ++next) {
+		if ((*next)->dead) continue;
+		if (takesTurns(**next)) return "";
+		if (mayAct(**next, scene.iter, scene.time)) return named(**next);
+	}
+	if (const string why = whyTheStepIsTheLast(scene); !why.empty()) return why;
+	for (auto next = all.begin(); next != here + 1; ++next) {
+		if ((*next)->dead) continue;
+		if (takesTurns(**next)) return "";
+		if (mayAct(**next, scene.iter + 1, scene.time + scene.dt)) return named(**next);
+	}
+	return "";
+}
+
+} // namespace yade::nscd

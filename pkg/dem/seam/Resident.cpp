@@ -1,0 +1,322 @@
+#include "Resident.hpp"
+#include "../PlaneMotion.hpp"
+#include "../Prefetch.hpp"
+#include "Audience.hpp"
+#include <chrono>
+#include <map>
+#include <neighbours/bucket_sort.hpp>
+
+namespace yade::nscd {
+
+namespace {
+	double clockNow() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+	/// Shows what a thread leaves when it ends: YADE starts one for each O.run, and O.pause() may end it behind our last look.
+	struct ThreadEnd {
+		std::weak_ptr<Resident> last;
+		~ThreadEnd()
+		{
+			if (const auto resident = last.lock()) resident->show();
+		}
+	};
+	thread_local ThreadEnd threadEnd;
+
+	/// Whether a state has what was written into it, or read from it, the last time.
+	bool isAs(const State& s, const BodyReading& known)
+	{
+		const auto& m = known.motion;
+		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w
+		        && s.ori.z() == m.rotation.z && s.ori.w() == m.rotation.w;
+	}
+
+	/// Brings the state of the body of that id up to date, but for one that is gone, or was changed by somebody else since it was as in `asShown`.
+	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<BodyReading>& asShown)
+	{
+		if (!b.moved) return;
+		b.moved = false;
+		if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return;
+		setMotion(*body->state, b.motion);
+		if (id < asShown.size()) asShown[id] = b;
+	}
+}
+
+std::shared_ptr<Resident> Resident::of(Scene& scene)
+{
+	static std::mutex                                 mutex;
+	static std::map<const Scene*, std::shared_ptr<Resident>> all;
+	const std::lock_guard<std::mutex>                 guard(mutex);
+	auto&                                             found = all[&scene];
+	if (found && found->container.lock() == scene.bodies) return found; // a new scene may lie where an old one was
+	for (auto it = all.begin(); it != all.end();)
+		it = it->first != &scene && (!it->second || it->second->container.expired()) ? all.erase(it) : std::next(it);
+	found            = std::make_shared<Resident>();
+	found->container = scene.bodies;
+	return found;
+}
+
+void Resident::takeBodies(Scene& scene)
+{
+	const double begin = clockNow();
+	readBodies(scene, threads, bodies);
+	if (othersMayLook(scene)) asShown = bodies;
+	else
+		asShown.clear();
+	bodiesOwned = true;
+	costOfLook += clockNow() - begin;
+}
+
+void Resident::takeContacts(Scene& scene)
+{
+	const double begin = clockNow();
+	auto&      list = *scene.interactions;
+	const int  size = int(bodies.size());
+	const long all  = (long)list.size();
+	found.resize(all);
+	long unreal = 0;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : unreal)
+	for (long k = 0; k < all; ++k) {
+		if (k + (long)later < all) fetch<sizeof(Interaction)>(list[k + later].get());
+		found[k] = look(*list[k]);
+		unreal += !found[k].geom;
+	}
+	const auto each = [&](auto take) {
+		for (long k = 0; k < all; ++k) {
+			const int low = std::min(found[k].first, found[k].second), high = std::max(found[k].first, found[k].second);
+			if (found[k].geom && low >= 0 && high < size) take(low, Place { low, high, int(k) });
+		}
+	};
+	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, bucket, order);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < (long)bodies.size(); ++k)
+		std::sort(order.begin() + bucket[k], order.begin() + bucket[k + 1], [](const Place& a, const Place& b) { return a.high < b.high; });
+	const long count = (long)order.size();
+	readings.resize(count);
+	bonds.resize(count);
+	holders.clear();
+	freeSlots.clear();
+	come.clear();
+	gone.clear();
+	held = false;
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		if (k + (long)soon < count) {
+			const Found& ahead = found[order[k + soon].slot];
+			fetch<partOfGeometry>(ahead.geom);
+			fetch<sizeof(NscdPhys)>(ahead.phys);
+		}
+		read(found[order[k].slot], readings[k], bonds[k]);
+		if (readings[k].phys && readings[k].phys->touched) readings[k].phys->touched = false;
+	}
+	for (long k = 0; k < count; ++k)
+		order[k].slot = int(k);
+	potential.clear();
+	for (long k = 0; unreal > 0 && k < all; ++k)
+		if (!found[k].geom) potential.push_back(list[k]);
+	contactsOwned = true;
+	costOfLook += clockNow() - begin;
+}
+
+void Resident::hold()
+{
+	if (held) return;
+	held = true;
+	holders.resize(readings.size());
+	const long count = (long)readings.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k)
+		if (Interaction* i = readings[k].interaction) holders[k] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()), i->geom, i->phys };
+}
+
+void Resident::displace(size_t id, const nonsmooth::contact::Twist& d)
+{
+	BodyReading& b = bodies[id];
+	if (b.planar) {
+		nonsmooth::contact::plane::displace(b.motion, d);
+		b.moved = true;
+		return;
+	}
+	State& s = *(*container.lock())[id]->state;
+	s.pos += Vector3r(d.x, d.y, 0);
+	if (d.w != 0) s.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * s.ori).normalized();
+	readMotion(s, b);
+}
+
+void Resident::showBody(size_t id)
+{
+	if (bodies[id].moved) write(bodies[id], (*container.lock())[id], id, asShown);
+}
+
+Vector3r Resident::contactPoint(const Reading& r) const
+{
+	if (r.wasRead || r.keeper != Reading::Arrays) return r.geom->contactPoint;
+	const Vector3r at(places[r.first].x, places[r.first].y, bodies[r.first].z), normal(r.nx, r.ny, r.nz);
+	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
+}
+
+/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor and of ContactSeam.
+void Resident::showContact(int slot) const
+{
+	const Reading& r = readings[slot];
+	if (r.keeper != Reading::Arrays || !r.phys || r.phys->touched) return;
+	ScGeom&   geom = *r.geom;
+	NscdPhys& phys = *r.phys;
+	if (!r.wasRead) {
+		geom.contactPoint     = contactPoint(r);
+		geom.penetrationDepth = -r.gap;
+		geom.radius1          = bodies[r.first].radius;
+		geom.radius2          = bodies[r.second].radius;
+		geom.normal           = Vector3r(r.nx, r.ny, r.nz);
+		phys.adhesion         = r.adhesion;
+		phys.currentFriction = phys.tangensOfFrictionAngle = r.friction;
+		phys.currentRollingArm                              = r.rollingArm;
+	}
+	if (r.bonded) {
+		phys.restGap   = r.restGap;
+		phys.yieldPath = pathOf(bonds[slot]);
+		phys.yielded   = bonds[slot].yielded;
+	}
+	if (!r.reacts) return;
+	const bool swapped = r.first > r.second;
+	const Real sign    = swapped ? -1 : 1, nx = swapped ? -r.nx : r.nx, ny = swapped ? -r.ny : r.ny;
+	phys.normal        = r.normal;
+	phys.tangential    = r.tangential;
+	phys.torque        = r.torque;
+	phys.correction    = r.correction;
+	phys.normalForce   = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(sign * phys.normal * Vector3r(nx, ny, 0));
+	phys.shearForce    = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(sign * phys.tangential * Vector3r(-ny, nx, 0));
+}
+
+void Resident::show(const string& who)
+{
+	const std::lock_guard<std::recursive_mutex> guard(lock);
+	const double                                begin = clockNow();
+	const auto                                  kept  = container.lock();
+	if (kept && contactsOwned) {
+		const long count = (long)order.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k) {
+			if (k + (long)soon < count) {
+				const Reading& ahead = readings[order[k + soon].slot];
+				if (ahead.geom) fetch<partOfGeometry>(ahead.geom);
+				if (ahead.phys) fetch<partOfPhysics>(ahead.phys);
+			}
+			showContact(order[k].slot);
+		}
+	}
+	if (kept && bodiesOwned) {
+		const long count = (long)std::min(bodies.size(), kept->size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long id = 0; id < count; ++id) {
+			if (id + (long)later < count) fetch<sizeof(Body)>((*kept)[id + later].get());
+			if (id + (long)soon < count && (*kept)[id + soon]) fetch<sizeof(State)>((*kept)[id + soon]->state.get());
+			write(bodies[id], (*kept)[id], id, asShown); // threads would wait for each other if each body asked for the container
+		}
+	}
+	if (bodiesOwned || contactsOwned) {
+		++shown;
+		shownTo = who;
+	}
+	bodiesOwned = contactsOwned = false;
+	lastShown                   = clockNow();
+	costOfLook                  = lastShown - begin;
+}
+
+int Resident::slotOf(const shared_ptr<Interaction>& interaction)
+{
+	int slot = int(readings.size());
+	if (freeSlots.empty()) {
+		readings.emplace_back();
+		bonds.emplace_back();
+		if (held) holders.emplace_back();
+	} else {
+		slot = freeSlots.back();
+		freeSlots.pop_back();
+	}
+	if (held) holders[slot] = { interaction, interaction->geom, interaction->phys };
+	return slot;
+}
+
+void Resident::add(const shared_ptr<Interaction>& interaction)
+{
+	const int slot = slotOf(interaction), a = interaction->getId1(), b = interaction->getId2();
+	read(look(*interaction), readings[slot], bonds[slot]);
+	come.push_back({ std::min(a, b), std::max(a, b), slot });
+}
+
+void Resident::merge(InteractionContainer& list)
+{
+	if (come.empty() && gone.empty()) return;
+	const auto before = [](const Place& a, const Place& b) { return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high); };
+	std::sort(come.begin(), come.end(), before);
+	std::sort(gone.begin(), gone.end());
+	merged.clear();
+	merged.reserve(order.size() + come.size());
+	auto next = come.begin();
+	auto leaving = gone.begin();
+	for (size_t k = 0; k < order.size(); ++k) {
+		const Place& place = order[k];
+		if (leaving != gone.end() && size_t(*leaving) == k) {
+			++leaving;
+			Reading&   r           = readings[place.slot];
+			const auto interaction = list[r.interaction->linIx];
+			list.requestErase(interaction);
+			potential.push_back(interaction);
+			r = Reading {};
+			if (held) holders[place.slot] = {};
+			freeSlots.push_back(place.slot);
+			continue;
+		}
+		for (; next != come.end() && before(*next, place); ++next)
+			merged.push_back(*next);
+		merged.push_back(place);
+	}
+	merged.insert(merged.end(), next, come.end());
+	come.clear();
+	gone.clear();
+	order.swap(merged);
+}
+
+void Resident::forgetErased(InteractionContainer& list)
+{
+	const auto isErased = [&](const shared_ptr<Interaction>& i) { return list.find(i->getId1(), i->getId2()) != i; };
+	potential.erase(std::remove_if(potential.begin(), potential.end(), isErased), potential.end());
+}
+
+/// Whether a script in another thread has put in or taken out bodies or interactions since the last turn.
+bool Resident::isBehind(const Scene& scene) const
+{
+	auto& list = *scene.interactions;
+	return bodies.size() != scene.bodies->size() || !scene.bodies->checkedByCollider || list.dirty || list.size() != interactionsSeen;
+}
+
+Turn::Turn(Engine& engine_, int threads)
+        : engine(engine_)
+        , data(Resident::of(*engine_.scene))
+        , locked(data->lock)
+{
+	Scene& scene  = *engine.scene;
+	data->threads = threads;
+	if ((data->bodiesOwned || data->contactsOwned) && data->isBehind(scene)) data->show();
+	if (!data->bodiesOwned) data->takeBodies(scene);
+}
+
+void Turn::end()
+{
+	Scene& scene = *engine.scene;
+	string who   = whoLooksAfter(scene, engine);
+	if (who.empty() && othersMayLook(scene)) {
+		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
+		threadEnd.last = data;
+		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfLook)) who = "others, now and then";
+	}
+	if (!who.empty()) data->show(who);
+	data->interactionsSeen = scene.interactions->size();
+	ended                  = true;
+}
+
+Turn::~Turn()
+{
+	if (!ended) data->show();
+}
+
+} // namespace yade::nscd

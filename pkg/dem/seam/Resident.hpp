@@ -1,0 +1,118 @@
+// Bodies and contacts of a scene, kept in arrays from step to step; YADE's objects are a view of them.
+//
+// Either the arrays are right or YADE's objects are: one owner at a time. An engine of ours begins its turn by taking what it needs where the objects own it
+// (take), and ends it by writing everything back where somebody may look before our next turn (show, Audience.hpp). So whoever looks sees the truth, whatever
+// was changed in between is taken up, and a run in which nobody looks leaves the objects alone.
+//
+//     collide                geometry, bonds           gather, solve, scatter      integrate
+//     PlanarGridCollider     NscdInteractionLoop       ContactDynamicsEngine       PlanarNewtonIntegrator
+//
+// Other threads may look and write while a run goes on in the background. The objects are shown some times a second then, and what others have
+// written into a state, or set in a contact's physics, since it was last shown is left as it is and taken up.
+//
+// O.forces stays where forces are added up, in every step: it is not kept twice.
+#pragma once
+
+#include "../BodyReading.hpp"
+#include "../ContactReading.hpp"
+#include <boost/weak_ptr.hpp>
+#include <contact/problem.hpp>
+#include <memory>
+#include <mutex>
+
+namespace yade::nscd {
+
+class Resident {
+public:
+	/// A contact's place in the order of (lower id, higher id), and in the arrays.
+	struct Place {
+		int low, high, slot;
+	};
+
+	/// That of a scene; made where there is none.
+	static std::shared_ptr<Resident> of(Scene& scene);
+
+	/// Whether the arrays are right and not the objects.
+	bool hasBodies() const { return bodiesOwned; }
+	bool hasContacts() const { return contactsOwned; }
+
+	void takeBodies(Scene& scene);
+	/// Takes all interactions that are real, and notes the others.
+	void takeContacts(Scene& scene);
+	/// Writes all into YADE's objects, which own it from now on.
+	void show(const string& who = "whoever asked");
+	/// Makes sure that what it points to stays, whatever other threads erase.
+	void hold();
+
+	/// Moves a body by d [m, m, rad]; velocities stay.
+	void displace(size_t id, const nonsmooth::contact::Twist& d);
+	/// Brings a body's state up to date.
+	void showBody(size_t id);
+
+	/// Of two disks, at the time when their geometry was found [m].
+	Vector3r contactPoint(const Reading& r) const;
+
+	/// Takes a real interaction for a new contact; `merge` gives it its place.
+	void add(const shared_ptr<Interaction>& interaction);
+	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential ones.
+	void merge(InteractionContainer& list);
+	/// Leaves out of the potential interactions those that are no longer in the list.
+	void forgetErased(InteractionContainer& list);
+
+	std::vector<BodyReading> bodies; // by id
+	std::vector<Reading>     readings; // by slot
+	std::vector<BondReading> bonds;    // by slot, of contacts that the arrays keep
+	std::vector<Place>       order;
+	std::vector<int>         gone; // places in the order of contacts that are to be left out
+	/// Interactions that are not real, in the order of their list after the last loop; and the step of that loop.
+	std::vector<shared_ptr<Interaction>> potential;
+	long                                 potentialOf = never;
+	/// Where bodies were when the geometry of contacts was found; by id.
+	std::vector<nonsmooth::contact::Point> places;
+	static constexpr long never = std::numeric_limits<long>::min();
+
+	long   shown = 0;    // times so far
+	string shownTo;      // who looked the last time
+
+private:
+	friend class Turn;
+	struct Holder {
+		shared_ptr<Interaction> interaction;
+		shared_ptr<IGeom>       geom;
+		shared_ptr<IPhys>       phys;
+	};
+	int  slotOf(const shared_ptr<Interaction>& interaction);
+	void showContact(int slot) const;
+	bool isBehind(const Scene& scene) const;
+
+	int                                      threads = 1; // those of the last turn
+	std::recursive_mutex                     lock; // an engine's turn, or a look from another thread
+	boost::weak_ptr<BodyContainer>           container;
+	bool                                     bodiesOwned = false, contactsOwned = false, held = false;
+	size_t                                   interactionsSeen = 0; // at the end of the last turn
+	std::vector<BodyReading>                 asShown; // during a run in the background: what the states had when they were last written or read
+	std::vector<Holder>                      holders; // by slot
+	std::vector<int>                         freeSlots;
+	std::vector<Place>                       come, merged;
+	std::vector<int>                         bucket;
+	std::vector<Found>                       found; // by place in the list of interactions
+	double                                   lastShown = 0, costOfLook = 0; // by a clock [s]; of the last time, with what was taken since
+};
+
+/// An engine's turn. Throws std::runtime_error where bodies cannot be read.
+class Turn {
+public:
+	Turn(Engine& engine, int threads);
+	~Turn();
+	/// Ends it: shows where somebody may look before the next one. Without it, as where an exception leaves, all is shown.
+	void end();
+	Resident& resident() { return *data; }
+
+private:
+	Engine&                                engine;
+	std::shared_ptr<Resident>              data;
+	std::unique_lock<std::recursive_mutex> locked;
+	bool                                   ended = false;
+};
+
+} // namespace yade::nscd

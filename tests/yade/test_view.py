@@ -1,0 +1,291 @@
+"""O.bodies, O.interactions and O.forces are true whenever somebody looks, and what was changed through them is taken up, whether steps stay in arrays or not."""
+import functools
+import time
+
+import numpy as np
+import pytest
+from yade import O
+from yade.minieigenHP import Vector3
+from yade.nonsmooth import scene
+from yade.wrapper import ForceEngine, InteractionLoop, NewtonIntegrator, NonsmoothTimeStepper, NscdMat, PorePressureEngine, PyRunner, SlipWeakeningMat
+
+from contact_scenes import begin, engine, free_disk, loose_heap, material
+
+STEPS = 240
+pytestmark = pytest.mark.usefixtures("empty")
+
+
+def plain(value):
+    """A value that compares bit by bit; what is an object is compared by its own attributes."""
+    if hasattr(value, "dict"):
+        return value.__class__.__name__, tuple(sorted((k, plain(v)) for k, v in value.dict().items()))
+    if isinstance(value, (list, tuple)):
+        return tuple(plain(v) for v in value)
+    return repr(value)
+
+
+def everything():
+    """Every attribute of bodies, interactions and forces, in the order in which YADE lists them; and the counters and sums of the solver."""
+    bodies = [(b.id, plain(b.state)) for b in O.bodies if b]
+    links = [(i.id1, i.id2, i.isReal, i.iterBorn, i.iterMadeReal, i.geom and plain(i.geom), i.phys and plain(i.phys)) for i in O.interactions]
+    forces = [(plain(O.forces.f(b.id)), plain(O.forces.t(b.id))) for b in O.bodies if b]
+    own = {k: plain(v) for k, v in engine().dict().items() if "econds" not in k and not k.startswith("view") and k not in ("label", "ompThreads")}
+    return bodies, links, forces, own, O.iter, O.time
+
+
+def busy(steps_of_time=False):
+    """Bonded and loose disks fall on a wall that weakens, into water; a wall moves against them. Bonds break, contacts come and go."""
+    stuff = material(0.5, 0.05, tensileStrength=5e3, residualTensileStrength=1e3, layer=1, bondCreationDistance=0.35, bondEllipseNormal=0.02, bondEllipseTangential=0.02)
+    weak = material(0.4, kind=SlipWeakeningMat, criticalSlip=0.2, wall=True)
+    O.bodies.append(scene.segments([(-3, 2.5), (0, -0.2), (10, -0.2), (13, 3)], weak, piece=2))
+    ids = loose_heap(stuff, columns=7, rows=5)
+    driven = free_disk(-2.0, 3.2, (1.5, 0, 0), stuff)
+    water = PorePressureEngine(planePoint=(0, 0, 0), planeNormal=(0, 1, 0), times=[0, 0.3], heights=[0, 2.0], releaseDistance=0.5)
+    begin(dt=2e-3, reach=0.4, tolerance=1e-6)
+    O.engines = O.engines[:1] + [water] + O.engines[1:]
+    if steps_of_time:
+        O.engines = [NonsmoothTimeStepper(smallest=1e-4, largest=4e-3)] + O.engines
+    O.step()
+    assert engine().bond() > 10
+    return ids, driven
+
+
+def watched():
+    """Somebody looks in every step, so that nothing stays in the arrays."""
+    O.engines = O.engines + [PyRunner(command="pass", iterPeriod=1, initRun=True)]
+
+
+def advance(way, steps):
+    if way == "stepped":
+        for _ in range(steps):
+            O.step()
+    else:
+        O.run(steps, wait=True)
+
+
+def most_views(begin):
+    """In a run that nobody watches: one each 0.05 s, for others who may look, and those at the ends of what this file runs."""
+    return 10 + (time.monotonic() - begin) / 0.05
+
+
+def course(way, build, change=None, halves=2):
+    O.reset()
+    made = build()
+    if way == "watched":
+        watched()
+    for half in range(halves):
+        advance(way, STEPS // halves)
+        if change and half == 0:
+            change(made)
+    return everything()
+
+
+@pytest.mark.parametrize("adaptive", [False, True])
+def test_all_that_python_can_read_is_the_same_in_every_way(adaptive):
+    build = lambda: busy(adaptive)
+    begin = time.monotonic()
+    unwatched = course("run", build)
+    assert engine().views < most_views(begin)
+    assert engine().viewedBy == "the end of the run"
+    assert engine().brokenTension + engine().brokenShear + engine().brokenTorque + engine().brokenMixed > 5 and engine().bonds > 5
+    assert any(i.isReal and type(i.phys).__name__ == "SlipWeakeningPhys" for i in O.interactions)
+    watchers = course("watched", build)
+    assert engine().views >= STEPS
+    stepped = course("stepped", build)
+    for k, what in enumerate(("bodies", "interactions", "forces", "engine", "step", "time")):
+        assert unwatched[k] == watchers[k] == stepped[k], what
+
+
+def without_signs(row):
+    """What is made of one interaction but for what soft laws alone need; a zero has no sign."""
+    return [(key, np.add(value, 0.0).tolist() if isinstance(value, (float, Vector3)) else value)
+            for part in (row.geom, row.phys) for key, value in sorted(part.dict().items()) if key not in ("shearInc", "refR1", "refR2", "wallMaterial")]
+
+
+def test_interactions_are_what_yades_own_loop_makes_of_them():
+    """With YADE's own loop and integrator geometry and thresholds are written by the functors themselves, in every step."""
+    def end(own):
+        O.reset()
+        busy()
+        if own:
+            O.engines = [InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors) if isinstance(e, InteractionLoop)
+                         else NewtonIntegrator(damping=0, gravity=e.gravity) if isinstance(e, NewtonIntegrator) else e for e in O.engines]
+        rows = []
+        for _ in range(6):
+            O.run(STEPS // 6, wait=True)
+            rows.append({(i.id1, i.id2): without_signs(i) for i in O.interactions if i.isReal})
+        return rows
+
+    ours, theirs = end(False), end(True)
+    assert engine().brokenShear > 5
+    disks = [key for key in ours[-1] if min(key) > 8]
+    assert len(disks) > 20
+    for a, b in zip(ours, theirs):
+        assert a.keys() == b.keys()
+        for key in a:
+            assert a[key] == b[key], key
+
+
+def pair():
+    return next(i for i in O.interactions if i.isReal and i.phys.bonded)
+
+
+def changed(what):
+    """A change that a script makes between two runs."""
+    def body(name, value):
+        return lambda made: setattr(O.bodies[made[0][11]].state, name, value)
+
+    def phys(name, factor):
+        def change(made):
+            for i in O.interactions:
+                if i.isReal:
+                    setattr(i.phys, name, factor * getattr(i.phys, name) if not isinstance(getattr(i.phys, name), bool) else factor)
+        return change
+
+    def erase_body(made):
+        O.bodies.erase(made[0][5])
+
+    def erase_interaction(made):
+        i = pair()
+        O.interactions.erase(i.id1, i.id2)
+
+    def insert(made):
+        free_disk(4.0, 7.0, (0, -5, 0), O.bodies[made[0][0]].material)
+
+    def silence(made):
+        pair().isActive = False
+
+    def material_of(made):
+        for stuff in O.materials:
+            stuff.frictionAngle = 0.1
+        engine().updateStrengths()
+
+    def radius(made):
+        O.bodies[made[0][11]].shape.radius *= 0.8
+
+    def block(made):
+        O.bodies[made[0][3]].state.blockedDOFs = "xyzXYZ"
+
+    def out_of_the_plane(made):
+        b = O.bodies[made[0][3]].state
+        b.blockedDOFs, b.vel, b.angVel = "xyzXYZ", (0, 0, 0), (1, 0, 0)
+
+    def other_integrator(made):
+        O.engines = [NewtonIntegrator(damping=0, gravity=e.gravity) if isinstance(e, NewtonIntegrator) else e for e in O.engines]
+
+    def other_loop(made):
+        O.engines = [InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors) if isinstance(e, InteractionLoop) else e
+                     for e in O.engines]
+
+    def pushed(made):
+        newton = next(k for k, e in enumerate(O.engines) if isinstance(e, InteractionLoop))
+        O.engines = O.engines[:newton] + [ForceEngine(force=(4000, 0, 0), ids=[made[0][7]])] + O.engines[newton:]
+
+    return {
+        "pos": lambda made: setattr(O.bodies[made[0][11]].state, "pos", O.bodies[made[0][11]].state.pos + type(O.bodies[0].state.pos)(0.03, 0.05, 0)),
+        "vel": body("vel", (3, 1, 0)), "angVel": body("angVel", (0, 0, 4)), "mass": body("mass", 5000.0), "inertia": body("inertia", (900, 900, 900)),
+        "ori": body("ori", ((0, 0, 1), 0.3)),
+        "normal": phys("normal", 0.0), "tangential": phys("tangential", -1.0), "torque": phys("torque", 3.0), "restitution": phys("restitution", 0.0),
+        "friction": phys("friction", 0.2), "residualFriction": phys("residualFriction", 0.2), "tensileForce": phys("tensileForce", 0.1),
+        "residualTensileForce": phys("residualTensileForce", 5.0), "rollingArm": phys("rollingArm", 4.0), "residualRollingArm": phys("residualRollingArm", 0.0),
+        "ellipseNormal": phys("ellipseNormal", 0.01), "ellipseTangential": phys("ellipseTangential", 0.1), "bonded": phys("bonded", False),
+        "erased body": erase_body, "erased interaction": erase_interaction, "cleared interactions": lambda made: O.interactions.clear(), "inserted disk": insert,
+        "isActive": silence, "materials": material_of, "radius": radius, "blockedDOFs": block, "out of the plane": out_of_the_plane,
+        "unbond": lambda made: engine().unbond(), "resetTime": lambda made: O.resetTime(), "dt": lambda made: setattr(O, "dt", 1e-3),
+        "integrator": other_integrator, "loop": other_loop, "force": pushed,
+    }[what]
+
+
+CHANGES = ["pos", "vel", "angVel", "mass", "inertia", "ori", "normal", "tangential", "torque", "restitution", "friction", "residualFriction", "tensileForce",
+           "residualTensileForce", "rollingArm", "residualRollingArm", "ellipseNormal", "ellipseTangential", "bonded", "erased body", "erased interaction",
+           "cleared interactions", "inserted disk", "isActive", "materials", "radius", "blockedDOFs", "out of the plane", "unbond", "resetTime", "dt", "integrator",
+           "loop", "force"]
+
+
+@functools.lru_cache
+def untouched():
+    return course("run", busy)[0]
+
+
+@pytest.mark.parametrize("what", CHANGES)
+def test_what_is_changed_between_two_runs_is_taken_up(what):
+    unwatched = course("run", busy, changed(what))
+    watchers = course("watched", busy, changed(what))
+    assert unwatched[0] == watchers[0] and unwatched[1] == watchers[1] and unwatched[2] == watchers[2]
+    if what not in ("restitution", "isActive", "dt", "integrator", "loop"):  # of which the disks may not feel anything
+        assert untouched() != unwatched[0], "it changed nothing, so nothing was tested"
+
+
+def test_a_loaded_scene_goes_on_in_the_arrays_with_the_same_bits(tmp_path):
+    busy()
+    advance("run", 60)
+    O.save(str(tmp_path / "half.yade.gz"))
+
+    def rest(way):
+        O.load(str(tmp_path / "half.yade.gz"))
+        advance(way, STEPS)
+        return everything()[:3]
+
+    assert rest("run") == rest("stepped")
+    assert engine().brokenTension + engine().brokenShear > 5
+
+
+def test_what_is_saved_within_a_run_is_true(tmp_path):
+    """A PyRunner saves the scene; what is loaded is what another run has at that step."""
+    busy()
+    O.engines = O.engines + [PyRunner(command=f"O.save('{tmp_path / 'within.yade.gz'}')", iterPeriod=70)]
+    advance("run", STEPS)
+    O.load(str(tmp_path / "within.yade.gz"))
+    saved, step = engine().bodyTable(), O.iter
+    O.reset()
+    busy()
+    advance("stepped", step)
+    assert engine().bodyTable() == saved and 1 < step < STEPS
+
+
+def test_engines_that_look_now_and_then_see_the_truth(tmp_path):
+    """By step, by time and by the clock: each sees what a watcher of every step sees."""
+    def seen(**period):
+        O.reset()
+        busy()
+        rows, begin = [], time.monotonic()
+        O.seen = lambda: rows.append((O.iter, [plain(b.state) for b in O.bodies], plain([i.phys.normalForce for i in O.interactions if i.isReal])))
+        O.engines = O.engines + [PyRunner(command="O.seen()", **period)]
+        advance("run", STEPS)
+        return {row[0]: row[1:] for row in rows}, engine().views - len(rows) < most_views(begin)
+
+    every, _ = seen(iterPeriod=1, initRun=True)
+    assert len(every) == STEPS
+    for period in (dict(iterPeriod=17), dict(virtPeriod=0.05), dict(iterPeriod=1, firstIterRun=40, nDo=3), dict(iterPeriod=30, initRun=True)):
+        some, few = seen(**period)
+        assert 1 < len(some) < 60 and few, period  # nobody else was shown anything
+        assert all(every[step] == row for step, row in some.items()), period
+
+
+def test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost():
+    """Reads follow within some tenths of a second; a written velocity and a bond that is ended stay so."""
+    ids, driven = busy()
+    O.run()
+    try:
+        first = O.bodies[ids[0]].state.pos[1]
+        until = time.time() + 30
+        while O.bodies[ids[0]].state.pos[1] == first and time.time() < until:
+            time.sleep(0.02)
+        assert O.bodies[ids[0]].state.pos[1] != first
+        O.bodies[driven].state.vel = (0, 400, 0)
+        while O.bodies[driven].state.pos[1] < 100 and time.time() < until:
+            time.sleep(0.02)
+        assert O.bodies[driven].state.pos[1] >= 100
+        O.bodies[driven].state.pos = (-2000, 0, 0)
+        while O.bodies[driven].state.pos[1] > -5 and time.time() < until:
+            time.sleep(0.02)
+        assert O.bodies[driven].state.pos[0] < -1900
+    finally:
+        O.pause()
+    last = None
+    while last != O.iter:  # O.pause() does not wait for the step that is being made
+        last = O.iter
+        time.sleep(0.3)
+    before = everything()[:2]
+    engine().view()
+    assert everything()[:2] == before  # nothing was left in the arrays
