@@ -1,6 +1,7 @@
 // What a workspace keeps from one solve to the next changes no bit: along sequences of problems that change a little, each solve is held against one that starts
 // with nothing. Where a change is one that a kept order cannot survive, both also have to say so.
 #include "problems.hpp"
+#include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -162,6 +163,119 @@ TEST(Kept, ChangesNoBitAlongASequence)
 				expectSame(p, s, workspace); // the next one of the same kind
 				EXPECT_TRUE(workspace.laidOut.kept);
 			}
+		}
+}
+
+/// The next solve of a workspace, and whether it kept what the one before had laid out.
+void expectNext(Problem& p, const SolverSettings& s, Workspace& workspace, bool keeps)
+{
+	expectSame(p, s, workspace);
+	EXPECT_EQ(workspace.laidOut.kept, keeps);
+}
+
+/// A body as far from both ends of its strip as any.
+std::size_t inTheMiddleOfAStrip(const StripCut& cut)
+{
+	const auto& bins   = cut.scratch.binOfBody;
+	const auto  strips = std::equal_range(cut.scratch.stripOfBin.begin(), cut.scratch.stripOfBin.end(), cut.count / 2);
+	const auto  middle = static_cast<std::int32_t>((strips.first - cut.scratch.stripOfBin.begin() + strips.second - cut.scratch.stripOfBin.begin()) / 2);
+	return std::min_element(bins.begin(), bins.end(), [middle](int a, int b) { return std::abs(a - middle) < std::abs(b - middle); }) - bins.begin();
+}
+
+// rows are half a disk apart, so one that goes by less makes no contact longer; the ends of the packing are those of other rows
+TEST(Kept, NoCutWhereBodiesGoToOtherBinsThoughWidthAndPairsStay)
+{
+	for (const int threads : { 1, 2 }) {
+		SCOPED_TRACE(threads);
+		const SolverSettings s = someSweeps(threads, nullptr);
+		Problem              p = lattice(columns, rows).problem;
+		Workspace            workspace;
+		expectNext(p, s, workspace, false);
+		const StripCut& cut  = workspace.laidOut.order.scratch.cut;
+		const auto      go   = [&p](double far) {
+			for (int row = 2; row < rows; row += 2)
+				for (int b = row * columns; b < (row + 1) * columns; ++b)
+					p.positions[b].x += far;
+		};
+		for (const double far : { 0.3, -0.3 }) {
+			const StripCut before = cut;
+			go(far);
+			expectNext(p, s, workspace, false);
+			EXPECT_TRUE(workspace.laidOut.survey.pairsKept);
+			EXPECT_EQ(cut.scratch.bins, before.scratch.bins);
+			EXPECT_EQ(cut.scratch.width, before.scratch.width);
+			EXPECT_NE(cut.scratch.binOfBody, before.scratch.binOfBody);
+			EXPECT_NE(cut.stripOfBody, before.stripOfBody);
+		}
+		// bins alone: the cut is made anew, and finds the same strips
+		const StripCut before = cut;
+		p.positions[inTheMiddleOfAStrip(cut)].x += 0.2;
+		expectNext(p, s, workspace, true);
+		EXPECT_NE(cut.scratch.binOfBody, before.scratch.binOfBody);
+		EXPECT_EQ(cut.stripOfBody, before.stripOfBody);
+	}
+}
+
+TEST(Kept, NoCutWhereContactsGoThoughBodiesStayInTheirBins)
+{
+	const SolverSettings s = someSweeps(2, nullptr);
+	Problem              p = lattice(columns, rows).problem;
+	Workspace            workspace;
+	expectNext(p, s, workspace, false);
+	const StripCut& cut    = workspace.laidOut.order.scratch.cut;
+	const StripCut  before = cut;
+	// most contacts of the first strip, but not so many that fewer strips are wanted
+	std::size_t left = 300, kept = 0;
+	for (std::size_t k = 0; k < p.contactCount(); ++k) {
+		if (left > 0 && p.positions[p.contacts[k].j].x < 4) {
+			--left;
+			continue;
+		}
+		p.contacts[kept]   = p.contacts[k];
+		p.impulses[kept++] = p.impulses[k];
+	}
+	p.contacts.resize(kept);
+	p.impulses.resize(kept);
+	ASSERT_EQ(left, 0u);
+	expectNext(p, s, workspace, false);
+	EXPECT_EQ(cut.scratch.bins, before.scratch.bins);
+	EXPECT_EQ(cut.scratch.width, before.scratch.width);
+	EXPECT_EQ(cut.scratch.binOfBody, before.scratch.binOfBody);
+	EXPECT_NE(cut.stripOfBody, before.stripOfBody);
+}
+
+// the one with the last id is second wherever two disks touch
+TEST(Kept, NoOrderWhereTheSecondBodyOfContactsIsHeldOrLetGo)
+{
+	std::vector<Disk> disks = lattice(columns, rows).disks;
+	std::swap(disks[20 * columns + 31], disks.back());
+	Scene scene(disks);
+	scene.touchDisks(0.03);
+	scene.wall(0, 0, 0, 1, 0.03);
+	const int second = wall - 1;
+	for (const bool placed : { true, false })
+		for (const int threads : { 1, 2 }) {
+			SCOPED_TRACE((placed ? "in strips" : "in one strip") + std::string(", threads ") + std::to_string(threads));
+			const SolverSettings s = someSweeps(threads, nullptr);
+			Problem              p = scene.problem;
+			if (!placed) p.positions.clear();
+			const auto of = [&p](std::int32_t Contact::*body) {
+				return std::count_if(p.contacts.begin(), p.contacts.end(), [=](const Contact& c) { return c.*body == second; });
+			};
+			ASSERT_EQ(of(&Contact::i), 0);
+			ASSERT_EQ(of(&Contact::j), 6);
+			Workspace         workspace;
+			const InverseMass free = p.inverseMass[second];
+			p.freeVelocity[second] = { 5, 3, 0 }; // fast enough to meet its neighbours
+			expectNext(p, s, workspace, false);
+			p.inverseMass[second] = {};
+			expectNext(p, s, workspace, false);
+			EXPECT_TRUE(sameBits(std::vector<Twist> { p.velocities[second] }, { p.freeVelocity[second] })); // it goes as it did, whatever pushes
+			expectNext(p, s, workspace, true);
+			p.inverseMass[second] = free;
+			expectNext(p, s, workspace, false);
+			EXPECT_FALSE(sameBits(std::vector<Twist> { p.velocities[second] }, { p.freeVelocity[second] }));
+			expectNext(p, s, workspace, true);
 		}
 }
 
