@@ -4,6 +4,7 @@ from mutant import mutant
 LAW, KERNELS, PROBLEM, SLIP = ("pkg/contact/law.hpp", "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/contact/slip_weakening.hpp")
 SOLVER, BLOCKS, RESIDUAL, STOPPING = ("pkg/contact/solver.cpp", "pkg/contact/contact_blocks.cpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
 ORDER, CUT, SCHEDULE = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cpp", "pkg/contact/strip_schedule.cpp")
+WAVES = "pkg/contact/strip_schedule.hpp"
 CHECK, SURVEY = "pkg/contact/problem_check.hpp", "pkg/contact/problem_survey.cpp"
 GRID, NEAR, REGIONS = "pkg/neighbours/disk_grid.cpp", "pkg/neighbours/disk_grid.hpp", "pkg/neighbours/regions.cpp"
 
@@ -87,7 +88,10 @@ MUTANTS = (
     mutant("schedule-shares", SCHEDULE, "2 * all * (worker + 1)", "all * (worker + 1)", "the first worker gets half of its share", "gtest:StripSchedule.*"),
     mutant("schedule-left-over", SCHEDULE, "leftOver ? 1 : static_cast<int>(std::clamp<std::size_t>(shortest / pairsADepth, 1, deepest))",
            "static_cast<int>(std::clamp<std::size_t>(shortest / pairsADepth, 1, deepest))", "several passes at once although contacts are left over",
-           "gtest:StripSchedule.*"),
+           "gtest:StripSchedule.PassesAtOnce*"),
+    mutant("schedule-few", WAVES, "depth >= std::min(count, shallowest) ? depth : 1", "depth >= shallowest ? depth : 1",
+           "two passes wait for room for four at once", "gtest:StripSchedule.*"),
+    mutant("schedule-triangle", WAVES, "end - k - 1", "end - k", "the triangle between two stretches leaves out its first odd strip", "gtest:StripSchedule.*"),
     # ---- residuals, stopping, slip, refusals
     mutant("residual-speeds", RESIDUAL, "speed(defects[k].r, w.r) * c.length", "speed(defects[k].r, w.r)", "the residual of rolling as a speed lacks its length",
            "gtest:Residual.*"),
