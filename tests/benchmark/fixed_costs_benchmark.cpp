@@ -73,7 +73,7 @@ template <class Work> double seconds(Work work)
 }
 
 struct Times {
-	double few = HUGE_VAL, many = HUGE_VAL, correctNone = HUGE_VAL, correct = HUGE_VAL, check = HUGE_VAL, layOut = HUGE_VAL;
+	double few = HUGE_VAL, many = HUGE_VAL, correctNone = HUGE_VAL, correct = HUGE_VAL, layOut = HUGE_VAL;
 };
 
 Times timesOf(const Steps& steps, SolverSettings settings)
