@@ -244,6 +244,21 @@ TEST(Kept, NoCutWhereContactsGoThoughBodiesStayInTheirBins)
 	EXPECT_NE(cut.stripOfBody, before.stripOfBody);
 }
 
+TEST(Kept, NoStripWherePositionsWereGoneInBetween)
+{
+	const SolverSettings s = someSweeps(2, nullptr);
+	Problem              p = lattice(columns, rows).problem;
+	Workspace            workspace;
+	expectNext(p, s, workspace, false);
+	const std::vector<Point> positions = std::exchange(p.positions, {});
+	expectNext(p, s, workspace, false);
+	EXPECT_EQ(workspace.laidOut.order.stripCount(), 1u);
+	p.positions = positions;
+	expectNext(p, s, workspace, false);
+	EXPECT_GT(workspace.laidOut.order.stripCount(), 1u);
+	expectNext(p, s, workspace, true);
+}
+
 // the one with the last id is second wherever two disks touch
 TEST(Kept, NoOrderWhereTheSecondBodyOfContactsIsHeldOrLetGo)
 {

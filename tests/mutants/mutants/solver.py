@@ -7,6 +7,7 @@ ORDER, CUT, SCHEDULE = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cp
 WAVES = "pkg/contact/strip_schedule.hpp"
 CHECK, SURVEY = "pkg/contact/problem_check.hpp", "pkg/contact/problem_survey.cpp"
 GRID, NEAR, REGIONS = "pkg/neighbours/disk_grid.cpp", "pkg/neighbours/disk_grid.hpp", "pkg/neighbours/regions.cpp"
+CUT_KEPT = "survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore"  # of strip_cut.cpp
 
 MUTANTS = (
     # ---- law
@@ -63,10 +64,11 @@ MUTANTS = (
            "colours are kept though the second body of contacts is held from now on, or let go", "gtest:Kept.*"),
     mutant("kept-simple", SURVEY, "newSimple || fits != result.simple[k]", "newSimple", "contacts stay in blocks that they do not fit into any more", "gtest:Kept.*"),
     mutant("kept-strips", CUT, "moved || strip != result.stripOfBody[b]", "moved", "an order is kept though bodies are in other strips", "gtest:Kept.*"),
-    mutant("kept-bins", CUT, "survey.pairsKept && !moved && bins == binsBefore", "survey.pairsKept && bins == binsBefore",
+    mutant("kept-bins", CUT, CUT_KEPT, "survey.pairsKept && bins == binsBefore && scratch.width == widthBefore",
            "a cut into strips is kept though bodies are in other bins", "gtest:Kept.*"),
-    mutant("kept-counts", CUT, "survey.pairsKept && !moved && bins == binsBefore", "!moved && bins == binsBefore",
+    mutant("kept-counts", CUT, CUT_KEPT, "!moved && bins == binsBefore && scratch.width == widthBefore",
            "a cut into strips is kept though contacts have gone", "gtest:Kept.*"),
+    mutant("kept-uncut", CUT, CUT_KEPT, "survey.pairsKept && !moved", "one strip is kept though positions are there again", "gtest:Kept.*"),
     mutant("kept-after-refusal", BLOCKS, "if (!whole) seen.pairsKept = seen.simpleKept = false;", "if (false) seen.pairsKept = seen.simpleKept = false;",
            "what a refused problem left counts as the last one", "gtest:Kept.*"),
     mutant("kept-numbers", SOLVER, "fillIn(problem, kernels, s, laidOut);", "if (!laidOut.kept) fillIn(problem, kernels, s, laidOut);",
