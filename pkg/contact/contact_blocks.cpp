@@ -1,107 +1,81 @@
 #include <algorithm>
 #include <contact/contact_blocks.hpp>
-#include <contact/law.hpp>
-#include <contact/sweep_order.hpp>
+#include <utility>
 
 namespace nonsmooth::contact {
 namespace {
 
-	/// What the short formulas of the blocks ask of a body.
-	enum BodyTrait : std::uint8_t { turns = 1, plain = 2 };
-
-	std::uint8_t traitsOf(const InverseMass& m, const Twist& freeVelocity)
-	{
-		// a wall that turns enters the velocities through levers too
-		const bool isPlain = m.x == m.y && (m.w != 0 || freeVelocity.w == 0);
-		return (m.w != 0 ? turns : 0) | (isPlain ? plain : 0);
-	}
-
-	/// Whether the short formulas of the blocks hold: no rows coupled but T and Γ, no bias but the normal one.
-	bool isSimple(const Contact& c, std::uint8_t i, std::uint8_t j)
-	{
-		return (i & j & plain) && c.biasT == 0 && c.biasR == 0 && (!(i & turns) || c.leverNi == 0) && (!(j & turns) || c.leverNj == 0);
-	}
-
-	/// A block that is still being filled.
+	/// A block that is still being filled, and the bodies in it that can move.
 	struct Open {
-		std::size_t  block;
-		int          filled = 0;
-		std::int32_t bodies[2 * lanes];
+		static constexpr std::int32_t nobody = -1, other = -2; // in place of the others: in the block, and in a contact that may join it
+		using Ids                            = std::int32_t __attribute__((vector_size(16)));
+
+		std::size_t block;
+		int         filled = 0;
+		Ids         first { nobody, nobody, nobody, nobody }, second { nobody, nobody, nobody, nobody };
+
+		bool has(const MovablePair& pair) const
+		{
+			const auto i = MovablePair::moves(pair.i) ? pair.i : other, j = MovablePair::moves(pair.j) ? pair.j : other;
+			const Ids  shared = (first == i) | (second == i) | (first == j) | (second == j);
+			return shared[0] | shared[1] | shared[2] | shared[3];
+		}
+		void take(const MovablePair& pair)
+		{
+			first[filled]  = MovablePair::moves(pair.i) ? pair.i : nobody;
+			second[filled] = MovablePair::moves(pair.j) ? pair.j : nobody;
+			++filled;
+		}
 	};
 
 	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
-	void fill(const SweepOrder& order, const std::vector<std::uint8_t>& simple, std::size_t part, ContactBlocks::Part& result)
+	void distribute(const ContactBlocks& all, std::size_t part, ContactBlocks::Part& result)
 	{
 		constexpr std::size_t mostOpen = 16;
 		result.contactOf.clear();
 		result.others.clear();
-		std::vector<Open>     open;
-		open.reserve(mostOpen);
-		for (std::size_t k = order.partBegin[part]; k < order.partBegin[part + 1]; ++k) {
-			const std::int32_t index = order.order[k];
-			if (!simple[index]) {
+		Open        open[mostOpen];
+		std::size_t count = 0;
+		const auto  close = [&](std::size_t at) { std::copy(open + at + 1, open + count--, open + at); };
+		for (std::size_t k = all.order.partBegin[part]; k < all.order.partBegin[part + 1]; ++k) {
+			const std::int32_t index = all.order.order[k];
+			if (!all.survey.simple[index]) {
 				result.others.push_back(index);
 				continue;
 			}
-			const auto [i, j] = order.pairs[index];
-			const auto fits   = [&, i = i, j = j](const Open& o) {
-				for (int b = 0; b < 2 * o.filled; ++b)
-					if (o.bodies[b] != MovablePair::none && (o.bodies[b] == i || o.bodies[b] == j)) return false;
-				return true;
-			};
-			std::size_t at = 0;
-			while (at < open.size() && !fits(open[at]))
+			const MovablePair& pair = all.survey.pairs[index];
+			std::size_t        at   = 0;
+			while (at < count && open[at].has(pair))
 				++at;
-			if (at == open.size()) {
-				if (open.size() == mostOpen) open.erase(open.begin());
-				open.push_back({ result.contactOf.size() / lanes, 0, {} });
+			if (at == count) {
+				if (count == mostOpen) close(0);
+				at       = count++;
+				open[at] = Open { result.contactOf.size() / lanes };
 				result.contactOf.resize(result.contactOf.size() + lanes, ContactBlocks::none);
-				at = open.size() - 1;
 			}
-			Open& o                                     = open[at];
+			Open& o                                       = open[at];
 			result.contactOf[o.block * lanes + o.filled] = index;
-			o.bodies[2 * o.filled]                      = i;
-			o.bodies[2 * o.filled + 1]                  = j;
-			if (++o.filled == int(lanes)) open.erase(open.begin() + at);
+			o.take(pair);
+			if (o.filled == int(lanes)) close(at);
 		}
 	}
 
-	/// Asks for a contact, which lies across two or three cache lines, and its impulses.
-	void fetch(const Problem& problem, std::int32_t index)
+	/// Names the bodies of a block by their places; its numbers are left alone where all its lanes will have some.
+	void name(Block& block, const std::int32_t* contactOf, const ContactBlocks& all)
 	{
-		if (index == ContactBlocks::none) return;
-		const char* const contact = reinterpret_cast<const char*>(&problem.contacts[index]);
-		__builtin_prefetch(contact);
-		__builtin_prefetch(contact + sizeof(Contact) / 2);
-		__builtin_prefetch(contact + sizeof(Contact) - 1);
-		__builtin_prefetch(&problem.impulses[index]);
-	}
-
-	void fillLane(Block& block, int l, const Problem& problem, std::int32_t index, const std::vector<std::int32_t>& placeOf)
-	{
-		const Contact&     c  = problem.contacts[index];
-		const InverseMass &mi = problem.inverseMass[c.i], &mj = problem.inverseMass[c.j];
-		const Impulse      w = inverseDelassus(c, mi, mj), p = project(c, problem.impulses[index]);
-		block.i[l]               = placeOf[c.i];
-		block.j[l]               = placeOf[c.j];
-		block.nx[l]              = c.nx;
-		block.ny[l]              = c.ny;
-		block.leverTi[l]         = c.leverTi;
-		block.leverTj[l]         = c.leverTj;
-		block.inverseInertiaI[l] = mi.w;
-		block.inverseInertiaJ[l] = mj.w;
-		block.biasN[l]           = c.biasN;
-		block.adhesion[l]        = c.adhesion;
-		block.friction[l]        = c.friction;
-		block.rollingArm[l]      = c.rollingArm;
-		block.inverseN[l]        = w.n;
-		block.inverseT[l]        = w.t;
-		block.inverseR[l]        = w.r;
-		block.n[l] = block.beforeN[l] = p.n;
-		block.t[l] = block.beforeT[l] = p.t;
-		block.r[l] = block.beforeR[l] = p.r;
-		block.movesI |= (mi.isFixed() ? 0u : 1u) << l;
-		block.movesJ |= (mj.isFixed() ? 0u : 1u) << l;
+		const auto nobody = static_cast<std::int32_t>(all.placeOf.size());
+		if (contactOf[lanes - 1] == ContactBlocks::none) block = Block {};
+		block.movesI = block.movesJ = 0;
+		block.withNext              = false;
+		for (std::size_t l = 0; l < lanes; ++l) {
+			block.i[l] = block.j[l] = nobody;
+			if (contactOf[l] == ContactBlocks::none) continue;
+			const MovablePair& pair = all.survey.pairs[contactOf[l]];
+			block.i[l]              = all.placeOf[MovablePair::bodyOf(pair.i)];
+			block.j[l]              = all.placeOf[MovablePair::bodyOf(pair.j)];
+			block.movesI |= (MovablePair::moves(pair.i) ? 1u : 0u) << l;
+			block.movesJ |= (MovablePair::moves(pair.j) ? 1u : 0u) << l;
+		}
 	}
 
 	/// Whether two blocks may be visited at once, see Block::withNext.
@@ -129,31 +103,28 @@ namespace {
 
 void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks)
 {
-	const SweepOrder& order = result.order;
-	arrange(problem, threads, result.order);
+	const bool whole = std::exchange(result.complete, false);
+	Survey&    seen  = result.survey;
+	survey(problem, threads, blocks, seen);
+	if (!whole) seen.pairsKept = seen.simpleKept = false;
+	const bool sameOrder = arrange(problem, seen, threads, result.order);
+	result.kept = result.complete = sameOrder && seen.simpleKept;
+	if (result.kept) return;
+
+	const SweepOrder& order     = result.order;
 	const std::size_t partCount = order.partCount();
-	const auto        nobody = static_cast<std::int32_t>(problem.bodyCount());
-	const long        bodyCount = static_cast<long>(problem.bodyCount()), contactCount = static_cast<long>(problem.contactCount());
-	auto&             parts  = result.scratch;
+	const long        bodyCount = static_cast<long>(problem.bodyCount());
+	auto&             parts     = result.scratch;
 	parts.resize(partCount);
-	result.traits.resize(problem.bodyCount());
-	result.simple.resize(problem.contactCount());
 	result.placeOf.resize(problem.bodyCount());
 #pragma omp parallel num_threads(threads)
 	{
-#pragma omp for schedule(static)
-		for (long b = 0; b < bodyCount; ++b) {
-			result.traits[b]                = traitsOf(problem.inverseMass[b], problem.freeVelocity[b]);
+#pragma omp for schedule(static) nowait
+		for (long b = 0; b < bodyCount; ++b)
 			result.placeOf[order.bodies[b]] = static_cast<std::int32_t>(b);
-		}
-#pragma omp for schedule(static)
-		for (long k = 0; k < contactCount; ++k) {
-			const Contact& c = problem.contacts[k];
-			result.simple[k] = blocks && isSimple(c, result.traits[c.i], result.traits[c.j]);
-		}
 #pragma omp for schedule(dynamic, 1)
 		for (long s = 0; s < static_cast<long>(partCount); ++s)
-			fill(order, result.simple, s, parts[s]);
+			distribute(result, s, parts[s]);
 	}
 
 	result.blockBegin.assign(1, 0);
@@ -168,26 +139,24 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 	result.others.resize(result.otherBegin.back());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(partCount); ++s) {
-		const ContactBlocks::Part& part = parts[s];
+		const ContactBlocks::Part& part  = parts[s];
+		const std::size_t          begin = result.blockBegin[s], end = result.blockBegin[s + 1];
 		std::copy(part.others.begin(), part.others.end(), result.others.begin() + result.otherBegin[s]);
-		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + result.blockBegin[s] * lanes);
-		for (std::size_t b = result.blockBegin[s]; b < result.blockBegin[s + 1]; ++b) {
-			Block& block = result.blocks[b]; // written where it stays
-			block        = Block {};
-			result.inverseLength[b] = InverseLength {};
-			for (int l = 0; l < int(lanes); ++l) {
-				const std::int32_t index = result.contactOf[b * lanes + l];
-				// contacts lie in the order of their finding, so no processor guesses which one is next
-				constexpr std::size_t ahead = 4 * lanes;
-				if (b * lanes + l + ahead < result.blockBegin[s + 1] * lanes) fetch(problem, result.contactOf[b * lanes + l + ahead]);
-				block.i[l] = block.j[l] = nobody;
-				if (index == ContactBlocks::none) continue;
-				fillLane(block, l, problem, index, result.placeOf);
-				result.inverseLength[b].v[l] = 1 / problem.contacts[index].length;
-			}
+		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + begin * lanes);
+		for (std::size_t b = begin; b < end; ++b) {
+			name(result.blocks[b], &result.contactOf[b * lanes], result);
+			if (result.contactOf[b * lanes + lanes - 1] == ContactBlocks::none) result.inverseLength[b] = InverseLength {};
 		}
-		markTogether(result.blocks.data() + result.blockBegin[s], result.blockBegin[s + 1] - result.blockBegin[s]);
+		markTogether(result.blocks.data() + begin, end - begin);
 	}
+	result.complete = true;
+}
+
+void fillIn(const Problem& problem, const BlockKernels& kernels, std::size_t part, ContactBlocks& result)
+{
+	const std::size_t begin = result.blockBegin[part];
+	kernels.fill(result.blocks.data() + begin, result.inverseLength.data() + begin, result.contactOf.data() + begin * lanes, result.blockBegin[part + 1] - begin,
+	             { problem.contacts.data(), problem.impulses.data(), problem.inverseMass.data() });
 }
 
 } // namespace nonsmooth::contact

@@ -1,16 +1,19 @@
 // A contact problem laid out for sweeping: in strips (and what they leave over, as one more part), and inside a part in blocks of four contacts that share no movable body (nor do most blocks
 // with the next one, which Block::withNext says), followed by the few contacts that do not fit into blocks.
+//
+// Which contacts lie where rests on who touches whom, on strips, and on which contacts fit into blocks. While these stay, so does it, and a solve only fills in new numbers.
 #pragma once
 
 #include <contact/block_kernels.hpp>
 #include <contact/problem.hpp>
+#include <contact/problem_survey.hpp>
 #include <contact/sweep_order.hpp>
 #include <vector>
 
 namespace nonsmooth::contact {
 
 struct ContactBlocks {
-	static constexpr std::int32_t none = -1; // an empty lane
+	static constexpr std::int32_t none = BlockNumbers::none; // an empty lane
 
 	std::vector<Block>        blocks;
 	std::vector<std::int32_t> contactOf;     // of every lane of every block, in Problem::contacts
@@ -18,6 +21,7 @@ struct ContactBlocks {
 	std::vector<std::size_t>  blockBegin, otherBegin; // of every part of the order; one more than there are parts
 	std::vector<InverseLength> inverseLength; // of every block; apart, since only the residual needs it
 	std::vector<std::int32_t> placeOf; // of the problem's bodies in order.bodies
+	Survey                    survey;
 	SweepOrder                order;
 	std::size_t               partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
 
@@ -25,13 +29,17 @@ struct ContactBlocks {
 	struct Part {
 		std::vector<std::int32_t> contactOf, others;
 	};
-	std::vector<Part>         scratch;
-	std::vector<std::uint8_t> traits, simple; // of bodies, of contacts
+	std::vector<Part> scratch;
+	bool              complete = false; // whether the last layout came to its end, so that what it left can be kept
+	bool              kept     = false; // whether it kept what stood there
 };
 
-/// Lays out the contacts' data in `result`, whose memory is used again; impulses come from problem.impulses, projected on their thresholds.
-/// Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move. Without `blocks`
-/// all contacts are among the others, in the order of the sweep.
+/// Looks at the problem (problem_survey.hpp, whose refusals it throws) and lays out which contacts lie where in `result`, whose memory is used again. Numbers are
+/// left to fillIn(). Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move.
+/// Without `blocks` all contacts are among the others, in the order of the sweep.
 void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blocks = true);
+
+/// Fills the numbers of the contacts into the blocks of one part; impulses come from problem.impulses, projected on their thresholds.
+void fillIn(const Problem& problem, const BlockKernels& kernels, std::size_t part, ContactBlocks& result);
 
 } // namespace nonsmooth::contact

@@ -104,19 +104,31 @@ namespace {
 		void             correct(const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
 
 	private:
-		void  resetVelocities();
+		/// Places of the bodies that a part of the order is the first to touch in a pass.
+		struct Places {
+			std::size_t begin, end;
+		};
+		Places        newIn(std::size_t strip) const;
+		template <class With> void forFixed(With with);
+
+		void  takeVelocities(std::size_t strip);
+		void  applyStrip(std::size_t strip);
+		void  applyRows(std::size_t strip);
+		void  keepBodies(std::size_t strip);
+		void  begin();
 		void  iterate();
-		void  sweep(const std::vector<double>& betas, bool measured = true);
-		void  applyImpulses();
-		void  takeErrors(const std::vector<PositionError>& errors);
+		void  sweep(const std::vector<double>& betas);
+		void  extrapolate(std::size_t strip, double beta);
+		void  takeErrors(std::size_t strip, const std::vector<PositionError>& errors);
 		void  sweepRow(std::size_t row, double beta);
-		void  measure();
 		void  measureStrip(std::size_t strip);
 		void  measureRows(std::size_t strip, ResidualSums& sums) const;
 		void  sumUp();
 		void  measureChanges();
 		bool  solved(double slack) const;
 		void  finish();
+		void  writeStrip(std::size_t strip);
+		template <class Take> void forImpulses(std::size_t strip, Take take) const;
 		Twist twistAt(std::int32_t place) const { return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] }; }
 		Twist twist(std::int32_t body) const { return twistAt(laidOut.placeOf[body]); }
 		void  setTwists(const Row& row, const Twist& vi, const Twist& vj);
@@ -181,32 +193,76 @@ namespace {
 		set(row.contact.j, row.mj, vj);
 	}
 
-	/// velocities = freeVelocity + M⁻¹ Hᵀ P from scratch.
-	void Sweeper::resetVelocities()
+	/// A strip of the first half is the first to touch its own bodies and those of the next one.
+	Sweeper::Places Sweeper::newIn(std::size_t s) const
 	{
-		const long count = static_cast<long>(problem.bodyCount());
+		const SweepOrder& order = laidOut.order;
+		if (s >= order.evenStrips) return { 0, 0 };
+		return { order.bodyBegin[2 * s], order.bodyBegin[std::min(2 * s + 2, order.stripCount())] };
+	}
+
+	/// Calls with(place, body) for the bodies that no strip has, and waits until all is done.
+	template <class With> void Sweeper::forFixed(With with)
+	{
+		const long first = static_cast<long>(laidOut.order.bodyBegin.back()), count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
-		for (long k = 0; k < count; ++k) {
+		for (long k = first; k < count; ++k)
+			with(k, laidOut.order.bodies[k]);
+	}
+
+	/// Sets bodies out with the velocities that no contact has changed yet.
+	void Sweeper::takeVelocities(std::size_t s)
+	{
+		const Places places = newIn(s);
+		for (std::size_t k = places.begin; k < places.end; ++k) {
 			const std::int32_t b = laidOut.order.bodies[k];
 			const Twist&       v = problem.freeVelocity[b];
 			bodies[k].v          = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
 		}
-		applyImpulses();
 	}
 
 	/// Adds M⁻¹ Hᵀ P.
-	void Sweeper::applyImpulses()
+	void Sweeper::applyStrip(std::size_t s)
 	{
-		schedule.pass(omp_get_thread_num(), [this](std::size_t s) {
-			kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
-			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-				const Row& row = rows[k];
-				Twist      vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
-				applyImpulse(row.contact, row.p, row.mi, row.mj, vi, vj);
-				setTwists(row, vi, vj);
+		kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
+		applyRows(s);
+	}
+
+	void Sweeper::applyRows(std::size_t s)
+	{
+		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+			const Row& row = rows[k];
+			Twist      vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
+			applyImpulse(row.contact, row.p, row.mi, row.mj, vi, vj);
+			setTwists(row, vi, vj);
+		}
+	}
+
+	/// For the first extrapolation, which has nothing to go by.
+	void Sweeper::keepBodies(std::size_t s)
+	{
+		const Places places = newIn(s);
+		std::copy(bodies.begin() + places.begin, bodies.begin() + places.end, bodiesBefore.begin() + places.begin);
+	}
+
+	/// Velocities and impulses of the warm start, and their residual. A strip's numbers are filled in and used while they are at hand.
+	void Sweeper::begin()
+	{
+		forFixed([this](long place, std::int32_t b) {
+			const Twist& v  = problem.freeVelocity[b];
+			bodies[place].v = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
+		});
+		schedule.passes(omp_get_thread_num(), 2, [this](std::size_t s, int pass, const StripSchedule::Ahead&) {
+			if (pass == 0) {
+				fillIn(problem, kernels, s, laidOut);
+				takeVelocities(s);
+				applyStrip(s);
+			} else {
+				keepBodies(s);
+				measureStrip(s);
 			}
 		});
-#pragma omp barrier
+		sumUp();
 	}
 
 	/// Any contact, one after the other of its three graphs.
@@ -221,22 +277,25 @@ namespace {
 		setTwists(row, vi, vj);
 	}
 
-	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it, and if `measured` the residual after the last one,
-	/// strip by strip while it is at hand.
-	void Sweeper::sweep(const std::vector<double>& betas, bool measured)
+	void Sweeper::extrapolate(std::size_t s, double beta)
+	{
+		if (settings.method != Method::Accelerated) return;
+		const Places places = newIn(s);
+		kernels.extrapolate(bodies.data() + places.begin, bodiesBefore.data() + places.begin, places.end - places.begin, beta);
+	}
+
+	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it, and the residual after the last one, strip by strip
+	/// while it is at hand.
+	void Sweeper::sweep(const std::vector<double>& betas)
 	{
 		const int sweeps = static_cast<int>(betas.size());
-		schedule.passes(omp_get_thread_num(), sweeps + measured, [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
+		schedule.passes(omp_get_thread_num(), sweeps + 1, [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
 			if (pass == sweeps) {
 				measureStrip(s);
 				return;
 			}
 			const double beta = betas[pass];
-			if (s < laidOut.order.evenStrips && settings.method == Method::Accelerated) {
-				// a strip in the first half is the first to touch its own bodies and those of the next one
-				const std::size_t first = laidOut.order.bodyBegin[2 * s], last = laidOut.order.bodyBegin[std::min(2 * s + 2, laidOut.order.stripCount())];
-				kernels.extrapolate(bodies.data() + first, bodiesBefore.data() + first, last - first, beta);
-			}
+			extrapolate(s, beta);
 			Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
 			const std::size_t count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
 			if (ahead.parts > 0 && outgrowsCache) {
@@ -267,14 +326,6 @@ namespace {
 		const std::size_t begin = laidOut.blockBegin[s];
 		sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
 		measureRows(s, sums[s]);
-	}
-
-	/// Natural-map residual with the present velocities.
-	void Sweeper::measure()
-	{
-#pragma omp barrier
-		schedule.each(omp_get_thread_num(), [this](std::size_t s) { measureStrip(s); });
-		sumUp();
 	}
 
 	/// The residual from those of the strips.
@@ -334,11 +385,6 @@ namespace {
 	{
 		Extrapolation extrapolation(settings.method);
 		int           restarts = 0, iteration = 0;
-		const long    count = static_cast<long>(bodies.size());
-#pragma omp for schedule(static)
-		for (long b = 0; b < count; ++b)
-			bodiesBefore[b] = bodies[b];
-		measure();
 		RestartRule         rule(residual.rms, settings.checkEvery);
 		std::vector<double> betas; // of the sweeps until the next look at the residual
 		while (!solved(1) && iteration < settings.maxIterations) {
@@ -359,26 +405,46 @@ namespace {
 		}
 	}
 
-	void Sweeper::finish()
+	/// Calls take(contact, impulse) for every contact of a part.
+	template <class Take> void Sweeper::forImpulses(std::size_t s, Take take) const
 	{
-		// velocities anew, so that the residual reported owes nothing to rounding gathered over the sweeps
-		resetVelocities();
-		measure();
-		const long count = static_cast<long>(laidOut.blocks.size());
-#pragma omp for schedule(static)
-		for (long b = 0; b < count; ++b)
+		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b)
 			for (std::size_t l = 0; l < lanes; ++l)
 				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
-					const Block& k          = laidOut.blocks[b];
-					problem.impulses[index] = { k.n[l], k.t[l], k.r[l] };
+					const Block& k = laidOut.blocks[b];
+					take(index, Impulse { k.n[l], k.t[l], k.r[l] });
 				}
-		const long bodyCount = static_cast<long>(problem.bodyCount());
-#pragma omp for schedule(static)
-		for (long b = 0; b < bodyCount; ++b)
-			problem.velocities[b] = twist(b);
-#pragma omp single
-		for (std::size_t k = 0; k < rows.size(); ++k)
-			problem.impulses[laidOut.others[k]] = rows[k].p;
+		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+			take(laidOut.others[k], rows[k].p);
+	}
+
+	/// Gives back the impulses of a part, and the velocities of the bodies that it is the first to touch.
+	void Sweeper::writeStrip(std::size_t s)
+	{
+		forImpulses(s, [this](std::int32_t index, const Impulse& p) { problem.impulses[index] = p; });
+		const Places places = newIn(s);
+		for (std::size_t k = places.begin; k < places.end; ++k)
+			problem.velocities[laidOut.order.bodies[k]] = twistAt(k);
+	}
+
+	/// Velocities anew, so that the residual reported owes nothing to rounding gathered over the sweeps; where there were none, they are so already.
+	void Sweeper::finish()
+	{
+		forFixed([this](long place, std::int32_t b) { problem.velocities[b] = twistAt(place); });
+		if (statistics.iterations == 0) {
+			schedule.each(omp_get_thread_num(), [this](std::size_t s) { writeStrip(s); });
+			return;
+		}
+		schedule.passes(omp_get_thread_num(), 2, [this](std::size_t s, int pass, const StripSchedule::Ahead&) {
+			if (pass == 0) {
+				takeVelocities(s);
+				applyStrip(s);
+			} else {
+				measureStrip(s);
+				writeStrip(s);
+			}
+		});
+		sumUp();
 	}
 
 	SolverStatistics Sweeper::run()
@@ -387,7 +453,7 @@ namespace {
 		{
 #pragma omp single
 			schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
-			resetVelocities();
+			begin();
 			iterate();
 			finish();
 		}
@@ -398,14 +464,11 @@ namespace {
 	}
 
 	/// Makes displacements of velocities: nothing has moved, and contacts ask for their errors along the normal alone.
-	void Sweeper::takeErrors(const std::vector<PositionError>& errors)
+	void Sweeper::takeErrors(std::size_t s, const std::vector<PositionError>& errors)
 	{
 		constexpr double without = 1e100; // a bond holds whatever it costs
-		const long       count   = static_cast<long>(laidOut.blocks.size());
-#pragma omp for schedule(static)
-		for (long b = 0; b < count; ++b) {
-			Block& k   = laidOut.blocks[b];
-			k.friction = k.rollingArm = k.t = k.r = k.beforeT = k.beforeR = Lanes {};
+		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
+			Block& k = laidOut.blocks[b];
 			for (std::size_t l = 0; l < lanes; ++l)
 				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
 					k.biasN[l]    = errors[index].error;
@@ -413,9 +476,7 @@ namespace {
 					k.n[l] = k.beforeN[l] = projectNormal(errors[index].impulse, k.adhesion[l]);
 				}
 		}
-		const long rowCount = static_cast<long>(rows.size());
-#pragma omp for schedule(static)
-		for (long k = 0; k < rowCount; ++k) {
+		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 			const PositionError& e = errors[laidOut.others[k]];
 			Contact&             c = rows[k].contact;
 			c.biasN                = e.error;
@@ -423,14 +484,9 @@ namespace {
 			c.biasT = c.biasR = c.friction = c.rollingArm = 0;
 			rows[k].p = rows[k].before = { projectNormal(e.impulse, c.adhesion), 0, 0 };
 		}
-		const long bodyCount = static_cast<long>(problem.bodyCount());
-#pragma omp for schedule(static)
-		for (long k = 0; k < bodyCount; ++k)
+		const Places places = newIn(s);
+		for (std::size_t k = places.begin; k < places.end; ++k)
 			bodies[k].v = Lanes { 0, 0, 0, problem.inverseMass[laidOut.order.bodies[k]].x };
-		applyImpulses();
-#pragma omp for schedule(static)
-		for (long k = 0; k < bodyCount; ++k)
-			bodiesBefore[k] = bodies[k];
 	}
 
 	void Sweeper::correct(const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result)
@@ -441,25 +497,35 @@ namespace {
 		std::vector<double> betas(sweeps);
 		for (double& b : betas)
 			b = extrapolation.next();
+		const auto visit = [&](std::size_t s, int pass, const StripSchedule::Ahead&) {
+			Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
+			const std::size_t count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
+			if (pass == 0) {
+				takeErrors(s, errors);
+				kernels.applyNormals(blocks, count, bodies.data());
+				applyRows(s);
+			} else if (pass <= sweeps) {
+				if (pass == 1) keepBodies(s);
+				extrapolate(s, betas[pass - 1]);
+				kernels.sweepNormals(blocks, count, bodies.data(), betas[pass - 1]);
+				for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+					sweepRow(k, betas[pass - 1]);
+			} else {
+				forImpulses(s, [&](std::int32_t index, const Impulse& p) { result.impulses[index] = p.n; });
+				const Places places = newIn(s);
+				for (std::size_t k = places.begin; k < places.end; ++k)
+					result.displacements[laidOut.order.bodies[k]] = twistAt(k);
+			}
+		};
 #pragma omp parallel num_threads(threads)
 		{
 #pragma omp single
 			schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
-			takeErrors(errors);
-			sweep(betas, false);
-#pragma omp barrier
-			const long bodyCount = static_cast<long>(problem.bodyCount());
-#pragma omp for schedule(static)
-			for (long b = 0; b < bodyCount; ++b)
-				result.displacements[b] = twist(b);
-			const long blockCount = static_cast<long>(laidOut.blocks.size());
-#pragma omp for schedule(static)
-			for (long b = 0; b < blockCount; ++b)
-				for (std::size_t l = 0; l < lanes; ++l)
-					if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) result.impulses[index] = laidOut.blocks[b].n[l];
-#pragma omp single
-			for (std::size_t k = 0; k < rows.size(); ++k)
-				result.impulses[laidOut.others[k]] = rows[k].p.n;
+			forFixed([&](long place, std::int32_t b) {
+				bodies[place].v         = Lanes { 0, 0, 0, problem.inverseMass[b].x };
+				result.displacements[b] = {};
+			});
+			schedule.passes(omp_get_thread_num(), sweeps + 2, visit);
 		}
 	}
 
@@ -478,7 +544,6 @@ void correctPositions(
 SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspace* workspace)
 {
 	check(settings);
-	check(problem, threadsFor(problem, settings));
 	Workspace own;
 	return Sweeper(problem, settings, workspace ? *workspace : own).run();
 }

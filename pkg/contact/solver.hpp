@@ -46,7 +46,7 @@ struct SolverStatistics {
 	VelocityChanges changes; // the same, in the figures of LMGC90's tests; only where one of them was asked for
 };
 
-/// Memory that one solve leaves to the next; what it holds does not matter.
+/// Memory that one solve leaves to the next, and the layout in it, which is kept where it fits; what it holds changes no bit.
 struct Workspace {
 	ContactBlocks       laidOut;
 	std::vector<Motion> bodies, bodiesBefore;

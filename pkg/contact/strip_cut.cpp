@@ -16,29 +16,6 @@ namespace {
 
 	double coordinate(const Point& x, int axis) { return axis == 0 ? x.x : x.y; }
 
-	struct Span {
-		double low = HUGE_VAL, high = -HUGE_VAL;
-		double length() const { return high - low; }
-	};
-
-	/// From the lowest to the highest body that can move.
-	void extentsOf(const Problem& problem, int threads, Span (&extents)[2])
-	{
-		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL;
-		const long count = static_cast<long>(problem.bodyCount());
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY) reduction(max : highX, highY)
-		for (long b = 0; b < count; ++b) {
-			if (problem.inverseMass[b].isFixed()) continue;
-			const Point& x = problem.positions[b];
-			lowX           = std::min(lowX, x.x);
-			lowY           = std::min(lowY, x.y);
-			highX          = std::max(highX, x.x);
-			highY          = std::max(highY, x.y);
-		}
-		extents[0] = { lowX, highX };
-		extents[1] = { lowY, highY };
-	}
-
 	/// Where contacts are, but for one in 128 at either end and what lies far beyond.
 	Span mostOf(std::vector<double>& samples, const Span& extent)
 	{
@@ -62,10 +39,10 @@ namespace {
 			const auto        part = std::uint64_t(std::uint32_t(k * 2654435769u)); // of 2³²
 			const MovablePair pair = pairs[part * pairs.size() >> 32];
 			const auto        low  = [&](int axis) {
-				const auto at = [&](std::int32_t b) { return b == MovablePair::none ? HUGE_VAL : coordinate(problem.positions[b], axis); };
+				const auto at = [&](std::int32_t b) { return MovablePair::moves(b) ? coordinate(problem.positions[b], axis) : HUGE_VAL; };
 				return std::min(at(pair.i), at(pair.j));
 			};
-			if (pair.i == MovablePair::none && pair.j == MovablePair::none) continue;
+			if (!MovablePair::moves(pair.i) && !MovablePair::moves(pair.j)) continue;
 			samples[0].push_back(low(0));
 			samples[1].push_back(low(1));
 		}
@@ -74,18 +51,16 @@ namespace {
 	/// Of a contact along an axis; 0 where only one of its bodies moves.
 	double lengthOf(const Problem& problem, const MovablePair& pair, int axis)
 	{
-		if (pair.i == MovablePair::none || pair.j == MovablePair::none) return 0;
+		if (!MovablePair::moves(pair.i) || !MovablePair::moves(pair.j)) return 0;
 		return std::abs(coordinate(problem.positions[pair.i], axis) - coordinate(problem.positions[pair.j], axis));
 	}
 
 	/// Length of the longest contact that strips have to be as wide as.
-	double reachOf(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, int axis, double extent)
+	double reachOf(const Problem& problem, const Survey& survey, int threads, int axis, double extent)
 	{
-		const long count   = static_cast<long>(pairs.size());
-		double     longest = 0;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : longest)
-		for (long k = 0; k < count; ++k)
-			longest = std::max(longest, lengthOf(problem, pairs[k], axis));
+		const auto&  pairs   = survey.pairs;
+		const long   count   = static_cast<long>(pairs.size());
+		const double longest = survey.longest[axis];
 		const double enough = 0.5 * static_cast<double>(std::min(pairs.size() / contactsAStrip, fewStrips));
 		std::vector<double> half; // longest/2, longest/4, … to where strips are enough
 		for (double reach = longest; reach * enough > extent && half.size() < 32; half.push_back(reach))
@@ -123,7 +98,7 @@ namespace {
 #pragma omp for schedule(static)
 			for (long k = 0; k < contacts; ++k) {
 				const auto [i, j]    = pairs[k];
-				const bool         a = i != MovablePair::none, b = j != MovablePair::none;
+				const bool         a = MovablePair::moves(i), b = MovablePair::moves(j);
 				if (!a && !b) continue;
 				const std::int32_t from = scratch.binOfBody[a ? i : j], to = scratch.binOfBody[b ? j : i];
 				if (std::abs(from - to) <= width) ++counts[std::min(from, to)];
@@ -162,44 +137,58 @@ namespace {
 		}
 	}
 
-	/// Leaves `stripOfBin` empty where there is one strip only.
-	void divide(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, StripCut& result)
+	/// Puts bodies into bins and bins into strips. Returns whether strips stayed as they were, as far as that is known without counting.
+	bool divide(const Problem& problem, const Survey& survey, int threads, StripCut& result)
 	{
-		auto& scratch = result.scratch;
-		result.count  = 1;
-		scratch.stripOfBin.clear();
-		if (problem.positions.size() != problem.bodyCount() || pairs.size() < 2 * contactsAStrip) return;
-		Span extents[2];
-		extentsOf(problem, threads, extents);
+		auto&       scratch = result.scratch;
+		const auto& pairs   = survey.pairs;
+		const auto  binsBefore = scratch.bins, widthBefore = scratch.width;
+		scratch.bins = scratch.width = 0;
+		if (problem.positions.size() != problem.bodyCount() || pairs.size() < 2 * contactsAStrip) return false;
 		sample(problem, pairs, scratch.samples);
-		const Span   spans[2] = { mostOf(scratch.samples[0], extents[0]), mostOf(scratch.samples[1], extents[1]) };
+		const Span   spans[2] = { mostOf(scratch.samples[0], survey.extents[0]), mostOf(scratch.samples[1], survey.extents[1]) };
 		const int    axis     = spans[0].length() >= spans[1].length() ? 0 : 1;
 		const Span   span     = spans[axis];
 		const double extent   = span.length();
-		if (!(extent > 0) || !std::isfinite(extent)) return;
+		if (!(extent > 0) || !std::isfinite(extent)) return false;
 		const std::size_t strips = pairs.size() / contactsAStrip;
 		const auto        bins   = static_cast<std::int32_t>(strips * binsAStrip);
-		const double      scale  = bins / extent, reach = reachOf(problem, pairs, threads, axis, extent);
-		const auto        width  = static_cast<std::int32_t>(std::min<double>(bins, std::max(1.0, std::ceil(reach * rounding * scale))));
+		const double      scale  = bins / extent, reach = reachOf(problem, survey, threads, axis, extent);
+		scratch.bins             = bins;
+		scratch.width            = static_cast<std::int32_t>(std::min<double>(bins, std::max(1.0, std::ceil(reach * rounding * scale))));
+		const long bodies        = static_cast<long>(problem.bodyCount());
+		bool       moved         = scratch.binOfBody.size() != problem.bodyCount();
 		scratch.binOfBody.resize(problem.bodyCount());
-		const long bodies = static_cast<long>(problem.bodyCount());
-#pragma omp parallel for schedule(static) num_threads(threads)
-		for (long b = 0; b < bodies; ++b)
-			scratch.binOfBody[b] = static_cast<std::int32_t>(std::clamp((coordinate(problem.positions[b], axis) - span.low) * scale, 0.0, bins - 1.0));
-		count(pairs, threads, bins, width, result);
-		share(strips, width, result);
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
+		for (long b = 0; b < bodies; ++b) {
+			const double at  = std::clamp((coordinate(problem.positions[b], axis) - span.low) * scale, 0.0, bins - 1.0);
+			const auto   bin = survey.traits[b] & Survey::moves ? static_cast<std::int32_t>(at) : -1;
+			moved            = moved || bin != scratch.binOfBody[b];
+			scratch.binOfBody[b] = bin;
+		}
+		if (survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore) return true;
+		count(pairs, threads, bins, scratch.width, result);
+		share(strips, scratch.width, result);
+		return false;
 	}
 
 } // namespace
 
-void cutIntoStrips(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, StripCut& result)
+bool cutIntoStrips(const Problem& problem, const Survey& survey, int threads, StripCut& result)
 {
-	divide(problem, pairs, threads, result);
+	const auto before = result.count;
+	if (divide(problem, survey, threads, result)) return true;
+	if (result.scratch.bins == 0) result.count = 1;
+	bool moved = result.count != before || result.stripOfBody.size() != problem.bodyCount();
 	result.stripOfBody.resize(problem.bodyCount());
 	const long bodies = static_cast<long>(problem.bodyCount());
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long b = 0; b < bodies; ++b)
-		result.stripOfBody[b] = problem.inverseMass[b].isFixed() ? -1 : (result.count == 1 ? 0 : result.scratch.stripOfBin[result.scratch.binOfBody[b]]);
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
+	for (long b = 0; b < bodies; ++b) {
+		const auto strip      = !(survey.traits[b] & Survey::moves) ? -1 : (result.count == 1 ? 0 : result.scratch.stripOfBin[result.scratch.binOfBody[b]]);
+		moved                 = moved || strip != result.stripOfBody[b];
+		result.stripOfBody[b] = strip;
+	}
+	return !moved;
 }
 
 } // namespace nonsmooth::contact

@@ -5,15 +5,9 @@
 // as wide as the others ask, and those that reach too far are left over. Nor does a body far from all others widen strips: ends take in whatever lies beyond.
 #pragma once
 
-#include <contact/problem.hpp>
+#include <contact/problem_survey.hpp>
 
 namespace nonsmooth::contact {
-
-/// The bodies of a contact that can move; `none` in place of one that can't.
-struct MovablePair {
-	static constexpr std::int32_t none = -1;
-	std::int32_t                  i, j;
-};
 
 /// Filled by cutIntoStrips(), whose memory it keeps from one call to the next.
 struct StripCut {
@@ -21,14 +15,16 @@ struct StripCut {
 	std::vector<std::int32_t> stripOfBody; // -1: it can't move
 
 	struct {
-		std::vector<std::int32_t>              binOfBody, stripOfBin; // the packing is first cut into many bins of one width
+		std::vector<std::int32_t>              binOfBody, stripOfBin; // the packing is first cut into many bins of one width; -1: it can't move
+		std::int32_t                           bins = 0, width = 0;   // how many, and as how many of them a strip must be wide; none where there is one strip
 		std::vector<std::vector<std::int32_t>> counts;                // contacts in each bin, by thread
 		std::vector<std::int32_t>              sums;                  // all of them
 		std::vector<double>                    samples[2];
 	} scratch;
 };
 
-/// One strip where positions are missing or contacts few. The result does not depend on `threads`.
-void cutIntoStrips(const Problem& problem, const std::vector<MovablePair>& pairs, int threads, StripCut& result);
+/// One strip where positions are missing or contacts few. The result depends neither on `threads` nor on what `result` held. Returns whether strips stayed
+/// as they were, which is asked where pairs did: bodies that stay in their bins need no counting.
+bool cutIntoStrips(const Problem& problem, const Survey& survey, int threads, StripCut& result);
 
 } // namespace nonsmooth::contact

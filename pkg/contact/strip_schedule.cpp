@@ -4,9 +4,9 @@
 namespace nonsmooth::contact {
 
 namespace {
-	// Passes at once: no more than whose strips share a cache with those of other workers (ten sweeps and a look at the residual), and no fewer than pay
-	// for the unequal shares that a triangle makes, which is kept small beside a stretch.
-	constexpr std::size_t deepest = 11, shallowest = 4, pairsADepth = 8;
+	// Passes at once: no more than whose strips share a cache with those of other workers (ten sweeps and a look at the residual), and a triangle is kept small
+	// beside a stretch.
+	constexpr std::size_t deepest = 11, pairsADepth = 8;
 }
 
 void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers)
@@ -57,8 +57,7 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 		if (last > first) visit(odd(last - 1));
 		first = ends[w];
 	}
-	const std::size_t fits = std::min(deepest, shortest / pairsADepth);
-	depth                  = leftOver || fits < shallowest ? 1 : static_cast<int>(fits);
+	depth = leftOver ? 1 : static_cast<int>(std::clamp<std::size_t>(shortest / pairsADepth, 1, deepest));
 }
 
 } // namespace nonsmooth::contact

@@ -125,8 +125,11 @@ template <class Visit> void StripSchedule::pass(int worker, Visit visit)
 
 template <class Visit> void StripSchedule::passes(int worker, int count, Visit visit)
 {
-	for (int k = 0; k < count; k += depth)
-		if (depth > 1) together(worker, k, std::min(depth, count - k), visit);
+	// a few of many do not pay for the unequal shares that their triangles make
+	constexpr int shallowest = 4;
+	const int     step       = depth >= std::min(count, shallowest) ? depth : 1;
+	for (int k = 0; k < count; k += step)
+		if (step > 1) together(worker, k, std::min(step, count - k), visit);
 		else
 			pass(worker, [&](std::size_t strip) { visit(strip, k, Ahead {}); });
 }

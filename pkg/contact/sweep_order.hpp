@@ -19,16 +19,17 @@ struct SweepOrder {
 	std::size_t               evenStrips = 0; // how many of the strips come in the first half
 	std::vector<std::int32_t> bodies;         // those that move, strip after strip from one end of the packing to the other; then the others
 	std::vector<std::size_t>  bodyBegin;      // in `bodies`; one more than there are strips
-	std::vector<MovablePair>  pairs;          // of the contacts
 	std::size_t               partCount() const { return partBegin.size() - 1; }
 	std::size_t               stripCount() const { return partCount() - 1; }
 
 	struct {
 		StripCut                   cut;
-		std::vector<std::int32_t>  bucketOf; // what a contact is sorted by
+		std::vector<std::int32_t>  partOf; // of contacts
 		std::vector<std::uint8_t>  colours;
 		std::vector<std::uint64_t> used; // colours at each body
 		std::vector<std::size_t>   next;
+		std::vector<std::vector<std::size_t>>  counts; // contacts of each part, by thread
+		std::vector<std::vector<std::int32_t>> unsorted; // one part's contacts, by thread
 	} scratch;
 };
 
@@ -36,7 +37,8 @@ struct SweepOrder {
 /// `used` is left with the colours at each body.
 void colour(const std::vector<MovablePair>& pairs, std::size_t bodyCount, std::vector<std::uint8_t>& colours, std::vector<std::uint64_t>& used);
 
-/// Without problem.positions all contacts make one strip. The result does not depend on `threads`.
-void arrange(const Problem& problem, int threads, SweepOrder& result);
+/// Without problem.positions all contacts make one strip. The result depends neither on `threads` nor on what `result` held. Returns whether it is what it held
+/// already: `survey` says which pairs are kept, and where strips are too, so is the order.
+bool arrange(const Problem& problem, const Survey& survey, int threads, SweepOrder& result);
 
 } // namespace nonsmooth::contact

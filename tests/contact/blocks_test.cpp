@@ -2,6 +2,7 @@
 #include "problems.hpp"
 #include <algorithm>
 #include <contact/contact_blocks.hpp>
+#include <contact/law.hpp>
 #include <contact/residual.hpp>
 #include <gtest/gtest.h>
 
@@ -145,11 +146,52 @@ TEST(Blocks, AllInstructionsGiveTheSameBits)
 	}
 }
 
+// of bonds too: what they may pull and rub is cut where the general law cuts it
+TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
+{
+	Problem                                p = mixed();
+	std::mt19937                           random(3);
+	std::uniform_real_distribution<double> number(-1, 1);
+	for (std::size_t k = 0; k < p.contactCount(); ++k) {
+		p.contacts[k].adhesion = k % 3 == 0 ? 0 : 1;
+		p.impulses[k]          = { 2 * number(random), number(random), 0.5 * number(random) };
+	}
+	for (const BlockKernels* kernels : availableKernels()) {
+		ContactBlocks b;
+		layOut(p, 1, b);
+		for (std::size_t part = 0; part < b.partCount(); ++part)
+			fillIn(p, *kernels, part, b);
+		std::size_t cut[3] = {}, free[3] = {}; // impulses along n, t, r
+		for (std::size_t k = 0; k < b.contactOf.size(); ++k) {
+			if (b.contactOf[k] == ContactBlocks::none) continue;
+			const Contact& c       = p.contacts[b.contactOf[k]];
+			const Impulse &start   = p.impulses[b.contactOf[k]], wanted = project(c, start);
+			const Impulse  inverse = inverseDelassus(c, p.inverseMass[c.i], p.inverseMass[c.j]);
+			const Block&   block   = b.blocks[k / lanes];
+			const auto     l       = k % lanes;
+			const Impulse  now { block.n[l], block.t[l], block.r[l] }, before { block.beforeN[l], block.beforeT[l], block.beforeR[l] };
+			ASSERT_TRUE(sameBits(std::vector<Impulse> { now, before }, { wanted, wanted })) << kernels->name << ", contact " << b.contactOf[k];
+			ASSERT_TRUE(sameBits(std::vector<Impulse> { { block.inverseN[l], block.inverseT[l], block.inverseR[l] } }, { inverse })) << kernels->name;
+			ASSERT_EQ(b.inverseLength[k / lanes].v[l], 1 / c.length);
+			++(wanted.n == start.n ? free : cut)[0];
+			++(wanted.t == start.t ? free : cut)[1];
+			++(wanted.r == start.r ? free : cut)[2];
+		}
+		for (int row = 0; row < 3; ++row) { // a tenth at least on either side of the thresholds
+			EXPECT_GT(10 * cut[row], p.contactCount()) << row;
+			EXPECT_GT(10 * free[row], p.contactCount()) << row;
+		}
+	}
+}
+
 TEST(Blocks, FetchingAheadChangesNoBit)
 {
 	for (const BlockKernels* kernels : availableKernels()) {
+		const Problem p = mixed();
 		ContactBlocks one;
-		layOut(mixed(), 1, one);
+		layOut(p, 1, one);
+		for (std::size_t part = 0; part < one.partCount(); ++part)
+			fillIn(p, *kernels, part, one);
 		ContactBlocks       other  = one;
 		std::vector<Motion> bodies(mixed().bodyCount() + 1), same(bodies.size());
 		for (std::size_t b = 0; b + 1 < bodies.size(); ++b)

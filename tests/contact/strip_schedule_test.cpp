@@ -143,6 +143,48 @@ TEST(StripSchedule, PassesAtOnceLeaveWhatOneAfterTheOtherLeaves)
 		}
 }
 
+// A solve begins and ends with two passes, and has some more between: those at once wait for those one after the other, and these for those. A stretch has room
+// for two at once from 16 pairs on, for four from 32.
+TEST(StripSchedule, AnyNumberOfWorkersLeavesWhatOneLeavesInTwoPasses)
+{
+	const std::vector<int> counts = { 2, 11, 3, 2, 2, 1, 2 };
+	for (const auto& [strips, leftOver] : std::vector<std::pair<std::size_t, std::size_t>> { { 1, 0 }, { 2, 0 }, { 3, 0 }, { 5, 0 }, { 31, 0 }, { 32, 0 }, { 33, 0 },
+	                                                                                        { 64, 0 }, { 97, 0 }, { 161, 0 }, { 33, 4 }, { 161, 4 } }) {
+		Mixer plain(strips);
+		for (const int count : counts)
+			for (int p = 0; p < count; ++p)
+				for (std::size_t place = 0; place < strips + (leftOver > 0); ++place)
+					plain.visit(place, p);
+		for (int workers : { 1, 2, 3, 7 })
+			expectSame(plain, strips, leftOver, workers, [&counts](StripSchedule& schedule, int worker, Mixer& mixer) {
+				for (const int count : counts)
+					schedule.passes(worker, count, [&](std::size_t place, int p, const StripSchedule::Ahead&) { mixer.visit(place, p); });
+			});
+	}
+}
+
+// two or three passes need no room for more; a few of many are not made at once
+TEST(StripSchedule, FewPassesAreAtOnceWhereThereIsRoomForThem)
+{
+	struct Case {
+		std::size_t pairs;
+		int         passes;
+		long        longest; // visits from one of a strip to the next: a pair of strips for each pass at once and one more, or all strips
+	};
+	for (const Case& c : { Case { 15, 2, 30 }, { 16, 2, 6 }, { 23, 3, 46 }, { 24, 3, 8 }, { 31, 4, 62 }, { 32, 4, 10 }, { 31, 10, 62 } }) {
+		StripSchedule schedule;
+		schedule.plan(beginsOf(std::vector<std::size_t>(2 * c.pairs, 100)), c.pairs, 1);
+		std::vector<long> last(2 * c.pairs, -1);
+		long              visits = 0, longest = 0;
+		schedule.passes(0, c.passes, [&](std::size_t place, int, const StripSchedule::Ahead&) {
+			if (last[place] >= 0) longest = std::max(longest, visits - last[place]);
+			last[place] = visits++;
+		});
+		EXPECT_EQ(visits, c.passes * 2 * long(c.pairs));
+		EXPECT_EQ(longest, c.longest) << c.pairs << " pairs, " << c.passes << " passes";
+	}
+}
+
 // the reason for it: between two visits of a strip lie few others, not all
 TEST(StripSchedule, PassesAtOnceComeBackToAStripSoon)
 {

@@ -49,10 +49,17 @@ Problem withStray(Problem p, double x, double y)
 	return p;
 }
 
+Survey surveyed(const Problem& p, int threads = 1)
+{
+	Survey result;
+	survey(p, threads, true, result);
+	return result;
+}
+
 SweepOrder arranged(const Problem& p, int threads = 1)
 {
 	SweepOrder result;
-	arrange(p, threads, result);
+	EXPECT_FALSE(arrange(p, surveyed(p, threads), threads, result)); // nothing stood there
 	return result;
 }
 
@@ -63,7 +70,9 @@ std::vector<std::uint8_t> coloursOf(const std::vector<Contact>& contacts, const 
 	Problem                    p;
 	p.contacts    = contacts;
 	p.inverseMass = inverse;
-	colour(arranged(p).pairs, inverse.size(), colours, used);
+	p.freeVelocity.resize(inverse.size());
+	p.impulses.resize(contacts.size());
+	colour(surveyed(p).pairs, inverse.size(), colours, used);
 	return colours;
 }
 

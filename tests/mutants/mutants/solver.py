@@ -3,8 +3,11 @@ from mutant import mutant
 
 LAW, KERNELS, PROBLEM, SLIP = ("pkg/contact/law.hpp", "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/contact/slip_weakening.hpp")
 SOLVER, BLOCKS, RESIDUAL, STOPPING = ("pkg/contact/solver.cpp", "pkg/contact/contact_blocks.cpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
-ORDER, CUT, SCHEDULE, CHECK = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cpp", "pkg/contact/strip_schedule.cpp", "pkg/contact/problem_check.cpp")
+ORDER, CUT, SCHEDULE = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cpp", "pkg/contact/strip_schedule.cpp")
+WAVES = "pkg/contact/strip_schedule.hpp"
+CHECK, SURVEY = "pkg/contact/problem_check.hpp", "pkg/contact/problem_survey.cpp"
 GRID, NEAR, REGIONS = "pkg/neighbours/disk_grid.cpp", "pkg/neighbours/disk_grid.hpp", "pkg/neighbours/regions.cpp"
+CUT_KEPT = "survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore"  # of strip_cut.cpp
 
 MUTANTS = (
     # ---- law
@@ -42,17 +45,42 @@ MUTANTS = (
            "contacts pull and bonds do not, where errors of position are taken back", "gtest:Positions.*"),
     mutant("position-friction", SOLVER, "c.biasT = c.biasR = c.friction = c.rollingArm = 0;", "c.biasT = c.biasR = 0;",
            "displacements of contacts outside the blocks know friction", "gtest:Positions.*"),
-    mutant("blocks-bias", BLOCKS, "c.biasT == 0 && c.biasR == 0", "c.biasT == 0", "contacts with a rolling bias go into blocks, whose formulas have none",
+    mutant("blocks-bias", SURVEY, "c.biasT == 0 && c.biasR == 0", "c.biasT == 0", "contacts with a rolling bias go into blocks, whose formulas have none",
            "gtest:*/OneContact.*"),
-    mutant("blocks-moves", BLOCKS, "block.movesI |= (mi.isFixed() ? 0u : 1u) << l;", "block.movesI |= (mi.isFixed() ? 1u : 0u) << l;",
+    mutant("blocks-moves", BLOCKS, "block.movesI |= (MovablePair::moves(pair.i) ? 1u : 0u) << l;",
+           "block.movesI |= (MovablePair::moves(pair.i) ? 0u : 1u) << l;",
            "blocks move the fixed bodies and leave the others", "gtest:Blocks.*:Momentum.*:Column.*"),
-    mutant("blocks-share", BLOCKS, "(o.bodies[b] == i || o.bodies[b] == j)", "(o.bodies[b] == i)", "two contacts of a block may have a body in common", "gtest:Blocks.*"),
+    mutant("blocks-share", BLOCKS, "(first == i) | (second == i) | (first == j) | (second == j)", "(first == i) | (second == j)",
+           "two contacts of a block may have a body in common", "gtest:Blocks.*"),
     mutant("blocks-together", BLOCKS, "(i == b.i[l]) | (j == b.i[l]) | (i == b.j[l]) | (j == b.j[l])", "(i == b.i[l]) | (j == b.i[l]) | (i == b.j[l])",
            "two blocks at once may have a second body in common", "gtest:Blocks.*"),
-    mutant("blocks-turning-wall", BLOCKS, "(m.w != 0 || freeVelocity.w == 0)", "true", "walls that turn go into blocks, whose formulas do not know their levers",
+    mutant("blocks-turning-wall", SURVEY, "(m.w != 0 || freeVelocity.w == 0)", "true", "walls that turn go into blocks, whose formulas do not know their levers",
            "gtest:*/OneContact.*"),
+    # ---- what one solve leaves to the next
+    mutant("kept-second-body", SURVEY, "newPairs || pair.i != before.i || pair.j != before.j", "newPairs || pair.i != before.i",
+           "an order is kept though a contact's second body is another one", "gtest:Kept.*"),
+    mutant("kept-held", SURVEY, "newPairs || pair.i != before.i || pair.j != before.j",
+           "newPairs || pair.i != before.i || MovablePair::bodyOf(pair.j) != MovablePair::bodyOf(before.j)",
+           "colours are kept though the second body of contacts is held from now on, or let go", "gtest:Kept.*"),
+    mutant("kept-simple", SURVEY, "newSimple || fits != result.simple[k]", "newSimple", "contacts stay in blocks that they do not fit into any more", "gtest:Kept.*"),
+    mutant("kept-strips", CUT, "moved || strip != result.stripOfBody[b]", "moved", "an order is kept though bodies are in other strips", "gtest:Kept.*"),
+    mutant("kept-bins", CUT, CUT_KEPT, "survey.pairsKept && bins == binsBefore && scratch.width == widthBefore",
+           "a cut into strips is kept though bodies are in other bins", "gtest:Kept.*"),
+    mutant("kept-counts", CUT, CUT_KEPT, "!moved && bins == binsBefore && scratch.width == widthBefore",
+           "a cut into strips is kept though contacts have gone", "gtest:Kept.*"),
+    mutant("kept-uncut", CUT, CUT_KEPT, "survey.pairsKept && !moved", "one strip is kept though positions are there again", "gtest:Kept.*"),
+    mutant("kept-after-refusal", BLOCKS, "if (!whole) seen.pairsKept = seen.simpleKept = false;", "if (false) seen.pairsKept = seen.simpleKept = false;",
+           "what a refused problem left counts as the last one", "gtest:Kept.*"),
+    mutant("kept-numbers", SOLVER, "fillIn(problem, kernels, s, laidOut);", "if (!laidOut.kept) fillIn(problem, kernels, s, laidOut);",
+           "a kept layout keeps its numbers too", "gtest:Kept.*"),
+    mutant("fill-bias", KERNELS, "at.set(k, &Block::biasN, contact(&Contact::biasN));", "at.set(k, &Block::biasN, contact(&Contact::biasT));",
+           "blocks take the tangential bias for the normal one", "gtest:Blocks.*:Momentum.*:Pinned.*"),
+    mutant("fill-threshold", KERNELS, "clamp<V>(impulse(&Impulse::t), maxOf<V>(zero, friction * pressed))",
+           "clamp<V>(impulse(&Impulse::t), maxOf<V>(zero, friction * n))", "a warm start loses the friction of bonds that pull", "gtest:Blocks.*"),
+    mutant("position-normals", KERNELS, "at.get(k, &Block::ny) * n", "at.get(k, &Block::nx) * n",
+           "normal impulses of displacements push along x and y alike", "gtest:Positions.*"),
     # ---- order of the sweep
-    mutant("colours-of-one", ORDER, "if (j != MovablePair::none) used[j] |= bit;", "if (j != MovablePair::none) used[j] |= 0;",
+    mutant("colours-of-one", ORDER, "if (MovablePair::moves(j)) used[j] |= bit;", "if (MovablePair::moves(j)) used[j] |= 0;",
            "a colour is taken at the first body of a contact only", "gtest:SweepOrder.*"),
     mutant("strips-far", ORDER, "std::abs(i - j) > 1", "std::abs(i - j) > 2", "contacts over two strips are not left over", "gtest:SweepOrder.*"),
     mutant("strips-axis", CUT, "spans[0].length() >= spans[1].length() ? 0 : 1", "spans[0].length() >= spans[1].length() ? 1 : 0", "strips are cut along the short side",
@@ -60,8 +88,12 @@ MUTANTS = (
     mutant("strips-few", CUT, "pairs.size() < 2 * contactsAStrip", "pairs.size() < 20 * contactsAStrip", "middling packings are not cut into strips",
            "gtest:SweepOrder.*:Threads.*"),
     mutant("schedule-shares", SCHEDULE, "2 * all * (worker + 1)", "all * (worker + 1)", "the first worker gets half of its share", "gtest:StripSchedule.*"),
-    mutant("schedule-left-over", SCHEDULE, "leftOver || fits < shallowest", "fits < shallowest", "several passes at once although contacts are left over",
-           "gtest:StripSchedule.*"),
+    mutant("schedule-left-over", SCHEDULE, "leftOver ? 1 : static_cast<int>(std::clamp<std::size_t>(shortest / pairsADepth, 1, deepest))",
+           "static_cast<int>(std::clamp<std::size_t>(shortest / pairsADepth, 1, deepest))", "several passes at once although contacts are left over",
+           "gtest:StripSchedule.PassesAtOnce*"),
+    mutant("schedule-few", WAVES, "depth >= std::min(count, shallowest) ? depth : 1", "depth >= shallowest ? depth : 1",
+           "two passes wait for room for four at once", "gtest:StripSchedule.*"),
+    mutant("schedule-triangle", WAVES, "end - k - 1", "end - k", "the triangle between two stretches leaves out its first odd strip", "gtest:StripSchedule.*"),
     # ---- residuals, stopping, slip, refusals
     mutant("residual-speeds", RESIDUAL, "speed(defects[k].r, w.r) * c.length", "speed(defects[k].r, w.r)", "the residual of rolling as a speed lacks its length",
            "gtest:Residual.*"),

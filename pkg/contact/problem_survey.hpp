@@ -1,0 +1,38 @@
+// One look at every body and contact before a solve: whether the solver can use it, and what strips, order and blocks rest on. Where a workspace is used again,
+// it also tells what of that has changed since the last look, so that the rest can be kept.
+#pragma once
+
+#include <cmath>
+#include <contact/problem.hpp>
+
+namespace nonsmooth::contact {
+
+/// The bodies of a contact; in place of one that can't move its complement, a negative number.
+struct MovablePair {
+	std::int32_t i, j;
+	static bool         moves(std::int32_t body) { return body >= 0; }
+	static std::int32_t bodyOf(std::int32_t body) { return moves(body) ? body : ~body; }
+};
+
+struct Span {
+	double low = HUGE_VAL, high = -HUGE_VAL;
+	double length() const { return high - low; }
+};
+
+struct Survey {
+	/// What the short formulas of the blocks ask of a body.
+	enum BodyTrait : std::uint8_t { turns = 1, plain = 2, moves = 4 };
+
+	std::vector<std::uint8_t> traits; // of bodies
+	std::vector<std::uint8_t> simple; // whether a contact fits into blocks
+	std::vector<MovablePair>  pairs;  // of the contacts
+	Span                      extents[2];         // in x and y, from the lowest to the highest body that can move
+	double                    longest[2] = { 0, 0 }; // in x and y, of contacts between bodies that can move
+	bool                      pairsKept = false, simpleKept = false; // whether they are those of the last look
+};
+
+/// Looks with so many threads; without `blocks` no contact fits into them. Throws std::invalid_argument naming the first size, body or contact that cannot be
+/// used, and why; whatever `result` holds then is no last look for the next one.
+void survey(const Problem& problem, int threads, bool blocks, Survey& result);
+
+} // namespace nonsmooth::contact
