@@ -17,7 +17,7 @@ public:
 	virtual void updateThresholds(Real gap, Real adhesionRange);
 	virtual void addSlip(Real) { }
 	virtual bool countsSlip() const { return false; }
-	/// A script has set an attribute; nscd::Resident takes it up.
+	/// A script has set an attribute; nscd::Resident takes it up. C++ that changes one where no engine has its turn sets this too.
 	void postLoad(NscdPhys&) { touched = true; }
 	bool touched = false;
 	// attributes in the order of their use: see nscd::partOfPhysics
