@@ -15,7 +15,7 @@
 
 namespace yade::nscd {
 
-/// Bodies that give a thread enough to do for waiting for the others at each loop's end.
+/// Bodies that give a thread enough to do for waiting for the others at each loop's end: on an idle machine a second one begins to gain at 1,000 in all.
 constexpr size_t bodiesForAThread = 500;
 
 /// YADE's own number of threads, or what the engine's ompThreads allows of it; where that is not set, not more than a small scene has a use for: on a busy
