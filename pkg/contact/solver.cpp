@@ -111,6 +111,7 @@ namespace {
 		Places        newIn(std::size_t strip) const;
 		template <class With> void forFixed(With with);
 
+		void  takeVelocity(std::size_t place, std::int32_t body);
 		void  takeVelocities(std::size_t strip);
 		void  applyStrip(std::size_t strip);
 		void  applyRows(std::size_t strip);
@@ -210,15 +211,19 @@ namespace {
 			with(k, laidOut.order.bodies[k]);
 	}
 
-	/// Sets bodies out with the velocities that no contact has changed yet.
+	/// Sets a body out with the velocity that no contact has changed yet.
+	void Sweeper::takeVelocity(std::size_t place, std::int32_t b)
+	{
+		const Twist& v  = problem.freeVelocity[b];
+		bodies[place].v = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
+	}
+
+	/// The same for a part's bodies.
 	void Sweeper::takeVelocities(std::size_t s)
 	{
 		const Places places = newIn(s);
-		for (std::size_t k = places.begin; k < places.end; ++k) {
-			const std::int32_t b = laidOut.order.bodies[k];
-			const Twist&       v = problem.freeVelocity[b];
-			bodies[k].v          = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
-		}
+		for (std::size_t k = places.begin; k < places.end; ++k)
+			takeVelocity(k, laidOut.order.bodies[k]);
 	}
 
 	/// Adds M⁻¹ Hᵀ P.
@@ -248,10 +253,7 @@ namespace {
 	/// Velocities and impulses of the warm start, and their residual. A strip's numbers are filled in and used while they are at hand.
 	void Sweeper::begin()
 	{
-		forFixed([this](long place, std::int32_t b) {
-			const Twist& v  = problem.freeVelocity[b];
-			bodies[place].v = Lanes { v.x, v.y, v.w, problem.inverseMass[b].x };
-		});
+		forFixed([this](long place, std::int32_t b) { takeVelocity(place, b); });
 		schedule.passes(omp_get_thread_num(), 2, [this](std::size_t s, int pass, const StripSchedule::Ahead&) {
 			if (pass == 0) {
 				fillIn(problem, kernels, s, laidOut);

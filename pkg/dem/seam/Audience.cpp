@@ -29,6 +29,14 @@ namespace {
 		        || engine.getClassName() == "DomainLimiter";
 	}
 
+	/// An engine's place in the list; the end where it has none, outside a step since somebody called it by hand, and in sub-steps since somebody looks after each.
+	auto placeOf(const Scene& scene, const Engine& engine)
+	{
+		const auto& all = scene.engines;
+		if (scene.subStepping || scene.subStep < 0) return all.end();
+		return std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.get() == &engine; });
+	}
+
 	/// Why nobody of ours comes next after the step, where that is so.
 	string whyTheStepIsTheLast(const Scene& scene)
 	{
@@ -62,9 +70,8 @@ bool mayAct(const Engine& engine, long iter, Real time)
 
 bool onlyPythonBefore(const Scene& scene, const Engine& engine)
 {
-	if (scene.subStepping || scene.subStep < 0) return false;
 	const auto& all  = scene.engines;
-	auto        here = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.get() == &engine; });
+	auto        here = placeOf(scene, engine);
 	if (here == all.end()) return false;
 	while (here != all.begin()) {
 		const Engine& before = **--here;
@@ -76,10 +83,8 @@ bool onlyPythonBefore(const Scene& scene, const Engine& engine)
 
 Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
 {
-	// outside a step somebody called the engine by hand; in sub-steps somebody looks after each, and YADE's engines may act in between
-	if (scene.subStepping || scene.subStep < 0) return { "whoever called " + named(engine), false };
 	const auto& all  = scene.engines;
-	const auto  here = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.get() == &engine; });
+	const auto  here = placeOf(scene, engine);
 	if (here == all.end()) return { "whoever called " + named(engine), false };
 	Viewer     found;
 	const auto passes = [&](const Engine& e, long iter, Real time) {
