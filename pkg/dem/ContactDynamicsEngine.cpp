@@ -28,11 +28,10 @@ void ContactDynamicsEngine::action()
 	auto&      resident = turn.resident();
 	if (!resident.hasContacts()) resident.takeContacts(*scene);
 	seam.gather(*scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads);
-	warmStart  = seam.problem.impulses;
 	stepSolved = scene->dt;
 	timer.next(Stage::Solve);
 	auto statistics = contact::solve(seam.problem, settings(), &workspace);
-	while (seam.recall(warmStart) > 0) {
+	while (seam.recall() > 0) {
 		const int before = statistics.iterations;
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;
@@ -134,7 +133,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	brokenShear += s.broken[NscdPhys::Shear];
 	brokenTorque += s.broken[NscdPhys::Torque];
 	brokenMixed += s.broken[NscdPhys::Mixed];
-	if (s.broken[NscdPhys::Tension] + s.broken[NscdPhys::Shear] + s.broken[NscdPhys::Torque] + s.broken[NscdPhys::Mixed] > 0) recordBreaks(resident);
+	recordBreaks(resident);
 	contactRate = s.contactRate;
 	bondRate    = s.bondRate;
 	meanSpeed = s.bodies > 0 ? s.speed / s.bodies : 0;
@@ -145,10 +144,9 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 
 void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 {
-	for (const nscd::Link& link : seam.links) {
-		const nscd::Reading& r = seam.readingOf(link);
-		if (r.broken == NscdPhys::None) continue;
-		const Vector3r at = resident.contactPoint(r);
+	for (const size_t k : seam.broken) {
+		const nscd::Reading& r  = seam.readingOf(seam.links[k]);
+		const Vector3r       at = resident.contactPoint(r);
 		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(r.first, r.second)), Real(std::max(r.first, r.second)), Real(r.broken), at[0], at[1] });
 	}
 }
@@ -161,7 +159,7 @@ void ContactDynamicsEngine::view() const
 void ContactDynamicsEngine::dump(const std::string& path) const
 {
 	if (stepSolved == 0) throw std::runtime_error("ContactDynamicsEngine.dump: no step was made yet: call O.step() first");
-	contact::write(path, { seam.problem, warmStart, stepSolved });
+	contact::write(path, { seam.problem, seam.warmStart, stepSolved });
 }
 
 void ContactDynamicsEngine::reportOverlap()

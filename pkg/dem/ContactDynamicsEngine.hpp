@@ -147,7 +147,6 @@ private:
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;
-	std::vector<nonsmooth::contact::Impulse> warmStart;
 	Real                                     stepSolved = 0; // h of the last step, 0 before it
 	int                           energyIx[4] = { -1, -1, -1, -1 };
 };

@@ -10,37 +10,48 @@
 
 namespace yade::nscd {
 
-struct Reading {
+/// Three cache lines: what every stage of a step looks at, what a contact can bear and bears, and the rest.
+struct alignas(64) Reading {
 	/// Who keeps a contact up to date: it has to be looked at; the arrays; functors, through the interaction.
 	enum Keeper : unsigned char { Unknown, Arrays, Functors };
 
-	Interaction* interaction = nullptr; // null: the place is free
-	ScGeom*      geom = nullptr;
-	NscdPhys*    phys = nullptr; // null where the interaction has another physics
-	int          first = -1, second = -1; // bodies, in the interaction's own order
-	Real         nx = 0, ny = 0, nz = 0, gap = 0; // along that order
-	Real         restGap = 0, restitution = 0, adhesion = 0, friction = 0, rollingArm = 0, length = 0;
-	Real         residualAdhesion = 0; // of a touching contact without a bond
-	Real         normal = 0, tangential = 0, torque = 0, correction = 0; // of the last step
-	int          broken = 0; // NscdPhys::brokenMode if the bond broke in this step
-	Keeper       keeper = Unknown;
-	bool         bonded = false, slips = false;
-	bool         usable = false; // its numbers make sense, and its normal lies in the plane
-	bool         active = true;  // Interaction::isActive
-	bool         wasRead = true; // its geometry and thresholds are those of the interaction
-	bool         leftOut = false; // of the last solve, and bears nothing
-	bool         reacts = false; // its reactions are not yet those of the interaction
+	int         first = -1, second = -1; // bodies, in the interaction's own order
+	Real        nx = 0, ny = 0, nz = 0, gap = 0; // along that order
+	Real        restGap = 0, length = 0;
+	signed char broken = 0; // NscdPhys::brokenMode if the bond broke in this step
+	Keeper      keeper = Unknown;
+	bool        cohesive : 1, bounces : 1; // its physics is an NscdPhys; with restitution
+	bool        bonded : 1, yielded : 1, slips : 1;
+	bool        usable : 1;  // its numbers make sense, and its normal lies in the plane
+	bool        active : 1;  // Interaction::isActive
+	bool        wasRead : 1; // its geometry and thresholds are those of the interaction
+	bool        leftOut : 1; // of the last solve, and bears nothing
+	bool        reacts : 1;  // its reactions are not yet those of the interaction
+
+	Real adhesion = 0, friction = 0, rollingArm = 0;
+	Real residualAdhesion = 0; // of a touching contact without a bond
+	Real normal = 0, tangential = 0, torque = 0, correction = 0; // of the last step
+
+	Interaction*                         interaction = nullptr; // null: the place is free
+	ScGeom*                              geom = nullptr;
+	NscdPhys*                            phys = nullptr; // null where the interaction has another physics
+	Real                                 restitution = 0;
+	nonsmooth::contact::plane::YieldPath path; // of a bond that the arrays keep
+
+	Reading()
+	        : cohesive(false), bounces(false), bonded(false), yielded(false), slips(false), usable(false), active(true), wasRead(true), leftOut(false), reacts(false)
+	{
+	}
 };
+static_assert(sizeof(Reading) == 3 * 64);
 
 /// What a bond of two disks needs besides, as NscdPhys has it.
-struct BondReading {
+struct alignas(64) BondReading {
 	nonsmooth::contact::plane::BondMarks   marks;
 	nonsmooth::contact::plane::BondEllipse zone;
-	nonsmooth::contact::plane::YieldPath   path;
-	bool                                   yielded;
 };
 
-inline Vector3r pathOf(const BondReading& bond) { return Vector3r(bond.path.tension, bond.path.shear, bond.path.torque); }
+inline Vector3r vectorOf(const nonsmooth::contact::plane::YieldPath& path) { return Vector3r(path.tension, path.shear, path.torque); }
 
 /// Component of a unit normal along z up to which it lies in the plane.
 constexpr Real flatness = 1e-6;
@@ -97,6 +108,7 @@ inline void read(const Found& found, Reading& r, BondReading& bond)
 	r.second      = found.second;
 	r.active      = found.active;
 	if (!r.phys) return;
+	r.cohesive           = true;
 	const ScGeom&   geom = *r.geom;
 	const NscdPhys& phys = *r.phys;
 	r.nx                 = geom.normal[0];
@@ -105,6 +117,7 @@ inline void read(const Found& found, Reading& r, BondReading& bond)
 	r.gap                = -geom.penetrationDepth;
 	r.restGap            = phys.restGap;
 	r.restitution        = phys.restitution;
+	r.bounces            = phys.restitution > 0;
 	r.length             = phys.length;
 	r.normal             = phys.normal;
 	r.tangential         = phys.tangential;
@@ -114,10 +127,11 @@ inline void read(const Found& found, Reading& r, BondReading& bond)
 	r.bonded             = phys.bonded;
 	r.slips              = phys.countsSlip();
 	readThresholds(r);
-	if (r.bonded) bond = { { { phys.anchor1[0], phys.anchor1[1] }, { phys.anchor2[0], phys.anchor2[1] }, { phys.axis[0], phys.axis[1] } },
-			         { phys.ellipseNormal, phys.ellipseTangential },
-			         { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] },
-			         phys.yielded };
+	if (!r.bonded) return;
+	r.yielded = phys.yielded;
+	r.path    = { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] };
+	bond      = { { { phys.anchor1[0], phys.anchor1[1] }, { phys.anchor2[0], phys.anchor2[1] }, { phys.axis[0], phys.axis[1] } },
+		      { phys.ellipseNormal, phys.ellipseTangential } };
 }
 
 } // namespace yade::nscd

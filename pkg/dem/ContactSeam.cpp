@@ -32,13 +32,14 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 	threads    = threadCount;
 	resident   = &from;
 	gatherBodies(scene, gravity);
-	checkShapes(scene, resident->bodies);
+	checkShapes(scene, resident->bodies, resident->shaped);
 	if (scene.iter % tidyPeriod == 0) tidy(scene);
 	divide(scene);
 	const auto&  order = resident->order;
 	const size_t count = order.size(), solved = solvedBefore.back(), leftOut = leftBefore.back();
 	problem.contacts.resize(solved);
 	problem.impulses.resize(solved);
+	warmStart.resize(solved);
 	links.resize(solved);
 	leftContacts.resize(leftOut);
 	leftLinks.resize(leftOut);
@@ -49,7 +50,7 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k) {
 			const int slot = order[k].slot;
 			if (partOf[k] == Solved) {
-				problem.impulses[in] = gatherContact(slot, problem.contacts[in], links[in]);
+				problem.impulses[in] = warmStart[in] = gatherContact(slot, problem.contacts[in], links[in]);
 				++in;
 			} else if (partOf[k] == Left) {
 				gatherContact(slot, leftContacts[left], leftLinks[left]);
@@ -82,13 +83,12 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	scene.forces.synced = false;
 	scene.forces.sync();
 	for (auto* v : { &problem.freeVelocity, &before, &external })
-		v->assign(size, {});
-	problem.inverseMass.assign(size, {});
-	problem.positions.assign(size, {});
-	present.assign(size, 0);
-	radius.assign(size, -1);
-	mass.assign(size, 0);
-	inertia.assign(size, 0);
+		v->resize(size);
+	for (auto* v : { &radius, &mass, &inertia })
+		v->resize(size);
+	problem.inverseMass.resize(size);
+	problem.positions.resize(size);
+	present.resize(size);
 	const Real h     = relaxation.step;
 	const auto first = std::find_if(read.begin(), read.end(), [](const BodyReading& b) { return b.present && b.radius > 0; });
 	const Real plane = first == read.end() ? 0 : first->z; // in which all disks lie
@@ -96,14 +96,20 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
 	for (long id = 0; id < size; ++id) {
 		const BodyReading& s = read[id];
-		if (!s.present) continue;
+		auto&              w = problem.inverseMass[id];
+		w                    = {};
+		present[id]          = s.present;
+		radius[id]           = s.radius;
+		if (!s.present) {
+			problem.freeVelocity[id] = before[id] = external[id] = {};
+			problem.positions[id]                                = {};
+			mass[id] = inertia[id] = 0;
+			continue;
+		}
 		const unsigned d = s.blocked;
-		present[id]      = 1;
-		radius[id]       = s.radius;
 		before[id]       = s.motion.velocity;
 		mass[id]         = s.mass;
 		inertia[id]      = s.inertia;
-		auto& w          = problem.inverseMass[id];
 		if (!(d & State::DOF_X)) w.x = 1 / s.mass;
 		if (!(d & State::DOF_Y)) w.y = 1 / s.mass;
 		if (!(d & State::DOF_RZ)) w.w = 1 / s.inertia;
@@ -175,7 +181,7 @@ void ContactSeam::divide(const Scene& scene)
 			partOf[k]               = None;
 			if (!reading.active || !present[reading.first] || !present[reading.second]) continue;
 			if (!reading.usable) bad = std::min(bad, (long)k);
-			if (!reading.phys) continue;
+			if (!reading.cohesive) continue;
 			partOf[k] = mustBeSolved(reading) ? Solved : Left;
 			++(partOf[k] == Solved ? solvedBefore : leftBefore)[part + 1];
 		}
@@ -197,7 +203,7 @@ bool ContactSeam::mustBeSolved(const Reading& reading) const
 }
 
 /// A body that is hit in the step may reach others that nothing approached before.
-size_t ContactSeam::recall(std::vector<Impulse>& begun)
+size_t ContactSeam::recall()
 {
 	const auto gapAfter = [this](size_t k) {
 		const Contact& c = leftContacts[k];
@@ -218,7 +224,7 @@ size_t ContactSeam::recall(std::vector<Impulse>& begun)
 	links.resize(at);
 	problem.contacts.resize(at);
 	problem.impulses.resize(at);
-	begun.resize(at);
+	warmStart.resize(at);
 	while (b > 0) {
 		--at;
 		if (old > 0 && key(problem.contacts[old - 1]) > key(leftContacts[taken[b - 1]])) {
@@ -226,12 +232,12 @@ size_t ContactSeam::recall(std::vector<Impulse>& begun)
 			links[at]            = links[old];
 			problem.contacts[at] = problem.contacts[old];
 			problem.impulses[at] = problem.impulses[old];
-			begun[at]            = begun[old];
+			warmStart[at]        = warmStart[old];
 		} else {
 			--b;
 			links[at]            = leftLinks[taken[b]];
 			problem.contacts[at] = leftContacts[taken[b]];
-			problem.impulses[at] = begun[at] = {};
+			problem.impulses[at] = warmStart[at] = {};
 		}
 	}
 	for (size_t k = 0, next = 0; k < leftLinks.size(); ++k) {
@@ -279,7 +285,7 @@ Impulse ContactSeam::gatherContact(int slot, Contact& result, Link& link) const
 	Contact        c = frameOf(reading);
 	link         = { slot, c.i != reading.first, reading.correction };
 	if (!reading.bonded && gap > 0) c.biasN = gap / h;
-	if (reading.restitution > 0 && !reading.bonded) {
+	if (reading.bounces && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
 		if (approach < 0 && gap + h * approach <= 0) c.biasN = reading.restitution * approach;

@@ -6,6 +6,7 @@
 
 #include "seam/Resident.hpp"
 #include <contact/solver.hpp>
+#include <algorithm>
 #include <core/Scene.hpp>
 
 namespace yade::nscd {
@@ -42,15 +43,16 @@ struct StepSums {
 	int      bodies = 0;
 
 	void add(const StepSums& other);
+	bool anyBroken() const { return std::any_of(std::begin(broken), std::end(broken), [](int count) { return count > 0; }); }
 };
 
 class ContactSeam {
 public:
 	/// Makes the contact problem of a step; throws std::runtime_error naming the body where the scene cannot be taken.
 	void gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
-	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids, and in `begun`, the impulses that the solve
-	/// began with, as well; returns how many. They need another solve. After a few rounds it takes in all.
-	size_t recall(std::vector<nonsmooth::contact::Impulse>& begun);
+	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids; returns how many. They need another solve. After
+	/// a few rounds it takes in all.
+	size_t recall();
 	/// After the last solve: finds how far bodies are to be displaced to take back overlaps and bonds' errors of length; scatter moves them.
 	void correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace, int sweeps);
 	/// Takes reactions to the contacts, average contact forces to O.forces, and slip to the walls.
@@ -58,7 +60,9 @@ public:
 	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads, bool rates);
 
 	nonsmooth::contact::Problem problem;
+	std::vector<nonsmooth::contact::Impulse> warmStart; // what the solve began with
 	std::vector<Link>           links;
+	std::vector<size_t>         broken; // places of the contacts whose bonds broke in the step
 	const Reading&              readingOf(const Link& link) const { return resident->readings[link.slot]; }
 
 private:
@@ -76,14 +80,14 @@ private:
 	nonsmooth::contact::Contact frameOf(const Reading& reading) const;
 	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
 	void forgetReactions(int slot);
-	void scatterContact(size_t k);
+	void scatterContact(size_t k, const nonsmooth::contact::Impulse& u);
 	void sumReactions();
-	void scatterForces(Scene& scene);
+	void scatterForces(Scene& scene, size_t begin, size_t end);
 	void turnBack(long k);
-	void displace();
+	void displace(size_t begin, size_t end);
 	bool yieldsInTension(size_t k, const nonsmooth::contact::Impulse& u) const;
-	void rateContacts(size_t begin, size_t end, StepSums& sums) const;
-	void sumContacts(size_t begin, size_t end, StepSums& sums) const;
+	void rateContact(size_t k, const nonsmooth::contact::Impulse& u, StepSums& sums) const;
+	void sumContact(size_t k, const nonsmooth::contact::Impulse& u1, StepSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	Relaxation                             relaxation { 1, 0, 0, 0, 0 };

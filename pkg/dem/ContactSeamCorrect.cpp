@@ -75,11 +75,10 @@ void ContactSeam::turnBack(long k)
 }
 
 /// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.
-void ContactSeam::displace()
+void ContactSeam::displace(size_t begin, size_t end)
 {
-	const long size = (long)correction.displacements.size();
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long id = 0; id < size; ++id) {
+	if (correction.displacements.empty()) return;
+	for (size_t id = begin; id < end; ++id) {
 		const Twist& d = correction.displacements[id];
 		if (!present[id] || (d.x == 0 && d.y == 0 && d.w == 0)) continue;
 		resident->displace(id, d);

@@ -56,18 +56,29 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 #pragma omp for schedule(dynamic, 1)
 		for (long part = 0; part < (long)chunksC; ++part) {
 			const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
+			StepSums sums; // by themselves, since `parts` and `slip` share cache lines between threads
+			bool     slips = false;
 			for (size_t k = begin; k < end; ++k) {
-				scatterContact(k);
-				slip[part] |= readingOf(links[k]).slips;
+				const Contact& c = problem.contacts[k];
+				const Impulse  u = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+				scatterContact(k, u);
+				slips |= readingOf(links[k]).slips;
+				sumContact(k, u, sums);
+				if (rates) rateContact(k, u, sums);
 			}
-			StepSums sums; // by themselves, since `parts` shares cache lines between threads
-			sumContacts(begin, end, sums);
-			if (rates) rateContacts(begin, end, sums);
 			parts[part] = sums;
+			slip[part]  = slips;
+		}
+#pragma omp for schedule(static)
+		for (long k = 0; k < (long)chunksB; ++k) {
+			const size_t begin = k * sumChunk, end = std::min(begin + sumChunk, before.size());
+			scatterForces(scene, begin, end);
+			displace(begin, end);
+			StepSums sums;
+			sumBodies(gravity, begin, end, sums);
+			parts[chunksC + k] = sums;
 		}
 	}
-	scatterForces(scene);
-	displace();
 
 	// slip goes into materials that many contacts share, so one after the other
 	for (size_t part = 0; part < chunksC; ++part)
@@ -77,18 +88,18 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 			if (!r.slips || problem.impulses[k].n + c.adhesion <= 0) continue;
 			r.phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
 		}
-
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (long)chunksB; ++k)
-		sumBodies(gravity, k * sumChunk, std::min((k + 1) * sumChunk, before.size()), parts[chunksC + k]);
+	broken.clear();
+	for (size_t part = 0; part < chunksC; ++part)
+		for (size_t k = part * sumChunk; parts[part].anyBroken() && k < std::min((part + 1) * sumChunk, count); ++k)
+			if (readingOf(links[k]).broken != NscdPhys::None) broken.push_back(k);
 	StepSums total;
 	for (const StepSums& s : parts)
 		total.add(s);
 	return total;
 }
 
-/// Takes a contact's reactions to where it is kept, and what a bond has yielded.
-void ContactSeam::scatterContact(size_t k)
+/// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the step.
+inline void ContactSeam::scatterContact(size_t k, const Impulse& u)
 {
 	const Real     h    = relaxation.step;
 	const Contact& c    = problem.contacts[k];
@@ -114,15 +125,13 @@ void ContactSeam::scatterContact(size_t k)
 	if (!inArrays || r.broken != NscdPhys::None) phys.yielded = false;
 	if (r.broken != NscdPhys::None) phys.breaks = false; // it is counted now
 	if (!r.bonded) return;
-	const Impulse u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-	const auto    path = contact::plane::yieldOfStep(c, p, u, h);
-	const bool    opens = contact::plane::yieldsInTension(c, p, u);
-	BondReading& bond = resident->bonds[links[k].slot];
-	bond.yielded      = opens;
-	bond.path.add(path);
+	const auto path  = contact::plane::yieldOfStep(c, p, u, h);
+	const bool opens = contact::plane::yieldsInTension(c, p, u);
+	r.yielded        = opens;
+	if (path.any()) r.path.add(path); // seldom, and what is not written need not go back to memory
 	if (inArrays) return;
 	phys.yielded = opens;
-	if (path.any()) phys.yieldPath += Vector3r(path.tension, path.shear, path.torque); // seldom, and what is not written need not go back to memory
+	phys.yieldPath += vectorOf(path);
 }
 
 /// The sum of the contacts' impulses on every body, walls included.
@@ -144,10 +153,10 @@ void ContactSeam::sumReactions()
 }
 
 /// O.forces gets them as the step's mean forces.
-void ContactSeam::scatterForces(Scene& scene)
+void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 {
 	const Real h = relaxation.step;
-	for (size_t id = 0; id < reaction.size(); ++id) {
+	for (size_t id = begin; id < end; ++id) {
 		Twist r = reaction[id];
 		r.x += turning[id].x;
 		r.y += turning[id].y;
@@ -157,54 +166,48 @@ void ContactSeam::scatterForces(Scene& scene)
 	}
 }
 
-/// How fast contacts turn and bonds cross their ellipses at the end of the step.
-void ContactSeam::rateContacts(size_t begin, size_t end, StepSums& sums) const
+/// How fast a contact turns and its bond crosses its ellipse at the end of the step.
+inline void ContactSeam::rateContact(size_t k, const Impulse& u, StepSums& sums) const
 {
-	for (size_t k = begin; k < end; ++k) {
-		const Contact& c = problem.contacts[k];
-		const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
-		const Impulse  u    = contact::relativeVelocity(c, vi, vj);
-		const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
-		const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
-		if (wall)
-			sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
-		else if (!(dx * dx + dy * dy < (1 - 1e-9) * most * most)) // the root, which is slow, only where it may be the largest
-			sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
-		const Reading& r = readingOf(links[k]);
-		if (!r.bonded) continue;
-		const bool inArrays = r.keeper == Reading::Arrays;
-		const auto& zone = resident->bonds[links[k].slot].zone;
-		const Real along = inArrays ? zone.normal : r.phys->ellipseNormal, across = inArrays ? zone.tangential : r.phys->ellipseTangential;
-		sums.bondRate    = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
-	}
+	const Contact& c = problem.contacts[k];
+	const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+	const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
+	const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
+	if (wall)
+		sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
+	else if (!(dx * dx + dy * dy < (1 - 1e-9) * most * most)) // the root, which is slow, only where it may be the largest
+		sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
+	const Reading& r = readingOf(links[k]);
+	if (!r.bonded) return;
+	const bool  inArrays = r.keeper == Reading::Arrays;
+	const auto& zone     = resident->bonds[links[k].slot].zone;
+	const Real  along = inArrays ? zone.normal : r.phys->ellipseNormal, across = inArrays ? zone.tangential : r.phys->ellipseTangential;
+	sums.bondRate     = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
 }
 
-void ContactSeam::sumContacts(size_t begin, size_t end, StepSums& sums) const
+inline void ContactSeam::sumContact(size_t k, const Impulse& u1, StepSums& sums) const
 {
-	for (size_t k = begin; k < end; ++k) {
-		const Contact&  c    = problem.contacts[k];
-		const Impulse&  p    = problem.impulses[k];
-		const Reading&  r    = readingOf(links[k]);
-		const Impulse   u0   = contact::relativeVelocity(c, before[c.i], before[c.j]);
-		const Impulse   u1   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-		// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
-		const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
-		(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
-		sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
-		sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
-		// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
-		const bool held    = r.gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
-		const Real overlap = held ? 0 : std::max(Real(0), -r.gap) / c.length;
-		sums.overlap += overlap;
-		if (overlap > sums.worstOverlap) {
-			sums.worstOverlap = overlap;
-			sums.worstIds[0]  = std::min(c.i, c.j);
-			sums.worstIds[1]  = std::max(c.i, c.j);
-		}
-		sums.touching += (p.n != 0 || r.gap <= 0);
-		sums.bonds += r.bonded;
-		if (r.broken != NscdPhys::None) ++sums.broken[r.broken];
+	const Contact& c  = problem.contacts[k];
+	const Impulse& p  = problem.impulses[k];
+	const Reading& r  = readingOf(links[k]);
+	const Impulse  u0 = contact::relativeVelocity(c, before[c.i], before[c.j]);
+	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
+	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
+	(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
+	sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
+	sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
+	// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
+	const bool held    = r.gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
+	const Real overlap = held ? 0 : std::max(Real(0), -r.gap) / c.length;
+	sums.overlap += overlap;
+	if (overlap > sums.worstOverlap) {
+		sums.worstOverlap = overlap;
+		sums.worstIds[0]  = std::min(c.i, c.j);
+		sums.worstIds[1]  = std::max(c.i, c.j);
 	}
+	sums.touching += (p.n != 0 || r.gap <= 0);
+	sums.bonds += r.bonded;
+	if (r.broken != NscdPhys::None) ++sums.broken[r.broken];
 }
 
 void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const

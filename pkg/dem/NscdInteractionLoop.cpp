@@ -3,6 +3,7 @@
 #include "PlanarGridCollider.hpp"
 #include "Prefetch.hpp"
 #include "SceneCheck.hpp"
+#include "Segment.hpp"
 #include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
@@ -100,7 +101,8 @@ void NscdInteractionLoop::action()
 	lawDispatcher->updateScenePtr();
 
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
-	const Ours now { exactly<Ig2_Sphere_Sphere_ScGeom>(geomDispatcher->functors), exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
+	const auto& shapes = geomDispatcher->functors;
+	const Ours  now { exactly<Ig2_Sphere_Sphere_ScGeom>(shapes), exactly<Ig2_Segment_Sphere_ScGeom>(shapes), exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
 	if (now.spheres != ours.spheres || now.law != ours.law) resident.show();
 	ours = now;
 	if (!resident.hasBodies()) resident.takeBodies(*scene);
@@ -145,13 +147,15 @@ void NscdInteractionLoop::action()
 	}
 	if (!others.empty() || !resident.potential.empty()) visitOthers(resident, others, ours, threads);
 	resident.merge(list);
-	std::sort(resident.potential.begin(), resident.potential.end(), [](const auto& a, const auto& b) { return a->linIx < b->linIx; });
+	const auto before = [](const auto& a, const auto& b) { return a.interaction->linIx < b.interaction->linIx; };
+	auto&      unreal = resident.potential;
+	if (!std::is_sorted(unreal.begin(), unreal.end(), before)) std::sort(unreal.begin(), unreal.end(), before);
 	resident.potentialOf = scene->subStepping ? nscd::Resident::never : scene->iter; // a script may do anything between sub-steps
 	turn.end();
 }
 
 /// Brings a contact of two disks up to date, in the order of operations of Ig2_Sphere_Sphere_ScGeom and of the law's functor; returns false where it is forgotten.
-bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, nscd::BondReading& bond, const Ours& ours) const
+bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, const nscd::BondReading& bond, const Ours& ours) const
 {
 	const auto &p1 = resident.bodies[r.first], &p2 = resident.bodies[r.second];
 	const Real  dz = p2.z - p1.z; // disks may be a little out of one plane, see nscd::flatness
@@ -167,13 +171,13 @@ bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, nsc
 	if (r.bonded) {
 		if (!plane::bondLives(plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion), bond.zone)) {
 			r.phys->restGap   = r.restGap;
-			r.phys->yieldPath = nscd::pathOf(bond);
-			r.phys->yielded   = bond.yielded;
+			r.phys->yieldPath = nscd::vectorOf(r.path);
+			r.phys->yielded   = r.yielded;
 			ours.law->breakBond(*r.phys);
 			r.bonded = false;
 			r.broken = r.phys->brokenMode;
 			refresh  = true;
-		} else if (bond.yielded)
+		} else if (r.yielded)
 			r.restGap = plane::grownRestGap(r.restGap, r.gap);
 	}
 	const bool stays = r.bonded || r.broken != NscdPhys::None;
@@ -192,26 +196,39 @@ void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vecto
 {
 	auto&      list    = *scene->interactions;
 	const auto isThere = [&](int id) { return id >= 0 && id < (int)resident.bodies.size() && resident.bodies[id].present; };
-	for (const int k : others)
-		for (const int id : { resident.order[k].low, resident.order[k].high })
-			if (isThere(id)) resident.showBody(id);
 	const auto& bodies  = resident.bodies;
 	const auto  isPlain = [&](int id) { return isThere(id) && bodies[id].plain; };
-	// a pair of disks that is out of reach need not be shown to its functor
+	// what is out of reach need not be shown to its functor
 	const auto isOutOfReach = [&](const Interaction& i) {
 		if (!isThere(i.getId1()) || !isThere(i.getId2())) return false;
 		const auto &p1 = bodies[i.getId1()], &p2 = bodies[i.getId2()];
-		if (!p1.plain || !p2.plain || !ours.spheres || i.functorCache.geom.get() != ours.spheres) return false;
-		return std::pow(ours.spheres->interactionDetectionFactor * (p1.radius + p2.radius), 2) - (p2.place() - p1.place()).squaredNorm() < 0;
+		const auto* functor = i.functorCache.geom.get();
+		if (p1.plain && p2.plain && functor && functor == ours.spheres)
+			return std::pow(ours.spheres->interactionDetectionFactor * (p1.radius + p2.radius), 2) - (p2.place() - p1.place()).squaredNorm() < 0;
+		if (!p1.planar || !p2.plain || !functor || functor != ours.segments) return false;
+		const Real reach = (2 * ours.segments->interactionDetectionFactor - 1) * p2.radius; // of its centre from the segment
+		return nscd::isBeyond(reach * (1 + 1e-6), static_cast<const Segment&>(*(*scene->bodies)[i.getId1()]->shape), p1.motion, p2.motion.position);
 	};
 	std::vector<char> near(resident.potential.size(), 1);
-	for (size_t k = 0; k < near.size(); ++k) {
-		const Interaction& i = *resident.potential[k];
-		if (isOutOfReach(i)) near[k] = 0;
-		else
-			for (const int id : { i.getId1(), i.getId2() })
-				if (isThere(id)) resident.showBody(id);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < (long)near.size(); ++k) {
+		if (k + (long)soon < (long)near.size()) fetch<sizeof(Interaction)>(resident.potential[k + soon].interaction.get());
+		near[k] = !isOutOfReach(*resident.potential[k].interaction);
 	}
+	std::vector<int> looked; // bodies that functors will look at
+	const auto       look = [&](int id) {
+		if (isThere(id)) looked.push_back(id);
+	};
+	for (const int k : others) {
+		look(resident.order[k].low);
+		look(resident.order[k].high);
+	}
+	for (size_t k = 0; k < near.size(); ++k)
+		if (near[k]) {
+			look(resident.potential[k].low);
+			look(resident.potential[k].high);
+		}
+	resident.showBodies(looked);
 
 	std::string error; // thrown after the loop, since threads may not
 	const long  known = (long)others.size(), all = known + (long)near.size();
@@ -220,7 +237,7 @@ void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vecto
 	for (long k = 0; k < all; ++k) {
 		if (k >= known && !near[k - known]) continue;
 		const int                      slot = k < known ? resident.order[others[k]].slot : -1;
-		const shared_ptr<Interaction>& I    = k < known ? list[resident.readings[slot].interaction->linIx] : resident.potential[k - known];
+		const shared_ptr<Interaction>& I    = k < known ? list[resident.readings[slot].interaction->linIx] : resident.potential[k - known].interaction;
 		bool                           stays = false;
 		try {
 			stays = visit(I, *scene, *this);
@@ -238,10 +255,12 @@ void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vecto
 	}
 	if (!error.empty()) throw std::runtime_error(error);
 	size_t left = 0;
-	for (auto& i : resident.potential) {
-		if (i->isReal()) resident.add(i);
-		else
-			resident.potential[left++] = i;
+	for (auto& p : resident.potential) {
+		if (p.interaction->isReal()) resident.add(p.interaction);
+		else {
+			if (&resident.potential[left] != &p) resident.potential[left] = std::move(p);
+			++left;
+		}
 	}
 	resident.potential.resize(left);
 	for (long k = 0; k < known; ++k)

@@ -10,6 +10,7 @@
 namespace yade {
 
 class Law2_ScGeom_NscdPhys_SignoriniCoulomb;
+class Ig2_Segment_Sphere_ScGeom;
 class Ig2_Sphere_Sphere_ScGeom;
 class PlanarGridCollider;
 namespace nscd {
@@ -29,17 +30,18 @@ of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, whic
 boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:
-	/// The functors that a contact of two disks may do without, each null where there is none; and the collider whose reach holds.
+	/// The functors that contacts, or disks out of their reach, may do without, each null where there is none; and the collider whose reach holds.
 	struct Ours {
 		const Ig2_Sphere_Sphere_ScGeom*                    spheres;
+		const Ig2_Segment_Sphere_ScGeom*                   segments;
 		const Law2_ScGeom_NscdPhys_SignoriniCoulomb*       law;
 		const PlanarGridCollider*                          collider;
 	};
 	const PlanarGridCollider* colliderBefore() const;
-	bool                      follow(const nscd::Resident& resident, nscd::Reading& r, nscd::BondReading& bond, const Ours& ours) const;
+	bool                      follow(const nscd::Resident& resident, nscd::Reading& r, const nscd::BondReading& bond, const Ours& ours) const;
 	void                      visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 
-	Ours ours { nullptr, nullptr, nullptr }; // of the last turn
+	Ours ours {}; // of the last turn
 };
 REGISTER_SERIALIZABLE(NscdInteractionLoop);
 

@@ -58,7 +58,7 @@ void PlanarGridCollider::action()
 	else
 		forget();
 	if (anew || moved()) search();
-	findFastest();
+	findNear();
 	takeDisks();
 	takeSides();
 	sizeLeft = scene->interactions->size();
@@ -148,15 +148,17 @@ void PlanarGridCollider::forget()
 /// Erases what the loop found not to be real; with a body that is no disk an interaction may stay potential.
 void PlanarGridCollider::eraseUnreal()
 {
-	auto& potential = resident->potential;
+	auto&  potential = resident->potential;
 	size_t left      = 0;
-	for (size_t k = 0; k < potential.size(); ++k) {
-		const auto   i = potential[k];
-		const auto [a, b] = std::minmax({ i->getId1(), i->getId2() });
+	for (auto& p : potential) {
+		const auto [a, b] = std::pair(p.low, p.high);
 		if (disks[a].r < 0 || disks[b].r < 0) {
-			const auto pair = sidePairOf(a, b);
-			if (pair && pair->known) potential[left++] = i;
-			else
+			const auto pair = p.followed ? nullptr : sidePairOf(a, b);
+			if (p.followed || (pair && pair->known)) {
+				p.followed = true;
+				if (&potential[left] != &p) potential[left] = std::move(p);
+				++left;
+			} else
 				eraseIfUnreal(a, b);
 			continue;
 		}
@@ -278,36 +280,46 @@ void PlanarGridCollider::searchSides()
 	resident->forgetErased(*scene->interactions);
 }
 
-/// Finds how fast each disk is against those near it, where that decides which pairs are wanted.
-void PlanarGridCollider::findFastest()
+/// Finds the pairs of disks within reach that O.interactions has not, and, where that decides which of them are wanted, how fast each disk is against those near it.
+void PlanarGridCollider::findNear()
 {
-	const long size = (long)disks.size();
+	const long size    = (long)disks.size();
+	const bool decides = listed() < factor;
 	fastest.assign(size, 0);
-	if (!(listed() < factor)) return;
+	near.resize(threads);
 	fastestOf.resize(threads);
-	for (auto& part : fastestOf) // there may be fewer threads than asked for
-		part.assign(size, 0);
+	for (int part = 0; part < threads; ++part) { // there may be fewer threads than asked for
+		near[part].clear();
+		if (decides) fastestOf[part].assign(size, 0);
+	}
 #pragma omp parallel num_threads(threads)
 	{
-		auto& part = partOfThread(fastestOf);
+		auto& comes = partOfThread(near);
+		auto& speed = partOfThread(fastestOf);
 #pragma omp for schedule(static)
 		for (long i = 0; i < size; ++i)
 			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
-				const int  j   = pairs.second[k];
-				const Real far = factor * (disks[i].r + disks[j].r), dx = disks[j].x - disks[i].x, dy = disks[j].y - disks[i].y;
-				const Real apart = dx * dx + dy * dy, x = velocities[j].x - velocities[i].x, y = velocities[j].y - velocities[i].y, square = x * x + y * y;
-				if (square <= std::min(part[i], part[j])) continue;
+				const int  j     = pairs.second[k];
+				const Real reach = factor * (disks[i].r + disks[j].r), dx = disks[j].x - disks[i].x, dy = disks[j].y - disks[i].y, apart = dx * dx + dy * dy;
+				if (!(apart <= reach * reach * (1 + 1e-9))) known[k] = 0; // the functor decides, with rounding of its own
+				else if (!known[k])
+					comes.emplace_back(int(i), k);
+				if (!decides) continue;
+				const Real x = velocities[j].x - velocities[i].x, y = velocities[j].y - velocities[i].y, square = x * x + y * y;
+				if (square <= std::min(speed[i], speed[j]) || apart > reach * reach) continue;
 				// by itself it must be wanted, so that it does not matter when pairs were looked up
 				const Real wanted = wantedWithin(int(i), j, std::sqrt(square));
-				if (apart > far * far || apart > wanted * wanted) continue;
-				part[i] = std::max(part[i], square);
-				part[j] = std::max(part[j], square);
+				if (apart > wanted * wanted) continue;
+				speed[i] = std::max(speed[i], square);
+				speed[j] = std::max(speed[j], square);
 			}
+		if (decides) {
 #pragma omp for schedule(static)
-		for (long i = 0; i < size; ++i) {
-			for (const auto& p : fastestOf)
-				fastest[i] = std::max(fastest[i], p[i]);
-			fastest[i] = std::sqrt(fastest[i]);
+			for (long i = 0; i < size; ++i) {
+				for (const auto& p : fastestOf)
+					fastest[i] = std::max(fastest[i], p[i]);
+				fastest[i] = std::sqrt(fastest[i]);
+			}
 		}
 	}
 }
@@ -315,29 +327,11 @@ void PlanarGridCollider::findFastest()
 /// Gives O.interactions the pairs of disks that have come within reach and are wanted.
 void PlanarGridCollider::takeDisks()
 {
-	near.resize(threads);
-	for (auto& part : near)
-		part.clear();
-	const long size = (long)disks.size();
-#pragma omp parallel num_threads(threads)
-	{
-		auto& part = partOfThread(near);
-#pragma omp for schedule(static)
-		for (long i = 0; i < size; ++i) {
-			const Disk a = disks[i];
-			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
-				const Disk& b = disks[pairs.second[k]];
-				const Real  x = b.x - a.x, y = b.y - a.y, far = factor * (a.r + b.r), square = x * x + y * y;
-				// the functor decides, with rounding of its own
-				const bool inReach = square <= far * far * (1 + 1e-9);
-				if (!inReach) known[k] = 0;
-				else if (!known[k] && wants(int(i), pairs.second[k], std::sqrt(square)))
-					part.emplace_back(int(i), k);
-			}
-		}
-	}
 	for (const auto& part : near) // threads have stretches of the list, one after the other
 		for (const auto& [i, k] : part) {
+			const Disk &a = disks[i], &b = disks[pairs.second[k]];
+			const Real  x = b.x - a.x, y = b.y - a.y;
+			if (!wants(i, pairs.second[k], std::sqrt(x * x + y * y))) continue;
 			insert(i, pairs.second[k]);
 			known[k] = 1;
 		}
@@ -358,7 +352,7 @@ void PlanarGridCollider::insert(Body::id_t a, Body::id_t b)
 	if (!nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene)) || scene->interactions->found(a, b)) return;
 	const auto interaction = boost::make_shared<Interaction>(a, b);
 	scene->interactions->insert(interaction);
-	if (resident->hasContacts()) resident->potential.push_back(interaction);
+	if (resident->hasContacts()) resident->addPotential(interaction);
 }
 
 vector<Body::id_t> PlanarGridCollider::probeBoundingVolume(const Bound& bound)

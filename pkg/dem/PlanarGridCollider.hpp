@@ -83,7 +83,7 @@ private:
 	void      search();
 	void      searchSides();
 	void      boundSpeeds();
-	void      findFastest();
+	void      findNear();
 	void      takeDisks();
 	void      takeSides();
 	void      insert(Body::id_t a, Body::id_t b);
@@ -112,7 +112,7 @@ private:
 	Real                                      farPath = 0; // of a disk or a box, in any direction
 	std::vector<Side>                         sides;
 	std::vector<SidePair>                     sidePairs; // by side, then disk
-	std::vector<std::vector<std::pair<int, int>>> near; // by thread: pairs that came within reach, the lower body and the pair
+	std::vector<std::vector<std::pair<int, int>>> near; // by thread: pairs within reach that O.interactions has not, the lower body and the pair
 };
 REGISTER_SERIALIZABLE(PlanarGridCollider);
 

@@ -106,7 +106,7 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		     + ", so that reactions of steps before would act again: put ForceResetter() first in O.engines");
 }
 
-void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies)
+void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped)
 {
 	InteractionLoop* loop     = nullptr;
 	Collider*        collider = nullptr;
@@ -128,8 +128,7 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies)
 	const auto second = std::find_if(first + 1, bodies.end(), isDisk);
 	if (second != bodies.end() && !known((*scene.bodies)[second - bodies.begin()]->shape))
 		fail("InteractionLoop has no functor for two " + disk->getClassName() + "s, so disks would pass through each other: add Ig2_Sphere_Sphere_ScGeom to its list");
-	for (size_t id = 0; id < bodies.size(); ++id) {
-		if (!bodies[id].present || bodies[id].radius > 0 || bodies[id].clumped) continue;
+	for (const int id : shaped) {
 		const auto& b     = (*scene.bodies)[id];
 		auto&       shape = b->shape;
 		if (!shape || !b->isBounded()) continue; // meant to touch nothing

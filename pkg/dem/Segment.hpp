@@ -3,6 +3,7 @@
 
 #include <core/Dispatching.hpp>
 #include <core/Shape.hpp>
+#include <contact/plane/motion.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -37,6 +38,16 @@ public:
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Bo1_Segment_Aabb);
+
+namespace nscd {
+	/// Whether a point is surely farther than `reach` [m] from a segment that lies in the plane with that motion.
+	inline bool isBeyond(Real reach, const Segment& segment, const nonsmooth::contact::plane::Motion& wall, const nonsmooth::contact::Point& point)
+	{
+		const auto along = nonsmooth::contact::plane::rotate(wall.rotation, { 1, 0 });
+		const Real dx = point.x - wall.position.x, dy = point.y - wall.position.y;
+		return std::abs(along.x * dy - along.y * dx) > reach || std::abs(along.x * dx + along.y * dy) > segment.halfLength + reach;
+	}
+}
 
 /// A ScGeom that also knows whether its segment still owns the sphere.
 class SegmentGeom : public ScGeom {

@@ -171,6 +171,28 @@ def test_potential_interactions_exist_with_walls_alone():
     assert potential > 0
 
 
+def test_potential_interactions_with_walls_end_when_disks_have_left():
+    gas(count=60)
+    largest = max(b.shape.radius for b in O.bodies if isinstance(b.shape, Sphere))
+    left, before = 0, set()
+    for _ in range(150):
+        O.step()
+        potential = set()
+        for i in O.interactions.all():
+            wall, disk = sorted((O.bodies[i.id1], O.bodies[i.id2]), key=lambda b: isinstance(b.shape, Sphere))
+            if i.isReal or isinstance(wall.shape, Sphere):
+                continue
+            along = wall.state.ori * (wall.shape.halfLength, 0, 0)
+            low, high = ([sign * abs(along[k]) + wall.state.pos[k] for k in (0, 1)] for sign in (-1, 1))
+            apart = math.hypot(*(max(low[k] - disk.state.pos[k], disk.state.pos[k] - high[k], 0) for k in (0, 1)))
+            # within reach of the box and half a square's margin when pairs were looked up, and a quarter gone since, and the step that was made after the collider
+            assert apart <= (2 * (1 + REACH) - 1) * disk.shape.radius + 3 * (1 + REACH) * largest / 2 + O.dt * disk.state.vel.norm()
+            potential.add((wall.id, disk.id))
+        left += len(before - potential)
+        before = potential
+    assert left > 10
+
+
 def swapped(kind_of_collider=None, kind_of_loop=None):
     """Puts YADE's own engines in the place of ours."""
     engines = list(O.engines)

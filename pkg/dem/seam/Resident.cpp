@@ -58,6 +58,9 @@ void Resident::takeBodies(Scene& scene)
 {
 	const double begin = clockNow();
 	readBodies(scene, threads, bodies);
+	shaped.clear();
+	for (size_t id = 0; id < bodies.size(); ++id)
+		if (const BodyReading& b = bodies[id]; b.present && !(b.radius > 0) && !b.clumped) shaped.push_back(int(id));
 	if (othersMayLook(scene)) asShown = bodies;
 	else
 		asShown.clear();
@@ -94,6 +97,7 @@ void Resident::takeContacts(Scene& scene)
 	bonds.resize(count);
 	holders.clear();
 	freeSlots.clear();
+	strewn = 0;
 	come.clear();
 	gone.clear();
 	held = false;
@@ -110,7 +114,7 @@ void Resident::takeContacts(Scene& scene)
 		order[k].slot = int(k);
 	potential.clear();
 	for (long k = 0; unreal > 0 && k < all; ++k)
-		if (!found[k].geom) potential.push_back(list[k]);
+		if (!found[k].geom) addPotential(list[k]);
 	contactsOwned = true;
 	costOfLook += clockNow() - begin;
 }
@@ -129,8 +133,8 @@ bool Resident::takeKnown(Scene& scene)
 	auto&        list  = *scene.interactions;
 	if (list.size() != order.size() + potential.size()) return false;
 	const auto isThere = [&](const shared_ptr<Interaction>& i) { return i->linIx >= 0 && size_t(i->linIx) < list.size() && list[i->linIx] == i; };
-	for (const auto& i : potential)
-		if (!isThere(i) || i->isReal()) return false;
+	for (const Potential& p : potential)
+		if (!isThere(p.interaction) || p.interaction->isReal()) return false;
 	const long count = (long)order.size();
 	bool       other = false;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
@@ -185,6 +189,20 @@ void Resident::showBody(size_t id)
 	if (bodies[id].moved) write(bodies[id], (*container.lock())[id], id, asShown);
 }
 
+void Resident::showBodies(const std::vector<int>& ids)
+{
+	std::vector<int> behind;
+	for (const int id : ids)
+		if (std::exchange(bodies[id].moved, false)) behind.push_back(id);
+	const auto kept  = container.lock();
+	const long count = (long)behind.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		bodies[behind[k]].moved = true;
+		write(bodies[behind[k]], (*kept)[behind[k]], behind[k], asShown);
+	}
+}
+
 Vector3r Resident::contactPoint(const Reading& r) const
 {
 	if (r.wasRead || r.keeper != Reading::Arrays) return r.geom->contactPoint;
@@ -211,8 +229,8 @@ void Resident::showContact(int slot) const
 	}
 	if (r.bonded) {
 		phys.restGap   = r.restGap;
-		phys.yieldPath = pathOf(bonds[slot]);
-		phys.yielded   = bonds[slot].yielded;
+		phys.yieldPath = vectorOf(r.path);
+		phys.yielded   = r.yielded;
 	}
 	if (!r.reacts) return;
 	const bool swapped = r.first > r.second;
@@ -277,6 +295,12 @@ int Resident::slotOf(const shared_ptr<Interaction>& interaction)
 	return slot;
 }
 
+void Resident::addPotential(const shared_ptr<Interaction>& interaction)
+{
+	const auto [low, high] = std::minmax({ interaction->getId1(), interaction->getId2() });
+	potential.push_back({ interaction, low, high });
+}
+
 void Resident::add(const shared_ptr<Interaction>& interaction)
 {
 	const int slot = slotOf(interaction), a = interaction->getId1(), b = interaction->getId2();
@@ -301,7 +325,7 @@ void Resident::merge(InteractionContainer& list)
 			Reading&   r           = readings[place.slot];
 			const auto interaction = list[r.interaction->linIx];
 			list.requestErase(interaction);
-			potential.push_back(interaction);
+			addPotential(interaction);
 			r = Reading {};
 			if (held) holders[place.slot] = {};
 			freeSlots.push_back(place.slot);
@@ -312,14 +336,36 @@ void Resident::merge(InteractionContainer& list)
 		merged.push_back(place);
 	}
 	merged.insert(merged.end(), next, come.end());
+	strewn += come.size();
 	come.clear();
 	gone.clear();
 	order.swap(merged);
+	if (strewn > order.size() / 20) repack();
+}
+
+/// Puts slots into the order of contacts, which those that come and go leave: whoever goes through them in order then meets neighbours in memory.
+void Resident::repack()
+{
+	const long count = (long)order.size();
+	const auto pack  = [&](auto& items) {
+		std::remove_reference_t<decltype(items)> sorted(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k)
+			sorted[k] = std::move(items[order[k].slot]);
+		items.swap(sorted);
+	};
+	pack(readings);
+	pack(bonds);
+	if (held) pack(holders);
+	for (long k = 0; k < count; ++k)
+		order[k].slot = int(k);
+	freeSlots.clear();
+	strewn = 0;
 }
 
 void Resident::forgetErased(InteractionContainer& list)
 {
-	const auto isErased = [&](const shared_ptr<Interaction>& i) { return list.find(i->getId1(), i->getId2()) != i; };
+	const auto isErased = [&](const Potential& p) { return list.find(p.low, p.high) != p.interaction; };
 	potential.erase(std::remove_if(potential.begin(), potential.end(), isErased), potential.end());
 }
 

@@ -32,6 +32,13 @@ public:
 		int low, high, slot;
 	};
 
+	/// An interaction that is not real.
+	struct Potential {
+		shared_ptr<Interaction> interaction;
+		int                     low, high;
+		bool                    followed = false; // the collider has found its pair among those that it follows
+	};
+
 	/// That of a scene; made where there is none.
 	static std::shared_ptr<Resident> of(Scene& scene);
 
@@ -51,12 +58,16 @@ public:
 	void displace(size_t id, const nonsmooth::contact::Twist& d);
 	/// Brings a body's state up to date.
 	void showBody(size_t id);
+	/// The same for several, each of which may be named more than once.
+	void showBodies(const std::vector<int>& ids);
 
 	/// Of two disks, at the time when their geometry was found [m].
 	Vector3r contactPoint(const Reading& r) const;
 
 	/// Reads a real interaction, with what a script has written into it.
 	void readSlot(const Found& found, int slot);
+	/// Notes an interaction that is not real.
+	void addPotential(const shared_ptr<Interaction>& interaction);
 	/// Takes a real interaction for a new contact; `merge` gives it its place.
 	void add(const shared_ptr<Interaction>& interaction);
 	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential ones.
@@ -65,12 +76,13 @@ public:
 	void forgetErased(InteractionContainer& list);
 
 	std::vector<BodyReading> bodies; // by id
+	std::vector<int>         shaped; // those that are no disks and of no clump
 	std::vector<Reading>     readings; // by slot
 	std::vector<BondReading> bonds;    // by slot, of contacts that the arrays keep
 	std::vector<Place>       order;
 	std::vector<int>         gone; // places in the order of contacts that are to be left out
 	/// Interactions that are not real, in the order of their list after the last loop; and the step of that loop.
-	std::vector<shared_ptr<Interaction>> potential;
+	std::vector<Potential>               potential;
 	long                                 potentialOf = never;
 	/// Where bodies were when the geometry of contacts was found; by id.
 	std::vector<nonsmooth::contact::Point> places;
@@ -89,6 +101,7 @@ private:
 	bool takeKnown(Scene& scene);
 	int  slotOf(const shared_ptr<Interaction>& interaction);
 	void showContact(int slot) const;
+	void repack();
 	bool isBehind(const Scene& scene) const;
 
 	int                                      threads = 1; // those of the last turn
@@ -100,6 +113,7 @@ private:
 	std::vector<BodyReading>                 asShown; // during a run in the background: what the states had when they were last written or read
 	std::vector<Holder>                      holders; // by slot
 	std::vector<int>                         freeSlots;
+	size_t                                   strewn = 0; // contacts that came since slots were last in their order
 	std::vector<Place>                       come, merged;
 	std::vector<int>                         bucket;
 	std::vector<Found>                       found; // by place in the list of interactions

@@ -8,7 +8,7 @@ RESIDENT, AUDIENCE, READING = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Audienc
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
-PHYS, MAT, SEGMENT = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.cpp"
+PHYS, MAT, SEGMENT, SEGMENT_H = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.cpp", "pkg/dem/Segment.hpp"
 BONDS, BONDS_H, LAW_H = "pkg/dem/BondEllipse.cpp", "pkg/dem/BondEllipse.hpp", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 WALL, WALL_LAW, FOLLOWER = "pkg/dem/WallPhys.cpp", "pkg/dem/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp", "pkg/dem/BondEllipseEngine.cpp"
 
@@ -48,7 +48,7 @@ MUTANTS = (
            "test_contact_law.py::test_slip_survives_joints_and_is_the_path"),
     mutant("scatter-slip-open", SCATTER, "problem.impulses[k].n + c.adhesion <= 0", "problem.impulses[k].n + c.adhesion < 0", "disks that fly over a wall slip on it",
            "test_contact_law.py::test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_none"),
-    mutant("scatter-yield-mode", READING, "Vector3r(bond.path.tension, bond.path.shear, bond.path.torque)", "Vector3r(bond.path.tension, bond.path.shear + bond.path.torque, 0)",
+    mutant("scatter-yield-mode", READING, "Vector3r(path.tension, path.shear, path.torque)", "Vector3r(path.tension, path.shear + path.torque, 0)",
            "a bond that rolls counts as sheared", "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
     mutant("scatter-work", SCATTER, "0.5 * p.n * (u0.n + u1.n)", "p.n * u1.n", "the work of normal impulses is that of the velocity afterwards",
            "test_engine.py::test_energy_of_a_collapse_closes"),
@@ -186,8 +186,16 @@ MUTANTS = (
            "test_view.py::test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost"),
     mutant("take-refresh", LOOP, "r.phys->updateThresholds(r.gap, ours.law->adhesionRange);", ";", "strengths that a script has changed are not taken up",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]", "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[residualRollingArm]"),
-    mutant("take-yield", SCATTER, "bond.yielded      = opens;", "bond.yielded = false;", "bonds that opened do not keep their length in the arrays",
+    mutant("take-yield", SCATTER, "r.yielded        = opens;", "r.yielded = false;", "bonds that opened do not keep their length in the arrays",
            "test_view.py::test_a_loaded_scene_goes_on_in_the_arrays_with_the_same_bits", "test_bonds.py::test_bond_opened_in_tension_keeps_its_new_length"),
+    mutant("take-slots", RESIDENT, "pack(bonds);", ";", "contacts are put in order and get each other's bonds",
+           SAME, OWN),
+    mutant("take-walls", LOOP, "resident.showBodies(looked);", ";", "walls see disks where they were when somebody looked", SAME, OWN),
+    mutant("take-beyond", SEGMENT_H, "segment.halfLength + reach", "0.5 * segment.halfLength", "disks above the ends of a wall's segments are not seen to come", "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
+    mutant("take-followed", COLLIDER, "eraseIfUnreal(sides[pair.side].id, pair.disk);", ";", "disks that have left a wall keep their potential interactions with it",
+           "test_collider.py::test_potential_interactions_with_walls_end_when_disks_have_left"),
+    mutant("take-breaks", SCATTER, "parts[part].anyBroken()", "(part > 0 && parts[part].anyBroken())", "breaks among the first contacts are not recorded",
+           "test_bonds.py"),
     mutant("known-written", RESIDENT, "r.keeper != Reading::Arrays || r.phys->touched", "r.keeper != Reading::Arrays", "what is written into a contact between two steps is lost",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]"),
     mutant("known-exchanged", RESIDENT, "i.geom != held.geom || i.phys != held.phys", "i.geom != held.geom", "physics that a script has put in place of another is not taken up",
