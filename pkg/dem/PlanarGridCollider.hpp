@@ -91,7 +91,7 @@ private:
 	SidePair* sidePairOf(Body::id_t a, Body::id_t b);
 
 	static constexpr Real foresight = 2; // steps in which a pair beyond the sure reach may come to be within it
-	static constexpr Real ahead     = 4; // steps for which pairs are looked up, as fast as they are then
+	static constexpr Real ahead     = 12; // steps for which pairs are looked up, as fast as they are then
 
 	int                                       threads = 1;
 	size_t                                    sizeLeft = 0; // of O.interactions at the end of the last run
