@@ -230,7 +230,7 @@ def test_the_margin_changes_no_bit():
     found = []
     for margin in (0.0, 0.5, 3.0, -1.0):
         O.reset()
-        gas(count=100, speed=8.0)  # slow enough that the margin decides when pairs are looked up
+        gas(count=100, speed=4.0)  # slow enough that the margin decides when pairs are looked up
         collider().verletDist = margin
         run(120)
         found.append((bits(), collider().searches))
