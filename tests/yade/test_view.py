@@ -7,7 +7,7 @@ import pytest
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
-from yade.wrapper import ForceEngine, InteractionLoop, NewtonIntegrator, NonsmoothTimeStepper, NscdMat, PorePressureEngine, PyRunner, SlipWeakeningMat
+from yade.wrapper import Collider, ForceEngine, InsertionSortCollider, InteractionLoop, NewtonIntegrator, NonsmoothTimeStepper, NscdMat, PorePressureEngine, PyRunner, SlipWeakeningMat
 
 from contact_scenes import begin, engine, free_disk, loose_heap, material
 
@@ -133,6 +133,55 @@ def test_interactions_are_what_yades_own_loop_makes_of_them():
             assert a[key] == b[key], key
 
 
+def own_engines():
+    """YADE's collider, loop and integrator in the place of ours."""
+    def theirs(e):
+        if isinstance(e, Collider):
+            return InsertionSortCollider(e.boundDispatcher.functors, verletDist=e.verletDist)
+        if isinstance(e, InteractionLoop):
+            return InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors)
+        return NewtonIntegrator(damping=0, gravity=e.gravity) if isinstance(e, NewtonIntegrator) else e
+    O.engines = [theirs(e) for e in O.engines]
+
+
+def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines():
+    """On the way disks are taken away and put in, a bonded contact is ended, a disk is thrown, and what touches is bonded anew."""
+    def end(way):
+        O.reset()
+        ids, driven = busy(steps_of_time=True)
+        if way == "watched":
+            watched()
+        if way == "beside others":
+            beside_others()
+        if way == "own engines":
+            own_engines()
+        rows = []
+        for leg in range(10):
+            if way == "advanced":
+                engine().advance(200)
+            else:
+                advance(way, 200)
+            walls = [plain(m) for m in O.materials if isinstance(m, SlipWeakeningMat)]
+            counts = [getattr(engine(), name) for name in ("bonds", "brokenTension", "brokenShear", "brokenTorque", "brokenMixed", "totalIterations")]
+            rows.append(([(b.id, b.state.pos, b.state.vel, b.state.ori, b.state.angVel) for b in O.bodies if b], walls, counts,
+                         sorted((sorted((i.id1, i.id2)), without_signs(i)) for i in O.interactions if i.isReal)))
+            O.bodies.erase(ids[3 * leg])
+            free_disk(1.0 + leg, 9.0, (0.3 * leg - 1, -4, 0), O.bodies[ids[1]].material)
+            contact = min((i for i in O.interactions if i.isReal and i.phys.bonded), key=lambda i: sorted((i.id1, i.id2)), default=None)
+            if contact:
+                O.interactions.erase(contact.id1, contact.id2)
+            O.bodies[ids[31]].state.vel = (0, 3, 0)
+            engine().bond()
+        return rows
+
+    expected = end("run")
+    assert engine().steps > 2000 and engine().bonds > 0 and engine().brokenShear > 5
+    for way in ("advanced", "watched", "stepped", "beside others", "own engines"):
+        for leg, (a, b) in enumerate(zip(expected, end(way))):
+            for what, x, y in zip(("bodies", "walls", "counts", "contacts"), a, b):
+                assert x == y, (way, leg, what)
+
+
 def pair():
     return next(i for i in O.interactions if i.isReal and i.phys.bonded)
 
@@ -225,6 +274,41 @@ def test_what_is_changed_between_two_runs_is_taken_up(what):
         assert course(way, busy, changed(what))[:3] == unwatched[:3], way
     if what not in ("restitution", "isActive", "dt", "integrator", "loop"):  # of which the disks may not feel anything
         assert untouched() != unwatched[0], "it changed nothing, so nothing was tested"
+
+
+WITHIN = {
+    "vel": lambda ids: setattr(O.bodies[ids[11]].state, "vel", (2, 1, 0)),
+    "pos": lambda ids: setattr(O.bodies[ids[30]].state, "pos", O.bodies[ids[30]].state.pos + Vector3(0.02, 0.03, 0)),
+    "mass": lambda ids: setattr(O.bodies[ids[2]].state, "mass", 1.1 * O.bodies[ids[2]].state.mass),
+    "friction": lambda ids: [setattr(i.phys, "residualFriction", 0.1) for i in O.interactions if i.isReal],
+    "bonded": lambda ids: setattr(pair().phys, "bonded", False),
+    "erased interaction": lambda ids: O.interactions.erase(*(lambda i: (i.id1, i.id2))(pair())),
+    "gravity": lambda ids: setattr(next(e for e in O.engines if isinstance(e, NewtonIntegrator)), "gravity", (1, -9, 0)),
+}
+
+
+@pytest.mark.parametrize("place", ["first", "before the loop", "before the solver", "last"])
+@pytest.mark.parametrize("what", WITHIN)
+def test_what_a_script_changes_within_a_step_is_taken_up(what, place):
+    """An engine that acts in two steps of the run, anywhere in the list."""
+    def end(way):
+        O.reset()
+        made = busy()
+        O.change = lambda: WITHIN[what](made[0])
+        at = {"first": 0, "before the loop": next(k for k, e in enumerate(O.engines) if isinstance(e, InteractionLoop)),
+              "before the solver": next(k for k, e in enumerate(O.engines) if e is engine() or e.label == engine().label), "last": len(O.engines)}[place]
+        O.engines = O.engines[:at] + [PyRunner(command="O.change()", iterPeriod=75, nDo=2)] + O.engines[at:]
+        if way == "watched":
+            watched()
+        if way == "beside others":
+            beside_others()
+        advance(way, STEPS)
+        return everything()[:3]
+
+    unwatched = end("run")
+    for way in ("watched", "stepped", "beside others"):
+        assert end(way) == unwatched, way
+    assert unwatched[0] != untouched(), "it changed nothing, so nothing was tested"
 
 
 def test_a_loaded_scene_goes_on_in_the_arrays_with_the_same_bits(tmp_path):
