@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A soak: disks in a turning drum for very many steps. Overlap, energy and memory must not grow; the exit status is 1 where one does.
 
-  scripts/soak.py [--steps N] [--disks N] [--seed S] [--out FILE] [--threads T]
+  scripts/soak.py [--steps N] [--disks N] [--seed S] [--way advance|step] [--out FILE] [--threads T]
 """
 import os, sys
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
@@ -24,6 +24,7 @@ def read_arguments():
     parser.add_argument("--steps", type=int, default=1_000_000, metavar="N", help="time steps of 5 ms (default: %(default)s, half an hour)")
     parser.add_argument("--disks", type=int, default=500, metavar="N", help="disks in the drum (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of their sizes (default: %(default)s)")
+    parser.add_argument("--way", choices=soak.WAYS, default="advance", help="; ".join(f"{name}: {what}" for name, what in soak.WAYS.items()) + "; the bits are the same (default: %(default)s)")
     parser.add_argument("--out", default="out/soak.json", metavar="FILE", help="file for the result (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="threads; one is enough for some hundred disks (default: all cores)")
     args = parser.parse_args()
@@ -39,7 +40,7 @@ def main():
     out = Path(args.out)
     output_folder.claim(out.parent, "soak.py")
     with arguments.bar() as progress:
-        found = soak.run(args.disks, args.steps, args.seed, progress)
+        found = soak.run(args.disks, args.steps, args.seed, progress, args.way)
     write_atomically(out, json.dumps({"machine": machine.describe(), **found}, indent=1).encode())
     rows = found["rows"]
     first, last = rows[len(rows) // 10], rows[-1]

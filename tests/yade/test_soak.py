@@ -23,6 +23,12 @@ def test_a_short_soak(tmp_path):
     # they have fallen and lie: by potential energy of order m g R, of which the balance, first order in the step, misses a few thousandths at most
     assert rows[-1]["dissipated_J"] > 60 * 1500 * 9.81 * 1.0 and abs(rows[-1]["energy_error_rel"]) < 3e-3
     assert 0 < rows[-1]["overlap_worst_rel"] < 0.01
+    other = command("--steps", 2000, "--disks", 60, "--threads", 1, "--way", "step", "--out", tmp_path / "stepped.json")
+    assert other.returncode == 0, other.stdout + other.stderr
+    stepped = json.loads((tmp_path / "stepped.json").read_text())["rows"]
+    assert len({row["bits"] for row in rows}) == len(rows)
+    forget = lambda row: {key: value for key, value in row.items() if key != "memory_MB"}  # noqa: E731
+    assert [forget(row) for row in stepped] == [forget(row) for row in rows]
     O.reset()
 
 

@@ -6,6 +6,7 @@ Euler forces, which are left out: they are ω²R/g of gravity (0.7 % by default)
 
 from __future__ import annotations
 
+import hashlib
 import math
 import random
 import time
@@ -14,11 +15,12 @@ from pathlib import Path
 import numpy as np
 
 from yade import O
+from yade.minieigenHP import Vector3
 from yade.wrapper import NewtonIntegrator, NscdMat
 
 from .. import scene
 
-__all__ = ["ROWS", "TURNS_TO_JUDGE", "judge", "run", "steps_of"]
+__all__ = ["ROWS", "TURNS_TO_JUDGE", "WAYS", "judge", "run", "steps_of"]
 
 ROWS = 40  # over a soak; each tells of the steps since the one before
 GRAVITY = 9.81  # m/s²
@@ -28,35 +30,44 @@ FILLED = 0.5  # share of the drum's area that the disks take, pores included
 FRACTION = 0.8  # of the disks' area in that, about
 SIDES = 60  # of the polygon
 TURNS_TO_JUDGE = 3
+HELD = 10  # steps for which gravity keeps its direction, a fifth of a degree
+WAYS = {"advance": "steps are made in the plugin's arrays, and shown each time gravity turns", "step": "O.step() for each, and so shown after each"}
 
 
-def run(disks, steps, seed=1, progress=lambda share, doing: None):
+def run(disks, steps, seed=1, progress=lambda share, doing: None, way="advance"):
     """Turns a drum with ``disks`` disks (1 m wide, ± 20 %) for ``steps`` steps of 5 ms, one turn in 100 s; returns what JSON can hold.
 
-    ``progress``: called with the share done and what is being done. The scene is reset before. Rows hold the largest and the mean overlap [ℓ] of their
-    steps, the mean kinetic energy [J], what the energy balance misses as a share of all that was dissipated so far, the memory in use [MB], the sweeps and the
-    steps above the tolerance.
+    ``progress``: called with the share done and what is being done; ``way``: of WAYS. The scene is reset before. Rows hold, of every tenth step,
+    the largest and the mean overlap [ℓ] and the mean kinetic energy [J]; what the energy balance misses as a share of all that was dissipated so far; the
+    memory in use [MB]; sweeps; steps above the tolerance; and a checksum of bodies and contacts to the last bit, which is the same in both ways.
     """
     engine, newton, radius = _fill(disks, seed)
-    mass = sum(b.state.mass for b in O.bodies)  # walls have none
+    weights = [(b.id, b.state.mass) for b in O.bodies if b.state.mass > 0]  # walls have none
+    mass = sum(m for _, m in weights)
     began, rows, turning, before = time.monotonic(), [], 0.0, None
     for k in range(ROWS):
         worst, sums, count, sweeps, missed = 0.0, np.zeros(2), 0, engine.totalIterations, engine.unconverged
-        for step in range(steps * k // ROWS, steps * (k + 1) // ROWS):
+        first, end = steps * k // ROWS, steps * (k + 1) // ROWS
+        for step in range(first, end, HELD):
             angle = 2 * math.pi * step * STEP / TURN
             newton.gravity = now = (-GRAVITY * math.sin(angle), -GRAVITY * math.cos(angle), 0)
-            O.step()
             if before is not None:  # what turning it has given the disks, which the balance knows nothing of
-                turning -= mass * sum((a - b) * c for a, b, c in zip(now, before, engine.centroid))
+                turning -= mass * sum((a - b) * c for a, b, c in zip(now, before, _centroid(weights)))
             before = now
+            if way == "step":
+                for _ in range(min(HELD, end - step)):
+                    O.step()
+            else:
+                engine.advance(min(HELD, end - step))
             worst, count = max(worst, engine.overlapWorst), count + 1
             sums += engine.kineticEnergy, engine.overlapMean
         lost = engine.slidingLoss + engine.rollingLoss + engine.impactLoss
         rows.append({"step": O.iter, "turns": O.time / TURN, "overlap_worst_rel": worst, "overlap_mean_rel": sums[1] / count, "kinetic_J": sums[0] / count,
                      "dissipated_J": lost, "energy_error_rel": (engine.energyError - turning) / lost if lost > 0 else 0.0, "memory_MB": memory(),
-                     "sweeps_mean": (engine.totalIterations - sweeps) / count, "unconverged": engine.unconverged - missed, "inside": _inside(radius)})
+                     "sweeps_mean": (engine.totalIterations - sweeps) / (end - first), "unconverged": engine.unconverged - missed, "inside": _inside(radius),
+                     "bits": _checksum(engine)})
         progress((k + 1) / ROWS, f"{O.time / TURN:.1f} turns")
-    return {"disks": disks, "steps": steps, "seed": seed, "step_s": STEP, "turn_s": TURN, "drum_radius_m": radius, "froude": (2 * math.pi / TURN) ** 2 * radius / GRAVITY,
+    return {"disks": disks, "steps": steps, "seed": seed, "way": way, "step_s": STEP, "turn_s": TURN, "drum_radius_m": radius, "froude": (2 * math.pi / TURN) ** 2 * radius / GRAVITY,
             "wall_s": time.monotonic() - began, "rows": rows, **judge(rows)}
 
 
@@ -117,6 +128,18 @@ def _fill(disks, seed):
     O.engines = scene.engines(gravity=(0, -GRAVITY, 0), reach=0.1)
     O.dt = STEP
     return scene.contact_dynamics(), next(e for e in O.engines if isinstance(e, NewtonIntegrator)), radius
+
+
+def _checksum(engine):
+    """Of all bodies and contacts, these in the order of ids."""
+    contacts = np.frombuffer(engine.contactTable()).reshape(-1, 12)
+    order = np.lexsort((contacts[:, :2].max(axis=1), contacts[:, :2].min(axis=1)))
+    return hashlib.sha256(engine.bodyTable() + contacts[order].tobytes()).hexdigest()
+
+
+def _centroid(weights):
+    """Of the bodies, by (id, mass)."""
+    return sum((m * O.bodies[i].state.pos for i, m in weights), Vector3(0, 0, 0)) / sum(m for _, m in weights)
 
 
 def _inside(radius):
