@@ -12,7 +12,7 @@
 #pragma once
 
 #include "Advance.hpp"
-#include "ContactSeam.hpp"
+#include "seam/ContactSeam.hpp"
 #include "StageClock.hpp"
 #include <contact/solver.hpp>
 #include <core/GlobalEngine.hpp>

@@ -1,7 +1,7 @@
 #include "NscdInteractionLoop.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "PlanarGridCollider.hpp"
-#include "Prefetch.hpp"
+#include "seam/Prefetch.hpp"
 #include "SceneCheck.hpp"
 #include "Segment.hpp"
 #include "StageClock.hpp"

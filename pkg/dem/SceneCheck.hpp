@@ -4,8 +4,8 @@
 // numbers of each contact. None of it costs a thousandth of a step.
 #pragma once
 
-#include "BodyReading.hpp"
-#include "ContactReading.hpp"
+#include "seam/BodyReading.hpp"
+#include "seam/ContactReading.hpp"
 
 namespace yade::nscd {
 

@@ -1,6 +1,6 @@
 #include "Resident.hpp"
-#include "../PlaneMotion.hpp"
-#include "../Prefetch.hpp"
+#include "PlaneMotion.hpp"
+#include "Prefetch.hpp"
 #include "Audience.hpp"
 #include <chrono>
 #include <map>
@@ -210,7 +210,7 @@ Vector3r Resident::contactPoint(const Reading& r) const
 	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
 }
 
-/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor and of ContactSeam.
+/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor.
 void Resident::showContact(int slot) const
 {
 	const Reading& r = readings[slot];
@@ -232,15 +232,7 @@ void Resident::showContact(int slot) const
 		phys.yieldPath = vectorOf(r.path);
 		phys.yielded   = r.yielded;
 	}
-	if (!r.reacts) return;
-	const bool swapped = r.first > r.second;
-	const Real sign    = swapped ? -1 : 1, nx = swapped ? -r.nx : r.nx, ny = swapped ? -r.ny : r.ny;
-	phys.normal        = r.normal;
-	phys.tangential    = r.tangential;
-	phys.torque        = r.torque;
-	phys.correction    = r.correction;
-	phys.normalForce   = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(sign * phys.normal * Vector3r(nx, ny, 0));
-	phys.shearForce    = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(sign * phys.tangential * Vector3r(-ny, nx, 0));
+	if (r.reacts) writeReactions(r);
 }
 
 void Resident::show(const string& who, bool staysKnown)

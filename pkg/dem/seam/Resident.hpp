@@ -16,8 +16,8 @@
 // O.forces stays where forces are added up, in every step: it is not kept twice.
 #pragma once
 
-#include "../BodyReading.hpp"
-#include "../ContactReading.hpp"
+#include "BodyReading.hpp"
+#include "ContactReading.hpp"
 #include <boost/weak_ptr.hpp>
 #include <contact/problem.hpp>
 #include <memory>

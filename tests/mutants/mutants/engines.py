@@ -1,10 +1,10 @@
 """Engines and the seam between YADE and the solver, soft walls included: C++ with YADE, judged by pytest."""
 from mutant import mutant
 
-SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/ContactSeam.cpp", "pkg/dem/ContactSeamScatter.cpp", "pkg/dem/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
+SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
-TO_PLANE = "pkg/dem/PlaneMotion.hpp"
-RESIDENT, AUDIENCE, READING = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Audience.cpp", "pkg/dem/ContactReading.hpp"
+TO_PLANE = "pkg/dem/seam/PlaneMotion.hpp"
+RESIDENT, AUDIENCE, READING = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
@@ -39,7 +39,7 @@ MUTANTS = (
     # ---- seam: scatter
     mutant("scatter-torque", SCATTER, "r.torque            = p.r / h;", "r.torque = p.r;", "the rolling reaction is an impulse",
            "test_bonds.py::test_reactions_at_the_threshold"),
-    mutant("scatter-shear", SCATTER, "Vector3r(-c.ny, c.nx, 0)", "Vector3r(c.ny, -c.nx, 0)", "the shear force has the wrong sign",
+    mutant("scatter-shear", READING, "Vector3r(-r.tangential * r.ny, r.tangential * r.nx, 0)", "Vector3r(r.tangential * r.ny, -r.tangential * r.nx, 0)", "the shear force has the wrong sign",
            "test_reactions.py::test_forces_are_told_as_they_act_on_the_second_body"),
     mutant("scatter-reaction", SCATTER, "ri.w -= c.leverNi * p.n + c.leverTi * p.t + p.r;", "ri.w -= c.leverNi * p.n + c.leverTi * p.t;",
            "the torque on the first body lacks rolling", "test_reactions.py::test_contacts_give_no_moment_in_all"),
@@ -181,7 +181,7 @@ MUTANTS = (
     mutant("view-geometry", RESIDENT, "geom.normal           = Vector3r(r.nx, r.ny, r.nz);", ";", "normals of contacts do not follow", OWN),
     mutant("view-point", RESIDENT, "bodies[r.first].radius - 0.5 * -r.gap", "bodies[r.first].radius + 0.5 * -r.gap", "contact points lie beyond the gap", OWN),
     mutant("view-thresholds", RESIDENT, "phys.currentRollingArm                              = r.rollingArm;", "phys.currentRollingArm = 0;", "rolling thresholds do not follow", OWN),
-    mutant("view-reactions", RESIDENT, "phys.torque        = r.torque;", ";", "rolling reactions do not follow", SAME),
+    mutant("view-reactions", READING, "phys.torque      = r.torque;", ";", "rolling reactions do not follow", SAME),
     mutant("view-foreign", RESIDENT, "!isAs(*body->state, asShown[id])", "false", "what another thread writes into a body is overwritten",
            "test_view.py::test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost"),
     mutant("take-refresh", LOOP, "r.phys->updateThresholds(r.gap, ours.law->adhesionRange);", ";", "strengths that a script has changed are not taken up",

@@ -1,7 +1,7 @@
 """The law broken at large: what verification checks must see, one of these mutants each and together all of them."""
 from mutant import Mutant
 
-KERNELS, PROBLEM, SEAM = "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/dem/ContactSeam.cpp"
+KERNELS, PROBLEM, SEAM = "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/dem/seam/ContactSeam.cpp"
 
 
 def checks(*names):

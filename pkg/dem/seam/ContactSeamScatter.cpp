@@ -113,15 +113,7 @@ inline void ContactSeam::scatterContact(size_t k, const Impulse& u)
 	r.leftOut           = false;
 	const bool inArrays = r.keeper == Reading::Arrays;
 	NscdPhys&  phys     = *r.phys;
-	if (!inArrays) {
-		const Real sign  = links[k].swapped ? -1 : 1; // YADE's forces act on the interaction's second body
-		phys.normal      = r.normal;
-		phys.tangential  = r.tangential;
-		phys.torque      = r.torque;
-		phys.correction  = r.correction;
-		phys.normalForce = sign * phys.normal * Vector3r(c.nx, c.ny, 0);
-		phys.shearForce  = sign * phys.tangential * Vector3r(-c.ny, c.nx, 0);
-	}
+	if (!inArrays) writeReactions(r);
 	if (!inArrays || r.broken != NscdPhys::None) phys.yielded = false;
 	if (r.broken != NscdPhys::None) phys.breaks = false; // it is counted now
 	if (!r.bonded) return;

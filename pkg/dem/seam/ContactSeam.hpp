@@ -4,7 +4,7 @@
 // order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
 #pragma once
 
-#include "seam/Resident.hpp"
+#include "Resident.hpp"
 #include <contact/solver.hpp>
 #include <algorithm>
 #include <core/Scene.hpp>

@@ -1,6 +1,6 @@
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
-#include "SceneCheck.hpp"
+#include "../SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
 #include <contact/plane/disk_contact.hpp>
@@ -68,10 +68,7 @@ void ContactSeam::forgetReactions(int slot)
 	r.leftOut = r.reacts = true;
 	if (r.normal == 0) return;
 	r.normal = r.tangential = r.torque = r.correction = 0;
-	if (r.keeper == Reading::Arrays) return;
-	NscdPhys& phys = *r.phys;
-	phys.normal = phys.tangential = phys.torque = phys.correction = 0;
-	phys.normalForce = phys.shearForce = Vector3r::Zero();
+	if (r.keeper != Reading::Arrays) writeReactions(r);
 }
 
 void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)

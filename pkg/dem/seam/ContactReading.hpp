@@ -4,7 +4,7 @@
 // somebody looks; the others are read anew after their functors have been called.
 #pragma once
 
-#include "NscdPhys.hpp"
+#include "../NscdPhys.hpp"
 #include <contact/plane/bond.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -132,6 +132,18 @@ inline void read(const Found& found, Reading& r, BondReading& bond)
 	r.path    = { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] };
 	bond      = { { { phys.anchor1[0], phys.anchor1[1] }, { phys.anchor2[0], phys.anchor2[1] }, { phys.axis[0], phys.axis[1] } },
 		      { phys.ellipseNormal, phys.ellipseTangential } };
+}
+
+/// Writes a contact's reactions into its interaction, whose forces act on its second body.
+inline void writeReactions(const Reading& r)
+{
+	NscdPhys& phys   = *r.phys;
+	phys.normal      = r.normal;
+	phys.tangential  = r.tangential;
+	phys.torque      = r.torque;
+	phys.correction  = r.correction;
+	phys.normalForce = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(r.normal * r.nx, r.normal * r.ny, 0);
+	phys.shearForce  = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(-r.tangential * r.ny, r.tangential * r.nx, 0);
 }
 
 } // namespace yade::nscd
