@@ -19,6 +19,7 @@ __all__ = ["Slope", "build", "find", "hard", "order_of"]
 # A wall piece of this many mean diameters keeps its bounding box small and the pieces few.
 PIECE = 8.0
 REACH = 0.05  # gap [ℓ] up to which they are known in any case
+SLACK = 1e-3  # ℓ, overlaps and errors of bonds' lengths that stay: what is taken back below opens and shuts contacts, whose forces must be found anew in each step
 SHORTEST_STEP = 0.1  # of a section's time step, however fast its disks are
 STEP_GROWTH = 1.2    # one bond that is torn apart shortens a step, and should not shorten the next dozen
 
@@ -66,7 +67,7 @@ def hard(section) -> worlds.Hard:
     reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
     # known early enough for disks that approach each other at such a speed; the fastest of the paper's slope reach 50 m/s
     far = scales.of(section).approach_speed * n.time_step / section.disks.d_min
-    return worlds.Hard(n.time_step, n.tolerance, reach, far, -n.verlet_distance, {"maxIterations": n.max_iterations})
+    return worlds.Hard(n.time_step, n.tolerance, reach, far, -n.verlet_distance, {"maxIterations": n.max_iterations, "correctionSlack": SLACK})
 
 
 def order_of(section, packing) -> np.ndarray:

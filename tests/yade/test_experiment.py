@@ -42,7 +42,7 @@ def test_figures_are_drawn_from_the_records(whole, tmp_path):
 def test_an_early_end_and_a_resume_give_the_same_bits(whole, in_process, tmp_path):
     """Stopped while water acts, while the plane weakens and the table is held, while disks are released, and while it rests; each part goes on from a checkpoint."""
     s, state = whole.series, whole.state
-    weakens = s["time_s"][(s["weakened_disks"] > 5) & (s["weakened_disks"] < 0.5 * s["weakened_disks"].max())][0]
+    weakens = s["time_s"][(s["weakened_disks"] > 5) & (s["weakened_disks"] < 0.9 * s["weakened_disks"].max())][0]
     released = s["time_s"][s["released_disks"] > 0.5 * s["released_disks"].max()][0]
     stops = {"settles": 0.1, "wet": 0.5 * (state["t0"] + state["moving"]), "weakens": weakens, "released": released, "rests": state["resting_since"] + 0.1}
     assert list(stops.values()) == sorted(stops.values())

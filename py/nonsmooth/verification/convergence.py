@@ -82,8 +82,10 @@ KEEP = ("water_at_failure_m", "front_travel_m", "centroid_travel_m", "deposit_th
         "residual_p95_over_tolerance", "times_s", "finished", "disks", "steps", "packing_fraction", "bonds_initial")
 
 
-def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving):
-    """The shipped section with about so many disks, or with ``disks`` = 0 the small section of the tests, until its avalanche rests."""
+def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving, slack=None):
+    """The shipped section with about so many disks, or with ``disks`` = 0 the small section of the tests, until its avalanche rests; ``slack``: errors of position
+    that stay [ℓ], None: those that stay in slopes.
+    """
     from .. import experiment, packing, records, results, section, tables
     from .. import slope as builder
 
@@ -95,6 +97,8 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving)
     rock = dataclasses.replace(rock, tensile_strength=strength * rock.tensile_strength, residual_tensile_strength=strength * rock.residual_tensile_strength)
     s = dataclasses.replace(shipped, numerics=numerics, materials={**shipped.materials, "rock": rock})
     built = builder.build(s, packing.cached_pack(s))
+    if slack is not None:
+        built.solver.correctionSlack = slack
     run = experiment.Experiment(built, folder)
     run.run()
     state = {**dataclasses.asdict(run.state), "overlap_worst_ever": built.solver.overlapWorstEver}
