@@ -212,6 +212,7 @@ WHERE = {
     },
     "soak.py": {
         "--disks": (("--disks", 61), lambda a: a.words[0], 61), "--steps": (("--steps", 1234), lambda a: a.words[1], 1234), "--seed": (("--seed", 9), lambda a: a.words[2], 9),
+        "--way": (("--way", "step"), lambda a: a.words[4], "step"),
     },
     "verify.py": {
         "--only": (("--only", "bonds", "cradle"), lambda a: sorted({c.run.__module__.split(".")[-1] for c in a.words[0]}), ["bonds", "impacts"]),
