@@ -488,12 +488,15 @@ def test_contacts_recalled_in_a_step_stand_in_the_order_of_ids(tmp_path):
     assert (speeds[1] - speeds[0], speeds[2] - speeds[1]) == pytest.approx((20, 20), rel=1e-9)
 
 
-def test_contacts_that_came_late_stand_in_the_order_of_ids_too(tmp_path):
+@pytest.mark.parametrize("beside", [[], [ForceEngine(force=(0, 0, 0), ids=[])]])
+def test_contacts_that_came_late_stand_in_the_order_of_ids_too(tmp_path, beside):
+    """In the arrays, and beside an engine that may change anything, so that all are read anew."""
     first, late, early = (free_disk(x, 0) for x in (0, -5, 1))
     begin(gravity=(0, 0, 0))
+    O.engines = O.engines + beside
     run(2)
     O.bodies[late].state.pos = (-1, 0, 0)
-    run(2)  # it comes in the first of them, and is read with the others in the second
+    run(2)  # it comes in the first of them, and stays, or is read with the others, in the second
     assert [(i.id1, i.id2) for i in O.interactions] == [(first, early), (first, late)]  # as YADE has them
     engine().dump(str(tmp_path / "problem.h5"))
     assert contact.load(tmp_path / "problem.h5").body.tolist() == [[first, late], [first, early]]

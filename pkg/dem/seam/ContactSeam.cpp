@@ -280,7 +280,7 @@ Impulse ContactSeam::gatherContact(int slot, Contact& result, Link& link) const
 	const Reading& reading = resident->readings[slot];
 	const Real     gap = reading.gap, h = relaxation.step;
 	Contact        c = frameOf(reading);
-	link         = { slot, c.i != reading.first, reading.correction };
+	link         = { slot, reading.correction };
 	if (!reading.bonded && gap > 0) c.biasN = gap / h;
 	if (reading.bounces && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone

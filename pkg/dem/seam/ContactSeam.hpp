@@ -23,8 +23,7 @@ struct Relaxation {
 /// A gathered contact's place in Resident::readings.
 struct Link {
 	int  slot       = -1;
-	bool swapped    = false; // runs against the interaction's own order
-	Real correction = 0;     // pseudo-impulse of the step before [kg m]
+	Real correction = 0; // pseudo-impulse of the step before [kg m]
 };
 
 /// What a step did, summed in a fixed order.

@@ -30,8 +30,6 @@ MUTANTS = (
            "restitution draws on instead of throwing back", "test_reactions.py::test_a_disk_bounces_step_by_step_as_the_rules_say"),
     mutant("gather-rest", CORRECT, "e.held ? r.restGap : 0", "0", "a bond forgets the gap over which it was made",
            "test_positions.py::test_a_bond_finds_its_length_from_both_sides"),
-    mutant("gather-swapped", SEAM, "c.i != reading.first", "c.i == reading.first",
-           "forces in the interaction have the wrong sign", "test_reactions.py::test_forces_are_told_as_they_act_on_the_second_body"),
     mutant("gather-held", SEAM, "problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed()", "false", "a reaction stays between bodies that are held",
            "test_refusals.py::test_no_reaction_stays_between_bodies_that_are_held"),
     mutant("gather-order", RESIDENT, "return a.high < b.high;", "return a.slot < b.slot;", "contacts stand in YADE's order and not in that of ids",
