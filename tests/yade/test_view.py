@@ -7,7 +7,7 @@ import pytest
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
-from yade.wrapper import Collider, ForceEngine, InsertionSortCollider, InteractionLoop, NewtonIntegrator, NonsmoothTimeStepper, NscdMat, PorePressureEngine, PyRunner, SlipWeakeningMat
+from yade.wrapper import Collider, ForceEngine, InsertionSortCollider, InteractionLoop, NewtonIntegrator, NonsmoothTimeStepper, PorePressureEngine, PyRunner, SlipWeakeningMat
 
 from contact_scenes import begin, engine, free_disk, loose_heap, material
 
@@ -60,6 +60,24 @@ def beside_others():
     O.engines = O.engines + [ForceEngine(force=(0, 0, 0), ids=[])]
 
 
+def own_engines(*kinds):
+    """YADE's own engines in the place of ours of these kinds."""
+    own = {Collider: lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=e.verletDist),
+           InteractionLoop: lambda e: InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors),
+           NewtonIntegrator: lambda e: NewtonIntegrator(damping=0, gravity=e.gravity)}
+    O.engines = [next((own[kind](e) for kind in kinds if isinstance(e, kind)), e) for e in O.engines]
+
+
+def looked_at(way):
+    """The list of engines by which a scene is looked at in that way, where it is one of engines."""
+    if way == "watched":
+        watched()
+    if way == "beside others":
+        beside_others()
+    if way == "own engines":
+        own_engines(Collider, InteractionLoop, NewtonIntegrator)
+
+
 def advance(way, steps):
     if way == "stepped":
         for _ in range(steps):
@@ -76,10 +94,7 @@ def most_views(begin):
 def course(way, build, change=None, halves=2):
     O.reset()
     made = build()
-    if way == "watched":
-        watched()
-    if way == "beside others":
-        beside_others()
+    looked_at(way)
     for half in range(halves):
         advance(way, STEPS // halves)
         if change and half == 0:
@@ -115,8 +130,7 @@ def test_interactions_are_what_yades_own_loop_makes_of_them():
         O.reset()
         busy()
         if own:
-            O.engines = [InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors) if isinstance(e, InteractionLoop)
-                         else NewtonIntegrator(damping=0, gravity=e.gravity) if isinstance(e, NewtonIntegrator) else e for e in O.engines]
+            own_engines(InteractionLoop, NewtonIntegrator)
         rows = []
         for _ in range(6):
             O.run(STEPS // 6, wait=True)
@@ -133,28 +147,12 @@ def test_interactions_are_what_yades_own_loop_makes_of_them():
             assert a[key] == b[key], key
 
 
-def own_engines():
-    """YADE's collider, loop and integrator in the place of ours."""
-    def theirs(e):
-        if isinstance(e, Collider):
-            return InsertionSortCollider(e.boundDispatcher.functors, verletDist=e.verletDist)
-        if isinstance(e, InteractionLoop):
-            return InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors)
-        return NewtonIntegrator(damping=0, gravity=e.gravity) if isinstance(e, NewtonIntegrator) else e
-    O.engines = [theirs(e) for e in O.engines]
-
-
 def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines():
     """On the way disks are taken away and put in, a bonded contact is ended, a disk is thrown, and what touches is bonded anew."""
     def end(way):
         O.reset()
         ids, driven = busy(steps_of_time=True)
-        if way == "watched":
-            watched()
-        if way == "beside others":
-            beside_others()
-        if way == "own engines":
-            own_engines()
+        looked_at(way)
         rows = []
         for leg in range(10):
             if way == "advanced":
@@ -230,13 +228,6 @@ def changed(what):
         b = O.bodies[made[0][3]].state
         b.blockedDOFs, b.vel, b.angVel = "xyzXYZ", (0, 0, 0), (1, 0, 0)
 
-    def other_integrator(made):
-        O.engines = [NewtonIntegrator(damping=0, gravity=e.gravity) if isinstance(e, NewtonIntegrator) else e for e in O.engines]
-
-    def other_loop(made):
-        O.engines = [InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors) if isinstance(e, InteractionLoop) else e
-                     for e in O.engines]
-
     def pushed(made):
         newton = next(k for k, e in enumerate(O.engines) if isinstance(e, InteractionLoop))
         O.engines = O.engines[:newton] + [ForceEngine(force=(4000, 0, 0), ids=[made[0][7]])] + O.engines[newton:]
@@ -252,7 +243,7 @@ def changed(what):
         "erased body": erase_body, "erased interaction": erase_interaction, "exchanged physics": exchange, "cleared interactions": lambda made: O.interactions.clear(), "inserted disk": insert,
         "isActive": silence, "materials": material_of, "radius": radius, "blockedDOFs": block, "out of the plane": out_of_the_plane,
         "unbond": lambda made: engine().unbond(), "resetTime": lambda made: O.resetTime(), "dt": lambda made: setattr(O, "dt", 1e-3),
-        "integrator": other_integrator, "loop": other_loop, "force": pushed,
+        "integrator": lambda made: own_engines(NewtonIntegrator), "loop": lambda made: own_engines(InteractionLoop), "force": pushed,
     }[what]
 
 
@@ -298,10 +289,7 @@ def test_what_a_script_changes_within_a_step_is_taken_up(what, place):
         at = {"first": 0, "before the loop": next(k for k, e in enumerate(O.engines) if isinstance(e, InteractionLoop)),
               "before the solver": next(k for k, e in enumerate(O.engines) if e is engine() or e.label == engine().label), "last": len(O.engines)}[place]
         O.engines = O.engines[:at] + [PyRunner(command="O.change()", iterPeriod=75, nDo=2)] + O.engines[at:]
-        if way == "watched":
-            watched()
-        if way == "beside others":
-            beside_others()
+        looked_at(way)
         advance(way, STEPS)
         return everything()[:3]
 
