@@ -16,6 +16,26 @@ namespace {
 
 	double coordinate(const Point& x, int axis) { return axis == 0 ? x.x : x.y; }
 
+	/// The way along which strips follow one another: an axis, upwards or, with the sign −1, downwards.
+	struct Way {
+		int    axis;
+		double sign = 1;
+
+		double operator()(const Point& x) const { return sign * coordinate(x, axis); }
+		Span   operator()(const Span& s) const { return sign > 0 ? s : Span { -s.high, -s.low }; }
+	};
+
+	/// Along x in the direction in which the numbers of bodies rise, so that a mirrored scene has the mirrored strips.
+	Way alongX(const Problem& problem, const Survey& survey)
+	{
+		const auto moves = [](std::uint8_t trait) { return (trait & Survey::moves) != 0; };
+		const auto first = std::find_if(survey.traits.begin(), survey.traits.end(), moves);
+		const auto last  = std::find_if(survey.traits.rbegin(), survey.traits.rend(), moves);
+		if (first == survey.traits.end()) return { 0 };
+		const double from = problem.positions[first - survey.traits.begin()].x, to = problem.positions[survey.traits.rend() - last - 1].x;
+		return { 0, to < from ? -1.0 : 1.0 };
+	}
+
 	/// Where contacts are, but for one in 128 at either end and what lies far beyond.
 	Span mostOf(std::vector<double>& samples, const Span& extent)
 	{
@@ -30,7 +50,7 @@ namespace {
 	}
 
 	/// Lower ends of some contacts. Places of the samples follow the golden section, so that no regular order of contacts falls in with them.
-	void sample(const Problem& problem, const std::vector<MovablePair>& pairs, std::vector<double> (&samples)[2])
+	void sample(const Problem& problem, const std::vector<MovablePair>& pairs, const Way (&ways)[2], std::vector<double> (&samples)[2])
 	{
 		for (auto& s : samples)
 			s.clear();
@@ -38,13 +58,13 @@ namespace {
 		for (std::size_t k = 0; k < count; ++k) {
 			const auto        part = std::uint64_t(std::uint32_t(k * 2654435769u)); // of 2³²
 			const MovablePair pair = pairs[part * pairs.size() >> 32];
-			const auto        low  = [&](int axis) {
-				const auto at = [&](std::int32_t b) { return MovablePair::moves(b) ? coordinate(problem.positions[b], axis) : HUGE_VAL; };
+			const auto        low  = [&](const Way& way) {
+				const auto at = [&](std::int32_t b) { return MovablePair::moves(b) ? way(problem.positions[b]) : HUGE_VAL; };
 				return std::min(at(pair.i), at(pair.j));
 			};
 			if (!MovablePair::moves(pair.i) && !MovablePair::moves(pair.j)) continue;
-			samples[0].push_back(low(0));
-			samples[1].push_back(low(1));
+			for (int axis : { 0, 1 })
+				samples[axis].push_back(low(ways[axis]));
 		}
 	}
 
@@ -145,10 +165,12 @@ namespace {
 		const auto  binsBefore = scratch.bins, widthBefore = scratch.width;
 		scratch.bins = scratch.width = 0;
 		if (problem.positions.size() != problem.bodyCount() || pairs.size() < 2 * contactsAStrip) return false;
-		sample(problem, pairs, scratch.samples);
-		const Span   spans[2] = { mostOf(scratch.samples[0], survey.extents[0]), mostOf(scratch.samples[1], survey.extents[1]) };
+		const Way ways[2] = { alongX(problem, survey), { 1 } };
+		sample(problem, pairs, ways, scratch.samples);
+		const Span   spans[2] = { mostOf(scratch.samples[0], ways[0](survey.extents[0])), mostOf(scratch.samples[1], survey.extents[1]) };
 		const int    axis     = spans[0].length() >= spans[1].length() ? 0 : 1;
 		const Span   span     = spans[axis];
+		const Way    way      = ways[axis];
 		const double extent   = span.length();
 		if (!(extent > 0) || !std::isfinite(extent)) return false;
 		const std::size_t strips = pairs.size() / contactsAStrip;
@@ -161,7 +183,7 @@ namespace {
 		scratch.binOfBody.resize(problem.bodyCount());
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
 		for (long b = 0; b < bodies; ++b) {
-			const double at  = std::clamp((coordinate(problem.positions[b], axis) - span.low) * scale, 0.0, bins - 1.0);
+			const double at  = std::clamp((way(problem.positions[b]) - span.low) * scale, 0.0, bins - 1.0);
 			const auto   bin = survey.traits[b] & Survey::moves ? static_cast<std::int32_t>(at) : -1;
 			moved            = moved || bin != scratch.binOfBody[b];
 			scratch.binOfBody[b] = bin;

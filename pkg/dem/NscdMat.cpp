@@ -63,12 +63,15 @@ int SlipWeakeningMat::weakenedCount() const
 Real SlipWeakeningMat::meanSlip() const
 {
 	Real sum = 0;
-	int  count = 0;
-	for (const Real s : slip) {
+	for (const Real s : slip)
 		sum += s;
-		count += s > 0;
-	}
+	const int count = slippedCount();
 	return count > 0 ? sum / count : 0;
+}
+
+int SlipWeakeningMat::slippedCount() const
+{
+	return (int)std::count_if(slip.begin(), slip.end(), [](Real s) { return s > 0; });
 }
 
 } // namespace yade

@@ -58,6 +58,7 @@ public:
 	void addSlip(Body::id_t id, Real distance);
 	int  weakenedCount() const;
 	Real meanSlip() const;
+	int  slippedCount() const;
 	void forgetSlip() { slip.clear(); }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningMat,NscdMat,
@@ -76,6 +77,7 @@ leaves it.)""",
 		.def("slipOf",&SlipWeakeningMat::slipOf,(boost::python::arg("id")),"Distance [m] that the body has slipped along this wall.")
 		.def("forgetSlip",&SlipWeakeningMat::forgetSlip,"Set the slip of all bodies to zero.")
 		.def("weakenedCount",&SlipWeakeningMat::weakenedCount,"Number of bodies that slipped further than criticalSlip.")
+		.def("slippedCount",&SlipWeakeningMat::slippedCount,"Number of bodies that have touched this wall.")
 		.def("meanSlip",&SlipWeakeningMat::meanSlip,"Mean slip [m] of the bodies that have touched this wall.")
 	);
 	// clang-format on

@@ -31,8 +31,8 @@ namespace nscd {
 		const Vector3r along = state.ori * Vector3r(1, 0, 0), up = state.ori * Vector3r(0, 1, 0);
 		const Vector3r d = centre - state.pos;
 		const Real     s = d.dot(along), m = d.dot(up), half = segment.halfLength;
-		const bool     hasNext = segment.nextDirection != Vector3r::Zero();
-		const bool     inside  = s >= -half && (hasNext ? s < half : s <= half);
+		const bool     ownsEnd = segment.nextDirection != Vector3r::Zero(), ownsStart = segment.previousDirection != Vector3r::Zero();
+		const bool     inside  = (ownsStart ? s > -half : s >= -half) && (ownsEnd ? s < half : s <= half);
 
 		SegmentNearest result;
 		const int      side = segment.sense != 0 ? segment.sense : (m < 0 ? -1 : 1);
@@ -43,9 +43,11 @@ namespace nscd {
 
 		const bool     beyondEnd = s > 0;
 		const Vector3r corner    = state.pos + (beyondEnd ? half : -half) * along;
-		if (beyondEnd && hasNext) result.owned = (centre - corner).dot(state.ori * segment.nextDirection) < 0;
+		if (beyondEnd && ownsEnd) result.owned = (centre - corner).dot(state.ori * segment.nextDirection) < 0;
+		else if (!beyondEnd && ownsStart)
+			result.owned = (centre - corner).dot(state.ori * segment.previousDirection) > 0;
 		else
-			result.owned = beyondEnd || !segment.hasPrevious;
+			result.owned = beyondEnd ? !segment.hasNext : !segment.hasPrevious;
 		if (result.owned) { // outside a convex corner or a free end: the corner itself is the nearest point
 			const Vector3r out = centre - corner;
 			if (segment.sense != 0 && out.dot(result.normal) < 0) {

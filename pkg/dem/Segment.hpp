@@ -16,11 +16,13 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(Segment,Shape,
 R"""(Line segment in the x-y plane: centred on the body's position, along the body's local x axis. In a polyline each segment knows the
 directions of its neighbours, so that a sphere at a joint has one contact: the segment above whose length the sphere's centre stands,
-or the earlier one of two where the centre stands in the wedge outside a convex corner. See :yref:`yade.nonsmooth.scene.segments`.)""",
+or the earlier one of two (the later one, where that has :yref:`previousDirection<Segment.previousDirection>`) where the centre stands in the wedge outside a convex corner. See :yref:`yade.nonsmooth.scene.segments`.)""",
 		((Real,halfLength,1,,"Half of the length [m]."))
 		((int,sense,0,,"Side that acts: 0 both, 1 that of local +y only, −1 that of local −y only. A one-sided segment also pushes back a sphere whose centre is behind it by less than its radius."))
 		((Vector3r,nextDirection,Vector3r::Zero(),,"Direction of the segment that begins at this one's local +x end, in this one's frame, pointing away from the joint; zero: none."))
 		((bool,hasPrevious,false,,"Another segment ends at this one's local −x end and owns the joint."))
+		((Vector3r,previousDirection,Vector3r::Zero(),,"Direction of the segment that ends at this one's local −x end, in this one's frame, pointing to the joint, which this one owns; zero: none."))
+		((bool,hasNext,false,,"Another segment begins at this one's local +x end and owns the joint."))
 		,
 		createIndex();
 	);

@@ -23,9 +23,9 @@ from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 from . import checkpoints, course, interrupts, packing, records, results, scales, slope, tables
 from .course import State
 from .errors import UserError
-from .figures.profiles import front_of
+from .measure.fronts import front_of
 from .stepping import advance
-from .wall_forces import WallForces
+from .wall_series import WallSeries
 
 __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
 
@@ -58,14 +58,15 @@ class Experiment:
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
-        # soft steps are thousands a row, and as cheap as a look at the walls
-        self.forces = WallForces(built.walls, 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES)))
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
         self.series = records.SeriesWriter(
-            self.folder / "series.csv", self.columns, resume_from=mark, overwrite=True)
+            self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True)
+        # soft steps are thousands a row, and as cheap as a look at the walls
+        period = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
+        self.walls = WallSeries(built, self.folder / "walls.csv", period, mark and mark["walls"])
         if state is not None:
             results.forget_later(self.folder, state.stage, O.iter)
         self._clock = time.monotonic()
@@ -96,11 +97,15 @@ class Experiment:
             self._advance(row)
             if interrupted():
                 self.checkpoint()
-                self.series.close()
+                self._close()
                 kept = "the checkpoint is written, go on with --resume" if self.hard else "a slope of soft contacts has no checkpoint, run it again"
                 raise interrupts.Interrupted(f"at {O.time:.1f} s of simulated time; {kept}")
         self.checkpoint()
+        self._close()
+
+    def _close(self):
         self.series.close()
+        self.walls.file.close()
 
     def _count(self, simulated, seconds):
         s = self.state
@@ -157,7 +162,7 @@ class Experiment:
             s.bonds_initial = solver.bond()
         advance()
         s.contacts_initial = solver.contacts
-        self.forces.forget()
+        self.walls.forget()
         if self.hard:  # from here on it grows by itself
             solver.finalGravity, solver.gravityBegin, solver.gravityRamp = self._gravity(math.inf), 0.0, self.section.stages.settle.ramp
 
@@ -183,7 +188,7 @@ class Experiment:
     def _loaded(self):
         """It is t0."""
         disks = tables.bodies(self.slope.solver)
-        self.state.front0 = front_of(disks["x"], disks["r"])
+        self.state.front0 = front_of(disks["x"], disks["r"], self.section.side)
         self.snapshot(self.folder / "t0.npz", contacts=True)
 
     def _care(self, flowing, still):
@@ -215,25 +220,22 @@ class Experiment:
 
     def _row(self, disks):
         e, water, section = self.slope.solver, self.slope.water, self.section
-        forces = self.forces.take()
-        zero = (0.0, 0.0, 0.0)
-        base = section.water.wall if section.water and section.water.wall else "DP"
-        dp, fb, ss = forces.get(base, zero), forces.get("FB", zero), forces.get("SS", zero)
+        forces = self.walls.take()
+        dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
-        u = total[0] * section.normal[0] + total[1] * section.normal[1]
-        weak = self.slope.wall_material(base) if base in self.slope.walls else None
-        slip = hasattr(weak, "meanSlip")
+        u = total[0] * section.water.normal[0] + total[1] * section.water.normal[1] if water else 0.0
+        slip = self.walls.slip()
         row = {
             "step": O.iter, "time_s": O.time, "stage": course.STAGES.index(self.state.stage), "water_m": water.height if water else 0.0,
             "dp_normal_total_N_per_m": dp[0] + u, "dp_normal_effective_N_per_m": dp[0], "dp_water_N_per_m": u, "dp_shear_N_per_m": dp[1],
             "fb_normal_N_per_m": fb[0], "fb_shear_N_per_m": fb[1], "ss_normal_N_per_m": ss[0], "ss_shear_N_per_m": ss[1],
             "dp_normal_peak_N_per_m": dp[2], "fb_normal_peak_N_per_m": fb[2], "ss_normal_peak_N_per_m": ss[2],
             "wet_disks": water.wetCount if water else 0, "released_disks": water.releasedCount if water else 0,
-            "speed_mean_m_per_s": e.meanSpeed, "speed_max_m_per_s": e.maxSpeed, "front_m": front_of(disks["x"], disks["r"]),
+            "speed_mean_m_per_s": e.meanSpeed, "speed_max_m_per_s": e.maxSpeed, "front_m": front_of(disks["x"], disks["r"], section.side),
             "centroid_x_m": e.centroid[0], "centroid_y_m": e.centroid[1], "bonds_alive": e.bonds,
             "bonds_broken_tension": e.brokenTension, "bonds_broken_shear": e.brokenShear,
             "bonds_broken_torque": e.brokenTorque, "bonds_broken_mixed": e.brokenMixed, "contacts": e.contacts,
-            "slip_mean_dp_m": weak.meanSlip() if slip else 0.0, "weakened_disks": weak.weakenedCount() if slip else 0,
+            "slip_mean_dp_m": slip.mean, "weakened_disks": slip.weakened,
             "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
             "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy,
         }
@@ -270,11 +272,12 @@ class Experiment:
         self.state.wall_s += now - self._clock
         self._clock = now
         self.series.sync()
+        self.walls.file.sync()
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
         if self.hard:
             checkpoints.write(self.folder, run_key(self.section), {
                 "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state),
-                "series": self.series.mark()})
+                "series": self.series.mark(), "wall_series": self.walls.file.mark()})
         self._saved = time.monotonic()
         self._saving = self._saved - now
 
@@ -282,7 +285,7 @@ class Experiment:
 def run_key(section):
     """What must agree between a checkpoint and the section it is resumed with."""
     return checkpoints.key_of({"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
-                               "seed": section.seed})
+                               "seed": section.seed, "roles": [[wall.name, wall.role] for wall in section.walls]})
 
 
 def resume(section, folder, progress=None):
@@ -293,8 +296,10 @@ def resume(section, folder, progress=None):
     """
     content = checkpoints.read(folder, run_key(section), ExperimentError)
     try:
-        state, mark = State(**content["state"]), content["series"]
+        state, mark = State(**content["state"]), {"series": content["series"], "walls": content["wall_series"]}
     except (KeyError, TypeError) as error:
         raise ExperimentError(f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume") from None
+    for name, one in mark.items():
+        records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     return Experiment(built, folder, state=state, progress=progress, mark=mark)

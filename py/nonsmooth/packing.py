@@ -19,7 +19,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.stats import qmc
 
-from . import geometry
+from . import geometry, similar
 from .packing_files import (FORMAT, Packing, PackingError, cache_path, load, read_text, save, write_text)
 
 __all__ = ["FORMAT", "Overlaps", "Packing", "PackingError", "cache_path", "cached_pack", "load", "overlaps", "pack",
@@ -48,8 +48,14 @@ def pack(section, seed: int | None = None, progress=None) -> Packing:
     called now and then with a share done, 0 to 1. Returns a Packing whose disks lie wholly
     inside the layers' outline, overlap nowhere by more than 1e-3 of their diameter, and stay
     within about a diameter of their layer. Takes about 2 s for 3,000 disks, 10 s for 21,000.
-    Raises PackingError where the disks do not go in.
+    A slope that falls to the left gets the mirrored disks of its mirrored section, a similar one those of its original (`Section.like`). Raises PackingError
+    where the disks do not go in.
     """
+    if section.like:
+        original, factor = section.like
+        return similar.scaled_packing(pack(original, section.seed if seed is None else seed, progress), factor)
+    if section.side < 0:
+        return similar.mirrored_packing(pack(similar.mirrored(section), seed, progress))
     rng = np.random.default_rng(section.seed if seed is None else seed)
     x, y, r, layer = _draw(section, rng)
     table = geometry.edges(section.outline)

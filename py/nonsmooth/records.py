@@ -5,6 +5,7 @@ thickness (the model is two-dimensional). Every failure is a :class:`RecordsErro
 wrong with it and what to do.
 """
 
+import csv
 import hashlib
 import math
 import os
@@ -42,23 +43,23 @@ COLUMNS = {
     "step": _count("number of the time step, strictly increasing"),
     "time_s": Column("s", "simulated time"),
     "stage": _count("stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
-    "water_m": Column("m", "height of the water table above DP, h_w"),
-    "dp_normal_total_N_per_m": Column("N/m", "total normal force on DP, N_DP = N'_DP + U_DP, mean over the row"),
-    "dp_normal_effective_N_per_m": Column("N/m", "effective (contact) normal force on DP, N'_DP, mean over the row"),
-    "dp_water_N_per_m": Column("N/m", "force of the pore water on DP, U_DP"),
-    "dp_shear_N_per_m": Column("N/m", "shear force on DP, T_DP, mean over the row; positive when the wall resists downslope motion"),
-    "fb_normal_N_per_m": Column("N/m", "normal force on FB, N'_FB, mean over the row"),
-    "fb_shear_N_per_m": Column("N/m", "shear force on FB, mean over the row"),
-    "ss_normal_N_per_m": Column("N/m", "normal force on SS, mean over the row"),
-    "ss_shear_N_per_m": Column("N/m", "shear force on SS, mean over the row"),
-    "dp_normal_peak_N_per_m": Column("N/m", "largest effective normal force on DP in a step of the row"),
-    "fb_normal_peak_N_per_m": Column("N/m", "largest normal force on FB in a step of the row"),
-    "ss_normal_peak_N_per_m": Column("N/m", "largest normal force on SS in a step of the row"),
+    "water_m": Column("m", "height of the water table above its plane (DP), h_w"),
+    "dp_normal_total_N_per_m": Column("N/m", "total normal force on the slip surfaces (DP), N_DP = N'_DP + U_DP, mean over the row"),
+    "dp_normal_effective_N_per_m": Column("N/m", "effective (contact) normal force on the slip surfaces, N'_DP, mean over the row"),
+    "dp_water_N_per_m": Column("N/m", "force of the pore water normal to its plane, U_DP"),
+    "dp_shear_N_per_m": Column("N/m", "shear force on the slip surfaces, T_DP, mean over the row; positive when the wall resists downslope motion"),
+    "fb_normal_N_per_m": Column("N/m", "normal force on the backstops (FB), N'_FB, mean over the row; 0 without one"),
+    "fb_shear_N_per_m": Column("N/m", "shear force on the backstops, mean over the row"),
+    "ss_normal_N_per_m": Column("N/m", "normal force on the walls that are ground (SS), mean over the row"),
+    "ss_shear_N_per_m": Column("N/m", "shear force on the walls that are ground, mean over the row"),
+    "dp_normal_peak_N_per_m": Column("N/m", "largest effective normal force on the slip surfaces in a step of the row"),
+    "fb_normal_peak_N_per_m": Column("N/m", "largest normal force on the backstops in a step of the row"),
+    "ss_normal_peak_N_per_m": Column("N/m", "largest normal force on the walls that are ground in a step of the row"),
     "wet_disks": _count("disks that feel pore pressure"),
     "released_disks": _count("disks whose pore pressure has been released for good"),
     "speed_mean_m_per_s": Column("m/s", "mean speed of the disks"),
     "speed_max_m_per_s": Column("m/s", "largest speed of a disk"),
-    "front_m": Column("m", "position x of the front"),
+    "front_m": Column("m", "position x of the front, in the direction in which the slope falls"),
     "centroid_x_m": Column("m", "centre of mass, x"),
     "centroid_y_m": Column("m", "centre of mass, y"),
     "bonds_alive": _count("cohesive bonds that hold"),
@@ -67,8 +68,8 @@ COLUMNS = {
     "bonds_broken_torque": _count("bonds broken by rolling so far"),
     "bonds_broken_mixed": _count("bonds broken in several modes at once so far"),
     "contacts": _count("contacts, bonded ones included"),
-    "slip_mean_dp_m": Column("m", "mean cumulated slip of the disks that touch DP"),
-    "weakened_disks": _count("disks whose slip on DP has passed the critical slip D_c"),
+    "slip_mean_dp_m": Column("m", "mean cumulated slip of the disks that touch slip surfaces which weaken"),
+    "weakened_disks": _count("disks whose slip on one of them has passed the critical slip D_c"),
     "iterations": _count("sweeps of the contact solver in the step"),
     "residual": Column("1", "residual of the contact solver at the end of the step"),
     "residual_N_per_m": Column("N/m", "the same as a force: rms over contacts of what the reactions miss of the law"),
@@ -88,13 +89,30 @@ COLUMNS = {
 }
 
 
+#: The columns of ``walls.csv``, a row for each wall and time: name -> (unit, description, integer). Empty where a wall has no such number.
+WALL_COLUMNS = {
+    "step": COLUMNS["step"],
+    "time_s": COLUMNS["time_s"],
+    "wall": Column("-", "name of the wall"),
+    "normal_N_per_m": Column("N/m", "normal force on the wall, into it positive, mean over the row"),
+    "shear_N_per_m": Column("N/m", "shear force on the wall, mean over the row; positive when the wall resists downslope motion"),
+    "normal_peak_N_per_m": Column("N/m", "largest normal force in a step of the row"),
+    "slip_mean_m": Column("m", "mean cumulated slip of the disks that have touched a wall that weakens"),
+    "weakened_disks": _count("disks whose slip on it has passed the critical slip D_c"),
+    "weakened_share": Column("1", "the same as a share of the disks that have touched it"),
+}
+
 #: The four ways in which contacts dissipate energy.
 LOSSES = ("energy_sliding_J", "energy_rolling_J", "energy_impact_J", "energy_bonds_J")
 
 
 def _encode(name, value):
     """Text of one number such that reading it gives the same bits."""
-    known = COLUMNS.get(name)
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return '"' + value.replace('"', '""') + '"' if set(value) & set(',"') else value
+    known = COLUMNS.get(name) or WALL_COLUMNS.get(name)
     integer = known.integer if known else isinstance(value, (bool, int, np.integer, np.bool_))
     if integer:
         if float(value) != int(value):
@@ -108,6 +126,22 @@ def _number(text):
         return int(text)
     except ValueError:
         return float(text)
+
+
+def kept(path, mark):
+    """What was in a series' file at a :meth:`SeriesWriter.mark`, bytes; RecordsError where it is no longer there."""
+    path = Path(path)
+    if not path.exists():
+        raise RecordsError(f"{path}: missing, so the run cannot be resumed; start it anew without --resume")
+    with open(path, "rb") as file:
+        data = file.read(mark["bytes"])
+    if len(data) < mark["bytes"] or hashlib.sha256(data).hexdigest() != mark["sha256"]:
+        wrong = f"has {len(data)} bytes of the {mark['bytes']} it had then" if len(data) < mark["bytes"] else "has been changed since"
+        raise RecordsError(
+            f"{path}: does not match the checkpoint, it {wrong}; restore the file from a copy, or start the "
+            "run anew without --resume"
+        )
+    return data
 
 
 class SeriesWriter:
@@ -162,24 +196,15 @@ class SeriesWriter:
 
     def _kept(self, mark):
         """What was in the file at a :meth:`mark`; RecordsError where it is no longer there."""
-        if not self.path.exists():
-            raise RecordsError(f"{self.path}: missing, so the run cannot be resumed; start it anew without --resume")
-        with open(self.path, "rb") as file:
-            kept = file.read(mark["bytes"])
-        if len(kept) < mark["bytes"] or hashlib.sha256(kept).hexdigest() != mark["sha256"]:
-            wrong = f"has {len(kept)} bytes of the {mark['bytes']} it had then" if len(kept) < mark["bytes"] else "has been changed since"
-            raise RecordsError(
-                f"{self.path}: does not match the checkpoint, it {wrong}; restore the file from a copy, or start the "
-                "run anew without --resume"
-            )
-        if not kept.startswith(self._header):
-            found = kept.split(b"\n", 1)[0].decode(errors="replace")
+        data = kept(self.path, mark)
+        if not data.startswith(self._header):
+            found = data.split(b"\n", 1)[0].decode(errors="replace")
             raise RecordsError(
                 f"{self.path}: its columns are not those of this run (found '{found[:120]}'); resume with the version "
                 "that wrote it, or start anew without --resume"
             )
         self.last_step = mark["last_step"]
-        return kept
+        return data
 
     def _append(self, data):
         """Write all of ``data`` or nothing of it."""
@@ -199,14 +224,26 @@ class SeriesWriter:
         self._size += len(data)
         self._sum.update(data)
 
-    def write(self, row):
-        """Append one row: a mapping from column name to number, with exactly the columns of this series.
+    def write(self, *rows):
+        """Append a row, or the rows of one step: mappings from column name to number, with exactly the columns of this series. A column of WALL_COLUMNS may be
+        None, where it has no meaning.
 
         Raises :class:`RecordsError` for a missing or unknown column, a NaN or infinite number, a fractional count,
         or a step that does not increase; the file is then unchanged.
         """
         if self._file is None:
             raise RecordsError(f"{self.path}: the series has been closed; open a new SeriesWriter to go on")
+        lines = [self._line(row) for row in rows]
+        steps = {int(row["step"]) for row in rows}
+        for step in steps:
+            if self.last_step is not None and step <= self.last_step:
+                raise RecordsError(
+                    f"{self.path}: step {step} does not come after {self.last_step}; write each step once, in order"
+                )
+        self._append("".join(lines).encode())
+        self.last_step = max(steps)
+
+    def _line(self, row):
         missing = [name for name in self.columns if name not in row]
         unknown = [name for name in row if name not in self.columns]
         if missing or unknown:
@@ -217,7 +254,7 @@ class SeriesWriter:
         texts = []
         for name in self.columns:
             value = row[name]
-            if not math.isfinite(value):
+            if not (name in WALL_COLUMNS and (value is None or isinstance(value, str))) and not math.isfinite(value):
                 raise RecordsError(
                     f"{self.path}: {name} = {value} at step {row['step']}; the computation has gone wrong before this "
                     "row, go back to the last checkpoint with a smaller time step"
@@ -226,13 +263,7 @@ class SeriesWriter:
                 texts.append(_encode(name, value))
             except ValueError as error:
                 raise RecordsError(f"{self.path}: {name} = {value} at step {row['step']}: {error}") from error
-        step = int(row["step"])
-        if self.last_step is not None and step <= self.last_step:
-            raise RecordsError(
-                f"{self.path}: step {step} does not come after {self.last_step}; write each step once, in order"
-            )
-        self._append((",".join(texts) + "\n").encode())
-        self.last_step = step
+        return ",".join(texts) + "\n"
 
     def mark(self):
         """What a checkpoint keeps of the file as it is now: size [bytes], checksum, and last step (None where there is no row)."""
@@ -292,6 +323,23 @@ def read_series(path):
     return series
 
 
+def read_walls(path):
+    """Read ``walls.csv``: dict from column name to an array of shape (rows,): words for ``wall``, float64 for the others, NaN where a wall has no such number.
+
+    A half-written last line is left out. Raises :class:`RecordsError` if the file is missing or damaged.
+    """
+    path = Path(path)
+    try:
+        text = path.read_bytes().decode()
+        header, *rows = csv.reader(text[: text.rfind("\n") + 1].splitlines())
+        if header != list(WALL_COLUMNS) or any(len(row) != len(header) for row in rows):
+            raise ValueError("wrong columns")
+        columns = dict(zip(header, zip(*rows) if rows else [()] * len(header)))
+        return {name: np.array(cells, dtype=str) if name == "wall" else np.array([float(c) if c else math.nan for c in cells]) for name, cells in columns.items()}
+    except (OSError, ValueError) as error:
+        raise RecordsError(f"{path}: cannot be read as the forces on walls ({getattr(error, 'strerror', None) or error}); check the folder given") from None
+
+
 def since_settled(series):
     """The rows from the dry rest on, or all where there are none, and of a series that has no ``stage``."""
     if "stage" not in series or not (series["stage"] > 0).any():
@@ -337,7 +385,7 @@ def read_breaks(path):
 class Snapshot:
     """The slope at one instant. N disks, C contacts.
 
-    Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above DP).
+    Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above its plane).
     Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest),
     ``wet``, ``released`` (bool).
     Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and

@@ -3,10 +3,10 @@
 Characteristic times (paper, section 6; the rules are ours):
 
 * t0: the water table begins to rise; a slope that failed before that, by its dry weight, has neither t0 nor t1 to t3;
-* t1, failure: the mean of N_FB over one second first comes within 2 % of its largest value before t2, the strength of the foot;
+* t1, failure: the mean of N_FB, the normal force on the backstops, over one second first comes within 2 % of its largest value before t2, the strength of the foot;
   where there is no backstop, the slope begins to move (mean speed 0.2 m/s, see course.py);
-* t2: D_c is reached by one per cent of the disks that fit along the dipping plane;
-* t3: the mean of T_DP over one second has fallen by 90 % of its value at t2;
+* t2: D_c is reached by one per cent of the disks that fit along the slip surfaces; without slip weakening there are neither t2 nor t3;
+* t3: the mean of T_DP, the shear force on the slip surfaces, over one second has fallen by 90 % of its value at t2;
 * t4: the largest kinetic energy;
 * t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum for good.
 
@@ -23,6 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from . import figures, paraview, records, scales, toe, video
+from .measure.surface import deposit_profile
 from .whole_files import WriteError, remove_parts, whole, write_atomically
 
 __all__ = ["characteristic_times", "chosen_rows", "mean_of", "summarise", "draw", "forget", "forget_later"]
@@ -82,15 +83,15 @@ def characteristic_times(series, section, state) -> dict[str, float | None]:
     if times["t0"] is None or state["moving"] is None:
         return times
     span = scales.of(section).mean_seconds
-    base = section.water.wall if section.water and section.water.wall else section.walls[0].name
-    length = float(np.hypot(*np.diff(section.wall(base).points, axis=0).T).sum())
+    length = float(sum(np.hypot(*np.diff(wall.points, axis=0).T).sum() for wall in section.of_role("slip")))
     enough = max(1.0, 0.01 * length / math.sqrt(section.disks.mean_square))
     late = np.flatnonzero((series["weakened_disks"] >= enough) & (t >= times["t0"]))
     if len(late):
         times["t2"] = float(t[late[0]])
     times["t1"] = _failure(series, times, state, span)
     if not len(late):
-        return times
+        weakens = any(section.materials[wall.material].slip_weakening for wall in section.of_role("slip"))
+        return times if weakens else times | _of_motion(series, section)
     before = mean_of(series, "dp_shear_N_per_m", times["t2"], span)
     for k in range(late[0], len(t)):
         if mean_of(series, "dp_shear_N_per_m", t[k], span) <= 0.1 * before:
@@ -125,12 +126,12 @@ def _difference(a, b):
 
 
 def _passive(section, packing_fraction, water, force):
-    """What the toe's passive strength says about the failure, see toe.py; nothing where the rock's envelope or the water's wall is not given.
+    """What the toe's passive strength says about the failure, see toe.py; nothing where the rock's envelope or the water's wall is not given, or no backstop.
 
     ``water`` [m], ``force`` [N/m]: height of the table and normal force on the backstop at failure, None where there was none.
     """
     envelope = section.materials[section.layers[0].material].envelope
-    if envelope is None or section.water is None or section.water.wall is None:
+    if envelope is None or section.water is None or section.water.wall is None or not section.of_role("backstop"):
         return {}
     found = toe.passive(section, envelope.cohesion, envelope.friction_deg, packing_fraction or section.disks.packing_fraction)
     return {"water_passive_m": found.water_m, "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
@@ -147,7 +148,8 @@ def summarise(folder, section, state, threads=None) -> dict:
     series, balanced = chosen_rows(every, state), records.since_settled(every)  # energies begin anew then
     times = characteristic_times(series, section, state)
     last, second = float(series["time_s"][-1]), scales.of(section).mean_seconds
-    at = lambda name, end, span=second: None if end is None else mean_of(series, name, end, span)  # noqa: E731
+    leans = bool(section.of_role("backstop"))  # or its force has no meaning
+    at = lambda name, end, span=second: None if end is None or not (leans or name != "fb_normal_N_per_m") else mean_of(series, name, end, span)  # noqa: E731
     t0, t1 = times["t0"], times["t1"]
     finished = state["stage"] == "done"
     begin = t0 if t0 is not None else last if failed_dry is None else 0.0
@@ -160,7 +162,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     if start is not None and end is not None:
         areas = []
         for snapshot in (start, end):
-            x, base, surface = figures.deposit_profile(snapshot, section)
+            x, base, surface = deposit_profile(snapshot, section)
             height = surface - base
             areas.append(float(np.nansum(height)) * float(x[1] - x[0]))
         thickness = float(np.nanmax(height))
@@ -189,7 +191,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "dp_shear_dry_N_per_m": at("dp_shear_N_per_m", t0), "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", t1),
         "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2 * second) if finished else None,
         "triggering_s": _difference(times["t3"], times["t2"]), "motion_s": _difference(times["t5"], times["t3"]),
-        "front_travel_m": float(series["front_m"][-1] - front0) if front0 is not None else None,
+        "front_travel_m": section.side * float(series["front_m"][-1] - front0) if front0 is not None else None,
         "centroid_travel_m": moved, "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
         "deposit_thickness_max_m": thickness, "bulking_factor": bulking,
@@ -199,7 +201,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "energy_error_rel": float(np.max(error)) / turned if turned > 0 else 0.0,
     }
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
-    if None not in (t0, t1):
+    if leans and None not in (t0, t1):
         rise = summary["fb_force_at_failure_N_per_m"] - summary["fb_force_dry_N_per_m"]
         drop = summary["dp_shear_dry_N_per_m"] - summary["dp_shear_at_failure_N_per_m"]
         summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
@@ -219,7 +221,7 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     folder = Path(folder)
     every, times = records.read_series(folder / "series.csv"), summary["times_s"]
     series = chosen_rows(every, {"failed_dry": summary["failed_dry_s"]})
-    made, notes = [], []
+    made, notes, second = [], [], scales.of(section).mean_seconds
     time_of = dict(zip(every["step"].astype(int).tolist(), every["time_s"].tolist()))
     # other files are none of the run's
     frames = [(time_of[int(p.stem)], p) for p in whole(folder / SNAPSHOTS, "*.npz") if p.stem.isdecimal() and int(p.stem) in time_of]
@@ -231,14 +233,14 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     if stood:
         first = records.read_snapshot(start)
         made.append(figures.force_chains(first, section, folder / "force_chains.png"))
-    made.append(figures.forces_against_time(series, times, folder / "forces.png", window=scales.of(section).mean_seconds))
+    made.append(figures.forces_against_time(series, times, folder / "forces.png", window=second, walls=section))
     cases = []
-    for name, t in times.items():
-        if t is None:
-            continue
+    for name, t in sorted(((name, t) for name, t in times.items() if t is not None), key=lambda item: item[1]):
         path = start if name == "t0" and stood else (_nearest(frames, t) if frames else None)
         if path is not None:
             cases.append((name, records.read_snapshot(path)))
+    if times["t5"] is None and end.exists() and not (cases and cases[-1][1].step == records.read_snapshot(end).step):  # one that never fails, or is stopped
+        cases.append(("end", records.read_snapshot(end)))
     if cases:
         made.append(figures.snapshots(cases, section, folder / "snapshots.png"))
     if stood and end.exists():
@@ -248,7 +250,7 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     if files:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
             written = beside.submit(paraview.write_run, folder, section, frames)
-            path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, progress=progress)
+            path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, window=second, progress=progress)
             made.append(written.result())
         (made if path else notes).append(path or note)
     return [Path(p) for p in made], notes

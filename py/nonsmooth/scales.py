@@ -20,7 +20,7 @@ class Scales:
     """``row_seconds``: between two rows of the series; ``mean_seconds``: over which forces are averaged for characteristic times; ``still_seconds``: without
     change, after which a solve is tighter; ``moving_speed``, ``stopped_speed``, ``going_speed``, ``approach_speed`` [m/s]: see :mod:`yade.nonsmooth.course`, :mod:`.slope`.
 
-    The first two are rounded to 1, 2 or 5 times a power of ten, and no shorter than a time step.
+    The first two are rounded to 1, 2 or 5 times a power of ten (but for a similar section), and no shorter than a time step.
     """
 
     row_seconds: float
@@ -33,7 +33,10 @@ class Scales:
 
 
 def of(section) -> Scales:
-    """The scales of a Section."""
+    """The scales of a Section; a similar one has those of its original, in proportion."""
+    if section.like:
+        original, time = of(section.like[0]), math.sqrt(section.like[1])  # and speeds
+        return Scales(**{name: time * value for name, value in vars(original).items()})
     size, gravity = math.sqrt(section.area / AREA), section.gravity / GRAVITY
     speed, time = math.sqrt(size * gravity), math.sqrt(size / gravity)
     row = max(_round(0.1 * time), section.numerics.time_step)

@@ -15,7 +15,7 @@ from yade.minieigenHP import Quaternion, Vector3
 
 from . import geometry
 
-__all__ = ["contact_dynamics", "disk", "engines", "material", "segments", "wall_material"]
+__all__ = ["contact_dynamics", "disk", "engines", "join", "material", "segments", "wall_material"]
 
 
 def material(m, kind=NscdMat, **others):
@@ -60,18 +60,21 @@ def disk(centre, radius, material, fixed=False, color=None):
     return body
 
 
-def segments(vertices, material, piece=None, sense=0, closed=False):
+def segments(vertices, material, piece=None, sense=0, closed=False, backwards=False):
     """Bodies of a wall along a polyline, fixed and not yet in the scene.
 
     ``vertices``: (n, 2) [m]. ``piece``: greatest length of a segment [m]; long oblique segments have large bounding boxes, so cut
     walls into pieces of some ten disk diameters. ``sense``: side that acts, see Segment.sense (+1: left of the direction of
-    travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump.
+    travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump. ``backwards``: the list begins at the last vertex, and a
+    corner belongs to the segment behind it, so that a mirrored wall has the mirrored bodies in the same order; not for a closed one.
     """
     points = [np.asarray(v, float) for v in vertices]
     if closed:
         points.append(points[0])
     if len(points) < 2:
         raise ValueError(f"a wall needs two vertices or more, not {len(points)}")
+    if backwards:
+        points.reverse()
     cut = [points[0]]
     for a, b in zip(points[:-1], points[1:]):
         length = float(geometry.distance(*(b - a)))
@@ -79,23 +82,34 @@ def segments(vertices, material, piece=None, sense=0, closed=False):
             raise ValueError(f"two neighbouring vertices of a wall coincide at ({a[0]:g}, {a[1]:g})")
         count = max(1, math.ceil(length / piece - 1e-9)) if piece else 1
         cut += [a + (b - a) * (k / count) for k in range(1, count + 1)]
-    bodies = []
-    for k, (a, b) in enumerate(zip(cut[:-1], cut[1:])):
-        angle = math.atan2(b[1] - a[1], b[0] - a[0])
-        following = cut[k + 2] if k + 2 < len(cut) else (cut[1] if closed else None)
-        shape = Segment(halfLength=0.5 * float(geometry.distance(*(b - a))), sense=sense, hasPrevious=closed or k > 0)
-        if following is not None:
-            turn = math.atan2(following[1] - b[1], following[0] - b[0]) - angle
-            shape.nextDirection = Vector3(math.cos(turn), math.sin(turn), 0)
-        body = Body()
-        body.shape = shape
-        body.state.pos = Vector3(*(0.5 * (a + b)), 0)
-        body.state.ori = Quaternion((0, 0, 1), angle)
-        body.state.refPos, body.state.refOri = body.state.pos, body.state.ori
-        body.state.blockedDOFs = "xyzXYZ"
-        body.material = material if not isinstance(material, str) else O.materials[material]
-        bodies.append(body)
+    ends = [(b, a) if backwards else (a, b) for a, b in zip(cut[:-1], cut[1:])]
+    angles = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in ends]
+    bodies = [_segment(a, b, angle, material, sense) for (a, b), angle in zip(ends, angles)]
+    for k in range(len(bodies) if closed else len(bodies) - 1):
+        after = (k + 1) % len(bodies)
+        turn = angles[after] - angles[k]
+        join(bodies[k], bodies[after], Vector3(math.cos(turn), math.sin(turn), 0), backwards)
     return bodies
+
+
+def _segment(a, b, angle, material, sense):
+    body = Body()
+    body.shape = Segment(halfLength=0.5 * float(geometry.distance(*(b - a))), sense=sense)
+    body.state.pos = Vector3(*(0.5 * (a + b)), 0)
+    body.state.ori = Quaternion((0, 0, 1), angle)
+    body.state.refPos, body.state.refOri = body.state.pos, body.state.ori
+    body.state.blockedDOFs = "xyzXYZ"
+    body.material = material if not isinstance(material, str) else O.materials[material]
+    return body
+
+
+def join(one, other, along, backwards=False):
+    """Makes two segments that meet count as one wall; ``one`` owns their corner. ``along``: the direction of ``other`` in the frame of ``one``; ``backwards``: see
+    :func:`segments`."""
+    if backwards:
+        one.shape.previousDirection, other.shape.hasNext = along, True
+    else:
+        one.shape.nextDirection, other.shape.hasPrevious = along, True
 
 
 def engines(gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=0.1, before=(), after=(), label="contactDynamics", **options):

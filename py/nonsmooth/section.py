@@ -21,7 +21,7 @@ from types import MappingProxyType
 import numpy as np
 from shapely.geometry import Polygon
 
-from . import geometry
+from . import geometry, roles
 from .section_reader import SectionError, read
 
 __all__ = ["Disks", "End", "Envelope", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
@@ -84,12 +84,16 @@ class Material:
 
 @dataclass(frozen=True)
 class Wall:
-    """A polyline with a material; `vertices`: tuple of (x, y) [m]. Joints with other walls are bit-identical."""
+    """A polyline with a material; `vertices`: tuple of (x, y) [m], the mass on their left. Joints with other walls are bit-identical.
+
+    `role`: "slip", "backstop", "ground" or "obstacle", see :mod:`.roles`.
+    """
 
     name: str
     material: str
     vertices: tuple[tuple[float, float], ...]
     apart: bool = False
+    role: str | None = None
 
     @property
     def points(self) -> np.ndarray:
@@ -165,6 +169,11 @@ class Water:
     release_distance: float
     wall: str | None = None
 
+    @property
+    def normal(self) -> tuple[float, float]:
+        """Unit vector normal to the plane, upwards."""
+        return _normal(self.dip)
+
     def height(self, t):
         """Height [m] of the table above the plane at the time t [s] (scalar or array) since t0."""
         times, heights = np.array(self.table).T
@@ -224,7 +233,8 @@ class Numerics:
 
 @dataclass(frozen=True)
 class Section:
-    """A checked section. `source`: file read; `scale`: diameters by those of the file."""
+    """A checked section. `source`: file read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are
+    then as large (see :mod:`.similar`), or None."""
 
     name: str
     description: str
@@ -239,6 +249,7 @@ class Section:
     seed: int
     source: str
     scale: float = 1.0
+    like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -263,28 +274,28 @@ class Section:
 
     @cached_property
     def dip(self) -> float:
-        """β [degrees] of the plane under the layers, positive down to the right.
+        """β [degrees] of the slope, positive down to the right: of its slip surfaces from end to end, see :mod:`.roles`."""
+        return roles.dip_of(*roles.chord([wall.points for wall in self.of_role("slip")]))
 
-        The water's plane, or without water the longest straight piece of any wall.
-        """
-        if self.water:
-            return self.water.dip
-        pieces = np.vstack([np.diff(wall.points, axis=0) for wall in self.walls])
-        dx, dy = pieces[np.argmax(geometry.distance(*pieces.T))]
-        return _dip(dx, dy)
+    @property
+    def side(self) -> float:
+        """1 for a slope that falls to the right, −1 to the left."""
+        return -1.0 if self.dip < 0 else 1.0
 
     @property
     def downslope(self) -> tuple[float, float]:
-        """Unit vector down the plane."""
+        """Unit vector down the slope."""
         b = math.radians(self.dip)
-        sign = -1.0 if b < 0 else 1.0
-        return sign * math.cos(b), -sign * math.sin(b)
+        return self.side * math.cos(b), -self.side * math.sin(b)
 
     @property
     def normal(self) -> tuple[float, float]:
-        """Unit vector normal to the plane, upwards."""
-        b = math.radians(self.dip)
-        return math.sin(b), math.cos(b)
+        """Unit vector normal to the slope, upwards."""
+        return _normal(self.dip)
+
+    def of_role(self, *wanted: str) -> tuple[Wall, ...]:
+        """The walls that have one of these roles, in the order of the file."""
+        return tuple(wall for wall in self.walls if wall.role in wanted)
 
     def wall(self, name: str) -> Wall:
         """The wall called `name`; KeyError if there is none."""
@@ -321,6 +332,10 @@ class Section:
         """
         if isinstance(count, bool) or not 1 <= count <= MOST_DISKS or int(count) != count:
             raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1 to {MOST_DISKS}")
+        if self.like:
+            original, factor = self.like[0].with_disks(count), self.like[1]
+            disks = dataclasses.replace(original.disks, d_min=factor * original.disks.d_min, d_max=factor * original.disks.d_max)
+            return dataclasses.replace(self, disks=disks, scale=original.scale, like=(original, factor))
         m = self.disks.mean_square
         phi = self.disks.packing_fraction
         strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
@@ -367,6 +382,8 @@ class Section:
         d = self.disks
         content = {"layers": [layer.vertices for layer in self.layers],
                    "disks": [d.d_min, d.d_max, d.distribution, d.packing_fraction]}
+        if self.like:
+            content["like"] = [self.like[0].key(), self.like[1]]
         if scope == "settled":
             plain = {name: {k: v for k, v in dataclasses.asdict(m).items() if k not in ("name", "envelope")}
                      for name, m in self.materials.items()}
@@ -379,9 +396,10 @@ class Section:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def _dip(dx: float, dy: float) -> float:
-    """Angle [degrees] below the horizontal, to the right, of a line along (dx, dy)."""
-    return math.degrees(math.atan2(-dy, dx) if dx >= 0 else math.atan2(dy, -dx))
+def _normal(dip: float) -> tuple[float, float]:
+    """Unit vector normal to a plane that dips by so many degrees, upwards."""
+    b = math.radians(dip)
+    return math.sin(b), math.cos(b)
 
 
 def shipped() -> list[str]:
@@ -429,7 +447,8 @@ def _build(document, source: str) -> Section:
     section_checks.check(section, document)
     if "water" in raw:
         section = dataclasses.replace(section, water=_water(raw["water"], section, document))
-    section_checks.check_dip(section, document)
+    section = dataclasses.replace(section, walls=roles.assigned(section))
+    section_checks.check_roles(section, document)
     if "count" in size:
         section = section.with_disks(size["count"])
     return section
@@ -472,7 +491,7 @@ def _water(raw: dict, section: Section, document) -> Water:
         if dx == 0:
             document.refuse(("water", "plane"), f"the wall {plane} is vertical",
                             "give a plane that dips less than 90 degrees")
-        point, dip = min(wall.vertices, key=lambda p: p[1]), _dip(dx, dy)
+        point, dip = min(wall.vertices, key=lambda p: p[1]), roles.dip_of(dx, dy)
     else:
         point, dip = tuple(map(float, plane["point"])), float(plane["dip"])
     gradient = raw["gradient"]

@@ -10,10 +10,9 @@ from shapely.geometry import LineString, MultiPoint
 from . import geometry
 from .section import Layer, Section, Wall, _points
 
-__all__ = ["check", "check_dip", "check_extent", "walls"]
+__all__ = ["check", "check_extent", "check_roles", "walls"]
 
 MOST_VERTICES = 10_000  # of all walls and layers: what is compared pairwise stays a matter of seconds
-LEVEL = 1e-3            # degrees, from rounded coordinates: a plane that dips less to the left is level
 
 
 def _at(point) -> str:
@@ -45,7 +44,7 @@ def walls(document) -> tuple[Wall, ...]:
             known[count] = p
             count += 1
             vertices.append(p)
-        result.append(Wall(item["name"], item["material"], tuple(vertices), item.get("apart", False)))
+        result.append(Wall(item["name"], item["material"], tuple(vertices), item.get("apart", False), item.get("role")))
     return tuple(result)
 
 
@@ -65,16 +64,11 @@ def check(section: Section, document) -> None:
                         f"give less than {section.longest_step:.2g} s")
 
 
-def check_dip(section: Section, document) -> None:
-    """Raise SectionError for a slope that dips to the left: front, travel and characteristic times are made for one that dips to the right."""
-    if section.dip >= -LEVEL:
+def check_roles(section: Section, document) -> None:
+    """Raise SectionError for a section whose walls are no slip surface: nothing says then which way its slope falls."""
+    if section.of_role("slip"):
         return
-    if section.water:
-        keys, plane = ("water", "plane"), f"the wall {section.water.wall}"
-    else:
-        keys, plane = ("walls",), "the longest straight piece of the walls"
-    document.refuse(keys, f"{plane} dips to the left, by {-section.dip:.4g} degrees",
-                    "mirror the slope: change the sign of every x, then list each wall's vertices, and the walls, the other way round")
+    document.refuse(("walls",), "none of them has the role slip", "give `role: slip` to the wall along which the mass may slide")
 
 
 def _check_names(section, document) -> None:

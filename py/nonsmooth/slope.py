@@ -44,20 +44,19 @@ class Slope:
 
 
 def _walls(section, world):
-    """Adds the walls; consecutive ones that meet share their joint as pieces of one polyline do."""
-    piece = PIECE * math.sqrt(section.disks.mean_square)
+    """Adds the walls, from the crown's side on; consecutive ones that meet share their joint as pieces of one polyline do."""
+    piece, backwards = PIECE * math.sqrt(section.disks.mean_square), section.side < 0
     ids, last = {}, None
-    for wall in section.walls:
+    for wall in reversed(section.walls) if backwards else section.walls:
         material = O.materials[O.materials.append(world.wall_material(section.materials[wall.material], label=f"wall-{wall.name}"))]
-        bodies = scene.segments(wall.points, material, piece=piece, sense=1)
-        start, end = wall.points[0], wall.points[-1]
+        bodies = scene.segments(wall.points, material, piece=piece, sense=1, backwards=backwards)
+        start, end = (wall.points[0], wall.points[-1])[:: -1 if backwards else 1]
         if last is not None and np.allclose(last[1], start, rtol=0, atol=section.tolerance):
             along = bodies[0].state.ori * Vector3(1, 0, 0)
-            last[0].shape.nextDirection = last[0].state.ori.conjugate() * along
-            bodies[0].shape.hasPrevious = True
+            scene.join(last[0], bodies[0], last[0].state.ori.conjugate() * along, backwards)
         ids[wall.name] = list(O.bodies.append(bodies))
         last = (bodies[-1], end)
-    return ids
+    return {wall.name: ids[wall.name] for wall in section.walls}
 
 
 def hard(section) -> worlds.Hard:
@@ -92,7 +91,7 @@ def build(section, packing, world=None) -> Slope:
     if section.water is not None:
         w = section.water
         before.append(PorePressureEngine(
-            label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*section.normal, 0),
+            label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*w.normal, 0),
             gradient=Vector3(*w.gradient, 0), releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
     O.engines = world.engines(gravity=(0, -section.gravity, 0), before=before)
     n = section.numerics

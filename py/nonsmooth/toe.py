@@ -46,14 +46,14 @@ def passive(section, cohesion, friction_deg, packing_fraction):
     water = section.water
     if water is None or water.wall is None:
         raise ValueError(f"{section.name}: its water table stands above no wall, so there is no slab")
-    beta = math.radians(abs(section.dip))
+    beta = math.radians(abs(water.dip))
     rock = section.materials[section.layers[0].material]
     plane = section.materials[section.wall(water.wall).material]
     # along the slab, the plane being the x axis; downslope is +x for a plane that falls to the right
-    slab = affinity.rotate(section.outline, section.dip, origin=water.point)
+    slab = affinity.rotate(section.outline, water.dip, origin=water.point)
     slab = affinity.translate(slab, 0.0, -water.point[1])
     x0, _, x1, _ = slab.bounds
-    end = x1 - SLICE * (x1 - x0) if section.dip >= 0 else x0
+    end = x1 - SLICE * (x1 - x0) if water.dip >= 0 else x0
     thickness = slab.intersection(box(end, -1e9, end + SLICE * (x1 - x0), 1e9)).bounds[3]
     bulk = rock.density * packing_fraction * section.gravity
     lift = water.unit_weight * math.cos(beta) * (packing_fraction if water.volume == "disk" else 1.0)

@@ -8,23 +8,24 @@ from matplotlib.animation import FFMpegWriter
 from matplotlib.patches import Patch
 
 from .figures import style
+from .measure.ground import ground_of
 from .records import RecordsError, read_snapshot
 from .whole_files import beside
 
-FORCES = (
-    ("dp_normal_effective_N_per_m", "$N'_{DP}$  effective normal force on DP", "blue"),
-    ("dp_shear_N_per_m", "$T_{DP}$  shear force on DP", "orange"),
-    ("fb_normal_N_per_m", "$N'_{FB}$  normal force on FB", "green"),
+FORCES = (  # column, symbol, meaning, role of the walls, colour
+    ("dp_normal_effective_N_per_m", "N'", "effective normal force", "slip", "blue"),
+    ("dp_shear_N_per_m", "T", "shear force", "slip", "orange"),
+    ("fb_normal_N_per_m", "N'", "normal force", "backstop", "green"),
 )
 
 
 class _Frames:
     """The artists of one video; the fixed ones are drawn once, the others on top of their picture."""
 
-    def __init__(self, walls, view, first, size, series, times):
+    def __init__(self, ground, view, first, size, series, times, window, longest):
         width, height = size
         self.fig = style.figure(width / 100, height / 100, dpi=100)
-        self.walls = walls
+        self.slope, self.extent, self.longest = ground, view[1] - view[0], longest
         room = 0.355 if series is not None else 0.0
         self.ax = self.fig.add_axes([0, room, 1, 0.91 - room])
         x0, x1, y0, y1 = view
@@ -37,17 +38,17 @@ class _Frames:
             extra = 0.5 * ((y1 - y0) / shape - (x1 - x0))
             x0, x1 = x0 - extra, x1 + extra
         style.frame(self.ax, x0, x1, y0, y1)
-        style.draw_walls(self.ax, walls, size=12)
-        style.scale_bar(self.ax, 0.975, 0.06, 0.12)
+        style.draw_walls(self.ax, ground, size=12)
+        style.scale_bar(self.ax, 0.975 if ground.side > 0 else 0.145, 0.06, 0.12)
         self._legend()
         self.disks = style.draw_disks(self.ax, first, style.state_colours(first))
-        self.water = style.water_line(self.ax, walls, 0.0)
+        self.water = style.water_line(self.ax, ground, 0.0)
         self.clock = self.fig.text(0.015, 0.985, "", fontsize=17, fontweight="bold", va="top")
         self.state = self.fig.text(0.16, 0.98, "", fontsize=13, va="top", color="#444444")
         self.moving = [a for a in (self.disks, self.water, self.clock, self.state) if a is not None]
         self.cursors = []
         if series is not None:
-            self._forces(series, times)
+            self._forces(series, times, window)
         for artist in self.moving:
             artist.set_visible(False)
         self.fig.canvas.draw()
@@ -62,20 +63,22 @@ class _Frames:
         ]
         self.fig.legend(handles=handles, loc="upper right", ncol=3, fontsize=12, handlelength=1.2, columnspacing=1.3)
 
-    def _forces(self, series, times):
-        names = [name for name, *_ in FORCES]
-        time, *forces = style.need(series, "time_s", *names)
+    def _forces(self, series, times, window):
+        drawn = [one for one in FORCES if self.slope.of_role(one[3])]
+        time, *forces = style.need(series, "time_s", *(name for name, *_ in drawn))
+        newtons, unit = style.force_unit(max(np.abs(force).max() for force in forces))
         ax = self.fig.add_axes([0.06, 0.085, 0.68, 0.225])
         ax.set_xlim(time[0], max(time[-1], time[0] + 1e-9))
         style.shade_phases(ax, times)
         style.mark_times(ax, times, gap=0.03)
         late = style.known_times(times).get("t3", np.inf)
-        for (_, label, colour), force in zip(FORCES, forces):
-            smooth = np.where(time > late, style.running_mean(time, force, 1.0), force) / 1e6
-            ax.plot(time, smooth, color=style.LINES[colour], label=label)
+        for (_, letter, meaning, role, colour), force in zip(drawn, forces):
+            smooth = np.where(time > late, style.running_mean(time, force, window), force) / newtons
+            name = self.slope.name(role)
+            ax.plot(time, smooth, color=style.LINES[colour], label=f"{style.symbol(letter, name)}  {meaning} on {style.plain(name)}")
         ax.axhline(0, color="#555555", lw=0.7)
         ax.set_xlabel("time [s]", fontsize=11)
-        ax.set_ylabel("force [MN/m]", fontsize=11)
+        ax.set_ylabel(f"force [{unit}]", fontsize=11)
         self.fig.legend(*ax.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(0.745, 0.2), fontsize=10.5)
         self.cursors = [ax.axvline(time[0], color=style.INK, lw=1.6, zorder=9)]
         self.moving += self.cursors
@@ -87,12 +90,11 @@ class _Frames:
         self.disks.set_offsets(np.column_stack([snapshot.x, snapshot.y]))
         self.disks.set_facecolors(style.state_colours(snapshot))
         if self.water is not None:
-            self.water.set_data(*style.water_points(self.walls, snapshot.water_m).T)
+            self.water.set_data(*self.slope.water_points(snapshot.water_m).T)
             self.water.set_visible(snapshot.water_m > 0)
-        self.clock.set_text(f"t = {snapshot.time_s:.1f} s")
-        self.state.set_text(
-            f"water table {snapshot.water_m:.1f} m    mean speed {np.hypot(snapshot.vx, snapshot.vy).mean():.1f} m/s"
-        )
+        self.clock.set_text(f"t = {style.seconds(snapshot.time_s, self.longest)}")
+        water = f"water table {style.length(snapshot.water_m, self.extent, 1)}    " if self.water is not None else ""
+        self.state.set_text(f"{water}mean speed {np.hypot(snapshot.vx, snapshot.vy).mean():.{1 if self.extent >= 20 else 2}f} m/s")
         for cursor in self.cursors:
             cursor.set_xdata([snapshot.time_s, snapshot.time_s])
         for artist in sorted(self.moving, key=lambda a: a.get_zorder()):
@@ -117,17 +119,17 @@ def _sample(paths):
     return [read_snapshot(paths[k]) for k in sorted({0, last // 2, 3 * last // 4, last})]
 
 
-def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), progress=None):
+def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), window=1.0, progress=None):
     """Write an MP4 with one frame for each snapshot, in the given order.
 
     ``snapshot_paths``: files of :func:`~nonsmooth.records.write_snapshot` of one run (contacts are not needed); they
     are read one by one. ``walls``: see :mod:`nonsmooth.figures`. ``size``: pixels, even numbers. ``series`` (with
-    ``times``): adds a strip of forces against time with a cursor. ``progress``: called with (frames done, all
+    ``times``): adds a strip of forces against time with a cursor, means over ``window`` [s] once the avalanche moves. ``progress``: called with (frames done, all
     frames) after each frame. Returns (path, None), or (None, note) when there is no ffmpeg or it failed; a file that
     was there before is replaced only by a whole new one. Raises :class:`~nonsmooth.records.RecordsError` if there is
     no snapshot, one is unreadable, or their numbers of disks differ.
     """
-    paths, path, walls = [Path(p) for p in snapshot_paths], Path(path), style.as_walls(walls)
+    paths, path, ground = [Path(p) for p in snapshot_paths], Path(path), ground_of(walls)
     if not paths:
         raise RecordsError("there are no snapshots to make a video of; let the run write some first")
     if not FFMpegWriter.isAvailable():
@@ -136,7 +138,7 @@ def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(style.RC)
         sample = _sample(paths)
-        frames = _Frames(walls, style.view(sample, walls), sample[0], size, series, times)
+        frames = _Frames(ground, style.view(sample, ground), sample[0], size, series, times, window, sample[-1].time_s)
         # yuv420p plays everywhere; the last frame stays for a second and a half.
         writer = _Writer(
             fps=fps, codec="h264", bitrate=-1,

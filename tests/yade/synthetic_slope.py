@@ -34,9 +34,9 @@ class Section:
     """Stands for the scenario's section: walls, layers and characteristic times."""
 
     walls = [
-        ("DP", np.array([-LENGTH * DOWN, [0.0, 0.0]])),
-        ("FB", np.array([[0.0, 0.0], 65 * NORMAL])),
-        ("SS", np.array([65 * NORMAL, [700.0, 35.0], [1800.0, 60.0]])),
+        ("DP", np.array([-LENGTH * DOWN, [0.0, 0.0]]), "slip"),
+        ("FB", np.array([[0.0, 0.0], 65 * NORMAL]), "backstop"),
+        ("SS", np.array([65 * NORMAL, [700.0, 35.0], [1800.0, 60.0]]), "ground"),
     ]
     times = TIMES
 

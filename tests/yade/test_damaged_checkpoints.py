@@ -44,7 +44,7 @@ class Saved:
     @property
     def read(self):
         """Files that a resume reads."""
-        return ["checkpoint/checkpoint.json", self.scene, "series.csv"]
+        return ["checkpoint/checkpoint.json", self.scene, "series.csv", "walls.csv"]
 
 
 @pytest.fixture(scope="module")

@@ -22,7 +22,7 @@ def test_stiffer_contacts_are_darker():
 def test_deposits_over_each_other():
     """Of the hard deposit alone, of the soft one alone, and of both: each where it is, in its colour."""
     hard, soft, begin = box(0, 0, 10, 4), box(6, 0, 20, 4), box(-30, 0, -20, 8)
-    fig = figures.deposits_overlaid(hard, soft, begin, [("DP", [[-40.0, 10.0], [0.0, 0.0]]), ("SS", [[0.0, 0.0], [40.0, 0.0]])], 0.2)
+    fig = figures.deposits_overlaid(hard, soft, begin, [("DP", [[-40.0, 10.0], [0.0, 0.0]], "slip"), ("SS", [[0.0, 0.0], [40.0, 0.0]], "ground")], 0.2)
     (ax,) = fig.axes
     told = drawn.legend(fig)
     assert list(told) == ["both: 20 % of the area of either", "hard alone", "soft alone", "before"] and told["hard alone"] == HARD and told["soft alone"] == SOFT

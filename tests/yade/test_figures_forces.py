@@ -8,7 +8,7 @@ import synthetic_slope as synthetic
 
 records, figures, forces, style = (synthetic.load(name) for name in ("records", "figures", "figures.forces", "figures.style"))
 RecordsError = records.RecordsError
-WALLS = [("DP", [[-100.0, 50.0], [0.0, 0.0]]), ("FB", [[0.0, 0.0], [4.0, 8.0]]), ("SS", [[4.0, 8.0], [60.0, 8.0]])]
+WALLS = [("DP", [[-100.0, 50.0], [0.0, 0.0]], "slip"), ("FB", [[0.0, 0.0], [4.0, 8.0]], "backstop"), ("SS", [[4.0, 8.0], [60.0, 8.0]], "ground")]
 BLUE, RED = "#1f5fa8", "#d62728"  # compression, tension
 exact = dict(rel=1e-12)  # rounding
 

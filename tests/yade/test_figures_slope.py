@@ -6,9 +6,9 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-records, figures, style = (synthetic.load(name) for name in ("records", "figures", "figures.style"))
+records, figures, style, ground, fronts, measured = (synthetic.load(name) for name in ("records", "figures", "figures.style", "measure.ground", "measure.fronts", "measure.surface"))
 SECTION = synthetic.Section()
-WALLS = [("DP", [[-100.0, 75.0], [0.0, 0.0]]), ("FB", [[0.0, 0.0], [3.0, 4.0]]), ("SS", [[3.0, 4.0], [100.0, 4.0]])]  # 3 : 4 : 5
+WALLS = [("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"), ("FB", [[0.0, 0.0], [3.0, 4.0]], "backstop"), ("SS", [[3.0, 4.0], [100.0, 4.0]], "ground")]  # 3 : 4 : 5
 OCHRE, BLUE, PINK = ("#b89b6a", "#ddc99d"), ("#1f5fa8", "#4a90d0"), ("#e06aa6", "#f5a9cd")  # dry, wet, released, of even and odd layers
 
 
@@ -58,10 +58,10 @@ def test_the_water_table_stands_at_its_height_above_the_plane(two):
 def test_walls_are_drawn_and_named_with_the_ground_below_them(two):
     for ax in two.axes:
         lines = [drawn.points(one).tolist() for one in ax.lines if drawn.colour(one) == style.WALL and len(one.get_xdata()) == 2 and one.get_transform() == ax.transData]
-        assert [w.tolist() for _, w in style.as_walls(WALLS)] == [one for one in lines if one in [w for _, w in WALLS]]
-        ground = [c for c in ax.collections if drawn.hexes(c.get_facecolor()) == [style.GROUND]]
-        assert len(ground) == 3
-        for filled, (_, wall) in zip(ground, WALLS):  # from the wall to below the picture
+        assert [w for _, w, _ in WALLS] == [one for one in lines if one in [w for _, w, _ in WALLS]]
+        below = [c for c in ax.collections if drawn.hexes(c.get_facecolor()) == [style.GROUND]]
+        assert len(below) == 3
+        for filled, (_, wall, _) in zip(below, WALLS):  # from the wall to below the picture
             corners = filled.get_paths()[0].vertices
             assert all(any(np.allclose(corner, point) for corner in corners) for point in wall) and corners[:, 1].min() < ax.get_ylim()[0]
     (inset,) = two.axes[0].child_axes
@@ -88,7 +88,7 @@ def test_no_snapshot_is_an_error():
 
 # ---- deposit --------------------------------------------------------------------------------------
 
-LEVEL = [("DP", [[-100.0, 20.0], [0.0, 20.0]]), ("SS", [[0.0, 20.0], [300.0, 20.0]])]  # a floor at 20 m
+LEVEL = [("DP", [[-100.0, 20.0], [0.0, 20.0]], "slip"), ("SS", [[0.0, 20.0], [300.0, 20.0]], "ground")]  # a floor at 20 m
 
 
 def steps(*blocks, **changes):
@@ -148,44 +148,64 @@ def test_deposit_profile_measures_thickness_and_front():
     gx, gy = np.meshgrid(np.arange(0.5, 200), np.arange(0.5, 20))
     x = np.r_[gx.ravel(), 900.0]
     s = synthetic.few(x, np.r_[gy.ravel(), 80.0], r=np.full(len(x), 0.5))
-    at, base, surface = figures.deposit_profile(s, [("DP", [[-100.0, 0.0], [0.0, 0.0]]), ("SS", [[0.0, 0.0], [1000.0, 0.0]])])
+    at, base, surface = measured.deposit_profile(s, [("DP", [[-100.0, 0.0], [0.0, 0.0]], "slip"), ("SS", [[0.0, 0.0], [1000.0, 0.0]], "ground")])
     there = np.isfinite(surface)
     assert surface[there] - base[there] == pytest.approx(20.0)
     assert 197 < at[there].max() < 203 and at[there].min() < 3  # bins of 3 m
-    assert figures.front(s) == pytest.approx(200, abs=1)  # a disk
+    assert fronts.front(s) == pytest.approx(200, abs=1)  # a disk
 
 
 def test_thickness_is_above_the_lowest_wall():
     s = synthetic.few(np.arange(0.5, 30), np.full(30, 12.0), r=np.full(30, 0.5))
-    at, base, surface = figures.deposit_profile(s, [("DP", [[0.0, 9.0], [30.0, 6.0]]), ("SS", [[0.0, 3.0], [15.0, 4.5]]), ("upright", [[5.0, 0.0], [5.0, 30.0]])], bin_m=3)
+    at, base, surface = measured.deposit_profile(s, [("DP", [[0.0, 9.0], [30.0, 6.0]], "slip"), ("SS", [[0.0, 3.0], [15.0, 4.5]], "ground"), ("upright", [[5.0, 0.0], [5.0, 30.0]], "backstop")], bin_m=3)
     assert surface == pytest.approx(12.5) and at == pytest.approx(np.arange(1.5, 30, 3))
     assert base == pytest.approx(np.where(at <= 15, 3 + 0.1 * at, 9 - 0.1 * at))
 
 
-def test_a_mirrored_slope_gives_the_mirrored_profile():
-    s = steps((-90, -60, 12), (-60, -30, 6))  # 20 bins of 3 m, whichever end they begin at
-    walls = style.as_walls([("DP", [[-100.0, 8.0], [-50.0, 3.0]]), ("SS", [[-50.0, 3.0], [0.0, 4.0]])])
-    x, base, surface = figures.deposit_profile(s, walls, bin_m=3)
-    back, base_back, surface_back = figures.deposit_profile(synthetic.few(-s.x, s.y, r=s.r), [(name, w * (-1, 1)) for name, w in walls], bin_m=3)
-    assert back == pytest.approx(-x[::-1]) and base_back == pytest.approx(base[::-1]) and surface_back.tolist() == surface[::-1].tolist() and surface[0] > surface[-1]
+def mirror(walls):
+    """The same walls with left and right exchanged, in their order from left to right."""
+    return [(name, (np.array(points) * (-1, 1))[::-1], role) for name, points, role in reversed(walls)]
+
+
+def test_a_mirrored_slope_gives_the_mirrored_profile_and_front():
+    s = steps((-90, -60, 12), (-60, -31, 6))  # no whole number of bins of 3.1 m: they begin at the crown's end on both sides
+    walls = [("DP", [[-100.0, 8.0], [-50.0, 3.0]], "slip"), ("SS", [[-50.0, 3.0], [0.0, 4.0]], "ground")]
+    here, there = measured.deposit_profile(s, walls, bin_m=3.1), measured.deposit_profile(synthetic.few(-s.x, s.y, r=s.r), mirror(walls), bin_m=3.1)
+    for (one, other), sign in zip(zip(here, there), (-1, 1, 1)):
+        assert np.array_equal(sign * other, one, equal_nan=True)  # to the last bit
+    assert here[2][0] > here[2][15]
+    assert fronts.front(synthetic.few(-s.x, s.y, r=s.r), side=-1.0) == -fronts.front(s) == pytest.approx(31, abs=0.2)
+
+
+def test_an_obstacle_is_no_base():
+    s = synthetic.few(np.arange(0.5, 30), np.full(30, 12.0), r=np.full(30, 0.5))
+    walls = [("DP", [[0.0, 9.0], [30.0, 6.0]], "slip"), ("house", [[3.0, 1.0], [9.0, 1.0]], "obstacle")]
+    assert measured.deposit_profile(s, walls, bin_m=3)[1] == pytest.approx(9 - 0.1 * np.arange(1.5, 30, 3))
 
 
 # ---- the plane and the view -----------------------------------------------------------------------
 
 def test_water_table_is_parallel_to_the_plane_at_its_height():
     plane = SECTION.walls[0][1]
-    moved = style.water_points(style.as_walls(SECTION), 22.5) - plane
+    moved = ground.ground_of(SECTION).water_points(22.5) - plane
     assert moved == pytest.approx(22.5 * np.array([synthetic.NORMAL, synthetic.NORMAL]))
-    assert style.water_points([("DP", plane[::-1])], 22.5) - plane[::-1] == pytest.approx(moved)  # up, whichever end comes first
-    assert style.water_points([("SS", plane)], 1.0) is None
+    assert ground.ground_of([("DP", plane[::-1], "slip")]).water_points(22.5) - plane[::-1] == pytest.approx(moved)  # up, whichever end comes first
+    assert ground.ground_of([("SS", plane, "ground")]).water_points(1.0) is None
 
 
 def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
     left, right = synthetic.few([-50.0, -10.0], [10.0, 40.0]), synthetic.few([-40.0, 120.0], [5.0, 30.0])
-    x0, x1, y0, y1 = style.view([left, right], style.as_walls(WALLS))
+    x0, x1, y0, y1 = style.view([left, right], ground.ground_of(WALLS))
     # 1.2 % of 170 m on the left, 3 % on the right; 9 % of 35 m below, 3 % above
     assert (x0, x1, y0, y1) == pytest.approx((-50 - 2.04, 120 + 5.1, 5 - 3.15, 40 + 1.05))
-    assert style.view([left], style.as_walls(WALLS))[1] == pytest.approx(6 + 0.03 * 56)  # 12 % of the 50 m before the foot behind it
+    assert style.view([left], ground.ground_of(WALLS))[1] == pytest.approx(6 + 0.03 * 56)  # 12 % of the 50 m before the foot behind it
+
+
+def test_the_view_of_a_mirrored_slope_is_the_mirrored_view():
+    left, right = synthetic.few([-50.0, -10.0], [10.0, 40.0]), synthetic.few([-40.0, 120.0], [5.0, 30.0])
+    for cases in ([left], [left, right]):
+        x0, x1, y0, y1 = style.view(cases, ground.ground_of(WALLS))
+        assert style.view([synthetic.few(-s.x, s.y) for s in cases], ground.ground_of(mirror(WALLS))) == (-x1, -x0, y0, y1)
 
 
 @pytest.mark.parametrize("wide, length", [(37.0, 5), (100.0, 20), (250.0, 50), (1600.0, 200)])

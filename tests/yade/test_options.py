@@ -57,13 +57,14 @@ def files(tmp_path_factory):
     return home
 
 
-FIRST = {"wall_shear.py": ("--material", "ss"), "calibrate.py": ("--cohesion", 60, "--friction", 35), "column.py": ("--aspect", "1"), "soak.py": ("--steps", 500)}
+FIRST = {"slope.py": ("--section", "jiufengershan"), "wall_shear.py": ("--material", "ss"), "calibrate.py": ("--cohesion", 60, "--friction", 35), "column.py": ("--aspect", "1"), "soak.py": ("--steps", 500)}
 SOFT = ("--world", "soft", "--stiffness", "1e9")
 HOLDER = {  # what a command asks: a module or class, and its function
-    "jiufengershan.py": (slope, "build"), "biaxial.py": (campaign, "run"), "wall_shear.py": (wall_shear, "run"), "biaxial_effects.py": (effects, "run"),
+    "jiufengershan.py": (slope, "build"), "slope.py": (slope, "build"), "biaxial.py": (campaign, "run"), "wall_shear.py": (wall_shear, "run"), "biaxial_effects.py": (effects, "run"),
     "calibrate.py": (calibration, "Calibration"), "column.py": (study, "run"), "compare_hard_soft.py": (course, "compare"), "benchmark.py": (suite, "run"),
     "soak.py": (soak, "run"), "verify.py": (runner, "run_checks"), "wedge.py": (subprocess, "run")}
-OTHERS = {("compare_hard_soft.py", "--cost"): (cost, "run"), ("benchmark.py", "--scale"): (scale, "run"), ("jiufengershan.py", "--resume"): (experiment, "resume")}
+OTHERS = {("compare_hard_soft.py", "--cost"): (cost, "run"), ("benchmark.py", "--scale"): (scale, "run"), ("jiufengershan.py", "--resume"): (experiment, "resume"),
+          ("slope.py", "--resume"): (experiment, "resume")}
 
 
 def ran_by(a):
@@ -94,20 +95,26 @@ def effect(a):
     return e.tests[e.usual][0]
 
 
+# of the two commands that run a slope
+SLOPE = {
+    "--section": (("--section", "{files}/small.yaml"), lambda a: a.words[0].name, "small slope"),
+    "--packing": (("--section", "{files}/small.yaml", "--packing", "{files}/slope.txt"), lambda a: (len(a.words[1]), float(a.words[1].x[7])), lambda files: (
+        315, float(packing.read_text(files / "slope.txt").x[7]))),
+    "--rock": (("--section", "{files}/small.yaml", "--rock", "{files}/stone.yaml"), made_of, {0.35}),
+    "--disks": (("--section", "{files}/small.yaml", "--disks", 150), lambda a: len(a.words[1]), pytest.approx(150, abs=2)),
+    "--seed": (("--section", "{files}/small.yaml", "--seed", 5), lambda a: (a.words[0].seed, float(a.words[1].x[7])), lambda files: (
+        5, float(packing.read_text(files / "slope.txt").x[7]))),
+    "--water": (("--section", "{files}/small.yaml", "--water", 0.25), lambda a: (a.words[0].water.rate, a.words[0].water.table), (0.25, ((0.0, 0.0),))),
+    "--resume": (("--section", "{files}/small.yaml", "--resume"), lambda a: (a.words[0].name, a.words[1].name), ("small slope", "out")),
+    "--mirror": (("--section", "{files}/small.yaml", "--mirror"), lambda a: (a.words[0].side, a.words[1].x.mean() > 0), (-1.0, True)),
+    "--size": (("--section", "{files}/small.yaml", "--size", 0.01), lambda a: (a.words[0].area, a.words[1].x.mean()), lambda files: (
+        pytest.approx(1e-4 * section.load(str(SMALL)).area), pytest.approx(0.01 * packing.cached_pack(section.load(str(SMALL))).x.mean()))),
+    "--out": (("--section", "{files}/small.yaml", "--resume"), lambda a: str(a.words[1]), "{out}"),
+}
 #: command: option: its words, where its value is found, and the value.
 WHERE = {
-    "jiufengershan.py": {
-        "--section": (("--section", "{files}/small.yaml"), lambda a: a.words[0].name, "small slope"),
-        "--packing": (("--section", "{files}/small.yaml", "--packing", "{files}/slope.txt"), lambda a: (len(a.words[1]), float(a.words[1].x[7])), lambda files: (
-            315, float(packing.read_text(files / "slope.txt").x[7]))),
-        "--rock": (("--section", "{files}/small.yaml", "--rock", "{files}/stone.yaml"), made_of, {0.35}),
-        "--disks": (("--section", "{files}/small.yaml", "--disks", 150), lambda a: len(a.words[1]), pytest.approx(150, abs=2)),
-        "--seed": (("--section", "{files}/small.yaml", "--seed", 5), lambda a: (a.words[0].seed, float(a.words[1].x[7])), lambda files: (
-            5, float(packing.read_text(files / "slope.txt").x[7]))),
-        "--water": (("--section", "{files}/small.yaml", "--water", 0.25), lambda a: (a.words[0].water.rate, a.words[0].water.table), (0.25, ((0.0, 0.0),))),
-        "--resume": (("--section", "{files}/small.yaml", "--resume"), lambda a: (a.words[0].name, a.words[1].name), ("small slope", "out")),
-        "--out": (("--section", "{files}/small.yaml", "--resume"), lambda a: str(a.words[1]), "{out}"),
-    },
+    "jiufengershan.py": SLOPE,
+    "slope.py": SLOPE,
     "biaxial.py": {
         "--material": (("--material", "{files}/stone.yaml"), lambda a: (first(a).material.friction, first(a).material.name), (0.35, "stone")),
         "--confining": (("--confining", "0.5,4"), lambda a: [t.confining for t in ran_by(a)], [0.5e6, 4e6]),
@@ -229,6 +236,8 @@ WHERE = {
 RUN = {
     "jiufengershan.py": {"--threads": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits", "--end": "test_experiment.py::test_an_early_end_and_a_resume_give_the_same_bits",
                          "--no-figures": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits"},
+    "slope.py": {"--threads": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits", "--end": "test_any_slope.py::test_every_shipped_section_begins",
+                 "--no-figures": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits", "--list": "test_any_slope.py::test_shipped_sections_are_listed"},
     "soak.py": {"--out": "test_soak.py::test_a_short_soak", "--threads": "test_soak.py::test_a_short_soak"},
     "verify.py": {"--list": "test_options.py::test_checks_are_listed"},
     "wedge.py": {"--resume": "test_examples.py::test_the_wedge_runs_what_is_not_there_and_draws_all"},

@@ -14,7 +14,7 @@ import synthetic_slope as synthetic
 
 records, video, style = (synthetic.load(name) for name in ("records", "video", "figures.style"))
 RecordsError = records.RecordsError
-WALLS = [("DP", [[-100.0, 75.0], [0.0, 0.0]]), ("FB", [[0.0, 0.0], [3.0, 4.0]]), ("SS", [[3.0, 4.0], [100.0, 4.0]])]
+WALLS = [("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"), ("FB", [[0.0, 0.0], [3.0, 4.0]], "backstop"), ("SS", [[3.0, 4.0], [100.0, 4.0]], "ground")]
 TIMES = {"t0": 5.0, "t1": 50.0, "t3": 60.0, "t5": 92.0}
 X, Y = np.array([-60.0, -40.0, -20.0, 20.0]), np.array([70.0, 50.0, 30.0, 10.0])
 # time [s], water [m], wet, released, way [m], speed [m/s] down the slope of three quarters
@@ -123,7 +123,7 @@ def test_forces_are_means_over_a_second_once_the_avalanche_moves(shown, files):
     jumps = np.zeros(1001)
     jumps[200], jumps[750] = 22e6, 22e6  # 20 s, before t3, and 75 s
     told = shown(files, fps=10, series={"time_s": t, **{name: jumps for name, *_ in video.FORCES}}, times=TIMES)
-    for name, label, _ in video.FORCES:
+    for label in ("$N'_{DP}$  effective normal force on DP", "$T_{DP}$  shear force on DP", "$N'_{FB}$  normal force on FB"):
         force = drawn.points(drawn.line(told.fig.axes[1], label))[:, 1]
         assert force[[199, 200, 201]].tolist() == [0, 22, 0]
         assert force[[744, 745, 750, 755, 756]] == pytest.approx([0, 2, 2, 2, 0], abs=1e-9)  # 11 rows of 0.1 s

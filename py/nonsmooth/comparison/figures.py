@@ -10,6 +10,7 @@ from matplotlib.transforms import Bbox
 
 from ..figures import style
 from ..figures.style import INK, LINES
+from ..measure.ground import ground_of
 from .cases import modulus_label
 
 __all__ = ["convergence", "cost", "cost_and_overlap", "courses", "deposits_overlaid", "force_distribution", "modes", "network", "overlaps",
@@ -52,7 +53,7 @@ def deposits_overlaid(hard, soft, begin, walls, share, path=None):
     fig = style.figure(width, height + 0.5)
     ax = fig.add_axes([0, 0, 1, height / (height + 0.5)])
     style.frame(ax, x0 - dx, x1 + dx, y0 - dy, y1 + dy)
-    style.draw_walls(ax, style.as_walls(walls))
+    style.draw_walls(ax, ground_of(walls))
     for geometry, colour, order in ((hard.difference(both), HARD, 2), (soft.difference(both), SOFT, 2), (both, BOTH, 2.1)):
         patch = _patch(geometry, fc=colour, ec="none", zorder=order)
         if patch is not None:

@@ -9,8 +9,8 @@ from dataclasses import asdict
 import numpy as np
 
 from .. import packing, records, results, scales, section
-from ..figures.profiles import deposit_profile
 from ..kept_runs import Progress
+from ..measure.surface import deposit_profile
 from .cases import Case, ComparisonError
 from .outcomes import Cost, Outcome, Quantity
 

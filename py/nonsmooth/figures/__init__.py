@@ -2,12 +2,12 @@
 
 Every function takes data and returns the matplotlib Figure it draws. With the ``path`` of a PNG it writes the figure
 there instead and returns the path; ``pdf=True`` writes a PDF beside it (disks and bars rasterised, text and lines as
-vectors). Walls are given as ``[(name, vertices (n, 2))]``, as objects with ``name`` and ``vertices``, or as an object
-that has such ``walls``. Data that lack something raise :class:`~nonsmooth.records.RecordsError`.
+vectors). Walls are given as a Section, as ``[(name, vertices (n, 2), role)]``, as objects with these attributes, or as an object
+that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data that lack something raise :class:`~nonsmooth.records.RecordsError`.
 """
 
 from .forces import force_chains, forces_against_time
-from .profiles import deposit, deposit_profile, front, snapshots
+from .profiles import deposit, snapshots
 from .numerics import energy, solver
 
-__all__ = ["force_chains", "forces_against_time", "snapshots", "deposit", "deposit_profile", "front", "energy", "solver"]
+__all__ = ["force_chains", "forces_against_time", "snapshots", "deposit", "energy", "solver"]

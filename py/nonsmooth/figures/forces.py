@@ -5,10 +5,11 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon, Rectangle
 
+from ..measure.ground import ground_of
 from . import style
 from .style import COMPRESSION, INK, LINES, TENSION
 
-MEGA = 1e6
+SKETCHED = {"slip": "DP", "backstop": "FB"}  # names of the paper's walls, where nobody gives others
 
 
 def force_bars(snapshot, chosen, reference, width):
@@ -24,13 +25,13 @@ def force_bars(snapshot, chosen, reference, width):
     return np.stack([a - half, b - half, b + half, a + half], axis=1)
 
 
-def _close_up(ax, snapshot, walls, box, reference, width, outline):
+def _close_up(ax, snapshot, ground, box, reference, width, outline):
     """One window of the slope: disks as outlines, normal forces as bars."""
     x0, x1, y0, y1 = box
     style.frame(ax, *box)
     for spine in ax.spines.values():
         spine.set_visible(True)
-    style.draw_walls(ax, walls, size=11, width=2)
+    style.draw_walls(ax, ground, size=11, width=2)
     reach = 2 * snapshot.r.max()
     seen = (np.abs(snapshot.x - (x0 + x1) / 2) < (x1 - x0) / 2 + reach) & (
         np.abs(snapshot.y - (y0 + y1) / 2) < (y1 - y0) / 2 + reach
@@ -57,14 +58,16 @@ def _force_scale(ax, reference, width):
     forces = [style.nice(reference)]
     while len(forces) < 3:
         forces.append(style.nice(0.6 * forces[-1]))
+    newtons, unit = style.force_unit(forces[0])
     length, pitch = 0.09 * (x1 - x0), 0.075 * (y1 - y0)
+    ax.add_patch(Rectangle((x0, y0), 0.3 * (x1 - x0), 0.32 * (y1 - y0), fc="white", ec="none", alpha=0.75, zorder=8))
     ax.text(0.02, 0.30, "normal force", transform=ax.transAxes, va="top", fontsize=9, zorder=9)
     for k, force in enumerate(forces):
         y = y0 + 0.2 * (y1 - y0) - k * pitch
         w = width * force / reference
         ax.add_patch(Rectangle((x0 + 0.02 * (x1 - x0), y - w / 2), length, w, color=COMPRESSION, lw=0, zorder=9))
         ax.text(
-            x0 + 0.13 * (x1 - x0), y, f"{force / MEGA:g} MN/m", va="center", fontsize=9, color=INK, zorder=9
+            x0 + 0.13 * (x1 - x0), y, f"{force / newtons:g} {unit}", va="center", fontsize=9, color=INK, zorder=9
         )
 
 
@@ -77,10 +80,10 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
     a hairline outline so that small ones can be seen.
     """
-    walls = style.as_walls(walls)
+    ground = ground_of(walls)
     if len(snapshot.ci) == 0:
         raise style.RecordsError("the snapshot has no contacts, so no forces to draw; take one written with contacts")
-    corner = style.foot(walls)
+    corner = ground.foot
     near = np.abs(snapshot.x - corner[0]) < 0.12 * np.ptp(snapshot.x)
     if not near.any():  # a mass that begins higher up
         near = np.argmin(snapshot.y - snapshot.r)
@@ -93,7 +96,8 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     boxes = []
     for w, right, below in ((wide, 0.2, 0.07), (tight, 0.22, 0.13)):
         h = w / aspect
-        boxes.append((corner[0] - (1 - right) * w, corner[0] + right * w, corner[1] - below * h, corner[1] + (1 - below) * h))
+        ends = sorted((corner[0] - ground.side * (1 - right) * w, corner[0] + ground.side * right * w))
+        boxes.append((*ends, corner[1] - below * h, corner[1] + (1 - below) * h))
     x0, x1, y0, y1 = boxes[0]
     seen = (snapshot.cx > x0) & (snapshot.cx < x1) & (snapshot.cy > y0) & (snapshot.cy < y1)
     strength = np.abs(snapshot.cn[seen if seen.any() else slice(None)])
@@ -104,16 +108,17 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     top = fig.add_axes([0.01, 0.505, 0.98, 0.455])
     margin = 0.02 * np.ptp(snapshot.x)
     style.frame(
-        top, snapshot.x.min() - margin, max(snapshot.x.max(), boxes[0][1]) + margin,
+        top, min(snapshot.x.min(), boxes[0][0]) - margin, max(snapshot.x.max(), boxes[0][1]) + margin,
         min(snapshot.y.min(), boxes[0][2]) - margin, snapshot.y.max() + margin,
     )  # fmt: skip
-    style.draw_walls(top, walls, labels=("DP",), size=11)
+    style.draw_walls(top, ground, named=("slip",), size=11)
     style.draw_disks(top, snapshot, style.layer_colours(snapshot.layer))
-    style.scale_bar(top, 0.98, 0.86)
+    style.scale_bar(top, 0.98 if ground.side > 0 else 0.22, 0.86)
     layers = np.unique(snapshot.layer)
     handles = [Patch(color=style.LAYERS[k % len(style.LAYERS)], label=f"{k + 1}") for k in layers[::-1]]
     handles[0].set_label(f"{layers[-1] + 1} (top)")
-    top.legend(handles=handles, title="layer", loc="lower left", bbox_to_anchor=(0.06, 0.02), handlelength=1.3)
+    top.legend(handles=handles, title="layer", loc="lower left" if ground.side > 0 else "lower right",
+               bbox_to_anchor=(0.06 if ground.side > 0 else 0.94, 0.02), handlelength=1.3)
     fig.text(
         0.5, 0.985, f"Initial state: {len(snapshot.x):,} disks, {len(snapshot.ci):,} contacts, "
         f"{int((snapshot.cn < 0).sum()):,} of them in tension", ha="center", va="top", fontsize=11.5,
@@ -123,7 +128,7 @@ def force_chains(snapshot, walls, path=None, pdf=False):
         (fig.add_axes([0.512, 0.035, 0.476, 0.455]), boxes[1], "b"),
     ):
         outline = 0.25 if letter == "a" else 0.7
-        _close_up(ax, snapshot, walls, box, reference, width, outline)
+        _close_up(ax, snapshot, ground, box, reference, width, outline)
         ax.text(
             0.02, 0.97, letter, transform=ax.transAxes, ha="left", va="top", fontsize=13, fontweight="bold",
             bbox={"fc": "white", "ec": "#999999", "lw": 0.6, "pad": 3}, zorder=9,
@@ -151,37 +156,42 @@ def _limits(curves, shown):
     return low - pad, high + pad
 
 
-def _sketch(ax):
-    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12)."""
-    style.frame(ax, -10.8, 4.6, -1.6, 6.6)
-    slope = np.tan(np.radians(21))
+def _sketch(ax, side, name, back, wet):
+    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none."""
+    style.frame(ax, *(-10.8 * side, 4.6 * side), -1.6, 6.6)
+    at = lambda points: np.asarray(points) * (side, 1)  # noqa: E731
+    slope, after = np.tan(np.radians(21)), "left" if side > 0 else "right"
     plane = np.array([[-10, 10 * slope], [0, 0]])
-    back = np.array([[0, 0], [1.0, 2.6]])
-    ax.add_patch(Polygon([plane[0], plane[1], back[1], (-10, 10 * slope + 1.9)], fc="#ead9b5", ec="none"))
-    ax.plot(*np.vstack([plane, back, [4.4, 2.4]]).T, color=style.WALL, lw=1.5)
-    water = plane + 0.85 * np.array([np.sin(np.radians(21)), np.cos(np.radians(21))])
-    ax.plot(*water.T, color=style.WATER, lw=1.2, ls=(0, (4, 2)))
-    ax.text(-10.4, 4.75, "$h_w$", color=style.WATER, ha="center", va="center", fontsize=9)
+    wall = np.array([[0, 0], [1.0, 2.6]])
+    ax.add_patch(Polygon(at([plane[0], plane[1], wall[1], (-10, 10 * slope + 1.9)]), fc="#ead9b5", ec="none"))
+    ax.plot(*at(np.vstack([plane, wall, [4.4, 2.4]] if back else [plane, [4.4, -0.4]])).T, color=style.WALL, lw=1.5)
+    if wet:
+        water = plane + 0.85 * np.array([np.sin(np.radians(21)), np.cos(np.radians(21))])
+        ax.plot(*at(water).T, color=style.WATER, lw=1.2, ls=(0, (4, 2)))
+        ax.text(*at((-10.4, 4.75)), "$h_w$", color=style.WATER, ha="center", va="center", fontsize=9)
     arrow = {"arrowstyle": "-|>", "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
     normal, down = np.array([0.358, 0.934]), np.array([0.934, -0.358])
     middle = np.array([-5.2, 5.2 * slope])
-    ax.annotate("", middle, middle - 2.0 * normal, arrowprops={**arrow, "color": LINES["blue"]})
-    ax.text(*(middle - 2.6 * normal), "$N_{DP}$", ha="center", va="center", color=LINES["blue"], fontsize=9.5)
+    ax.annotate("", at(middle), at(middle - 2.0 * normal), arrowprops={**arrow, "color": LINES["blue"]})
+    ax.text(*at(middle - 2.6 * normal), style.symbol("N", name), ha="center", va="center", color=LINES["blue"], fontsize=9.5)
     start = middle + 2.4 * down - 0.32 * normal
-    ax.annotate("", start - 1.9 * down, start, arrowprops={**arrow, "color": LINES["orange"]})
-    ax.text(*(start + 0.1 * down - 0.75 * normal), "$T_{DP}$", ha="left", va="center", color=LINES["orange"], fontsize=9.5)
-    push = back.mean(axis=0)
-    ax.annotate("", push, push + 2.0 * np.array([0.93, -0.36]), arrowprops={**arrow, "color": LINES["green"]})
-    ax.text(*(push + (2.1, -1.1)), "$N'_{FB}$", ha="left", va="center", color=LINES["green"], fontsize=9.5)
+    ax.annotate("", at(start - 1.9 * down), at(start), arrowprops={**arrow, "color": LINES["orange"]})
+    ax.text(*at(start + 0.1 * down - 0.75 * normal), style.symbol("T", name), ha=after, va="center", color=LINES["orange"], fontsize=9.5)
+    if back:
+        push = wall.mean(axis=0)
+        ax.annotate("", at(push), at(push + 2.0 * np.array([0.93, -0.36])), arrowprops={**arrow, "color": LINES["green"]})
+        ax.text(*at(push + (2.1, -1.1)), style.symbol("N'", back), ha=after, va="center", color=LINES["green"], fontsize=9.5)
 
 
 @style.styled
-def forces_against_time(series, times, path=None, pdf=False, window=1.0):
-    """Forces on the walls against time (the paper's Figure 12).
+def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=None):
+    """Forces on the slip surfaces and the backstops against time (the paper's Figure 12).
 
     ``series``: dict of columns (:func:`nonsmooth.records.read_series`). ``times``: dict t0 to t5 [s], or an object
-    with such ``times``; missing ones are left out. (a) normal force on DP: total, effective, water, and the height of
-    the water table (right axis); (b) shear force on DP, normal force on FB, and their changes since t0. On the left
+    with such ``times``; missing ones are left out. ``walls``: see :mod:`nonsmooth.figures`; without them, they have the paper's names. (a) normal force on the slip
+    surfaces (DP): total, effective, water, and the height of
+    the water table (right axis); (b) shear force on them, normal force on the backstops (FB), and their changes since t0. What a slope has not, a backstop or
+    water, is left out. On the left
     the whole run, on the right the failure and triggering alone (when t1 and t3 are known). Lines are means over
     ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind.
     """
@@ -193,21 +203,28 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0):
     start = int(np.argmin(np.abs(time - t.get("t0", time[0]))))
     moving = t.get("t3", np.inf)
 
+    ground = None if walls is None else ground_of(walls)
+    name, rest = (SKETCHED[role] if ground is None else ground.name(role) for role in ("slip", "backstop"))
+    wet = bool(np.any(water > 0) or np.any(pore))
+    newtons, unit = style.force_unit(max(np.abs(values).max() for values in (total, shear, back)))
+
     def curve(values):
-        values = values / MEGA
+        values = values / newtons
         return values, np.where(time > moving, style.running_mean(time, values, window), values)
 
+    of = style.symbol
+    effect, change, push, push_change = of("N'", name), of(r"\Delta T", name), of("N'", rest), of(r"\Delta N'", rest)
     normal = [
-        ("$N_{DP}$  total", curve(total), "blue", "-"),
-        ("$N'_{DP}$  effective", curve(effective), "orange", "-"),
-        ("$U_{DP}$  water pressure", curve(pore), "sky", "-"),
-    ]
-    other = [
-        ("$T_{DP}$  shear on DP", curve(shear), "orange", "-"),
-        ("$N'_{FB}$  normal on FB", curve(back), "green", "-"),
-        ("$\\Delta T_{DP}$  since $t_0$", curve(shear - shear[start]), "orange", (0, (3, 1.2))),
-        ("$\\Delta N'_{FB}$  since $t_0$", curve(back - back[start]), "green", (0, (3, 1.2))),
-    ]
+        (f"{of('N', name)}  total", curve(total), "blue", "-"),
+        (f"{effect}  effective", curve(effective), "orange", "-"),
+        (f"{of('U', name)}  water pressure", curve(pore), "sky", "-"),
+    ] if wet else [(f"{of('N', name)}  normal on {style.plain(name)}", curve(total), "blue", "-")]  # fmt: skip
+    dashed = (0, (3, 1.2))
+    other = [(f"{of('T', name)}  shear on {style.plain(name)}", curve(shear), "orange", "-"),
+             (f"{change}  since $t_0$", curve(shear - shear[start]), "orange", dashed)]
+    if rest:
+        other.insert(1, (f"{push}  normal on {style.plain(rest)}", curve(back), "green", "-"))
+        other.append((f"{push_change}  since $t_0$", curve(back - back[start]), "green", dashed))
     spans = [(time[0], max(time[-1], time[0] + 1e-9))]
     if "t1" in t and "t3" in t:
         d = max(t["t3"] - t["t1"], 0.03 * (spans[0][1] - spans[0][0]), 1e-9)
@@ -215,12 +232,12 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0):
 
     fig = style.figure(12.4, 8.6)
     lefts, widths = ([0.062, 0.685], [0.595, 0.255]) if len(spans) == 2 else ([0.062], [0.878])
-    fig.text(0.062, 0.975, "Forces on the dipping plane (DP) and the frontal backstop (FB)", fontsize=13, va="top")
+    fig.text(0.062, 0.975, f"Forces on {style.plain(name)} (slip surface)" + f" and {style.plain(rest)} (backstop)" * bool(rest), fontsize=13, va="top")
     fig.text(
         0.062, 0.938, "per metre of width. " + (f"From $t_3$ on: lines are means over {window:g} s, pale: every value."
         if "t3" in t else "Every value is shown."), fontsize=9.5, color="#555555", va="top",
     )  # fmt: skip
-    _sketch(fig.add_axes([0.71, 0.865, 0.23, 0.135]))
+    _sketch(fig.add_axes([0.71, 0.865, 0.23, 0.135]), 1.0 if ground is None else ground.side, name, rest, wet)
     legend = []
     for column, (span, left, width) in enumerate(zip(spans, lefts, widths)):
         strip = fig.add_axes([left, 0.795, width, 0.03])
@@ -234,21 +251,21 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0):
             style.mark_times(ax, t, labels=row == 0, gap=0.022 * 0.595 / width)
             for label, (raw, mean), colour, dash in lines:
                 late = time > moving
-                if "Delta" not in label:  # the changes have the same scatter
+                if "since" not in label:  # the changes have the same scatter
                     ax.plot(time[late], raw[late], color=LINES[colour], lw=0.5, alpha=0.25, zorder=2)
                 wide = 3.2 if "total" in label else 1.5  # seen behind the effective force where they are equal
                 ax.plot(time, mean, color=LINES[colour], ls=dash, lw=wide, label=label, zorder=3 + (wide < 2))
             ax.set_ylim(_limits([c for _, c, _, _ in lines], slice(None)))
             ax.axhline(0, color="#555555", lw=0.7, zorder=1.5)
             if column == 0:
-                ax.set_ylabel("force [MN/m]")
+                ax.set_ylabel(f"force [{unit}]")
                 fig.text(0.012, bottom + 0.325, "(a)" if row == 0 else "(b)", fontsize=12, fontweight="bold", va="center")
                 legend.append(ax.get_legend_handles_labels())
             else:
                 ax.tick_params(labelleft=False)
             if row == 1:
                 ax.set_xlabel("time [s]" if column == 0 else "time [s], failure and triggering enlarged")
-            else:
+            elif wet:
                 table = ax.twinx()
                 table.plot(time, water, color=INK, lw=1.1, ls=(0, (1, 1.2)), label="$h_w$  water table (right axis)")
                 # The same zero on both axes.
@@ -257,7 +274,7 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0):
                 table.set_ylim(top * low / high, top)
                 table.set_yticks([v for v in table.get_yticks() if 0 <= v <= top])
                 if column == len(spans) - 1:
-                    table.set_ylabel("water table above DP [m]")
+                    table.set_ylabel(f"water table above {style.plain(name)} [m]")
                     table.spines["right"].set_visible(True)
                     handles, labels = table.get_legend_handles_labels()
                     legend[0] = (legend[0][0] + handles, legend[0][1] + labels)

@@ -28,6 +28,8 @@ RC = {
     "xtick.labelsize": 9, "ytick.labelsize": 9, "legend.frameon": False, "mathtext.default": "it", "pdf.fonttype": 42,
 }  # fmt: skip
 
+SCARCE = 0.04  # of the picture's width or height: of a wall that shows less of itself the name is left out
+
 #: What the characteristic times of the paper (section 6) mark, and the phases between them.
 TIME_NAMES = {
     "t0": "water begins to rise",
@@ -90,31 +92,30 @@ def need(series, *names):
     return [np.asarray(series[name], dtype=float) for name in names]
 
 
-def as_walls(walls):
-    """``[(name, vertices (n, 2))]`` from whatever describes the walls."""
-    pairs = []
-    for wall in getattr(walls, "walls", walls):
-        name, vertices = (wall.name, wall.vertices) if hasattr(wall, "vertices") else wall
-        vertices = np.asarray(vertices, dtype=float)
-        if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 2:
-            raise RecordsError(f"wall {name} has vertices of shape {vertices.shape}; give at least two points (x, y)")
-        pairs.append((str(name), vertices))
-    return pairs
+def plain(text):
+    """A name as text that is no formula, whatever it holds."""
+    return str(text).replace("$", r"\$")
 
 
-def find_wall(walls, name):
-    """Vertices of the wall called ``name`` (or whose name begins with it), None if there is none."""
-    for wanted in (lambda n: n == name, lambda n: n.startswith(name)):
-        for wall, vertices in walls:
-            if wanted(wall):
-                return vertices
-    return None
+def symbol(letter, name):
+    """A quantity of a wall: the wall's name is its index where it is a short word, or follows in brackets."""
+    return f"${letter}_{{{name}}}$" if name.isalnum() and name.isascii() and len(name) <= 4 else f"${letter}$ ({plain(name)})"
 
 
-def foot(walls):
-    """The lowest point of DP, the origin if there is no DP."""
-    plane = find_wall(walls, "DP")
-    return np.zeros(2) if plane is None else plane[np.argmin(plane[:, 1])]
+def length(value, extent, digits=0):
+    """A length [m] with its unit, which is that of a picture ``extent`` [m] wide: m, cm or mm."""
+    factor, unit = next((f, u) for f, u, least in ((1, "m", 20), (100, "cm", 0.2), (1000, "mm", 0)) if extent >= least)
+    return f"{factor * value:,.{digits}f} {unit}"
+
+
+def seconds(value, longest):
+    """A time [s] with as many digits as times up to ``longest`` [s] are told apart by."""
+    return f"{value:.{1 if longest >= 20 else 2 if longest >= 2 else 3}f} s"
+
+
+def force_unit(largest):
+    """The unit of forces up to ``largest`` [N/m]: (newtons in it, its name)."""
+    return next((f, u) for f, u in ((1e6, "MN/m"), (1e3, "kN/m"), (1.0, "N/m")) if largest >= f or f == 1.0)
 
 
 def known_times(times):
@@ -146,34 +147,35 @@ def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, 
     return disks
 
 
-def draw_walls(ax, walls, labels=("DP", "FB", "SS"), size=9.5, width=1.6):
-    """Walls as lines with the ground below them filled, and the names in ``labels`` beside them."""
+def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
+    """Walls as lines with the ground below them filled, and the names of those whose role is in ``named`` (all where None) beside them.
+
+    ``ground``: a :class:`~nonsmooth.measure.ground.Ground`.
+    """
     x0, x1 = ax.get_xlim()
     y0, y1 = ax.get_ylim()
-    for name, points in walls:
-        if len(points) < 2:
-            continue
+    for wall in ground.walls:
+        points = wall.vertices
         ax.fill_between(points[:, 0], points[:, 1], y0 - (y1 - y0), color=GROUND, lw=0.6, zorder=0.5)
-    for name, points in walls:
-        ax.plot(points[:, 0], points[:, 1], color=WALL, lw=width, solid_capstyle="round", zorder=4)
-        if name in labels:
-            _name_wall(ax, name, points, (x0, x1, y0, y1), size)
+    for wall in ground.walls:
+        ax.plot(wall.vertices[:, 0], wall.vertices[:, 1], color=WALL, lw=width, solid_capstyle="round", zorder=4)
+        if named is None or wall.role in named:
+            _name_wall(ax, wall, ground.side, (x0, x1, y0, y1), size)
 
 
-def _name_wall(ax, name, points, box, size):
-    """Write a wall's name below the middle of its visible part."""
+def _name_wall(ax, wall, side, box, size):
+    """Write a wall's name below the middle of its visible part, or beside it where it stands upright."""
     x0, x1, y0, y1 = box
-    leg = np.r_[0, np.cumsum(np.hypot(*np.diff(points, axis=0).T))]
+    leg = np.r_[0, np.cumsum(np.hypot(*np.diff(wall.vertices, axis=0).T))]
     along = np.linspace(0, leg[-1], 400)
-    path = np.column_stack([np.interp(along, leg, points[:, k]) for k in (0, 1)])
+    path = np.column_stack([np.interp(along, leg, wall.vertices[:, k]) for k in (0, 1)])
     seen = path[(path[:, 0] > x0) & (path[:, 0] < x1) & (path[:, 1] > y0) & (path[:, 1] < y1)]
-    if len(seen) == 0:
+    if len(seen) == 0 or max(np.ptp(seen[:, 0]) / (x1 - x0), np.ptp(seen[:, 1]) / (y1 - y0)) < SCARCE:
         return
-    at = seen[len(seen) // 2]
-    shift = (9, -5) if name == "FB" else (-3, -6)
+    beside = wall.role == "backstop"
     ax.annotate(
-        name, at, xytext=shift, textcoords="offset points", ha="left" if name == "FB" else "center", va="top",
-        fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
+        plain(wall.name), seen[len(seen) // 2], xytext=(9 * side, -5) if beside else (-3 * side, -6), textcoords="offset points",
+        ha=("left" if side > 0 else "right") if beside else "center", va="top", fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
     )  # fmt: skip
 
 
@@ -188,13 +190,15 @@ def frame(ax, x0, x1, y0, y1):
         spine.set_visible(False)
 
 
-def view(cases, walls):
-    """Limits that hold the disks of every snapshot."""
-    x0 = min(s.x.min() for s in cases)
-    x1 = max(max(s.x.max() for s in cases), foot(walls)[0] + 0.12 * (foot(walls)[0] - x0))
+def view(cases, ground):
+    """Limits that hold the disks of every snapshot, and some ground before the foot."""
+    ahead = [ground.side * s.x for s in cases]  # as for a slope that falls to the right
+    x0, foot = min(x.min() for x in ahead), ground.side * ground.foot[0]
+    x1 = max(max(x.max() for x in ahead), foot + 0.12 * (foot - x0))
     y0 = min(s.y.min() for s in cases)
     y1 = max(s.y.max() for s in cases)
-    return x0 - 0.012 * (x1 - x0), x1 + 0.03 * (x1 - x0), y0 - 0.09 * (y1 - y0), y1 + 0.03 * (y1 - y0)
+    ends = x0 - 0.012 * (x1 - x0), x1 + 0.03 * (x1 - x0)
+    return (*(ends if ground.side > 0 else (-ends[1], -ends[0])), y0 - 0.09 * (y1 - y0), y1 + 0.03 * (y1 - y0))
 
 
 def nice(value):
@@ -204,31 +208,22 @@ def nice(value):
 
 
 def scale_bar(ax, x=0.97, y=0.07, share=0.2):
-    """A bar of a round number of metres, its right end at the axes fractions ``x``, ``y``."""
+    """A bar of a round length, its right end at the axes fractions ``x``, ``y``."""
     x0, x1 = ax.get_xlim()
-    length = nice(share * (x1 - x0))
-    w = length / (x1 - x0)
+    long = nice(share * (x1 - x0))
+    w = long / (x1 - x0)
+    factor, unit = next((f, u) for f, u, least in ((1, "m", 1), (100, "cm", 0.01), (1000, "mm", 0)) if long >= least * (1 - 1e-9))
     ax.plot([x - w, x], [y, y], transform=ax.transAxes, color=INK, lw=3, solid_capstyle="butt", zorder=7)
-    ax.text(x - w / 2, y + 0.02, f"{length:g} m", transform=ax.transAxes, ha="center", va="bottom", zorder=7)
+    ax.text(x - w / 2, y + 0.02, f"{factor * long:g} {unit}", transform=ax.transAxes, ha="center", va="bottom", zorder=7)
 
 
-def water_line(ax, walls, height, **options):
-    """The water table: DP moved by ``height`` along its normal; returns the line or None."""
-    points = water_points(walls, height)
+def water_line(ax, ground, height, **options):
+    """The water table: its plane moved by ``height`` [m] along its normal; returns the line, or None where no plane is known."""
+    points = ground.water_points(height)
     if points is None:
         return None
     options = {"color": WATER, "lw": 1.3, "ls": (0, (5, 2)), "zorder": 5, **options}
     return ax.plot(points[:, 0], points[:, 1], **options)[0]
-
-
-def water_points(walls, height):
-    """Vertices (n, 2) of the water table, None without DP. ``height`` [m] along the normal of DP's chord."""
-    plane = find_wall(walls, "DP")
-    if plane is None:
-        return None
-    chord = plane[-1] - plane[0]
-    normal = np.array([-chord[1], chord[0]]) / np.hypot(*chord)
-    return plane + height * (normal if normal[1] > 0 else -normal)
 
 
 def shade_phases(ax, times, names=False):

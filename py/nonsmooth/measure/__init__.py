@@ -1,0 +1,6 @@
+"""Measures of a run: arrays in, numbers out. Needs no YADE.
+
+* :mod:`.ground`: walls by their roles, the foot of the slope, where water stands
+* :mod:`.fronts`: how far a mass has come
+* :mod:`.surface`: the surface of a mass and what lies below it
+"""

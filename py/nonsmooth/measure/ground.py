@@ -1,0 +1,101 @@
+"""The walls of a slope by their roles: which way it falls, where its foot is, where water stands above which plane."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import UserError
+from ..roles import chord
+
+__all__ = ["Ground", "GroundError", "Wall", "ground_of"]
+
+
+class GroundError(UserError, ValueError):
+    """Walls that are none; the message says which, and what is needed."""
+
+
+class Wall(NamedTuple):
+    """``vertices``: (n, 2) [m]; ``role``: see :mod:`.roles`, None where nobody said."""
+
+    name: str
+    vertices: np.ndarray
+    role: str | None = None
+
+
+class Ground:
+    """Walls, and what follows from them.
+
+    ``walls``: list of Wall; ``side``: 1 for a slope that falls to the right, −1 to the left; ``water``: (points (n, 2) [m], unit normal) of the plane from which
+    water is measured, or None.
+    """
+
+    def __init__(self, walls, side, water):
+        self.walls, self.side, self._water = walls, side, water
+
+    def of_role(self, *wanted):
+        """The walls that have one of these roles."""
+        return [wall for wall in self.walls if wall.role in wanted]
+
+    def name(self, role):
+        """The names of the walls of a role, joined; empty where there are none."""
+        return ", ".join(wall.name for wall in self.of_role(role))
+
+    @property
+    def foot(self):
+        """The end (x, y) [m] of the slip surfaces down the slope; the origin without one."""
+        slip = self.of_role("slip")
+        if not slip:
+            return np.zeros(2)
+        points = np.vstack([wall.vertices for wall in slip])
+        return points[np.argmax(self.side * points[:, 0])]
+
+    def water_points(self, height):
+        """Vertices (n, 2) [m] of a water table ``height`` [m] above its plane, along the plane's normal; None where no plane is known."""
+        if self._water is None:
+            return None
+        points, normal = self._water
+        return points + height * normal
+
+
+def _plane(slip):
+    """Points and unit normal of the first slip surface, None where there is none."""
+    if not slip:
+        return None
+    points = slip[0].vertices
+    way = points[-1] - points[0]
+    normal = np.array([-way[1], way[0]]) / np.hypot(*way)
+    return points, normal if normal[1] > 0 else -normal
+
+
+def ground_of(walls):
+    """The Ground of a Section; or of what has ``walls``, or of a list of walls: (name, vertices), (name, vertices, role), or objects with these attributes.
+
+    Raises GroundError for a wall of less than two points.
+    """
+    if isinstance(walls, Ground):
+        return walls
+    found = []
+    for wall in getattr(walls, "walls", walls):
+        name, vertices, role = (wall.name, wall.vertices, getattr(wall, "role", None)) if hasattr(wall, "vertices") else (*wall, None)[:3]
+        vertices = np.asarray(vertices, dtype=float)
+        if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 2:
+            raise GroundError(f"wall {name} has vertices of shape {vertices.shape}; give at least two points (x, y)")
+        found.append(Wall(str(name), vertices, role))
+    slip = [wall for wall in found if wall.role == "slip"]
+    side = getattr(walls, "side", -1.0 if slip and chord([wall.vertices for wall in slip])[0] < 0 else 1.0)
+    return Ground(found, side, _water_of(walls) if hasattr(walls, "water") else _plane(slip))
+
+
+def _water_of(section):
+    """The water's plane of a Section, over its wall or over the layers; None where it has no water."""
+    water = section.water
+    if water is None:
+        return None
+    normal = np.array(water.normal)
+    if water.wall is not None:
+        return section.wall(water.wall).points, normal
+    reach = np.array([p[0] for layer in section.layers for p in layer.vertices])
+    x = np.array([reach.min(), reach.max()])
+    return np.column_stack([x, water.point[1] - (x - water.point[0]) * normal[0] / normal[1]]), normal

@@ -1,0 +1,75 @@
+"""What the walls of a section are for, and which way its slope falls. Needs no YADE.
+
+    slip       a slip surface: the mass may slide along it, and its slip is counted
+    backstop   what the mass leans against at its foot
+    ground     what the mass runs out over, and everything else
+    obstacle   what stands in its way
+
+A section file says so with ``role``. Where it does not:
+
+* slip is the wall from which water is measured, and each whose strength falls with slip; where there is none, the one along which the layers lie longest;
+* backstop is each other wall that layers lie against and that faces upslope, by 30° or more;
+* ground are the others.
+
+The slope falls along the chords of its slip surfaces, each taken downwards and added up.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+from shapely.geometry import LineString
+
+from . import geometry
+
+__all__ = ["ROLES", "assigned", "chord", "dip_of"]
+
+ROLES = ("slip", "backstop", "ground", "obstacle")
+
+FACES = 0.5    # sine of the angle by which a backstop faces upslope, at least
+LEANS = 10.0   # tolerances of the section: a shorter share of the layers' border is a corner
+
+
+def assigned(section):
+    """The walls of a Section, each with its role: a tuple of the same length. Given roles stay."""
+    given = {w.name: w.role for w in section.walls if w.role is not None}
+    lean = {w.name: _leaning(section, w) for w in section.walls}
+    free = [w for w in section.walls if w.role is None]
+    slip = [w.name for w in free if section.materials[w.material].slip_weakening or (section.water and section.water.wall == w.name)]
+    if not slip and "slip" not in given.values() and free:
+        slip = [max(free, key=lambda w: lean[w.name]).name]
+    surfaces = [w for w in section.walls if given.get(w.name) == "slip" or w.name in slip]
+    down = chord([w.points for w in surfaces])
+    length = math.hypot(*down) or 1.0
+    backstops = [w.name for w in free if w.name not in slip and lean[w.name] > LEANS * section.tolerance and _facing(w, down) / length <= -FACES]
+    role = lambda name: "slip" if name in slip else "backstop" if name in backstops else "ground"  # noqa: E731
+    return tuple(dataclasses.replace(w, role=w.role or role(w.name)) for w in section.walls)
+
+
+def chord(lines):
+    """The vector (x, y) [m] along which polylines, each of shape (n, 2) [m], fall from end to end, added up; a level one counts to the right."""
+    total = np.zeros(2)
+    for points in lines:
+        way = points[-1] - points[0]
+        total += -way if way[1] > 0 or (way[1] == 0 and way[0] < 0) else way
+    return total
+
+
+def dip_of(dx, dy):
+    """Angle [degrees] below the horizontal, to the right, of a line along (dx, dy)."""
+    return math.degrees(math.atan2(-dy, dx) if dx >= 0 else math.atan2(dy, -dx))
+
+
+def _leaning(section, wall):
+    """Length [m] along which the layers' border runs on a wall."""
+    near = LineString(wall.vertices).buffer(3 * section.tolerance)
+    return sum(polygon.boundary.intersection(near).length for polygon in geometry.parts(section.outline))
+
+
+def _facing(wall, down):
+    """Mean of (unit normal, into the mass, of a wall's pieces) · ``down``, weighted by their lengths; disks are on the left of a wall."""
+    way = wall.points[-1] - wall.points[0]
+    length = float(np.hypot(*np.diff(wall.points, axis=0).T).sum())
+    return float(-way[1] * down[0] + way[0] * down[1]) / length

@@ -1,0 +1,151 @@
+"""The command that runs a slope, of any section: scripts/slope.py, and scripts/jiufengershan.py for the paper's."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import math
+import os
+import sys
+import time
+from pathlib import Path
+
+from tqdm import tqdm
+
+from yade import O
+
+from . import commands, experiment, output_folder, packing, packing_checks, results, section, similar, slope
+from .laboratory import materials
+
+__all__ = ["run"]
+
+QUIET = 5.0  # s between two lines of the progress bar in a file
+
+
+def number(kind, low, high, what):
+    """A reader for argparse: a number of the ``kind`` from ``low`` to ``high``, or a message that says what is needed."""
+    def read(text):
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or not low <= value <= high:  # a NaN is not
+            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not allowed; give {what}")
+        return value
+    return read
+
+
+def arguments(name, about, default):
+    parser = argparse.ArgumentParser(prog=name, description=about)
+    parser.add_argument("--section", default=default, required=default is None and "--list" not in sys.argv, metavar="NAME|FILE", help="a section file, or the name of a shipped one")
+    if default is None:
+        parser.add_argument("--list", action="store_true", help="print the names of the shipped sections, one a line, and end")
+    parser.add_argument("--mirror", action="store_true", help="the section with left and right exchanged")
+    parser.add_argument("--size", type=number(float, *similar.FACTORS, f"a factor from {similar.FACTORS[0]:g} to {similar.FACTORS[1]:g}"), metavar="S", help="the section S times as large, with times and strengths so that it does the same (Froude)")
+    parser.add_argument("--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own")
+    parser.add_argument("--rock", metavar="NAME|FILE", help="material of the layers instead of the section's: wwr-sparse, bonded over small gaps only, or a material file, as calibrate.py writes it")
+    parser.add_argument("--disks", type=number(int, 1, section.MOST_DISKS, f"a whole number from 1 to {section.MOST_DISKS}"), metavar="N", help="about N disks instead of the section's: all diameters are scaled")
+    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/ and the section's name)")
+    parser.add_argument("--threads", type=number(int, 1, 1024, "a whole number from 1 to 1024"), metavar="T", help="threads (default: all cores)")
+    parser.add_argument("--seed", type=number(int, 0, 10**12, "a whole number from 0 to 1e12"), metavar="S", help="seed of the packing instead of the section's")
+    parser.add_argument("--end", type=number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
+    parser.add_argument("--water", metavar="RATE", type=number(float, 0, 1e6, "m/s from 0 to 1e6"), help="rate at which the table rises [m/s] instead of the section's; 0: dry")
+    parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in DIR")
+    parser.add_argument("--no-figures", action="store_true", help="tables alone: no figures, no video, nothing for ParaView")
+    return parser.parse_args()
+
+
+def read_section(args):
+    s = section.load(args.section)
+    if args.mirror:
+        s = similar.mirrored(s)
+    if args.size is not None:
+        s = similar.scaled(s, args.size)
+    if args.disks is not None:
+        s = s.with_disks(args.disks)
+    if args.rock is not None:
+        s = s.with_rock(materials.load(args.rock))
+    if args.seed is not None:
+        s = dataclasses.replace(s, seed=args.seed)
+    if args.water and s.water is None:
+        raise section.SectionError(f"--water {args.water:g}: {s.source} has no water; add the key `water` to it, or leave --water out")
+    if args.water is not None and s.water is not None:
+        s = dataclasses.replace(s, water=dataclasses.replace(s.water, table=((0.0, 0.0),), rate=args.water))
+    return s
+
+
+def fill(args, s):
+    """The packing, and the wall time it took [s]."""
+    began = time.monotonic()
+    if args.packing:
+        made = packing.read_text(args.packing)
+        packing_checks.check(made, s, args.packing)
+        return made, time.monotonic() - began
+    with commands.closing(tqdm(total=100, desc="packing", unit="%", leave=False)) as bar:
+        made = packing.cached_pack(s, progress=lambda share: bar.update(int(100 * share) - bar.n))
+    return made, time.monotonic() - began
+
+
+class Bar:
+    """Simulated seconds against those foreseen, with the time left."""
+
+    def __init__(self):
+        self._shown = -math.inf
+        self.bar = tqdm(total=1, unit="s", bar_format="{desc} {percentage:3.0f}%|{bar}| {n:.1f}/{total:.0f} s simulated, {elapsed} gone, about {remaining} left")
+
+    def __call__(self, stage, now, foreseen):
+        self.bar.total = max(foreseen, now)
+        self.bar.set_description_str(f"{stage:8s}", refresh=False)
+        self.bar.n = now
+        if sys.stderr.isatty() or time.monotonic() - self._shown > QUIET:
+            self._shown = time.monotonic()
+            self.bar.refresh()
+
+
+def dry_failure(since):
+    """What is said of a slope that did not wait for the water, or nothing."""
+    return "" if since is None else (
+        f"\nTHE SLOPE FAILED DRY, at {since:.1f} s: it does not bear its own weight, so nothing here is a failure by water. "
+        "Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the plane.\n\n")
+
+
+def run(name, about, default=None):
+    """Runs the command ``name``; ``about``: what its help says; ``default``: the section where none is given."""
+    args = arguments(name, about, default)
+    if default is None and args.list:
+        print("\n".join(section.shipped()))
+        return
+    s = read_section(args)
+    out = Path(args.out or f"out/{Path(args.section).stem}{'-mirrored' * args.mirror}{f'-{args.size:g}' if args.size else ''}")
+    output_folder.claim(out, name)
+    if args.resume:
+        course = experiment.resume(s, out)
+    else:
+        made, seconds = fill(args, s)
+        built = slope.build(s, made)
+        course = experiment.Experiment(built, out)
+        course.state.wall_packing_s = seconds
+        print(f"{len(made)} disks, packing fraction {packing.packing_fraction(made, s.outline):.3f}, results go to {out}", flush=True)
+    course.progress = Bar()
+    with commands.closing(course.progress.bar):
+        course.run(end=args.end)
+    if course.state.stage == "settle":
+        print(dry_failure(course.state.failed_dry), end="")
+        print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
+        return
+    state = {**dataclasses.asdict(course.state), "overlap_worst_ever": course.slope.solver.overlapWorstEver}
+    summary = results.summarise(out, s, state, threads=args.threads or os.cpu_count())
+    made, notes = ([], []) if args.no_figures else results.draw(out, s, summary)
+    for note in notes:
+        print(note)
+    print(f"\n{'finished' if summary['finished'] else 'stopped (go on with --resume)'} at {O.time:.1f} s of simulated time, "
+          f"{summary['wall_s']:.0f} s of wall time")
+    for name in ("water_at_failure_m", "triggering_s", "motion_s", "front_travel_m", "deposit_thickness_max_m", "energy_error_rel"):
+        value = summary[name]
+        print(f"  {name:28s} {'-' if value is None else f'{value:.4g}'}")
+    if summary.get("water_at_failure_over_passive"):
+        print(f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water "
+              f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
+              f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop")
+    print(dry_failure(summary["failed_dry_s"]), end="")
+    print(f"results: {', '.join([f'{out}/summary.json', 'series.csv', *(p.name for p in made)])}")
