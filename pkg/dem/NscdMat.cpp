@@ -25,6 +25,24 @@ void NscdMat::validate() const
 	require(bondEllipseTangential > 0, "bondEllipseTangential", bondEllipseTangential, "positive (units of ℓ)");
 	require(bondCreationDistance >= 0, "bondCreationDistance", bondCreationDistance, "0 or more (units of ℓ)");
 	require(restitution >= 0 && restitution <= 1, "restitution", restitution, "from 0 to 1");
+	require(interfaceLaws.size() == interfaceLayers.size(), "len(interfaceLaws)", interfaceLaws.size(), "that of interfaceLayers: give a law for each");
+	for (const auto& law : interfaceLaws) {
+		const auto* material = dynamic_cast<const NscdMat*>(law.get());
+		if (!material) throw std::invalid_argument(getClassName() + " '" + label + "': interfaceLaws has what is no NscdMat: give NscdMats");
+		if (material->interfaceLaws.empty()) material->validate(); // an interface has none of its own
+	}
+}
+
+const NscdMat* NscdMat::interfaceWith(const NscdMat& other) const
+{
+	const auto find = [](const NscdMat& one, int layer) -> const NscdMat* {
+		for (size_t k = 0; k < std::min(one.interfaceLayers.size(), one.interfaceLaws.size()); ++k)
+			if (one.interfaceLayers[k] == layer) return dynamic_cast<const NscdMat*>(one.interfaceLaws[k].get());
+		return nullptr;
+	};
+	if (wall || other.wall) return nullptr;
+	const NscdMat* law = find(*this, other.layer);
+	return law ? law : find(other, layer);
 }
 
 void SlipWeakeningMat::validate() const
@@ -53,6 +71,19 @@ void SlipWeakeningMat::addSlip(Body::id_t id, Real distance)
 {
 	if (id >= (Body::id_t)slip.size()) slip.resize(id + 1, 0.);
 	slip[id] += distance;
+}
+
+void SlipWeakeningMat::addSlip(Body::id_t id, Real distance, long step)
+{
+	if (id >= (Body::id_t)ofStep.size()) ofStep.resize(id + 1, { -1, 0 });
+	auto& [last, most] = ofStep[id];
+	if (last != step) {
+		last = step;
+		most = 0;
+	}
+	if (!(distance > most)) return;
+	addSlip(id, distance - most);
+	most = distance;
 }
 
 int SlipWeakeningMat::weakenedCount() const

@@ -11,6 +11,8 @@ public:
 	virtual ~NscdMat() = default;
 	/// Checks the strengths; throws std::invalid_argument naming the attribute, its value and what would do.
 	virtual void validate() const;
+	/// The law of contacts with a body of another material, where one of the two says so for the other's layer; null where none does.
+	const NscdMat* interfaceWith(const NscdMat& other) const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdMat,FrictMat,
 R"""(Material of rigid particles with cohesive bonds, after Taboada and Estrada (2009), section 2.2 and Table 1. A contact of two such
@@ -28,6 +30,8 @@ not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that 
 		((Real,restitution,0,,"Newton's coefficient of restitution e [-], between 0 and 1; the larger of the two bodies' holds."))
 		((int,layer,0,,"Bonds and residual tensile strength exist only between bodies of the same layer; in a layer with a negative number no bonds are made. See bondsToAll for walls."))
 		((bool,bondsToAll,false,,"Make bonds with bodies of any layer (for walls, section 5.1)."))
+		((vector<int>,interfaceLayers,,,"Layers against which bodies of this material have a law of their own: an interface. It is enough that one of two materials says so."))
+		((vector<shared_ptr<Material>>,interfaceLaws,,,"For each of :yref:`interfaceLayers<NscdMat.interfaceLayers>` the NscdMat whose values rule such contacts alone; they are bonded if it has :yref:`bondsToAll<NscdMat.bondsToAll>`. A :yref:`SlipWeakeningMat` weakens with the slip of bodies along the interface."))
 		((bool,wall,false,,"This material's strengths alone rule a contact with it (section 3.3); otherwise the weaker of the two values holds."))
 		,
 		createIndex();
@@ -56,13 +60,16 @@ public:
 	Real remaining(Body::id_t id) const;
 	Real slipOf(Body::id_t id) const { return id < (Body::id_t)slip.size() ? slip[id] : 0; }
 	void addSlip(Body::id_t id, Real distance);
+	/// The same along an interface, where a body may have several contacts: those of one `step` count as the longest of them.
+	void addSlip(Body::id_t id, Real distance, long step);
 	int  weakenedCount() const;
 	Real meanSlip() const;
 	int  slippedCount() const;
 	void forgetSlip() { slip.clear(); }
+	std::vector<std::pair<long, Real>> ofStep; // by body: the last step in which it slipped along an interface, and how far
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningMat,NscdMat,
-R"""(Material of a wall that loses strength as bodies slip along it (Taboada and Estrada 2009, section 5.3). Friction and cohesion of a
+R"""(Material of a wall, or of an interface (:yref:`NscdMat.interfaceLaws`), that loses strength as bodies slip along it (Taboada and Estrada 2009, section 5.3). Friction and cohesion of a
 contact fall to the weakened values as a function of the distance that the body has slipped along this wall, counted over all bodies that
 share this material object, so that it survives the joints of a polyline. Rolling friction stays, with the threshold that cohesion
 leaves it.)""",

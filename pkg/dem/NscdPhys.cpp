@@ -25,8 +25,17 @@ void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)
 {
 	NscdPhys::updateThresholds(gap, adhesionRange);
-	wallMaterial->weaken(adhesion, currentFriction, length, wallMaterial->remaining(body));
+	Real left = wallMaterial->remaining(body);
+	if (other >= 0) left = std::min(left, wallMaterial->remaining(other));
+	wallMaterial->weaken(adhesion, currentFriction, length, left);
 	tangensOfFrictionAngle = currentFriction;
+}
+
+void SlipWeakeningPhys::addSlip(Real distance, long step)
+{
+	if (other < 0) return wallMaterial->addSlip(body, distance);
+	wallMaterial->addSlip(body, distance, step);
+	wallMaterial->addSlip(other, distance, step);
 }
 
 namespace nscd {
@@ -69,7 +78,14 @@ void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shar
 	}
 	shared_ptr<NscdPhys> phys;
 	const auto           weak1 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1), weak2 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
-	if (weak1 || weak2) {
+	const auto*          law   = static_cast<const NscdMat&>(*m1).interfaceWith(static_cast<const NscdMat&>(*m2));
+	if (const auto* weakLaw = dynamic_cast<const SlipWeakeningMat*>(law)) {
+		auto weak          = boost::make_shared<SlipWeakeningPhys>();
+		weak->wallMaterial = boost::static_pointer_cast<SlipWeakeningMat>(const_cast<SlipWeakeningMat*>(weakLaw)->shared_from_this());
+		weak->body         = std::min(interaction->getId1(), interaction->getId2());
+		weak->other        = std::max(interaction->getId1(), interaction->getId2());
+		phys               = weak;
+	} else if (!law && (weak1 || weak2)) {
 		auto weak          = boost::make_shared<SlipWeakeningPhys>();
 		weak->wallMaterial = weak1 ? weak1 : weak2;
 		weak->body         = weak1 ? interaction->getId2() : interaction->getId1();
@@ -89,14 +105,22 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, 
 			throw std::runtime_error(who + " has a " + body->material->getClassName() + " in a rigid contact: give it an NscdMat");
 	}
 	const auto &a = static_cast<const NscdMat&>(*b1.material), &b = static_cast<const NscdMat&>(*b2.material);
-	// a wall's own value, or the weaker of two particles'
-	const auto pick      = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
+	if (const NscdMat* law = a.interfaceWith(b)) {
+		setStrengths(phys, *law, *law, nscd::meanDiameter(b1, b2), law->bondsToAll);
+		return;
+	}
 	const bool sameLayer = a.layer == b.layer, anyWall = a.wall || b.wall;
-	const Real length    = nscd::meanDiameter(b1, b2);
+	setStrengths(phys, a, b, nscd::meanDiameter(b1, b2), a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer && a.layer >= 0));
+	if (!sameLayer && !anyWall) phys.residualTensileForce = 0;
+}
 
+void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const NscdMat& a, const NscdMat& b, Real length, bool bondable)
+{
+	// a wall's own value, or the weaker of two particles'
+	const auto pick = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
 	phys.length               = length;
 	phys.tensileForce         = length * pick(a.tensileStrength, b.tensileStrength);
-	phys.residualTensileForce = (sameLayer || anyWall) ? length * pick(a.residualTensileStrength, b.residualTensileStrength) : 0;
+	phys.residualTensileForce = length * pick(a.residualTensileStrength, b.residualTensileStrength);
 	phys.friction             = pick(std::tan(a.frictionAngle), std::tan(b.frictionAngle));
 	phys.residualFriction     = pick(
                 std::tan(nscd::residual(a.residualFrictionAngle, a.frictionAngle)), std::tan(nscd::residual(b.residualFrictionAngle, b.frictionAngle)));
@@ -107,7 +131,7 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, 
 	phys.ellipseNormal     = length * pick(a.bondEllipseNormal, b.bondEllipseNormal);
 	phys.ellipseTangential = length * pick(a.bondEllipseTangential, b.bondEllipseTangential);
 	phys.creationDistance  = length * pick(a.bondCreationDistance, b.bondCreationDistance);
-	phys.bondable          = a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer && a.layer >= 0);
+	phys.bondable          = bondable;
 }
 
 } // namespace yade

@@ -15,7 +15,8 @@ public:
 	virtual ~NscdPhys() = default;
 	/// Sets F_a [N], μ_s and μ_r ℓ [m] of the next step for a gap [m]; adhesionRange in units of ℓ.
 	virtual void updateThresholds(Real gap, Real adhesionRange);
-	virtual void addSlip(Real) { }
+	/// Notes a way [m] slipped in a step, by its number.
+	virtual void addSlip(Real, long) { }
 	virtual bool countsSlip() const { return false; }
 	/// A script has set an attribute; nscd::Resident takes it up. C++ that changes one where no engine has its turn sets this too.
 	void postLoad(NscdPhys&) { touched = true; }
@@ -66,13 +67,15 @@ class SlipWeakeningPhys : public NscdPhys {
 public:
 	virtual ~SlipWeakeningPhys() = default;
 	void updateThresholds(Real gap, Real adhesionRange) override;
-	void addSlip(Real distance) override { wallMaterial->addSlip(body, distance); }
+	void addSlip(Real distance, long step) override;
 	bool countsSlip() const override { return true; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningPhys,NscdPhys,
-R"""(Contact of a body with a wall of :yref:`SlipWeakeningMat`: its strength is a function of the body's slip along that wall.)""",
-		((shared_ptr<SlipWeakeningMat>,wallMaterial,,Attr::readonly,"The wall's material, which keeps the slip."))
+R"""(Contact of a body with a wall of :yref:`SlipWeakeningMat`, or of two bodies across an interface of such a material: its strength is a function of the body's slip
+along that wall, or of that one's of the two which has slipped farther.)""",
+		((shared_ptr<SlipWeakeningMat>,wallMaterial,,Attr::readonly,"The wall's or the interface's material, which keeps the slip."))
 		((Body::id_t,body,-1,Attr::readonly,"The body that slips."))
+		((Body::id_t,other,-1,Attr::readonly,"The body on the other side of an interface; −1 at a wall."))
 		,
 		createIndex();
 		,
@@ -89,10 +92,12 @@ public:
 	FUNCTOR2D(NscdMat, NscdMat);
 	/// Sets strengths and lengths of a contact from the materials of its bodies; bond and reactions stay.
 	static void setStrengths(NscdPhys& phys, const Body& b1, const Body& b2);
+	static void setStrengths(NscdPhys& phys, const NscdMat& a, const NscdMat& b, Real length, bool bondable);
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Ip2_NscdMat_NscdMat_NscdPhys,IPhysFunctor,
 R"""(Make a :yref:`NscdPhys` from two :yref:`NscdMats<NscdMat>`, or a :yref:`SlipWeakeningPhys` where one is a :yref:`SlipWeakeningMat`.
-Between particles the weaker of two values holds; at a wall the wall's strengths hold alone (Taboada and Estrada 2009, section 3.3).)""");
+Between particles the weaker of two values holds; at a wall the wall's strengths hold alone (Taboada and Estrada 2009, section 3.3), and so do those of an
+interface (:yref:`NscdMat.interfaceLaws`; section 3.2.1).)""");
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(Ip2_NscdMat_NscdMat_NscdPhys);

@@ -86,7 +86,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 			const Contact& c = problem.contacts[k];
 			const Reading& r = readingOf(links[k]);
 			if (!r.slips || problem.impulses[k].n + c.adhesion <= 0) continue;
-			r.phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t));
+			r.phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t), scene.iter);
 		}
 	broken.clear();
 	for (size_t part = 0; part < chunksC; ++part)
