@@ -57,6 +57,9 @@ class Experiment:
         self.layers = slope.layers_of(built) if layers is None else layers
         self.progress = progress or (lambda *_: None)
         self.scales = scales.of(self.section)
+        # disks of the mass, where others are bed or obstacles
+        mass = np.array([layer.role == "mass" for layer in self.section.layers])
+        self.mass = None if mass.all() else mass[self.layers]
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         if state is None:
@@ -66,7 +69,7 @@ class Experiment:
             self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True)
         # soft steps are thousands a row, and as cheap as a look at the walls
         period = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
-        self.walls = WallSeries(built, self.folder / "walls.csv", period, mark and mark["walls"])
+        self.walls = WallSeries(built, self.layers, self.folder / "walls.csv", period, mark and mark["walls"])
         if state is not None:
             results.forget_later(self.folder, state.stage, O.iter)
         self._clock = time.monotonic()
@@ -118,7 +121,7 @@ class Experiment:
         solver = self.slope.solver
         disks = tables.bodies(solver)
         self._inside(disks)
-        seen = self._seen()
+        seen = self._seen(disks)
         s = self.state = course.noted(self.state, seen, self.scales)
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
         self.series.write(self._row(disks))
@@ -130,9 +133,9 @@ class Experiment:
         if time.monotonic() - self._saved > max(CHECKPOINT_SECONDS, self._saving / CHECKPOINT_SHARE):
             self.checkpoint()
 
-    def _seen(self):
+    def _seen(self, disks):
         water = self.slope.water
-        return course.Seen(O.time, O.dt, self.slope.solver.meanSpeed, water.height if water else None)
+        return course.Seen(O.time, O.dt, self._mean_speed(disks), water.height if water else None)
 
     def _decide(self, seen):
         """Goes on to the next state, and does what the change means."""
@@ -178,17 +181,14 @@ class Experiment:
         if self.section.stages.settle.bond == "after":
             s.bonds_initial, s.contacts_initial = solver.bond(), solver.contacts
         solver.forgetEnergies()
-        for name in self.slope.walls:
-            material = self.slope.wall_material(name)
-            if hasattr(material, "forgetSlip"):
-                material.forgetSlip()
+        self.walls.forget_slip()
         if self.slope.water:
             self.slope.water.forgetReleases()
 
     def _loaded(self):
         """It is t0."""
         disks = tables.bodies(self.slope.solver)
-        self.state.front0 = front_of(disks["x"], disks["r"], self.section.side)
+        self.state.front0 = self._front(disks)
         self.snapshot(self.folder / "t0.npz", contacts=True)
 
     def _care(self, flowing, still):
@@ -197,6 +197,21 @@ class Experiment:
             self.slope.solver.tolerance = course.tolerance(flowing, still, self.section.numerics)
         else:
             self.newton.damping = course.damping(flowing, *self.damping)
+
+    def _mean_speed(self, t):
+        """Of the disks of the mass [m/s]; ``t``: the disks' table."""
+        return self.slope.solver.meanSpeed if self.mass is None else float(np.mean(np.hypot(t["vx"], t["vy"])[self.mass]))
+
+    def _centroid(self, t):
+        """Of the mass, (x, y) [m]."""
+        if self.mass is None:
+            return self.slope.solver.centroid[0], self.slope.solver.centroid[1]
+        return tuple(float(np.average(t[name][self.mass], weights=t["r"][self.mass] ** 2)) for name in ("x", "y"))
+
+    def _front(self, t):
+        """Of the mass [m]."""
+        chosen = slice(None) if self.mass is None else self.mass
+        return front_of(t["x"][chosen], t["r"][chosen], self.section.side)
 
     def _fraction(self):
         """Packing fraction of the settled bulk; None where the layers are too thin to have one."""
@@ -223,16 +238,16 @@ class Experiment:
         forces = self.walls.take()
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
-        u = total[0] * section.water.normal[0] + total[1] * section.water.normal[1] if water else 0.0
-        slip = self.walls.slip()
+        u = (total[0] * section.water.normal[0] + total[1] * section.water.normal[1]) * self._share_of_mass(disks) if water else 0.0
+        slip, (x, y) = self.walls.slip(), self._centroid(disks)
         row = {
             "step": O.iter, "time_s": O.time, "stage": course.STAGES.index(self.state.stage), "water_m": water.height if water else 0.0,
             "dp_normal_total_N_per_m": dp[0] + u, "dp_normal_effective_N_per_m": dp[0], "dp_water_N_per_m": u, "dp_shear_N_per_m": dp[1],
             "fb_normal_N_per_m": fb[0], "fb_shear_N_per_m": fb[1], "ss_normal_N_per_m": ss[0], "ss_shear_N_per_m": ss[1],
             "dp_normal_peak_N_per_m": dp[2], "fb_normal_peak_N_per_m": fb[2], "ss_normal_peak_N_per_m": ss[2],
             "wet_disks": water.wetCount if water else 0, "released_disks": water.releasedCount if water else 0,
-            "speed_mean_m_per_s": e.meanSpeed, "speed_max_m_per_s": e.maxSpeed, "front_m": front_of(disks["x"], disks["r"], section.side),
-            "centroid_x_m": e.centroid[0], "centroid_y_m": e.centroid[1], "bonds_alive": e.bonds,
+            "speed_mean_m_per_s": self._mean_speed(disks), "speed_max_m_per_s": e.maxSpeed, "front_m": self._front(disks),
+            "centroid_x_m": x, "centroid_y_m": y, "bonds_alive": e.bonds,
             "bonds_broken_tension": e.brokenTension, "bonds_broken_shear": e.brokenShear,
             "bonds_broken_torque": e.brokenTorque, "bonds_broken_mixed": e.brokenMixed, "contacts": e.contacts,
             "slip_mean_dp_m": slip.mean, "weakened_disks": slip.weakened,
@@ -240,6 +255,13 @@ class Experiment:
             "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy,
         }
         return row | self._of_solver(e) if self.hard else row
+
+    def _share_of_mass(self, t):
+        """The part of the water's force that acts on the mass: forces go with areas."""
+        if self.mass is None:
+            return 1.0
+        wet = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0] * t["r"] ** 2
+        return float(wet[self.mass].sum() / wet.sum()) if wet.any() else 0.0
 
     def _of_solver(self, e):
         """The columns of OF_SOLVER."""
@@ -285,7 +307,7 @@ class Experiment:
 def run_key(section):
     """What must agree between a checkpoint and the section it is resumed with."""
     return checkpoints.key_of({"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
-                               "seed": section.seed, "roles": [[wall.name, wall.role] for wall in section.walls]})
+                               "seed": section.seed, "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)]})
 
 
 def resume(section, folder, progress=None):

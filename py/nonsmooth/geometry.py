@@ -16,11 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 from shapely.geometry import LineString, MultiPolygon, Point, Polygon
 from shapely.geometry.polygon import orient
-from shapely.ops import unary_union
+from shapely.ops import linemerge, unary_union
 from shapely.validation import explain_validity
 
-__all__ = ["Edges", "area", "area_inside", "distance", "edges", "invalid_reason", "outline", "parts",
-           "straight", "uncovered"]
+__all__ = ["Edges", "area", "area_inside", "border", "distance", "edges", "invalid_reason", "outline", "parts",
+           "sides", "straight", "together", "uncovered"]
 
 
 def invalid_reason(vertices) -> str | None:
@@ -82,6 +82,22 @@ def _exact(ring, given, tolerance):
         else:
             k += 1
     return found
+
+
+def border(one: Polygon, other: Polygon, tolerance: float) -> np.ndarray:
+    """The longest stretch along which the rims of two polygons run together, from left to right, (n, 2) [m]; empty where there is none."""
+    longest = LineString()
+    for rim in (other.exterior, other.exterior.buffer(3 * tolerance)):  # by equal vertices, or nearly so
+        common = one.exterior.intersection(rim)
+        pieces = [g for g in getattr(common, "geoms", [common]) if g.geom_type == "LineString" and not g.is_empty]
+        merged = linemerge(pieces) if len(pieces) > 1 else (pieces or [longest])[0]
+        longest = max((g for g in getattr(merged, "geoms", [merged]) if g.length > 10 * tolerance), key=lambda g: g.length, default=longest)
+        if not longest.is_empty:
+            break
+    if longest.is_empty:
+        return np.zeros((0, 2))
+    points = np.asarray(longest.simplify(2 * tolerance).coords)[:, :2]
+    return points if points[0, 0] <= points[-1, 0] else points[::-1]
 
 
 def straight(vertices, tolerance: float) -> bool:
@@ -147,6 +163,24 @@ def edges(region) -> Edges:
             convex_start.append(convex)
             convex_end.append(np.roll(convex, -1))
     return Edges(*(np.concatenate(a) for a in (start, direction, length, convex_start, convex_end)))
+
+
+def sides(line) -> tuple[Edges, Edges]:
+    """Edges of a polyline (n, 2) from left to right, for what lies on its left, above it, and for what lies on its right."""
+    def of(points):
+        along = np.diff(points, axis=0)
+        size = distance(along[:, 0], along[:, 1])
+        t = along / size[:, None]
+        turns = t[:-1, 0] * t[1:, 1] - t[:-1, 1] * t[1:, 0] >= 0  # the ends go on straight
+        return Edges(points[:-1], t, size, np.concatenate(([True], turns)), np.concatenate((turns, [True])))
+
+    line = np.asarray(line, float)
+    return of(line), of(line[::-1])
+
+
+def together(tables) -> Edges:
+    """Several tables of edges as one, in their order."""
+    return Edges(*(np.concatenate([getattr(t, name) for t in tables]) for name in ("start", "direction", "length", "convex_start", "convex_end")))
 
 
 def area_inside(x, y, r, region) -> float:

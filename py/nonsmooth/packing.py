@@ -58,8 +58,7 @@ def pack(section, seed: int | None = None, progress=None) -> Packing:
         return similar.mirrored_packing(pack(similar.mirrored(section), seed, progress))
     rng = np.random.default_rng(section.seed if seed is None else seed)
     x, y, r, layer = _draw(section, rng)
-    table = geometry.edges(section.outline)
-    relaxer = _Relaxer(x, y, r * (1 + INFLATION), layer, table, rng)
+    relaxer = _Relaxer(x, y, r * (1 + INFLATION), layer, _borders(section, layer), rng)
     relaxer.run(progress)
     packing = Packing(relaxer.x, relaxer.y, relaxer.r / (1 + INFLATION), layer)
     found = overlaps(packing, section.outline)
@@ -92,11 +91,23 @@ def _draw(section, rng):
             here = geometry.contains(polygon, px, py)
             xs[k], ys[k], qs[k] = (np.concatenate((a[k], b[here])) for a, b in ((xs, px), (ys, py), (qs, h[:, 2])))
     radii = []
-    for q, n in zip(qs, counts):
+    for q, n, layer in zip(qs, counts, section.layers):
         rank = np.argsort(np.argsort(q[:n], kind="stable"), kind="stable")
-        radii.append(section.disks.diameters((rank + rng.random(n)) / n) / 2)
+        radii.append(section.disks_of(layer).diameters((rank + rng.random(n)) / n) / 2)
     x, y = (np.concatenate([a[:n] for a, n in zip(s, counts)]) for s in (xs, ys))
     return x, y, np.concatenate(radii), np.repeat(np.arange(len(counts)), counts)
+
+
+def _borders(section, layer):
+    """Tables of edges, each with the disks that they act on (bool by disk, None: all): of the layers' outline, and on both sides of each flat interface."""
+    found = [(geometry.edges(section.outline), None)]
+    number = {one.name: k for k, one in enumerate(section.layers)}
+    for interface in section.interfaces:
+        if interface.flat and len(line := section.line_of(interface)):
+            above, below = geometry.sides(line)
+            lower, upper = (layer == number[name] for name in interface.between)
+            found += [(above, upper), (below, lower)]
+    return found
 
 
 def _box(region):
@@ -168,8 +179,9 @@ def _edge_overlaps(x, y, r, disks, walls, table):
 class _Relaxer:
     """FIRE on the overlap energy of disks in a region, with swaps of like sizes within a layer."""
 
-    def __init__(self, x, y, r, layer, table, rng):
-        self.x, self.y, self.r, self.layer, self.table, self.rng = x, y, r, layer, table, rng
+    def __init__(self, x, y, r, layer, borders, rng):
+        self.x, self.y, self.r, self.layer, self.borders, self.rng = x, y, r, layer, borders, rng
+        self.table = geometry.together([table for table, _ in borders]) if len(borders) > 1 else borders[0][0]
         self.skin = 0.3 * 2 * r.min()
         self.x0 = None
 
@@ -180,7 +192,14 @@ class _Relaxer:
             if moved <= (self.skin / 2) ** 2:
                 return
         self.i, self.j = _close_pairs(self.x, self.y, self.r, self.skin)
-        self.disks, self.walls = _close_edges(self.x, self.y, self.r, self.skin, self.table)
+        disks, walls, first = [], [], 0
+        for table, acts in self.borders:
+            near, edge = _close_edges(self.x, self.y, self.r, self.skin, table)
+            keep = slice(None) if acts is None else acts[near]
+            disks.append(near[keep])
+            walls.append(edge[keep] + first)
+            first += len(table.length)
+        self.disks, self.walls = np.concatenate(disks), np.concatenate(walls)
         self.x0, self.y0 = self.x.copy(), self.y.copy()
         self.reach = self.r[self.i] + self.r[self.j]
 

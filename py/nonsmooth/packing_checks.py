@@ -30,7 +30,7 @@ def check(packing, section, source) -> None:
     bad = np.flatnonzero((packing.layer < 0) | (packing.layer >= len(names)))
     if len(bad):
         raise refuse(f"{at(bad[0])} belongs to layer {packing.layer[bad[0]]}, and the section has {len(names)}", f"give 0 ({names[0]}) to {len(names) - 1} ({names[-1]})")
-    low, high = section.disks.d_min / 2, section.disks.d_max / 2
+    low, high = section.smallest / 2, section.largest / 2
     for k in (int(np.argmin(packing.r)), int(np.argmax(packing.r))):
         if not low * (1 - SIZES) <= packing.r[k] <= high * (1 + SIZES):
             raise refuse(f"{at(k)} has a radius of {packing.r[k]:.4g} m, and the section's disks have {low:.4g} to {high:.4g} m",
@@ -56,7 +56,7 @@ def _check_places(packing, section, refuse, at):
     """Disks are inside the layers' outline, clear of all walls, and near their own layers."""
     x, y, r, most = packing.x, packing.y, packing.r, 2 * WORST_OVERLAP
     x0, y0, x1, y1 = section.outline.bounds
-    reach = OUTSIDE * section.disks.d_max
+    reach = OUTSIDE * section.largest
     far = np.flatnonzero((x < x0 - reach) | (x > x1 + reach) | (y < y0 - reach) | (y > y1 + reach))
     if len(far):
         raise refuse(f"{at(far[0])} lies outside the layers, which reach from ({x0:.6g}, {y0:.6g}) to ({x1:.6g}, {y1:.6g}) m")
@@ -81,7 +81,7 @@ def _check_places(packing, section, refuse, at):
             raise refuse(f"no disk belongs to layer {number} ({layer.name})", "give lines of x y r layer, with the layers' numbers from 0")
         strays = mine[~geometry.contains(layer.polygon, x[mine], y[mine])]
         gap = _distance(x[strays], y[strays], [_closed(layer)])
-        far = np.flatnonzero(gap > AWAY * section.disks.d_max)
+        far = np.flatnonzero(gap > AWAY * section.largest)
         if len(far):
             raise refuse(f"{at(strays[far[0]])} belongs to layer {number} ({layer.name}) and lies {gap[far[0]]:.4g} m outside it",
                          "give lines of x y r layer, with the number, from 0, of the layer that the disk is in")

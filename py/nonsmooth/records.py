@@ -93,11 +93,13 @@ COLUMNS = {
 WALL_COLUMNS = {
     "step": COLUMNS["step"],
     "time_s": COLUMNS["time_s"],
-    "wall": Column("-", "name of the wall"),
-    "normal_N_per_m": Column("N/m", "normal force on the wall, into it positive, mean over the row"),
-    "shear_N_per_m": Column("N/m", "shear force on the wall, mean over the row; positive when the wall resists downslope motion"),
-    "normal_peak_N_per_m": Column("N/m", "largest normal force in a step of the row"),
-    "slip_mean_m": Column("m", "mean cumulated slip of the disks that have touched a wall that weakens"),
+    "wall": Column("-", "name of the wall, of the interface, or of the layer that is an obstacle"),
+    "normal_N_per_m": Column("N/m", "normal force on the wall, into it positive, mean over the row; across an interface, pressing positive, or the horizontal push of the mass on an "
+                             "obstacle of disks, downslope positive, in the last step"),
+    "shear_N_per_m": Column("N/m", "shear force on the wall, mean over the row, or across an interface in the last step; positive when it resists downslope motion; on an obstacle of disks "
+                            "the downward force"),
+    "normal_peak_N_per_m": Column("N/m", "largest normal force in a step of the row; between disks that of the last"),
+    "slip_mean_m": Column("m", "mean cumulated slip of the disks that have touched a wall or an interface that weakens"),
     "weakened_disks": _count("disks whose slip on it has passed the critical slip D_c"),
     "weakened_share": Column("1", "the same as a share of the disks that have touched it"),
 }

@@ -23,10 +23,13 @@ from pathlib import Path
 import numpy as np
 
 from . import figures, paraview, records, scales, toe, video
+from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import WriteError, remove_parts, whole, write_atomically
 
 __all__ = ["characteristic_times", "chosen_rows", "mean_of", "summarise", "draw", "forget", "forget_later"]
+
+ENTRAINED = 2.0  # mean diameters
 
 # what a run leaves besides its series and its checkpoint
 SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = "summary.json", "breaks.csv", "t0.npz", "end.npz", "snapshots", "vtk"
@@ -83,14 +86,15 @@ def characteristic_times(series, section, state) -> dict[str, float | None]:
     if times["t0"] is None or state["moving"] is None:
         return times
     span = scales.of(section).mean_seconds
-    length = float(sum(np.hypot(*np.diff(wall.points, axis=0).T).sum() for wall in section.of_role("slip")))
+    length = float(sum(np.hypot(*np.diff(points, axis=0).T).sum() for _, points in section.slip_surfaces))
     enough = max(1.0, 0.01 * length / math.sqrt(section.disks.mean_square))
     late = np.flatnonzero((series["weakened_disks"] >= enough) & (t >= times["t0"]))
     if len(late):
         times["t2"] = float(t[late[0]])
     times["t1"] = _failure(series, times, state, span)
     if not len(late):
-        weakens = any(section.materials[wall.material].slip_weakening for wall in section.of_role("slip"))
+        surfaces = (*section.of_role("slip"), *(i for i in section.interfaces if i.role == "slip"))
+        weakens = any(section.materials[surface.material].slip_weakening for surface in surfaces)
         return times if weakens else times | _of_motion(series, section)
     before = mean_of(series, "dp_shear_N_per_m", times["t2"], span)
     for k in range(late[0], len(t)):
@@ -137,6 +141,26 @@ def _passive(section, packing_fraction, water, force):
     return {"water_passive_m": found.water_m, "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
             "passive_resistance_dry_N_per_m": found.resistance_dry, "passive_force_N_per_m": found.push_N_per_m,
             "fb_force_at_failure_over_passive": force / found.push_N_per_m if force is not None and found.push_N_per_m else None}
+
+
+def _of_bed(section, start, end):
+    """Masses [kg/m] that were entrained from a bed and that came to lie beyond the foot; nothing for a section without a bed, None before the end.
+
+    Entrained is a disk of a bed that has gone farther than ENTRAINED mean diameters of it since t0; deposited is one of the mass whose centre is beyond the foot.
+    """
+    beds = [k for k, layer in enumerate(section.layers) if layer.role == "bed"]
+    if not beds:
+        return {}
+    names = ("entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m")
+    if start is None or end is None:
+        return dict.fromkeys(names)
+    density = np.array([section.materials[layer.material].density for layer in section.layers])
+    size = np.array([math.sqrt(section.disks_of(layer).mean_square) for layer in section.layers])
+    weight, ground = density[end.layer] * math.pi * end.r**2, ground_of(section)
+    bed, mass = np.isin(end.layer, beds), np.isin(end.layer, ground.mass)
+    moved = np.hypot(end.x - start.x, end.y - start.y) > ENTRAINED * size[end.layer]
+    beyond = section.side * (end.x - ground.foot[0]) > 0
+    return dict(zip(names, (float(weight[chosen].sum()) for chosen in (bed & moved, bed, mass & beyond, mass)), strict=True))
 
 
 def summarise(folder, section, state, threads=None) -> dict:
@@ -205,6 +229,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         rise = summary["fb_force_at_failure_N_per_m"] - summary["fb_force_dry_N_per_m"]
         drop = summary["dp_shear_dry_N_per_m"] - summary["dp_shear_at_failure_N_per_m"]
         summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
+    summary |= _of_bed(section, start, end)
     summary |= _passive(section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"])
     clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
     write_atomically(folder / SUMMARY, (json.dumps(clean, indent=1) + "\n").encode())

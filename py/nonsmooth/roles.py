@@ -7,7 +7,8 @@
 
 A section file says so with ``role``. Where it does not:
 
-* slip is the wall from which water is measured, and each whose strength falls with slip; where there is none, the one along which the layers lie longest;
+* slip is the wall from which water is measured, and each whose strength falls with slip; where there is none, and no interface is a slip surface, the one along
+  which the layers lie longest;
 * backstop is each other wall that layers lie against and that faces upslope, by 30° or more;
 * ground are the others.
 
@@ -22,8 +23,6 @@ import math
 import numpy as np
 from shapely.geometry import LineString
 
-from . import geometry
-
 __all__ = ["ROLES", "assigned", "chord", "dip_of"]
 
 ROLES = ("slip", "backstop", "ground", "obstacle")
@@ -36,14 +35,14 @@ def assigned(section):
     """The walls of a Section, each with its role: a tuple of the same length. Given roles stay."""
     given = {w.name: w.role for w in section.walls if w.role is not None}
     lean = {w.name: _leaning(section, w) for w in section.walls}
+    length = {name: math.fsum(lengths) for name, lengths in lean.items()}
     free = [w for w in section.walls if w.role is None]
     slip = [w.name for w in free if section.materials[w.material].slip_weakening or (section.water and section.water.wall == w.name)]
-    if not slip and "slip" not in given.values() and free:
-        slip = [max(free, key=lambda w: lean[w.name]).name]
-    surfaces = [w for w in section.walls if given.get(w.name) == "slip" or w.name in slip]
-    down = chord([w.points for w in surfaces])
-    length = math.hypot(*down) or 1.0
-    backstops = [w.name for w in free if w.name not in slip and lean[w.name] > LEANS * section.tolerance and _facing(w, down) / length <= -FACES]
+    if not slip and "slip" not in given.values() and not any(i.role == "slip" for i in section.interfaces) and free:
+        slip = [max(free, key=lambda w: length[w.name]).name]
+    surfaces = [w.points for w in section.walls if given.get(w.name) == "slip" or w.name in slip]
+    down = chord([*surfaces, *(section.line_of(i) for i in section.interfaces if i.role == "slip")])
+    backstops = [w.name for w in free if w.name not in slip and length[w.name] > LEANS * section.tolerance and _facing(w, lean[w.name], down) <= -FACES]
     role = lambda name: "slip" if name in slip else "backstop" if name in backstops else "ground"  # noqa: E731
     return tuple(dataclasses.replace(w, role=w.role or role(w.name)) for w in section.walls)
 
@@ -52,6 +51,8 @@ def chord(lines):
     """The vector (x, y) [m] along which polylines, each of shape (n, 2) [m], fall from end to end, added up; a level one counts to the right."""
     total = np.zeros(2)
     for points in lines:
+        if len(points) < 2:
+            continue
         way = points[-1] - points[0]
         total += -way if way[1] > 0 or (way[1] == 0 and way[0] < 0) else way
     return total
@@ -63,13 +64,14 @@ def dip_of(dx, dy):
 
 
 def _leaning(section, wall):
-    """Length [m] along which the layers' border runs on a wall."""
-    near = LineString(wall.vertices).buffer(3 * section.tolerance)
-    return sum(polygon.boundary.intersection(near).length for polygon in geometry.parts(section.outline))
+    """For each piece of a wall the length [m] along which the border of what slides runs on it."""
+    rims = [layer.polygon.exterior for layer in section.layers if layer.role == "mass"]
+    pieces = [LineString(ends).buffer(3 * section.tolerance) for ends in zip(wall.vertices, wall.vertices[1:])]
+    return [math.fsum(rim.intersection(piece).length for rim in rims) for piece in pieces]
 
 
-def _facing(wall, down):
-    """Mean of (unit normal, into the mass, of a wall's pieces) · ``down``, weighted by their lengths; disks are on the left of a wall."""
-    way = wall.points[-1] - wall.points[0]
-    length = float(np.hypot(*np.diff(wall.points, axis=0).T).sum())
-    return float(-way[1] * down[0] + way[0] * down[1]) / length
+def _facing(wall, lean, down):
+    """Mean of (unit normal, into the mass) · (unit vector along ``down``) over where the mass leans against a wall; disks are on the left of a wall."""
+    way = np.diff(wall.points, axis=0)
+    sines = (-way[:, 1] * down[0] + way[:, 0] * down[1]) / np.hypot(*way.T)
+    return float(np.average(sines, weights=lean)) / (math.hypot(*down) or 1.0)

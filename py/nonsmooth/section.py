@@ -24,7 +24,7 @@ from shapely.geometry import Polygon
 from . import geometry, roles
 from .section_reader import SectionError, read
 
-__all__ = ["Disks", "End", "Envelope", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
+__all__ = ["Disks", "End", "Envelope", "Interface", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
            "SlipWeakening", "Stages", "Wall", "Water", "load", "shipped"]
 
 FOLDER = Path(__file__).resolve().parent / "sections"
@@ -103,11 +103,16 @@ class Wall:
 
 @dataclass(frozen=True)
 class Layer:
-    """A polygon to be filled with disks; `vertices`: tuple of (x, y) [m], not closed."""
+    """A polygon to be filled with disks; `vertices`: tuple of (x, y) [m], not closed.
+
+    `role`: "mass", "bed" (erodible ground, counted apart) or "obstacle"; `disks`: its own, or None for those of the section.
+    """
 
     name: str
     material: str
     vertices: tuple[tuple[float, float], ...]
+    role: str = "mass"
+    disks: Disks | None = None
 
     @property
     def points(self) -> np.ndarray:
@@ -123,6 +128,23 @@ class Layer:
     def area(self) -> float:
         """Area [m²]."""
         return geometry.area(self.vertices)
+
+    def with_disks(self, factor: float) -> Layer:
+        """The same layer with its own disks, where it has some, `factor` times as large."""
+        d = self.disks
+        return self if d is None else dataclasses.replace(self, disks=dataclasses.replace(d, d_min=d.d_min * factor, d_max=d.d_max * factor))
+
+
+@dataclass(frozen=True)
+class Interface:
+    """Contacts of the disks of two layers, whose law is that of a `material`; `between`: names of the layers, the lower one first; `role`: "slip" or None;
+    `flat`: disks are packed on their sides of the border, so that those of the two layers do not interlock."""
+
+    name: str
+    between: tuple[str, str]
+    material: str
+    role: str | None = None
+    flat: bool = True
 
 
 @dataclass(frozen=True)
@@ -248,6 +270,7 @@ class Section:
     numerics: Numerics
     seed: int
     source: str
+    interfaces: tuple[Interface, ...] = ()
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
 
@@ -275,7 +298,7 @@ class Section:
     @cached_property
     def dip(self) -> float:
         """β [degrees] of the slope, positive down to the right: of its slip surfaces from end to end, see :mod:`.roles`."""
-        return roles.dip_of(*roles.chord([wall.points for wall in self.of_role("slip")]))
+        return roles.dip_of(*roles.chord([points for _, points in self.slip_surfaces]))
 
     @property
     def side(self) -> float:
@@ -297,6 +320,40 @@ class Section:
         """The walls that have one of these roles, in the order of the file."""
         return tuple(wall for wall in self.walls if wall.role in wanted)
 
+    @cached_property
+    def slip_surfaces(self) -> tuple[tuple[str, np.ndarray], ...]:
+        """Name and line (n, 2) [m] of each slip surface: walls, then interfaces."""
+        return (*((wall.name, wall.points) for wall in self.of_role("slip")),
+                *((i.name, self.line_of(i)) for i in self.interfaces if i.role == "slip"))
+
+    def line_of(self, interface: Interface) -> np.ndarray:
+        """The border of an interface's two layers from left to right, (n, 2) [m]; empty where they do not touch."""
+        lower, upper = (self.layer(name).polygon for name in interface.between)
+        return geometry.border(lower, upper, self.tolerance)
+
+    def layer(self, name: str) -> Layer:
+        """The layer called `name`; KeyError if there is none."""
+        return next(layer for layer in self.layers if layer.name == name)
+
+    def disks_of(self, layer: Layer) -> Disks:
+        """The disks of a layer: its own, or those of the section."""
+        return layer.disks or self.disks
+
+    @property
+    def mixed(self) -> bool:
+        """Whether layers have disks of their own."""
+        return any(layer.disks for layer in self.layers)
+
+    @property
+    def smallest(self) -> float:
+        """Diameter [m] of the smallest disk."""
+        return min(self.disks_of(layer).d_min for layer in self.layers)
+
+    @property
+    def largest(self) -> float:
+        """Diameter [m] of the largest disk."""
+        return max(self.disks_of(layer).d_max for layer in self.layers)
+
     def wall(self, name: str) -> Wall:
         """The wall called `name`; KeyError if there is none."""
         for wall in self.walls:
@@ -306,9 +363,11 @@ class Section:
 
     @cached_property
     def _borders(self) -> tuple[float, ...]:
-        """Length [m] of each layer's share of the outline, to six digits: the next ones depend on the version of GEOS."""
+        """Length [m] of each layer's share of the outline, and of flat interfaces, to six digits: the next ones depend on the version of GEOS."""
         rim = self.outline.boundary.buffer(10 * self.tolerance)
-        return tuple(float(f"{layer.polygon.exterior.intersection(rim).length:.6g}") for layer in self.layers)
+        flat = [(i.between, self.line_of(i)) for i in self.interfaces if i.flat]
+        inside = {layer.name: math.fsum(geometry.distance(*np.diff(line, axis=0).T).sum() for between, line in flat if layer.name in between) for layer in self.layers}
+        return tuple(float(f"{layer.polygon.exterior.intersection(rim).length + inside[layer.name]:.6g}") for layer in self.layers)
 
     def disk_areas(self) -> tuple[float, ...]:
         """Area of disks [m²] in each layer that gives the packing fraction in the bulk.
@@ -316,13 +375,16 @@ class Section:
         The packing fraction times the polygon's area, less a strip along the outline, which
         walls leave looser.
         """
-        size = math.sqrt(self.disks.mean_square)
-        return tuple(self.disks.packing_fraction * max(layer.area - BORDER_STRIP * size * border, 0)
-                     for layer, border in zip(self.layers, self._borders))
+        of = [self.disks_of(layer) for layer in self.layers]
+        return tuple(d.packing_fraction * max(layer.area - BORDER_STRIP * math.sqrt(d.mean_square) * border, 0)
+                     for d, layer, border in zip(of, self.layers, self._borders))
 
     def disk_counts(self) -> tuple[int, ...]:
         """Number of disks in each layer; rounding is carried from layer to layer."""
-        ends = np.rint(np.cumsum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)).astype(int)
+        if self.mixed:
+            ends = np.rint(np.cumsum([a / (math.pi / 4 * self.disks_of(layer).mean_square) for a, layer in zip(self.disk_areas(), self.layers)])).astype(int)
+        else:
+            ends = np.rint(np.cumsum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)).astype(int)
         return tuple(int(n) for n in np.diff(ends, prepend=0))
 
     def with_disks(self, count: int) -> Section:
@@ -335,18 +397,25 @@ class Section:
         if self.like:
             original, factor = self.like[0].with_disks(count), self.like[1]
             disks = dataclasses.replace(original.disks, d_min=factor * original.disks.d_min, d_max=factor * original.disks.d_max)
-            return dataclasses.replace(self, disks=disks, scale=original.scale, like=(original, factor))
+            layers = tuple(dataclasses.replace(mine, disks=theirs.with_disks(factor).disks) for mine, theirs in zip(self.layers, original.layers))
+            return dataclasses.replace(self, disks=disks, layers=layers, scale=original.scale, like=(original, factor))
         m = self.disks.mean_square
         phi = self.disks.packing_fraction
-        strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
-        full = count * math.pi / 4 * m
-        s = (math.sqrt(strip**2 + 4 * full * phi * self.area) - strip) / (2 * full)
+        if self.mixed:  # count = full / s² - strip / s
+            of = [self.disks_of(layer) for layer in self.layers]
+            inside = math.fsum(d.packing_fraction * layer.area / (math.pi / 4 * d.mean_square) for d, layer in zip(of, self.layers))
+            strip = math.fsum(d.packing_fraction * BORDER_STRIP * b / (math.pi / 4 * math.sqrt(d.mean_square)) for d, b in zip(of, self._borders))
+            s = (math.sqrt(strip**2 + 4 * count * inside) - strip) / (2 * count)
+        else:
+            strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
+            full = count * math.pi / 4 * m
+            s = (math.sqrt(strip**2 + 4 * full * phi * self.area) - strip) / (2 * full)
         disks = dataclasses.replace(self.disks, d_min=self.disks.d_min * s, d_max=self.disks.d_max * s,
                                     count=int(count))
-        scaled = dataclasses.replace(self, disks=disks, scale=self.scale * s)
+        scaled = dataclasses.replace(self, disks=disks, layers=tuple(layer.with_disks(s) for layer in self.layers), scale=self.scale * s)
         scaled._check_room(f"{count} disks", "ask for more disks")
         if self.numerics.time_step > scaled.longest_step:
-            raise SectionError(f"{self.source}: {count} disks: the smallest, {disks.d_min:.4g} m, would fall past its own diameter in a step of "
+            raise SectionError(f"{self.source}: {count} disks: the smallest, {scaled.smallest:.4g} m, would fall past its own diameter in a step of "
                                f"{self.numerics.time_step:g} s; lower numerics.time_step below {scaled.longest_step:.2g} s, or ask for fewer disks")
         return scaled
 
@@ -361,16 +430,17 @@ class Section:
     @property
     def longest_step(self) -> float:
         """Time step [s] in which a disk that has fallen by its own diameter, the smallest one, falls by as much again."""
-        return math.sqrt(self.disks.d_min / (2 * self.gravity))
+        return math.sqrt(self.smallest / (2 * self.gravity))
 
     def _check_room(self, what: str, remedy: str) -> None:
-        total = sum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)
+        total = sum(self.disk_counts()) if self.mixed else sum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)
         if total > MOST_DISKS:
             raise SectionError(f"{self.source}: {what}: {total:.2g} disks would fill the layers, more than {MOST_DISKS}; give larger diameters")
         for polygon in geometry.parts(self.outline):
-            if polygon.buffer(-self.disks.d_max / 2).is_empty or min(self.disk_counts()) < 1:
+            largest = max(self.disks_of(layer).d_max for layer in self.layers if layer.polygon.intersects(polygon))
+            if polygon.buffer(-largest / 2).is_empty or min(self.disk_counts()) < 1:
                 x, y = polygon.representative_point().coords[0]
-                raise SectionError(f"{self.source}: {what}: disks of {self.disks.d_max:.4g} m have no room "
+                raise SectionError(f"{self.source}: {what}: disks of {largest:.4g} m have no room "
                                    f"in the layers at ({x:.6g}, {y:.6g}); {remedy}")
 
     def key(self, scope: str = "packing") -> str:
@@ -382,6 +452,10 @@ class Section:
         d = self.disks
         content = {"layers": [layer.vertices for layer in self.layers],
                    "disks": [d.d_min, d.d_max, d.distribution, d.packing_fraction]}
+        if self.mixed:
+            content["disks"] = [[d.d_min, d.d_max, d.distribution, d.packing_fraction] for d in map(self.disks_of, self.layers)]
+        if any(i.flat for i in self.interfaces):
+            content["flat"] = [[x.tolist() for x in self.line_of(i)] for i in self.interfaces if i.flat]
         if self.like:
             content["like"] = [self.like[0].key(), self.like[1]]
         if scope == "settled":
@@ -391,6 +465,9 @@ class Section:
                         "rock": [plain[layer.material] for layer in self.layers], "gravity": self.gravity,
                         "numerics": dataclasses.asdict(self.numerics),
                         "settle": dataclasses.asdict(self.stages.settle)}
+            if self.interfaces:
+                number = {layer.name: k for k, layer in enumerate(self.layers)}
+                content["interfaces"] = [[[number[name] for name in i.between], plain[i.material]] for i in self.interfaces]
         elif scope != "packing":
             raise ValueError(f"scope {scope!r}; give packing or settled")
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
@@ -432,9 +509,11 @@ def _build(document, source: str) -> Section:
     raw = document.data
     section_checks.check_extent(document)
     walls = section_checks.walls(document)
-    layers = tuple(Layer(v["name"], v["material"], _points(v["vertices"])) for v in raw["layers"])
     size = raw["disks"]
     disks = Disks(*map(float, size["diameter"]), size["distribution"], float(size["packing_fraction"]))
+    layers = tuple(Layer(v["name"], v["material"], _points(v["vertices"]), v.get("role", "mass"), _own(v.get("disks"), disks)) for v in raw["layers"])
+    interfaces = tuple(Interface(v.get("name", "-".join(v["between"])), tuple(v["between"]), v["material"], v.get("role"), v.get("flat", True))
+                       for v in raw.get("interfaces", ()))
     stages = raw["stages"]
     section = Section(
         name=raw["name"], description=raw.get("description", "").strip(), gravity=float(raw["gravity"]),
@@ -443,7 +522,7 @@ def _build(document, source: str) -> Section:
         disks=disks, water=None,
         stages=Stages(Settle(**{k: v if k == "bond" else float(v) for k, v in stages["settle"].items()}), float(stages["dry"]),
                       stages.get("water", {}).get("hold", "motion"), End(**_floats(stages["end"]))),
-        numerics=Numerics(**raw["numerics"]), seed=raw["seed"], source=source)
+        numerics=Numerics(**raw["numerics"]), seed=raw["seed"], source=source, interfaces=interfaces)
     section_checks.check(section, document)
     if "water" in raw:
         section = dataclasses.replace(section, water=_water(raw["water"], section, document))
@@ -452,6 +531,14 @@ def _build(document, source: str) -> Section:
     if "count" in size:
         section = section.with_disks(size["count"])
     return section
+
+
+def _own(raw, disks: Disks) -> Disks | None:
+    """A layer's own disks: what it says, and the section's `disks` for the rest."""
+    if raw is None:
+        return None
+    low, high = map(float, raw.get("diameter", (disks.d_min, disks.d_max)))
+    return Disks(low, high, raw.get("distribution", disks.distribution), float(raw.get("packing_fraction", disks.packing_fraction)))
 
 
 def _points(vertices) -> tuple[tuple[float, float], ...]:

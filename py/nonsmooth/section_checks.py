@@ -51,24 +51,28 @@ def walls(document) -> tuple[Wall, ...]:
 def check(section: Section, document) -> None:
     """Raise SectionError at the first thing wrong with `section`."""
     _check_names(section, document)
+    _check_interfaces(section, document)
     _check_materials(section, document)
-    if section.disks.d_min > section.disks.d_max:
-        document.refuse(("disks", "diameter"), f"the smallest, {section.disks.d_min:g} m, exceeds the largest, "
-                        f"{section.disks.d_max:g} m", "give the smaller one first")
+    for keys, d in ((("disks", "diameter"), section.disks), *((("layers", i, "disks", "diameter"), layer.disks) for i, layer in enumerate(section.layers))):
+        if d and d.d_min > d.d_max:
+            document.refuse(keys, f"the smallest, {d.d_min:g} m, exceeds the largest, {d.d_max:g} m", "give the smaller one first")
     _check_walls(section, document)
     _check_layers(section, document)
     section._check_room("disks.diameter", "give smaller diameters or thicker layers")
     step = section.numerics.time_step
     if step > section.longest_step and "count" not in document.data["disks"]:
-        document.refuse(("numerics", "time_step"), f"in {step:g} s the smallest disk, {section.disks.d_min:g} m, would fall past its own diameter",
+        document.refuse(("numerics", "time_step"), f"in {step:g} s the smallest disk, {section.smallest:g} m, would fall past its own diameter",
                         f"give less than {section.longest_step:.2g} s")
 
 
 def check_roles(section: Section, document) -> None:
     """Raise SectionError for a section whose walls are no slip surface: nothing says then which way its slope falls."""
-    if section.of_role("slip"):
+    for i, interface in enumerate(section.interfaces):
+        if interface.role == "slip" and len(section.line_of(interface)) < 2:
+            document.refuse(("interfaces", i, "role"), f"the layers {' and '.join(interface.between)} do not touch", "give role slip to an interface of layers that do")
+    if section.slip_surfaces:
         return
-    document.refuse(("walls",), "none of them has the role slip", "give `role: slip` to the wall along which the mass may slide")
+    document.refuse(("walls",), "none of them has the role slip, and no interface has it", "give `role: slip` to the wall along which the mass may slide")
 
 
 def _check_names(section, document) -> None:
@@ -80,6 +84,27 @@ def _check_names(section, document) -> None:
             if item.material not in section.materials:
                 document.refuse((kind, i, "material"), f"{item.material!r} is not defined",
                                 f"add it to `materials`, or give one of {', '.join(section.materials)}")
+
+
+def _check_interfaces(section, document) -> None:
+    layers, seen = [layer.name for layer in section.layers], {}
+    taken = {item.name for item in (*section.walls, *section.layers)}
+    for i, interface in enumerate(section.interfaces):
+        for name in interface.between:
+            if name not in layers:
+                document.refuse(("interfaces", i, "between"), f"no layer is called {name!r}", f"give two of {', '.join(layers)}")
+        if interface.between[0] == interface.between[1]:
+            document.refuse(("interfaces", i, "between"), f"both are {interface.between[0]}", "give two different layers")
+        pair = frozenset(interface.between)
+        if pair in seen:
+            document.refuse(("interfaces", i, "between"), f"{' and '.join(interface.between)} have an interface already, {seen[pair]}", "keep one of the two")
+        seen[pair] = interface.name
+        if interface.material not in section.materials:
+            document.refuse(("interfaces", i, "material"), f"{interface.material!r} is not defined",
+                            f"add it to `materials`, or give one of {', '.join(section.materials)}")
+        if interface.name in taken:
+            document.refuse(("interfaces", i, "name" if "name" in document.data["interfaces"][i] else "between"), f"the name {interface.name!r} is taken", "give each its own `name`")
+        taken.add(interface.name)
 
 
 def _check_materials(section, document) -> None:

@@ -57,7 +57,7 @@ def scaled(section: Section, factor: float) -> Section:
     end = dataclasses.replace(stages.end, time=t * stages.end.time, rest_hold=t * stages.end.rest_hold)
     hold = stages.water_hold if isinstance(stages.water_hold, str) else s * stages.water_hold
     numerics = dataclasses.replace(section.numerics, time_step=t * section.numerics.time_step)
-    return dataclasses.replace(section, walls=sizes(section.walls), layers=sizes(section.layers), materials=MappingProxyType(materials), disks=disks, water=water,
+    return dataclasses.replace(section, walls=sizes(section.walls), layers=tuple(layer.with_disks(s) for layer in sizes(section.layers)), materials=MappingProxyType(materials), disks=disks, water=water,
                                stages=dataclasses.replace(stages, settle=settle, dry=t * stages.dry, water_hold=hold, end=end), numerics=numerics,
                                like=(section.like[0], s * section.like[1]) if section.like else (section, s))
 

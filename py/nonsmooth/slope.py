@@ -65,7 +65,7 @@ def hard(section) -> worlds.Hard:
     # bonds are made where contacts are known, so these must reach further than Δ
     reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
     # known early enough for disks that approach each other at such a speed; the fastest of the paper's slope reach 50 m/s
-    far = scales.of(section).approach_speed * n.time_step / section.disks.d_min
+    far = scales.of(section).approach_speed * n.time_step / section.smallest
     return worlds.Hard(n.time_step, n.tolerance, reach, far, -n.verlet_distance, {"maxIterations": n.max_iterations, "correctionSlack": SLACK})
 
 
@@ -84,6 +84,8 @@ def build(section, packing, world=None) -> Slope:
     walls = _walls(section, world)
     rocks = [section.materials[layer.material] for layer in section.layers]
     materials = [O.materials[O.materials.append(world.material(m, layer=k, label=_label(layer, k)))] for k, (layer, m) in enumerate(zip(section.layers, rocks))]
+    for interface in section.interfaces:
+        world.interface(*(materials[[layer.name for layer in section.layers].index(name)] for name in interface.between), section.materials[interface.material])
     order = order_of(section, packing)
     disks = [scene.disk((float(packing.x[k]), float(packing.y[k])), float(packing.r[k]), materials[packing.layer[k]]) for k in order]
     ids = O.bodies.append(disks)
@@ -104,6 +106,14 @@ def build(section, packing, world=None) -> Slope:
         layer = packing.layer[order]
         built.solver = Measures(world, [(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)])
     return built
+
+
+def interface_law(slope: Slope, interface):
+    """The material of an interface of a built Slope."""
+    numbers = [layer.name for layer in slope.section.layers]
+    lower, upper = (next(b for b in (O.bodies[i].material for i in range(slope.first_disk, slope.first_disk + slope.count)) if b.label == _label(
+        slope.section.layer(name), numbers.index(name))) for name in interface.between)
+    return lower.interfaceLaws[list(lower.interfaceLayers).index(upper.layer)]
 
 
 def find(section, walls, first_disk, count) -> Slope:

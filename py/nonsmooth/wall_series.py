@@ -1,19 +1,24 @@
-"""Forces on a section's walls and the slip along them: a row for each wall in ``walls.csv``, and sums by the walls' roles."""
+"""Forces on a section's walls, across its interfaces and on its obstacles, and the slip along them: a row for each in ``walls.csv``, and sums by role.
+
+Forces on walls are means over the steps since the row before; those between disks, across interfaces and on obstacles made of disks, are of the row's last step.
+"""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from yade import O
 
-from . import records, roles
+from . import records, roles, slope, tables
 from .wall_forces import WallForces
 
 __all__ = ["Slip", "WallSeries"]
 
 
 class Slip(NamedTuple):
-    """``mean`` [m] of the disks that ``touched`` walls, how many of them are ``weakened``; whether slip ``counts`` there."""
+    """``mean`` [m] of the disks that ``touched`` walls or interfaces, how many of them are ``weakened``; whether slip ``counts`` there."""
 
     mean: float
     weakened: int
@@ -22,39 +27,77 @@ class Slip(NamedTuple):
 
 
 class WallSeries:
-    """Of a built :class:`~nonsmooth.slope.Slope`; ``path``: the file; ``period``: see :class:`.wall_forces.WallForces`; ``mark``: of a checkpoint."""
+    """Of a built :class:`~nonsmooth.slope.Slope`, its disks' ``layers`` (count,); ``path``: the file; ``period``: see :class:`.wall_forces.WallForces`; ``mark``: of a
+    checkpoint."""
 
-    def __init__(self, slope, path, period, mark=None):
-        self._slope, self._side = slope, slope.section.side
-        self._of_role = {role: [wall.name for wall in slope.section.of_role(role)] for role in roles.ROLES}
+    def __init__(self, built, layers, path, period, mark=None):
+        section = built.section
+        self._slope, self._side = built, section.side
+        self._of_role = {role: [wall.name for wall in section.of_role(role)] for role in roles.ROLES}
         # a role that several walls share has a sum, and a peak, of its own
-        shared = {(role,): [i for name in names for i in slope.walls[name]] for role, names in self._of_role.items() if len(names) > 1}
-        self._forces = WallForces({**slope.walls, **shared}, period)
+        shared = {(role,): [i for name in names for i in built.walls[name]] for role, names in self._of_role.items() if len(names) > 1}
+        self._forces = WallForces({**built.walls, **shared}, period)
+        number = {layer.name: k for k, layer in enumerate(section.layers)}
+        self._interfaces = [(i, number[i.between[0]], number[i.between[1]], slope.interface_law(built, i)) for i in section.interfaces]
+        self._obstacles = [(layer.name, number[layer.name]) for layer in section.layers if layer.role == "obstacle"]
+        self._layer_of = np.concatenate([np.full(built.first_disk, -1), layers])  # by body; -1: a wall
         self.file = records.SeriesWriter(path, tuple(records.WALL_COLUMNS), resume_from=mark, overwrite=True)
 
     def forget(self):
         """Begins anew."""
         self._forces.forget()
 
+    def forget_slip(self):
+        """Sets the slip along all walls and interfaces to zero."""
+        for material in (*map(self._slope.wall_material, self._slope.walls), *(law for *_, law in self._interfaces)):
+            if hasattr(material, "forgetSlip"):
+                material.forgetSlip()
+
     def take(self):
         """Writes the rows of the time since the last call. Returns {role: (normal force, shear force where walls hold the mass back, peak of the normal force)}
-        [N/m], zero where no wall has that role."""
+        [N/m], zero where no wall, and no interface, has that role."""
         forces = {name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()}
-        self.file.write(*(self._row(name, *forces[name]) for name in self._slope.walls))
-        return {role: forces[names[0] if len(names) == 1 else (role,)] if names else (0.0, 0.0, 0.0) for role, names in self._of_role.items()}
+        inside = self._between_disks()
+        laws = {name: [self._slope.wall_material(name)] for name in self._slope.walls} | {i.name: [law] for i, _, _, law in self._interfaces}
+        rows = {name: forces[name] for name in self._slope.walls} | inside
+        self.file.write(*(self._row(name, *force, _slip(laws.get(name, []))) for name, force in rows.items()))
+        found = {role: forces[names[0] if len(names) == 1 else (role,)] if names else (0.0, 0.0, 0.0) for role, names in self._of_role.items()}
+        for interface, *_ in self._interfaces:
+            if interface.role == "slip":
+                found["slip"] = tuple(a + b for a, b in zip(found["slip"], inside[interface.name]))
+        return found
 
-    def slip(self, role="slip"):
-        """The Slip of disks along the walls of a role."""
-        return self._slip(self._of_role[role])
+    def slip(self):
+        """The Slip of disks along all slip surfaces."""
+        return _slip([self._slope.wall_material(name) for name in self._of_role["slip"]] + [law for i, _, _, law in self._interfaces if i.role == "slip"])
 
-    def _slip(self, names):
-        weak = [m for m in map(self._slope.wall_material, names) if hasattr(m, "meanSlip")]
-        counts = [m.slippedCount() for m in weak]
-        touched = sum(counts)
-        mean = weak[0].meanSlip() if len(weak) == 1 else sum(m.meanSlip() * n for m, n in zip(weak, counts)) / touched if touched else 0.0
-        return Slip(mean, sum(m.weakenedCount() for m in weak), touched, bool(weak))
+    def _between_disks(self):
+        """{name: (normal, shear, normal again)} [N/m] of interfaces and obstacles in this step."""
+        if not self._interfaces and not self._obstacles:
+            return {}
+        c = tables.contacts(self._slope.solver)
+        force = np.stack([c["normal"] * c["nx"] - c["tangential"] * c["ny"], c["normal"] * c["ny"] + c["tangential"] * c["nx"]])  # on the second body
+        one, other = self._layer_of[c["id1"]], self._layer_of[c["id2"]]
+        section, found = self._slope.section, {}
+        for interface, lower, upper, _ in self._interfaces:
+            on_upper = force[:, (one == lower) & (other == upper)].sum(axis=1) - force[:, (one == upper) & (other == lower)].sum(axis=1)
+            normal, shear = float(on_upper @ section.normal), -float(on_upper @ section.downslope)
+            found[interface.name] = (normal, shear, normal)
+        for name, k in self._obstacles:
+            on_it = force[:, (other == k) & (one != k) & (one >= 0)].sum(axis=1) - force[:, (one == k) & (other != k) & (other >= 0)].sum(axis=1)
+            push = self._side * float(on_it[0])
+            found[name] = (push, -float(on_it[1]), push)
+        return found
 
-    def _row(self, name, normal, shear, peak):
-        mean, weakened, touched, counts = self._slip([name])
-        slip = (mean, weakened, weakened / touched if touched else 0.0) if counts else (None, None, None)
-        return dict(zip(records.WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *slip), strict=True))
+    def _row(self, name, normal, shear, peak, slip):
+        told = (slip.mean, slip.weakened, slip.weakened / slip.touched if slip.touched else 0.0) if slip.counts else (None, None, None)
+        return dict(zip(records.WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told), strict=True))
+
+
+def _slip(materials):
+    """The Slip along walls or interfaces of these materials, those that do not weaken apart."""
+    weak = [m for m in materials if hasattr(m, "meanSlip")]
+    counts = [m.slippedCount() for m in weak]
+    touched = sum(counts)
+    mean = weak[0].meanSlip() if len(weak) == 1 else sum(m.meanSlip() * n for m, n in zip(weak, counts)) / touched if touched else 0.0
+    return Slip(mean, sum(m.weakenedCount() for m in weak), touched, bool(weak))

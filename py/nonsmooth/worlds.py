@@ -19,9 +19,14 @@ from dataclasses import dataclass, field
 from yade import O
 from yade.wrapper import NewtonIntegrator
 from . import scene, soft
+from .errors import UserError
 from .stepping import advance
 
-__all__ = ["Hard", "Soft"]
+__all__ = ["Hard", "Soft", "WorldError"]
+
+
+class WorldError(UserError, ValueError):
+    """A scene asks for what a contact model has not; the message says what helps."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,10 @@ class Hard:
     def wall_material(self, m, **others):
         """The material of a wall; with ``m.slip_weakening`` it loses its strength as disks slip."""
         return scene.wall_material(m, **others)
+
+    def interface(self, lower, upper, m):
+        """Gives contacts between disks of two materials of the scene, of different layers, the law of the section.Material ``m``."""
+        lower.interfaceLayers, lower.interfaceLaws = [*lower.interfaceLayers, upper.layer], [*lower.interfaceLaws, scene.wall_material(m, wall=False)]
 
     def step_for(self, materials):
         """Time step [s] for these section.Materials of disks."""
@@ -106,6 +115,10 @@ class Soft:
     def wall_material(self, m, **others):
         """As :meth:`Hard.wall_material`."""
         return scene.wall_material(m, **{**dict(young=self.stiffness, poisson=self.shear_ratio), **others})
+
+    def interface(self, lower, upper, m):
+        """Raises WorldError: soft contacts have no interfaces."""
+        raise WorldError("interfaces between layers need rigid contacts: leave `interfaces` out of the section, or use Contact Dynamics")
 
     def step_for(self, materials):
         """Time step [s] for these section.Materials of disks: the share of the smallest limit."""

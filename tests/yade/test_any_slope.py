@@ -41,7 +41,7 @@ def test_shipped_sections_are_listed(in_process):
     assert in_process(SLOPE).status == 2  # which one?
 
 
-@pytest.mark.parametrize("name, disks, end", [("chair", 500, 9.4), ("circle", 500, 4.0), ("flume", 500, 0.7), ("jiufengershan", 600, 0.5)])
+@pytest.mark.parametrize("name, disks, end", [("chair", 500, 9.4), ("circle", 500, 4.0), ("flume", 500, 0.7), ("interface", 1500, 5.3), ("jiufengershan", 600, 0.5)])
 def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch, tmp_path):
     """Up to where its water begins to rise, with all figures (the paper's section, which has tests of its own, up to its first rows)."""
     kept = drawn.keep(monkeypatch, style)
@@ -50,7 +50,8 @@ def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch,
     assert done.status == 0, done.err
     made = section.load(name)
     walls = records.read_walls(out / "walls.csv")
-    assert set(walls["wall"]) == {wall.name for wall in made.walls} and (np.diff(walls["step"]) >= 0).all()
+    rows = [*made.walls, *made.interfaces, *(layer for layer in made.layers if layer.role == "obstacle")]
+    assert set(walls["wall"]) == {row.name for row in rows} and (np.diff(walls["step"]) >= 0).all()
     if name == "jiufengershan":
         return
     told = json.loads((out / "summary.json").read_text())

@@ -93,7 +93,7 @@ def test_names_are_no_formulae():
     fig.canvas.draw()  # raises where a formula cannot be read
 
 
-@pytest.mark.parametrize("value, extent, digits, told", [(1234.4, 3000, 0, "1,234 m"), (0.35, 6, 0, "35 cm"), (0.35, 6, 1, "35.0 cm"), (0.0123, 0.1, 1, "12.3 mm"), (2.0, 20, 1, "2.0 m")])
+@pytest.mark.parametrize("value, extent, digits, told", [(1234.4, 3000, 0, "1,234 m"), (0.3456, 6, 0, "0.35 m"), (0.35, 1, 1, "35.0 cm"), (0.0123, 0.1, 1, "12.3 mm"), (2.0, 20, 1, "2.0 m")])
 def test_lengths_have_the_unit_of_the_picture(value, extent, digits, told):
     assert style.length(value, extent, digits) == told
 

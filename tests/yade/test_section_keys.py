@@ -9,7 +9,7 @@ import yaml
 from slope_scenes import SMALL
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import experiment, packing, results, section, slope, toe
+from yade.nonsmooth import experiment, packing, records, results, section, slope, toe
 from yade.wrapper import NewtonIntegrator, NonsmoothTimeStepper, PlanarGridCollider
 
 SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
@@ -148,6 +148,9 @@ def angle(mu):
 
 DP, ROCK = ("materials", "dp"), ("materials", "rock")
 LIKE_ROCK = {"tensile_strength": 12e3, "friction": 0.4, "rolling_friction": 0.1, "density": 2000.0}
+JOINT = {"friction": 0.15, "rolling_friction": 0.0, "bonded": False}
+BETWEEN = {("materials", "joint"): JOINT, ("interfaces",): [{"between": ["L1", "L2"], "material": "joint"}]}
+OWN = {"diameter": [0.3, 0.4], "distribution": "uniform_by_number", "packing_fraction": 0.7}
 FAR = [{"name": "far", "material": "ss", "vertices": [[70.0, 30.0], [72.0, 30.0]], "apart": True}]
 SEAT = [{"name": "seat", "material": "ss", "vertices": [[70.0, 40.0], [80.0, 38.0]], "apart": True}]
 BASE = data()
@@ -167,6 +170,18 @@ WHERE = {
     ("layers", "*", "name"): ({("layers", 0, "name"): "lowest"}, lambda m: m.section.layers[0].name, "lowest"),
     ("layers", "*", "material"): ({("materials", "other"): LIKE_ROCK, ("layers", 1, "material"): "other"},
                                   lambda m: [m.disk(k).material.density for k in range(7)].count(2000.0), 3),
+    ("layers", "*", "role"): [
+        ({("layers", 1, "role"): "bed"}, lambda m: (m.run.mass.tolist(), m.run.layers.tolist().count(1)), lambda m: ((m.run.layers == 0).tolist(), 3), 0.02),
+        ({("layers", 1, "role"): "obstacle"}, lambda m: sorted(set(records.read_walls(m.run.folder / "walls.csv")["wall"])), ["DP", "FB", "L2", "SS"], 0.02)],
+    ("layers", "*", "disks", "diameter"): ({("layers", 1, "disks"): OWN}, lambda m: (m.section.smallest, m.section.disks_of(m.section.layers[1]).d_max), (0.3, 0.4)),
+    ("layers", "*", "disks", "distribution"): ({("layers", 1, "disks"): OWN}, lambda m: (m.section.disks_of(m.section.layers[1]).mean_square, m.section.mixed), (
+        pytest.approx((0.09 + 0.12 + 0.16) / 3), True)),
+    ("layers", "*", "disks", "packing_fraction"): ({("layers", 1, "disks"): OWN}, lambda m: m.section.disk_areas()[1] / m.section.layers[1].area, pytest.approx(0.69, abs=0.01)),
+    ("interfaces", "*", "name"): ({**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "name": "joint 7"}]}, lambda m: m.section.interfaces[0].name, "joint 7"),
+    ("interfaces", "*", "between"): (BETWEEN, lambda m: (list(m.disk(0).material.interfaceLayers), m.section.interfaces[0].name), ([1], "L1-L2")),
+    ("interfaces", "*", "material"): (BETWEEN, lambda m: m.disk(0).material.interfaceLaws[0].frictionAngle, angle(0.15)),
+    ("interfaces", "*", "role"): ({**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "role": "slip"}]}, lambda m: [name for name, _ in m.section.slip_surfaces], ["DP", "L1-L2"]),
+    ("interfaces", "*", "flat"): ({**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "flat": False}]}, lambda m: len(packing._borders(m.section, np.zeros(2))), 1),
     ("layers", "*", "vertices"): ({("layers", 1, "vertices"): [[0.845, 1.8125], [-0.092, 3.35275], [-34.7325, 19.50585], [-35.155, 18.5995]]},
                                   lambda m: m.section.disk_counts()[1] / m.section.disk_counts()[0], pytest.approx(0.44, abs=0.03)),  # half of it, less the strip at the surface
     ("materials", "*", "bonded"): [

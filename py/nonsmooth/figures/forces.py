@@ -115,8 +115,8 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     style.draw_disks(top, snapshot, style.layer_colours(snapshot.layer))
     style.scale_bar(top, 0.98 if ground.side > 0 else 0.22, 0.86)
     layers = np.unique(snapshot.layer)
-    handles = [Patch(color=style.LAYERS[k % len(style.LAYERS)], label=f"{k + 1}") for k in layers[::-1]]
-    handles[0].set_label(f"{layers[-1] + 1} (top)")
+    named = ground.layers or [f"{k + 1}" for k in range(layers[-1] + 1)]
+    handles = [Patch(color=style.LAYERS[k % len(style.LAYERS)], label=style.plain(named[k]) + " (top)" * bool(k == layers[-1])) for k in layers[::-1]]
     top.legend(handles=handles, title="layer", loc="lower left" if ground.side > 0 else "lower right",
                bbox_to_anchor=(0.06 if ground.side > 0 else 0.94, 0.02), handlelength=1.3)
     fig.text(
@@ -157,7 +157,9 @@ def _limits(curves, shown):
 
 
 def _sketch(ax, side, name, back, wet):
-    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none."""
+    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none. Names that are no
+    index have no room."""
+    symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(style.symbol(letter, of))  # noqa: E731
     style.frame(ax, *(-10.8 * side, 4.6 * side), -1.6, 6.6)
     at = lambda points: np.asarray(points) * (side, 1)  # noqa: E731
     slope, after = np.tan(np.radians(21)), "left" if side > 0 else "right"
@@ -173,14 +175,14 @@ def _sketch(ax, side, name, back, wet):
     normal, down = np.array([0.358, 0.934]), np.array([0.934, -0.358])
     middle = np.array([-5.2, 5.2 * slope])
     ax.annotate("", at(middle), at(middle - 2.0 * normal), arrowprops={**arrow, "color": LINES["blue"]})
-    ax.text(*at(middle - 2.6 * normal), style.symbol("N", name), ha="center", va="center", color=LINES["blue"], fontsize=9.5)
+    ax.text(*at(middle - 2.6 * normal), symbol("N", name), ha="center", va="center", color=LINES["blue"], fontsize=9.5)
     start = middle + 2.4 * down - 0.32 * normal
     ax.annotate("", at(start - 1.9 * down), at(start), arrowprops={**arrow, "color": LINES["orange"]})
-    ax.text(*at(start + 0.1 * down - 0.75 * normal), style.symbol("T", name), ha=after, va="center", color=LINES["orange"], fontsize=9.5)
+    ax.text(*at(start + 0.1 * down - 0.75 * normal), symbol("T", name), ha=after, va="center", color=LINES["orange"], fontsize=9.5)
     if back:
         push = wall.mean(axis=0)
         ax.annotate("", at(push), at(push + 2.0 * np.array([0.93, -0.36])), arrowprops={**arrow, "color": LINES["green"]})
-        ax.text(*at(push + (2.1, -1.1)), style.symbol("N'", back), ha=after, va="center", color=LINES["green"], fontsize=9.5)
+        ax.text(*at(push + (2.1, -1.1)), symbol("N'", back), ha=after, va="center", color=LINES["green"], fontsize=9.5)
 
 
 @style.styled
@@ -205,6 +207,7 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
 
     ground = None if walls is None else ground_of(walls)
     name, rest = (SKETCHED[role] if ground is None else ground.name(role) for role in ("slip", "backstop"))
+    base = SKETCHED["slip"] if ground is None else ground.base
     wet = bool(np.any(water > 0) or np.any(pore))
     newtons, unit = style.force_unit(max(np.abs(values).max() for values in (total, shear, back)))
 
@@ -274,7 +277,7 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
                 table.set_ylim(top * low / high, top)
                 table.set_yticks([v for v in table.get_yticks() if 0 <= v <= top])
                 if column == len(spans) - 1:
-                    table.set_ylabel(f"water table above {style.plain(name)} [m]")
+                    table.set_ylabel(f"water table above {style.plain(base)} [m]" if base else "water table [m]")
                     table.spines["right"].set_visible(True)
                     handles, labels = table.get_legend_handles_labels()
                     legend[0] = (legend[0][0] + handles, legend[0][1] + labels)

@@ -151,13 +151,14 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
             f"thickest: {style.length(thickness[k], extent)}", (x[k], surface[k]), xytext=(0, 22), textcoords="offset points",
             ha="center", arrowprops={"arrowstyle": "-", "color": INK, "lw": 0.8}, **note,
         )  # fmt: skip
-    a, b = front(initial, side), front(snapshot, side)
+    a, b = front(initial, side, layers=ground.mass), front(snapshot, side, layers=ground.mass)
     level = y0 + 0.075 * (y1 - y0)
     for at in (a, b):
         ax.plot([at, at], [level - 0.02 * (y1 - y0), level + 0.16 * (y1 - y0)], color=INK, lw=0.9, ls=":", zorder=7)
     ax.annotate("", (b, level), (a, level), arrowprops={**arrow, "arrowstyle": "-|>"}, zorder=8)
     ax.text((a + b) / 2, level - 0.012 * (y1 - y0), f"front: {style.length(side * (b - a), extent)}", ha="center", va="top", **note)
-    centres = [np.average(np.column_stack([s.x, s.y]), axis=0, weights=s.r**2) for s in (initial, snapshot)]
+    mass = slice(None) if ground.mass is None else np.isin(snapshot.layer, ground.mass)
+    centres = [np.average(np.column_stack([s.x, s.y])[mass], axis=0, weights=s.r[mass] ** 2) for s in (initial, snapshot)]
     ax.plot(*centres[0], marker="o", mfc="white", mec=INK, ms=7, mew=1.5, zorder=8)
     ax.plot(*centres[1], marker="o", mfc=INK, mec="white", ms=8, mew=1.2, zorder=8)
     ax.annotate("", centres[1], centres[0], arrowprops={**arrow, "arrowstyle": "-|>", "shrinkA": 5, "shrinkB": 5}, zorder=7)
@@ -168,8 +169,7 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
     )  # fmt: skip
     style.scale_bar(ax, 0.985 if side > 0 else 0.165, 0.93, 0.15)
     layers = np.unique(snapshot.layer)[::-1]
-    handles = [Patch(color=style.LAYERS[n % len(style.LAYERS)], label=f"layer {n + 1}") for n in layers]
-    handles[0].set_label(f"layer {layers[0] + 1} (top)")
+    handles = [Patch(color=style.LAYERS[n % len(style.LAYERS)], label=style.plain(ground.layer(n)) + " (top)" * bool(n == layers[0])) for n in layers]
     handles.append(Line2D([], [], color=INK, lw=1.4, ls=(0, (4, 2)), label="initial surface"))
     handles.append(Line2D([], [], ls="", marker="o", mfc="white", mec=INK, mew=1.5, ms=6, label="centre of mass before"))
     handles.append(Line2D([], [], ls="", marker="o", color=INK, ms=6, label="and after"))

@@ -103,9 +103,9 @@ def symbol(letter, name):
 
 
 def length(value, extent, digits=0):
-    """A length [m] with its unit, which is that of a picture ``extent`` [m] wide: m, cm or mm."""
-    factor, unit = next((f, u) for f, u, least in ((1, "m", 20), (100, "cm", 0.2), (1000, "mm", 0)) if extent >= least)
-    return f"{factor * value:,.{digits}f} {unit}"
+    """A length [m] with its unit, which is that of a picture ``extent`` [m] wide: m, below 20 m with two more digits, cm or mm."""
+    factor, unit, more = next(rest for least, *rest in ((20, 1, "m", 0), (2, 1, "m", 2), (0.2, 100, "cm", 0), (0, 1000, "mm", 0)) if extent >= least)
+    return f"{factor * value:,.{digits + more}f} {unit}"
 
 
 def seconds(value, longest):
@@ -155,10 +155,13 @@ def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
     x0, x1 = ax.get_xlim()
     y0, y1 = ax.get_ylim()
     for wall in ground.walls:
+        if wall.buried:
+            continue
         points = wall.vertices
         ax.fill_between(points[:, 0], points[:, 1], y0 - (y1 - y0), color=GROUND, lw=0.6, zorder=0.5)
     for wall in ground.walls:
-        ax.plot(wall.vertices[:, 0], wall.vertices[:, 1], color=WALL, lw=width, solid_capstyle="round", zorder=4)
+        ax.plot(wall.vertices[:, 0], wall.vertices[:, 1], color=WALL, lw=0.6 * width if wall.buried else width, ls=(0, (1, 1.5)) if wall.buried else "-",
+                solid_capstyle="round", zorder=4)
         if named is None or wall.role in named:
             _name_wall(ax, wall, ground.side, (x0, x1, y0, y1), size)
 
@@ -176,6 +179,7 @@ def _name_wall(ax, wall, side, box, size):
     ax.annotate(
         plain(wall.name), seen[len(seen) // 2], xytext=(9 * side, -5) if beside else (-3 * side, -6), textcoords="offset points",
         ha=("left" if side > 0 else "right") if beside else "center", va="top", fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
+        bbox={"fc": "white", "ec": "none", "alpha": 0.7, "pad": 1.0} if wall.buried else None,
     )  # fmt: skip
 
 

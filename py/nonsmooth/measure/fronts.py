@@ -17,6 +17,7 @@ def front_of(x, r, side=1.0, share=0.999):
     return side * float(ahead[order][at] + r[order][at])
 
 
-def front(snapshot, side=1.0, share=0.999):
-    """:func:`front_of` a snapshot's disks."""
-    return front_of(snapshot.x, snapshot.r, side, share)
+def front(snapshot, side=1.0, share=0.999, layers=None):
+    """:func:`front_of` a snapshot's disks, or those of the layers with these numbers alone."""
+    chosen = slice(None) if layers is None else np.isin(snapshot.layer, layers)
+    return front_of(snapshot.x[chosen], snapshot.r[chosen], side, share)

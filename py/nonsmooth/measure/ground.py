@@ -17,22 +17,28 @@ class GroundError(UserError, ValueError):
 
 
 class Wall(NamedTuple):
-    """``vertices``: (n, 2) [m]; ``role``: see :mod:`.roles`, None where nobody said."""
+    """``vertices``: (n, 2) [m]; ``role``: see :mod:`.roles`, None where nobody said; ``buried``: an interface between layers, which is no wall."""
 
     name: str
     vertices: np.ndarray
     role: str | None = None
+    buried: bool = False
 
 
 class Ground:
     """Walls, and what follows from them.
 
     ``walls``: list of Wall; ``side``: 1 for a slope that falls to the right, −1 to the left; ``water``: (points (n, 2) [m], unit normal) of the plane from which
-    water is measured, or None.
+    water is measured, or None; ``layers``: their names, empty where they have none; ``mass``: numbers of the layers that
+    are neither bed nor obstacle, None: all are mass; ``base``: name of the wall from which water is measured, None where it is measured from a plane of its own.
     """
 
-    def __init__(self, walls, side, water):
-        self.walls, self.side, self._water = walls, side, water
+    def __init__(self, walls, side, water, layers=(), mass=None, base=None):
+        self.walls, self.side, self._water, self.layers, self.mass, self.base = walls, side, water, layers, mass, base
+
+    def layer(self, number):
+        """What a layer is called."""
+        return self.layers[number] if number < len(self.layers) else f"layer {number + 1}"
 
     def of_role(self, *wanted):
         """The walls that have one of these roles."""
@@ -83,9 +89,15 @@ def ground_of(walls):
         if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 2:
             raise GroundError(f"wall {name} has vertices of shape {vertices.shape}; give at least two points (x, y)")
         found.append(Wall(str(name), vertices, role))
+    if hasattr(walls, "interfaces"):
+        found += [Wall(i.name, walls.line_of(i), i.role, buried=True) for i in walls.interfaces if len(walls.line_of(i))]
+    layers = [layer for layer in getattr(walls, "layers", ()) if hasattr(layer, "role")]
+    mass = [k for k, layer in enumerate(layers) if layer.role == "mass"]
     slip = [wall for wall in found if wall.role == "slip"]
     side = getattr(walls, "side", -1.0 if slip and chord([wall.vertices for wall in slip])[0] < 0 else 1.0)
-    return Ground(found, side, _water_of(walls) if hasattr(walls, "water") else _plane(slip))
+    water = _water_of(walls) if hasattr(walls, "water") else _plane(slip)
+    return Ground(found, side, water, [layer.name for layer in layers], mass if len(mass) < len(layers) else None,
+                  walls.water.wall if getattr(walls, "water", None) else slip[0].name if slip else None)
 
 
 def _water_of(section):

@@ -35,7 +35,7 @@ def _base(x, ground):
     """Height [m] of the lowest wall at each of ``x``, NaN where there is none."""
     base = np.full(len(x), np.inf)
     for wall in ground.walls:
-        if wall.role == "obstacle":
+        if wall.role == "obstacle" or wall.buried:
             continue
         for (xa, ya), (xb, yb) in zip(wall.vertices[:-1], wall.vertices[1:]):
             if xa == xb:

@@ -1,0 +1,225 @@
+"""What a section can say besides walls and one rock: interfaces inside it, layers with disks of their own, an erodible bed, obstacles of disks."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+import yaml
+from slope_scenes import SMALL
+from yade.nonsmooth import experiment, geometry, packing, records, results, section, similar, slope
+from yade.nonsmooth.stepping import advance
+
+pytestmark = pytest.mark.usefixtures("empty")
+
+
+def written(tmp_path, **changes):
+    """The small slope with changed parts of its data, by their keys; lists are appended to."""
+    data = yaml.safe_load(SMALL.read_text())
+    for key, value in changes.items():
+        if isinstance(value, list):
+            data.setdefault(key, []).extend(value)
+        else:
+            data[key].update(value)
+    path = tmp_path / "changed.yaml"
+    path.write_text(yaml.safe_dump(data, sort_keys=False))
+    return section.load(path)
+
+
+def run(made, out, end=None):
+    """The course of a section in this process, with its series and summary."""
+    out.mkdir()
+    course = experiment.Experiment(slope.build(made, packing.cached_pack(made)), out)
+    course.run(end)
+    return course, records.read_series(out / "series.csv"), results.summarise(out, made, vars(course.state))
+
+
+def joint(**more):
+    return dict(materials={"joint": {"bonded": False, "friction": 0.7, "rolling_friction": 0.1}}, interfaces=[{"between": ["L1", "L2"], "material": "joint", **more}])
+
+
+def heights(packed, line):
+    """Of disks' centres above a straight line [m], in radii."""
+    (ax, ay), (bx, by) = line
+    along = np.array([bx - ax, by - ay]) / math.hypot(bx - ax, by - ay)
+    return ((packed.y - ay) * along[0] - (packed.x - ax) * along[1]) / packed.r
+
+
+# ---- packings -------------------------------------------------------------------------------------
+
+def test_disks_at_a_flat_interface_keep_to_their_sides(tmp_path):
+    made = written(tmp_path, **joint())
+    packed = packing.pack(made)
+    line = made.line_of(made.interfaces[0])
+    assert line == pytest.approx(np.array([[-35.155, 18.5995], [0.845, 1.8125]]))
+    h = heights(packed, line)
+    lower, upper = h[packed.layer == 0], h[packed.layer == 1]
+    # they touch it, and pass it by no more than packings pass walls: a thousandth of a diameter
+    assert -1.05 < lower.max() < -0.997 and 0.997 < upper.min() < 1.05
+    assert packing.overlaps(packed, made.outline).worst < 1e-3
+    rough = packing.pack(dataclasses.replace(made, interfaces=(dataclasses.replace(made.interfaces[0], flat=False),)))
+    h = heights(rough, line)
+    assert h[rough.layer == 0].max() > -0.7 and h[rough.layer == 1].min() < 0.7
+
+
+def test_the_border_of_two_layers_is_found_also_where_vertices_differ():
+    one = geometry.Polygon([(0, 0), (10, 0), (10, 1), (0, 1)])
+    other = geometry.Polygon([(2, 1 + 1e-7), (10, 1), (10, 3), (2, 3)])
+    found = geometry.border(one, other, 1e-6)
+    assert found[[0, -1]] == pytest.approx(np.array([[2, 1], [10, 1]]), abs=1e-5) and found[:, 1] == pytest.approx(1, abs=1e-5)
+    assert geometry.border(one, geometry.Polygon([(0, 5), (1, 5), (1, 6)]), 1e-6).shape == (0, 2)
+
+
+def test_a_layer_has_disks_of_its_own(tmp_path):
+    made = written(tmp_path, layers=[{"name": "L3", "material": "rock", "disks": {"diameter": [0.3, 0.4], "packing_fraction": 0.78},
+                                      "vertices": [[10.0, 2.1322], [30.0, 2.8306], [30.0, 5.0], [10.0, 5.0]]}])
+    packed = packing.pack(made)
+    counts = np.bincount(packed.layer)
+    assert tuple(counts) == made.disk_counts() and counts[:2].tolist() == list(section.load(str(SMALL)).disk_counts())
+    small = packed.r[packed.layer == 2]
+    assert 0.15 <= small.min() < 0.155 and 0.195 < small.max() <= 0.2 and packed.r[packed.layer < 2].min() >= 0.25
+    assert (made.smallest, made.largest) == (0.3, 1.0)
+    covered = math.pi * np.sum(small**2) / made.layers[2].area
+    assert covered == pytest.approx(0.78, abs=0.03)  # less along its borders
+    fewer = made.with_disks(400)
+    assert sum(fewer.disk_counts()) == pytest.approx(400, abs=3)
+    assert fewer.layers[2].disks.d_max / fewer.disks.d_max == pytest.approx(0.4) and fewer.smallest == pytest.approx(0.3 * fewer.scale)
+    half = similar.scaled(made, 0.25)
+    assert half.smallest == pytest.approx(0.075) and half.disk_counts() == made.disk_counts()
+
+
+# ---- interfaces -----------------------------------------------------------------------------------
+
+def test_an_interface_bears_what_lies_on_it(tmp_path):
+    """The upper layer touches the lower one alone: at rest the force across the interface is its weight."""
+    made = written(tmp_path, **joint())
+    course, series, _ = run(made, tmp_path / "out", 0.5)
+    walls = records.read_walls(tmp_path / "out" / "walls.csv")
+    last = (walls["wall"] == "L1-L2") & (walls["step"] == walls["step"].max())
+    packed = packing.cached_pack(made)
+    weight = 2500 * 9.81 * math.pi * np.sum(packed.r[packed.layer == 1] ** 2)
+    beta = math.radians(made.dip)
+    assert walls["normal_N_per_m"][last] == pytest.approx(weight * math.cos(beta), rel=0.01)  # still creeping by 2 mm/s at most
+    assert walls["shear_N_per_m"][last] == pytest.approx(weight * math.sin(beta), rel=0.02)
+    assert np.isnan(walls["slip_mean_m"][last]).all() and course.slope.solver.bonds > 300
+
+
+def test_an_interface_is_a_slip_surface_like_a_wall(tmp_path):
+    """Of a weak joint the upper layer slides off: its slip, forces and times are those of the series; DP is ground."""
+    data = joint(name="joint", role="slip")
+    data["materials"]["joint"] |= {"friction": 0.18, "slip_weakening": {"law": "linear", "critical_slip": 0.3, "friction": 0.0}}
+    made = written(tmp_path, **data)
+    made = dataclasses.replace(made, walls=tuple(dataclasses.replace(w, role="ground") if w.name == "DP" else w for w in made.walls))
+    assert [name for name, _ in made.slip_surfaces] == ["joint"] and made.dip == pytest.approx(25, abs=0.01)
+    course, series, told = run(made, tmp_path / "out", 8.0)
+    walls = records.read_walls(tmp_path / "out" / "walls.csv")
+    mine = walls["wall"] == "joint"
+    assert np.array_equal(walls["normal_N_per_m"][mine], series["dp_normal_effective_N_per_m"]) and np.array_equal(walls["shear_N_per_m"][mine], series["dp_shear_N_per_m"])
+    assert np.array_equal(walls["slip_mean_m"][mine], series["slip_mean_dp_m"]) and series["weakened_disks"].max() > 10
+    # it does not bear its own weight; slip begins anew when it has settled
+    assert told["failed_dry_s"] is not None and told["times_s"]["t4"] is not None and told["front_travel_m"] > 3
+    slip, settled = series["slip_mean_dp_m"], int(np.argmax(series["stage"] > 0))
+    assert slip[settled] < slip[settled - 1] and slip[-1] > 0.3
+    # and the run goes on with the same law after a resume
+    again = experiment.resume(made, tmp_path / "out")
+    assert again.walls.slip().mean == pytest.approx(series["slip_mean_dp_m"][-1], rel=1e-12)
+    again.series.close()
+
+
+@pytest.mark.parametrize("changes, key, remedy", [
+    (dict(between=["L1", "L9"]), "interfaces[0].between: no layer is called 'L9'", "L1, L2"), (dict(between=["L1", "L1"]), "interfaces[0].between: both are L1", "two different"),
+    (dict(material="jointt"), "interfaces[0].material: 'jointt' is not defined", "joint"), (dict(name="DP"), "interfaces[DP].name: the name 'DP' is taken", "its own")])
+def test_interfaces_that_are_none_are_refused(tmp_path, changes, key, remedy):
+    data = joint()
+    data["interfaces"][0].update(changes)
+    with pytest.raises(section.SectionError) as refused:
+        written(tmp_path, **data)
+    assert key in str(refused.value) and remedy in str(refused.value)
+
+
+def test_two_laws_for_one_interface_are_refused(tmp_path):
+    data = joint()
+    data["interfaces"].append({"name": "again", "between": ["L2", "L1"], "material": "joint"})
+    with pytest.raises(section.SectionError, match="L2 and L1 have an interface already, L1-L2"):
+        written(tmp_path, **data)
+
+
+# ---- a bed and an obstacle ------------------------------------------------------------------------
+
+BED = {"name": "bed", "role": "bed", "material": "gravel", "disks": {"diameter": [0.4, 0.7], "packing_fraction": 0.72}, "vertices": [[2.0, 1.8528], [14.0, 2.2717], [14.0, 3.0], [2.0, 3.2]]}
+HOUSE = {"name": "house", "role": "obstacle", "material": "rock", "disks": {"diameter": [0.4, 0.6], "packing_fraction": 0.72}, "vertices": [[17.0, 2.3764], [20.0, 2.4812], [20.0, 6.0], [17.0, 6.0]]}
+GRAVEL = {"gravel": {"bonded": False, "friction": 0.4, "rolling_friction": 0.1, "density": 2200.0}}
+
+
+@pytest.fixture(scope="module")
+def eroded(tmp_path_factory):
+    from yade import O
+
+    O.reset()
+    home = tmp_path_factory.mktemp("bed")
+    made = written(home, layers=[BED, HOUSE], materials=GRAVEL)
+    told = (made, *run(made, home / "out"), home / "out")
+    yield (*told, _one_more_step(told[1]))
+    O.reset()
+
+
+def _one_more_step(course):
+    """Force [N/m] that changes the momentum of all disks in a step, and what acts on them in it: weight, water, walls; each (x, y)."""
+    from yade import O
+
+    def momentum():
+        return np.sum([np.array(tuple(O.bodies[k].state.vel)[:2]) * O.bodies[k].state.mass for k in disks], axis=0)
+
+    disks = range(course.slope.first_disk, course.slope.first_disk + course.slope.count)
+    course.walls.forget()
+    before = momentum()
+    advance()
+    rate = (momentum() - before) / O.dt
+    walls = np.zeros(2)
+    for wall in course.section.walls:
+        (ax, ay), (bx, by) = wall.vertices
+        along = np.array([bx - ax, by - ay]) / math.hypot(bx - ax, by - ay)
+        normal, shear, _ = course.walls._forces._engines[wall.name].take()
+        walls -= normal * np.array([along[1], -along[0]]) + shear * along
+    weight = sum(O.bodies[k].state.mass for k in disks) * np.array([0.0, -9.81])
+    return rate, weight, np.array(tuple(course.slope.water.totalForce)[:2]), walls
+
+
+def test_the_mass_is_counted_apart_from_its_bed(eroded):
+    made, course, series, told, out, _ = eroded
+    start, end = (records.read_snapshot(out / name) for name in ("t0.npz", "end.npz"))
+    assert told["finished"] and course.mass.tolist() == (start.layer < 2).tolist()
+    # fronts, speeds and centres are of the mass, which begins behind the bed
+    assert series["front_m"][0] < 2 < start.x[start.layer == 2].max() < start.x[start.layer == 3].max()
+    mass = end.layer < 2
+    assert series["front_m"][-1] == pytest.approx(np.max((end.x + end.r)[mass]), abs=1.0) and told["front_travel_m"] > 5
+    assert series["centroid_x_m"][-1] == pytest.approx(np.average(end.x[mass], weights=end.r[mass] ** 2), rel=1e-9)
+    weight = math.pi * end.r**2 * np.array([2500.0, 2500.0, 2200.0, 2500.0])[end.layer]
+    moved = np.hypot(end.x - start.x, end.y - start.y) > 2 * math.sqrt(made.disks_of(made.layers[2]).mean_square)
+    assert told["bed_kg_per_m"] == pytest.approx(weight[end.layer == 2].sum()) and told["mass_kg_per_m"] == pytest.approx(weight[mass].sum())
+    assert told["entrained_kg_per_m"] == pytest.approx(weight[(end.layer == 2) & moved].sum()) and 0 < told["entrained_kg_per_m"] < told["bed_kg_per_m"]
+    assert told["deposited_kg_per_m"] == pytest.approx(weight[mass & (end.x > 0)].sum()) and 0 < told["deposited_kg_per_m"] < told["mass_kg_per_m"]
+
+
+def test_forces_change_the_momentum_of_mass_bed_and_house(eroded):
+    """Exact but for rounding in sums of 400 disks; and energy is kept as on any slope."""
+    rate, weight, water, walls = eroded[-1]
+    assert rate == pytest.approx(weight + water + walls, abs=1e-9 * abs(weight[1])) and np.hypot(*walls) > 0.5 * abs(weight[1])
+    assert eroded[3]["energy_error_rel"] < 0.01
+
+
+def test_what_hits_an_obstacle_pushes_it(eroded):
+    made, _, series, told, out, _ = eroded
+    walls = records.read_walls(out / "walls.csv")
+    push = walls["normal_N_per_m"][walls["wall"] == "house"]
+    at = int(np.argmin(np.abs(series["time_s"] - told["times_s"]["t0"])))  # some gravel has rolled against it by then
+    assert push.max() > 5 * push[at] and push.max() > 3e4 and (push >= 0).all()
+
+
+def test_disks_of_a_bed_that_cannot_move_erode_no_more(tmp_path, eroded):
+    """The same bed of bonded rock, fixed to the ground: the mass runs over it."""
+    rigid = written(tmp_path, layers=[{**BED, "material": "fixed"}], materials={
+        "fixed": {"friction": 0.4, "rolling_friction": 0.1, "tensile_strength": 1e9, "bond_creation_distance": 0.05, "density": 2200.0},
+        "ss": {"bonded": True, "tensile_strength": 1e9, "friction": 0.3, "rolling_friction": 0.1, "bond_creation_distance": 0.05}})
+    _, _, told = run(rigid, tmp_path / "out")
+    assert told["entrained_kg_per_m"] == 0 and told["front_travel_m"] > 1
