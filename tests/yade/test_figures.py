@@ -69,8 +69,8 @@ def test_walls_in_all_their_forms():
     class Wall:
         name, vertices = "DP", ((0.0, 1.0), (1.0, 0.0))
 
-    ((name, vertices, role),) = ground_of([Wall()]).walls
-    assert name == "DP" and vertices.tolist() == [[0, 1], [1, 0]] and role is None
+    ((name, vertices, role, buried),) = ground_of([Wall()]).walls
+    assert name == "DP" and vertices.tolist() == [[0, 1], [1, 0]] and role is None and not buried
     assert ground_of([("DP", vertices)]).walls[0].role is None
     told = ground_of(SECTION)
     assert [wall.name for wall in told.walls] == ["DP", "FB", "SS"] and told.name("backstop") == "FB" and told.name("obstacle") == ""

@@ -165,7 +165,7 @@ WHERE = {
     ("walls", "*", "name"): ({("walls", 2, "name"): "floor"}, lambda m: list(m.built.walls), ["DP", "FB", "floor"]),
     ("walls", "*", "material"): ({("walls", 2, "material"): "fb"}, lambda m: m.wall("SS").frictionAngle, angle(0.6)),
     ("walls", "*", "vertices"): ({("walls", 2, "vertices"): [[0.845, 1.8125], [50.0, 3.0]]}, lambda m: walls_of(m)["SS"], [(0.845, 1.8125), (50.0, 3.0)]),
-    ("walls", "*", "role"): ({("walls", 0, "role"): "obstacle", ("walls", 1, "role"): "slip"}, lambda m: [wall.role for wall in m.section.walls], ["obstacle", "slip", "ground"]),
+    ("walls", "*", "role"): ({("walls", 1, "role"): "obstacle"}, lambda m: [wall.role for wall in m.section.walls], ["slip", "obstacle", "ground"]),
     ("walls", "*", "apart"): ({("walls",): BASE["walls"] + FAR}, lambda m: (m.section.wall("far").apart, walls_of(m)["far"]), (True, [(70.0, 30.0), (72.0, 30.0)])),
     ("layers", "*", "name"): ({("layers", 0, "name"): "lowest"}, lambda m: m.section.layers[0].name, "lowest"),
     ("layers", "*", "material"): ({("materials", "other"): LIKE_ROCK, ("layers", 1, "material"): "other"},
