@@ -8,8 +8,9 @@ import shell
 import yaml
 from slope_scenes import SMALL
 from yade import O
-from yade.nonsmooth import experiment, packing, records, results, section, similar, slope
+from yade.nonsmooth import experiment, packing, records, results, section, similar, slope, tables
 from yade.nonsmooth.figures import style
+from yade.nonsmooth.stepping import advance
 
 import drawn
 
@@ -84,6 +85,23 @@ def test_a_mirrored_slope_has_the_mirrored_bits(whole, tmp_path):
     for name in ("times_s", "front_travel_m", "centroid_travel_m", "deposit_thickness_max_m", "bulking_factor", "water_at_failure_m", "dp_shear_dry_N_per_m"):
         assert told[name] == whole.summary[name], name
     assert told["front_travel_m"] > 1
+
+
+def test_strips_of_a_mirrored_slope_are_mirrored():
+    """A slope of so many contacts that sweeps go strip by strip."""
+    here = section.load("jiufengershan").with_disks(1200)
+    found = []
+    for made in (here, similar.mirrored(here)):
+        built = slope.build(made, packing.cached_pack(made))
+        advance()
+        built.solver.bond()
+        advance(30)
+        found.append(tables.bodies(built.solver))
+    assert built.solver.contacts > 1024
+    one, other = found
+    for name, sign in (("x", -1), ("y", 1), ("vx", -1), ("vy", 1), ("angle", -1), ("omega", -1)):
+        assert np.array_equal(one[name], sign * other[name]), name
+    assert np.hypot(one["vx"], one["vy"]).max() > 1e-3
 
 
 def test_rows_of_walls_are_the_series_by_wall(whole):

@@ -100,6 +100,32 @@ def test_convex_corner_is_rounded_with_one_contact(drop):
     assert s.vel.norm() ** 2 == pytest.approx(0.8**2 + 2 * G * drop_height, rel=4e-3)
 
 
+def test_a_wall_made_backwards_is_the_mirrored_wall():
+    """Disks on a floor, in the wedge outside a convex corner and in a concave one: mirrored to the last bit, with the same bodies in the same order."""
+    corners = [(-4, 0.5), (-1, 0), (2, -2.5), (5, -1)]
+
+    def course(mirrored):
+        O.reset()
+        stuff, side = material(0.4, 0.1), -1 if mirrored else 1
+        line = [(0 - x, y) for x, y in reversed(corners)] if mirrored else corners
+        walls = scene.segments(line, stuff, piece=0.7, sense=1, backwards=mirrored)
+        O.bodies.append(walls)
+        for x, y in ((-2.5, 1.4), (-0.9, 0.9), (-0.7, 2.0), (0.9, -0.4), (2.1, -1.4), (3.5, -0.4)):
+            O.bodies.append(scene.disk((side * x, y), 0.5, stuff))
+        begin(dt=1e-3, tolerance=1e-10)
+        found = []
+        for _ in range(40):
+            run(25)
+            found += [(side * b.state.pos[0], b.state.pos[1], side * b.state.vel[0], b.state.vel[1], side * b.state.angVel[2]) for b in O.bodies]
+        owned = [side * i.geom.normal[0] for i in contacts() if i.id1 < len(walls)]
+        return found, [(i.id1, i.id2) for i in contacts()], owned, len(walls)
+
+    here, there = course(False), course(True)
+    assert here == there and len(here[2]) > 5
+    # a disk did lie in the wedge: its contact's normal is neither wall's
+    assert any(b.shape.hasNext for b in O.bodies if hasattr(b.shape, "hasNext"))
+
+
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("side", [1, -1])
 def test_a_one_sided_wall_holds_on_its_side_alone(sense, side):

@@ -193,6 +193,18 @@ def test_water_table_is_parallel_to_the_plane_at_its_height():
     assert ground.ground_of([("SS", plane, "ground")]).water_points(1.0) is None
 
 
+def test_a_table_over_a_plane_of_its_own_dips_with_it():
+    import dataclasses
+
+    made = synthetic.load("section").load("jiufengershan")
+    made = dataclasses.replace(made, water=dataclasses.replace(made.water, wall=None, point=(-100.0, 50.0), dip=10.0))
+    (x0, y0), (x1, y1) = ground.ground_of(made).water_points(0.0)
+    assert (x0, x1) == pytest.approx((-1400.371, 23.294)) and (y0, y1) == pytest.approx([50 - np.tan(np.radians(10)) * (x + 100) for x in (x0, x1)])
+    up = ground.ground_of(made).water_points(7.0) - [[x0, y0], [x1, y1]]
+    assert up == pytest.approx(7 * np.array([[np.sin(np.radians(10)), np.cos(np.radians(10))]] * 2))
+    assert ground.ground_of(dataclasses.replace(made, water=None)).water_points(1.0) is None
+
+
 def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
     left, right = synthetic.few([-50.0, -10.0], [10.0, 40.0]), synthetic.few([-40.0, 120.0], [5.0, 30.0])
     x0, x1, y0, y1 = style.view([left, right], ground.ground_of(WALLS))

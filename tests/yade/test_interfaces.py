@@ -89,6 +89,23 @@ def test_a_weakening_interface_loses_its_strength_by_the_slip_of_disks():
         assert state.vel[0] - before == pytest.approx(0.05 * G * (felt - 0.3) / math.sqrt(1 + felt**2), rel=0.02)
 
 
+def test_a_contact_is_as_weak_as_its_weaker_disk():
+    """Two blocks on one base: the first one's way has weakened the base, and so the second's contact, which has not slipped."""
+    law = LAWS["weakening"][0]()
+    first = block(law)
+    second = scene.disk((3, BLOCK), BLOCK, O.bodies[1].material)
+    second.state.blockedDOFs = "zXYZ"
+    O.bodies.append(second)
+    begin(dt=1e-3)
+    advance()
+    first.vel = (-1.0, 0, 0)  # away from it
+    place = second.state.pos[0]
+    advance(100)
+    there = {i.id2: i.phys for i in contacts()}
+    assert first.pos[0] < -0.05 and second.state.pos[0] == pytest.approx(place, abs=1e-4)
+    assert there[1].currentFriction == pytest.approx(0.3) and there[2].currentFriction == pytest.approx(0.3)
+
+
 def test_a_disk_with_several_contacts_slips_once_in_a_step():
     """A plank of three bonded disks that cannot turn: one that lies on two base disks slips as far as its neighbours, not twice as far."""
     law = SlipWeakeningMat(frictionAngle=math.atan(0.1), criticalSlip=1.0, weakenedFrictionAngle=math.atan(0.05), residualTensileStrength=1.0)  # so that they touch
