@@ -18,7 +18,7 @@ import numpy as np
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
+from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator
 
 from . import checkpoints, course, interrupts, packing, records, results, scales, slope, tables
 from .course import State
@@ -27,7 +27,7 @@ from .measure.fronts import front_of
 from .stepping import advance
 from .wall_series import WallSeries
 
-__all__ = ["Experiment", "ExperimentError", "State", "COLUMNS"]
+__all__ = ["Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
 FORCE_SAMPLES = 100      # of the forces on walls in a row, with soft contacts; each step with hard ones
 CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
@@ -109,6 +109,37 @@ class Experiment:
     def _close(self):
         self.series.close()
         self.walls.file.close()
+
+    def attach(self):
+        """Lets steps by O.run(), O.step(), the viewer and yade-batch go through the course: a CourseRunner becomes the first of O.engines, which does what :meth:`run` does
+        between steps, and pauses the run where the course is over; that ends with the step that has begun. Returns the engine.
+
+        Raises ExperimentError for soft contacts, whose gravity :meth:`run` makes grow.
+        """
+        global _attached
+        if not self.hard:
+            raise ExperimentError("a slope of soft contacts is driven by Experiment.run() alone: its gravity grows in Python; call that instead of O.run()")
+        _attached = self
+        self.runner = CourseRunner(label="slopeCourse", command="import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()")
+        O.engines = [self.runner, *(e for e in O.engines if not isinstance(e, CourseRunner))]
+        self._wait()
+        return self.runner
+
+    def _wait(self):
+        """For the next row, or, where the course is over, for none."""
+        self._waiting = course.next_row(O.time, O.dt, self.scales.row_seconds), O.time, time.perf_counter()
+        self.runner.nextTime = self._waiting[0] * self.scales.row_seconds
+        self.runner.dead = self.state.stage == "done"
+
+    def _row_came(self):
+        number, first, began = self._waiting
+        self._count(O.time - first, time.perf_counter() - began)
+        self._advance(number)
+        self._wait()
+        if self.state.stage == "done":
+            self.checkpoint()
+            self._close()
+            O.pause()
 
     def _count(self, simulated, seconds):
         s = self.state
@@ -304,6 +335,23 @@ class Experiment:
         self._saving = self._saved - now
 
 
+_attached = None  # that a CourseRunner drives
+
+
+def row():
+    """What the CourseRunner of :meth:`Experiment.attach` calls. Raises ExperimentError where there is no such Experiment, as after O.load()."""
+    if _attached is None or _attached.runner not in O.engines:
+        raise ExperimentError("this scene's course is not known to this process, its scene was loaded by itself: go on with experiment.resume(section, folder).attach()")
+    _attached._row_came()
+
+
+def begin(section, folder, progress=None):
+    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises what packing.pack and slope.build raise."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    return Experiment(slope.build(section, packing.cached_pack(section)), folder, progress=progress)
+
+
 def run_key(section):
     """What must agree between a checkpoint and the section it is resumed with."""
     return checkpoints.key_of({"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
@@ -323,5 +371,6 @@ def resume(section, folder, progress=None):
         raise ExperimentError(f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume") from None
     for name, one in mark.items():
         records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
+    O.engines = [e for e in O.engines if not isinstance(e, CourseRunner)]  # of the run that saved it
     built = slope.find(section, content["walls"], content["first_disk"], content["count"])
     return Experiment(built, folder, state=state, progress=progress, mark=mark)

@@ -1,6 +1,7 @@
 #include "Audience.hpp"
 #include "../Advance.hpp"
 #include "../ContactDynamicsEngine.hpp"
+#include "../CourseRunner.hpp"
 #include "../NonsmoothTimeStepper.hpp"
 #include "../NscdInteractionLoop.hpp"
 #include "../PlanarGridCollider.hpp"
@@ -57,6 +58,7 @@ bool takesTurns(const Engine& engine)
 bool mayAct(const Engine& engine, long iter, Real time)
 {
 	if (isBlind(engine)) return false;
+	if (isOneOf<CourseRunner>(engine)) return static_cast<const CourseRunner&>(engine).isDue(time, engine.scene->dt);
 	const auto* periodic = isPlainlyPeriodic(engine) ? dynamic_cast<const PeriodicEngine*>(&engine) : nullptr;
 	if (!periodic) return true;
 	const PeriodicEngine& p = *periodic;
@@ -76,7 +78,7 @@ bool onlyPythonBefore(const Scene& scene, const Engine& engine)
 	while (here != all.begin()) {
 		const Engine& before = **--here;
 		if (takesTurns(before)) return true;
-		if (!isBlind(before) && !isPlainlyPeriodic(before)) return false;
+		if (!isBlind(before) && !isPlainlyPeriodic(before) && !isOneOf<CourseRunner>(before)) return false;
 	}
 	return true;
 }
@@ -91,7 +93,7 @@ Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
 		if (e.dead) return false;
 		if (takesTurns(e)) return true;
 		if (!mayAct(e, iter, time)) return false;
-		found.isPython = isPlainlyPeriodic(e) && (found.name.empty() || found.isPython);
+		found.isPython = (isPlainlyPeriodic(e) || isOneOf<CourseRunner>(e)) && (found.name.empty() || found.isPython);
 		if (found.name.empty()) found.name = named(e);
 		return false;
 	};

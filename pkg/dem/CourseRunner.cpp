@@ -1,0 +1,29 @@
+#include "CourseRunner.hpp"
+#include <core/Scene.hpp>
+#include <lib/pyutil/gil.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((CourseRunner));
+
+void CourseRunner::action()
+{
+	const auto& engines = scene->engines;
+	if (engines.empty() || engines.front().get() != this) throw std::runtime_error("CourseRunner: it is not the first of O.engines, where the step before is over: put it there");
+	if (command.empty()) return;
+	// a scene that is saved now is one between two steps
+	struct Between {
+		Scene& scene;
+		int    subStep;
+		Between(Scene& s)
+		        : scene(s)
+		        , subStep(s.subStep)
+		{
+			scene.subStep = -1;
+		}
+		~Between() { scene.subStep = subStep; }
+	} between(*scene);
+	pyRunString(command);
+}
+
+} // namespace yade
