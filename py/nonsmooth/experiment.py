@@ -9,6 +9,7 @@ What decides its course stands in :mod:`yade.nonsmooth.course`; here it is looke
 
 from __future__ import annotations
 
+import json
 import math
 import time
 from dataclasses import asdict
@@ -20,7 +21,7 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator
 
-from . import checkpoints, course, interrupts, packing, records, results, scales, slope, tables
+from . import checkpoints, course, interrupts, packing, records, results, scales, section_data, slope, tables
 from .course import State
 from .errors import UserError
 from .measure.fronts import front_of
@@ -65,6 +66,7 @@ class Experiment:
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
+            section_data.write(self.section, self.folder / "section.yaml")
         self.series = records.SeriesWriter(
             self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True)
         # soft steps are thousands a row, and as cheap as a look at the walls
@@ -109,6 +111,15 @@ class Experiment:
     def _close(self):
         self.series.close()
         self.walls.file.close()
+
+    def summarise(self, threads=None) -> dict:
+        """Writes ``summary.json`` of what has been run, and returns it, see :func:`.results.summarise`."""
+        state = asdict(self.state) | ({"overlap_worst_ever": self.slope.solver.overlapWorstEver} if self.hard else {})
+        return results.summarise(self.folder, self.section, state, threads=threads)
+
+    def draw(self):
+        """Draws all figures that the records allow, and the video; returns their paths and notes. After :meth:`summarise`."""
+        return results.draw(self.folder, self.section, json.loads((self.folder / results.SUMMARY).read_text()))
 
     def attach(self):
         """Lets steps by O.run(), O.step(), the viewer and yade-batch go through the course: a CourseRunner becomes the first of O.engines, which does what :meth:`run` does

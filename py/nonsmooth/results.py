@@ -27,7 +27,7 @@ from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import WriteError, remove_parts, whole, write_atomically
 
-__all__ = ["characteristic_times", "chosen_rows", "mean_of", "summarise", "draw", "forget", "forget_later"]
+__all__ = ["characteristic_times", "chosen_rows", "frames", "mean_of", "nearest", "summarise", "draw", "forget", "forget_later"]
 
 ENTRAINED = 2.0  # mean diameters
 
@@ -236,7 +236,13 @@ def summarise(folder, section, state, threads=None) -> dict:
     return clean
 
 
-def _nearest(frames, time):
+def frames(folder, series):
+    """The run's snapshots in the course of time: (time [s], path); ``series``: all of its rows. Other files are none of the run's."""
+    time_of = dict(zip(series["step"].astype(int).tolist(), series["time_s"].tolist()))
+    return [(time_of[int(p.stem)], p) for p in whole(Path(folder) / SNAPSHOTS, "*.npz") if p.stem.isdecimal() and int(p.stem) in time_of]
+
+
+def nearest(frames, time):
     """Snapshot file whose time is nearest; ``frames``: list of (time, path)."""
     return min(frames, key=lambda item: abs(item[0] - time))[1]
 
@@ -247,10 +253,8 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     every, times = records.read_series(folder / "series.csv"), summary["times_s"]
     series = chosen_rows(every, {"failed_dry": summary["failed_dry_s"]})
     made, notes, second = [], [], scales.of(section).mean_seconds
-    time_of = dict(zip(every["step"].astype(int).tolist(), every["time_s"].tolist()))
-    # other files are none of the run's
-    frames = [(time_of[int(p.stem)], p) for p in whole(folder / SNAPSHOTS, "*.npz") if p.stem.isdecimal() and int(p.stem) in time_of]
-    files = [p for _, p in frames]
+    shots = frames(folder, every)
+    files = [p for _, p in shots]
     start, end = folder / BEGIN, folder / END
     stood = start.exists() and summary["failed_dry_s"] is None
     if summary["failed_dry_s"] is not None:
@@ -261,7 +265,7 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     made.append(figures.forces_against_time(series, times, folder / "forces.png", window=second, walls=section))
     cases = []
     for name, t in sorted(((name, t) for name, t in times.items() if t is not None), key=lambda item: item[1]):
-        path = start if name == "t0" and stood else (_nearest(frames, t) if frames else None)
+        path = start if name == "t0" and stood else (nearest(shots, t) if shots else None)
         if path is not None:
             cases.append((name, records.read_snapshot(path)))
     if times["t5"] is None and end.exists() and not (cases and cases[-1][1].step == records.read_snapshot(end).step):  # one that never fails, or is stopped
@@ -274,7 +278,7 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     made.append(figures.solver(series, folder / "solver.png", times=times))
     if files:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
-            written = beside.submit(paraview.write_run, folder, section, frames)
+            written = beside.submit(paraview.write_run, folder, section, shots)
             path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, window=second, progress=progress)
             made.append(written.result())
         (made if path else notes).append(path or note)

@@ -21,11 +21,11 @@ from types import MappingProxyType
 import numpy as np
 from shapely.geometry import Polygon
 
-from . import geometry, roles
-from .section_reader import SectionError, read
+from . import geometry, roles, section_defaults
+from .section_reader import SectionError, read, take
 
 __all__ = ["Disks", "End", "Envelope", "Interface", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
-           "SlipWeakening", "Stages", "Wall", "Water", "load", "shipped"]
+           "SlipWeakening", "Stages", "Wall", "Water", "load", "of", "shipped"]
 
 FOLDER = Path(__file__).resolve().parent / "sections"
 
@@ -502,12 +502,20 @@ def load(path_or_name) -> Section:
     return _build(read(path, FOLDER / "section.schema.yaml"), str(path))
 
 
+def of(data: Mapping | None = None, source: str = "section", **keys) -> Section:
+    """A Section from data of Python: a dictionary with the keys of a section file, or these as keywords. Points may be tuples or arrays.
+
+    Checked as a file is: raises SectionError with key, value and remedy, after `source`.
+    """
+    return _build(take({**(data or {}), **keys}, source, FOLDER / "section.schema.yaml"), source)
+
+
 def _build(document, source: str) -> Section:
     """Section from a document that meets the schema; the checks that a schema cannot make."""
     from . import section_checks
 
-    raw = document.data
     section_checks.check_extent(document)
+    raw = document.data = section_defaults.filled(document.data)
     walls = section_checks.walls(document)
     size = raw["disks"]
     disks = Disks(*map(float, size["diameter"]), size["distribution"], float(size["packing_fraction"]))

@@ -19,7 +19,7 @@ import yaml
 
 from .errors import UserError
 
-__all__ = ["Document", "SectionError", "read"]
+__all__ = ["Document", "SectionError", "read", "take"]
 
 # What a file may ask for, so that reading it ends within seconds; the shipped section has 17 kB, 400 values and 6 levels.
 LARGEST_FILE = 500_000   # bytes
@@ -57,14 +57,16 @@ _Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(
 
 
 class Document:
-    """Plain data of a section file (`data`), and where each key stands in it."""
+    """Plain data of a section file (`data`), and where each key stands in it; data of Python stand nowhere."""
 
-    def __init__(self, path: str, data, root):
+    def __init__(self, path: str, data, root=None):
         self.path, self.data, self._root = path, data, root
 
     def line(self, keys) -> int:
         """Line (from 1) of the key path `keys`, or of the deepest part of it that exists."""
         node = self._root
+        if node is None:
+            return 0
         line = node.start_mark.line
         for key in keys:
             if isinstance(node, yaml.MappingNode):
@@ -98,7 +100,8 @@ class Document:
     def refuse(self, keys, what: str, remedy: str) -> NoReturn:
         """Raise SectionError about the key path `keys`."""
         where = f"{self.named(keys)}: " if keys else ""
-        raise SectionError(_line(f"{self.path}: line {self.line(keys)}: {where}{what}; {remedy}"))
+        line = f"line {self.line(keys)}: " if self._root is not None else ""
+        raise SectionError(_line(f"{self.path}: {line}{where}{what}; {remedy}"))
 
 
 def _line(text: str) -> str:
@@ -260,7 +263,25 @@ def _whole(schema, value):
 def read(path, schema_path, part=()) -> Document:
     """Read the YAML file `path` and check it against the schema, or its `part` (keys); SectionError if it fails."""
     data, root = _yaml(Path(path))
-    document = Document(str(path), data, root)
+    return _checked(Document(str(path), data, root), schema_path, part)
+
+
+def take(data, source, schema_path, part=()) -> Document:
+    """Check data of Python as `read` does a file: dictionaries, lists, tuples, arrays, numbers and texts; `source`: what messages begin with."""
+    return _checked(Document(source, _as_plain(data)), schema_path, part)
+
+
+def _as_plain(value):
+    """With lists for tuples and arrays, and Python's own numbers."""
+    if isinstance(value, dict):
+        return {key: _as_plain(item) for key, item in value.items()}
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return [_as_plain(item) for item in value] if isinstance(value, (list, tuple)) else value
+
+
+def _checked(document, schema_path, part) -> Document:
+    data = document.data
     _plain(document, data)
     schema = _schema(str(schema_path), tuple(part))
     found = [_explain(e) for e in islice(jsonschema.Draft202012Validator(schema).iter_errors(data), MOST_ERRORS)]

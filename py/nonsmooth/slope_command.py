@@ -14,7 +14,7 @@ from tqdm import tqdm
 
 from yade import O
 
-from . import commands, experiment, output_folder, packing, packing_checks, results, section, similar, slope
+from . import commands, experiment, output_folder, packing, packing_checks, section, similar, slope
 from .laboratory import materials
 
 __all__ = ["run"]
@@ -133,9 +133,8 @@ def run(name, about, default=None):
         print(dry_failure(course.state.failed_dry), end="")
         print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
         return
-    state = {**dataclasses.asdict(course.state), "overlap_worst_ever": course.slope.solver.overlapWorstEver}
-    summary = results.summarise(out, s, state, threads=args.threads or os.cpu_count())
-    made, notes = ([], []) if args.no_figures else results.draw(out, s, summary)
+    summary = course.summarise(args.threads or os.cpu_count())
+    made, notes = ([], []) if args.no_figures else course.draw()
     for note in notes:
         print(note)
     print(f"\n{'finished' if summary['finished'] else 'stopped (go on with --resume)'} at {O.time:.1f} s of simulated time, "

@@ -60,4 +60,4 @@ def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
     leftovers.plant(broken, *FILES)
     run(small, broken, 0.2)
     assert leftovers.found(broken) == [] and sorted(path.name for path in broken.rglob("*") if path.is_file()) == sorted(
-        ["breaks.csv", "checkpoint.json", "series.csv", "walls.csv", *(path.name for path in broken.glob("checkpoint/scene-*")), *(path.name for path in broken.glob("vtk/*"))])
+        ["breaks.csv", "checkpoint.json", "section.yaml", "series.csv", "walls.csv", *(path.name for path in broken.glob("checkpoint/scene-*")), *(path.name for path in broken.glob("vtk/*"))])

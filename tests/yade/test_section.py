@@ -267,7 +267,7 @@ def test_line_number(refused):
 @pytest.mark.parametrize("text, what", [
     ("", "nothing"), ("- 1\n", "a list"), ("name: [1\n", "line 2"), ("name: a\nname: b\n", "given twice"),
     ("1: 2\n", "is no text"), ("name: !!python/object:os.system x\n", "could not determine a constructor"),
-    ("name: x\n", "(and 7 more to correct)")])
+    ("name: x\n", "(and 3 more to correct)")])
 def test_bad_files(text, what, refused):
     assert what in refused(text)
 

@@ -1,0 +1,144 @@
+"""A slope from Python without a file, what it leaves out, and a run opened from its folder, in YADE and without it."""
+
+import dataclasses
+import json
+import subprocess
+
+import numpy as np
+import pytest
+import shell
+from slope_scenes import SMALL
+from shell import ROOT
+from yade.nonsmooth import records, runs, scales, section, section_data, similar
+
+SHIPPED = section.load("jiufengershan")
+EXAMPLE = ROOT / "doc" / "examples" / "own_slope.py"
+FIELDS = ("name", "description", "gravity", "walls", "layers", "interfaces", "water", "stages", "numerics", "seed")
+
+
+def data_of(s, *left_out):
+    return {k: v for k, v in section_data.plain(s).items() if k not in left_out}
+
+
+@pytest.mark.parametrize("made", [*(section.load(name) for name in section.shipped()), section.load(str(SMALL)), similar.mirrored(SHIPPED), section.load("interface").with_disks(1500)],
+                         ids=lambda s: f"{s.name} {s.side:g}")
+def test_a_section_and_its_data_are_the_same(made, tmp_path):
+    section_data.write(made, tmp_path / "section.yaml")
+    for again in (section.of(section_data.plain(made)), section.load(str(tmp_path / "section.yaml"))):
+        assert all(getattr(again, name) == getattr(made, name) for name in FIELDS), [name for name in FIELDS if getattr(again, name) != getattr(made, name)]
+        assert dict(again.materials) == dict(made.materials) and again.disks == dataclasses.replace(made.disks, count=None)
+        assert again.key("settled") == made.key("settled")
+
+
+def test_what_is_left_out_is_the_papers_in_proportion():
+    bare = data_of(SHIPPED, "gravity", "seed", "stages", "numerics", "description")
+    bare["disks"] = {"diameter": [1.0, 4.0]}
+    bare["water"] = {"plane": "DP", "table": {"rate": 1.0}}
+    made = section.of(bare)
+    assert made.stages == SHIPPED.stages and made.numerics == SHIPPED.numerics and (made.gravity, made.seed) == (9.81, 1)  # area is that of scales, to the last bit
+    assert made.water == dataclasses.replace(SHIPPED.water, unit_weight=made.water.unit_weight, gradient=made.water.gradient) and made.water.unit_weight == pytest.approx(9810)
+    assert made.water.gradient == pytest.approx(SHIPPED.water.gradient) and made.disks == dataclasses.replace(SHIPPED.disks, packing_fraction=0.84)
+    # a quarter of the size: times and speeds go as its root
+    quarter = similar.scaled(SHIPPED, 0.25)
+    small = {k: v for k, v in data_of(quarter, "gravity", "seed", "stages", "numerics").items()}
+    small["water"] = {"plane": "DP", "table": {"rate": 1.0}}
+    small = section.of(small)
+    ask = lambda s: (s.stages.dry, s.stages.end.time, s.stages.settle.speed_rest, s.numerics.time_step, s.water.release_distance, s.stages.end.rest_fraction)  # noqa: E731
+    assert ask(small) == pytest.approx(ask(quarter), rel=1e-9)
+    # on the Moon all goes slower
+    moon = section.of(bare, gravity=9.81 / 4)
+    assert moon.stages.dry == pytest.approx(2 * SHIPPED.stages.dry) and moon.numerics.time_step == pytest.approx(2 * SHIPPED.numerics.time_step)
+    assert moon.stages.settle.speed_rest == pytest.approx(SHIPPED.stages.settle.speed_rest / 2) and moon.water.unit_weight == pytest.approx(9810 / 4)
+
+
+def test_a_part_that_is_given_stands():
+    made = section.of(data_of(SHIPPED, "stages", "numerics"), stages={"settle": {"ramp": 7.0}, "end": {"time": 33.0}}, numerics={"tolerance": 1e-5})
+    assert (made.stages.settle.ramp, made.stages.end.time, made.numerics.tolerance) == (7.0, 33.0, 1e-5)
+    assert made.stages.settle.time_max == SHIPPED.stages.settle.time_max and made.numerics.max_iterations == 300 and made.numerics.path is None  # as a file without it
+
+
+def test_tuples_and_arrays_are_points():
+    data = data_of(SHIPPED)
+    data["walls"][0]["vertices"] = np.array(data["walls"][0]["vertices"])
+    data["walls"] = tuple(data["walls"])
+    data["layers"][0]["vertices"] = tuple(map(tuple, data["layers"][0]["vertices"]))
+    data["seed"] = np.int64(1)
+    assert section.of(data).walls == SHIPPED.walls
+
+
+@pytest.mark.parametrize("change, message", [
+    (dict(gravitation=9.81), "hill: gravitation: unknown key; did you mean 'gravity'?"), (dict(gravity="9,81"), "hill: gravity: '9,81' is text; needed: acceleration"),
+    (dict(walls=[]), "hill: walls: has 0 entries; needed: a list of walls"), (dict(disks={"diameter": [2.0, 1.0]}), "hill: disks.diameter: the smallest, 2 m, exceeds"),
+    (dict(seed=float("nan")), "hill: seed: nan is no finite number")])
+def test_what_is_wrong_is_told_as_of_a_file_but_for_the_line(change, message):
+    with pytest.raises(section.SectionError) as refused:
+        section.of(data_of(SHIPPED), "hill", **change)
+    assert str(refused.value).startswith(message) and "line" not in str(refused.value)
+
+
+# ---- runs -----------------------------------------------------------------------------------------
+
+def test_a_run_is_opened_from_its_folder(whole):
+    run = runs.open_run(whole.folder)
+    assert run.summary == json.loads((whole.folder / "summary.json").read_text()) and run.section.key("settled") == whole.section.key("settled")
+    assert all(np.array_equal(run.series[name], values) for name, values in whole.series.items()) and set(run.walls["wall"]) == {"DP", "FB", "SS"}
+    assert len(run.breaks["step"]) > 5 and run.snapshot("end").step == records.read_snapshot(whole.folder / "end.npz").step
+    near = run.snapshot(3.0)
+    assert abs(near.time_s - 3.0) <= 2.5 * scales.of(run.section).row_seconds * 1.001  # every fifth row
+    for name in runs.FIGURES:
+        assert run.figure(name).axes
+    labels = {line.get_label() for ax in run.figure("forces").axes for line in ax.lines}
+    assert "$N'_{FB}$  normal on FB" in labels
+
+
+def test_what_a_run_has_not_is_told(whole, tmp_path):
+    with pytest.raises(runs.RunError, match="no section.yaml"):
+        runs.open_run(tmp_path)
+    section_data.write(SHIPPED, tmp_path / "section.yaml")
+    with pytest.raises(runs.RunError, match="summary.json: missing"):
+        runs.open_run(tmp_path).summary
+    run = runs.open_run(whole.folder)
+    with pytest.raises(runs.RunError, match="no figure is called 'chains'; give one of force_chains"):
+        run.figure("chains")
+    with pytest.raises(runs.RunError, match="give series, walls or breaks"):
+        run.frame("serie")
+
+
+def test_a_frame_has_the_columns(whole):
+    run = runs.open_run(whole.folder)
+    try:
+        import pandas  # noqa: F401
+    except ImportError:
+        with pytest.raises(runs.RunError, match="apt install python3-pandas"):
+            run.frame("series")
+        return
+    assert list(run.frame("series").columns) == list(records.COLUMNS) and len(run.frame("walls")) == len(run.walls["step"])
+
+
+PLAIN = """\
+import sys
+sys.path.insert(0, {py!r})
+from nonsmooth import runs, section, section_data, packing, similar
+run = runs.open_run({folder!r})
+print(run.summary["front_travel_m"], len(run.figure("deposit").axes), similar.mirrored(run.section).side, len(packing.pack(run.section)))
+assert not any(name == "yade" or name.startswith("yade.") for name in sys.modules), "YADE was imported"
+"""
+
+
+def test_a_plain_python_opens_runs_makes_sections_and_packs(whole):
+    """As a notebook's kernel does: no YADE is there."""
+    done = subprocess.run(["/usr/bin/python3", "-c", PLAIN.format(py=str(ROOT / "py"), folder=str(whole.folder))], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    travel, axes, side, disks = done.stdout.split()
+    assert float(travel) == whole.summary["front_travel_m"] and (axes, side, disks) == ("1", "-1.0", "315")
+
+
+def test_a_slope_of_ones_own_in_some_lines(tmp_path):
+    """The script that the documentation prints."""
+    lines = [line for line in EXAMPLE.read_text().splitlines() if line.strip()]
+    assert len(lines) <= 17
+    done = shell.run("yade-nonsmooth", EXAMPLE, limit=300, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "m of water; figures: force_chains.png forces.png" in done.stdout
+    run = runs.open_run(tmp_path / "out" / "hill")
+    assert run.section.name == "My hill" and run.summary["finished"] and run.summary["water_at_failure_m"] > 0.5 and run.summary["front_travel_m"] > 5
