@@ -5,6 +5,7 @@ import sys
 
 import pytest
 import shell
+from contact_scenes import begin, floor, free_disk, material
 from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import experiment, section
@@ -74,6 +75,27 @@ def test_a_run_by_engine_is_resumed_by_either(whole, tmp_path):
         go_on(experiment.resume(chosen, out))
         assert bytes_of(out) == bytes_of(whole.folder)
         assert sum(isinstance(e, CourseRunner) for e in O.engines) == 1 - k
+
+
+def test_a_command_sees_the_scene_between_two_steps():
+    """Bodies as after the step before, also where nobody else looks: those that O.step() shows."""
+    def scene_of():
+        O.reset()
+        stuff = material(0.4)
+        floor(stuff)
+        free_disk(0, 3, (0.5, 0, 0), stuff)
+        begin(dt=1e-3)
+
+    seen = sys.modules["__main__"].__dict__["seen"] = []
+    scene_of()
+    O.engines = [CourseRunner(label="looker", command="seen.append((O.iter, O.time, O.bodies[1].state.pos[1])); looker.nextTime += 0.01", nextTime=0.1), *O.engines]
+    advance(200)
+    scene_of()
+    known = {}
+    for _ in range(200):
+        known[O.iter] = (O.iter, O.time, O.bodies[1].state.pos[1])
+        O.step()
+    assert [look[0] for look in seen] == list(range(100, 200, 10)) and seen == [known[look[0]] for look in seen]
 
 
 def test_what_a_row_raises_ends_the_run(tmp_path, monkeypatch):

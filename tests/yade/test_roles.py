@@ -74,6 +74,18 @@ def test_a_wall_that_nothing_leans_against_is_no_backstop(tmp_path):
     assert [w.role for w in written(tmp_path, away).walls] == ["slip", "ground", "ground", "ground"]
 
 
+def test_what_a_bed_leans_against_is_no_backstop(tmp_path):
+    """A layer in the valley lies on the wall's part that rises: a backstop of the mass that does, but not of a bed."""
+    def filled(role):
+        def change(data):
+            nameless(data)
+            data["layers"].append({"name": "fill", "material": "rock", "role": role, "vertices": [[1000.0, 21.313], [1200.0, 74.9027], [1000.0, 74.9027]]})
+        return change
+
+    assert [w.role for w in written(tmp_path, filled("mass")).walls] == ["slip", "backstop", "backstop"]
+    assert [w.role for w in written(tmp_path, filled("bed")).walls] == ["slip", "backstop", "ground"]
+
+
 def test_a_slope_falls_along_the_chords_of_its_slip_surfaces(tmp_path):
     chair = section.load("chair")
     (back, seat), dip = chair.of_role("slip"), math.degrees(math.atan2(560 - 150, 640))
@@ -105,6 +117,8 @@ def test_a_mirrored_section_is_checked_like_any_other(tmp_path):
 
     read = written(tmp_path, flip)
     assert (read.walls, read.layers) == (similar.mirrored(JIUFENGERSHAN).walls, similar.mirrored(JIUFENGERSHAN).layers)
+    there = similar.mirrored(JIUFENGERSHAN).water
+    assert (there.point, there.dip, there.gradient, there.wall) == (read.water.point, read.water.dip, read.water.gradient, "DP")
     assert (read.water.point, read.water.dip, read.side) == ((0.0, 0.0), -JIUFENGERSHAN.water.dip, -1.0)
     assert read.water.gradient == pytest.approx((-JIUFENGERSHAN.water.gradient[0], JIUFENGERSHAN.water.gradient[1]), rel=1e-15)
 

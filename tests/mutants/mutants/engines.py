@@ -179,7 +179,7 @@ MUTANTS = (
     mutant("runner-between", "pkg/dem/CourseRunner.cpp", "scene.subStep = -1;", ";", "a scene saved by a row is in the middle of a step",
            "test_course_runner.py::test_a_run_by_engine_is_resumed_by_either"),
     mutant("runner-looks", "pkg/dem/seam/Audience.cpp", "return static_cast<const CourseRunner&>(engine).isDue(time, engine.scene->dt);", "return false;",
-           "a row looks at a view that is behind", "test_course_runner.py::test_o_run_goes_through_the_course_with_the_bits_of_the_script"),
+           "a row looks at a view that is behind", "test_course_runner.py::test_a_command_sees_the_scene_between_two_steps"),
     mutant("segment-start", SEGMENT, "(centre - corner).dot(state.ori * segment.previousDirection) > 0", "(centre - corner).dot(state.ori * segment.previousDirection) < 0",
            "the corner of a mirrored wall belongs to nobody", "test_contact_law.py::test_a_wall_made_backwards_is_the_mirrored_wall"),
     mutant("strip-way", "pkg/contact/strip_cut.cpp", "to < from ? -1.0 : 1.0", "1.0", "strips begin on the left in a mirrored scene too",
