@@ -491,7 +491,8 @@ def load(path_or_name) -> Section:
     """
     path = Path(path_or_name)
     try:
-        given = path.suffix in (".yaml", ".yml") or path.exists() or path.name != str(path_or_name)
+        # a folder of results may have the name of a shipped section
+        given = path.suffix in (".yaml", ".yml") or (path.exists() and not path.is_dir()) or path.name != str(path_or_name)
     except (OSError, ValueError) as error:  # a name that no system takes
         raise SectionError(f"{str(path)[:60]!r}: no path ({getattr(error, 'strerror', None) or error}); give a path or one of: {', '.join(shipped())}") from None
     if not given:

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+import shell
 import yaml
 from slope_scenes import SMALL
 from yade.nonsmooth import experiment, geometry, packing, records, results, section, similar, slope
@@ -223,3 +224,18 @@ def test_disks_of_a_bed_that_cannot_move_erode_no_more(tmp_path, eroded):
         "ss": {"bonded": True, "tensile_strength": 1e9, "friction": 0.3, "rolling_friction": 0.1, "bond_creation_distance": 0.05}})
     _, _, told = run(rigid, tmp_path / "out")
     assert told["entrained_kg_per_m"] == 0 and told["front_travel_m"] > 1
+
+
+def test_the_example_compares_three_beds(tmp_path):
+    """The shipped script on the small slope, each bed to its rest."""
+    data = yaml.safe_load(SMALL.read_text())
+    data["materials"] |= {**GRAVEL, "base": data["materials"].pop("ss")}
+    data["walls"][2]["material"] = "base"
+    data["layers"].append(BED)
+    (tmp_path / "small.yaml").write_text(yaml.safe_dump(data, sort_keys=False))
+    (tmp_path / "bed.table").write_text(f"section disks folder\n'{tmp_path}/small.yaml' 0 '{tmp_path}/out'\n")
+    done = shell.run("yade-nonsmooth", shell.SCRIPTS / "examples" / "erodible_bed.py", limit=300, cwd=tmp_path, YADE_BATCH=f"{tmp_path}/bed.table:2")
+    assert done.returncode == 0, done.stderr
+    rows = {words[0]: (float(words[1]), float(words[6]), float(words[9])) for words in map(str.split, done.stdout.splitlines()) if words[:1] and words[0] in ("loose", "cemented", "rigid")}
+    assert len(rows) == 3 and rows["rigid"][2] == 0 < rows["loose"][2] <= 100 and all(front > 1 for _, front, _ in rows.values())
+    assert (tmp_path / "out" / "beds.png").stat().st_size > 1000

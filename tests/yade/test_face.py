@@ -1,5 +1,6 @@
 """A slope from Python without a file, what it leaves out, and a run opened from its folder, in YADE and without it."""
 
+import ast
 import dataclasses
 import json
 import subprocess
@@ -131,6 +132,38 @@ def test_a_plain_python_opens_runs_makes_sections_and_packs(whole):
     assert done.returncode == 0, done.stderr
     travel, axes, side, disks = done.stdout.split()
     assert float(travel) == whole.summary["front_travel_m"] and (axes, side, disks) == ("1", "-1.0", "315")
+
+
+PURE = ("section section_data section_defaults section_checks section_reader roles similar scales geometry packing packing_files packing_checks course records runs results toe "
+        "measure measure.ground measure.fronts measure.surface figures figures.runouts figures.biaxial figures.columns video paraview whole_files kept_runs tables errors")
+
+
+@pytest.mark.parametrize("module", PURE.split())
+def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
+    """Read from its source, with all that it imports of the package (doc/house.rst)."""
+    package, seen, waiting = ROOT / "py" / "nonsmooth", set(), [module]
+    while waiting:
+        name = waiting.pop()
+        if name in seen:
+            continue
+        seen.add(name)
+        path = package / (name.replace(".", "/") + ".py")
+        at = name.split(".")[:-1]
+        if not path.exists():
+            path, at = package / name.replace(".", "/") / "__init__.py", name.split(".")
+        for node in ast.parse(path.read_text()).body:  # what is imported when the module is
+            if isinstance(node, ast.Import):
+                assert not any(one.name.split(".")[0] == "yade" for one in node.names), f"{name}, by {module}"
+            if isinstance(node, ast.ImportFrom):
+                if node.level == 0:
+                    assert node.module.split(".")[0] != "yade", f"{name}, by {module}"
+                    continue
+                base = at[:len(at) - node.level + 1] + (node.module.split(".") if node.module else [])
+                for one in node.names:
+                    inner = [*base, one.name]
+                    is_module = (package / "/".join(inner)).with_suffix(".py").exists() or (package / "/".join(inner) / "__init__.py").exists()
+                    waiting.append(".".join(inner if is_module else base))
+    assert module in seen
 
 
 def test_a_slope_of_ones_own_in_some_lines(tmp_path):

@@ -229,3 +229,19 @@ def test_scale_bar_is_as_long_as_it_says(wide, length):
     (bar,) = ax.lines
     assert drawn.texts(ax) == [f"{length} m"] and np.ptp(bar.get_xdata()) * wide == pytest.approx(length) and max(bar.get_xdata()) == 0.9
     assert bar.get_transform() == ax.transAxes
+
+
+# ---- runouts --------------------------------------------------------------------------------------
+
+def test_runouts_are_drawn_with_the_way_of_their_fronts():
+    before, near, far = steps((-60, -30, 6)), steps((0, 40, 4)), steps((20, 90, 3))
+    fig = figures.runouts([("loose", before, near), ("rigid", before, far)], LEVEL)
+    for ax, last, words, ends in zip(fig.axes, (near, far), ("loose: front 70 m", "rigid: front 120 m"), ((-30, 40), (-30, 90))):
+        centres, _, fills = drawn.disks(ax)
+        assert np.array_equal(centres, np.column_stack([last.x, last.y])) and set(fills) == {style.LAYERS[0]} and words in drawn.texts(ax)
+        ((start, end, _, way),) = drawn.arrows(ax)
+        assert way == "-|>" and (start[0], end[0]) == pytest.approx(ends, abs=1e-9)
+    upper, lower = fig.axes
+    assert upper.get_xlim() == lower.get_xlim() and upper.get_position().y0 >= lower.get_position().y1 - 1e-9
+    with pytest.raises(records.RecordsError, match="no run to draw"):
+        figures.runouts([], LEVEL)

@@ -9,5 +9,6 @@ that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data that lack som
 from .forces import force_chains, forces_against_time
 from .profiles import deposit, snapshots
 from .numerics import energy, solver
+from .runouts import runouts
 
-__all__ = ["force_chains", "forces_against_time", "snapshots", "deposit", "energy", "solver"]
+__all__ = ["force_chains", "forces_against_time", "snapshots", "deposit", "energy", "runouts", "solver"]
