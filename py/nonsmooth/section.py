@@ -1,6 +1,6 @@
-"""Sections: the slope to be computed, read from a YAML file and checked before anything runs.
+"""Sections: the slope to be computed, from a YAML file or from Python data, checked before anything runs.
 
-`load` gives a `Section` or raises `SectionError` with one message that names the file, the
+`load` (a file) and `of` (data) give a `Section` or raise `SectionError` with one message that names the file, the
 line, the key, the value and the remedy. SI units throughout (m, s, kg, N, Pa; a slice 1 m
 thick), x to the right, y up. The format is explained in `sections/jiufengershan.yaml`, the
 slope of Taboada and Estrada (2009), sections 5 and 6.
@@ -19,9 +19,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
-from shapely.geometry import Polygon
 
-from . import geometry, roles, section_defaults
+from . import geometry, roles
+from .section_parts import (Disks, End, Envelope, Interface, Layer, Material, Numerics, Settle, SlipWeakening, Stages, Wall, Water,
+                            normal_of)
 from .section_reader import SectionError, read, take
 
 __all__ = ["Disks", "End", "Envelope", "Interface", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
@@ -34,223 +35,6 @@ FOLDER = Path(__file__).resolve().parent / "sections"
 BORDER_STRIP = 0.085
 
 MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million takes 2 GB and some seconds a step
-
-
-@dataclass(frozen=True)
-class SlipWeakening:
-    """Strength of a wall beyond the slip `critical_slip` D_c [m] (paper, section 5.3).
-
-    `law`: "step", "linear" or "exponential"; `friction` and `tensile_strength` [Pa] are what is left in the end.
-    """
-
-    law: str
-    critical_slip: float
-    friction: float = 0.0
-    tensile_strength: float = 0.0
-
-
-@dataclass(frozen=True)
-class Envelope:
-    """Macroscopic peak strength of a material as biaxial tests measured it: `cohesion` [Pa], `friction_deg` [degrees]."""
-
-    cohesion: float
-    friction_deg: float
-
-
-@dataclass(frozen=True)
-class Material:
-    """Contact parameters (paper, section 2.2 and Table 1): strengths in Pa, lengths in units of ℓ."""
-
-    name: str
-    friction: float
-    residual_friction: float
-    rolling_friction: float
-    residual_rolling_friction: float
-    tensile_strength: float = 0.0
-    residual_tensile_strength: float = 0.0
-    bond_ellipse: tuple[float, float] = (0.02, 0.02)
-    bond_creation_distance: float = 0.02
-    restitution: float = 0.0
-    density: float | None = None
-    bonded: bool = True
-    slip_weakening: SlipWeakening | None = None
-    envelope: Envelope | None = None
-
-    @property
-    def critical_slip(self) -> float:
-        """D_c [m]; infinite without slip weakening."""
-        return self.slip_weakening.critical_slip if self.slip_weakening else math.inf
-
-
-@dataclass(frozen=True)
-class Wall:
-    """A polyline with a material; `vertices`: tuple of (x, y) [m], the mass on their left. Joints with other walls are bit-identical.
-
-    `role`: "slip", "backstop", "ground" or "obstacle", see :mod:`.roles`.
-    """
-
-    name: str
-    material: str
-    vertices: tuple[tuple[float, float], ...]
-    apart: bool = False
-    role: str | None = None
-
-    @property
-    def points(self) -> np.ndarray:
-        """Vertices as an array (n, 2) [m]."""
-        return np.array(self.vertices)
-
-
-@dataclass(frozen=True)
-class Layer:
-    """A polygon to be filled with disks; `vertices`: tuple of (x, y) [m], not closed.
-
-    `role`: "mass", "bed" (erodible ground, counted apart) or "obstacle"; `disks`: its own, or None for those of the section.
-    """
-
-    name: str
-    material: str
-    vertices: tuple[tuple[float, float], ...]
-    role: str = "mass"
-    disks: Disks | None = None
-
-    @property
-    def points(self) -> np.ndarray:
-        """Vertices as an array (n, 2) [m]."""
-        return np.array(self.vertices)
-
-    @property
-    def polygon(self) -> Polygon:
-        """The layer as a shapely polygon."""
-        return Polygon(self.vertices)
-
-    @property
-    def area(self) -> float:
-        """Area [m²]."""
-        return geometry.area(self.vertices)
-
-    def with_disks(self, factor: float) -> Layer:
-        """The same layer with its own disks, where it has some, `factor` times as large."""
-        d = self.disks
-        return self if d is None else dataclasses.replace(self, disks=dataclasses.replace(d, d_min=d.d_min * factor, d_max=d.d_max * factor))
-
-
-@dataclass(frozen=True)
-class Interface:
-    """Contacts of the disks of two layers, whose law is that of a `material`; `between`: names of the layers, the lower one first; `role`: "slip" or None;
-    `flat`: disks are packed on their sides of the border, so that those of the two layers do not interlock."""
-
-    name: str
-    between: tuple[str, str]
-    material: str
-    role: str | None = None
-    flat: bool = True
-
-
-@dataclass(frozen=True)
-class Disks:
-    """Diameters `d_min` to `d_max` [m], distribution, packing fraction, and the count asked for (or None)."""
-
-    d_min: float
-    d_max: float
-    distribution: str
-    packing_fraction: float
-    count: int | None = None
-
-    @property
-    def mean_square(self) -> float:
-        """Mean of d² [m²] over the disks by number."""
-        a, b = self.d_min, self.d_max
-        return a * b if self.distribution == "uniform_by_volume" else (a * a + a * b + b * b) / 3
-
-    def diameters(self, quantile) -> np.ndarray:
-        """Diameters [m] at `quantile` (array of numbers from 0 to 1) of the distribution by number."""
-        q, a, b = np.asarray(quantile, float), self.d_min, self.d_max
-        if self.distribution == "uniform_by_volume":  # density ~ d^-2 in two dimensions
-            return 1 / (1 / a - q * (1 / a - 1 / b))
-        return a + q * (b - a)
-
-
-@dataclass(frozen=True)
-class Water:
-    """Water table above a plane (paper, sections 3.4, 5.4).
-
-    `point` (x, y) [m] on the plane; `dip` β [degrees], positive down to the right; `gradient`
-    (x, y) [N/m³], force per volume on a wet disk; `volume` "disk" or "bulk"; `table`: points
-    (t, h) [s, m]; `rate` [m/s], the rise after the last point; `release_distance` [m];
-    `wall`: name of the wall the plane was given by, or None.
-    """
-
-    unit_weight: float
-    point: tuple[float, float]
-    dip: float
-    gradient: tuple[float, float]
-    volume: str
-    table: tuple[tuple[float, float], ...]
-    rate: float
-    release_distance: float
-    wall: str | None = None
-
-    @property
-    def normal(self) -> tuple[float, float]:
-        """Unit vector normal to the plane, upwards."""
-        return _normal(self.dip)
-
-    def height(self, t):
-        """Height [m] of the table above the plane at the time t [s] (scalar or array) since t0."""
-        times, heights = np.array(self.table).T
-        t = np.asarray(t, float)
-        h = np.interp(t, times, heights) + self.rate * np.maximum(t - times[-1], 0)
-        return h if h.ndim else float(h)
-
-
-@dataclass(frozen=True)
-class Settle:
-    """Settling: at most `time_max` [s], until the mean speed is below `speed_rest` [m/s].
-
-    Gravity grows to its value during the first `ramp` [s]. `bond`: "before" it grows, or "after" the packing has come to rest under it.
-    """
-
-    ramp: float
-    time_max: float
-    speed_rest: float
-    bond: str = "before"
-
-
-@dataclass(frozen=True)
-class End:
-    """End: at `time` [s] after bonding at the latest.
-
-    Or `rest_hold` [s] after the mean speed fell below `rest_fraction` of its maximum.
-    """
-
-    time: float
-    rest_fraction: float
-    rest_hold: float
-
-
-@dataclass(frozen=True)
-class Stages:
-    """Course of the experiment; `dry` [s]; `water_hold`: "motion", "never" or a height [m]."""
-
-    settle: Settle
-    dry: float
-    water_hold: str | float
-    end: End
-
-
-@dataclass(frozen=True)
-class Numerics:
-    """`time_step` [s], at most so long that disks in contact go the `path` against each other in mean diameters (None: always as long); relative
-    `tolerance`, and `tolerance_moving` while the slope moves, `max_iterations` a step, `verlet_distance` in smallest radii.
-    """
-
-    time_step: float
-    tolerance: float
-    tolerance_moving: float
-    max_iterations: int
-    verlet_distance: float
-    path: float | None = None
 
 
 @dataclass(frozen=True)
@@ -314,7 +98,7 @@ class Section:
     @property
     def normal(self) -> tuple[float, float]:
         """Unit vector normal to the slope, upwards."""
-        return _normal(self.dip)
+        return normal_of(self.dip)
 
     def of_role(self, *wanted: str) -> tuple[Wall, ...]:
         """The walls that have one of these roles, in the order of the file."""
@@ -473,12 +257,6 @@ class Section:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def _normal(dip: float) -> tuple[float, float]:
-    """Unit vector normal to a plane that dips by so many degrees, upwards."""
-    b = math.radians(dip)
-    return math.sin(b), math.cos(b)
-
-
 def shipped() -> list[str]:
     """Names of the sections that come with the package."""
     return sorted(p.stem for p in FOLDER.glob("*.yaml") if not p.stem.endswith(".schema"))
@@ -500,7 +278,9 @@ def load(path_or_name) -> Section:
             raise SectionError(f"{path}: neither a file nor a shipped section; give a path or one of: "
                                f"{', '.join(shipped())}")
         path = FOLDER / f"{path.name}.yaml"
-    return _build(read(path, FOLDER / "section.schema.yaml"), str(path))
+    from . import section_building
+
+    return section_building.build(read(path, FOLDER / "section.schema.yaml"), str(path))
 
 
 def of(data: Mapping | None = None, source: str = "section", **keys) -> Section:
@@ -508,97 +288,6 @@ def of(data: Mapping | None = None, source: str = "section", **keys) -> Section:
 
     Checked as a file is: raises SectionError with key, value and remedy, after `source`.
     """
-    return _build(take({**(data or {}), **keys}, source, FOLDER / "section.schema.yaml"), source)
+    from . import section_building
 
-
-def _build(document, source: str) -> Section:
-    """Section from a document that meets the schema; the checks that a schema cannot make."""
-    from . import section_checks
-
-    section_checks.check_extent(document)
-    raw = document.data = section_defaults.filled(document.data)
-    walls = section_checks.walls(document)
-    size = raw["disks"]
-    disks = Disks(*map(float, size["diameter"]), size["distribution"], float(size["packing_fraction"]))
-    layers = tuple(Layer(v["name"], v["material"], _points(v["vertices"]), v.get("role", "mass"), _own(v.get("disks"), disks)) for v in raw["layers"])
-    interfaces = tuple(Interface(v.get("name", "-".join(v["between"])), tuple(v["between"]), v["material"], v.get("role"), v.get("flat", True))
-                       for v in raw.get("interfaces", ()))
-    stages = raw["stages"]
-    section = Section(
-        name=raw["name"], description=raw.get("description", "").strip(), gravity=float(raw["gravity"]),
-        walls=walls, layers=layers,
-        materials=MappingProxyType({k: material_from(k, v) for k, v in raw["materials"].items()}),
-        disks=disks, water=None,
-        stages=Stages(Settle(**{k: v if k == "bond" else float(v) for k, v in stages["settle"].items()}), float(stages["dry"]),
-                      stages.get("water", {}).get("hold", "motion"), End(**_floats(stages["end"]))),
-        numerics=Numerics(**raw["numerics"]), seed=raw["seed"], source=source, interfaces=interfaces)
-    section_checks.check(section, document)
-    if "water" in raw:
-        section = dataclasses.replace(section, water=_water(raw["water"], section, document))
-    section = dataclasses.replace(section, walls=roles.assigned(section))
-    section_checks.check_roles(section, document)
-    if "count" in size:
-        section = section.with_disks(size["count"])
-    return section
-
-
-def _own(raw, disks: Disks) -> Disks | None:
-    """A layer's own disks: what it says, and the section's `disks` for the rest."""
-    if raw is None:
-        return None
-    low, high = map(float, raw.get("diameter", (disks.d_min, disks.d_max)))
-    return Disks(low, high, raw.get("distribution", disks.distribution), float(raw.get("packing_fraction", disks.packing_fraction)))
-
-
-def _points(vertices) -> tuple[tuple[float, float], ...]:
-    return tuple((float(x), float(y)) for x, y in vertices)
-
-
-def _floats(mapping) -> dict:
-    return {k: float(v) for k, v in mapping.items()}
-
-
-def material_from(name: str, raw: dict) -> Material:
-    raw = dict(raw)
-    raw.setdefault("residual_friction", raw["friction"])
-    raw.setdefault("residual_rolling_friction", raw["rolling_friction"])
-    if "bond_ellipse" in raw:
-        raw["bond_ellipse"] = tuple(map(float, raw["bond_ellipse"]))
-    if "slip_weakening" in raw:
-        raw["slip_weakening"] = SlipWeakening(**raw["slip_weakening"])
-    if "envelope" in raw:
-        raw["envelope"] = Envelope(**_floats(raw["envelope"]))
-    return Material(name, **{k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v
-                             for k, v in raw.items()})
-
-
-def _water(raw: dict, section: Section, document) -> Water:
-    plane, wall = raw["plane"], None
-    if isinstance(plane, str):
-        names = [w.name for w in section.walls]
-        if plane not in names:
-            document.refuse(("water", "plane"), f"no wall is called {plane!r}",
-                            f"give one of {', '.join(names)}, or {{point: [x, y], dip: degrees}}")
-        wall = section.wall(plane)
-        if not geometry.straight(wall.vertices, section.tolerance):
-            document.refuse(("water", "plane"), f"the wall {plane} is not straight",
-                            "give a straight wall, or {point: [x, y], dip: degrees}")
-        dx, dy = wall.points[-1] - wall.points[0]
-        if dx == 0:
-            document.refuse(("water", "plane"), f"the wall {plane} is vertical",
-                            "give a plane that dips less than 90 degrees")
-        point, dip = min(wall.vertices, key=lambda p: p[1]), roles.dip_of(dx, dy)
-    else:
-        point, dip = tuple(map(float, plane["point"])), float(plane["dip"])
-    gradient = raw["gradient"]
-    if gradient == "buoyant":  # eq. 18
-        b = math.radians(dip)
-        gradient = tuple(float(raw["unit_weight"] * math.cos(b) * n) for n in (math.sin(b), math.cos(b)))
-    table = raw["table"]
-    points = _points(table.get("points", [[0.0, 0.0]]))
-    for i, (before, after) in enumerate(zip(points, points[1:]), 1):
-        if after[0] <= before[0]:
-            document.refuse(("water", "table", "points", i), f"the time {after[0]:g} s does not follow {before[0]:g} s",
-                            "give the times in rising order")
-    return Water(float(raw["unit_weight"]), point, dip, tuple(map(float, gradient)), raw["volume"], points,
-                 float(table.get("rate", 0.0)), float(raw["release_distance"]), wall.name if wall else None)
+    return section_building.build(take({**(data or {}), **keys}, source, FOLDER / "section.schema.yaml"), source)

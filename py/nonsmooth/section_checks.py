@@ -8,7 +8,8 @@ import numpy as np
 from shapely.geometry import LineString, MultiPoint
 
 from . import geometry
-from .section import Layer, Section, Wall, _points
+from .section import Section
+from .section_parts import Layer, Wall, points_of
 
 __all__ = ["check", "check_extent", "check_roles", "walls"]
 
@@ -37,7 +38,7 @@ def walls(document) -> tuple[Wall, ...]:
     result = []
     for item in raw:
         vertices = []
-        for p in _points(item["vertices"]):
+        for p in points_of(item["vertices"]):
             same = np.flatnonzero(geometry.distance(*(known[:count] - p).T) <= tolerance)
             if len(same):
                 p = tuple(known[same[0]].tolist())

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import yaml
 
-from .. import section
+from .. import section, section_building
 from ..whole_files import write_atomically
 from ..section_reader import SectionError, read
 
@@ -30,7 +30,7 @@ def load(name_or_path):
     if path.suffix not in (".yaml", ".yml") and not path.exists():
         raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
     document = read(path, section.FOLDER / "section.schema.yaml", part=("properties", "materials", "additionalProperties"))
-    material = section.material_from(path.stem, document.data)
+    material = section_building.material_from(path.stem, document.data)
     if material.density is None:
         document.refuse((), "the key 'density' is missing", "add it (kg/m³, of the disks)")
     return material
