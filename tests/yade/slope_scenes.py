@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import yaml
+
 SHIPPED = Path(__file__).resolve().parents[2] / "py" / "nonsmooth" / "sections" / "jiufengershan.yaml"
 SMALL = Path(__file__).resolve().parents[1] / "data" / "small_slope.yaml"
 QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 1.5",
@@ -21,4 +23,13 @@ def write_quick(folder, strong=False):
         text = text.replace(old, new)
     path = Path(folder) / "quick.yaml"
     path.write_text(text)
+    return path
+
+
+def write_changed(folder, change, source=SMALL):
+    """Writes a section file whose data ``change(data)`` has changed; returns its path."""
+    data = yaml.safe_load(Path(source).read_text())
+    change(data)
+    path = Path(folder) / "changed.yaml"
+    path.write_text(yaml.safe_dump(data, sort_keys=False))
     return path

@@ -5,8 +5,7 @@ import json
 import numpy as np
 import pytest
 import shell
-import yaml
-from slope_scenes import SMALL
+from slope_scenes import SMALL, write_changed
 from yade import O
 from yade.nonsmooth import experiment, packing, records, results, section, similar, slope, tables
 from yade.nonsmooth.figures import style
@@ -29,11 +28,7 @@ def run(made, out, end=None):
 
 def written(tmp_path, change):
     """The small slope with its data changed."""
-    data = yaml.safe_load(SMALL.read_text())
-    change(data)
-    path = tmp_path / "changed.yaml"
-    path.write_text(yaml.safe_dump(data, sort_keys=False))
-    return section.load(path)
+    return section.load(str(write_changed(tmp_path, change)))
 
 
 def test_shipped_sections_are_listed(in_process):

@@ -6,8 +6,7 @@ import math
 import numpy as np
 import pytest
 import shell
-import yaml
-from slope_scenes import SMALL
+from slope_scenes import SMALL, write_changed
 from yade.nonsmooth import experiment, geometry, packing, records, results, section, similar, slope
 from yade.nonsmooth.stepping import advance
 
@@ -16,15 +15,14 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 def written(tmp_path, **changes):
     """The small slope with changed parts of its data, by their keys; lists are appended to."""
-    data = yaml.safe_load(SMALL.read_text())
-    for key, value in changes.items():
-        if isinstance(value, list):
-            data.setdefault(key, []).extend(value)
-        else:
-            data[key].update(value)
-    path = tmp_path / "changed.yaml"
-    path.write_text(yaml.safe_dump(data, sort_keys=False))
-    return section.load(path)
+    def change(data):
+        for key, value in changes.items():
+            if isinstance(value, list):
+                data.setdefault(key, []).extend(value)
+            else:
+                data[key].update(value)
+
+    return section.load(str(write_changed(tmp_path, change)))
 
 
 def run(made, out, end=None):
@@ -228,12 +226,13 @@ def test_disks_of_a_bed_that_cannot_move_erode_no_more(tmp_path, eroded):
 
 def test_the_example_compares_three_beds(tmp_path):
     """The shipped script on the small slope, each bed to its rest."""
-    data = yaml.safe_load(SMALL.read_text())
-    data["materials"] |= {**GRAVEL, "base": data["materials"].pop("ss")}
-    data["walls"][2]["material"] = "base"
-    data["layers"].append(BED)
-    (tmp_path / "small.yaml").write_text(yaml.safe_dump(data, sort_keys=False))
-    (tmp_path / "bed.table").write_text(f"section disks folder\n'{tmp_path}/small.yaml' 0 '{tmp_path}/out'\n")
+    def change(data):
+        data["materials"] |= {**GRAVEL, "base": data["materials"].pop("ss")}
+        data["walls"][2]["material"] = "base"
+        data["layers"].append(BED)
+
+    path = write_changed(tmp_path, change)
+    (tmp_path / "bed.table").write_text(f"section disks folder\n'{path}' 0 '{tmp_path}/out'\n")
     done = shell.run("yade-nonsmooth", shell.SCRIPTS / "examples" / "erodible_bed.py", limit=300, cwd=tmp_path, YADE_BATCH=f"{tmp_path}/bed.table:2")
     assert done.returncode == 0, done.stderr
     rows = {words[0]: (float(words[1]), float(words[6]), float(words[9])) for words in map(str.split, done.stdout.splitlines()) if words[:1] and words[0] in ("loose", "cemented", "rigid")}

@@ -5,10 +5,9 @@ import math
 
 import numpy as np
 import pytest
-import yaml
 
 import synthetic_slope as synthetic
-from slope_scenes import SHIPPED
+from slope_scenes import SHIPPED, write_changed
 
 packing, roles, scales, section, similar = (synthetic.load(name) for name in ("packing", "roles", "scales", "section", "similar"))
 JIUFENGERSHAN = section.load("jiufengershan")
@@ -16,11 +15,7 @@ JIUFENGERSHAN = section.load("jiufengershan")
 
 def written(tmp_path, change):
     """The shipped section with its data changed, read again."""
-    data = yaml.safe_load(SHIPPED.read_text())
-    change(data)
-    path = tmp_path / "changed.yaml"
-    path.write_text(yaml.safe_dump(data, sort_keys=False))
-    return section.load(path)
+    return section.load(str(write_changed(tmp_path, change, SHIPPED)))
 
 
 def nameless(data):
