@@ -4,6 +4,7 @@ import ast
 import dataclasses
 import json
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -105,15 +106,14 @@ def test_what_a_run_has_not_is_told(whole, tmp_path):
         run.frame("serie")
 
 
-def test_a_frame_has_the_columns(whole):
+def test_a_frame_has_the_columns(whole, monkeypatch):
     run = runs.open_run(whole.folder)
-    try:
-        import pandas  # noqa: F401
-    except ImportError:
-        with pytest.raises(runs.RunError, match="apt install python3-pandas"):
-            run.frame("series")
-        return
-    assert list(run.frame("series").columns) == list(records.COLUMNS) and len(run.frame("walls")) == len(run.walls["step"])
+    frame, walls = run.frame("series"), run.frame("walls")
+    assert list(frame.columns) == list(records.COLUMNS) and np.array_equal(frame["front_m"], run.series["front_m"])
+    assert walls.groupby("wall").normal_N_per_m.max()["FB"] == run.series["fb_normal_N_per_m"].max()
+    monkeypatch.setitem(sys.modules, "pandas", None)  # as where it is not installed
+    with pytest.raises(runs.RunError, match="apt install python3-pandas"):
+        run.frame("series")
 
 
 PLAIN = """\

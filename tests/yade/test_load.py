@@ -130,7 +130,7 @@ LOOKED_AT = {
     "pkg/common/Collider": ["InsertionSortCollider"], "pkg/common/ElastMat": ["FrictMat"], "pkg/common/PeriodicEngines": ["PeriodicEngine"],
     "pkg/common/Sphere": ["Sphere"], "pkg/dem/CohesiveFrictionalContactLaw": ["CohFrictMat", "CohFrictPhys"], "pkg/dem/FrictPhys": ["FrictPhys"],
     "pkg/dem/Ig2_Sphere_Sphere_ScGeom": ["Ig2_Sphere_Sphere_ScGeom"], "pkg/dem/NewtonIntegrator": ["NewtonIntegrator"], "pkg/dem/ScGeom": ["ScGeom"],
-    "core/Omega": [], "core/Engine": [], "pkg/common/ForceResetter": [], "pkg/common/PyRunner": [], "pkg/common/Recorder": [], "lib/high-precision/Constants": [],  # functions, a class that is only recognised, and numbers
+    "core/Omega": [], "core/Engine": [], "pkg/common/ForceResetter": [], "pkg/common/PyRunner": [], "pkg/common/Recorder": [], "lib/high-precision/Constants": [], "lib/pyutil/gil": [],  # functions, a class that is only recognised, and numbers
 }
 
 
