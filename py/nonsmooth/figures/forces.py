@@ -51,8 +51,8 @@ def _close_up(ax, snapshot, ground, box, reference, width, outline):
         )  # fmt: skip
 
 
-def _force_scale(ax, reference, width):
-    """Bars of round forces, drawn as wide as in the window, in its lower left corner, below DP."""
+def _force_scale(ax, reference, width, side):
+    """Bars of round forces, drawn as wide as in the window, in its lower corner on the side of the crown, below the slip surface."""
     x0, x1 = ax.get_xlim()
     y0, y1 = ax.get_ylim()
     forces = [style.nice(reference)]
@@ -60,14 +60,15 @@ def _force_scale(ax, reference, width):
         forces.append(style.nice(0.6 * forces[-1]))
     newtons, unit = style.force_unit(forces[0])
     length, pitch = 0.09 * (x1 - x0), 0.075 * (y1 - y0)
-    ax.add_patch(Rectangle((x0, y0), 0.3 * (x1 - x0), 0.32 * (y1 - y0), fc="white", ec="none", alpha=0.75, zorder=8))
-    ax.text(0.02, 0.30, "normal force", transform=ax.transAxes, va="top", fontsize=9, zorder=9)
+    begin = 0.0 if side > 0 else 0.7
+    ax.add_patch(Rectangle((x0 + begin * (x1 - x0), y0), 0.3 * (x1 - x0), 0.32 * (y1 - y0), fc="white", ec="none", alpha=0.75, zorder=8))
+    ax.text(begin + 0.02, 0.30, "normal force", transform=ax.transAxes, va="top", fontsize=9, zorder=9)
     for k, force in enumerate(forces):
         y = y0 + 0.2 * (y1 - y0) - k * pitch
         w = width * force / reference
-        ax.add_patch(Rectangle((x0 + 0.02 * (x1 - x0), y - w / 2), length, w, color=COMPRESSION, lw=0, zorder=9))
+        ax.add_patch(Rectangle((x0 + (begin + 0.02) * (x1 - x0), y - w / 2), length, w, color=COMPRESSION, lw=0, zorder=9))
         ax.text(
-            x0 + 0.13 * (x1 - x0), y, f"{force / newtons:g} {unit}", va="center", fontsize=9, color=INK, zorder=9
+            x0 + (begin + 0.13) * (x1 - x0), y, f"{force / newtons:g} {unit}", va="center", fontsize=9, color=INK, zorder=9
         )
 
 
@@ -133,12 +134,12 @@ def force_chains(snapshot, walls, path=None, pdf=False):
             0.02, 0.97, letter, transform=ax.transAxes, ha="left", va="top", fontsize=13, fontweight="bold",
             bbox={"fc": "white", "ec": "#999999", "lw": 0.6, "pad": 3}, zorder=9,
         )  # fmt: skip
-        style.scale_bar(ax, 0.965, 0.045, 0.17)
+        style.scale_bar(ax, 0.965 if ground.side > 0 else 0.21, 0.045, 0.17)
         bx0, bx1, by0, by1 = box
         top.add_patch(Rectangle((bx0, by0), bx1 - bx0, by1 - by0, fill=False, ec=INK, lw=1.1, zorder=6))
-        top.text(bx0, by0, f"{letter} ", va="bottom", ha="right", fontsize=11, fontweight="bold", zorder=7)
+        top.text(bx0 if ground.side > 0 else bx1, by0, f"{letter} " if ground.side > 0 else f" {letter}", va="bottom", ha="right" if ground.side > 0 else "left", fontsize=11, fontweight="bold", zorder=7)
         if letter == "b":
-            _force_scale(ax, reference, width)
+            _force_scale(ax, reference, width, ground.side)
     fig.legend(
         handles=[Patch(color=COMPRESSION, label="compression"), Patch(color=TENSION, label="tension")]
         + [Line2D([], [], ls="", label="bars join the centres of touching disks; width is proportional to the normal force")],
