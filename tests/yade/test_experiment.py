@@ -9,7 +9,7 @@ from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import records, results
 
-RECORDS = ("series.csv", "breaks.csv", "t0.npz", "end.npz")
+RECORDS = ("series.csv", "walls.csv", "breaks.csv", "t0.npz", "end.npz")
 SLOPE = "jiufengershan.py"
 
 

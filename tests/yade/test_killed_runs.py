@@ -54,7 +54,7 @@ def other(section, tmp_path_factory):
 
 
 def records_of(out):
-    return {name: (out / name).read_bytes() for name in ("series.csv", "breaks.csv")}
+    return {name: (out / name).read_bytes() for name in ("series.csv", "walls.csv", "breaks.csv")}
 
 
 @pytest.mark.parametrize("number", range(KILLS))
