@@ -101,11 +101,10 @@ def _draw(section, rng):
 def _borders(section, layer):
     """Tables of edges, each with the disks that they act on (bool by disk, None: all): of the layers' outline, and on both sides of each flat interface."""
     found = [(geometry.edges(section.outline), None)]
-    number = {one.name: k for k, one in enumerate(section.layers)}
     for interface in section.interfaces:
         if interface.flat and len(line := section.line_of(interface)):
             above, below = geometry.sides(line)
-            lower, upper = (layer == number[name] for name in interface.between)
+            lower, upper = (layer == k for k in section.numbers_of(interface))
             found += [(above, upper), (below, lower)]
     return found
 

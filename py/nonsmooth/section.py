@@ -119,6 +119,11 @@ class Section:
         """The layer called `name`; KeyError if there is none."""
         return next(layer for layer in self.layers if layer.name == name)
 
+    def numbers_of(self, interface: Interface) -> tuple[int, int]:
+        """Numbers, from 0, of the two layers of an interface, the lower one first."""
+        names = [layer.name for layer in self.layers]
+        return names.index(interface.between[0]), names.index(interface.between[1])
+
     def disks_of(self, layer: Layer) -> Disks:
         """The disks of a layer: its own, or those of the section."""
         return layer.disks or self.disks
@@ -250,8 +255,7 @@ class Section:
                         "numerics": dataclasses.asdict(self.numerics),
                         "settle": dataclasses.asdict(self.stages.settle)}
             if self.interfaces:
-                number = {layer.name: k for k, layer in enumerate(self.layers)}
-                content["interfaces"] = [[[number[name] for name in i.between], plain[i.material]] for i in self.interfaces]
+                content["interfaces"] = [[self.numbers_of(i), plain[i.material]] for i in self.interfaces]
         elif scope != "packing":
             raise ValueError(f"scope {scope!r}; give packing or settled")
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

@@ -85,7 +85,7 @@ def build(section, packing, world=None) -> Slope:
     rocks = [section.materials[layer.material] for layer in section.layers]
     materials = [O.materials[O.materials.append(world.material(m, layer=k, label=_label(layer, k)))] for k, (layer, m) in enumerate(zip(section.layers, rocks))]
     for interface in section.interfaces:
-        world.interface(*(materials[[layer.name for layer in section.layers].index(name)] for name in interface.between), section.materials[interface.material])
+        world.interface(*(materials[k] for k in section.numbers_of(interface)), section.materials[interface.material])
     order = order_of(section, packing)
     disks = [scene.disk((float(packing.x[k]), float(packing.y[k])), float(packing.r[k]), materials[packing.layer[k]]) for k in order]
     ids = O.bodies.append(disks)
@@ -110,9 +110,7 @@ def build(section, packing, world=None) -> Slope:
 
 def interface_law(slope: Slope, interface):
     """The material of an interface of a built Slope."""
-    numbers = [layer.name for layer in slope.section.layers]
-    lower, upper = (next(b for b in (O.bodies[i].material for i in range(slope.first_disk, slope.first_disk + slope.count)) if b.label == _label(
-        slope.section.layer(name), numbers.index(name))) for name in interface.between)
+    lower, upper = (O.materials[_label(slope.section.layers[k], k)] for k in slope.section.numbers_of(interface))
     return lower.interfaceLaws[list(lower.interfaceLayers).index(upper.layer)]
 
 

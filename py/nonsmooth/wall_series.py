@@ -37,9 +37,8 @@ class WallSeries:
         # a role that several walls share has a sum, and a peak, of its own
         shared = {(role,): [i for name in names for i in built.walls[name]] for role, names in self._of_role.items() if len(names) > 1}
         self._forces = WallForces({**built.walls, **shared}, period)
-        number = {layer.name: k for k, layer in enumerate(section.layers)}
-        self._interfaces = [(i, number[i.between[0]], number[i.between[1]], slope.interface_law(built, i)) for i in section.interfaces]
-        self._obstacles = [(layer.name, number[layer.name]) for layer in section.layers if layer.role == "obstacle"]
+        self._interfaces = [(i, *section.numbers_of(i), slope.interface_law(built, i)) for i in section.interfaces]
+        self._obstacles = [(layer.name, k) for k, layer in enumerate(section.layers) if layer.role == "obstacle"]
         self._layer_of = np.concatenate([np.full(built.first_disk, -1), layers])  # by body; -1: a wall
         self.file = records.SeriesWriter(path, tuple(records.WALL_COLUMNS), resume_from=mark, overwrite=True)
 
