@@ -66,7 +66,7 @@ class Experiment:
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
-            section_data.write(self.section, self.folder / "section.yaml")
+            section_data.write(self.section, self.folder / section_data.FILE)
         self.series = records.SeriesWriter(
             self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True)
         # soft steps are thousands a row, and as cheap as a look at the walls

@@ -93,8 +93,7 @@ def characteristic_times(series, section, state) -> dict[str, float | None]:
         times["t2"] = float(t[late[0]])
     times["t1"] = _failure(series, times, state, span)
     if not len(late):
-        surfaces = (*section.of_role("slip"), *(i for i in section.interfaces if i.role == "slip"))
-        weakens = any(section.materials[surface.material].slip_weakening for surface in surfaces)
+        weakens = any(section.materials[surface.material].slip_weakening for surface in section.sliding)
         return times if weakens else times | _of_motion(series, section)
     before = mean_of(series, "dp_shear_N_per_m", times["t2"], span)
     for k in range(late[0], len(t)):

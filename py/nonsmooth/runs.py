@@ -14,12 +14,11 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from . import figures, records, results, scales, section
+from . import figures, records, results, scales, section, section_data
 from .errors import UserError
 
 __all__ = ["FIGURES", "Run", "RunError", "open_run"]
 
-SECTION = "section.yaml"
 FIGURES = ("force_chains", "forces", "deposit", "energy", "solver")
 
 
@@ -36,7 +35,7 @@ class Run:
     @cached_property
     def section(self):
         """The Section that was run."""
-        return section.load(str(self.folder / SECTION))
+        return section.load(str(self.folder / section_data.FILE))
 
     @cached_property
     def summary(self) -> dict:
@@ -99,6 +98,6 @@ class Run:
 
 def open_run(folder) -> Run:
     """The Run in a folder. Raises RunError where it is none."""
-    if not (Path(folder) / SECTION).is_file():
-        raise RunError(f"{folder}: has no {SECTION}, so no run of a slope of this version is here; give the folder that was given to --out")
+    if not (Path(folder) / section_data.FILE).is_file():
+        raise RunError(f"{folder}: has no {section_data.FILE}, so no run of a slope of this version is here; give the folder that was given to --out")
     return Run(folder)

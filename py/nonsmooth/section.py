@@ -104,11 +104,15 @@ class Section:
         """The walls that have one of these roles, in the order of the file."""
         return tuple(wall for wall in self.walls if wall.role in wanted)
 
+    @property
+    def sliding(self) -> tuple[Wall | Interface, ...]:
+        """The slip surfaces: walls, then interfaces."""
+        return (*self.of_role("slip"), *(i for i in self.interfaces if i.role == "slip"))
+
     @cached_property
     def slip_surfaces(self) -> tuple[tuple[str, np.ndarray], ...]:
-        """Name and line (n, 2) [m] of each slip surface: walls, then interfaces."""
-        return (*((wall.name, wall.points) for wall in self.of_role("slip")),
-                *((i.name, self.line_of(i)) for i in self.interfaces if i.role == "slip"))
+        """Name and line (n, 2) [m] of each slip surface, in the order of :attr:`sliding`."""
+        return tuple((one.name, one.points if isinstance(one, Wall) else self.line_of(one)) for one in self.sliding)
 
     def line_of(self, interface: Interface) -> np.ndarray:
         """The border of an interface's two layers from left to right, (n, 2) [m]; empty where they do not touch."""
@@ -185,9 +189,8 @@ class Section:
             raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1 to {MOST_DISKS}")
         if self.like:
             original, factor = self.like[0].with_disks(count), self.like[1]
-            disks = dataclasses.replace(original.disks, d_min=factor * original.disks.d_min, d_max=factor * original.disks.d_max)
             layers = tuple(dataclasses.replace(mine, disks=theirs.with_disks(factor).disks) for mine, theirs in zip(self.layers, original.layers))
-            return dataclasses.replace(self, disks=disks, layers=layers, scale=original.scale, like=(original, factor))
+            return dataclasses.replace(self, disks=original.disks.scaled(factor), layers=layers, scale=original.scale, like=(original, factor))
         m = self.disks.mean_square
         phi = self.disks.packing_fraction
         if self.mixed:  # count = full / s² - strip / s
@@ -199,8 +202,7 @@ class Section:
             strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
             full = count * math.pi / 4 * m
             s = (math.sqrt(strip**2 + 4 * full * phi * self.area) - strip) / (2 * full)
-        disks = dataclasses.replace(self.disks, d_min=self.disks.d_min * s, d_max=self.disks.d_max * s,
-                                    count=int(count))
+        disks = dataclasses.replace(self.disks.scaled(s), count=int(count))
         scaled = dataclasses.replace(self, disks=disks, layers=tuple(layer.with_disks(s) for layer in self.layers), scale=self.scale * s)
         scaled._check_room(f"{count} disks", "ask for more disks")
         if self.numerics.time_step > scaled.longest_step:

@@ -8,7 +8,9 @@ import yaml
 
 from .whole_files import write_atomically
 
-__all__ = ["plain", "write"]
+__all__ = ["FILE", "plain", "write"]
+
+FILE = "section.yaml"  # in the folder of a run
 
 
 def plain(section) -> dict:

@@ -109,8 +109,7 @@ class Layer:
 
     def with_disks(self, factor: float) -> Layer:
         """The same layer with its own disks, where it has some, `factor` times as large."""
-        d = self.disks
-        return self if d is None else dataclasses.replace(self, disks=dataclasses.replace(d, d_min=d.d_min * factor, d_max=d.d_max * factor))
+        return self if self.disks is None else dataclasses.replace(self, disks=self.disks.scaled(factor))
 
 
 @dataclass(frozen=True)
@@ -134,6 +133,10 @@ class Disks:
     distribution: str
     packing_fraction: float
     count: int | None = None
+
+    def scaled(self, factor: float) -> Disks:
+        """The same disks, `factor` times as large."""
+        return dataclasses.replace(self, d_min=self.d_min * factor, d_max=self.d_max * factor)
 
     @property
     def mean_square(self) -> float:

@@ -48,7 +48,6 @@ def scaled(section: Section, factor: float) -> Section:
     grown = lambda vertices: tuple((s * x, s * y) for x, y in vertices)  # noqa: E731
     sizes = lambda items: tuple(dataclasses.replace(item, vertices=grown(item.vertices)) for item in items)  # noqa: E731
     materials = {name: _material(m, s) for name, m in section.materials.items()}
-    disks = dataclasses.replace(section.disks, d_min=s * section.disks.d_min, d_max=s * section.disks.d_max)
     water, stages = section.water, section.stages
     if water is not None:
         table = tuple((t * when, s * height) for when, height in water.table)
@@ -57,7 +56,7 @@ def scaled(section: Section, factor: float) -> Section:
     end = dataclasses.replace(stages.end, time=t * stages.end.time, rest_hold=t * stages.end.rest_hold)
     hold = stages.water_hold if isinstance(stages.water_hold, str) else s * stages.water_hold
     numerics = dataclasses.replace(section.numerics, time_step=t * section.numerics.time_step)
-    return dataclasses.replace(section, walls=sizes(section.walls), layers=tuple(layer.with_disks(s) for layer in sizes(section.layers)), materials=MappingProxyType(materials), disks=disks, water=water,
+    return dataclasses.replace(section, walls=sizes(section.walls), layers=tuple(layer.with_disks(s) for layer in sizes(section.layers)), materials=MappingProxyType(materials), disks=section.disks.scaled(s), water=water,
                                stages=dataclasses.replace(stages, settle=settle, dry=t * stages.dry, water_hold=hold, end=end), numerics=numerics,
                                like=(section.like[0], s * section.like[1]) if section.like else (section, s))
 

@@ -48,7 +48,7 @@ class WallSeries:
 
     def forget_slip(self):
         """Sets the slip along all walls and interfaces to zero."""
-        for material in (*map(self._slope.wall_material, self._slope.walls), *(law for *_, law in self._interfaces)):
+        for material in self._laws().values():
             if hasattr(material, "forgetSlip"):
                 material.forgetSlip()
 
@@ -57,9 +57,9 @@ class WallSeries:
         [N/m], zero where no wall, and no interface, has that role."""
         forces = {name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()}
         inside = self._between_disks()
-        laws = {name: [self._slope.wall_material(name)] for name in self._slope.walls} | {i.name: [law] for i, _, _, law in self._interfaces}
+        laws = self._laws()
         rows = {name: forces[name] for name in self._slope.walls} | inside
-        self.file.write(*(self._row(name, *force, _slip(laws.get(name, []))) for name, force in rows.items()))
+        self.file.write(*(self._row(name, *force, _slip([laws[name]] if name in laws else [])) for name, force in rows.items()))
         found = {role: forces[names[0] if len(names) == 1 else (role,)] if names else (0.0, 0.0, 0.0) for role, names in self._of_role.items()}
         for interface, *_ in self._interfaces:
             if interface.role == "slip":
@@ -68,7 +68,12 @@ class WallSeries:
 
     def slip(self):
         """The Slip of disks along all slip surfaces."""
-        return _slip([self._slope.wall_material(name) for name in self._of_role["slip"]] + [law for i, _, _, law in self._interfaces if i.role == "slip"])
+        laws = self._laws()
+        return _slip([laws[one.name] for one in self._slope.section.sliding])
+
+    def _laws(self):
+        """{name: material} of all walls and interfaces."""
+        return {name: self._slope.wall_material(name) for name in self._slope.walls} | {i.name: law for i, _, _, law in self._interfaces}
 
     def _between_disks(self):
         """{name: (normal, shear, normal again)} [N/m] of interfaces and obstacles in this step."""

@@ -90,7 +90,7 @@ def ground_of(walls):
             raise GroundError(f"wall {name} has vertices of shape {vertices.shape}; give at least two points (x, y)")
         found.append(Wall(str(name), vertices, role))
     if hasattr(walls, "interfaces"):
-        found += [Wall(i.name, walls.line_of(i), i.role, buried=True) for i in walls.interfaces if len(walls.line_of(i))]
+        found += [Wall(i.name, line, i.role, buried=True) for i in walls.interfaces if len(line := walls.line_of(i))]
     layers = [layer for layer in getattr(walls, "layers", ()) if hasattr(layer, "role")]
     mass = [k for k, layer in enumerate(layers) if layer.role == "mass"]
     slip = [wall for wall in found if wall.role == "slip"]
