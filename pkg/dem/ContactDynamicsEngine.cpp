@@ -153,8 +153,10 @@ void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 
 void ContactDynamicsEngine::view() const
 {
-	nscd::Resident::of(*Omega::instance().getScene())->show();
+	nscd::Resident::of(*Omega::instance().getScene())->showBetweenTurns();
 }
+
+void ContactDynamicsEngine::preSave(ContactDynamicsEngine&) { nscd::Resident::of(*Omega::instance().getScene())->showForSaving(); }
 
 void ContactDynamicsEngine::dump(const std::string& path) const
 {

@@ -42,7 +42,7 @@ public:
 	/// Brings YADE's bodies and interactions up to date.
 	void view() const;
 	/// A scene is saved as it is: its engines come before its bodies and interactions.
-	void preSave(ContactDynamicsEngine&) { view(); }
+	void preSave(ContactDynamicsEngine&);
 	long        viewsSoFar() const { return nscd::Resident::of(*Omega::instance().getScene())->shown; }
 	std::string viewedBy() const { return nscd::Resident::of(*Omega::instance().getScene())->shownTo; }
 	/// Writes the last step's contact problem, see contact/problem_file.hpp.

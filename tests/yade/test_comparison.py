@@ -382,7 +382,7 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     assert {run["name"]: run["values"] for run in again["runs"]} == values  # soft runs give the same bits on one thread too
     # kept runs count with what they took
     noted = [json.loads(path.read_text())["found"]["process_wall_s"] for path in copy.glob("runs/*/result.json")]
-    assert again["runs_wall_s"] == pytest.approx(sum(noted)) and again["runs_wall_s"] > again["wall_s"]
+    assert len(noted) > 1 and again["runs_wall_s"] == pytest.approx(sum(noted))
 
 
 def test_a_run_that_fails_says_so_and_keeps_the_others(tmp_path):

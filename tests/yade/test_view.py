@@ -1,5 +1,6 @@
 """O.bodies, O.interactions and O.forces are true whenever somebody looks, and what was changed through them is taken up, whether steps stay in arrays or not."""
 import functools
+import threading
 import time
 
 import numpy as np
@@ -345,6 +346,61 @@ def test_engines_that_look_now_and_then_see_the_truth(tmp_path):
         assert all(every[step] == row for step, row in some.items()), period
 
 
+def test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment(tmp_path):
+    """Falling freely all disks have the same speed, that of the step that the file names or of the two after it, since its number is written first; each file can be gone on with."""
+    stuff = material(0.5)
+    O.bodies.append([scene.disk((3 * (k % 60), 3 * (k // 60)), 0.5, stuff) for k in range(3000)])
+    begin(dt=1e-4, reach=0.4)
+    O.run()
+    try:
+        files = [str(tmp_path / f"{k}.yade.gz") for k in range(6)]
+        for file in files:
+            saver = threading.Thread(target=O.save, args=(file, True))
+            saver.start()
+            while saver.is_alive():
+                len(O.interactions), O.bodies[0].state.pos  # a third thread looks
+            saver.join()
+    finally:
+        O.pause()
+    wait_for_the_end()
+    steps = []
+    for file in files:
+        O.load(file, True)
+        speeds = {b.state.vel[1] for b in O.bodies}
+        assert len(speeds) == 1
+        assert -speeds.pop() / (9.81 * O.dt) == pytest.approx(O.iter + 1, abs=1.01)  # rounding adds up to 1e-12 of it
+        steps.append(O.iter)
+        O.run(3, wait=True)
+        assert O.iter == steps[-1] + 3
+    assert steps == sorted(steps) and steps[-1] > steps[0]
+
+
+def test_contacts_that_come_and_go_are_saved_beside_a_run_in_the_background(tmp_path):
+    """Each bond that is saved is one of two disks that are there, and the scene goes on from each file as from itself."""
+    busy()
+    O.run()
+    try:
+        for k in range(40):
+            O.save(str(tmp_path / f"{k}.yade"), True)
+            time.sleep(0.01)
+    finally:
+        O.pause()
+    wait_for_the_end()
+    for k in range(40):
+        O.load(str(tmp_path / f"{k}.yade"), True)
+        assert all(O.bodies[i.id1] and O.bodies[i.id2] for i in O.interactions)
+        O.run(10, wait=True)
+        assert engine().residual <= 10 * engine().tolerance
+
+
+def wait_for_the_end():
+    """O.pause() does not wait for the step that is being made."""
+    last = None
+    while last != O.iter:
+        last = O.iter
+        time.sleep(0.3)
+
+
 def test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost():
     """Reads follow within some tenths of a second; a written velocity and a bond that is ended stay so."""
     ids, driven = busy()
@@ -365,10 +421,7 @@ def test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost():
         assert O.bodies[driven].state.pos[0] < -1900
     finally:
         O.pause()
-    last = None
-    while last != O.iter:  # O.pause() does not wait for the step that is being made
-        last = O.iter
-        time.sleep(0.3)
+    wait_for_the_end()
     before = everything()[:2]
     engine().view()
     assert everything()[:2] == before  # nothing was left in the arrays

@@ -23,10 +23,10 @@ namespace {
 	/// Reads and writes neither bodies nor interactions. Of these classes themselves, since a derived one may.
 	bool isBlind(const Engine& engine) { return isOneOf<ForceResetter, NonsmoothTimeStepper, WallForceEngine>(engine); }
 
-	/// Whether the engine's own isActivated is PeriodicEngine's, or Recorder's, which asks that one.
-	bool isPlainlyPeriodic(const Engine& engine)
+	/// Runs Python, or writes files. But for CourseRunner its isActivated is PeriodicEngine's, or Recorder's, which asks that one.
+	bool isRunnerOrRecorder(const Engine& engine)
 	{
-		return isOneOf<PyRunner>(engine) || dynamic_cast<const Recorder*>(&engine) || engine.getClassName() == "VTKRecorder" || engine.getClassName() == "SnapshotEngine"
+		return isOneOf<PyRunner, CourseRunner>(engine) || dynamic_cast<const Recorder*>(&engine) || engine.getClassName() == "VTKRecorder" || engine.getClassName() == "SnapshotEngine"
 		        || engine.getClassName() == "DomainLimiter";
 	}
 
@@ -59,7 +59,7 @@ bool mayAct(const Engine& engine, long iter, Real time)
 {
 	if (isBlind(engine)) return false;
 	if (isOneOf<CourseRunner>(engine)) return static_cast<const CourseRunner&>(engine).isDue(time, engine.scene->dt);
-	const auto* periodic = isPlainlyPeriodic(engine) ? dynamic_cast<const PeriodicEngine*>(&engine) : nullptr;
+	const auto* periodic = isRunnerOrRecorder(engine) ? dynamic_cast<const PeriodicEngine*>(&engine) : nullptr;
 	if (!periodic) return true;
 	const PeriodicEngine& p = *periodic;
 	if (p.nDone == 0 && p.firstIterRun > 0) return iter == p.firstIterRun;
@@ -78,7 +78,7 @@ bool onlyPythonBefore(const Scene& scene, const Engine& engine)
 	while (here != all.begin()) {
 		const Engine& before = **--here;
 		if (takesTurns(before)) return true;
-		if (!isBlind(before) && !isPlainlyPeriodic(before) && !isOneOf<CourseRunner>(before)) return false;
+		if (!isBlind(before) && !isRunnerOrRecorder(before)) return false;
 	}
 	return true;
 }
@@ -93,7 +93,7 @@ Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
 		if (e.dead) return false;
 		if (takesTurns(e)) return true;
 		if (!mayAct(e, iter, time)) return false;
-		found.isPython = (isPlainlyPeriodic(e) || isOneOf<CourseRunner>(e)) && (found.name.empty() || found.isPython);
+		found.isPython = isRunnerOrRecorder(e) && (found.name.empty() || found.isPython);
 		if (found.name.empty()) found.name = named(e);
 		return false;
 	};

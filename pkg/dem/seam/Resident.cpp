@@ -3,8 +3,10 @@
 #include "Prefetch.hpp"
 #include "Audience.hpp"
 #include <chrono>
+#include <lib/pyutil/gil.hpp>
 #include <map>
 #include <neighbours/bucket_sort.hpp>
+#include <thread>
 
 namespace yade::nscd {
 
@@ -272,6 +274,27 @@ void Resident::show(const string& who, bool staysKnown)
 	costOfLook                  = lastShown - begin;
 }
 
+std::unique_lock<std::recursive_mutex> Resident::betweenTurns()
+{
+	++waiting;
+	std::unique_lock<std::recursive_mutex> guard(lock);
+	--waiting;
+	return guard;
+}
+
+void Resident::showBetweenTurns()
+{
+	const auto guard = betweenTurns();
+	show();
+}
+
+void Resident::showForSaving()
+{
+	const auto guard = betweenTurns();
+	show("whoever saves");
+	beingSaved = PyGILState_Check();
+}
+
 int Resident::slotOf(const shared_ptr<Interaction>& interaction)
 {
 	int slot = int(readings.size());
@@ -371,8 +394,17 @@ bool Resident::isBehind(const Scene& scene) const
 Turn::Turn(Engine& engine_, int threads)
         : engine(engine_)
         , data(Resident::of(*engine_.scene))
-        , locked(data->lock)
+        , locked(data->lock, std::defer_lock)
 {
+	while (data->waiting > 0)
+		std::this_thread::yield();
+	locked.lock();
+	while (data->beingSaved) {
+		locked.unlock(); // whoever saves may look again
+		const gilLock saved;
+		locked.lock();
+		data->beingSaved = false;
+	}
 	Scene& scene  = *engine.scene;
 	data->threads = threads;
 	if (data->isBehind(scene)) {

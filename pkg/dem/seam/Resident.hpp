@@ -8,7 +8,8 @@
 //     PlanarGridCollider     NscdInteractionLoop       ContactDynamicsEngine       PlanarNewtonIntegrator
 //
 // Other threads may look and write while a run goes on in the background. The objects are shown some times a second then, and what others have
-// written into a state, or set in a contact's physics, since it was last shown is left as it is and taken up.
+// written into a state, or set in a contact's physics, since it was last shown is left as it is and taken up. A save holds the run's next turn up until
+// the file is written.
 //
 // Where only Python looks, as at the end of O.step(), the arrays stay known: the next turn looks whether each interaction is still there, and reads those that
 // were written to. What Python sets in an NscdPhys leaves a mark (touched); C++ that changes one outside an engine's turn sets the mark itself.
@@ -18,6 +19,7 @@
 
 #include "BodyReading.hpp"
 #include "ContactReading.hpp"
+#include <atomic>
 #include <boost/weak_ptr.hpp>
 #include <contact/problem.hpp>
 #include <memory>
@@ -51,6 +53,10 @@ public:
 	void takeContacts(Scene& scene);
 	/// Writes all into YADE's objects, which own it from now on; `staysKnown`: only Python can have changed them when contacts are taken again.
 	void show(const string& who = "whoever asked", bool staysKnown = false);
+	/// The same where no turn is going on in this thread: at the end of the one that another thread is in.
+	void showBetweenTurns();
+	/// The same where the scene is about to be saved; steps that another thread makes wait until it is, so that what is written is of one moment.
+	void showForSaving();
 	/// Makes sure that what it points to stays, whatever other threads erase.
 	void hold();
 
@@ -98,6 +104,7 @@ private:
 		shared_ptr<IGeom>       geom;
 		shared_ptr<IPhys>       phys;
 	};
+	std::unique_lock<std::recursive_mutex> betweenTurns();
 	bool takeKnown(Scene& scene);
 	int  slotOf(const shared_ptr<Interaction>& interaction);
 	void showContact(int slot) const;
@@ -106,6 +113,8 @@ private:
 
 	int                                      threads = 1; // those of the last turn
 	std::recursive_mutex                     lock; // an engine's turn, or a look from another thread
+	std::atomic<int>                         waiting { 0 }; // threads that want to look; turns follow each other too closely for them to come in by chance
+	bool                                     beingSaved = false; // by a thread that holds Python's lock until it has written all
 	boost::weak_ptr<BodyContainer>           container;
 	bool                                     bodiesOwned = false, contactsOwned = false, held = false;
 	bool                                     contactsKnown = false; // not owned, but as they were shown unless Python has changed them
