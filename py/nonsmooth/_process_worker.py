@@ -23,7 +23,8 @@ if os.getppid() != request["parent"]:
     sys.exit(1)
 interrupts.be_patient()
 try:
-    found = getattr(importlib.import_module(request["module"]), request["function"])(folder, **request["arguments"])
+    module, name = request["function"].split(":")
+    found = getattr(importlib.import_module(f"yade.nonsmooth.{module}"), name)(folder, **request["arguments"])
 except UserError as error:
     traceback.print_exc()
     write_atomically(folder / "refused.txt", str(error).encode())

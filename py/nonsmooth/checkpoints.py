@@ -13,30 +13,13 @@ import mmap
 import os
 from pathlib import Path
 
-from yade import O, config
-
+from .keys import engines_key, key_of
 from .whole_files import WriteError, remove_parts, sync_folder, whole, write_atomically
 
-__all__ = ["digest", "engines_key", "exists", "forget", "key_of", "read", "write"]
+__all__ = ["exists", "forget", "read", "write"]
 
 FORMAT = 2
 OWN = ("format", "scene", "size", "sha256", "step", "key", "engines", "sum")  # keys of the JSON file that are not the caller's
-
-
-def key_of(plain):
-    """Key of plain data (what JSON can hold), to tell whether a checkpoint belongs to a run."""
-    return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()
-
-
-def engines_key():
-    """Key of the engines as they were built: what they have computed and a cache keeps is another build's, perhaps by its last bits, once they change."""
-    return digest(Path(config.libDir, "nonsmooth_engines.so"))
-
-
-@functools.cache
-def digest(path):
-    """SHA-256 of a file's bytes; a Path is read once in a process."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def exists(folder):
@@ -60,6 +43,8 @@ def forget(folder):
 
 def write(folder, key, content):
     """Saves the scene and ``content`` (what JSON can hold, no NaN) below ``folder``. Raises WriteError."""
+    from yade import O
+
     folder = _named(folder).parent
     with _saved(folder) as scene:
         whole_sum = hashlib.sha256(scene).hexdigest()
@@ -80,6 +65,8 @@ def read(folder, key, error, again="run without --resume"):
     Raises ``error`` (an exception class) where there is none, where it is damaged, or where its key is another than ``key``; the scene is then as it was.
     ``again``: how a run is begun anew, for its message.
     """
+    from yade import O
+
     path = _named(folder)
     anew = f"remove {path.parent} and {again}"
     told = _told(path, again, anew, error)
@@ -126,12 +113,16 @@ def _named(folder):
 @functools.cache
 def _engines():
     """What must not change between saving and loading a scene: a class with another attribute would read the rest of the file as something else."""
+    from yade import config
+
     return key_of([config.version, engines_key()])
 
 
 @contextlib.contextmanager
 def _saved(folder):
     """The scene as YADE saves it, a buffer. It goes to memory first, as YADE does not notice where a disk ends before the file does."""
+    from yade import O
+
     with os.fdopen(os.memfd_create("scene"), "r+b", buffering=0) as file:
         try:
             O.save(f"/proc/self/fd/{file.fileno()}", quiet=True)

@@ -21,7 +21,7 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator
 
-from . import checkpoints, course, interrupts, packing, records, results, scales, section_data, slope, tables
+from . import checkpoints, course, interrupts, keys, packing, records, results, scales, section_data, slope, tables
 from .course import State
 from .errors import UserError
 from .measure.fronts import front_of
@@ -365,7 +365,7 @@ def begin(section, folder, progress=None):
 
 def run_key(section):
     """What must agree between a checkpoint and the section it is resumed with."""
-    return checkpoints.key_of({"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
+    return keys.key_of({"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
                                "seed": section.seed, "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)]})
 
 

@@ -6,9 +6,10 @@ import json
 import time
 from pathlib import Path
 
+from . import keys
 from .whole_files import WriteError, write_atomically
 
-__all__ = ["Progress", "forget", "keep", "kept", "share"]
+__all__ = ["Progress", "begin", "begun", "forget", "keep", "kept", "share"]
 
 NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
 
@@ -36,9 +37,22 @@ def share(folder):
         return 0.0
 
 
+def begin(folder, key):
+    """Notes what a run is of, before it writes anything else; ``key``: of its input."""
+    write_atomically(Path(folder) / "key", keys.run_key(key).encode())
+
+
+def begun(folder, key):
+    """Whether what is in the folder is of a run of this input, these engines and this code."""
+    try:
+        return (Path(folder) / "key").read_text() == keys.run_key(key)
+    except (OSError, ValueError):
+        return False
+
+
 def keep(folder, key, found):
-    """Writes the result of a run, with a key that tells what it is of."""
-    write_atomically(Path(folder) / "result.json", json.dumps({"key": key, "found": found}, indent=1).encode())
+    """Writes the result of a run; ``key``: of its input, see keys.key_of. What it is of stands beside it: input, engines and code."""
+    write_atomically(Path(folder) / "result.json", json.dumps({"key": keys.run_key(key), "found": found}, indent=1).encode())
 
 
 def forget(folder):
@@ -52,9 +66,9 @@ def forget(folder):
 
 
 def kept(folder, key):
-    """The result that :func:`keep` wrote, None where there is none of this key."""
+    """The result that :func:`keep` wrote, None where there is none of this input, these engines and this code."""
     try:
         content = json.loads((Path(folder) / "result.json").read_text())
-        return content["found"] if content["key"] == key else None
+        return content["found"] if content["key"] == keys.run_key(key) else None
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return None

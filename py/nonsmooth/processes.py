@@ -15,10 +15,11 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from . import installation
 from .errors import UserError
 from .whole_files import write_atomically
 
-__all__ = ["RunError", "call", "pool"]
+__all__ = ["RunError", "call", "named", "pool"]
 
 _WORKER = Path(__file__).with_name("_process_worker.py")
 _running, _halted, _guard = set(), False, threading.Lock()  # processes of this one; whether no more may begin
@@ -31,12 +32,12 @@ class RunError(UserError, RuntimeError):
 def call(function, folder, arguments, threads=1):
     """Calls ``function(folder, **arguments)`` in a process and returns what it returned, with ``wall_s`` [s] added where it has none.
 
-    ``function``: of a module of this package; it returns a dictionary that JSON can hold. ``folder`` exists and is kept; the process
+    ``function``: of a module of this package, or its name, as "laboratory.biaxial:run", where the module needs YADE and this process has none; it returns a dictionary that JSON can hold. ``folder`` exists and is kept; the process
     writes ``log.txt`` and ``found.json`` there. ``arguments``: what JSON can hold; ``threads``: of the process. Raises RunError where it fails.
     """
     folder, began = Path(folder), time.monotonic()
     request = folder / "request.json"
-    write_atomically(request, json.dumps({"module": function.__module__, "function": function.__name__, "arguments": arguments, "parent": os.getpid()}).encode())
+    write_atomically(request, json.dumps({"function": named(function), "arguments": arguments, "parent": os.getpid()}).encode())
     for name in ("found.json", "refused.txt"):
         (folder / name).unlink(missing_ok=True)
     # the log's last line is to be the last that was said: standard output unbuffered, as errors are
@@ -44,7 +45,7 @@ def call(function, folder, arguments, threads=1):
     if threads == 1:  # waiting threads must not spin where processes share the cores
         environment["OMP_WAIT_POLICY"] = "passive"
     with open(folder / "log.txt", "wb") as log:
-        status = _run([_yade(), "-n", "-x", f"-j{threads}", str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
+        status = _run([*installation.command(threads), str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
     try:
         found = json.loads((folder / "found.json").read_text())
     except (OSError, ValueError):
@@ -54,6 +55,11 @@ def call(function, folder, arguments, threads=1):
         last = next((line.strip() for line in reversed(lines) if line.strip()), "no output")
         raise RunError(f"the run ended with status {status} and no result: {last} (all of it: {folder / 'log.txt'})") from None
     return {"wall_s": time.monotonic() - began, **found}
+
+
+def named(function):
+    """The name of a function of this package, as :func:`call` takes it; a name as it is."""
+    return function if isinstance(function, str) else f"{function.__module__.removeprefix(f'{__package__}.')}:{function.__name__}"
 
 
 def _run(command, **options):
@@ -102,11 +108,3 @@ def _halt():
         for process in left:
             process.kill()
         raise
-
-
-def _yade():
-    """The program of the YADE that runs this."""
-    from yade import config
-
-    prefix = os.environ.get("YADE_PREFIX")  # set where the plugin is used from its build folder
-    return Path(prefix or config.prefix) / "bin" / ("yade" if prefix else f"yade{config.suffix}")

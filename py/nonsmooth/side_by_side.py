@@ -6,7 +6,6 @@ longer than alone.
 
 from __future__ import annotations
 
-import shutil
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -14,9 +13,9 @@ from concurrent.futures import wait
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import checkpoints, kept_runs, processes
+from . import checkpoints, kept_runs, output_folder, processes
 from .interrupts import Interrupted
-from .whole_files import WriteError
+from .whole_files import WriteError, empty
 
 __all__ = ["Run", "check", "run"]
 
@@ -25,13 +24,13 @@ LOOK_SECONDS = 1.0  # between two looks at how far the runs are
 
 @dataclass(frozen=True)
 class Run:
-    """One run. ``name``: for messages; ``folder``: of its records; ``function``, ``arguments``: see processes.call; the function may note the share done
-    with kept_runs.Progress. ``key``: tells its result from that of other arguments; ``work``: what it costs beside the others, in any unit.
+    """One run. ``name``: for messages; ``folder``: of its records; ``function``, ``arguments``: see processes.call, which takes the function's name too; the function may note the share done
+    with kept_runs.Progress. ``key``: of what its result depends on, but for engines and code; ``work``: what it costs beside the others, in any unit.
     """
 
     name: str
     folder: Path
-    function: Callable
+    function: Callable | str
     arguments: dict
     key: str
     work: float = 1.0
@@ -48,8 +47,8 @@ def run(runs, threads, resume=False, error=processes.RunError, advice="", progre
     """Does all Runs, the costly ones first so that threads end together. Returns what their functions returned, in the order of ``runs``, each with
     ``process_wall_s``: wall time of its process [s].
 
-    ``resume``: keep what has ended; ``go_on``: keep also what halted runs have written, since their function goes on from it. All else in the folders
-    is removed. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, before
+    ``resume``: keep what has ended; ``go_on``: keep also what halted runs of the same input, engines and code have written, since their function goes on from it. All
+    else in the folders is removed. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, before
     anything runs where Runs share a folder, and with the first failure (in the order of ``runs``) and the ``advice`` after the others have ended; interrupts.Interrupted
     after Ctrl-C.
     """
@@ -59,9 +58,10 @@ def run(runs, threads, resume=False, error=processes.RunError, advice="", progre
     for r in runs:
         if known[r.folder] is None:
             kept_runs.forget(r.folder)
-            if not (resume and go_on):
+            if not (resume and go_on and kept_runs.begun(r.folder, r.key)):
                 _clear(r.folder)
             r.folder.mkdir(parents=True, exist_ok=True)
+            kept_runs.begin(r.folder, r.key)
     whole = sum(r.work for r in runs)
     futures = {}
     try:
@@ -84,8 +84,7 @@ def _clear(folder):
     """Removes an earlier run; what another process might take for the new one's goes first, so that a kill on the way leaves none of it."""
     checkpoints.forget(folder)
     try:
-        if folder.exists():
-            shutil.rmtree(folder)
+        empty(folder, output_folder.LOCK)  # that of a process which holds the folder
     except OSError as error:
         raise WriteError(f"{folder}: what an earlier run left there cannot be removed ({error.strerror}); remove it, or give another --out") from None
 

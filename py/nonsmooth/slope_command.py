@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import math
 import os
 import sys
@@ -14,64 +13,25 @@ from tqdm import tqdm
 
 from yade import O
 
-from . import commands, experiment, output_folder, packing, packing_checks, section, similar, slope
-from .laboratory import materials
+from . import commands, experiment, output_folder, packing, packing_checks, section, section_arguments, slope
 
 __all__ = ["run"]
 
 QUIET = 5.0  # s between two lines of the progress bar in a file
 
 
-def number(kind, low, high, what):
-    """A reader for argparse: a number of the ``kind`` from ``low`` to ``high``, or a message that says what is needed."""
-    def read(text):
-        try:
-            value = kind(text)
-        except ValueError:
-            value = None
-        if value is None or not low <= value <= high:  # a NaN is not
-            raise argparse.ArgumentTypeError(f"{text[:40]!r} is not allowed; give {what}")
-        return value
-    return read
-
-
 def arguments(name, about, default):
     parser = argparse.ArgumentParser(prog=name, description=about)
-    parser.add_argument("--section", default=default, required=default is None and "--list" not in sys.argv, metavar="NAME|FILE", help="a section file, or the name of a shipped one")
+    section_arguments.add(parser, default, ["--list"])
     if default is None:
         parser.add_argument("--list", action="store_true", help="print the names of the shipped sections, one a line, and end")
-    parser.add_argument("--mirror", action="store_true", help="the section with left and right exchanged")
-    parser.add_argument("--size", type=number(float, *similar.FACTORS, f"a factor from {similar.FACTORS[0]:g} to {similar.FACTORS[1]:g}"), metavar="S", help="the section S times as large, with times and strengths so that it does the same (Froude)")
     parser.add_argument("--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own")
-    parser.add_argument("--rock", metavar="NAME|FILE", help="material of the layers instead of the section's: wwr-sparse, bonded over small gaps only, or a material file, as calibrate.py writes it")
-    parser.add_argument("--disks", type=number(int, 1, section.MOST_DISKS, f"a whole number from 1 to {section.MOST_DISKS}"), metavar="N", help="about N disks instead of the section's: all diameters are scaled")
     parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/ and the section's name)")
-    parser.add_argument("--threads", type=number(int, 1, 1024, "a whole number from 1 to 1024"), metavar="T", help="threads (default: all cores)")
-    parser.add_argument("--seed", type=number(int, 0, 10**12, "a whole number from 0 to 1e12"), metavar="S", help="seed of the packing instead of the section's")
-    parser.add_argument("--end", type=number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
-    parser.add_argument("--water", metavar="RATE", type=number(float, 0, 1e6, "m/s from 0 to 1e6"), help="rate at which the table rises [m/s] instead of the section's; 0: dry")
+    parser.add_argument("--threads", type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"), metavar="T", help="threads (default: all cores)")
+    parser.add_argument("--end", type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
     parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in DIR")
     parser.add_argument("--no-figures", action="store_true", help="tables alone: no figures, no video, nothing for ParaView")
     return parser.parse_args()
-
-
-def read_section(args):
-    s = section.load(args.section)
-    if args.mirror:
-        s = similar.mirrored(s)
-    if args.size is not None:
-        s = similar.scaled(s, args.size)
-    if args.disks is not None:
-        s = s.with_disks(args.disks)
-    if args.rock is not None:
-        s = s.with_rock(materials.load(args.rock))
-    if args.seed is not None:
-        s = dataclasses.replace(s, seed=args.seed)
-    if args.water and s.water is None:
-        raise section.SectionError(f"--water {args.water:g}: {s.source} has no water; add the key `water` to it, or leave --water out")
-    if args.water is not None and s.water is not None:
-        s = dataclasses.replace(s, water=dataclasses.replace(s.water, table=((0.0, 0.0),), rate=args.water))
-    return s
 
 
 def fill(args, s):
@@ -115,7 +75,7 @@ def run(name, about, default=None):
     if default is None and args.list:
         print("\n".join(section.shipped()))
         return
-    s = read_section(args)
+    s = section_arguments.read(args)
     out = Path(args.out or f"out/{Path(args.section).stem}{'-mirrored' * args.mirror}{f'-{args.size:g}' if args.size else ''}")
     output_folder.claim(out, name)
     if args.resume:

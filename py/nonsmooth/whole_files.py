@@ -6,13 +6,14 @@ import contextlib
 import io
 import os
 import secrets
+import shutil
 from pathlib import Path
 
 import numpy as np
 
 from .errors import UserError
 
-__all__ = ["WriteError", "beside", "remove_parts", "remove_parts_below", "sync_folder", "whole", "write_arrays", "write_atomically"]
+__all__ = ["WriteError", "beside", "empty", "remove_parts", "remove_parts_below", "sync_folder", "whole", "write_arrays", "write_atomically"]
 
 PART = ".part-"  # begins the names of files that are being written
 
@@ -59,6 +60,13 @@ def remove_parts_below(folder, held):
     for path, below, _ in os.walk(folder):
         below[:] = [name for name in below if not name.startswith(".") and not Path(path, name, held).exists()]
         remove_parts(path)
+
+
+def empty(folder, spared):
+    """Removes all that is in a folder, but for what has the name ``spared``; a folder that is not there is empty. Raises OSError."""
+    for path in Path(folder).iterdir() if Path(folder).exists() else ():
+        if path.name != spared:
+            shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
 
 
 def sync_folder(folder):

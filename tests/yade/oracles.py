@@ -1,5 +1,6 @@
-"""Other people's solvers that tests ask and that may be missing: the last line of the run then says what was not held, and in CI it is an error."""
+"""Other people's programs that tests ask and that may be missing: the last line of the run then says what was not held, and in CI it is an error."""
 import os
+import shutil
 
 import pytest
 from yade.nonsmooth.verification import siconos_solve
@@ -13,6 +14,16 @@ class _LastLine:
 
     def pytest_unconfigure(self):
         print(f"NOT HELD: {self.text}", flush=True)
+
+
+def program(name, held):
+    """Path of a program. Where it is not installed, the tests that want it are skipped; they fail where NONSMOOTH_CI is set. ``held``: what is not held without it."""
+    path = shutil.which(name)
+    if path is None:
+        if os.environ.get("NONSMOOTH_CI"):
+            pytest.fail(f"in CI every oracle must be there: {name} is not installed", pytrace=False)
+        pytest.skip(f"{name} is not installed (apt install {name}): {held}")
+    return path
 
 
 def siconos(config):

@@ -242,7 +242,7 @@ def test_places_that_other_engines_have_found_are_not_taken(monkeypatch):
     c = column.Column(**SMALL)
     here = preparation.cache_path(c)
     assert preparation.cache_path(dataclasses.replace(c, restitution=0.5)) == here != preparation.cache_path(dataclasses.replace(c, seed=2))
-    monkeypatch.setattr(preparation.checkpoints, "engines_key", lambda: "others")
+    monkeypatch.setattr(preparation.keys, "engines_key", lambda: "others")
     assert preparation.cache_path(c) != here
 
 

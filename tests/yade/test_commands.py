@@ -344,10 +344,10 @@ def test_an_old_run_is_taken_away_with_its_result_first(tmp_path, monkeypatch):
         (tmp_path / "a" / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / "a" / name).write_text("{}")
 
-    def killed(folder):
+    def killed(folder, spared):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(side_by_side.shutil, "rmtree", killed)
+    monkeypatch.setattr(side_by_side, "empty", killed)
     with pytest.raises(KeyboardInterrupt):
         side_by_side.run([side_by_side.Run("a", tmp_path / "a", print, {}, "key")], 1)
     assert [path.name for path in (tmp_path / "a").rglob("*") if path.is_file()] == ["series.csv"]
@@ -372,11 +372,11 @@ def test_half_written_files_are_no_snapshots(tmp_path):
 
 
 def test_nothing_lists_files_but_asks_for_whole_ones():
-    """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, folders of the benchmark's cache, the processor's caches."""
+    """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, folders of the benchmark's cache, the processor's caches, this package and the engines."""
     package = Path(whole_files.__file__).resolve().parent
     lists = [path.name for path in sorted([*package.rglob("*.py"), *SCRIPTS.rglob("*.py")])
              for _ in re.findall(r"\.r?glob\(|\.iterdir\(|listdir\(|scandir\(|os\.walk\(", path.read_text())]
-    assert sorted(lists) == ["machine.py", "section.py", "states.py", *["whole_files.py"] * 3]
+    assert sorted(lists) == ["installation.py", "keys.py", "machine.py", "section.py", "states.py", *["whole_files.py"] * 4]
 
 
 def test_what_killed_processes_left_half_written_goes_with_the_claim(tmp_path):

@@ -74,7 +74,7 @@ def test_samples_that_other_engines_have_pressed_are_not_taken(monkeypatch):
     shape = pressing.Shape(300, 1)
     here = pressing.cache_path(shape)
     assert here == pressing.cache_path(pressing.Shape(300, 1)) != pressing.cache_path(pressing.Shape(300, 2))
-    monkeypatch.setattr(pressing.checkpoints, "engines_key", lambda: "others")
+    monkeypatch.setattr(pressing.keys, "engines_key", lambda: "others")
     assert pressing.cache_path(shape) != here
 
 

@@ -10,6 +10,7 @@ import pytest
 import yaml
 from shell import SCRIPTS
 from slope_scenes import SMALL
+from yade.nonsmooth import campaign as campaigns
 from yade.nonsmooth import errors, experiment, packing, section, slope
 from yade.nonsmooth.benchmark import scale, suite
 from yade.nonsmooth.comparison import cost, course
@@ -57,14 +58,16 @@ def files(tmp_path_factory):
     return home
 
 
-FIRST = {"slope.py": ("--section", "jiufengershan"), "wall_shear.py": ("--material", "ss"), "calibrate.py": ("--cohesion", 60, "--friction", 35), "column.py": ("--aspect", "1"), "soak.py": ("--steps", 500)}
+FIRST = {"slope.py": ("--section", "jiufengershan"), "wall_shear.py": ("--material", "ss"), "calibrate.py": ("--cohesion", 60, "--friction", 35), "column.py": ("--aspect", "1"), "sweep.py": ("--section", "jiufengershan", "--over", "seed=1,2"), "soak.py": ("--steps", 500)}
 SOFT = ("--world", "soft", "--stiffness", "1e9")
 HOLDER = {  # what a command asks: a module or class, and its function
     "jiufengershan.py": (slope, "build"), "slope.py": (slope, "build"), "biaxial.py": (campaign, "run"), "wall_shear.py": (wall_shear, "run"), "biaxial_effects.py": (effects, "run"),
     "calibrate.py": (calibration, "Calibration"), "column.py": (study, "run"), "compare_hard_soft.py": (course, "compare"), "benchmark.py": (suite, "run"),
-    "soak.py": (soak, "run"), "verify.py": (runner, "run_checks"), "wedge.py": (subprocess, "run")}
+    "soak.py": (soak, "run"), "sweep.py": (campaigns, "sweep"), "verify.py": (runner, "run_checks"), "wedge.py": (subprocess, "run")}
 OTHERS = {("compare_hard_soft.py", "--cost"): (cost, "run"), ("benchmark.py", "--scale"): (scale, "run"), ("jiufengershan.py", "--resume"): (experiment, "resume"),
-          ("slope.py", "--resume"): (experiment, "resume")}
+          ("slope.py", "--resume"): (experiment, "resume"), **{("sweep.py", word): (campaigns.Plan, "run") for word in ("--resume", "--threads")},
+          ("sweep.py", "--plan"): (campaigns.Plan, "write"), ("sweep.py", "--run"): (campaigns, "run_one"), ("sweep.py", "--number"): (campaigns, "run_one"),
+          ("sweep.py", "--collect"): (campaigns, "collect")}
 
 
 def ran_by(a):
@@ -220,6 +223,18 @@ WHERE = {
     "soak.py": {
         "--disks": (("--disks", 61), lambda a: a.words[0], 61), "--steps": (("--steps", 1234), lambda a: a.words[1], 1234), "--seed": (("--seed", 9), lambda a: a.words[2], 9),
         "--way": (("--way", "step"), lambda a: a.words[4], "step"),
+    },
+    "sweep.py": {
+        "--section": (("--section", "{files}/small.yaml"), lambda a: a.words[0].name, "small slope"),
+        "--over": (("--over", "materials.rock.friction=0.3,1e-1", "--over", "walls.DP.material=dp,ss"), lambda a: a.words[1],
+                   {"seed": [1, 2], "materials.rock.friction": [0.3, 0.1], "walls.DP.material": ["dp", "ss"]}),
+        "--rock": (("--rock", "{files}/stone.yaml"), made_of, {0.35}), "--disks": (("--disks", 150), lambda a: sum(a.words[0].disk_counts()), pytest.approx(150, abs=2)),
+        "--seed": (("--seed", 5), lambda a: a.words[0].seed, 5), "--water": (("--water", 0.25), lambda a: a.words[0].water.rate, 0.25),
+        "--mirror": (("--mirror",), lambda a: a.words[0].side, -1.0), "--size": (("--size", 0.01), lambda a: a.words[0].disks.d_max, pytest.approx(0.04)),
+        "--end": (("--end", 3), lambda a: a.named["end"], 3.0), "--figures": (("--figures",), lambda a: a.named["figures"], True),
+        "--out": (("--plan",), lambda a: str(a.words[0]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[1], 7), "--resume": (("--threads", 7, "--resume"), lambda a: a.words[2], True),
+        "--plan": (("--plan",), lambda a: len(a.words), 1), "--run": (("--run", "seed=2"), lambda a: a.words[1], "seed=2"),
+        "--number": (("--number", 1), lambda a: a.words[1], 1), "--collect": (("--collect",), lambda a: str(a.words[0]), "{out}"),
     },
     "verify.py": {
         "--only": (("--only", "bonds", "cradle"), lambda a: sorted({c.run.__module__.split(".")[-1] for c in a.words[0]}), ["bonds", "impacts"]),

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from yade.nonsmooth import errors, kept_runs, processes, side_by_side
+from yade.nonsmooth import errors, kept_runs, keys, output_folder, processes, side_by_side
 
 
 class MadeUpError(errors.UserError):
@@ -51,6 +51,7 @@ def test_a_resume_keeps_what_has_ended_with_the_same_key(tmp_path, called):
 @pytest.mark.parametrize("resume, go_on, left", [(True, True, True), (True, False, False), (False, True, False)])
 def test_what_a_halted_run_wrote_stays_only_for_a_function_that_goes_on(tmp_path, monkeypatch, resume, go_on, left):
     (tmp_path / "a").mkdir()
+    kept_runs.begin(tmp_path / "a", "k")
     for name in ("checkpoint", "result.json"):
         (tmp_path / "a" / name).write_text("{}")
     kept_runs.Progress(tmp_path / "a")(0.7)
@@ -58,6 +59,25 @@ def test_what_a_halted_run_wrote_stays_only_for_a_function_that_goes_on(tmp_path
     found = side_by_side.run(made(tmp_path, "a"), 1, resume=resume, go_on=go_on)
     assert found[0]["share"] == 0.0  # an earlier result or share is none of this run's
     assert (tmp_path / "a" / "checkpoint").exists() == left
+
+
+@pytest.mark.parametrize("part", ["engines_key", "code_key"])
+def test_a_resume_takes_nothing_of_other_engines_or_code(tmp_path, called, monkeypatch, part):
+    side_by_side.run(made(tmp_path, "a"), 1)
+    (tmp_path / "a" / "checkpoint").write_text("{}")
+    monkeypatch.setattr(keys, part, lambda: "others")
+    assert kept_runs.kept(tmp_path / "a", "k") is None and not kept_runs.begun(tmp_path / "a", "k")
+    side_by_side.run(made(tmp_path, "a"), 1, resume=True, go_on=True)
+    assert called == ["a", "a"] and not (tmp_path / "a" / "checkpoint").exists()
+    side_by_side.run(made(tmp_path, "a"), 1, resume=True, go_on=True)
+    assert called == ["a", "a"]  # of these
+
+
+def test_clearing_a_folder_leaves_the_lock_of_who_holds_it(tmp_path, called):
+    output_folder.claim(tmp_path / "a", "a command")
+    (tmp_path / "a" / "old" / "deep").mkdir(parents=True)
+    side_by_side.run(made(tmp_path, "a"), 1)
+    assert (tmp_path / "a" / output_folder.LOCK).exists() and not (tmp_path / "a" / "old").exists()
 
 
 def test_a_failure_is_told_after_the_others_have_ended(tmp_path, called):

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from yade import O, config
 
-from .. import checkpoints, course, experiment, packing, scene, section, slope
+from .. import checkpoints, course, experiment, keys, packing, scene, section, slope
 from ..errors import UserError
 from ..kept_runs import Progress
 from ..packing_files import cache_folder
@@ -58,8 +58,8 @@ def section_of(source, disks):
 def key_of(chosen):
     """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
     code = [Path(__file__), *(Path(m.__file__) for m in (scene, slope, experiment, course, packing, soft_contacts))]
-    return checkpoints.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed,
-                               "yade": config.version, "engines": checkpoints.engines_key(), "code": [checkpoints.digest(path) for path in code]})
+    return keys.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed,
+                               "yade": config.version, "engines": keys.engines_key(), "code": [keys.digest(path) for path in code]})
 
 
 def folder_of(chosen) -> Path:

@@ -19,7 +19,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from .. import checkpoints
+from .. import keys
 from ..benchmark import machine
 from ..benchmark.course import Course
 from ..kept_runs import Progress, keep, kept
@@ -183,7 +183,7 @@ def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping
     found = {"hard": {}, "soft": {}}
 
     def once(name, seconds, function, arguments):
-        key = checkpoints.key_of({"name": name, "threads": threads, "state": states.folder_of(states.section_of(source, disks)).name, **arguments})
+        key = keys.key_of({"name": name, "threads": threads, "state": states.folder_of(states.section_of(source, disks)).name, **arguments})
         folder = measuring.home / name
         known = kept(folder, key) if resume else None
         if known is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from pathlib import Path
 
-from .. import checkpoints, side_by_side
+from .. import keys, processes, side_by_side
 from .cases import ComparisonError, work_of
 
 __all__ = ["folder_of", "run"]
@@ -22,7 +22,7 @@ def run(function, cases, out, threads, resume=False, progress=lambda share, doin
     ``function``: of a module of this package, see processes.call. ``resume``: keep what has finished. ``progress``: called with the share done and what is
     being done. Raises ComparisonError with the first failure after all others have ended.
     """
-    name = f"{function.__module__}.{function.__name__}"
-    made = [side_by_side.Run(c.name, folder_of(c, out), function, asdict(c), checkpoints.key_of({"function": name, "case": asdict(c)}), work_of(c)) for c in cases]
+    name = processes.named(function)
+    made = [side_by_side.Run(c.name, folder_of(c, out), function, asdict(c), keys.key_of({"function": name, "case": asdict(c)}), work_of(c)) for c in cases]
     return side_by_side.run(made, threads, resume, ComparisonError, "; finished runs are kept, go on with --resume",
                             lambda share, ended: progress(share, f"{ended} of {len(made)} runs done"))

@@ -9,7 +9,7 @@ import numpy as np
 from yade import O
 from yade.wrapper import ContactDynamicsEngine
 
-from .. import checkpoints, packing, packing_files, scene, tables, worlds
+from .. import keys, packing, packing_files, scene, tables, worlds
 from ..stepping import advance
 from .grains import HeapError, sizes_along
 
@@ -53,8 +53,8 @@ class Stand:
 def cache_path(heap):
     """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them;
     the engines do, so that a run has the same bits with and without a cache from earlier builds."""
-    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")} | {"engines": checkpoints.engines_key()}
-    return packing_files.cache_folder("heaps") / f"{checkpoints.key_of(plain)[:32]}-v{VERSION}.npz"
+    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")} | {"engines": keys.engines_key()}
+    return packing_files.cache_folder("heaps") / f"{keys.key_of(plain)[:32]}-v{VERSION}.npz"
 
 
 def prepared(heap):

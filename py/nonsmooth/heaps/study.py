@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import checkpoints, kept_runs, records, side_by_side
+from .. import kept_runs, keys, records, side_by_side
 from ..whole_files import write_arrays
 from .column import Column
 from .grains import PATH_PER_STEP, HeapError
@@ -48,7 +48,7 @@ def key_of(heap, world, duration):
     """Key of a run, to tell whether a folder holds it. ``world``: arguments of :func:`world_of`, a dictionary."""
     made, moving = world_of(heap, **world), world.get("damping_moving")
     told = {"heap": heap.plain(), "world": [made.name, asdict(made)], "duration": duration}
-    return checkpoints.key_of(told if moving is None else told | {"damping_moving": moving})
+    return keys.key_of(told if moving is None else told | {"damping_moving": moving})
 
 
 def one(folder, kind, heap, world, duration):

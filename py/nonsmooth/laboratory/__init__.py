@@ -7,7 +7,7 @@ Strength of a slope comes from tests of a sample of its rock (Taboada and Estrad
 * :mod:`walls`: the four walls around a sample;
 * :mod:`sample`: a pressed sample in the scene, made of the rock;
 * :mod:`membrane`: sides that are flexible;
-* :mod:`biaxial`: one test from compression to the residual state, with checkpoints;
+* :mod:`biaxial_test`, :mod:`biaxial`: one test as data; from compression to the residual state, with checkpoints;
 * :mod:`strength`: peak, plateau, dilatancy, and the envelope of the circles;
 * :mod:`bands`: shear bands from the rotation of disks;
 * :mod:`campaign`, :mod:`report`: many tests side by side, and what they say together;

@@ -13,18 +13,18 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from yade import O
 
-from .. import checkpoints, interrupts, records, section, tables
+from .. import checkpoints, interrupts, records, tables
 from ..errors import UserError
 from ..kept_runs import Progress
 from ..whole_files import remove_parts
-from . import materials, membrane, pressing, sample
+from . import membrane, sample
+from .biaxial_test import Test, key_of
 from .walls import Walls
 
 RAMP = 0.002               # strain in which the platens reach their speed
@@ -41,47 +41,6 @@ class TestError(UserError, RuntimeError):
     """A test that cannot go on; the message says why and what helps."""
 
     __test__ = False  # no test of pytest's
-
-
-@dataclass(frozen=True)
-class Test:
-    """What determines a test. ``confining``: σ₃ [Pa]; ``strain``: at the end.
-
-    ``platens``: "smooth", "rough" (friction and rolling friction of the rock, no bonds) or "glued" (bonded as the rock is); ``sides``: "rigid" or
-    "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i.
-    """
-
-    __test__ = False
-
-    material: section.Material
-    confining: float
-    shape: pressing.Shape
-    strain: float = 0.15  # stresses fall until 0.07 or so; the plateau is the second half
-    platens: str = "rough"
-    sides: str = "flexible"
-    inertia: float = 1e-4
-    step: float = 0.1
-    tolerance: float = 1e-5
-    max_iterations: int = 1000
-
-    def __post_init__(self):
-        object.__setattr__(self, "material", materials.bare(self.material))
-
-    @classmethod
-    def of(cls, plain):
-        """From the plain data that `asdict` makes of a test."""
-        plain = dict(plain)
-        return cls(material=materials.of(plain.pop("material")), shape=pressing.Shape(**plain.pop("shape")), **plain)
-
-    @property
-    def platen(self):
-        """Material of the platens."""
-        if self.platens == "glued":
-            return replace(self.material, name="platen", bonded=True)
-        m = replace(self.material, name="platen", bonded=False, tensile_strength=0.0, residual_tensile_strength=0.0)
-        if self.platens == "smooth":
-            return replace(m, friction=0.0, residual_friction=0.0, rolling_friction=0.0, residual_rolling_friction=0.0)
-        return m
 
 
 class Course:
@@ -230,11 +189,6 @@ class Course:
         now = time.monotonic()
         self.state["wall_s"] += now - self._clock
         self._clock = now
-
-
-def key_of(test):
-    """What a checkpoint and the test that goes on from it must agree on."""
-    return checkpoints.key_of(asdict(test))
 
 
 def run(folder, **plain):

@@ -23,9 +23,9 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
-from .. import checkpoints
+from .. import keys
 from ..whole_files import write_atomically
-from . import biaxial, campaign, pressing
+from . import biaxial_test, campaign, pressing
 
 # σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15 % of c; under half of it, 5 %.
 PRESSURES = (0.5, 3.0, 12.0, 48.0)
@@ -124,11 +124,11 @@ class Calibration:
 
     def _key(self, material, disks, seeds):
         """What a trial's strengths depend on."""
-        return checkpoints.key_of({"tests": [dataclasses.asdict(test) for test in self._tests(material, disks, seeds)]})
+        return keys.run_key([dataclasses.asdict(test) for test in self._tests(material, disks, seeds)])
 
     def _tests(self, material, disks, seeds):
-        strain = biaxial.Test.strain if self.wanted.with_residual else PEAK_STRAIN
-        return [biaxial.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain) for seed in seeds for p in PRESSURES]
+        strain = biaxial_test.Test.strain if self.wanted.with_residual else PEAK_STRAIN
+        return [biaxial_test.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain) for seed in seeds for p in PRESSURES]
 
     def test(self, material, disks, seeds):
         """c [Pa], φ [°], and where they are wanted c_res, φ_res of a material, a list, from biaxial tests."""

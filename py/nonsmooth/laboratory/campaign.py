@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import processes, records, side_by_side
 from ..errors import UserError
-from . import bands, biaxial, pressing, strength
+from . import bands, biaxial_test, pressing, strength
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}
@@ -44,7 +44,7 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
         if test.strain < strength.SHORTEST:
             raise CampaignError(f"--strain {test.strain:g}: too short to measure a peak and what follows; give {strength.SHORTEST:g} or more")
     folders = [home / name_of(test) for test in tests]
-    made = [side_by_side.Run(folder.name, folder, biaxial.run, asdict(test), biaxial.key_of(test)) for test, folder in zip(tests, folders)]
+    made = [side_by_side.Run(folder.name, folder, "laboratory.biaxial:run", asdict(test), biaxial_test.key_of(test)) for test, folder in zip(tests, folders)]
     side_by_side.check(made, CampaignError, "; give each confining pressure and seed once")
     _press({test.shape for test in tests}, home, threads, progress)
     side_by_side.run(made, threads, resume, CampaignError, progress=lambda share, ended: progress(share, f"{len(made)} test{'s' if len(made) > 1 else ''}"), go_on=True)
@@ -94,7 +94,7 @@ def bands_of(folder, snapshot):
             for b in bands.find(s.x, s.y, s.r, s.angle - begin.angle)]
 
 
-def summarise(material, measured, wall_s, threads):
+def summarise(material, measured, wall_s=None, threads=None):
     """``summary.json``: per test, and per material with the mean and the 95 % confidence interval over seeds (null for one seed).
 
     Residual strengths are null where a plateau begins before :data:`strength.SOFTENED`.

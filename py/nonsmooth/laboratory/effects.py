@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import biaxial, campaign, strength
+from . import biaxial_test, campaign, strength
 from .pressing import Shape
 
 PRESSURE = 8e6   # Pa, of the paper's Figures 9 and 10
@@ -30,7 +30,7 @@ class Effect:
 
 def effects(material, seeds, count=COUNT, pressure=PRESSURE, **options):
     """The Effects that are looked at, each value with one Test for each seed. ``options``: fields of Test for all."""
-    usual = biaxial.Test(material, pressure, Shape(count, 0), **options)
+    usual = biaxial_test.Test(material, pressure, Shape(count, 0), **options)
 
     def tests(values, change):
         return {v: [change(dataclasses.replace(usual, shape=dataclasses.replace(usual.shape, seed=s)), v) for s in seeds] for v in values}
@@ -55,7 +55,7 @@ def run(chosen, out, threads, resume=False, progress=lambda share, doing: None):
     wanted = [(effect, value, group) for effect in chosen for value, group in effect.tests.items()]
     whole, done, known, rows = sum(_work(g) for _, _, g in wanted), 0.0, {}, []
     for effect, value, group in wanted:
-        key = tuple(map(biaxial.key_of, group))
+        key = tuple(map(biaxial_test.key_of, group))
         if key not in known:
             size = _work(group)
             known[key] = campaign.run(group, Path(out) / f"{effect.name}-{value:g}", threads, resume,

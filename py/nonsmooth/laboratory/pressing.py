@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import checkpoints, packing, processes, section
+from .. import keys, packing, processes, section
 from ..errors import UserError
 from ..packing_files import cache_folder
 from ..whole_files import write_arrays
@@ -91,7 +91,7 @@ class Pressed:
 def cache_path(shape):
     """Where the pressed sample of a shape is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/samples. Other engines press their own, so that a test has the
     same bits with and without a cache from earlier builds."""
-    return cache_folder("samples") / f"{checkpoints.key_of(asdict(shape) | {'engines': checkpoints.engines_key()})[:32]}-v{VERSION}.npz"
+    return cache_folder("samples") / f"{keys.key_of(asdict(shape) | {'engines': keys.engines_key()})[:32]}-v{VERSION}.npz"
 
 
 def load(shape):

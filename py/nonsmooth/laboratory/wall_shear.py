@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import checkpoints, packing, records, section, side_by_side
+from .. import keys, packing, records, section, side_by_side
 from ..errors import UserError
 from ..kept_runs import Progress
 from . import materials
@@ -167,7 +167,7 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     failure after the others have ended.
     """
     tests = list(tests)
-    made = [side_by_side.Run(t.name, Path(out) / "tests" / t.name, run_one, asdict(t), checkpoints.key_of(asdict(t))) for t in tests]
+    made = [side_by_side.Run(t.name, Path(out) / "tests" / t.name, run_one, asdict(t), keys.key_of(asdict(t))) for t in tests]
     side_by_side.check(made, SlideError, "; give each seed once, and each wall, under a file name of its own")
     for seed in sorted({t.seed for t in tests}):
         progress(0.0, f"packing of seed {seed}")

@@ -175,7 +175,7 @@ MUTANTS = (
            "test_side_by_side.py::test_the_costly_ones_run_first_and_results_keep_their_order"),
     mutant("command-status", PY + "commands.py", "INTERRUPTED = 130", "INTERRUPTED = 1", "Ctrl-C ends a command as an error does",
            "test_commands.py::test_a_command_ends_with_its_status_and_one_line"),
-    mutant("script-water", PY + "slope_command.py", "table=((0.0, 0.0),), rate=args.water", "table=((0.0, 0.0),), rate=1e-3 * args.water",
+    mutant("script-water", PY + "section_arguments.py", "table=((0.0, 0.0),), rate=args.water", "table=((0.0, 0.0),), rate=1e-3 * args.water",
            "--water is read as millimetres a second", "test_options.py::test_an_option_acts[jiufengershan--water]"),
     mutant("script-confining", "scripts/biaxial.py", "biaxial.Test(material, 1e6 * p,", "biaxial.Test(material, 1e3 * p,", "--confining is read as kilopascals",
            "test_options.py::test_an_option_acts[biaxial--confining]"),

@@ -1,0 +1,18 @@
+"""Many runs as one plan: made and checked before any begins, run side by side here or on a cluster, collected into one table. Needs no YADE: each run has a
+process of its own.
+
+* :mod:`sweep`: a slope with some of its values varied;
+* :mod:`plan`: a plan in its folder: run, resumed, collected;
+* :mod:`cluster`: the same plan for Snakemake and for Slurm;
+* :mod:`slope_run`: what a process does (in YADE).
+
+Like this::
+
+    plan = campaign.sweep(section.load("circle").with_disks(600), {"materials.soil.friction": [0.3, 0.5], "seed": [1, 2]})
+    table = plan.run("out/sweep", threads=2)      # a dictionary of columns; pandas.DataFrame(table) where one likes
+"""
+
+from .plan import Plan, PlanError, Planned, collect, read, run_one
+from .sweep import sweep
+
+__all__ = ["Plan", "PlanError", "Planned", "collect", "read", "run_one", "sweep"]

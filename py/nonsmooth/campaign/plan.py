@@ -1,0 +1,140 @@
+"""A plan of runs in its folder.
+
+    plan.json              the runs: names, values, arguments
+    Snakefile, array.sh    the same for a cluster, see :mod:`cluster`
+    runs/NAME/             a run: its request, its records, and result.json once it has ended
+    table.csv              a row for each run: its values and its results
+
+A result is kept with the key of its input, the engines and this package's code; another's is made anew, and never collected.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from .. import installation, kept_runs, keys, output_folder, side_by_side
+from ..errors import UserError
+from ..whole_files import write_atomically
+from . import cluster
+
+__all__ = ["Plan", "PlanError", "Planned", "collect", "read", "run_one"]
+
+FILE, TABLE, FORMAT = "plan.json", "table.csv", 1
+
+
+class PlanError(UserError, RuntimeError):
+    """A plan that cannot be read, run or collected; the message says why and what helps."""
+
+
+@dataclass(frozen=True)
+class Planned:
+    """One run: its ``name``, which is that of its folder; the ``values`` that tell it from the others, for the table; ``arguments`` of the plan's function;
+    ``work``: what it costs beside the others."""
+
+    name: str
+    values: dict
+    arguments: dict
+    work: float = 1.0
+
+    @property
+    def key(self):
+        """Of its input."""
+        return keys.key_of(self.arguments)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Runs of one ``function``, "module:name" of this package (see processes.call); what it returns goes into the table. It goes on from what a halted run
+    has left in its folder."""
+
+    title: str
+    function: str
+    runs: tuple
+
+    def write(self, out):
+        """Writes the plan, and its files for a cluster, into the folder ``out``."""
+        out = Path(out)
+        content = {"format": FORMAT, "title": self.title, "function": self.function, "runs": [asdict(one) for one in self.runs]}
+        write_atomically(out / FILE, json.dumps(content, indent=1).encode())
+        cluster.write(out, self.title, {one.name: keys.run_key(one.key) for one in self.runs})
+
+    def run(self, out, threads=1, resume=False, progress=lambda share, ended: None) -> dict:
+        """Runs all, as many at a time as ``threads``, below the folder ``out``, and returns the table (see :func:`collect`).
+
+        ``resume``: keep what has ended and go on with what was halted. ``progress``: called with the share done and the number of runs that have ended. Raises
+        FolderError where another process works there, PlanError with the first failure after the others have ended, and interrupts.Interrupted after Ctrl-C.
+        """
+        installation.engines()
+        output_folder.claim(out, "sweep.py", resume)
+        self.write(out)
+        side_by_side.run([self._made(one, out) for one in self.runs], threads, resume, PlanError, "; what has ended is kept, go on with --resume", progress, go_on=True)
+        return collect(out)
+
+    def _made(self, one, out):
+        return side_by_side.Run(one.name, Path(out) / "runs" / one.name, self.function, one.arguments, one.key, one.work)
+
+
+def read(out) -> Plan:
+    """The plan in a folder. Raises PlanError where there is none that can be read."""
+    path = Path(out) / FILE
+    try:
+        content = json.loads(path.read_text())
+        if content["format"] != FORMAT:
+            raise PlanError(f"{path}: another version of this package wrote this plan; plan it anew")
+        return Plan(content["title"], content["function"], tuple(Planned(**one) for one in content["runs"]))
+    except FileNotFoundError:
+        raise PlanError(f"{path}: there is no plan; make one with --plan, or give the folder of one") from None
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        raise PlanError(f"{path}: the plan cannot be read ({error}); plan it anew") from None
+
+
+def run_one(out, which):
+    """Does one run of the plan in the folder ``out``, as a job of a cluster does: ``which``: its name, or its number from 0. Returns its result, which is
+    kept; a run that has ended is not repeated, and one that was halted goes on. Raises PlanError where there is no such run, or where it fails."""
+    plan = read(out)
+    found = [one for k, one in enumerate(plan.runs) if which in (one.name, k)]
+    if not found:
+        what = f"number {which}: give one from 0 to {len(plan.runs) - 1}" if isinstance(which, int) else f"run is called {which!r}: see {Path(out) / FILE}"
+        raise PlanError(f"{out}: no {what}")
+    made = plan._made(found[0], out)
+    output_folder.claim(made.folder, "sweep.py")
+    return side_by_side.run([made], 1, True, PlanError, go_on=True)[0]
+
+
+def collect(out) -> dict:
+    """Writes the table of the plan in the folder ``out``, and returns it: {column: list, a value for each run}; columns are the varied values, ``run`` (the
+    name), and the numbers that the results have, None where one has no meaning.
+
+    Raises PlanError where runs have not ended, or are of other input, engines or code.
+    """
+    plan = read(out)
+    found = {one.name: kept_runs.kept(Path(out) / "runs" / one.name, one.key) for one in plan.runs}
+    missing = [name for name, result in found.items() if result is None]
+    if missing:
+        more = f" and {len(missing) - 3} more" if len(missing) > 3 else ""
+        raise PlanError(f"{out}: {len(missing)} of {len(plan.runs)} runs have no result of this input, these engines and this code: {', '.join(missing[:3])}{more}; "
+                        "run them, or go on with --resume")
+    rows = [{"run": one.name, **one.values, **_numbers(found[one.name])} for one in plan.runs]
+    columns = list(dict.fromkeys(name for row in rows for name in row))
+    table = {name: [row.get(name) for row in rows] for name in columns}
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerows([columns, *zip(*table.values())])
+    write_atomically(Path(out) / TABLE, text.getvalue().encode())
+    return table
+
+
+def _numbers(result, prefix=""):
+    """The numbers of a result, those of its dictionaries as `key.key`; lists and texts are left out."""
+    found = {}
+    for name, value in result.items():
+        if isinstance(value, dict):
+            found |= _numbers(value, f"{prefix}{name}.")
+        elif value is None or isinstance(value, (bool, int, float)):
+            found[f"{prefix}{name}"] = None if isinstance(value, float) and not math.isfinite(value) else value
+    return found

@@ -1,0 +1,20 @@
+"""What a process of a campaign does: one slope, from its packing to its rest, or from its checkpoint on. In YADE."""
+
+from __future__ import annotations
+
+from .. import checkpoints, experiment, kept_runs, section
+
+__all__ = ["run"]
+
+
+def run(folder, data, end=None, figures=False):
+    """Runs the section of the plain ``data`` in the folder until it is over, or to ``end`` [s] of simulated time, and returns its summary; see experiment.begin."""
+    made = section.of(data, str(folder))
+    note = kept_runs.Progress(folder)
+    start = experiment.resume if checkpoints.exists(folder) else experiment.begin
+    course = start(made, folder, progress=lambda stage, now, foreseen: note(now / max(foreseen, now)))
+    course.run(end=end)
+    summary = course.summarise(threads=1)
+    if figures:
+        course.draw()
+    return summary

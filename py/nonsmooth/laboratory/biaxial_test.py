@@ -1,0 +1,56 @@
+"""A biaxial test as data: what is tested, and how; :mod:`biaxial` does it. Needs no YADE."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+
+from .. import keys, section
+from . import materials, pressing
+
+__all__ = ["Test", "key_of"]
+
+
+@dataclass(frozen=True)
+class Test:
+    """What determines a test. ``confining``: σ₃ [Pa]; ``strain``: at the end.
+
+    ``platens``: "smooth", "rough" (friction and rolling friction of the rock, no bonds) or "glued" (bonded as the rock is); ``sides``: "rigid" or
+    "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i.
+    """
+
+    __test__ = False  # no test of pytest's
+
+    material: section.Material
+    confining: float
+    shape: pressing.Shape
+    strain: float = 0.15  # stresses fall until 0.07 or so; the plateau is the second half
+    platens: str = "rough"
+    sides: str = "flexible"
+    inertia: float = 1e-4
+    step: float = 0.1
+    tolerance: float = 1e-5
+    max_iterations: int = 1000
+
+    def __post_init__(self):
+        object.__setattr__(self, "material", materials.bare(self.material))
+
+    @classmethod
+    def of(cls, plain):
+        """From the plain data that `asdict` makes of a test."""
+        plain = dict(plain)
+        return cls(material=materials.of(plain.pop("material")), shape=pressing.Shape(**plain.pop("shape")), **plain)
+
+    @property
+    def platen(self):
+        """Material of the platens."""
+        if self.platens == "glued":
+            return replace(self.material, name="platen", bonded=True)
+        m = replace(self.material, name="platen", bonded=False, tensile_strength=0.0, residual_tensile_strength=0.0)
+        if self.platens == "smooth":
+            return replace(m, friction=0.0, residual_friction=0.0, rolling_friction=0.0, residual_rolling_friction=0.0)
+        return m
+
+
+def key_of(test):
+    """What a checkpoint and the test that goes on from it must agree on."""
+    return keys.key_of(asdict(test))

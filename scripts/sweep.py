@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""Many runs of a slope with some of its values varied, as many at a time as there are threads, and one table of what they found.
+
+  scripts/sweep.py --section NAME|FILE --over KEY=VALUE,VALUE,… [--over …] [--disks N] [--out DIR] [--threads T] [--resume]
+  scripts/sweep.py --section NAME|FILE --over … --out DIR --plan     only write the plan, with files for Snakemake and Slurm
+  scripts/sweep.py --out DIR --collect                               the table of runs that a cluster has done
+"""
+import argparse
+import os
+import sys
+from pathlib import Path
+
+import yaml
+from tabulate import tabulate
+from tqdm import tqdm
+
+if "yade" in sys.modules:  # started by the launcher
+    from yade.nonsmooth import campaign, commands, section_arguments
+else:  # YADE runs in processes of its own
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
+    from nonsmooth import campaign, commands, section_arguments
+
+SHOWN = ("times_s.t0", "water_at_failure_m", "front_travel_m", "deposit_thickness_max_m")
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(prog="sweep.py", description=__doc__.splitlines()[0])
+    section_arguments.add(parser, needless=("--run", "--number", "--collect"))
+    parser.add_argument("--over", action="append", default=[], type=varied, metavar="KEY=V,V,…", help="values of a key of the section file, as water.table.rate=0.5,1 or walls.DP.material=dp,ss; several: all combinations")
+    parser.add_argument("--end", type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop each run after so many seconds of simulated time")
+    parser.add_argument("--figures", action="store_true", help="figures of each run too")
+    parser.add_argument("--out", default="out/sweep", metavar="DIR", help="folder of the plan and its runs (default: %(default)s)")
+    parser.add_argument("--threads", type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"), default=os.cpu_count(), metavar="T", help="runs at a time (default: all cores)")
+    parser.add_argument("--resume", action="store_true", help="keep what has ended in DIR, and go on with what was halted")
+    parser.add_argument("--plan", action="store_true", help="only write the plan, with a Snakefile and a job for Slurm")
+    parser.add_argument("--run", metavar="NAME", help="do one run of the plan in DIR")
+    parser.add_argument("--number", type=section_arguments.number(int, 0, 10**6, "a whole number from 0"), metavar="K", help="do run number K of the plan in DIR, from 0")
+    parser.add_argument("--collect", action="store_true", help="only collect the table of the plan in DIR")
+    return parser.parse_args()
+
+
+def varied(text):
+    """KEY=V,V,… as (key, values)."""
+    key, sign, values = text.partition("=")
+    try:
+        found = yaml.safe_load(f"[{values}]")
+    except yaml.YAMLError:
+        found = None
+    if not sign or not key or not found:
+        raise argparse.ArgumentTypeError(f"{text[:60]!r}: give KEY=VALUE,VALUE,…, as seed=1,2,3")
+    return key, [_number(value) for value in found]
+
+
+def _number(value):
+    """YAML takes 1e4 for text."""
+    try:
+        return float(value) if isinstance(value, str) else value
+    except ValueError:
+        return value
+
+
+def main():
+    args = read_arguments()
+    if args.run is not None or args.number is not None:
+        campaign.run_one(args.out, args.run if args.run is not None else args.number)
+        return
+    if args.collect:
+        show(campaign.collect(args.out), args.out)
+        return
+    over = dict(args.over)
+    if len(over) < len(args.over):
+        raise campaign.PlanError("--over: a key stands twice; give all its values at once")
+    plan = campaign.sweep(section_arguments.read(args), over, end=args.end, figures=args.figures)
+    if args.plan:
+        plan.write(args.out)
+        print(f"{len(plan.runs)} runs planned in {args.out}: snakemake --cores N, or sbatch array.sh, in that folder")
+        return
+    with commands.closing(tqdm(total=1.0, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left", mininterval=0.5 if sys.stderr.isatty() else 30)) as bar:
+
+        def progress(share, ended):
+            bar.set_description_str(f"{ended} of {len(plan.runs)} runs", refresh=False)
+            bar.update(share - bar.n)
+
+        table = plan.run(args.out, args.threads, args.resume, progress)
+    show(table, args.out)
+
+
+def show(table, out):
+    """The varied values and some results; all are in the file."""
+    names = [*campaign.read(out).runs[0].values, *(name for name in SHOWN if name in table)]
+    print(tabulate({name: table[name] for name in names}, headers="keys", floatfmt=".4g"))
+    print(f"results: {out}/table.csv, runs/*/summary.json")
+
+
+commands.run(main, "what has ended is kept, go on with --resume")
