@@ -15,6 +15,9 @@ version = release
 
 extensions = [
     "sphinx.ext.autodoc",
+    "sphinx_copybutton",
+    "sphinxcontrib.bibtex",
+    "nbsphinx",         # notebooks, with the results that they were written with
     "mathml",           # equations, without a network
     "yade_reference",   # classes of the plugin, from their docstrings
     "package_modules",  # modules of the package, from their docstrings
@@ -28,7 +31,11 @@ extensions = [
 needs_sphinx = "5.3"
 default_role = "literal"  # `name` in the package's docstrings
 highlight_language = "none"  # code blocks name theirs
-exclude_patterns = ["ext", "figures", "measured", "examples"]
+exclude_patterns = ["ext", "figures", "measured", "examples", "notebooks/out", "**.ipynb_checkpoints"]
+bibtex_bibfiles = ["references.bib"]
+bibtex_default_style = "alpha"
+nbsphinx_execute = "never"
+copybutton_prompt_text = "$ "
 smartquotes = False  # 'zXY' and --resume are code
 math_eqref_format = "({number})"
 
@@ -36,17 +43,10 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 
 html_math_renderer = "mathml"
-html_theme = "alabaster"
+html_theme = "furo"
 html_title = f"yade-nonsmooth {release}"
 html_static_path = ["static"]
 html_css_files = ["pages.css"]
 html_show_sourcelink = False
 html_show_copyright = False
-html_theme_options = {
-    "description": "Contact Dynamics for YADE",
-    "page_width": "64rem",
-    "sidebar_width": "15rem",
-    "fixed_sidebar": False,
-    "show_powered_by": False,
-}
-html_sidebars = {"**": ["about.html", "navigation.html", "searchbox.html"]}
+html_theme_options = {"sidebar_hide_name": False}

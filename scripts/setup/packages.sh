@@ -6,7 +6,8 @@ PACKAGES_PROJECT=(
     g++ cmake ninja-build pkg-config ca-certificates python3 python3-dev
     libboost-all-dev libeigen3-dev zlib1g-dev libgtest-dev libbenchmark-dev libhdf5-dev pybind11-dev
     python3-numpy python3-scipy python3-matplotlib python3-shapely python3-yaml python3-jsonschema
-    python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-pytest python3-hypothesis python3-sphinx python3-docutils python3-jinja2 ffmpeg)
+    python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-pytest python3-hypothesis python3-docutils python3-jinja2 ffmpeg
+    python3-sphinx furo python3-sphinx-copybutton python3-sphinxcontrib.bibtex python3-nbsphinx python3-nbconvert python3-ipykernel pandoc)
 
 # To configure, build and run the slim YADE.
 PACKAGES_YADE_BUILD=(
@@ -24,6 +25,9 @@ PACKAGES_ORACLE=(libsiconos-numerics-dev)
 
 # To compile the solver for another processor, in .ci/run: 56 MB to fetch, 200 MB on the disk, so no user needs it.
 PACKAGES_CROSS=(g++-aarch64-linux-gnu)
+
+# To hold the files of a campaign for a cluster against runs done here, in .ci/run: 670 MB on the disk with what it needs.
+PACKAGES_CAMPAIGN=(snakemake)
 
 # Installs those of the packages that apt knows, and leaves out the others.
 packages_install_known() {

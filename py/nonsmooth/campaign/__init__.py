@@ -1,7 +1,7 @@
 """Many runs as one plan: made and checked before any begins, run side by side here or on a cluster, collected into one table. Needs no YADE: each run has a
 process of its own.
 
-* :mod:`sweep`: a slope with some of its values varied;
+* :mod:`sweep`: a slope with some of its values varied, and a slope alone;
 * :mod:`plan`: a plan in its folder: run, resumed, collected;
 * :mod:`cluster`: the same plan for Snakemake and for Slurm;
 * :mod:`slope_run`: what a process does (in YADE).
@@ -13,6 +13,6 @@ Like this::
 """
 
 from .plan import Plan, PlanError, Planned, collect, read, run_one
-from .sweep import sweep
+from .sweep import run_slope, sweep
 
-__all__ = ["Plan", "PlanError", "Planned", "collect", "read", "run_one", "sweep"]
+__all__ = ["Plan", "PlanError", "Planned", "collect", "read", "run_one", "run_slope", "sweep"]

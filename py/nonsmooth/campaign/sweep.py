@@ -1,4 +1,4 @@
-"""A slope with some of its values varied: all combinations, each checked like a section file before anything runs."""
+"""A slope with some of its values varied: all combinations, each checked like a section file before anything runs; and a slope alone."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import difflib
 import itertools
 import re
 
-from .. import section, section_data
+from .. import checkpoints, output_folder, processes, runs, section, section_data
 from .plan import Plan, PlanError, Planned
 
-__all__ = ["sweep"]
+__all__ = ["run_slope", "sweep"]
 
 MOST = 10_000  # runs of a plan
 LONGEST = 150  # characters of a folder's name; longer ones become numbers
@@ -38,7 +38,7 @@ def sweep(base, over, end=None, figures=False) -> Plan:
     if number > MOST:
         raise PlanError(f"{' × '.join(str(len(v)) for v in over.values())} = {number} runs; a plan has {MOST} at most")
     whole, short = section_data.plain(base), _short(over)
-    runs = []
+    planned = []
     for k, combination in enumerate(itertools.product(*over.values())):
         values = dict(zip(over, combination))
         name = "_".join(f"{short[key]}={_text(value)}" for key, value in values.items()) or "run"
@@ -48,8 +48,21 @@ def sweep(base, over, end=None, figures=False) -> Plan:
         for key, value in values.items():
             _put(data, key, value)
         made = section.of(data, name)
-        runs.append(Planned(name, values, {"data": section_data.plain(made), "end": end, "figures": figures}, float(sum(made.disk_counts()))))
-    return Plan(base.name, FUNCTION, tuple(runs))
+        planned.append(Planned(name, values, {"data": section_data.plain(made), "end": end, "figures": figures}, float(sum(made.disk_counts()))))
+    return Plan(base.name, FUNCTION, tuple(planned))
+
+
+def run_slope(made, out, end=None, figures=False, resume=False, threads=1) -> runs.Run:
+    """Runs one Section in the folder ``out``, in a process of its own, and opens the run; the process may have several ``threads``. The rest as for :func:`sweep`;
+    ``resume``: go on from its checkpoint.
+
+    Raises FolderError where another process works there, and processes.RunError where the run fails.
+    """
+    output_folder.claim(out, "slope.py", resume)
+    if not resume:
+        checkpoints.forget(out)
+    processes.call(FUNCTION, out, {"data": section_data.plain(made), "end": end, "figures": figures}, threads)
+    return runs.open_run(out)
 
 
 def _short(over):
