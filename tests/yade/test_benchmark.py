@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shell
-from yade.nonsmooth import checkpoints, contact
-from yade.nonsmooth.benchmark import cold_start, report, states, statistics, sweeps
+from yade.nonsmooth import checkpoints, contact, statistics
+from yade.nonsmooth.benchmark import cold_start, report, states, sweeps
 
 ROOT = Path(__file__).resolve().parents[2]
 DISKS = 350

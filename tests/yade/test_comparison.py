@@ -128,9 +128,12 @@ def test_difference_and_scatter_over_seeds():
     assert found["hard"]["mean"] == pytest.approx(11) and found["hard"]["sd"] == pytest.approx(1)
     assert found["difference"] == pytest.approx(0.5)
     assert found["difference_95"] == pytest.approx(4.303 * 0.1 / math.sqrt(3), rel=1e-3)  # Student's t for two degrees of freedom
-    assert found["within_scatter"] is True
-    assert summary.estimate([10.0, 10.1], [12.0, 12.1])["within_scatter"] is False
-    assert summary.estimate([10.0], [12.0])["within_scatter"] is None
+    assert found["agree"] is True
+    assert summary.estimate([10.0, 10.1], [12.0, 12.1])["agree"] is False
+    assert summary.estimate([10.0], [12.0])["agree"] is None
+    # by hand: 0.7 ± 12.706 · 0.2 spans the scatter and zero; 0.2 ± 0.041 leaves zero out and is small beside the scatter of 1.0
+    assert summary.estimate([10.0, 11.0], [10.5, 11.9])["agree"] is None
+    assert summary.estimate([10.0, 11.0, 12.0], [10.2, 11.2, 12.2 + 1e-9])["agree"] is True
     assert summary.estimate([None, 10.0], [12.0, 11.0])["difference"] == pytest.approx(1.0)  # the seed without a failure is left out
 
 

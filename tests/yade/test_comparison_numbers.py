@@ -114,10 +114,10 @@ def test_means_differences_and_scatter(told):
     assert (front["hard"]["mean"], front["soft"]["mean"]) == pytest.approx((105.0, 115.5), rel=SAME) and front["hard"]["sd"] == pytest.approx(math.sqrt(31), rel=SAME)
     # soft over hard: a tenth of 100, 104 and 111, whose standard deviation is √0.31; Student's t for two degrees of freedom
     assert front["difference"] == pytest.approx(10.5, rel=SAME) and front["difference_95"] == pytest.approx(4.30265 * math.sqrt(0.31 / 3), rel=1e-5)
-    assert front["scatter"] == pytest.approx(math.sqrt(31 * (1 + 1.21) / 2), rel=SAME) and front["within_scatter"] is False
+    assert front["scatter"] == pytest.approx(math.sqrt(31 * (1 + 1.21) / 2), rel=SAME) and front["agree"] is False
     assert front["soft"]["values"] == pytest.approx([110.0, 114.4, 122.1], rel=SAME)
     water = found["water_at_failure_m"]
-    assert (water["difference"], water["difference_95"], water["scatter"], water["within_scatter"]) == pytest.approx((1.0, 0.0, 2.0, True), abs=SAME)
+    assert (water["difference"], water["difference_95"], water["scatter"], water["agree"]) == pytest.approx((1.0, 0.0, 2.0, True), abs=SAME)
     assert found["odd"]["difference"] == 1.0 and found["odd"]["soft"]["values"] == [2.0, None, 2.0] and found["odd"]["soft"]["mean"] == 2.0
     assert (told[0]["water_at_failure_hard_m"], told[0]["water_at_failure_soft_m"], told[0]["front_travel_hard_m"], told[0]["front_travel_soft_m"]) == pytest.approx(
         (12.0, 13.0, 105.0, 115.5), rel=SAME)

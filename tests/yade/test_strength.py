@@ -10,7 +10,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-bands, strength = (synthetic.load(f"laboratory.{name}") for name in ("bands", "strength"))
+bands, strength, statistics = (synthetic.load(name) for name in ("laboratory.bands", "laboratory.strength", "statistics"))
 
 
 # ---- curves and envelopes -------------------------------------------------------------------------
@@ -74,9 +74,9 @@ def test_a_curve_without_a_plateau_is_refused():
 
 
 def test_confidence_over_seeds_is_students():
-    e = strength.Estimate.of([38.0, 39.0, 40.0])
+    e = statistics.Estimate.of([38.0, 39.0, 40.0])
     assert e.mean == 39.0 and e.half_width == pytest.approx(4.3027 / math.sqrt(3), rel=1e-4)  # t(0.975, 2 degrees of freedom) has 5 digits
-    assert math.isnan(strength.Estimate.of([38.0]).half_width)
+    assert math.isnan(statistics.Estimate.of([38.0]).half_width)
 
 
 @pytest.mark.parametrize("cohesion, friction_deg", [(0.0, 20.0), (5e3, 35.0), (2e6, 10.0), (88e3, 0.0), (1e3, 60.0)])

@@ -16,10 +16,10 @@ from yade import O
 from yade.wrapper import Collider, InteractionLoop
 
 from .. import contact, packing, packing_files, slope, worlds
+from ..statistics import spread
 from ..stepping import advance
 from . import cold_start, machine, states, sweeps
 from .course import Course
-from .statistics import spread
 from .steps import TimedSteps
 
 __all__ = ["SIZES", "measure", "measure_soft_memory", "measure_sweeps", "run"]

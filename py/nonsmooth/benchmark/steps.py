@@ -8,9 +8,9 @@ from pathlib import Path
 from yade import O
 from yade.wrapper import Collider, ContactDynamicsEngine, ForceResetter, InteractionLoop, NewtonIntegrator, PorePressureEngine
 
+from ..statistics import spread
 from ..stepping import advance
 from . import states
-from .statistics import spread
 
 __all__ = ["STAGES", "TimedSteps", "measure"]
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import contact
-from .statistics import spread
+from ..statistics import spread
 
 __all__ = ["FEW", "MANY", "PATHS", "bandwidth", "measure", "sweep_seconds"]
 

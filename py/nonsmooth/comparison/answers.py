@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+VERDICTS = {True: "they differ by no more than two packings do", False: "they differ", None: "more seeds are needed to tell"}
+
 __all__ = ["answer_cost", "answer_costs", "answer_same", "number", "spread"]
 
 
@@ -45,14 +47,12 @@ def answer_same(summary, names):
         known = [sum(v is not None for v in q[world]["values"]) for world in ("hard", "soft")]
         if min(known) < seeds:
             text += f" (in {known[0]} hard and {known[1]} soft runs of {seeds} it came to that)"
-        if q["within_scatter"] is None:
+        verdicts.append(q["agree"])
+        if q["difference_95"] is None or q["scatter"] is None:
             text += "; with these runs difference cannot be told from scatter."
-            verdicts.append(None)
         else:
-            verdicts.append(q["within_scatter"])
-            span = f" (95 % confidence ± {number(q['difference_95'], unit)}, same packings)" if q["difference_95"] is not None else ""
-            size = "within" if q["within_scatter"] else "larger than"
-            text += f". The difference, {number(q['difference'], unit)}{span}, is {size} the scatter over seeds, {number(q['scatter'], unit)}."
+            text += (f". The difference of the same packings is {number(q['difference'], unit)} ± {number(q['difference_95'], unit)} (95 % confidence), the scatter over seeds "
+                     f"{number(q['scatter'], unit)}: {VERDICTS[q['agree']]}.")
         sentences.append(text)
     verdict = "not told" if None in verdicts else ("yes" if all(verdicts) else ("no" if not any(verdicts) else "in part"))
     if summary.get("deposit_overlap_fraction") is not None:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import base64
-import datetime
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import jinja2
-
-from ..whole_files import write_atomically
+from .. import report
 from . import answers, figures
 from .answers import number, spread
 from .cases import modulus_label
 
 __all__ = ["Section", "common_sections", "write"]
+
+TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 
 SHOWN = ("error", "overlap", "front_travel_m")  # of the convergence, in the figure, besides curves and key quantities
@@ -35,12 +33,7 @@ def write(path, title, lead, questions, sections, machine):
 
     ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as benchmark.machine.describe tells.
     """
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).parent), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters["image"] = lambda name: "data:image/png;base64," + base64.b64encode(Path(name).read_bytes()).decode()
-    page = environment.get_template("report.html.j2").render(title=title, lead=lead, questions=questions, sections=sections, machine=machine,
-                                                             date=datetime.date.today().isoformat())
-    write_atomically(Path(path), page.encode())
-    return Path(path)
+    return report.write(path, TEMPLATE, title=title, lead=lead, questions=questions, sections=sections, machine=machine)
 
 
 def _percent(value):
@@ -58,13 +51,13 @@ def _quantities(summary):
     rows = []
     for q in summary["quantities"].values():
         cell = lambda w: spread(q[w]["mean"], q[w]["sd"], q["unit"])  # noqa: E731
-        within = {None: "–", True: "yes", False: "no"}[q["within_scatter"]]
+        within = {None: "not told", True: "yes", False: "no"}[q["agree"]]
         rows.append((q["means"], cell("hard"), cell("soft"), number(q["difference"], q["unit"]),
                      "–" if q["difference_95"] is None else "± " + number(q["difference_95"], q["unit"]), within))
     caption = (f"Means and standard deviations over seeds {', '.join(map(str, summary['seeds']))}; soft with "
                f"{modulus_label(summary['ensemble_stiffness_Pa'])}. "
                "Differences are soft minus hard of the same packing, with their 95 % confidence (Student's t).")
-    return Section("All quantities", tables=[(caption, ("quantity", "hard", "soft", "difference", "confidence", "within the scatter"), rows)])
+    return Section("All quantities", tables=[(caption, ("quantity", "hard", "soft", "difference", "confidence", "the same"), rows)])
 
 
 def _overlaps(folder, scenario, plan, outcomes, summary):

@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from ..laboratory.strength import Estimate
+from ..statistics import Estimate
 from . import deposits, precision
 
 __all__ = ["ROCK_STIFFNESS", "clean", "estimate", "stiffest_within", "summarise"]
@@ -31,8 +31,9 @@ def clean(value):
 def estimate(hard, soft):
     """Means, standard deviations over seeds, and the paired difference of a quantity.
 
-    ``hard``, ``soft``: values (or None) of the same seeds in the same order. ``within_scatter`` of the result: the means differ by no more than the
-    standard deviation over seeds (root mean square of both worlds'); None for fewer than two seeds.
+    ``hard``, ``soft``: values (or None) of the same seeds in the same order. ``scatter`` of the result: standard deviation over seeds (root mean square of both
+    worlds'). ``agree``: True where the whole 95 % interval of the difference lies within the scatter, so that they differ by no more than two packings
+    do; False where it does not and leaves zero out; None where so few seeds, or one alone, cannot tell.
     """
     number = lambda values: [v for v in values if v is not None]  # noqa: E731
     pairs = [(a, b) for a, b in zip(hard, soft) if a is not None and b is not None]
@@ -45,11 +46,19 @@ def estimate(hard, soft):
     found["difference_95"] = None if difference is None or math.isnan(difference.half_width) else difference.half_width
     spreads = [found[w]["sd"] for w in ("hard", "soft")]
     if None in spreads or difference is None:
-        found["scatter"] = found["within_scatter"] = None
+        found["scatter"] = found["agree"] = None
     else:
         found["scatter"] = math.sqrt(0.5 * sum(s * s for s in spreads))
-        found["within_scatter"] = abs(found["hard"]["mean"] - found["soft"]["mean"]) <= found["scatter"]
+        found["agree"] = _agree(difference, found["scatter"])
     return found
+
+
+def _agree(difference, scatter):
+    """See :func:`estimate`; one pair has no interval (NaN)."""
+    size, half = abs(difference.mean), difference.half_width
+    if size + half <= scatter:
+        return True
+    return False if size > half else None
 
 
 def stiffest_within(differences, scatter):

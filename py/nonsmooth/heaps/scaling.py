@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from ..statistics import half_width
 from .grains import HeapError
 
 __all__ = ["HEIGHT", "RUNOUT", "Fit", "Law", "exponents", "fit"]
@@ -62,8 +63,7 @@ def fit(a, values):
     if not (values > 0).all():
         raise HeapError(f"{values.min():g} at a = {a[np.argmin(values)]:g}: a power law wants values above 0")
     line = stats.linregress(np.log(a), np.log(values))
-    half = float(stats.t.ppf(0.975, len(a) - 2) * line.stderr) if len(a) > 2 else math.nan
-    return Fit(math.exp(line.intercept), float(line.slope), half, len(a))
+    return Fit(math.exp(line.intercept), float(line.slope), half_width(line.stderr, len(a) - 2), len(a))
 
 
 def exponents(a, values, change):

@@ -12,6 +12,7 @@ import numpy as np
 
 from .. import processes, records, side_by_side
 from ..errors import UserError
+from ..statistics import Estimate
 from . import bands, biaxial_test, pressing, strength
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
@@ -112,8 +113,8 @@ def summarise(material, measured, wall_s=None, threads=None):
             names = ("cohesion_residual_kPa", "cohesion_residual_95_kPa", "friction_residual_deg", "friction_residual_95_deg", "misses_residual_rel")
             return {**whole, **dict.fromkeys(names), "note": f"no residual envelope: the strain ends before {strength.SOFTENED / strength.PLATEAU:g}"}
         fits = [strength.envelope([m[f"sigma3_{kind}_Pa"] for m in group], [m[f"sigma1_{kind}_Pa"] for m in group]) for group in by_seed.values()]
-        cohesion = strength.Estimate.of([1e-3 * f.cohesion for f in fits])
-        friction = strength.Estimate.of([f.friction_deg for f in fits])
+        cohesion = Estimate.of([1e-3 * f.cohesion for f in fits])
+        friction = Estimate.of([f.friction_deg for f in fits])
         whole |= {f"cohesion_{kind}_kPa": cohesion.mean, f"cohesion_{kind}_95_kPa": number(cohesion.half_width), f"friction_{kind}_deg": friction.mean,
                   f"friction_{kind}_95_deg": number(friction.half_width),
                   f"misses_{kind}_rel": np.mean([f.misses for f in fits], axis=0).tolist()}

@@ -11,7 +11,8 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import biaxial_test, campaign, strength
+from ..statistics import Estimate
+from . import biaxial_test, campaign
 from .pressing import Shape
 
 PRESSURE = 8e6   # Pa, of the paper's Figures 9 and 10
@@ -81,7 +82,7 @@ def _row(effect, value, measured, usual):
     for kind in ("peak", "residual"):
         angles = [_angle(m, kind) for m in measured]
         change = [a[f"sigma1_{kind}_Pa"] / b[f"sigma1_{kind}_Pa"] - 1 for a, b in zip(measured, usual)]
-        of_angle, of_change = strength.Estimate.of(angles), strength.Estimate.of(change)
+        of_angle, of_change = Estimate.of(angles), Estimate.of(change)
         row |= {f"{kind}_deg": angles, f"{kind}_mean_deg": of_angle.mean, f"{kind}_95_deg": campaign.number(of_angle.half_width),
                 f"{kind}_change_rel": of_change.mean, f"{kind}_change_95_rel": campaign.number(of_change.half_width)}
     return row

@@ -17,6 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import optimize
 
+from ..statistics import standard_error
+
 PEAK_WINDOW = 2e-3           # strain over which the stress is averaged before its maximum is taken
 DILATANCY_WINDOW = 5e-3      # strain around the peak over which the slope of the volume is taken
 PLATEAU = 0.5                # share of a test's strain from which on the residual strength is the mean
@@ -63,7 +65,7 @@ def curve(series, plateau):
     gap = lambda where: abs(top[where].mean() / bottom[where].mean() - 1)  # noqa: E731
     return Curve(
         peak=float(mean[k]), peak_strain=float(middle), peak_confining=float(lateral[at].mean()), residual=float(axial[late].mean()),
-        residual_error=float(np.std(blocks, ddof=1) / math.sqrt(len(blocks))), residual_confining=float(lateral[late].mean()),
+        residual_error=standard_error(blocks), residual_confining=float(lateral[late].mean()),
         # sin ψ = dε_v / (2 dε₁ + dε_v) in plane strain
         dilatancy_deg=math.degrees(math.asin(max(-1.0, min(1.0, slope / (2 + slope))))), imbalance=float(max(gap(at), gap(late))),
         volumetric_end=float(series["volumetric_strain"][-1]))
@@ -118,21 +120,3 @@ def envelope(minor, major):
     cosine = math.sqrt(1 - sine * sine)
     misses = 1 - (a * unit + s * sine) / t
     return Envelope(float(a) * unit / cosine, math.degrees(math.asin(sine)), tuple(misses.tolist()))
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A mean over seeds with the half width of its 95 % confidence interval (Student's t); NaN for one seed."""
-
-    mean: float
-    half_width: float
-
-    @classmethod
-    def of(cls, values):
-        """Of one value a seed, a sequence of one or more."""
-        from scipy import stats
-
-        values = np.asarray(values, float)
-        n = len(values)
-        half = float(stats.t.ppf(0.975, n - 1) * values.std(ddof=1) / math.sqrt(n)) if n > 1 else math.nan
-        return cls(float(values.mean()), half)

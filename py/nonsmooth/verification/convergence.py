@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..figures import style
+from ..statistics import standard_error
 from ..whole_files import write_arrays
 from .cases import run_cases
 from .claims import Outcome, near
@@ -140,7 +141,7 @@ class Sweep:
         """Relative change from ``reference`` to ``value`` of the same seeds: (mean, its standard error; NaN for one seed)."""
         a, b = self.values[value], self.values[reference]
         changes = [a[seed] / b[seed] - 1 for seed in a if seed in b]
-        return float(np.mean(changes)), _error(changes)
+        return float(np.mean(changes)), standard_error(changes)
 
     def largest_step(self):
         """Largest mean change from one value to the next finer one."""
@@ -166,7 +167,7 @@ class Sweep:
         for line in points.values():
             ax.plot(line.keys(), line.values(), color="#0072B2", lw=0.8, alpha=0.5)
         columns = [[line[v] for line in points.values() if v in line] for v in order]
-        ax.errorbar(order, [np.mean(c) for c in columns], [np.nan_to_num(_error(c)) for c in columns], fmt="o-", color="#0072B2", lw=1.8, ms=4.5, capsize=3)
+        ax.errorbar(order, [np.mean(c) for c in columns], [np.nan_to_num(standard_error(c)) for c in columns], fmt="o-", color="#0072B2", lw=1.8, ms=4.5, capsize=3)
         ax.axvline(self.default, color="#777777", lw=1, ls=(0, (4, 3)))
         ax.set(xscale="log", xlabel=f"{self.varied} [{self.unit}]")
         ax.set_xticks(order, [f"{v:g}" for v in order])
@@ -184,7 +185,7 @@ class Sweep:
         for v in sorted(self.values, reverse=True):
             at = [x * scale for x in self.values[v].values()]
             mean, error = self.change(v, self.finest)
-            yield [f"{v:g}", f"{np.mean(at):.4g}", f"{_error(at):.2g}", f"{100 * mean:+.2f} ± {100 * error:.2f}"]
+            yield [f"{v:g}", f"{np.mean(at):.4g}", f"{standard_error(at):.2g}", f"{100 * mean:+.2f} ± {100 * error:.2f}"]
 
 
 AXES = {"time_step": ("time step", "s"), "tolerance": ("tolerance", "-"), "tolerance_moving": ("tolerance in motion", "-")}
@@ -192,10 +193,6 @@ AXES = {"time_step": ("time step", "s"), "tolerance": ("tolerance", "-"), "toler
 
 def _plus_minus(error):
     return f", ± {error:.3f}" if math.isfinite(error) else ""
-
-
-def _error(values):
-    return float(np.std(values, ddof=1) / math.sqrt(len(values))) if len(values) > 1 else math.nan
 
 
 # ---- checks ---------------------------------------------------------------------------------------

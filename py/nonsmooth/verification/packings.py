@@ -7,6 +7,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..statistics import standard_error
 from .cases import run_cases
 from .claims import Outcome, at_most, between, near
 from .registry import check
@@ -118,7 +119,7 @@ def angle_of(stresses, begin):
     major, minor = rows[:, :2].mean(axis=1), rows[:, 2:].mean(axis=1)
     sine = lambda a, b: (a.mean() - b.mean()) / (a.mean() + b.mean())  # noqa: E731
     blocks = [math.degrees(math.asin(sine(a, b))) for a, b in zip(np.array_split(major, 10), np.array_split(minor, 10))]
-    return math.degrees(math.asin(sine(major, minor))), float(np.std(blocks, ddof=1) / math.sqrt(len(blocks)))
+    return math.degrees(math.asin(sine(major, minor))), standard_error(blocks)
 
 
 @check("Frictionless disks still resist shear", subject=SUBJECT, seconds=200, quick=12)
@@ -308,7 +309,7 @@ def _fits(shares):
     for name, fit in (("alpha", lambda s: below_mean(s, 0.01)), ("deep", lambda s: below_mean(s, 1e-4)), ("beta", above_mean),
                       ("weak", lambda s: (float(np.mean(s < 1)), math.sqrt(np.mean(s < 1) * np.mean(s >= 1) / len(s))))):
         single = [fit(s) for s in shares]
-        scatter = float(np.std([v for v, _ in single], ddof=1) / math.sqrt(len(single)))
+        scatter = standard_error([v for v, _ in single])
         curvature = math.sqrt(sum(e * e for _, e in single)) / len(single)
         out[name] = float(np.mean([v for v, _ in single])), max(scatter, curvature)
     return out

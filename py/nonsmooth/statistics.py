@@ -1,0 +1,44 @@
+"""Means and what is known of them: over seeds with Student's t, over blocks of a series, and spreads of wall times. Needs no YADE."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+__all__ = ["Estimate", "half_width", "spread", "standard_error"]
+
+
+def standard_error(values) -> float:
+    """Of the mean of values that are independent, an array (n,); NaN for fewer than two."""
+    values = np.asarray(values, float)
+    return float(np.std(values, ddof=1) / math.sqrt(len(values))) if len(values) > 1 else math.nan
+
+
+def half_width(error, freedom) -> float:
+    """Half of the 95 % confidence interval of a figure with a standard ``error`` and so many degrees of ``freedom`` (Student's t); NaN for none."""
+    from scipy import stats
+
+    return float(stats.t.ppf(0.975, freedom) * error) if freedom > 0 else math.nan
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A mean over seeds with the half width of its 95 % confidence interval (Student's t); NaN for one seed."""
+
+    mean: float
+    half_width: float
+
+    @classmethod
+    def of(cls, values):
+        """Of one value a seed, a sequence of one or more."""
+        values = np.asarray(values, float)
+        return cls(float(values.mean()), half_width(standard_error(values), len(values) - 1))
+
+
+def spread(values) -> dict:
+    """Median, lower and upper quartile and mean of measured values, as JSON can hold them: wall times have a floor and rare large values, which a mean
+    would follow."""
+    low, middle, high = np.percentile(values, (25, 50, 75))
+    return {"median": float(middle), "quartiles": [float(low), float(high)], "mean": float(np.mean(values))}
