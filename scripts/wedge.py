@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from tqdm import tqdm
-from yade.nonsmooth import commands, errors, output_folder
+from yade.nonsmooth import commands, errors, keys, output_folder
 from yade.nonsmooth.figures.creep import creep
 from yade.nonsmooth.figures.style import LINES
 from yade.nonsmooth.whole_files import write_atomically
@@ -47,12 +47,14 @@ def read_arguments():
 
 
 def curve(out, key, script, parameters, resume):
-    """Arrays t [s], centroid and largest [mm] of a run, kept in ``out``/``key``.txt with its parameters in ``key``.table."""
-    table, kept, part = (out / f"{key}.{end}" for end in ("table", "txt", "part"))
+    """Arrays t [s], centroid and largest [mm] of a run, kept in ``out``/``key``.txt with what it is of in ``key``.key."""
+    table, kept, part, mark = (out / f"{key}.{end}" for end in ("table", "txt", "part", "key"))
     wanted = "{}\n{}\n".format(" ".join([*parameters, "save"]), " ".join([*map(repr, parameters.values()), repr(part.name)]))
-    if not (resume and kept.exists() and table.exists() and table.read_text() == wanted):
-        kept.unlink(missing_ok=True)  # before its parameters are: a kill between them must not pair it with others'
+    made_of = keys.run_key([wanted, (EXAMPLES / script).read_text()])
+    if not (resume and kept.exists() and mark.exists() and mark.read_text() == made_of):
+        kept.unlink(missing_ok=True)  # before its key is: a kill between them must not pair it with others'
         write_atomically(table, wanted.encode())
+        write_atomically(mark, made_of.encode())
         done = subprocess.run([EXAMPLES / script], cwd=out, env={**os.environ, "YADE_BATCH": f"{table.name}:2"}, stdin=subprocess.DEVNULL, text=True,
                               capture_output=True)
         if done.returncode:

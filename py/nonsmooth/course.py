@@ -142,11 +142,15 @@ def water_table(state, section):
     return [state.t0 + state.water_delay + t for t in times], heights
 
 
+def flowing(speed, largest):
+    """From 0 at rest to 1 on the move, by a mean speed and the largest that there was."""
+    return min(1.0, speed / (SLOW_FRACTION * largest))
+
+
 def care(state, seen, scales):
     """How exactly contacts want to be computed in the water stage: (from 0 at rest to 1 on the move, whether the slope is still)."""
     # reactions at rest depend on how the mass came to rest, so more care while it slows down
-    flowing = 0.0 if state.moving is None else min(1.0, seen.speed / (SLOW_FRACTION * state.speed_max))
-    return flowing, state.moving is None and seen.time - state.table_since >= scales.still_seconds
+    return 0.0 if state.moving is None else flowing(seen.speed, state.speed_max), state.moving is None and seen.time - state.table_since >= scales.still_seconds
 
 
 def tolerance(flowing, still, numerics):

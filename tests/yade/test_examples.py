@@ -9,6 +9,7 @@ import pytest
 import shell
 from shell import PREFIX, ROOT, SCRIPTS
 from yade import utils
+from yade.nonsmooth import keys
 
 EXAMPLES = os.path.join(SCRIPTS, "examples")
 #: lesson: titles of its marked blocks
@@ -235,7 +236,8 @@ def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):
             if key == "dry_hard":
                 continue
             curves[key] = rate = 0.5 * (k + 1) + 4 * (case == "water")  # mm/s
-            (tmp_path / f"{key}.table").write_text(f"seconds friction water{names} save\n2.0 {joint}{numbers} '{key}.part'\n")
+            table = f"seconds friction water{names} save\n2.0 {joint}{numbers} '{key}.part'\n"
+            (tmp_path / f"{key}.key").write_text(keys.run_key([table, (SCRIPTS / "examples" / f"{'hard' if model == 'hard' else 'soft'}_wedge.py").read_text()]))
             (tmp_path / f"{key}.txt").write_text("\n".join([header, *(line.format(0.1 * n, 0.1 * n * rate, 0.2 * n * rate) for n in range(1, 21))]) + "\n")
     (tmp_path / ".run").write_text("wedge.py\n")
     done = in_process("wedge.py", "--seconds", 2, "--resume", "--out", tmp_path)

@@ -7,7 +7,7 @@ import pytest
 import shell
 from matplotlib.figure import Figure
 from yade import O
-from yade.nonsmooth import verification
+from yade.nonsmooth import keys, verification
 from yade.nonsmooth.verification import Outcome, at_least, at_most, between, near, registry, report, runner
 
 from contact_scenes import material
@@ -141,7 +141,7 @@ def test_an_error_is_kept_and_the_next_check_runs(tmp_path):
     assert second.passed
 
 
-def test_resume_takes_over_what_has_finished(tmp_path):
+def test_resume_takes_over_what_has_finished(tmp_path, monkeypatch):
     calls = []
 
     def counted(bench):
@@ -164,6 +164,11 @@ def test_resume_takes_over_what_has_finished(tmp_path):
     assert [c.passed for c in again[0].claims] == [True, False]
     list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
     assert calls[-1] is True  # a quick run is not a full one
+    with monkeypatch.context() as other:
+        other.setattr(keys, "code_key", lambda: "others")
+        list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
+        assert len(calls) == 5  # that of other code is run again
+    calls.pop()
     (tmp_path / "checks" / "counted" / "result.json").write_text("{")
     list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
     assert len(calls) == 5  # what cannot be read is run

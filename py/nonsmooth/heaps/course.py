@@ -11,6 +11,7 @@ import numpy as np
 from yade import O
 from yade.wrapper import NewtonIntegrator
 
+from .. import course as stages
 from ..stepping import advance
 from . import measures, preparation
 from .grains import Heap, HeapError
@@ -29,7 +30,6 @@ SETTLE_LIMIT = 10.0   # T
 DURATION = 15.0       # T
 WEIGHT_OVERLAP = 0.05  # diameters, largest overlap under the heap's own weight that is let through
 FRAMES = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # T
-SLOW_FRACTION = 0.1  # of the largest rms speed since the release: below it the damping of soft contacts goes over to its value at rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,8 +192,7 @@ class _Damping:
     def __call__(self):
         speed = self._scene.rms_speed()
         self._fastest = max(self._fastest, speed)
-        flowing = min(1.0, speed / (SLOW_FRACTION * self._fastest)) if self._fastest > 0 else 1.0
-        self._newton.damping = (1 - flowing) * self._rest + flowing * self._moving
+        self._newton.damping = stages.damping(stages.flowing(speed, self._fastest) if self._fastest > 0 else 1.0, self._rest, self._moving)
 
 
 def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None, damping_moving=None):

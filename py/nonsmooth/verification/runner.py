@@ -10,6 +10,7 @@ import traceback
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from .. import keys
 from ..whole_files import write_atomically
 from .claims import Claim, Outcome
 from .registry import Bench, Check
@@ -37,7 +38,7 @@ class Result:
 def run_checks(checks, out, *, quick=False, threads=1, resume=False, progress=lambda check, text: None, done=lambda result: None):
     """Runs the checks and yields a :class:`Result` for each, in their order; each is on disk before the next begins.
 
-    ``resume``: take over what an earlier run with the same ``quick`` wrote in ``out`` and finished without an error.
+    ``resume``: take over what an earlier run with the same ``quick``, engines and code wrote in ``out`` and finished without an error.
     """
     for check in checks:
         folder = Path(out) / "checks" / check.name
@@ -85,9 +86,14 @@ def _clear_scene():
 
 
 def _write(result, folder, quick):
-    plain = {"quick": quick, "wall_s": result.wall_s, "error": result.error, "claims": [_plain(c) for c in result.claims],
+    plain = {"key": _key(result.check, quick), "wall_s": result.wall_s, "error": result.error, "claims": [_plain(c) for c in result.claims],
              "plots": result.plots, "tables": result.tables, "remarks": result.remarks}
     write_atomically(folder / "result.json", json.dumps(plain, indent=1).encode())
+
+
+def _key(check, quick):
+    """Of what a result is of: the check, its form, the engines and the code."""
+    return keys.run_key([check.name, quick])
 
 
 def _plain(claim):
@@ -98,7 +104,7 @@ def _plain(claim):
 def _read(check, folder, quick):
     try:
         plain = json.loads((folder / "result.json").read_text())
-        if plain["quick"] != quick or plain["error"]:
+        if plain["key"] != _key(check, quick) or plain["error"]:
             return None
         claims = []
         for fields in plain["claims"]:
