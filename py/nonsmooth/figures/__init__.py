@@ -10,5 +10,6 @@ from .forces import force_chains, forces_against_time
 from .profiles import deposit, snapshots
 from .numerics import energy, solver
 from .runouts import runouts
+from .scene import draw
 
-__all__ = ["force_chains", "forces_against_time", "snapshots", "deposit", "energy", "runouts", "solver"]
+__all__ = ["force_chains", "forces_against_time", "snapshots", "deposit", "draw", "energy", "runouts", "solver"]

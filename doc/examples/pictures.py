@@ -1,0 +1,39 @@
+"""The end of each lesson, hard and soft, and of the README's script, as PNGs in a folder.
+
+  scripts/yade-nonsmooth doc/examples/pictures.py FOLDER [LESSON …]
+"""
+import argparse
+import os
+import sys
+
+from yade.nonsmooth import figures
+from yade.nonsmooth.figures import style
+
+_ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(sys.argv[0]))))
+_WORLDS = (("hard", "rigid disks"), ("soft", "springs"))
+
+
+def _end_of(script):
+    """Runs a script to its end in an empty scene, as YADE does: with its names among these, where engines look for them."""
+    O.reset()
+    with open(script) as text:
+        exec(compile(text.read(), script, "exec"), globals())
+
+
+_parser = argparse.ArgumentParser(description=__doc__)
+_parser.add_argument("folder")
+_parser.add_argument("lessons", nargs="*", metavar="LESSON")
+_parser.add_argument("--threads", help="read by the launcher")
+_given = _parser.parse_args()
+for _lesson in _given.lessons or ("beam", "column", "incline", "pile", "slope", "wedge"):
+    _flat = _lesson in ("beam", "column")  # one above the other; others beside each other
+    _figure = style.figure(9.0, 4.6) if _flat else style.figure(11.0, 5.5)
+    for _k, (_world, _title) in enumerate(_WORLDS):
+        _end_of(f"{_ROOT}/scripts/examples/{_world}_{_lesson}.py")
+        _axes = _figure.add_axes([0.01, 0.5 * (1 - _k), 0.98, 0.43] if _flat else [0.01 + 0.5 * _k, 0.0, 0.48, 0.93])
+        figures.draw(O, ax=_axes)
+        _axes.set_title(_title, fontsize=13, fontweight="bold")
+    style.save(_figure, f"{_given.folder}/lesson_{_lesson}.png", dpi=110)
+if not _given.lessons:
+    _end_of(f"{_ROOT}/doc/examples/falling_block.py")
+    figures.draw(O, f"{_given.folder}/falling_block.png")
