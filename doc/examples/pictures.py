@@ -25,7 +25,7 @@ _parser.add_argument("folder")
 _parser.add_argument("lessons", nargs="*", metavar="LESSON")
 _parser.add_argument("--threads", help="read by the launcher")
 _given = _parser.parse_args()
-for _lesson in _given.lessons or ("beam", "column", "incline", "pile", "slope", "wedge"):
+for _lesson in _given.lessons or ("beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "wedge"):
     _flat = _lesson in ("beam", "column")  # one above the other; others beside each other
     _figure = style.figure(9.0, 4.6) if _flat else style.figure(11.0, 5.5)
     for _k, (_world, _title) in enumerate(_WORLDS):
