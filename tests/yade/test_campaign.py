@@ -39,6 +39,9 @@ def test_items_of_lists_go_by_their_names_and_lists_are_values_too():
     plan = campaign.sweep(SHIPPED, {"interfaces.joint.material": ["joint", "rock"], "disks.diameter": [[1.0, 2.0], [1.5, 3.0]]})
     assert [one.name for one in plan.runs] == ["material=joint_diameter=1.0x2.0", "material=joint_diameter=1.5x3.0", "material=rock_diameter=1.0x2.0", "material=rock_diameter=1.5x3.0"]
     assert of(plan.runs[3]).interfaces[0].material == "rock" and (of(plan.runs[3]).disks.d_min, of(plan.runs[3]).disks.d_max) == (1.5, 3.0)
+    first = SHIPPED.walls[0]
+    wall = of(campaign.sweep(SHIPPED, {f"walls.{first.name}.role": ["obstacle"]}).runs[0])
+    assert [w.role for w in wall.walls] == ["obstacle", *(w.role for w in SHIPPED.walls[1:])] and len(wall.walls) > 1
     both = campaign.sweep(SHIPPED, {"materials.rock.friction": [0.1], "materials.joint.friction": [0.2]})
     assert both.runs[0].name == "rock.friction=0.1_joint.friction=0.2"  # as many words as tell them apart
     long = campaign.sweep(SHIPPED, {"description": ["a" * 200, "b" * 200]})
@@ -132,6 +135,13 @@ def test_one_run_by_name_or_number_is_done_once(tmp_path, called):
     for which, message in ((4, "no number 4: give one from 0 to 3"), ("seed=9", "no run is called 'seed=9'")):
         with pytest.raises(campaign.PlanError, match=message):
             campaign.run_one(tmp_path, which)
+
+
+def test_the_files_for_a_cluster_name_all_runs(tmp_path):
+    planned().write(tmp_path)
+    assert "#SBATCH --array=0-3\n" in (tmp_path / "array.sh").read_text() and '--number "$SLURM_ARRAY_TASK_ID"' in (tmp_path / "array.sh").read_text()
+    script = (tmp_path / "Snakefile").read_text()
+    assert all(f'"{one.name}": "{keys.run_key(one.key)}"' in script for one in planned().runs) and script.count("sweep.py") == 2
 
 
 @pytest.mark.parametrize("text, message", [(None, "there is no plan"), ("{", "the plan cannot be read"), ('{"format": 0}', "another version")])

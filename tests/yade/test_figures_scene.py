@@ -22,43 +22,44 @@ def of(ax, kind):
 
 
 def held():
-    """Three disks between two walls, pressed by their weight; a fourth, fixed one hangs two from bonds."""
+    """Three bonded disks on a floor, with a loose one on top; a fixed one holds two by bonds."""
     stuff = material(0.5, layer=1, tensileStrength=1e5, bondCreationDistance=0.01)
     rough = NscdMat(frictionAngle=0.4, wall=True)
     O.materials.append((stuff, rough))
     O.bodies.append(scene.segments([(-4, 0), (4, 0), (4, 6)], rough))
     stack = O.bodies.append([scene.disk((-2, 0.5 + k), 0.5, stuff) for k in range(3)])
     hung = O.bodies.append([scene.disk((1, 4.0 - k), 0.5, stuff, fixed=k == 0) for k in range(3)])
+    loose = O.bodies.append(scene.disk((-2, 3.52), 0.5, stuff))
     begin(dt=1e-3, reach=0.1, tolerance=1e-8)
     O.step()
     assert scene.contact_dynamics().bond() == 4
-    O.run(200, wait=True)
-    return stack, hung
+    O.run(400, wait=True)
+    return [*stack, *hung, loose]
 
 
 def test_disks_walls_bonds_and_forces_are_where_they_are():
-    stack, hung = held()
+    ids = held()
     found = scenes.read(O)
-    assert found.fixed.tolist() == [False] * 3 + [True, False, False] and len(set(found.material)) == 1 and found.r.tolist() == [0.5] * 6
+    assert found.fixed.tolist() == [False] * 3 + [True] + [False] * 3 and len(set(found.material)) == 1 and found.r.tolist() == [0.5] * 7
     assert np.array(sorted(w.ravel().tolist() for w in found.walls)) == pytest.approx(np.array([(4.0, 0.0, -4.0, 0.0), (4.0, 6.0, 4.0, 0.0)]), abs=1e-12)
     weight = 2500 * math.pi / 4 * 9.81
     forces = {(int(i), int(j)): f for i, j, f in zip(found.ci, found.cj, found.cn)}
-    # the stack bears one, two and three disks; of those that hang the upper bond bears two, the lower one, in tension. The solver's tolerance
-    wanted = {(0, -1): 3 * weight, (0, 1): 2 * weight, (1, 2): weight, (3, 4): -2 * weight, (4, 5): -weight}
+    # contacts of the stack bear one to four disks; of those that hang the upper bond bears two, the lower one, in tension. The solver's tolerance
+    wanted = {(0, -1): 4 * weight, (0, 1): 3 * weight, (1, 2): 2 * weight, (2, 6): weight, (3, 4): -2 * weight, (4, 5): -weight}
     assert set(forces) == set(wanted) and [forces[k] for k in wanted] == pytest.approx(list(wanted.values()), rel=1e-3)
     assert {(int(i), int(j)) for i, j in zip(found.ci[found.bonded], found.cj[found.bonded])} == {(0, 1), (1, 2), (3, 4), (4, 5)}
 
     ax = figures.draw(O).axes[0]
     centres, radii, colours = drawn.disks(ax)
-    assert np.allclose(centres, [tuple(O.bodies[i].state.pos)[:2] for i in (*stack, *hung)]) and radii.tolist() == [0.5] * 6
+    assert np.allclose(centres, [tuple(O.bodies[i].state.pos)[:2] for i in ids]) and radii.tolist() == [0.5] * 7
     assert colours[3] == scenes.FIXED != colours[0] == scenes.MATERIALS[0]
     walls, bonds = of(ax, LineCollection)
     assert len(walls.get_segments()) == 2 and len(bonds.get_segments()) == 4
     pressed, pulled = of(ax, PolyCollection)
-    assert (len(pressed.get_paths()), len(pulled.get_paths())) == (3, 2)
+    assert (len(pressed.get_paths()), len(pulled.get_paths())) == (4, 2)
     assert drawn.hexes(pressed.get_facecolor()) == [style.COMPRESSION.lower()] and drawn.hexes(pulled.get_facecolor()) == [style.TENSION.lower()]
     wide = [np.hypot(*(path.vertices[3] - path.vertices[0])) for path in pressed.get_paths()]
-    assert sorted(np.array(wide) / min(wide)) == pytest.approx([1, 2, 3], rel=1e-3)  # as wide as the force is large
+    assert sorted(np.array(wide) / min(wide)) == pytest.approx([1, 2, 3, 4], rel=1e-3)  # as wide as the force is large
     assert not of(figures.draw(O, forces=False).axes[0], PolyCollection)
 
 

@@ -117,8 +117,8 @@ def draw(O, path=None, pdf=False, ax=None, forces=True):
     mine.add_collection(LineCollection(scene.walls, colors=WALL, linewidths=1.6, capstyle="round", zorder=4), autolim=False)
     for axis, at in scene.axes:
         (mine.axvline if axis == 0 else mine.axhline)(at, color=WALL, lw=1.6, zorder=4)
-    disk = scene.cj >= 0
-    bonds = [np.array([[scene.x[i], scene.y[i]], [scene.x[j], scene.y[j]]]) for i, j in zip(scene.ci[disk & scene.bonded], scene.cj[disk & scene.bonded])]
+    held = (scene.cj >= 0) & scene.bonded
+    bonds = [np.array([[scene.x[i], scene.y[i]], [scene.x[j], scene.y[j]]]) for i, j in zip(scene.ci[held], scene.cj[held])]
     mine.add_collection(LineCollection(bonds, colors=INK, linewidths=0.5, zorder=2.5), autolim=False)
     if forces and np.any(scene.cn != 0):
         reference = float(np.quantile(np.abs(scene.cn[scene.cn != 0]), 0.95))  # a few large ones would hide the others

@@ -2,6 +2,7 @@
 from mutant import mutant
 
 PY = "py/nonsmooth/"
+CAMPAIGN = PY + "campaign/"
 WALLS = "pkg/dem/WallForceEngine.cpp"
 COURSE, RESULTS, RECORDS, TABLES = (PY + name for name in ("experiment.py", "results.py", "records.py", "tables.py"))
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "worlds.py", "toe.py"))
@@ -173,6 +174,18 @@ MUTANTS = (
            "test_side_by_side.py::test_a_run_has_done_what_it_has_noted_and_all_once_it_has_a_result"),
     mutant("runs-order", PY + "side_by_side.py", "key=lambda r: -r.work", "key=lambda r: r.work", "the costly runs begin last",
            "test_side_by_side.py::test_the_costly_ones_run_first_and_results_keep_their_order"),
+    mutant("runs-others", PY + "keys.py", "return key_of([key, engines_key(), code_key()])", "return key_of([key, engines_key()])", "results of other code are taken for a run's own",
+           "test_side_by_side.py::test_a_resume_takes_nothing_of_other_engines_or_code"),
+    mutant("runs-begun", PY + "side_by_side.py", "resume and go_on and kept_runs.begun(r.folder, r.key)", "resume and go_on", "a run goes on from what other code has left",
+           "test_side_by_side.py::test_a_resume_takes_nothing_of_other_engines_or_code"),
+    mutant("sweep-names", CAMPAIGN + "sweep.py", "place[names.index(word)]", "place[-1]", "the last item of a list is varied, whatever its name",
+           "test_campaign.py::test_items_of_lists_go_by_their_names_and_lists_are_values_too"),
+    mutant("sweep-work", CAMPAIGN + "sweep.py", "float(sum(made.disk_counts()))", "1.0", "all runs of a sweep count as equally long",
+           "test_campaign.py::test_all_combinations_are_planned_and_each_has_its_values"),
+    mutant("table-columns", CAMPAIGN + "plan.py", 'f"{prefix}{name}."', 'f"{name}."', "deep results lose the names above them", "test_campaign.py::test_the_table_has_values_and_numbers_of_each_run"),
+    mutant("table-missing", CAMPAIGN + "plan.py", "if result is None]", "if result is None and False]", "a table is collected of runs that have not ended",
+           "test_campaign.py::test_no_result_of_other_code_is_collected"),
+    mutant("array-last", CAMPAIGN + "cluster.py", "last=len(keys) - 1", "last=len(keys)", "an array job has a task too many", "test_campaign.py::test_the_files_for_a_cluster_name_all_runs"),
     mutant("command-status", PY + "commands.py", "INTERRUPTED = 130", "INTERRUPTED = 1", "Ctrl-C ends a command as an error does",
            "test_commands.py::test_a_command_ends_with_its_status_and_one_line"),
     mutant("script-water", PY + "section_arguments.py", "table=((0.0, 0.0),), rate=args.water", "table=((0.0, 0.0),), rate=1e-3 * args.water",
