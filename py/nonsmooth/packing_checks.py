@@ -10,7 +10,9 @@ from . import geometry
 from .packing import overlaps
 from .packing_files import PackingError
 
-__all__ = ["check"]
+__all__ = ["FEWEST", "check", "sparse_layers"]
+
+FEWEST = 30  # disks of a layer; fewer are a handful of grains, whose strength is a matter of chance
 
 # A settled packing of another code has moved a little, and keeps the overlaps that its contacts need.
 WORST_OVERLAP = 0.02  # of the mean diameter of a pair, or of a disk's at a wall
@@ -19,6 +21,13 @@ SIZES = 0.05          # relative, beyond the section's diameters
 COVERED = 0.1         # relative, of the area that the section's disks cover
 OUTSIDE = 2.0         # largest diameters above the layers ...
 AWAY = 2.0            # ... and from the disk's own one
+
+
+def sparse_layers(packing, section) -> list:
+    """Sentences, one for each layer of the section with fewer than :data:`FEWEST` disks in the packing; obstacles are bodies, and may have as few as they like."""
+    count = np.bincount(packing.layer, minlength=len(section.layers))
+    return [f"LAYER {layer.name} HOLDS {n} DISKS: fewer than {FEWEST} tell little of a layer; give it smaller disks (its own `disks`), or ask for more (--disks)"
+            for layer, n in zip(section.layers, count.tolist()) if n < FEWEST and layer.role != "obstacle"]
 
 
 def check(packing, section, source) -> None:

@@ -86,6 +86,8 @@ def run(name, about, default=None):
         course = experiment.Experiment(built, out)
         course.state.wall_packing_s = seconds
         print(f"{len(made)} disks, packing fraction {packing.packing_fraction(made, s.outline):.3f}, results go to {out}", flush=True)
+        for sentence in packing_checks.sparse_layers(made, s):
+            print(sentence, flush=True)
     course.progress = Bar()
     with commands.closing(course.progress.bar):
         course.run(end=args.end)

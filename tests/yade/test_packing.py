@@ -250,6 +250,16 @@ def test_packings_of_the_section_are_taken(section, packed, bent):
     packing_checks.check(moved(packed, x=0.9999 * packed.x, y=0.9999 * packed.y), section, "p.txt")
 
 
+def test_a_layer_of_a_handful_of_disks_is_named():
+    """Twenty-nine are too few, thirty are not; an obstacle may have one, and a layer without any is told too."""
+    three = load("interface")
+    names = [layer.name for layer in three.layers]
+    counts = {"stable": 30, "slab": 29, "house": 1}
+    layer = np.repeat([names.index(name) for name in counts], list(counts.values()))
+    told = packing_checks.sparse_layers(Packing(layer * 1.0, layer * 1.0, layer + 1.0, layer), three)
+    assert [sentence.split(":")[0] for sentence in told] == ["LAYER slab HOLDS 29 DISKS", "LAYER bed HOLDS 0 DISKS"]
+
+
 def test_bad_arrays():
     with pytest.raises(PackingError, match="differ in length"):
         Packing([0.0], [0.0, 1.0], [1.0], [0])
