@@ -21,7 +21,7 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator
 
-from . import checkpoints, course, interrupts, keys, packing, records, results, scales, section_data, slope, tables
+from . import checkpoints, course, interrupts, keys, packing, records, results, run_figures, scales, section_data, slope, tables
 from .course import State
 from .errors import UserError
 from .measure.fronts import front_of
@@ -119,7 +119,7 @@ class Experiment:
 
     def draw(self):
         """Draws all figures that the records allow, and the video; returns their paths and notes. After :meth:`summarise`."""
-        return results.draw(self.folder, self.section, json.loads((self.folder / results.SUMMARY).read_text()))
+        return run_figures.draw(self.folder, self.section, json.loads((self.folder / results.SUMMARY).read_text()))
 
     def attach(self):
         """Lets steps by O.run(), O.step(), the viewer and yade-batch go through the course: a CourseRunner becomes the first of O.engines, which does what :meth:`run` does

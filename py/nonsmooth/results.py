@@ -1,4 +1,4 @@
-"""What a finished (or interrupted) run says: characteristic times, summary, figures, video. Needs its records alone, no YADE.
+"""What a finished (or interrupted) run says: characteristic times and summary. Needs its records alone, no YADE.
 
 Characteristic times (paper, section 6; the rules are ours):
 
@@ -17,17 +17,16 @@ from __future__ import annotations
 
 import json
 import math
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 
-from . import figures, paraview, records, scales, toe, video
+from . import records, scales, toe
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import WriteError, remove_parts, whole, write_atomically
 
-__all__ = ["characteristic_times", "chosen_rows", "frames", "mean_of", "nearest", "summarise", "draw", "forget", "forget_later"]
+__all__ = ["characteristic_times", "chosen_rows", "frames", "mean_of", "nearest", "summarise", "forget", "forget_later"]
 
 ENTRAINED = 2.0  # mean diameters
 
@@ -244,41 +243,3 @@ def frames(folder, series):
 def nearest(frames, time):
     """Snapshot file whose time is nearest; ``frames``: list of (time, path)."""
     return min(frames, key=lambda item: abs(item[0] - time))[1]
-
-
-def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
-    """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
-    folder = Path(folder)
-    every, times = records.read_series(folder / "series.csv"), summary["times_s"]
-    series = chosen_rows(every, {"failed_dry": summary["failed_dry_s"]})
-    made, notes, second = [], [], scales.of(section).mean_seconds
-    shots = frames(folder, every)
-    files = [p for _, p in shots]
-    start, end = folder / BEGIN, folder / END
-    stood = start.exists() and summary["failed_dry_s"] is None
-    if summary["failed_dry_s"] is not None:
-        notes.append("no figures of force chains and deposit: the slope was on the move already when they would begin")
-    if stood:
-        first = records.read_snapshot(start)
-        made.append(figures.force_chains(first, section, folder / "force_chains.png"))
-    made.append(figures.forces_against_time(series, times, folder / "forces.png", window=second, walls=section))
-    cases = []
-    for name, t in sorted(((name, t) for name, t in times.items() if t is not None), key=lambda item: item[1]):
-        path = start if name == "t0" and stood else (nearest(shots, t) if shots else None)
-        if path is not None:
-            cases.append((name, records.read_snapshot(path)))
-    if times["t5"] is None and end.exists() and not (cases and cases[-1][1].step == records.read_snapshot(end).step):  # one that never fails, or is stopped
-        cases.append(("end", records.read_snapshot(end)))
-    if cases:
-        made.append(figures.snapshots(cases, section, folder / "snapshots.png"))
-    if stood and end.exists():
-        made.append(figures.deposit(records.read_snapshot(end), first, section, folder / "deposit.png"))
-    made.append(figures.energy(records.since_settled(every), folder / "energy.png", times=times))
-    made.append(figures.solver(series, folder / "solver.png", times=times))
-    if files:
-        with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
-            written = beside.submit(paraview.write_run, folder, section, shots)
-            path, note = video.write_mp4(files, section, folder / "avalanche.mp4", series=series, times=times, window=second, progress=progress)
-            made.append(written.result())
-        (made if path else notes).append(path or note)
-    return [Path(p) for p in made], notes

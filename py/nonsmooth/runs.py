@@ -14,12 +14,12 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from . import figures, records, results, scales, section, section_data
+from . import records, results, run_figures, section, section_data
 from .errors import UserError
 
 __all__ = ["FIGURES", "Run", "RunError", "open_run"]
 
-FIGURES = ("force_chains", "forces", "deposit", "energy", "solver")
+FIGURES = run_figures.NAMES
 
 
 class RunError(UserError, ValueError):
@@ -77,17 +77,13 @@ class Run:
         return records.read_snapshot(results.nearest(frames, name))
 
     def figure(self, name):
-        """One of FIGURES as a matplotlib Figure that is not written."""
+        """One of FIGURES as a matplotlib Figure that is not written. Raises RunError for another name, and where the run has not come to what it shows."""
         if name not in FIGURES:
             raise RunError(f"{self.folder}: no figure is called {name!r}; give one of {', '.join(FIGURES)}")
-        if name == "force_chains":
-            return figures.force_chains(self.snapshot("t0"), self.section)
-        if name == "deposit":
-            return figures.deposit(self.snapshot("end"), self.snapshot("t0"), self.section)
-        times, series = self.summary["times_s"], results.chosen_rows(self.series, {"failed_dry": self.summary["failed_dry_s"]})
-        if name == "forces":
-            return figures.forces_against_time(series, times, window=scales.of(self.section).mean_seconds, walls=self.section)
-        return figures.solver(series, times=times) if name == "solver" else figures.energy(records.since_settled(self.series), times=times)
+        found = run_figures.Drawing(self.folder, self.section, self.summary).figure(name)
+        if found is None:
+            raise RunError(f"{self.folder}: the run has not come to what {name} shows, or failed before it; let it go on with --resume")
+        return found
 
     def _file(self, name):
         path = self.folder / name

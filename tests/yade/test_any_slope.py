@@ -7,7 +7,7 @@ import pytest
 import shell
 from slope_scenes import SMALL, write_changed
 from yade import O
-from yade.nonsmooth import experiment, packing, records, results, section, similar, slope, tables
+from yade.nonsmooth import experiment, packing, records, results, run_figures, section, similar, slope, tables
 from yade.nonsmooth.figures import style
 from yade.nonsmooth.stepping import advance
 
@@ -154,7 +154,7 @@ def test_a_slope_without_water_weakening_and_backstop(monkeypatch, tmp_path):
         assert told[name] is None, name
     assert "water_passive_m" not in told and not series["fb_normal_N_per_m"].any() and not series["dp_water_N_per_m"].any()
     assert series["dp_shear_N_per_m"].max() > 0 and series["front_m"].max() < 0
-    drawn_files, notes = results.draw(tmp_path / "out", made, told)
+    drawn_files, notes = run_figures.draw(tmp_path / "out", made, told)
     assert {"forces.png", "snapshots.png", "energy.png", "solver.png"} <= set(kept) and len(drawn_files) >= 5
     labels = {line.get_label() for ax in kept["forces.png"].axes for line in ax.lines}
     assert not any("U" in label or "h_w" in label or "FB" in label for label in labels) and any("bed of" in label for label in labels)

@@ -8,7 +8,7 @@ import pytest
 
 import drawn
 import synthetic_slope as synthetic
-from yade.nonsmooth import records, results, section
+from yade.nonsmooth import records, run_figures, section
 from yade.nonsmooth.comparison import biaxial_report, biaxials, cases, common, figures, report, slope_report, slopes, summary
 from yade.nonsmooth.comparison.outcomes import Cost, Outcome
 from yade.nonsmooth.figures import style
@@ -45,14 +45,14 @@ def run(tmp_path, monkeypatch):
     records.write_snapshot(tmp_path / "t0.npz", **state(10.5))
     records.write_snapshot(tmp_path / "end.npz", **state(100.0))
     told = types.SimpleNamespace(folder=tmp_path, files=files)
-    monkeypatch.setattr(results.video, "write_mp4", lambda *a, **options: (setattr(told, "video", (a, options)), (a[2], None))[1])
-    monkeypatch.setattr(results.paraview, "write_run", lambda *a: (setattr(told, "paraview", a), a[0] / "vtk" / "avalanche.pvd")[1])
+    monkeypatch.setattr(run_figures.video, "write_mp4", lambda *a, **options: (setattr(told, "video", (a, options)), (a[2], None))[1])
+    monkeypatch.setattr(run_figures.paraview, "write_run", lambda *a: (setattr(told, "paraview", a), a[0] / "vtk" / "avalanche.pvd")[1])
     return told
 
 
 def test_a_run_hands_its_records_to_its_figures(kept, run):
     slope = section.load("jiufengershan")
-    made, notes = results.draw(run.folder, slope, {"times_s": TIMES, "failed_dry_s": None})
+    made, notes = run_figures.draw(run.folder, slope, {"times_s": TIMES, "failed_dry_s": None})
     assert not notes
     assert [path.name for path in made] == ["force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png", "avalanche.pvd", "avalanche.mp4"]
     # t0 has a file of its own, the others take the nearest snapshot; t5 did not come, so that the end is shown
@@ -74,7 +74,7 @@ def test_a_run_hands_its_records_to_its_figures(kept, run):
 
 
 def test_a_slope_that_failed_dry_has_no_initial_state(kept, run):
-    made, (note,) = results.draw(run.folder, section.load("jiufengershan"), {"times_s": TIMES | {"t0": None}, "failed_dry_s": 7.0})
+    made, (note,) = run_figures.draw(run.folder, section.load("jiufengershan"), {"times_s": TIMES | {"t0": None}, "failed_dry_s": 7.0})
     assert "on the move already" in note and "force_chains.png" not in kept and "deposit.png" not in kept
     # forces are those of all rows, energies of those that have a balance
     assert run.video[1]["series"]["time_s"][0] == 0 and kept["solver.png"].axes[0].get_xlim() == (0, 100) and kept["energy.png"].axes[0].get_xlim() == (10, 100)

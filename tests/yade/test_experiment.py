@@ -7,7 +7,7 @@ import pytest
 import shell
 from slope_scenes import SMALL
 from yade import O
-from yade.nonsmooth import records, results
+from yade.nonsmooth import records, run_figures
 
 RECORDS = ("series.csv", "walls.csv", "breaks.csv", "t0.npz", "end.npz")
 SLOPE = "jiufengershan.py"
@@ -34,7 +34,7 @@ def test_another_number_of_threads_gives_the_same_bits(whole, tmp_path):
 
 
 def test_figures_are_drawn_from_the_records(whole, tmp_path):
-    made, notes = results.draw(shutil.copytree(whole.folder, tmp_path / "out"), whole.section, whole.summary)
+    made, notes = run_figures.draw(shutil.copytree(whole.folder, tmp_path / "out"), whole.section, whole.summary)
     assert {p.name for p in made} >= {"force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png"}
     assert all(p.stat().st_size > 1000 for p in made) and all("video" in note or "ffmpeg" in note for note in notes)
 

@@ -6,7 +6,7 @@ import leftovers
 import pytest
 import slope_scenes
 from yade import O
-from yade.nonsmooth import experiment, packing, results, section, slope
+from yade.nonsmooth import experiment, packing, results, run_figures, section, slope
 
 FILES = ("summary.json", "breaks.csv", "t0.npz", "end.npz", "forces.png", "avalanche.mp4", "snapshots/00000100.npz", "snapshots/00000200.npz", "snapshots/00000250.npz",
          "checkpoint/checkpoint.json", "checkpoint/scene-00000190-01234567.yade", "vtk/disks-00000100.vtu", "vtk/avalanche.pvd")
@@ -48,9 +48,9 @@ def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
     # killed while the figures were made: they are made again, of whole snapshots alone
     leftovers.plant(broken, *FILES)
     shown = []
-    monkeypatch.setattr(results.video, "write_mp4", lambda files, *_, **__: (shown.extend(files), (None, "no video"))[1])
+    monkeypatch.setattr(run_figures.video, "write_mp4", lambda files, *_, **__: (shown.extend(files), (None, "no video"))[1])
     summary = results.summarise(broken, small, dataclasses.asdict(resumed.state))
-    made, notes = results.draw(broken, small, summary)
+    made, notes = run_figures.draw(broken, small, summary)
     assert [path.name for path in shown] == [name.split("/")[1] for name in sorted(wanted) if name.startswith("snapshots/")] and notes == ["no video"]
     assert {"forces.png", "snapshots.png", "avalanche.pvd"} <= {path.name for path in made}
     O.reset()

@@ -1,0 +1,93 @@
+"""The figures of a run, drawn from its records: one by its name, or all with the video and the files for ParaView. Needs no YADE."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
+from pathlib import Path
+
+from . import figures, paraview, records, results, scales, video
+
+__all__ = ["NAMES", "Drawing", "draw"]
+
+#: Names of the figures, in the order in which they are drawn; of their files with ".png".
+NAMES = tuple(name.removesuffix(".png") for name in results.FIGURES if name.endswith(".png"))
+
+
+class Drawing:
+    """Draws the figures of the run in ``folder``, of a Section, with its ``summary``."""
+
+    def __init__(self, folder, section, summary):
+        self.folder, self.section, self.times, self.failed_dry = Path(folder), section, summary["times_s"], summary["failed_dry_s"]
+        self.window = scales.of(section).mean_seconds
+
+    @cached_property
+    def every(self):
+        """All rows of the series."""
+        return records.read_series(self.folder / "series.csv")
+
+    @cached_property
+    def series(self):
+        """Its rows from where the slope rests, or fails dry."""
+        return results.chosen_rows(self.every, {"failed_dry": self.failed_dry})
+
+    @cached_property
+    def shots(self):
+        """[(time [s], path)] of the snapshots."""
+        return results.frames(self.folder, self.every)
+
+    @cached_property
+    def first(self):
+        """The Snapshot before the water rises; None where the slope never stood then."""
+        path = self.folder / results.BEGIN
+        return records.read_snapshot(path) if path.exists() and self.failed_dry is None else None
+
+    @cached_property
+    def last(self):
+        """That of the end; None where the run has not come so far."""
+        path = self.folder / results.END
+        return records.read_snapshot(path) if path.exists() else None
+
+    def cases(self):
+        """[(name, Snapshot)] at the characteristic times, and at the end of a slope that never fails or is stopped."""
+        found = []
+        for name, t in sorted(((name, t) for name, t in self.times.items() if t is not None), key=lambda item: item[1]):
+            if name == "t0" and self.first is not None:
+                found.append((name, self.first))
+            elif self.shots:
+                found.append((name, records.read_snapshot(results.nearest(self.shots, t))))
+        if self.times["t5"] is None and self.last is not None and not (found and found[-1][1].step == self.last.step):
+            found.append(("end", self.last))
+        return found
+
+    def figure(self, name, path=None):
+        """One of :data:`NAMES`: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it."""
+        if name == "forces":
+            return figures.forces_against_time(self.series, self.times, path, window=self.window, walls=self.section)
+        if name == "energy":
+            return figures.energy(records.since_settled(self.every), path, times=self.times)
+        if name == "solver":
+            return figures.solver(self.series, path, times=self.times)
+        if name == "snapshots":
+            cases = self.cases()
+            return figures.snapshots(cases, self.section, path) if cases else None
+        if self.first is None:
+            return None
+        if name == "force_chains":
+            return figures.force_chains(self.first, self.section, path)
+        return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
+
+
+def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
+    """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
+    drawing = Drawing(folder, section, summary)
+    notes = ["no figures of force chains and deposit: the slope was on the move already when they would begin"] if drawing.failed_dry is not None else []
+    made = [path for name in NAMES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None]
+    files = [p for _, p in drawing.shots]
+    if files:
+        with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
+            written = beside.submit(paraview.write_run, drawing.folder, section, drawing.shots)
+            path, note = video.write_mp4(files, section, drawing.folder / "avalanche.mp4", series=drawing.series, times=drawing.times, window=drawing.window, progress=progress)
+            made.append(written.result())
+        (made if path else notes).append(path or note)
+    return [Path(p) for p in made], notes
