@@ -15,9 +15,10 @@ import numpy as np
 
 from .whole_files import beside, write_atomically
 from .records import RecordsError, read_breaks, read_snapshot
+from .scene_arrays import read as read_scene
 from .tables import BREAK_MODES
 
-__all__ = ["write_breaks", "write_collection", "write_contacts", "write_disks", "write_run", "write_walls"]
+__all__ = ["write_breaks", "write_collection", "write_contacts", "write_disks", "write_run", "write_scene_walls", "write_walls"]
 
 
 def _write(path, points, cells, point_data=None, cell_data=None):
@@ -71,6 +72,18 @@ def write_walls(section, path):
         lines += [(first + n, first + n + 1) for n in range(len(wall.points) - 1)]
         number += [k] * (len(wall.points) - 1)
     return _write(path, np.array(points, float), [("line", np.array(lines))], cell_data={"wall": np.array(number, np.int32)})
+
+
+def write_scene_walls(O, path):
+    """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment: one line for each edge, see :mod:`.scene_arrays`; a Wall, which has no ends,
+    across all that is there and a tenth beyond. Raises RecordsError for a scene without disks."""
+    scene = read_scene(O)
+    places = np.concatenate([*scene.walls, np.column_stack([scene.x - scene.r, scene.y - scene.r]), np.column_stack([scene.x + scene.r, scene.y + scene.r])])
+    low, high = places.min(axis=0), places.max(axis=0)
+    low, high = low - 0.1 * (high - low), high + 0.1 * (high - low)
+    across = [np.array([(at, low[1]), (at, high[1])] if axis == 0 else [(low[0], at), (high[0], at)]) for axis, at in scene.axes]
+    points = np.concatenate([*scene.walls, *across]) if scene.walls or across else np.zeros((0, 2))
+    return _write(path, points, [("line", np.arange(len(points)).reshape(-1, 2))])
 
 
 def write_collection(entries, path):

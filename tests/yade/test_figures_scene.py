@@ -2,12 +2,13 @@
 import math
 
 import drawn
+import meshio
 import numpy as np
 import pytest
 import shell
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 from yade import O, utils
-from yade.nonsmooth import figures, records, scene
+from yade.nonsmooth import figures, paraview, records, scene, scene_arrays
 from yade.nonsmooth.figures import scene as scenes, style
 from yade.wrapper import (Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop,
                           Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, NscdMat)
@@ -39,7 +40,7 @@ def held():
 
 def test_disks_walls_bonds_and_forces_are_where_they_are():
     ids = held()
-    found = scenes.read(O)
+    found = scene_arrays.read(O)
     assert found.fixed.tolist() == [False] * 3 + [True] + [False] * 3 and len(set(found.material)) == 1 and found.r.tolist() == [0.5] * 7
     assert np.array(sorted(w.ravel().tolist() for w in found.walls)) == pytest.approx(np.array([(4.0, 0.0, -4.0, 0.0), (4.0, 6.0, 4.0, 0.0)]), abs=1e-12)
     weight = 2500 * math.pi / 4 * 9.81
@@ -74,7 +75,7 @@ def test_soft_scenes_and_yades_own_walls_are_drawn():
         [Ig2_Sphere_Sphere_ScGeom6D()], [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)], [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()])]
     O.dt = 1e-6
     O.step()
-    found = scenes.read(O)
+    found = scene_arrays.read(O)
     assert found.bonded.tolist() == [True] and found.cn[0] > 0  # overlapping springs push
     assert found.axes == [(0, 3.0)]
     ends = np.concatenate(found.walls)
@@ -82,6 +83,18 @@ def test_soft_scenes_and_yades_own_walls_are_drawn():
     boxed = np.concatenate(found.walls[:4])  # a quarter turn makes it 1 m wide and 4 m high
     assert np.ptp(boxed[:, 0]) == pytest.approx(1.0) and np.ptp(boxed[:, 1]) == pytest.approx(4.0) and boxed[:, 1].mean() == pytest.approx(-1.0)
     assert len(figures.draw(O).axes) == 1
+
+
+def test_walls_of_a_scene_are_written_for_paraview(tmp_path):
+    """Those of VTKRecorder's users, who get disks and contacts from it, and no Segment."""
+    held()
+    O.bodies.append(utils.wall((0, -1, 0), axis=1, material=O.materials[1]))
+    found = meshio.read(paraview.write_scene_walls(O, tmp_path / "walls.vtu"))
+    assert [block.type for block in found.cells] == ["line"]
+    lines = found.points[found.cells[0].data][:, :, :2]
+    assert lines[:2] == pytest.approx(np.array(scene_arrays.read(O).walls))
+    # a wall along an axis has no ends: it is drawn across all disks and walls, and a tenth beyond
+    assert lines[2, :, 1].tolist() == [-1, -1] and sorted(lines[2, :, 0]) == pytest.approx([-4 - 0.1 * 8, 4 + 0.1 * 8]) and len(lines) == 3
 
 
 def test_an_empty_scene_is_refused_and_axes_of_ones_own_are_taken(tmp_path):

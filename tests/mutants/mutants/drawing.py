@@ -13,7 +13,7 @@ MUTANTS = (
     mutant("scene-sign", SCENE, "for sign, colour in ((1, COMPRESSION), (-1, TENSION)):", "for sign, colour in ((-1, COMPRESSION), (1, TENSION)):", "tension is drawn as compression",
            "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-bonds", SCENE, "held = (scene.cj >= 0) & scene.bonded", "held = scene.cj >= 0", "all contacts are drawn as bonds", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
-    mutant("scene-turn", SCENE, "turn[1, k] * c[k] for k", "turn[k, 1] * c[k] for k", "walls are turned the other way", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
+    mutant("scene-turn", "py/nonsmooth/scene_arrays.py", "turn[1, k] * c[k] for k", "turn[k, 1] * c[k] for k", "walls are turned the other way", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-fixed", SCENE, "colours[scene.fixed] = to_rgba(FIXED)", "pass", "disks that are held look like others", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("ground-foot", GROUND, "np.argmax(self.side * points[:, 0])", "np.argmin(self.side * points[:, 0])", "the foot is the crown",
            "plain:test_figures.py::test_walls_in_all_their_forms"),
