@@ -1,4 +1,4 @@
-"""Steps that are made, or refused with the engine's words."""
+"""Steps that are made, or refused with the engine's words; and scenes that are followed to rest."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from yade.wrapper import ContactDynamicsEngine
 
 from .errors import UserError
 
-__all__ = ["StepError", "advance"]
+__all__ = ["StepError", "advance", "until"]
 
 
 class StepError(UserError, RuntimeError):
@@ -27,3 +27,17 @@ def advance(steps=None, until=None):
         return ContactDynamicsEngine.advance(steps if steps is None else max(0, steps), until)
     except (RuntimeError, ValueError) as refusal:
         raise StepError(f"step {O.iter}: {refusal}") from None
+
+
+def until(calm, limit, every=1, make=advance):
+    """Makes ``every`` steps by ``make(every)``, again and again until ``calm()`` is true after them; returns whether it came to that within ``limit`` steps.
+
+    Raises what ``make`` raises.
+    """
+    made = 0
+    while made < limit:
+        make(every)
+        made += every
+        if calm():
+            return True
+    return False

@@ -73,6 +73,15 @@ def test_no_step_is_none():
     assert O.iter == 3
 
 
+def test_a_scene_is_followed_until_it_is_calm_or_its_steps_are_used_up():
+    made = []
+    assert stepping.until(lambda: sum(made) >= 30, 100, 10, made.append) and made == [10, 10, 10]
+    made.clear()
+    assert not stepping.until(lambda: False, 25, 10, made.append) and made == [10, 10, 10]  # the last chunk begins within the limit
+    made.clear()
+    assert stepping.until(lambda: True, 5, make=made.append) and made == [1]
+
+
 def test_the_library_makes_no_steps_in_a_thread_that_swallows_refusals():
     package = Path(stepping.__file__).resolve().parent
     found = [path.name for path in package.rglob("*.py") if re.search(r"^[^#\"]*\bO\.run\(", path.read_text(), re.M) and path.name != "stepping.py"]

@@ -12,7 +12,7 @@ from yade import O
 from yade.wrapper import NewtonIntegrator
 
 from .. import course as stages
-from ..stepping import advance
+from ..stepping import advance, until
 from . import measures, preparation
 from .grains import Heap, HeapError
 
@@ -208,15 +208,10 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     scene = build(heap, world)
     unit = math.sqrt(scene.prepared.height / heap.gravity)
     every = max(1, round(unit / RECORDS / O.dt))
-    settle, speed = 0.0, math.inf
-    while True:  # springs yield under the weight first; hard disks have nothing to do
-        advance(every)
-        settle, speed = settle + every * O.dt / unit, scene.rms_speed()
-        if speed < SETTLED_SPEED:
-            break
-        if settle > SETTLE_LIMIT:
-            raise HeapError(f"the disks do not come to rest in their box in the {world.name} world: rms speed {speed:.2g} √(g d) after {settle:.0f} T, "
-                            f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping")
+    # springs yield under the weight first; hard disks have nothing to do
+    if not until(lambda: scene.rms_speed() < SETTLED_SPEED, SETTLE_LIMIT * unit / O.dt, every):
+        raise HeapError(f"the disks do not come to rest in their box in the {world.name} world: rms speed {scene.rms_speed():.2g} √(g d) after {SETTLE_LIMIT:.0f} T, "
+                        f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping")
     begin = O.iter
     rows, kept, wall, calm = [], {}, 0.0, 0
     waiting = sorted(frames)

@@ -10,7 +10,7 @@ from yade import O
 from yade.wrapper import ContactDynamicsEngine
 
 from .. import keys, packing, packing_files, scene, tables, worlds
-from ..stepping import advance
+from ..stepping import until
 from .grains import HeapError, sizes_along
 
 __all__ = ["Prepared", "Stand", "cache_path", "disk_table", "prepared", "put"]
@@ -85,13 +85,14 @@ def _settle(heap):
     world = worlds.Hard(time_step=STEP * fall, tolerance=TOLERANCE, options={"correctionSlack": SLACK})
     stand = put(heap, world, x[order], y[order], r[order], still=True)
     wanted = REST_SPEED * math.sqrt(heap.gravity * heap.mean_diameter())
-    speed = math.inf
-    while speed > wanted:
-        if O.iter >= LIMIT:
-            raise HeapError(f"the disks do not come to rest in their box: rms speed {speed:.2g} m/s after {O.iter} steps, wanted {wanted:.2g} m/s; try another seed")
-        advance(CHUNK)
+
+    def speed():
         t = disk_table(stand)
-        speed = math.sqrt(np.mean(t["vx"] ** 2 + t["vy"] ** 2))
+        return math.sqrt(np.mean(t["vx"] ** 2 + t["vy"] ** 2))
+
+    if not until(lambda: speed() <= wanted, LIMIT, CHUNK):
+        raise HeapError(f"the disks do not come to rest in their box: rms speed {speed():.2g} m/s after {O.iter} steps, wanted {wanted:.2g} m/s; try another seed")
+    t = disk_table(stand)
     found = packing.Packing(t["x"], t["y"], t["r"], np.zeros(len(x)))
     O.reset()
     return found

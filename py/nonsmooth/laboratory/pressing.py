@@ -128,6 +128,7 @@ def make(folder, **plain):
     from yade.wrapper import NscdMat
 
     from .. import scene, tables
+    from ..stepping import until
     from .walls import SIDES, Walls
 
     shape = Shape(**plain)
@@ -150,8 +151,9 @@ def make(folder, **plain):
     # heavy at first, so that the walls do not knock; light at last, so that they follow
     for name in ("right", "top"):
         walls.free(name, whole)
-    slow, calm, mean = REST_SPEED * math.sqrt(PRESSURE / DENSITY), False, dict.fromkeys(SIDES, 0.0)
-    while not calm:
+    slow, mean = REST_SPEED * math.sqrt(PRESSURE / DENSITY), dict.fromkeys(SIDES, 0.0)
+
+    def press(_):
         walls.pressure = PRESSURE * min(1.0, max(1e-3, O.iter / RAMP) ** 2)
         if O.iter == 2 * RAMP:
             for name in ("right", "top"):
@@ -159,10 +161,13 @@ def make(folder, **plain):
         walls.step()
         for name, stress in walls.stresses().items():
             mean[name] += (stress - mean[name]) / REST_STEPS
-        calm = O.iter > 2 * RAMP + REST_STEPS and engine.meanSpeed < slow and all(abs(s / PRESSURE - 1) < REST_STRESS for s in mean.values())
-        if O.iter > LIMIT:
-            raise SampleError(f"the sample does not come to rest under pressure: mean speed {engine.meanSpeed:g} m/s, wanted {slow:g} m/s, "
-                              f"stresses {mean}; try another seed")
+
+    def calm():
+        return O.iter > 2 * RAMP + REST_STEPS and engine.meanSpeed < slow and all(abs(s / PRESSURE - 1) < REST_STRESS for s in mean.values())
+
+    if not until(calm, LIMIT, make=press):
+        raise SampleError(f"the sample does not come to rest under pressure: mean speed {engine.meanSpeed:g} m/s, wanted {slow:g} m/s, "
+                          f"stresses {mean}; try another seed")
     t, corner = tables.bodies(engine), (walls.place("left")[0], walls.place("bottom")[1])
     _keep(shape, t["x"] - corner[0], t["y"] - corner[1], t["r"], walls.width(), walls.height())
     return {"steps": O.iter, "disks": len(made), "sweeps_mean": engine.totalIterations / O.iter, "overlap_worst_rel": engine.overlapWorst}

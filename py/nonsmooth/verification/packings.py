@@ -58,7 +58,7 @@ class Box:
     def _compress(self):
         # at a given rate until the disks carry, at most 1 % of a diameter a step; heavy walls under pressure would go on swinging, one in while
         # the other goes out, which frictionless disks hardly resist
-        from yade import O
+        from ..stepping import until
 
         walls = self.walls
         while sum(walls.stresses().values()) < 2 * PRESSURE:
@@ -70,13 +70,15 @@ class Box:
         for name in ("right", "top"):
             walls.drive(name)
             walls.free(name, WALL_MASS)
-        self.engine.tolerance, settled, start = 1e-6, 0, O.iter
-        while settled < 30:
-            walls.step()
-            sides = walls.stresses()
-            settled = settled + 1 if all(abs(s / PRESSURE - 1) < 0.02 for s in sides.values()) else 0
-            if O.iter > start + 5000:
-                raise RuntimeError(f"the sample does not come to rest under its pressure: stresses {sides}, mean speed {self.engine.meanSpeed:g} m/s")
+        self.engine.tolerance, settled = 1e-6, 0
+
+        def calm():
+            nonlocal settled
+            settled = settled + 1 if all(abs(s / PRESSURE - 1) < 0.02 for s in walls.stresses().values()) else 0
+            return settled == 30
+
+        if not until(calm, 5000, make=lambda _: walls.step()):
+            raise RuntimeError(f"the sample does not come to rest under its pressure: stresses {walls.stresses()}, mean speed {self.engine.meanSpeed:g} m/s")
 
 
 # ---- friction without friction --------------------------------------------------------------------
