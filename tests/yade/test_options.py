@@ -15,7 +15,7 @@ from yade.nonsmooth import errors, experiment, packing, section, slope
 from yade.nonsmooth.benchmark import scale, suite
 from yade.nonsmooth.comparison import cost, course
 from yade.nonsmooth.heaps import study
-from yade.nonsmooth.laboratory import calibration, campaign, effects, wall_shear
+from yade.nonsmooth.laboratory import calibration, campaign, effects, table1, wall_shear
 from yade.nonsmooth.verification import runner, soak
 
 COMMANDS = sorted(path.name for path in SCRIPTS.glob("*.py"))
@@ -63,7 +63,7 @@ SOFT = ("--world", "soft", "--stiffness", "1e9")
 HOLDER = {  # what a command asks: a module or class, and its function
     "jiufengershan.py": (slope, "build"), "slope.py": (slope, "build"), "biaxial.py": (campaign, "run"), "wall_shear.py": (wall_shear, "run"), "biaxial_effects.py": (effects, "run"),
     "calibrate.py": (calibration, "Calibration"), "column.py": (study, "run"), "compare_hard_soft.py": (course, "compare"), "benchmark.py": (suite, "run"),
-    "soak.py": (soak, "run"), "sweep.py": (campaigns, "sweep"), "verify.py": (runner, "run_checks"), "wedge.py": (subprocess, "run")}
+    "soak.py": (soak, "run"), "sweep.py": (campaigns, "sweep"), "table1.py": (table1, "run"), "verify.py": (runner, "run_checks"), "wedge.py": (subprocess, "run")}
 OTHERS = {("compare_hard_soft.py", "--cost"): (cost, "run"), ("benchmark.py", "--scale"): (scale, "run"), ("jiufengershan.py", "--resume"): (experiment, "resume"),
           ("slope.py", "--resume"): (experiment, "resume"), **{("sweep.py", word): (campaigns.Plan, "run") for word in ("--resume", "--threads")},
           ("sweep.py", "--plan"): (campaigns.Plan, "write"), ("sweep.py", "--run"): (campaigns, "run_one"), ("sweep.py", "--number"): (campaigns, "run_one"),
@@ -235,6 +235,13 @@ WHERE = {
         "--out": (("--plan",), lambda a: str(a.words[0]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[1], 7), "--resume": (("--threads", 7, "--resume"), lambda a: a.words[2], True),
         "--plan": (("--plan",), lambda a: len(a.words), 1), "--run": (("--run", "seed=2"), lambda a: a.words[1], "seed=2"),
         "--number": (("--number", 1), lambda a: a.words[1], 1), "--collect": (("--collect",), lambda a: str(a.words[0]), "{out}"),
+    },
+    "table1.py": {
+        "--material": (("--material", "{files}/stone.yaml"), lambda a: Path(a.words[7]).name, "stone.yaml"), "--disks": (("--disks", 88), lambda a: a.words[1], 88),
+        "--seeds": (("--seeds", 7, 8), lambda a: a.words[2], [7, 8]), "--confining": (("--confining", "0.5,4"), lambda a: a.words[3], [0.5e6, 4e6]),
+        "--slide-seeds": (("--slide-seeds", 9), lambda a: a.words[4], [9]), "--slide-pressures": (("--slide-pressures", "0.25,3"), lambda a: a.words[5], [0.25e6, 3e6]),
+        "--strain": (("--strain", 0.03), lambda a: a.words[6], 0.03), "--out": ((), lambda a: str(a.words[0]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[8], 7),
+        "--resume": (("--resume",), lambda a: a.words[9], True),
     },
     "verify.py": {
         "--only": (("--only", "bonds", "cradle"), lambda a: sorted({c.run.__module__.split(".")[-1] for c in a.words[0]}), ["bonds", "impacts"]),

@@ -13,6 +13,7 @@ Strength of a slope comes from tests of a sample of its rock (Taboada and Estrad
 * :mod:`campaign`, :mod:`report`: many tests side by side, and what they say together;
 * :mod:`effects`: what the strength depends on besides the material;
 * :mod:`wall_shear`: sliding of a block on a wall;
+* :mod:`table1`: the rock and the walls together, beside the paper's Table 1;
 * :mod:`calibration`: contact parameters for wanted strengths;
 * :mod:`arguments`: what the laboratory's scripts share on the command line.
 """

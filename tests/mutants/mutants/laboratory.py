@@ -26,6 +26,9 @@ MUTANTS = (
     mutant("heap-height", HEAPS + "preparation.py", "2 * float(np.sum(area * kept.y)", "float(np.sum(area * kept.y)", "the height of a column is that of its centre",
            "test_columns.py::test_prepared_column_is_at_rest_in_its_box"),
     # ---- laboratory
+    mutant("lab-table-bonds", LAB + "table1.py", "bonded=True, tensile_strength=BONDED", "bonded=False, tensile_strength=BONDED", "the bonded row of DP is not bonded",
+           "test_table1.py::test_tests_are_those_that_were_asked_for", "test_table1.py::test_each_figure_is_in_its_place_with_its_interval"),
+    mutant("lab-table-walls", LAB + "table1.py", 'told["walls"][row]]', 'told["walls"]["DP"]]', "all walls have the strength of DP", "test_table1.py::test_each_figure_is_in_its_place_with_its_interval"),
     mutant("lab-axial", LAB + "strength.py", 'np.asarray(series["sigma1_top_Pa"], float) + np.asarray(series["sigma1_bottom_Pa"], float)',
            'np.asarray(series["sigma1_top_Pa"], float) + np.asarray(series["sigma1_top_Pa"], float)', "the axial stress is that of one platen",
            "plain:test_strength.py::test_the_plateau_is_a_mean_with_its_error"),

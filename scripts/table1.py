@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""The strengths of the rock and of the walls beside the paper's Table 1: biaxial tests and slides, as many at a time as there are threads.
+
+  scripts/table1.py [--disks N] [--seeds S …] [--confining MPA,…] [--material NAME|FILE] [--out DIR] [--threads T] [--resume]
+"""
+import argparse
+import json
+import os
+import sys
+from pathlib import Path
+
+from tabulate import tabulate
+
+if "yade" in sys.modules:  # started by the launcher
+    from yade.nonsmooth import commands, output_folder
+    from yade.nonsmooth.laboratory import arguments, biaxial_test, table1
+    from yade.nonsmooth.whole_files import write_atomically
+else:  # YADE runs in processes of its own
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
+    from nonsmooth import commands, output_folder
+    from nonsmooth.laboratory import arguments, biaxial_test, table1
+    from nonsmooth.whole_files import write_atomically
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(prog="table1.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--material", default="wwr", metavar="NAME|FILE", help="of the rock: wwr, the paper's weakly weathered rock (default), or a material file")
+    parser.add_argument("--disks", type=int, default=5000, metavar="N", help="disks of a sample (default: %(default)s)")
+    parser.add_argument("--confining", type=arguments.pressures(2), default=[0.25, 0.5, 1, 2, 4, 8, 16], metavar="MPA,…", help="confining pressures [MPa] (default: 0.25 to 16)")
+    parser.add_argument("--strain", type=arguments.positive, default=biaxial_test.Test.strain, help="axial strain at the end (default: %(default)s)")
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4, 5], metavar="S", help="seeds of the samples (default: 1 to 5)")
+    parser.add_argument("--slide-seeds", type=int, nargs="+", default=[1, 2], metavar="S", help="seeds of the blocks that slide on the walls (default: 1 2)")
+    parser.add_argument("--slide-pressures", type=arguments.pressures(2), default=[0.25, 0.5, 1, 2], metavar="MPA,…", help="normal stresses on the walls [MPa] (default: 0.25,0.5,1,2)")
+    parser.add_argument("--out", default="out/table1", metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
+    parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
+    return parser.parse_args()
+
+
+def main():
+    args = read_arguments()
+    out = Path(args.out)
+    output_folder.claim(out, "table1.py", args.resume)
+    with arguments.bar() as progress:
+        told = table1.run(out, args.disks, args.seeds, [1e6 * p for p in args.confining], args.slide_seeds, [1e6 * p for p in args.slide_pressures], args.strain, args.material,
+                          args.threads, args.resume, progress)
+    heads, rows = table1.table(told["rows"])
+    caption = f"Table 1: {args.disks} disks, seeds {', '.join(map(str, args.seeds))}; means with half of their 95 % interval, the paper's values in brackets"
+    write_atomically(out / "table1.json", json.dumps({**told, "tables": [[caption, heads, rows]]}, indent=1).encode())
+    print(tabulate(rows, heads, disable_numparse=True))
+    print(f"results: {out}/table1.json, rock/tests/*/series.csv, walls/tests/*/series.csv")
+
+
+commands.run(main, "what has ended is kept, go on with --resume")
