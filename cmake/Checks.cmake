@@ -6,6 +6,9 @@ if(NONSMOOTH_CHECKS)
     add_test(NAME sanitizers COMMAND "${CMAKE_SOURCE_DIR}/tests/sanitizers/run.sh" "${CMAKE_BINARY_DIR}/sanitizers")
     set_tests_properties(sanitizers PROPERTIES LABELS sanitizers TIMEOUT 1200 COST 120) # the longest first
 
+    add_test(NAME formatted COMMAND "${CMAKE_SOURCE_DIR}/scripts/format.sh" --check)
+    set_tests_properties(formatted PROPERTIES LABELS formatted TIMEOUT 300 SKIP_RETURN_CODE 77) # other versions than Debian 12 has
+
     find_program(NONSMOOTH_AARCH64_COMPILER aarch64-linux-gnu-g++)
     if(NONSMOOTH_AARCH64_COMPILER)
         list(GET HDF5_INCLUDE_DIRS 0 hdf5_headers)

@@ -17,15 +17,15 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx_copybutton",
     "sphinxcontrib.bibtex",
-    "nbsphinx",         # notebooks, with the results that they were written with
-    "mathml",           # equations, without a network
-    "yade_reference",   # classes of the plugin, from their docstrings
+    "nbsphinx",  # notebooks, with the results that they were written with
+    "mathml",  # equations, without a network
+    "yade_reference",  # classes of the plugin, from their docstrings
     "package_modules",  # modules of the package, from their docstrings
-    "section_keys",     # keys of a section file, from the schema
+    "section_keys",  # keys of a section file, from the schema
     "records_columns",  # columns of series.csv, from the package
-    "measured",         # numbers and tables, from files that commands wrote
-    "pictures",         # figures that a run has made, where they are there
-    "checked_script",   # the README's script is the one that the tests run
+    "measured",  # numbers and tables, from files that commands wrote
+    "pictures",  # figures that a run has made, where they are there
+    "checked_script",  # the README's script is the one that the tests run
 ]
 
 needs_sphinx = "5.3"

@@ -5,6 +5,7 @@
   scripts/benchmark.py --scale [N,N,…] [--out DIR] [--threads T] [--section FILE]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -23,13 +24,36 @@ from yade.nonsmooth.whole_files import write_atomically
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="benchmark.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--out", default="out/benchmark", metavar="DIR", help="folder for the results (default: %(default)s)")
-    parser.add_argument("--quick", action="store_true", help="fewer steps and repetitions: minutes, quartiles a little wider")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="threads of the steps, besides one (default: all cores)")
-    parser.add_argument("--disks", type=int, default=20000, metavar="N", help="disks of the slope (default: %(default)s)")
-    parser.add_argument("--section", default="jiufengershan", metavar="FILE", help="a section file with walls DP and FB, or the name of a shipped one")
-    parser.add_argument("--scale", type=sizes, nargs="?", const=scale.SIZES, metavar="N,…",
-                        help=f"instead, how cost grows with size: numbers of disks (default: {','.join(map(str, scale.SIZES))}; the last one takes 10 to 20 minutes)")
+    parser.add_argument(
+        "--out", default="out/benchmark", metavar="DIR", help="folder for the results (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="fewer steps and repetitions: minutes, quartiles a little wider"
+    )
+    parser.add_argument(
+        "--threads",
+        type=int,
+        default=os.cpu_count(),
+        metavar="T",
+        help="threads of the steps, besides one (default: all cores)",
+    )
+    parser.add_argument(
+        "--disks", type=int, default=20000, metavar="N", help="disks of the slope (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--section",
+        default="jiufengershan",
+        metavar="FILE",
+        help="a section file with walls DP and FB, or the name of a shipped one",
+    )
+    parser.add_argument(
+        "--scale",
+        type=sizes,
+        nargs="?",
+        const=scale.SIZES,
+        metavar="N,…",
+        help=f"instead, how cost grows with size: numbers of disks (default: {','.join(map(str, scale.SIZES))}; the last one takes 10 to 20 minutes)",
+    )
     args = parser.parse_args()
     if args.threads < 1:
         parser.error(f"--threads {args.threads}: give a whole number from 1")
@@ -64,7 +88,9 @@ def main():
         return measure_scale(args, out)
     states.section_of(args.section, args.disks)  # refused before anything runs
     with arguments.bar() as progress:
-        found = suite.run(out, args.section, args.disks, args.threads, suite.QUICK if args.quick else suite.FULL, progress)
+        found = suite.run(
+            out, args.section, args.disks, args.threads, suite.QUICK if args.quick else suite.FULL, progress
+        )
     summary = {**report.summarise(found), "quick": args.quick, "wall_s": time.monotonic() - began}
     write_atomically(out / "benchmark.json", json.dumps(summary, indent=1).encode())
     print(report.table(summary))

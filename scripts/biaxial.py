@@ -4,6 +4,7 @@
   scripts/biaxial.py [--material NAME|FILE] [--confining MPA,MPA,…] [--disks N] [--out DIR] [--threads T] [--seeds S …] [--resume]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -21,32 +22,114 @@ from yade.nonsmooth.whole_files import write_atomically
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="biaxial.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--material", default="wwr", metavar="NAME|FILE", help="wwr, the paper's weakly weathered rock (default), or a material file")
-    parser.add_argument("--confining", type=arguments.pressures(), default=[0.25, 0.5, 1, 2, 4, 8, 16], metavar="MPA,…", help="confining pressures [MPa] (default: 0.25 to 16)")
-    parser.add_argument("--disks", type=int, default=5000, metavar="N", help="disks of the sample (default: %(default)s)")
-    parser.add_argument("--diameter", type=arguments.positive, nargs=2, default=(1.0, 4.0), metavar=("MIN", "MAX"), help="diameters [m] (default: 1 4)")
-    parser.add_argument("--fraction", type=arguments.positive, default=0.848, help="packing fraction that the sample is made with (default: %(default)s)")
-    parser.add_argument("--aspect", type=arguments.positive, default=2.0, help="height over width (default: %(default)s)")
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings; several give confidence intervals")
-    parser.add_argument("--platens", choices=("smooth", "rough", "glued"), default=biaxial.Test.platens, help="friction of the platens (default: %(default)s)")
-    parser.add_argument("--sides", choices=("rigid", "flexible"), default=biaxial.Test.sides, help="lateral boundaries (default: %(default)s)")
-    parser.add_argument("--strain", type=arguments.positive, default=biaxial.Test.strain, help="axial strain at the end (default: %(default)s)")
-    parser.add_argument("--inertia", type=arguments.positive, default=biaxial.Test.inertia, metavar="I", help="inertial number of the loading (default: %(default)g)")
-    parser.add_argument("--step", type=arguments.positive, default=biaxial.Test.step, help="time step in √(m/σ₃) (default: %(default)s)")
-    parser.add_argument("--tolerance", type=arguments.positive, default=biaxial.Test.tolerance, help="of the solver's residual (default: %(default)g)")
-    parser.add_argument("--sample", choices=("packed", "pressed"), help="packed: bond the disks as they were packed, as a slope is made, then let the pressure grow (default of bonded "
-                        "materials); pressed: press them until they carry, then bond")
-    parser.add_argument("--pressing-friction", type=float, metavar="MU", help="friction of contacts while a sample is pressed (default: 0)")
-    parser.add_argument("--bond-distance", type=arguments.positive, metavar="L", help="largest gap that is bonded, in mean diameters, instead of the material's")
-    parser.add_argument("--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
+    parser.add_argument(
+        "--material",
+        default="wwr",
+        metavar="NAME|FILE",
+        help="wwr, the paper's weakly weathered rock (default), or a material file",
+    )
+    parser.add_argument(
+        "--confining",
+        type=arguments.pressures(),
+        default=[0.25, 0.5, 1, 2, 4, 8, 16],
+        metavar="MPA,…",
+        help="confining pressures [MPa] (default: 0.25 to 16)",
+    )
+    parser.add_argument(
+        "--disks", type=int, default=5000, metavar="N", help="disks of the sample (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--diameter",
+        type=arguments.positive,
+        nargs=2,
+        default=(1.0, 4.0),
+        metavar=("MIN", "MAX"),
+        help="diameters [m] (default: 1 4)",
+    )
+    parser.add_argument(
+        "--fraction",
+        type=arguments.positive,
+        default=0.848,
+        help="packing fraction that the sample is made with (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--aspect", type=arguments.positive, default=2.0, help="height over width (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--seeds",
+        type=int,
+        nargs="+",
+        default=[1],
+        metavar="S",
+        help="seeds of the packings; several give confidence intervals",
+    )
+    parser.add_argument(
+        "--platens",
+        choices=("smooth", "rough", "glued"),
+        default=biaxial.Test.platens,
+        help="friction of the platens (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--sides",
+        choices=("rigid", "flexible"),
+        default=biaxial.Test.sides,
+        help="lateral boundaries (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--strain",
+        type=arguments.positive,
+        default=biaxial.Test.strain,
+        help="axial strain at the end (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--inertia",
+        type=arguments.positive,
+        default=biaxial.Test.inertia,
+        metavar="I",
+        help="inertial number of the loading (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--step", type=arguments.positive, default=biaxial.Test.step, help="time step in √(m/σ₃) (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--tolerance",
+        type=arguments.positive,
+        default=biaxial.Test.tolerance,
+        help="of the solver's residual (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--sample",
+        choices=("packed", "pressed"),
+        help="packed: bond the disks as they were packed, as a slope is made, then let the pressure grow (default of bonded "
+        "materials); pressed: press them until they carry, then bond",
+    )
+    parser.add_argument(
+        "--pressing-friction",
+        type=float,
+        metavar="MU",
+        help="friction of contacts while a sample is pressed (default: 0)",
+    )
+    parser.add_argument(
+        "--bond-distance",
+        type=arguments.positive,
+        metavar="L",
+        help="largest gap that is bonded, in mean diameters, instead of the material's",
+    )
+    parser.add_argument(
+        "--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)"
+    )
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
     args = parser.parse_args()
     if args.pressing_friction is not None:
         if not args.pressing_friction >= 0:
             parser.error(f"--pressing-friction {args.pressing_friction:g}: it must be 0 or more")
         if args.sample != "pressed":
-            parser.error(f"--pressing-friction {args.pressing_friction:g}: only a sample that is pressed has it; add --sample pressed, or leave it out")
+            parser.error(
+                f"--pressing-friction {args.pressing_friction:g}: only a sample that is pressed has it; add --sample pressed, or leave it out"
+            )
     if args.diameter[0] > args.diameter[1]:
         parser.error(f"--diameter {args.diameter[0]:g} {args.diameter[1]:g}: give the smallest first")
     return args
@@ -60,16 +143,30 @@ def main():
         material = dataclasses.replace(material, bond_creation_distance=args.bond_distance)
     pressed = args.sample == "pressed" or args.sample is None and not material.bonded
     friction = args.pressing_friction or 0.0 if pressed else None
-    tests = [biaxial.Test(material, 1e6 * p, pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, friction), args.strain,
-                          args.platens, args.sides, args.inertia, args.step, args.tolerance)
-             for seed in args.seeds for p in sorted(args.confining)]
+    tests = [
+        biaxial.Test(
+            material,
+            1e6 * p,
+            pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, friction),
+            args.strain,
+            args.platens,
+            args.sides,
+            args.inertia,
+            args.step,
+            args.tolerance,
+        )
+        for seed in args.seeds
+        for p in sorted(args.confining)
+    ]
     with arguments.bar() as progress:
         measured = campaign.run(tests, out, args.threads, args.resume, progress)
     summary = campaign.summarise(material, measured, time.monotonic() - began, args.threads)
     write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())
     made = report.draw(out, summary)
     print(report.table(summary))
-    print(f"{summary['wall_s']:.0f} s of wall time; results: {out}/summary.json, tests/*/series.csv, {', '.join(p.name for p in made)}")
+    print(
+        f"{summary['wall_s']:.0f} s of wall time; results: {out}/summary.json, tests/*/series.csv, {', '.join(p.name for p in made)}"
+    )
 
 
 commands.run(main, "what has ended is kept, go on with --resume")

@@ -4,6 +4,7 @@
   scripts/biaxial_effects.py [--material NAME|FILE] [--disks N] [--seeds S …] [--out DIR] [--threads T] [--resume]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -21,12 +22,33 @@ from yade.nonsmooth.whole_files import write_atomically
 def read_arguments():
     parser = argparse.ArgumentParser(prog="biaxial_effects.py", description=__doc__.splitlines()[0])
     parser.add_argument("--material", default="wwr", metavar="NAME|FILE", help="wwr (default), or a material file")
-    parser.add_argument("--disks", type=int, default=effects.COUNT, metavar="N", help="disks of the usual sample (default: %(default)s)")
-    parser.add_argument("--confining", type=arguments.positive, default=effects.PRESSURE / 1e6, metavar="MPA", help="confining pressure [MPa] (default: %(default)g)")
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4], metavar="S", help="seeds of the samples (default: 1 2 3 4)")
-    parser.add_argument("--only", nargs="+", choices=("disks", "diameter", "inertia", "step"), help="only these effects")
-    parser.add_argument("--out", default="out/biaxial_effects", metavar="DIR", help="folder for the results (default: %(default)s)")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
+    parser.add_argument(
+        "--disks", type=int, default=effects.COUNT, metavar="N", help="disks of the usual sample (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--confining",
+        type=arguments.positive,
+        default=effects.PRESSURE / 1e6,
+        metavar="MPA",
+        help="confining pressure [MPa] (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--seeds",
+        type=int,
+        nargs="+",
+        default=[1, 2, 3, 4],
+        metavar="S",
+        help="seeds of the samples (default: 1 2 3 4)",
+    )
+    parser.add_argument(
+        "--only", nargs="+", choices=("disks", "diameter", "inertia", "step"), help="only these effects"
+    )
+    parser.add_argument(
+        "--out", default="out/biaxial_effects", metavar="DIR", help="folder for the results (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)"
+    )
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
     return parser.parse_args()
 
@@ -36,16 +58,26 @@ def main():
     out = Path(args.out)
     material = materials.load(args.material)
     output_folder.claim(out, "biaxial_effects.py", args.resume)
-    chosen = [e for e in effects.effects(material, args.seeds, args.disks, 1e6 * args.confining) if not args.only or e.name in args.only]
+    chosen = [
+        e
+        for e in effects.effects(material, args.seeds, args.disks, 1e6 * args.confining)
+        if not args.only or e.name in args.only
+    ]
     with arguments.bar() as progress:
         rows = effects.run(chosen, out, args.threads, args.resume, progress)
-    write_atomically(out / "summary.json", json.dumps({"confining_Pa": 1e6 * args.confining, "rows": rows}, indent=1).encode())
+    write_atomically(
+        out / "summary.json", json.dumps({"confining_Pa": 1e6 * args.confining, "rows": rows}, indent=1).encode()
+    )
     figures.effects(rows, out / "effects.png")
     print("                                  peak φ [°]   change of σ₁ [%]   plateau φ [°]   change of σ₁ [%]")
     for r in rows:
-        within = lambda kind: "" if r[f"{kind}_change_95_rel"] is None else f" ± {100 * r[f'{kind}_change_95_rel']:.1f}"  # noqa: E731
-        print(f"{r['label']:28s}{r['value']:8.4g} {r['peak_mean_deg']:8.2f} {100 * r['peak_change_rel']:+12.1f}{within('peak'):7s} {r['residual_mean_deg']:12.2f} "
-              f"{100 * r['residual_change_rel']:+12.1f}{within('residual'):7s}{'  usual' if r['usual'] else ''}")
+        within = (
+            lambda kind: "" if r[f"{kind}_change_95_rel"] is None else f" ± {100 * r[f'{kind}_change_95_rel']:.1f}"
+        )  # noqa: E731
+        print(
+            f"{r['label']:28s}{r['value']:8.4g} {r['peak_mean_deg']:8.2f} {100 * r['peak_change_rel']:+12.1f}{within('peak'):7s} {r['residual_mean_deg']:12.2f} "
+            f"{100 * r['residual_change_rel']:+12.1f}{within('residual'):7s}{'  usual' if r['usual'] else ''}"
+        )
     print(f"results: {out}/summary.json, effects.png")
 
 

@@ -5,6 +5,7 @@
   scripts/column.py --kind pile --aspect 1 --disks 500
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -33,40 +34,152 @@ def numbers(text):
 def read_arguments():
     usual = study.KINDS["column"]()
     parser = argparse.ArgumentParser(prog="column.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--kind", choices=tuple(study.KINDS), default="column", help="a column that falls to one side, or a pile that loses both sides of its box (default: column)")
-    parser.add_argument("--aspect", type=numbers, default=numbers(ASPECTS), metavar="A,…", help=f"height over width of columns; of piles, over half of the width (default: {ASPECTS})")
-    parser.add_argument("--disks", type=int, default=usual.disks, metavar="N", help="disks of each; boxes of some hundred or fewer may miss it by some per cent, see the table (default: %(default)s)")
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings (default: 1)")
-    parser.add_argument("--diameter", type=float, default=usual.diameter, metavar="M", help="mean diameter [m] (default: %(default)g)")
-    parser.add_argument("--size-spread", type=float, default=usual.size_spread, metavar="K", help="largest over smallest diameter (default: %(default)g)")
-    parser.add_argument("--friction", type=float, default=usual.friction, metavar="MU", help="of contacts (default: %(default)g)")
-    parser.add_argument("--rolling-friction", type=float, default=usual.rolling_friction, metavar="MU", help="in units of the mean diameter of a pair; soft: with --model cohesion_moment alone (default: %(default)g)")
-    parser.add_argument("--restitution", type=float, default=usual.restitution, metavar="E", help="of impacts; not in the soft world (default: %(default)g)")
-    parser.add_argument("--base", choices=grains.BASES, default=usual.base, help="floor: a line, or glued disks (default: %(default)s)")
+    parser.add_argument(
+        "--kind",
+        choices=tuple(study.KINDS),
+        default="column",
+        help="a column that falls to one side, or a pile that loses both sides of its box (default: column)",
+    )
+    parser.add_argument(
+        "--aspect",
+        type=numbers,
+        default=numbers(ASPECTS),
+        metavar="A,…",
+        help=f"height over width of columns; of piles, over half of the width (default: {ASPECTS})",
+    )
+    parser.add_argument(
+        "--disks",
+        type=int,
+        default=usual.disks,
+        metavar="N",
+        help="disks of each; boxes of some hundred or fewer may miss it by some per cent, see the table (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings (default: 1)"
+    )
+    parser.add_argument(
+        "--diameter", type=float, default=usual.diameter, metavar="M", help="mean diameter [m] (default: %(default)g)"
+    )
+    parser.add_argument(
+        "--size-spread",
+        type=float,
+        default=usual.size_spread,
+        metavar="K",
+        help="largest over smallest diameter (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--friction", type=float, default=usual.friction, metavar="MU", help="of contacts (default: %(default)g)"
+    )
+    parser.add_argument(
+        "--rolling-friction",
+        type=float,
+        default=usual.rolling_friction,
+        metavar="MU",
+        help="in units of the mean diameter of a pair; soft: with --model cohesion_moment alone (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--restitution",
+        type=float,
+        default=usual.restitution,
+        metavar="E",
+        help="of impacts; not in the soft world (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--base", choices=grains.BASES, default=usual.base, help="floor: a line, or glued disks (default: %(default)s)"
+    )
     parser.add_argument("--base-friction", type=float, metavar="MU", help="of the floor (default: as --friction)")
-    parser.add_argument("--wall-friction", type=float, default=usual.wall_friction, metavar="MU", help="of the wall behind a column (default: %(default)g)")
-    parser.add_argument("--packing", metavar="FILE", help="text file of x y r [m] to use instead of an own packing; --aspect, --disks, --seeds and sizes then do nothing")
+    parser.add_argument(
+        "--wall-friction",
+        type=float,
+        default=usual.wall_friction,
+        metavar="MU",
+        help="of the wall behind a column (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--packing",
+        metavar="FILE",
+        help="text file of x y r [m] to use instead of an own packing; --aspect, --disks, --seeds and sizes then do nothing",
+    )
     parser.add_argument("--world", choices=("hard", "soft"), default="hard", help="contacts (default: hard)")
-    parser.add_argument("--path", type=arguments.positive, default=grains.PATH_PER_STEP, metavar="D", help="hard: time step, as mean diameters at the speed of a free fall from the top (default: %(default)g)")
-    parser.add_argument("--tolerance", type=arguments.positive, default=study.TOLERANCE, metavar="R", help="hard: residual of a step (default: %(default)g)")
+    parser.add_argument(
+        "--path",
+        type=arguments.positive,
+        default=grains.PATH_PER_STEP,
+        metavar="D",
+        help="hard: time step, as mean diameters at the speed of a free fall from the top (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--tolerance",
+        type=arguments.positive,
+        default=study.TOLERANCE,
+        metavar="R",
+        help="hard: residual of a step (default: %(default)g)",
+    )
     parser.add_argument("--stiffness", type=arguments.positive, metavar="PA", help="soft: Young's modulus [Pa]")
-    parser.add_argument("--damping", type=float, default=0.2, metavar="L", help="soft: YADE's damping of forces (default: %(default)g)")
-    parser.add_argument("--damping-moving", type=float, metavar="L", help="soft: the same while the disks move, where it would brake them (default: as --damping)")
-    parser.add_argument("--step-share", type=arguments.positive, default=0.5, metavar="S", help="soft: time step in units of its stability limit (default: %(default)g)")
-    parser.add_argument("--model", default="cohesion_moment", choices=("cohesion_moment", "jcfpm", "friction"), help="soft: contact model (default: %(default)s)")
-    parser.add_argument("--duration", type=arguments.positive, default=15.0, metavar="T", help="longest course, in units of √(H/g) (default: %(default)g)")
-    parser.add_argument("--out", default="out/column", metavar="DIR", help="folder for the results (default: %(default)s)")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="runs at a time (default: all cores)")
+    parser.add_argument(
+        "--damping", type=float, default=0.2, metavar="L", help="soft: YADE's damping of forces (default: %(default)g)"
+    )
+    parser.add_argument(
+        "--damping-moving",
+        type=float,
+        metavar="L",
+        help="soft: the same while the disks move, where it would brake them (default: as --damping)",
+    )
+    parser.add_argument(
+        "--step-share",
+        type=arguments.positive,
+        default=0.5,
+        metavar="S",
+        help="soft: time step in units of its stability limit (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--model",
+        default="cohesion_moment",
+        choices=("cohesion_moment", "jcfpm", "friction"),
+        help="soft: contact model (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--duration",
+        type=arguments.positive,
+        default=15.0,
+        metavar="T",
+        help="longest course, in units of √(H/g) (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--out", default="out/column", metavar="DIR", help="folder for the results (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--threads", type=int, default=os.cpu_count(), metavar="T", help="runs at a time (default: all cores)"
+    )
     parser.add_argument("--resume", action="store_true", help="keep runs in DIR that have ended")
     return parser.parse_args()
 
 
 def cases_of(args):
     """{name: (heap, world)} of the runs asked for."""
-    shared = dict(diameter=args.diameter, size_spread=args.size_spread, friction=args.friction, rolling_friction=args.rolling_friction, restitution=args.restitution,
-                  base=args.base, base_friction=args.base_friction, wall_friction=args.wall_friction, disks=args.disks)
-    world = dict(name="hard", path=args.path, tolerance=args.tolerance) if args.world == "hard" else dict(
-        name="soft", stiffness=args.stiffness, damping=args.damping, damping_moving=args.damping_moving, step_share=args.step_share, model=args.model)
+    shared = dict(
+        diameter=args.diameter,
+        size_spread=args.size_spread,
+        friction=args.friction,
+        rolling_friction=args.rolling_friction,
+        restitution=args.restitution,
+        base=args.base,
+        base_friction=args.base_friction,
+        wall_friction=args.wall_friction,
+        disks=args.disks,
+    )
+    world = (
+        dict(name="hard", path=args.path, tolerance=args.tolerance)
+        if args.world == "hard"
+        else dict(
+            name="soft",
+            stiffness=args.stiffness,
+            damping=args.damping,
+            damping_moving=args.damping_moving,
+            step_share=args.step_share,
+            model=args.model,
+        )
+    )
     kind = study.KINDS[args.kind]
     if args.packing:
         return {Path(args.packing).stem: (kind(**shared, packing=args.packing), world)}
@@ -81,7 +194,14 @@ def main():
         study.world_of(heap, **world)
     output_folder.claim(out, "column.py", args.resume)
     with arguments.bar() as progress:
-        found = study.run(cases, out, args.threads, args.resume, args.duration, lambda share: progress(share, f"{len(cases)} run{'s' if len(cases) > 1 else ''}"))
+        found = study.run(
+            cases,
+            out,
+            args.threads,
+            args.resume,
+            args.duration,
+            lambda share: progress(share, f"{len(cases)} run{'s' if len(cases) > 1 else ''}"),
+        )
     summary = report.summarise(found)
     if args.kind == "column":
         summary["exponents_by_front"] = report.by_front(found, {name: out / "runs" / name for name in found})

@@ -5,6 +5,7 @@
   scripts/compare_hard_soft.py --cost [--disks N] [--stiffness PA,PA,…] [--out DIR] [--threads T] [--resume]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -25,8 +26,20 @@ def tell(questions):
 
 def measure_cost(args, out):
     with arguments.bar() as progress:
-        told = cost.run(out, args.source or cost.SOURCE, args.disks or cost.DISKS, args.threads, args.stiffness or cost.STIFFNESSES, args.steps, args.damping,
-                        args.damping_moving, args.step_share, args.resume, progress, args.model)
+        told = cost.run(
+            out,
+            args.source or cost.SOURCE,
+            args.disks or cost.DISKS,
+            args.threads,
+            args.stiffness or cost.STIFFNESSES,
+            args.steps,
+            args.damping,
+            args.damping_moving,
+            args.step_share,
+            args.resume,
+            progress,
+            args.model,
+        )
     tell(cost_report.write(out, told))
     print(f"\nresults: {out}/report.html, summary.json, figures")
 
@@ -39,12 +52,29 @@ def main():
         return measure_cost(args, out)
     with arguments.bar() as progress:
         summary, questions = course.compare(
-            args.scenario, out, args.seeds, disks=args.disks, source=args.source, stiffnesses=args.stiffness, ensemble=args.ensemble_stiffness,
-            model=args.model, damping=args.damping, damping_moving=args.damping_moving, step_share=args.step_share, fragile=args.bonds == "fragile",
-            without=args.without, threads=args.threads, resume=args.resume, progress=progress, options=options.scenario_options(args))
+            args.scenario,
+            out,
+            args.seeds,
+            disks=args.disks,
+            source=args.source,
+            stiffnesses=args.stiffness,
+            ensemble=args.ensemble_stiffness,
+            model=args.model,
+            damping=args.damping,
+            damping_moving=args.damping_moving,
+            step_share=args.step_share,
+            fragile=args.bonds == "fragile",
+            without=args.without,
+            threads=args.threads,
+            resume=args.resume,
+            progress=progress,
+            options=options.scenario_options(args),
+        )
     tell(questions)
-    print(f"\n{summary['wall_s']:.0f} s of wall time in this sitting, {summary['runs_wall_s']:.0f} s in all runs together; results: {out}/report.html, "
-          "summary.json, figures, runs/*")
+    print(
+        f"\n{summary['wall_s']:.0f} s of wall time in this sitting, {summary['runs_wall_s']:.0f} s in all runs together; results: {out}/report.html, "
+        "summary.json, figures, runs/*"
+    )
 
 
 commands.run(main, "what has ended is kept, go on with --resume")

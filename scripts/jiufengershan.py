@@ -4,10 +4,14 @@
   scripts/jiufengershan.py [--section FILE] [--disks N] [--out DIR] [--threads T] [--seed S] [--end SECONDS] [--resume] [--no-figures]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 from yade.nonsmooth import commands, slope_command
 
-commands.run(lambda: slope_command.run("jiufengershan.py", __doc__.splitlines()[0], "jiufengershan"), "where there is a checkpoint, --resume goes on from it")
+commands.run(
+    lambda: slope_command.run("jiufengershan.py", __doc__.splitlines()[0], "jiufengershan"),
+    "where there is a checkpoint, --resume goes on from it",
+)

@@ -4,6 +4,7 @@
   scripts/soak.py [--steps N] [--disks N] [--seed S] [--way advance|step] [--out FILE] [--threads T]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -21,15 +22,37 @@ from yade.nonsmooth.whole_files import write_atomically
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="soak.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--steps", type=int, default=1_000_000, metavar="N", help="time steps of 5 ms (default: %(default)s, half an hour)")
+    parser.add_argument(
+        "--steps",
+        type=int,
+        default=1_000_000,
+        metavar="N",
+        help="time steps of 5 ms (default: %(default)s, half an hour)",
+    )
     parser.add_argument("--disks", type=int, default=500, metavar="N", help="disks in the drum (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of their sizes (default: %(default)s)")
-    parser.add_argument("--way", choices=soak.WAYS, default="advance", help="; ".join(f"{name}: {what}" for name, what in soak.WAYS.items()) + "; the bits are the same (default: %(default)s)")
-    parser.add_argument("--out", default="out/soak.json", metavar="FILE", help="file for the result (default: %(default)s)")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="threads; one is enough for some hundred disks (default: all cores)")
+    parser.add_argument(
+        "--way",
+        choices=soak.WAYS,
+        default="advance",
+        help="; ".join(f"{name}: {what}" for name, what in soak.WAYS.items())
+        + "; the bits are the same (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--out", default="out/soak.json", metavar="FILE", help="file for the result (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--threads",
+        type=int,
+        default=os.cpu_count(),
+        metavar="T",
+        help="threads; one is enough for some hundred disks (default: all cores)",
+    )
     args = parser.parse_args()
     if args.steps < 10 * soak.ROWS:
-        parser.error(f"--steps {args.steps}: give {10 * soak.ROWS} or more, so that each of the {soak.ROWS} rows has some")
+        parser.error(
+            f"--steps {args.steps}: give {10 * soak.ROWS} or more, so that each of the {soak.ROWS} rows has some"
+        )
     if args.disks < 60:
         parser.error(f"--disks {args.disks}: give 60 or more, so that all find a place to fall from")
     return args
@@ -44,9 +67,11 @@ def main():
     write_atomically(out, json.dumps({"machine": machine.describe(), **found}, indent=1).encode())
     rows = found["rows"]
     first, last = rows[len(rows) // 10], rows[-1]
-    print(f"{args.steps} steps of {args.disks} disks, {last['turns']:.1f} turns, {found['wall_s']:.0f} s of wall time. From step {first['step']} on: overlaps of at most "
-          f"{max(row['overlap_worst_rel'] for row in rows[len(rows) // 10:]):.1e} of a diameter, {sum(row['unconverged'] for row in rows)} steps above the tolerance, "
-          f"{last['energy_error_rel']:.1e} of what was dissipated missing in the energy balance, memory {first['memory_MB']:.1f} MB, then {last['memory_MB']:.1f} MB")
+    print(
+        f"{args.steps} steps of {args.disks} disks, {last['turns']:.1f} turns, {found['wall_s']:.0f} s of wall time. From step {first['step']} on: overlaps of at most "
+        f"{max(row['overlap_worst_rel'] for row in rows[len(rows) // 10:]):.1e} of a diameter, {sum(row['unconverged'] for row in rows)} steps above the tolerance, "
+        f"{last['energy_error_rel']:.1e} of what was dissipated missing in the energy balance, memory {first['memory_MB']:.1f} MB, then {last['memory_MB']:.1f} MB"
+    )
     print(f"result: {out}")
     if found["grew"] is None:
         print(f"too few turns to judge by: {soak.TURNS_TO_JUDGE} take {soak.steps_of(soak.TURNS_TO_JUDGE)} steps")

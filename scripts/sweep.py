@@ -26,15 +26,42 @@ SHOWN = ("times_s.t0", "water_at_failure_m", "front_travel_m", "deposit_thicknes
 def read_arguments():
     parser = argparse.ArgumentParser(prog="sweep.py", description=__doc__.splitlines()[0])
     section_arguments.add(parser, needless=("--run", "--number", "--collect"))
-    parser.add_argument("--over", action="append", default=[], type=varied, metavar="KEY=V,V,…", help="values of a key of the section file, as water.table.rate=0.5,1 or walls.DP.material=dp,ss; several: all combinations")
-    parser.add_argument("--end", type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop each run after so many seconds of simulated time")
+    parser.add_argument(
+        "--over",
+        action="append",
+        default=[],
+        type=varied,
+        metavar="KEY=V,V,…",
+        help="values of a key of the section file, as water.table.rate=0.5,1 or walls.DP.material=dp,ss; several: all combinations",
+    )
+    parser.add_argument(
+        "--end",
+        type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"),
+        metavar="SECONDS",
+        help="stop each run after so many seconds of simulated time",
+    )
     parser.add_argument("--figures", action="store_true", help="figures of each run too")
-    parser.add_argument("--out", default="out/sweep", metavar="DIR", help="folder of the plan and its runs (default: %(default)s)")
-    parser.add_argument("--threads", type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"), default=os.cpu_count(), metavar="T", help="runs at a time (default: all cores)")
-    parser.add_argument("--resume", action="store_true", help="keep what has ended in DIR, and go on with what was halted")
+    parser.add_argument(
+        "--out", default="out/sweep", metavar="DIR", help="folder of the plan and its runs (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--threads",
+        type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"),
+        default=os.cpu_count(),
+        metavar="T",
+        help="runs at a time (default: all cores)",
+    )
+    parser.add_argument(
+        "--resume", action="store_true", help="keep what has ended in DIR, and go on with what was halted"
+    )
     parser.add_argument("--plan", action="store_true", help="only write the plan, with a Snakefile and a job for Slurm")
     parser.add_argument("--run", metavar="NAME", help="do one run of the plan in DIR")
-    parser.add_argument("--number", type=section_arguments.number(int, 0, 10**6, "a whole number from 0"), metavar="K", help="do run number K of the plan in DIR, from 0")
+    parser.add_argument(
+        "--number",
+        type=section_arguments.number(int, 0, 10**6, "a whole number from 0"),
+        metavar="K",
+        help="do run number K of the plan in DIR, from 0",
+    )
     parser.add_argument("--collect", action="store_true", help="only collect the table of the plan in DIR")
     return parser.parse_args()
 
@@ -75,7 +102,13 @@ def main():
         plan.write(args.out)
         print(f"{len(plan.runs)} runs planned in {args.out}: snakemake --cores N, or sbatch array.sh, in that folder")
         return
-    with commands.closing(tqdm(total=1.0, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left", mininterval=0.5 if sys.stderr.isatty() else 30)) as bar:
+    with commands.closing(
+        tqdm(
+            total=1.0,
+            bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left",
+            mininterval=0.5 if sys.stderr.isatty() else 30,
+        )
+    ) as bar:
 
         def progress(share, ended):
             bar.set_description_str(f"{ended} of {len(plan.runs)} runs", refresh=False)

@@ -24,15 +24,55 @@ else:  # YADE runs in processes of its own
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="table1.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--material", default="wwr", metavar="NAME|FILE", help="of the rock: wwr, the paper's weakly weathered rock (default), or a material file")
+    parser.add_argument(
+        "--material",
+        default="wwr",
+        metavar="NAME|FILE",
+        help="of the rock: wwr, the paper's weakly weathered rock (default), or a material file",
+    )
     parser.add_argument("--disks", type=int, default=5000, metavar="N", help="disks of a sample (default: %(default)s)")
-    parser.add_argument("--confining", type=arguments.pressures(2), default=[0.25, 0.5, 1, 2, 4, 8, 16], metavar="MPA,…", help="confining pressures [MPa] (default: 0.25 to 16)")
-    parser.add_argument("--strain", type=arguments.positive, default=biaxial_test.Test.strain, help="axial strain at the end (default: %(default)s)")
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3, 4, 5], metavar="S", help="seeds of the samples (default: 1 to 5)")
-    parser.add_argument("--slide-seeds", type=int, nargs="+", default=[1, 2], metavar="S", help="seeds of the blocks that slide on the walls (default: 1 2)")
-    parser.add_argument("--slide-pressures", type=arguments.pressures(2), default=[0.25, 0.5, 1, 2], metavar="MPA,…", help="normal stresses on the walls [MPa] (default: 0.25,0.5,1,2)")
-    parser.add_argument("--out", default="out/table1", metavar="DIR", help="folder for the results (default: %(default)s)")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)")
+    parser.add_argument(
+        "--confining",
+        type=arguments.pressures(2),
+        default=[0.25, 0.5, 1, 2, 4, 8, 16],
+        metavar="MPA,…",
+        help="confining pressures [MPa] (default: 0.25 to 16)",
+    )
+    parser.add_argument(
+        "--strain",
+        type=arguments.positive,
+        default=biaxial_test.Test.strain,
+        help="axial strain at the end (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--seeds",
+        type=int,
+        nargs="+",
+        default=[1, 2, 3, 4, 5],
+        metavar="S",
+        help="seeds of the samples (default: 1 to 5)",
+    )
+    parser.add_argument(
+        "--slide-seeds",
+        type=int,
+        nargs="+",
+        default=[1, 2],
+        metavar="S",
+        help="seeds of the blocks that slide on the walls (default: 1 2)",
+    )
+    parser.add_argument(
+        "--slide-pressures",
+        type=arguments.pressures(2),
+        default=[0.25, 0.5, 1, 2],
+        metavar="MPA,…",
+        help="normal stresses on the walls [MPa] (default: 0.25,0.5,1,2)",
+    )
+    parser.add_argument(
+        "--out", default="out/table1", metavar="DIR", help="folder for the results (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)"
+    )
     parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
     return parser.parse_args()
 
@@ -42,8 +82,19 @@ def main():
     out = Path(args.out)
     output_folder.claim(out, "table1.py", args.resume)
     with arguments.bar() as progress:
-        told = table1.run(out, args.disks, args.seeds, [1e6 * p for p in args.confining], args.slide_seeds, [1e6 * p for p in args.slide_pressures], args.strain, args.material,
-                          args.threads, args.resume, progress)
+        told = table1.run(
+            out,
+            args.disks,
+            args.seeds,
+            [1e6 * p for p in args.confining],
+            args.slide_seeds,
+            [1e6 * p for p in args.slide_pressures],
+            args.strain,
+            args.material,
+            args.threads,
+            args.resume,
+            progress,
+        )
     heads, rows = table1.table(told["rows"])
     caption = f"Table 1: {args.disks} disks, seeds {', '.join(map(str, args.seeds))}; means with half of their 95 % interval, the paper's values in brackets"
     write_atomically(out / "table1.json", json.dumps({**told, "tables": [[caption, heads, rows]]}, indent=1).encode())

@@ -4,6 +4,7 @@
   scripts/verify.py [--out DIR] [--quick] [--only NAME …] [--threads T] [--resume] [--list]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -20,8 +21,12 @@ from yade.nonsmooth.verification import report, runner, siconos_solve
 
 def arguments():
     parser = argparse.ArgumentParser(prog="verify.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--out", default="out/verify", metavar="DIR", help="folder for the report (default: %(default)s)")
-    parser.add_argument("--quick", action="store_true", help="the subset that takes minutes: smaller samples, fewer points")
+    parser.add_argument(
+        "--out", default="out/verify", metavar="DIR", help="folder for the report (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="the subset that takes minutes: smaller samples, fewer points"
+    )
     parser.add_argument("--only", nargs="+", metavar="NAME", help="only these checks (see --list), or all of a module")
     parser.add_argument("--threads", type=int, metavar="T", help="threads (default: all cores)")
     parser.add_argument("--resume", action="store_true", help="keep what an earlier run in DIR has finished")
@@ -67,26 +72,45 @@ def main():
     output_folder.claim(out, "verify.py", args.resume)
     began, results = time.monotonic(), []
     cost = {c.name: (c.quick_seconds or c.seconds) if args.quick else c.seconds for c in checks}
-    bar = tqdm(total=sum(cost.values()), unit="s", bar_format="{percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left  {desc}")
+    bar = tqdm(
+        total=sum(cost.values()),
+        unit="s",
+        bar_format="{percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left  {desc}",
+    )
 
     def done(result):
         bar.update(cost[result.check.name])
         passed = sum(c.passed for c in result.claims)
         mark = "pass" if result.passed else "FAIL"
-        bar.write(f"{mark}  {result.check.name:34s} {passed} of {len(result.claims)} claims, {result.wall_s:.1f} s" + (f"  {result.error}" if result.error else ""))
+        bar.write(
+            f"{mark}  {result.check.name:34s} {passed} of {len(result.claims)} claims, {result.wall_s:.1f} s"
+            + (f"  {result.error}" if result.error else "")
+        )
         for claim in result.claims:
             if not claim.passed:
-                bar.write(f"      {claim.what}: {claim.measured:.6g} {claim.unit}, allowed {claim.low:.6g} to {claim.high:.6g}")
+                bar.write(
+                    f"      {claim.what}: {claim.measured:.6g} {claim.unit}, allowed {claim.low:.6g} to {claim.high:.6g}"
+                )
 
     def progress(check, text):
         bar.set_description_str(f"{check.name}: {text}")
 
     with commands.closing(bar):
-        for result in runner.run_checks(checks, out, quick=args.quick, threads=args.threads or os.cpu_count(), resume=args.resume, progress=progress, done=done):
+        for result in runner.run_checks(
+            checks,
+            out,
+            quick=args.quick,
+            threads=args.threads or os.cpu_count(),
+            resume=args.resume,
+            progress=progress,
+            done=done,
+        ):
             results.append(result)
     page = report.write_report(out / "report.html", results, quick=args.quick, versions={"YADE": config.version})
     failed = [r.check.name for r in results if not r.passed]
-    print(f"{len(results) - len(failed)} of {len(results)} checks hold, {time.monotonic() - began:.0f} s of wall time; report: {page}")
+    print(
+        f"{len(results) - len(failed)} of {len(results)} checks hold, {time.monotonic() - began:.0f} s of wall time; report: {page}"
+    )
     if failed:
         sys.exit(f"these do not hold: {', '.join(failed)}")
 

@@ -4,6 +4,7 @@
   scripts/wedge.py [--seconds S] [--out DIR] [--resume]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -22,13 +23,17 @@ from yade.nonsmooth.whole_files import write_atomically
 
 EXAMPLES = Path(sys.argv[0]).resolve().with_name("examples")
 # (key, title of the panel, the joint and its water)
-CASES = (("dry", "dry, safety factor 1.04", dict(friction=0.60, water=0)),
-         ("water", "water rises and falls, safety factor 1.13 to 1.01", dict(friction=0.65, water=0.5)))
+CASES = (
+    ("dry", "dry, safety factor 1.04", dict(friction=0.60, water=0)),
+    ("water", "water rises and falls, safety factor 1.13 to 1.01", dict(friction=0.65, water=0.5)),
+)
 # (key, label, colour, script, its numerics)
-MODELS = (("hard", "Contact Dynamics, steps of 5 ms", LINES["blue"], "hard_wedge.py", {}),
-          ("soft", "springs, E = 1 GPa, damping 0.2", LINES["orange"], "soft_wedge.py", {}),
-          ("soft_100MPa", "springs, E = 100 MPa, damping 0.2", LINES["purple"], "soft_wedge.py", dict(young=1e8, dt=1e-3)),
-          ("soft_damping_0.02", "springs, E = 1 GPa, damping 0.02", LINES["grey"], "soft_wedge.py", dict(damping=0.02)))
+MODELS = (
+    ("hard", "Contact Dynamics, steps of 5 ms", LINES["blue"], "hard_wedge.py", {}),
+    ("soft", "springs, E = 1 GPa, damping 0.2", LINES["orange"], "soft_wedge.py", {}),
+    ("soft_100MPa", "springs, E = 100 MPa, damping 0.2", LINES["purple"], "soft_wedge.py", dict(young=1e8, dt=1e-3)),
+    ("soft_damping_0.02", "springs, E = 1 GPa, damping 0.02", LINES["grey"], "soft_wedge.py", dict(damping=0.02)),
+)
 
 
 class WedgeError(errors.UserError):
@@ -37,8 +42,12 @@ class WedgeError(errors.UserError):
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="wedge.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--seconds", type=float, default=60, metavar="S", help="simulated time [s] (default: %(default)g)")
-    parser.add_argument("--out", default="out/wedge", metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument(
+        "--seconds", type=float, default=60, metavar="S", help="simulated time [s] (default: %(default)g)"
+    )
+    parser.add_argument(
+        "--out", default="out/wedge", metavar="DIR", help="folder for the results (default: %(default)s)"
+    )
     parser.add_argument("--resume", action="store_true", help="keep the runs that DIR has already")
     args = parser.parse_args()
     if not 1 <= args.seconds < float("inf"):
@@ -49,21 +58,31 @@ def read_arguments():
 def curve(out, key, script, parameters, resume):
     """Arrays t [s], centroid and largest [mm] of a run, kept in ``out``/``key``.txt with what it is of in ``key``.key."""
     table, kept, part, mark = (out / f"{key}.{end}" for end in ("table", "txt", "part", "key"))
-    wanted = "{}\n{}\n".format(" ".join([*parameters, "save"]), " ".join([*map(repr, parameters.values()), repr(part.name)]))
+    wanted = "{}\n{}\n".format(
+        " ".join([*parameters, "save"]), " ".join([*map(repr, parameters.values()), repr(part.name)])
+    )
     made_of = keys.run_key([wanted, (EXAMPLES / script).read_text()])
     if not (resume and kept.exists() and mark.exists() and mark.read_text() == made_of):
         kept.unlink(missing_ok=True)  # before its key is: a kill between them must not pair it with others'
         write_atomically(table, wanted.encode())
         write_atomically(mark, made_of.encode())
-        done = subprocess.run([EXAMPLES / script], cwd=out, env={**os.environ, "YADE_BATCH": f"{table.name}:2"}, stdin=subprocess.DEVNULL, text=True,
-                              capture_output=True)
+        done = subprocess.run(
+            [EXAMPLES / script],
+            cwd=out,
+            env={**os.environ, "YADE_BATCH": f"{table.name}:2"},
+            stdin=subprocess.DEVNULL,
+            text=True,
+            capture_output=True,
+        )
         if done.returncode:
             raise WedgeError(f"{script} with {table}: ended with status {done.returncode}: {done.stderr[-500:]}")
         os.replace(part, kept)
     found = np.genfromtxt(kept, names=True)
     # O.run may lose an engine's refusal (see yade.nonsmooth.stepping), and the script then ends as if nothing were wrong
     if not found["t"].size or found["t"].max() < parameters["seconds"] - 0.2:
-        raise WedgeError(f"{kept}: the run ended before {parameters['seconds']:g} s; see what {script} says with YADE_BATCH={table}:2, remove the file, and run again")
+        raise WedgeError(
+            f"{kept}: the run ended before {parameters['seconds']:g} s; see what {script} says with YADE_BATCH={table}:2, remove the file, and run again"
+        )
     return found
 
 
@@ -76,10 +95,19 @@ def main():
         for case, title, joint in CASES:
             curves = []
             for model, label, colour, script, numerics in MODELS:
-                found = curve(out, f"{case}_{model}", script, dict(seconds=args.seconds, **joint, **numerics), args.resume)
+                found = curve(
+                    out, f"{case}_{model}", script, dict(seconds=args.seconds, **joint, **numerics), args.resume
+                )
                 late = found["t"] >= min(5, 0.5 * args.seconds)
-                rows.append(dict(case=case, model=model, displacement_mm=found["centroid"][-1], largest_mm=found["largest"].max(),
-                                 creep_mm_per_min=60 * np.polyfit(found["t"][late], found["centroid"][late], 1)[0]))
+                rows.append(
+                    dict(
+                        case=case,
+                        model=model,
+                        displacement_mm=found["centroid"][-1],
+                        largest_mm=found["largest"].max(),
+                        creep_mm_per_min=60 * np.polyfit(found["t"][late], found["centroid"][late], 1)[0],
+                    )
+                )
                 curves.append((label, colour, found["t"], found["centroid"]))
                 bar.update()
             panels.append((title, curves))

@@ -21,8 +21,11 @@ class PackageModules(Directive):
             module = importlib.import_module(name)
             title = name.removeprefix("yade.")
             # what a module takes from another is documented there
-            elsewhere = [n for n in getattr(module, "__all__", ())
-                         if getattr(getattr(module, n, None), "__module__", name) != name]
+            elsewhere = [
+                n
+                for n in getattr(module, "__all__", ())
+                if getattr(getattr(module, n, None), "__module__", name) != name
+            ]
             lines += [title, "-" * len(title), "", f".. automodule:: {name}", "   :members:"]
             if elsewhere:
                 lines.append(f"   :exclude-members: {', '.join(elsewhere)}")

@@ -19,8 +19,14 @@ def kind(schema):
         return "[x, y]"
     if "enum" in schema:
         return " or ".join(f"``{v}``" for v in schema["enum"])
-    names = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false",
-             "array": "list", "object": "keys"}
+    names = {
+        "number": "number",
+        "integer": "whole number",
+        "string": "text",
+        "boolean": "true or false",
+        "array": "list",
+        "object": "keys",
+    }
     types = schema.get("type", "object")
     return " or ".join(names[t] for t in ([types] if isinstance(types, str) else types))
 
@@ -58,8 +64,10 @@ class SectionKeys(Directive):
         self.state.document.settings.env.note_dependency(str(SCHEMA))
         root = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
         if not self.arguments:
-            table = [(f"``{n}``", kind(s), "yes" if n in root["required"] else "", meaning(s, root))
-                     for n, s in root["properties"].items()]
+            table = [
+                (f"``{n}``", kind(s), "yes" if n in root["required"] else "", meaning(s, root))
+                for n, s in root["properties"].items()
+            ]
         else:
             name = self.arguments[0]
             if name not in root["properties"]:

@@ -22,8 +22,14 @@ log = logging.getLogger(__name__)
 SOURCES = pathlib.Path(__file__).resolve().parents[2] / "pkg" / "dem"
 READONLY = 2
 TYPES = {
-    "Real": "float", "string": "str", "long": "int", "Body::id_t": "int", "vector<Real>": "list of float",
-    "vector<int>": "list of int", "vector<Vector3r>": "list of Vector3", "Vector3r": "Vector3",
+    "Real": "float",
+    "string": "str",
+    "long": "int",
+    "Body::id_t": "int",
+    "vector<Real>": "list of float",
+    "vector<int>": "list of int",
+    "vector<Vector3r>": "list of Vector3",
+    "Vector3r": "Vector3",
 }
 _MARK = re.compile(r":(ydefault|yattrtype|yattrflags):`(.*?)`", re.S)
 _named = set()
@@ -67,7 +73,7 @@ def methods(cls):
             match = re.match(r"\s*%s\( ?(.*?)\) -> (\w+) ?:\n(.*)" % re.escape(name), head, re.S)
             if not match or not match.group(3).strip():
                 continue
-            arguments = re.findall(r"\((\w+)\)(\w+)", match.group(1))[0 if static else 1:]
+            arguments = re.findall(r"\((\w+)\)(\w+)", match.group(1))[0 if static else 1 :]
             result = "" if match.group(2) == "None" else f" -> {match.group(2)}"
             found.append((f"{name}({', '.join(a for _, a in arguments)}){result}", inspect.cleandoc(match.group(3))))
     return found
@@ -107,8 +113,11 @@ def entry(name):
 
     if settable:
         body += [".. rubric:: Attributes", ""]
-        body += rst.table(("name", "type", "default", "meaning"),
-                          [(cell(a), a[2], value_of(instance, a[0]), a[1]) for a in settable], (24, 10, 12, 54))
+        body += rst.table(
+            ("name", "type", "default", "meaning"),
+            [(cell(a), a[2], value_of(instance, a[0]), a[1]) for a in settable],
+            (24, 10, 12, 54),
+        )
     if readonly:
         body += [".. rubric:: Results (read-only)", ""]
         body += rst.table(("name", "type", "meaning"), [(cell(a), a[2], a[1]) for a in readonly], (24, 12, 64))

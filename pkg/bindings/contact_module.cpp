@@ -28,8 +28,9 @@ template <class Array> Array take(const py::dict& from, const char* key, py::ssi
 	const bool fits  = columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
 	if (!fits || (rows >= 0 && array.shape(0) != rows))
 		throw py::value_error(
-		        std::string("contact problem: ") + key + " must have the shape (" + (rows >= 0 ? std::to_string(rows) : "n") + ", "
-		        + (columns ? std::to_string(columns) : "") + ")");
+		        std::string("contact problem: ") + key + " must have the shape ("
+		        + (rows >= 0 ? std::to_string(rows) : "n") + ", " + (columns ? std::to_string(columns) : "")
+		        + ")");
 	return array;
 }
 
@@ -51,11 +52,13 @@ template <class Item> Doubles array(const std::vector<Item>& items)
 }
 
 /// What numbers(item) puts out for each item, a row of `columns`; a list where they are 0.
-template <class Number, class Item, class Numbers> py::array_t<Number> table(const std::vector<Item>& items, py::ssize_t columns, Numbers numbers)
+template <class Number, class Item, class Numbers>
+py::array_t<Number> table(const std::vector<Item>& items, py::ssize_t columns, Numbers numbers)
 {
 	const auto          rows = static_cast<py::ssize_t>(items.size());
-	py::array_t<Number> result(columns ? std::vector<py::ssize_t> { rows, columns } : std::vector<py::ssize_t> { rows });
-	Number*             to = result.mutable_data();
+	py::array_t<Number> result(
+	        columns ? std::vector<py::ssize_t> { rows, columns } : std::vector<py::ssize_t> { rows });
+	Number* to = result.mutable_data();
 	for (const Item& item : items)
 		for (const Number x : numbers(item))
 			*to++ = x;
@@ -65,25 +68,28 @@ template <class Number, class Item, class Numbers> py::array_t<Number> table(con
 Problem problemOf(const py::dict& d)
 {
 	Problem    p;
-	const auto mass     = take<Doubles>(d, "inverse_mass", -1, 3);
-	const auto normal   = take<Doubles>(d, "normal", -1, 2);
-	const auto bodies   = mass.shape(0), contacts = normal.shape(0);
-	p.inverseMass       = triples<InverseMass>(mass);
-	p.freeVelocity      = triples<Twist>(take<Doubles>(d, "free_velocity", bodies, 3));
-	p.impulses          = triples<Impulse>(take<Doubles>(d, "impulse", contacts, 3));
+	const auto mass   = take<Doubles>(d, "inverse_mass", -1, 3);
+	const auto normal = take<Doubles>(d, "normal", -1, 2);
+	const auto bodies = mass.shape(0), contacts = normal.shape(0);
+	p.inverseMass  = triples<InverseMass>(mass);
+	p.freeVelocity = triples<Twist>(take<Doubles>(d, "free_velocity", bodies, 3));
+	p.impulses     = triples<Impulse>(take<Doubles>(d, "impulse", contacts, 3));
 	if (!d["position"].is_none()) {
 		const auto x = take<Doubles>(d, "position", bodies, 2).unchecked<2>();
 		for (py::ssize_t k = 0; k < bodies; ++k)
 			p.positions.push_back({ x(k, 0), x(k, 1) });
 	}
-	const auto bodyArray = take<Ints>(d, "body", contacts, 2);
-	const auto leverArray = take<Doubles>(d, "lever", contacts, 4), biasArray = take<Doubles>(d, "bias", contacts, 3);
-	const auto adhesionArray = take<Doubles>(d, "adhesion", contacts, 0), frictionArray = take<Doubles>(d, "friction", contacts, 0);
-	const auto armArray = take<Doubles>(d, "rolling_arm", contacts, 0), lengthArray = take<Doubles>(d, "length", contacts, 0);
-	const auto body = bodyArray.unchecked<2>();
+	const auto bodyArray     = take<Ints>(d, "body", contacts, 2);
+	const auto leverArray    = take<Doubles>(d, "lever", contacts, 4),
+	           biasArray     = take<Doubles>(d, "bias", contacts, 3);
+	const auto adhesionArray = take<Doubles>(d, "adhesion", contacts, 0),
+	           frictionArray = take<Doubles>(d, "friction", contacts, 0);
+	const auto armArray      = take<Doubles>(d, "rolling_arm", contacts, 0),
+	           lengthArray   = take<Doubles>(d, "length", contacts, 0);
+	const auto body          = bodyArray.unchecked<2>();
 	const auto n = normal.unchecked<2>(), lever = leverArray.unchecked<2>(), bias = biasArray.unchecked<2>();
-	const auto adhesion = adhesionArray.unchecked<1>(), friction = frictionArray.unchecked<1>(), arm = armArray.unchecked<1>(),
-	           length = lengthArray.unchecked<1>();
+	const auto adhesion = adhesionArray.unchecked<1>(), friction = frictionArray.unchecked<1>(),
+	           arm = armArray.unchecked<1>(), length = lengthArray.unchecked<1>();
 	for (py::ssize_t k = 0; k < contacts; ++k) {
 		Contact c;
 		c.i          = body(k, 0);
@@ -102,7 +108,8 @@ Problem problemOf(const py::dict& d)
 		c.rollingArm = arm(k);
 		c.length     = length(k);
 		if (c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies)
-			throw py::value_error("contact problem: contact " + std::to_string(k) + " names a body that is not there");
+			throw py::value_error(
+			        "contact problem: contact " + std::to_string(k) + " names a body that is not there");
 		p.contacts.push_back(c);
 	}
 	return p;
@@ -123,8 +130,12 @@ py::dict loadFile(const std::string& path)
 		d["position"] = table<double>(p.positions, 2, [](const Point& x) { return std::array { x.x, x.y }; });
 	d["body"]        = table<std::int32_t>(p.contacts, 2, [](const Contact& c) { return std::array { c.i, c.j }; });
 	d["normal"]      = table<double>(p.contacts, 2, [](const Contact& c) { return std::array { c.nx, c.ny }; });
-	d["lever"]       = table<double>(p.contacts, 4, [](const Contact& c) { return std::array { c.leverNi, c.leverTi, c.leverNj, c.leverTj }; });
-	d["bias"]        = table<double>(p.contacts, 3, [](const Contact& c) { return std::array { c.biasN, c.biasT, c.biasR }; });
+	d["lever"]       = table<double>(p.contacts, 4, [](const Contact& c) {
+                return std::array { c.leverNi, c.leverTi, c.leverNj, c.leverTj };
+        });
+	d["bias"]        = table<double>(p.contacts, 3, [](const Contact& c) {
+                return std::array { c.biasN, c.biasT, c.biasR };
+        });
 	d["adhesion"]    = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.adhesion }; });
 	d["friction"]    = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.friction }; });
 	d["rolling_arm"] = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.rollingArm }; });
@@ -137,8 +148,10 @@ py::dict loadFile(const std::string& path)
 void saveFile(const std::string& path, const py::dict& d)
 {
 	RecordedProblem r { problemOf(d), {}, py::cast<double>(d["time_step"]) };
-	r.problem.velocities = triples<Twist>(take<Doubles>(d, "velocity", static_cast<py::ssize_t>(r.problem.bodyCount()), 3));
-	r.warmStart          = triples<Impulse>(take<Doubles>(d, "warm_start", static_cast<py::ssize_t>(r.problem.contactCount()), 3));
+	r.problem.velocities = triples<Twist>(
+	        take<Doubles>(d, "velocity", static_cast<py::ssize_t>(r.problem.bodyCount()), 3));
+	r.warmStart = triples<Impulse>(
+	        take<Doubles>(d, "warm_start", static_cast<py::ssize_t>(r.problem.contactCount()), 3));
 	write(path, r);
 }
 
@@ -178,8 +191,8 @@ std::vector<std::string> kernelNames()
 }
 
 py::dict solveArrays(
-        const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery, int threads, const std::string& stopping,
-        const std::string& path)
+        const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery,
+        int threads, const std::string& stopping, const std::string& path)
 {
 	Problem        p = problemOf(problem);
 	SolverSettings s;

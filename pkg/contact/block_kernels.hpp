@@ -31,14 +31,14 @@ struct alignas(32) Block {
 	Lanes         nx, ny;
 	Lanes         inverseN, biasN, adhesion;
 	Lanes         n, beforeN;
-	unsigned char movesI, movesJ;             // bit l: the body of lane l can move
-	bool          withNext;                   // it and the next block may be visited at once: all lanes are full, all bodies move, none is in both
-	Lanes         leverTi, leverTj;           // λt [m]
-	Lanes         inverseInertiaI, inverseInertiaJ;
-	Lanes         friction, rollingArm;       // as in Contact, and so are biasN and adhesion
-	Lanes         inverseT, inverseR;         // with inverseN the inverse diagonal of the Delassus operator
-	Lanes         t, r;                       // with n impulses P_k
-	Lanes         beforeT, beforeR;           // with beforeN P_{k−1}
+	unsigned char movesI, movesJ; // bit l: the body of lane l can move
+	bool withNext; // it and the next block may be visited at once: all lanes are full, all bodies move, none is in both
+	Lanes leverTi, leverTj; // λt [m]
+	Lanes inverseInertiaI, inverseInertiaJ;
+	Lanes friction, rollingArm; // as in Contact, and so are biasN and adhesion
+	Lanes inverseT, inverseR; // with inverseN the inverse diagonal of the Delassus operator
+	Lanes t, r; // with n impulses P_k
+	Lanes beforeT, beforeR; // with beforeN P_{k−1}
 };
 
 /// 1/ℓ of a block's contacts, 0 in an empty lane.
@@ -62,7 +62,9 @@ struct BlockNumbers {
 struct BlockKernels {
 	const char* name;
 	/// Fills in the numbers of contacts, four for each block in `contactOf`, whose bodies stand there; lanes of none are left alone.
-	void (*fill)(Block* blocks, InverseLength* inverseLength, const std::int32_t* contactOf, std::size_t count, const BlockNumbers& from);
+	void (*fill)(
+	        Block* blocks, InverseLength* inverseLength, const std::int32_t* contactOf, std::size_t count,
+	        const BlockNumbers& from);
 	/// One Gauss-Seidel visit of every contact, from impulses extrapolated by beta (velocities must be so already).
 	void (*sweep)(Block* blocks, std::size_t count, Motion* bodies, double beta);
 	/// The same, and fetches from memory meanwhile what follows `ahead`: a cache line for every block.
@@ -73,7 +75,8 @@ struct BlockKernels {
 	void (*sweepNormals)(Block* blocks, std::size_t count, Motion* bodies, double beta);
 	void (*applyNormals)(const Block* blocks, std::size_t count, Motion* bodies);
 	/// Natural-map residual; one `inverseLength` a block.
-	ResidualSums (*measure)(const Block* blocks, const InverseLength* inverseLength, std::size_t count, const Motion* bodies);
+	ResidualSums (*measure)(
+	        const Block* blocks, const InverseLength* inverseLength, std::size_t count, const Motion* bodies);
 	/// v ← v + β (v − before), before ← v.
 	void (*extrapolate)(Motion* bodies, Motion* before, std::size_t count, double beta);
 };

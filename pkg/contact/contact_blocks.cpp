@@ -7,8 +7,10 @@ namespace {
 
 	/// A block that is still being filled, and the bodies in it that can move.
 	struct Open {
-		static constexpr std::int32_t nobody = -1, other = -2; // in place of the others: in the block, and in a contact that may join it
-		using Ids                            = std::int32_t __attribute__((vector_size(16)));
+		static constexpr std::int32_t nobody = -1,
+		                              other
+		        = -2; // in place of the others: in the block, and in a contact that may join it
+		using Ids = std::int32_t __attribute__((vector_size(16)));
 
 		std::size_t block;
 		int         filled = 0;
@@ -16,8 +18,9 @@ namespace {
 
 		bool has(const MovablePair& pair) const
 		{
-			const auto i = MovablePair::moves(pair.i) ? pair.i : other, j = MovablePair::moves(pair.j) ? pair.j : other;
-			const Ids  shared = (first == i) | (second == i) | (first == j) | (second == j);
+			const auto i     = MovablePair::moves(pair.i) ? pair.i : other,
+			           j     = MovablePair::moves(pair.j) ? pair.j : other;
+			const Ids shared = (first == i) | (second == i) | (first == j) | (second == j);
 			return shared[0] | shared[1] | shared[2] | shared[3];
 		}
 		void take(const MovablePair& pair)
@@ -53,7 +56,7 @@ namespace {
 				open[at] = Open { result.contactOf.size() / lanes };
 				result.contactOf.resize(result.contactOf.size() + lanes, ContactBlocks::none);
 			}
-			Open& o                                       = open[at];
+			Open& o                                      = open[at];
 			result.contactOf[o.block * lanes + o.filled] = index;
 			o.take(pair);
 			if (o.filled == int(lanes)) close(at);
@@ -83,7 +86,7 @@ namespace {
 	{
 		constexpr unsigned all = (1u << lanes) - 1;
 		if ((a.movesI & a.movesJ & b.movesI & b.movesJ) != all) return false;
-		using Ids = std::int32_t __attribute__((vector_size(16)));
+		using Ids        = std::int32_t __attribute__((vector_size(16)));
 		const auto idsOf = [](const std::int32_t* id) { return Ids { id[0], id[1], id[2], id[3] }; };
 		const Ids  i = idsOf(a.i), j = idsOf(a.j);
 		Ids        shared {};
@@ -145,7 +148,8 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + begin * lanes);
 		for (std::size_t b = begin; b < end; ++b) {
 			name(result.blocks[b], &result.contactOf[b * lanes], result);
-			if (result.contactOf[b * lanes + lanes - 1] == ContactBlocks::none) result.inverseLength[b] = InverseLength {};
+			if (result.contactOf[b * lanes + lanes - 1] == ContactBlocks::none)
+				result.inverseLength[b] = InverseLength {};
 		}
 		markTogether(result.blocks.data() + begin, end - begin);
 	}
@@ -155,8 +159,10 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 void fillIn(const Problem& problem, const BlockKernels& kernels, std::size_t part, ContactBlocks& result)
 {
 	const std::size_t begin = result.blockBegin[part];
-	kernels.fill(result.blocks.data() + begin, result.inverseLength.data() + begin, result.contactOf.data() + begin * lanes, result.blockBegin[part + 1] - begin,
-	             { problem.contacts.data(), problem.impulses.data(), problem.inverseMass.data() });
+	kernels.fill(
+	        result.blocks.data() + begin, result.inverseLength.data() + begin,
+	        result.contactOf.data() + begin * lanes, result.blockBegin[part + 1] - begin,
+	        { problem.contacts.data(), problem.impulses.data(), problem.inverseMass.data() });
 }
 
 } // namespace nonsmooth::contact

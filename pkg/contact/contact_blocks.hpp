@@ -15,15 +15,15 @@ namespace nonsmooth::contact {
 struct ContactBlocks {
 	static constexpr std::int32_t none = BlockNumbers::none; // an empty lane
 
-	std::vector<Block>        blocks;
-	std::vector<std::int32_t> contactOf;     // of every lane of every block, in Problem::contacts
-	std::vector<std::int32_t> others;        // contacts outside blocks
-	std::vector<std::size_t>  blockBegin, otherBegin; // of every part of the order; one more than there are parts
+	std::vector<Block>         blocks;
+	std::vector<std::int32_t>  contactOf; // of every lane of every block, in Problem::contacts
+	std::vector<std::int32_t>  others; // contacts outside blocks
+	std::vector<std::size_t>   blockBegin, otherBegin; // of every part of the order; one more than there are parts
 	std::vector<InverseLength> inverseLength; // of every block; apart, since only the residual needs it
-	std::vector<std::int32_t> placeOf; // of the problem's bodies in order.bodies
-	Survey                    survey;
-	SweepOrder                order;
-	std::size_t               partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
+	std::vector<std::int32_t>  placeOf; // of the problem's bodies in order.bodies
+	Survey                     survey;
+	SweepOrder                 order;
+	std::size_t                partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
 
 	/// What one part consists of, before its place in the whole is known.
 	struct Part {

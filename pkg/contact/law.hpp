@@ -25,7 +25,10 @@ namespace nonsmooth::contact {
 inline double projectNormal(double n, double adhesion) { return std::max(n, -adhesion); }
 
 /// Nearest admissible tangential impulse or rolling impulse for a threshold, eqs (3) to (6).
-inline double projectThreshold(double value, double threshold) { return std::max(-threshold, std::min(value, threshold)); }
+inline double projectThreshold(double value, double threshold)
+{
+	return std::max(-threshold, std::min(value, threshold));
+}
 
 /// T_max h, eq (4); never negative.
 inline double slidingThreshold(const Contact& c, double n) { return std::max(0.0, c.friction * (c.adhesion + n)); }
@@ -44,8 +47,10 @@ inline Impulse project(const Contact& c, const Impulse& p)
 inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
 {
 	const double x = mi.x + mj.x, y = mi.y + mj.y;
-	const double wn = c.nx * c.nx * x + c.ny * c.ny * y + mi.w * c.leverNi * c.leverNi + mj.w * c.leverNj * c.leverNj;
-	const double wt = c.ny * c.ny * x + c.nx * c.nx * y + mi.w * c.leverTi * c.leverTi + mj.w * c.leverTj * c.leverTj;
+	const double wn = c.nx * c.nx * x + c.ny * c.ny * y + mi.w * c.leverNi * c.leverNi
+	        + mj.w * c.leverNj * c.leverNj;
+	const double wt = c.ny * c.ny * x + c.nx * c.nx * y + mi.w * c.leverTi * c.leverTi
+	        + mj.w * c.leverTj * c.leverTj;
 	const double wr = mi.w + mj.w;
 	// A row that no impulse moves may still be driven (a wall drawn under a disk that is held): any factor leads to its threshold.
 	const double n = wn > 0 ? 1 / wn : 0;
@@ -54,13 +59,17 @@ inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const In
 
 /// One contact solved while all others keep their impulses, one after the other of its three graphs: from the impulses `y` to those
 /// returned, with the velocities of its bodies.
-inline Impulse visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseMass& mi, const InverseMass& mj, Twist& vi, Twist& vj)
+inline Impulse
+visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseMass& mi, const InverseMass& mj,
+      Twist& vi, Twist& vj)
 {
 	const double n = projectNormal(y.n - inverse.n * (relativeVelocity(c, vi, vj).n + c.biasN), c.adhesion);
 	applyImpulse(c, { n - y.n, 0, 0 }, mi, mj, vi, vj);
-	const double t = projectThreshold(y.t - inverse.t * (relativeVelocity(c, vi, vj).t + c.biasT), slidingThreshold(c, n));
+	const double t = projectThreshold(
+	        y.t - inverse.t * (relativeVelocity(c, vi, vj).t + c.biasT), slidingThreshold(c, n));
 	applyImpulse(c, { 0, t - y.t, 0 }, mi, mj, vi, vj);
-	const double r = projectThreshold(y.r - inverse.r * (relativeVelocity(c, vi, vj).r + c.biasR), rollingThreshold(c, n));
+	const double r = projectThreshold(
+	        y.r - inverse.r * (relativeVelocity(c, vi, vj).r + c.biasR), rollingThreshold(c, n));
 	applyImpulse(c, { 0, 0, r - y.r }, mi, mj, vi, vj);
 	return { n, t, r };
 }

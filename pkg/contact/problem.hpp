@@ -53,9 +53,9 @@ struct Contact {
 struct Problem {
 	std::vector<InverseMass> inverseMass; // one a body
 	std::vector<Twist>       freeVelocity; // velocity at the end of the step if no contact acted
-	std::vector<Point>       positions;    // of the bodies' centres; may be empty, serves the order of the sweep only
+	std::vector<Point>       positions; // of the bodies' centres; may be empty, serves the order of the sweep only
 	std::vector<Contact>     contacts;
-	std::vector<Impulse>     impulses;   // warm start in, solution out
+	std::vector<Impulse>     impulses; // warm start in, solution out
 	std::vector<Twist>       velocities; // out: freeVelocity + M⁻¹ Hᵀ P
 
 	std::size_t bodyCount() const { return inverseMass.size(); }
@@ -67,12 +67,12 @@ inline Impulse relativeVelocity(const Contact& c, const Twist& vi, const Twist& 
 {
 	const double dx = vj.x - vi.x, dy = vj.y - vi.y;
 	return { c.nx * dx + c.ny * dy + c.leverNj * vj.w - c.leverNi * vi.w,
-		 -c.ny * dx + c.nx * dy + c.leverTj * vj.w - c.leverTi * vi.w,
-		 vj.w - vi.w };
+		 -c.ny * dx + c.nx * dy + c.leverTj * vj.w - c.leverTi * vi.w, vj.w - vi.w };
 }
 
 /// v_j += M_j⁻¹ Hᵀ p and v_i −= M_i⁻¹ Hᵀ p.
-inline void applyImpulse(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist& vi, Twist& vj)
+inline void
+applyImpulse(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist& vi, Twist& vj)
 {
 	const double fx = c.nx * p.n - c.ny * p.t, fy = c.ny * p.n + c.nx * p.t;
 	vi.x -= mi.x * fx;

@@ -18,12 +18,18 @@ template <class... Numbers> bool finite(Numbers... x) { return ((x * 0) + ...) =
 
 inline bool usable(const Point& x) { return finite(x.x, x.y); }
 
-inline bool usable(const InverseMass& m, const Twist& v) { return finite(m.x, m.y, m.w, v.x, v.y, v.w) && m.x >= 0 && m.y >= 0 && m.w >= 0; }
+inline bool usable(const InverseMass& m, const Twist& v)
+{
+	return finite(m.x, m.y, m.w, v.x, v.y, v.w) && m.x >= 0 && m.y >= 0 && m.w >= 0;
+}
 
 inline bool usable(const Contact& c, const Impulse& p, std::int32_t bodies)
 {
-	return c.i >= 0 && c.j >= 0 && c.i < bodies && c.j < bodies && c.i != c.j && std::abs(c.nx * c.nx + c.ny * c.ny - 1) <= 2 * unitLength
-	        && finite(c.leverNi, c.leverTi, c.leverNj, c.leverTj, c.biasN, c.biasT, c.biasR, c.adhesion, c.friction, c.rollingArm, c.length)
+	return c.i >= 0 && c.j >= 0 && c.i < bodies && c.j < bodies && c.i != c.j
+	        && std::abs(c.nx * c.nx + c.ny * c.ny - 1) <= 2 * unitLength
+	        && finite(
+	                c.leverNi, c.leverTi, c.leverNj, c.leverTj, c.biasN, c.biasT, c.biasR, c.adhesion, c.friction,
+	                c.rollingArm, c.length)
 	        && c.adhesion >= 0 && c.friction >= 0 && c.rollingArm >= 0 && c.length > 0 && finite(p.n, p.t, p.r);
 }
 

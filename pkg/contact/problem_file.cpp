@@ -20,7 +20,7 @@ namespace {
 		        , close(close_)
 		{
 		}
-		Handle(const Handle&) = delete;
+		Handle(const Handle&)            = delete;
 		Handle& operator=(const Handle&) = delete;
 		~Handle()
 		{
@@ -36,7 +36,10 @@ namespace {
 	/// The library prints a stack of errors of its own; ours say what the user needs.
 	void quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-	[[noreturn]] void fail(const std::string& path, const std::string& why) { throw std::runtime_error("contact problem " + path + ": " + why); }
+	[[noreturn]] void fail(const std::string& path, const std::string& why)
+	{
+		throw std::runtime_error("contact problem " + path + ": " + why);
+	}
 
 	/// Rows of `columns` numbers: a rows × columns dataset, or a plain list for one column.
 	struct Writer {
@@ -46,7 +49,8 @@ namespace {
 		void operator()(const char* name, const std::vector<double>& values, hsize_t columns) const
 		{
 			const hsize_t size[2] = { values.size() / columns, columns };
-			if (H5LTmake_dataset_double(file, name, columns > 1 ? 2 : 1, size, values.data()) < 0) fail(path, std::string("cannot write ") + name);
+			if (H5LTmake_dataset_double(file, name, columns > 1 ? 2 : 1, size, values.data()) < 0)
+				fail(path, std::string("cannot write ") + name);
 		}
 	};
 
@@ -74,12 +78,15 @@ namespace {
 			if (set < 0) bad("cannot be opened as a dataset");
 			const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
 			if (type < 0 || space < 0) bad("cannot be read");
-			if (H5Tget_class(type) != kind) bad(kind == H5T_FLOAT ? "must hold floating-point numbers" : "must hold whole numbers");
+			if (H5Tget_class(type) != kind)
+				bad(kind == H5T_FLOAT ? "must hold floating-point numbers" : "must hold whole numbers");
 			const int rank    = H5Sget_simple_extent_ndims(space);
 			hsize_t   size[2] = { 0, 1 };
-			if (rank != (columns > 1 ? 2 : 1) || H5Sget_simple_extent_dims(space, size, nullptr) < 0 || size[1] != columns)
+			if (rank != (columns > 1 ? 2 : 1) || H5Sget_simple_extent_dims(space, size, nullptr) < 0
+			    || size[1] != columns)
 				bad("must have " + std::to_string(columns) + " column(s)");
-			const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(set), fileSize), bytes = H5Tget_size(type) * columns;
+			const hsize_t stored = std::min<hsize_t>(H5Dget_storage_size(set), fileSize),
+			              bytes  = H5Tget_size(type) * columns;
 			if (bytes == 0 || size[0] > stored * bestCompression / bytes)
 				bad("says that it has " + std::to_string(size[0]) + " rows, which are not in the file");
 			return size[0];
@@ -88,26 +95,31 @@ namespace {
 		void expect(const char* name, hsize_t columns, hsize_t wanted, H5T_class_t kind = H5T_FLOAT) const
 		{
 			if (const hsize_t count = rows(name, columns, kind); count != wanted)
-				fail(path, std::string(name) + " has " + std::to_string(count) + " rows where " + std::to_string(wanted) + " are needed");
+				fail(path,
+				     std::string(name) + " has " + std::to_string(count) + " rows where "
+				             + std::to_string(wanted) + " are needed");
 		}
 
 		std::vector<double> operator()(const char* name, hsize_t columns, hsize_t wanted) const
 		{
 			expect(name, columns, wanted);
 			std::vector<double> values(wanted * columns);
-			if (!values.empty() && H5LTread_dataset_double(file, name, values.data()) < 0) fail(path, std::string("cannot read ") + name);
+			if (!values.empty() && H5LTread_dataset_double(file, name, values.data()) < 0)
+				fail(path, std::string("cannot read ") + name);
 			return values;
 		}
 
 		/// Of the file itself: one number of that kind.
 		void attribute(const char* name, H5T_class_t kind, hid_t memoryType, void* value) const
 		{
-			const std::string what = std::string("has no usable attribute ") + name + ": it must be one number";
+			const std::string what = std::string("has no usable attribute ") + name
+			        + ": it must be one number";
 			if (H5Aexists(file, name) <= 0) fail(path, std::string("has no attribute ") + name);
 			const Handle held(H5Aopen(file, name, H5P_DEFAULT), H5Aclose);
 			if (held < 0) fail(path, what);
 			const Handle type(H5Aget_type(held), H5Tclose), space(H5Aget_space(held), H5Sclose);
-			if (type < 0 || space < 0 || H5Tget_class(type) != kind || H5Sget_simple_extent_npoints(space) != 1 || H5Aread(held, memoryType, value) < 0)
+			if (type < 0 || space < 0 || H5Tget_class(type) != kind
+			    || H5Sget_simple_extent_npoints(space) != 1 || H5Aread(held, memoryType, value) < 0)
 				fail(path, what);
 		}
 	};
@@ -124,16 +136,22 @@ namespace {
 	{
 		out.insert(out.end(), { v.*a, v.*b, v.*c });
 	}
-	const auto twist   = [](const Twist& v, std::vector<double>& out) { putThree(v, out, &Twist::x, &Twist::y, &Twist::w); };
-	const auto mass    = [](const InverseMass& v, std::vector<double>& out) { putThree(v, out, &InverseMass::x, &InverseMass::y, &InverseMass::w); };
-	const auto impulse = [](const Impulse& v, std::vector<double>& out) { putThree(v, out, &Impulse::n, &Impulse::t, &Impulse::r); };
+	const auto twist = [](const Twist& v, std::vector<double>& out) {
+		putThree(v, out, &Twist::x, &Twist::y, &Twist::w);
+	};
+	const auto mass = [](const InverseMass& v, std::vector<double>& out) {
+		putThree(v, out, &InverseMass::x, &InverseMass::y, &InverseMass::w);
+	};
+	const auto impulse = [](const Impulse& v, std::vector<double>& out) {
+		putThree(v, out, &Impulse::n, &Impulse::t, &Impulse::r);
+	};
 
 } // namespace
 
 void write(const std::string& path, const RecordedProblem& recorded)
 {
 	quiet();
-	const Problem&    p    = recorded.problem;
+	const Problem& p = recorded.problem;
 	// made in memory, so that HDF5 never meets a full disk
 	const Handle inMemory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
 	H5Pset_fapl_core(inMemory, 1 << 20, 0);
@@ -141,26 +159,40 @@ void write(const std::string& path, const RecordedProblem& recorded)
 	if (file < 0) fail(path, "cannot be made in memory");
 	const Handle bodies(H5Gcreate2(file, "/bodies", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
 	const Handle contacts(H5Gcreate2(file, "/contacts", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-	if (H5LTset_attribute_int(file, "/", "format", &format, 1) < 0 || H5LTset_attribute_double(file, "/", "time_step", &recorded.timeStep, 1) < 0)
+	if (H5LTset_attribute_int(file, "/", "format", &format, 1) < 0
+	    || H5LTset_attribute_double(file, "/", "time_step", &recorded.timeStep, 1) < 0)
 		fail(path, "cannot write the attributes");
 	const Writer put { path, file };
 	put("/bodies/inverse_mass", flat(p.inverseMass, mass), 3);
 	put("/bodies/free_velocity", flat(p.freeVelocity, twist), 3);
 	put("/bodies/velocity", flat(p.velocities, twist), 3);
 	if (!p.positions.empty())
-		put("/bodies/position", flat(p.positions, [](const Point& x, std::vector<double>& out) { out.insert(out.end(), { x.x, x.y }); }), 2);
+		put("/bodies/position",
+		    flat(p.positions,
+		         [](const Point& x, std::vector<double>& out) {
+			         out.insert(out.end(), { x.x, x.y });
+		         }),
+		    2);
 	std::vector<int> pairs;
 	for (const Contact& c : p.contacts)
 		pairs.insert(pairs.end(), { c.i, c.j });
 	const hsize_t size[2] = { p.contactCount(), 2 };
-	if (H5LTmake_dataset_int(file, "/contacts/body", 2, size, pairs.data()) < 0) fail(path, "cannot write /contacts/body");
+	if (H5LTmake_dataset_int(file, "/contacts/body", 2, size, pairs.data()) < 0)
+		fail(path, "cannot write /contacts/body");
 	const auto column = [&](const char* name, hsize_t columns, auto values) {
-		put(name, flat(p.contacts, [&](const Contact& c, std::vector<double>& out) { const auto v = values(c); out.insert(out.end(), v.begin(), v.end()); }),
+		put(name,
+		    flat(p.contacts,
+		         [&](const Contact& c, std::vector<double>& out) {
+			         const auto v = values(c);
+			         out.insert(out.end(), v.begin(), v.end());
+		         }),
 		    columns);
 	};
 	using Numbers = std::vector<double>;
 	column("/contacts/normal", 2, [](const Contact& c) { return Numbers { c.nx, c.ny }; });
-	column("/contacts/lever", 4, [](const Contact& c) { return Numbers { c.leverNi, c.leverTi, c.leverNj, c.leverTj }; });
+	column("/contacts/lever", 4, [](const Contact& c) {
+		return Numbers { c.leverNi, c.leverTi, c.leverNj, c.leverTj };
+	});
 	column("/contacts/bias", 3, [](const Contact& c) { return Numbers { c.biasN, c.biasT, c.biasR }; });
 	column("/contacts/adhesion", 1, [](const Contact& c) { return Numbers { c.adhesion }; });
 	column("/contacts/friction", 1, [](const Contact& c) { return Numbers { c.friction }; });
@@ -189,9 +221,14 @@ RecordedProblem read(const std::string& path)
 	const Reader    get { path, file, fileSize };
 	int             found = 0;
 	get.attribute("format", H5T_INTEGER, H5T_NATIVE_INT, &found);
-	if (found != format) fail(path, "is not a contact problem of format " + std::to_string(format) + ", but of " + std::to_string(found));
+	if (found != format)
+		fail(path,
+		     "is not a contact problem of format " + std::to_string(format) + ", but of "
+		             + std::to_string(found));
 	get.attribute("time_step", H5T_FLOAT, H5T_NATIVE_DOUBLE, &recorded.timeStep);
-	if (!(recorded.timeStep > 0) || !std::isfinite(recorded.timeStep)) fail(path, "has the time_step " + std::to_string(recorded.timeStep) + ": it must be positive and finite");
+	if (!(recorded.timeStep > 0) || !std::isfinite(recorded.timeStep))
+		fail(path,
+		     "has the time_step " + std::to_string(recorded.timeStep) + ": it must be positive and finite");
 	Problem&      p      = recorded.problem;
 	const hsize_t bodies = get.rows("/bodies/inverse_mass", 3), contacts = get.rows("/contacts/normal", 2);
 
@@ -213,15 +250,19 @@ RecordedProblem read(const std::string& path)
 	}
 	get.expect("/contacts/body", 2, contacts, H5T_INTEGER);
 	std::vector<int> pairs(2 * contacts);
-	if (contacts > 0 && H5LTread_dataset_int(file, "/contacts/body", pairs.data()) < 0) fail(path, "cannot read /contacts/body");
-	const auto normal = get("/contacts/normal", 2, contacts), lever = get("/contacts/lever", 4, contacts), bias = get("/contacts/bias", 3, contacts);
+	if (contacts > 0 && H5LTread_dataset_int(file, "/contacts/body", pairs.data()) < 0)
+		fail(path, "cannot read /contacts/body");
+	const auto normal = get("/contacts/normal", 2, contacts), lever = get("/contacts/lever", 4, contacts),
+	           bias     = get("/contacts/bias", 3, contacts);
 	const auto adhesion = get("/contacts/adhesion", 1, contacts), friction = get("/contacts/friction", 1, contacts);
 	const auto arm = get("/contacts/rolling_arm", 1, contacts), length = get("/contacts/length", 1, contacts);
 	for (hsize_t k = 0; k < contacts; ++k) {
 		Contact c;
 		for (const int body : { pairs[2 * k], pairs[2 * k + 1] })
 			if (body < 0 || hsize_t(body) >= bodies)
-				fail(path, "contact " + std::to_string(k) + " names body " + std::to_string(body) + ": there are " + std::to_string(bodies) + ", counted from 0");
+				fail(path,
+				     "contact " + std::to_string(k) + " names body " + std::to_string(body)
+				             + ": there are " + std::to_string(bodies) + ", counted from 0");
 		c.i          = pairs[2 * k];
 		c.j          = pairs[2 * k + 1];
 		c.nx         = normal[2 * k];

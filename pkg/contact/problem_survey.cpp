@@ -9,13 +9,15 @@ namespace {
 	{
 		// a wall that turns enters the velocities through levers too
 		const bool isPlain = m.x == m.y && (m.w != 0 || freeVelocity.w == 0);
-		return (m.w != 0 ? Survey::turns : 0) | (isPlain ? Survey::plain : 0) | (m.isFixed() ? 0 : Survey::moves);
+		return (m.w != 0 ? Survey::turns : 0) | (isPlain ? Survey::plain : 0)
+		        | (m.isFixed() ? 0 : Survey::moves);
 	}
 
 	/// Whether the short formulas of the blocks hold: no rows coupled but T and Γ, no bias but the normal one.
 	bool isSimple(const Contact& c, std::uint8_t i, std::uint8_t j)
 	{
-		return (i & j & Survey::plain) && c.biasT == 0 && c.biasR == 0 && (!(i & Survey::turns) || c.leverNi == 0) && (!(j & Survey::turns) || c.leverNj == 0);
+		return (i & j & Survey::plain) && c.biasT == 0 && c.biasR == 0
+		        && (!(i & Survey::turns) || c.leverNi == 0) && (!(j & Survey::turns) || c.leverNj == 0);
 	}
 
 	/// Traits of bodies and where they are. Refuses what cannot be used.
@@ -26,7 +28,9 @@ namespace {
 		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL;
 		long       bad = count, astray = count; // the first ones, found by threads, which must not throw
 		result.traits.resize(count);
+// clang-format off
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY, bad, astray) reduction(max : highX, highY)
+		// clang-format on
 		for (long b = 0; b < count; ++b) {
 			const InverseMass& m = problem.inverseMass[b];
 			const Twist&       v = problem.freeVelocity[b];
@@ -54,11 +58,13 @@ namespace {
 		const auto   bodies    = static_cast<std::int32_t>(problem.bodyCount());
 		const Point* positions = problem.positions.empty() ? nullptr : problem.positions.data();
 		double       longestX = 0, longestY = 0;
-		long         bad = count;
+		long         bad      = count;
 		bool         newPairs = result.pairs.size() != problem.contactCount(), newSimple = newPairs;
 		result.pairs.resize(count);
 		result.simple.resize(count);
+// clang-format off
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad) reduction(max : longestX, longestY) reduction(|| : newPairs, newSimple)
+		// clang-format on
 		for (long k = 0; k < count; ++k) {
 			const Contact& c = problem.contacts[k];
 			if (!usable(c, problem.impulses[k], bodies)) {

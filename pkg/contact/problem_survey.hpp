@@ -9,7 +9,7 @@ namespace nonsmooth::contact {
 
 /// The bodies of a contact; in place of one that can't move its complement, a negative number.
 struct MovablePair {
-	std::int32_t i, j;
+	std::int32_t        i, j;
 	static bool         moves(std::int32_t body) { return body >= 0; }
 	static std::int32_t bodyOf(std::int32_t body) { return moves(body) ? body : ~body; }
 };
@@ -25,8 +25,8 @@ struct Survey {
 
 	std::vector<std::uint8_t> traits; // of bodies
 	std::vector<std::uint8_t> simple; // whether a contact fits into blocks
-	std::vector<MovablePair>  pairs;  // of the contacts
-	Span                      extents[2];         // in x and y, from the lowest to the highest body that can move
+	std::vector<MovablePair>  pairs; // of the contacts
+	Span                      extents[2]; // in x and y, from the lowest to the highest body that can move
 	double                    longest[2] = { 0, 0 }; // in x and y, of contacts between bodies that can move
 	bool                      pairsKept = false, simpleKept = false; // whether they are those of the last look
 };

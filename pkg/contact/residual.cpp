@@ -9,7 +9,8 @@ std::vector<Twist> velocitiesOf(const Problem& problem)
 	std::vector<Twist> v = problem.freeVelocity;
 	for (std::size_t k = 0; k < problem.contactCount(); ++k) {
 		const Contact& c = problem.contacts[k];
-		applyImpulse(c, problem.impulses[k], problem.inverseMass[c.i], problem.inverseMass[c.j], v[c.i], v[c.j]);
+		applyImpulse(
+		        c, problem.impulses[k], problem.inverseMass[c.i], problem.inverseMass[c.j], v[c.i], v[c.j]);
 	}
 	return v;
 }
@@ -22,7 +23,8 @@ std::vector<Impulse> naturalMapDefects(const Problem& problem)
 	for (std::size_t k = 0; k < problem.contactCount(); ++k) {
 		const Contact& c = problem.contacts[k];
 		defects.push_back(naturalMapDefect(
-		        c, problem.impulses[k], relativeVelocity(c, v[c.i], v[c.j]), inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j])));
+		        c, problem.impulses[k], relativeVelocity(c, v[c.i], v[c.j]),
+		        inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j])));
 	}
 	return defects;
 }
@@ -32,11 +34,12 @@ SpeedResidual naturalMapSpeeds(const Problem& problem)
 	const auto defects = naturalMapDefects(problem);
 	double     sum = 0, largest = 0;
 	for (std::size_t k = 0; k < defects.size(); ++k) {
-		const Contact& c = problem.contacts[k];
-		const Impulse  w = inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]);
+		const Contact& c     = problem.contacts[k];
+		const Impulse  w     = inverseDelassus(c, problem.inverseMass[c.i], problem.inverseMass[c.j]);
 		const auto     speed = [](double defect, double inverse) { return inverse > 0 ? defect / inverse : 0; };
-		const double   n = speed(defects[k].n, w.n), t = speed(defects[k].t, w.t), r = speed(defects[k].r, w.r) * c.length;
-		const double   square = n * n + t * t + r * r;
+		const double   n = speed(defects[k].n, w.n), t = speed(defects[k].t, w.t),
+		             r      = speed(defects[k].r, w.r) * c.length;
+		const double square = n * n + t * t + r * r;
 		sum += square;
 		largest = std::max(largest, square);
 	}

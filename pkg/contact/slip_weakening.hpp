@@ -9,13 +9,17 @@
 
 namespace nonsmooth::contact {
 
-inline bool knowsSlipWeakening(const std::string& function) { return function == "step" || function == "linear" || function == "exponential"; }
+inline bool knowsSlipWeakening(const std::string& function)
+{
+	return function == "step" || function == "linear" || function == "exponential";
+}
 
 /// Fraction of the strength left, 1 to 0, after `slip` [m] with the critical slip `critical` [m].
 /// Throws std::invalid_argument for an unknown name or a critical slip that is not positive.
 inline double slipWeakening(const std::string& function, double slip, double critical)
 {
-	if (!(critical > 0)) throw std::invalid_argument("criticalSlip = " + std::to_string(critical) + " m: it must be positive");
+	if (!(critical > 0))
+		throw std::invalid_argument("criticalSlip = " + std::to_string(critical) + " m: it must be positive");
 	if (function == "step") return slip < critical ? 1 : 0;
 	if (function == "linear") return slip < critical ? 1 - slip / critical : 0;
 	if (function == "exponential") return std::exp(-slip / critical);

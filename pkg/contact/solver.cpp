@@ -52,7 +52,7 @@ namespace {
 		}
 
 		double last, beforeLast; // at the last two comparisons
-		double least;            // since the last restart
+		double least; // since the last restart
 		int    looks = 0, patience = 1, mostPatience; // looks since and between comparisons
 	};
 
@@ -82,10 +82,10 @@ namespace {
 
 	/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
 	struct Row {
-		Contact     contact;   // names bodies by their places
+		Contact     contact; // names bodies by their places
 		InverseMass mi, mj;
 		Impulse     p, before; // P_k, P_{k−1}
-		Impulse     inverse;   // 1/W_nn, 1/W_tt, 1/W_rr
+		Impulse     inverse; // 1/W_nn, 1/W_tt, 1/W_rr
 	};
 
 	constexpr std::size_t lastCache = 32 << 20; // bytes; of a common processor, and no more than a hint
@@ -101,36 +101,39 @@ namespace {
 		/// `laidOut`: the workspace holds the blocks of this very problem.
 		Sweeper(Problem& problem, const SolverSettings& settings, Workspace& workspace, bool isLaidOut = false);
 		SolverStatistics run();
-		void             correct(const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
+		void correct(const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
 
 	private:
 		/// Places of the bodies that a part of the order is the first to touch in a pass.
 		struct Places {
 			std::size_t begin, end;
 		};
-		Places        newIn(std::size_t strip) const;
+		Places                     newIn(std::size_t strip) const;
 		template <class With> void forFixed(With with);
 
-		void  takeVelocity(std::size_t place, std::int32_t body);
-		void  takeVelocities(std::size_t strip);
-		void  applyStrip(std::size_t strip);
-		void  applyRows(std::size_t strip);
-		void  keepBodies(std::size_t strip);
-		void  begin();
-		void  iterate();
-		void  sweep(const std::vector<double>& betas);
-		void  extrapolate(std::size_t strip, double beta);
-		void  takeErrors(std::size_t strip, const std::vector<PositionError>& errors);
-		void  sweepRow(std::size_t row, double beta);
-		void  measureStrip(std::size_t strip);
-		void  measureRows(std::size_t strip, ResidualSums& sums) const;
-		void  sumUp();
-		void  measureChanges();
-		bool  solved(double slack) const;
-		void  finish();
-		void  writeStrip(std::size_t strip);
+		void                       takeVelocity(std::size_t place, std::int32_t body);
+		void                       takeVelocities(std::size_t strip);
+		void                       applyStrip(std::size_t strip);
+		void                       applyRows(std::size_t strip);
+		void                       keepBodies(std::size_t strip);
+		void                       begin();
+		void                       iterate();
+		void                       sweep(const std::vector<double>& betas);
+		void                       extrapolate(std::size_t strip, double beta);
+		void                       takeErrors(std::size_t strip, const std::vector<PositionError>& errors);
+		void                       sweepRow(std::size_t row, double beta);
+		void                       measureStrip(std::size_t strip);
+		void                       measureRows(std::size_t strip, ResidualSums& sums) const;
+		void                       sumUp();
+		void                       measureChanges();
+		bool                       solved(double slack) const;
+		void                       finish();
+		void                       writeStrip(std::size_t strip);
 		template <class Take> void forImpulses(std::size_t strip, Take take) const;
-		Twist twistAt(std::int32_t place) const { return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] }; }
+		Twist                      twistAt(std::int32_t place) const
+		{
+			return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] };
+		}
 		Twist twist(std::int32_t body) const { return twistAt(laidOut.placeOf[body]); }
 		void  setTwists(const Row& row, const Twist& vi, const Twist& vj);
 
@@ -144,7 +147,7 @@ namespace {
 		std::vector<Row>          rows;
 		std::vector<Motion>&      bodies; // by place; the last one is nobody
 		std::vector<Motion>&      bodiesBefore;
-		std::vector<ResidualSums> sums;                 // one a part of the order
+		std::vector<ResidualSums> sums; // one a part of the order
 		Residual                  residual;
 		std::vector<ChangeSums>   changeSums; // one a part of the order
 		VelocityChanges           changes;
@@ -170,10 +173,10 @@ namespace {
 		for (std::size_t k = 0; k < rows.size(); ++k) {
 			Contact           c  = problem.contacts[laidOut.others[k]];
 			const InverseMass mi = problem.inverseMass[c.i], mj = problem.inverseMass[c.j];
-			const Impulse     p  = project(c, problem.impulses[laidOut.others[k]]);
-			c.i                  = laidOut.placeOf[c.i];
-			c.j                  = laidOut.placeOf[c.j];
-			rows[k]              = { c, mi, mj, p, p, inverseDelassus(c, mi, mj) };
+			const Impulse     p = project(c, problem.impulses[laidOut.others[k]]);
+			c.i                 = laidOut.placeOf[c.i];
+			c.j                 = laidOut.placeOf[c.j];
+			rows[k]             = { c, mi, mj, p, p, inverseDelassus(c, mi, mj) };
 		}
 		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
@@ -205,7 +208,8 @@ namespace {
 	/// Calls with(place, body) for the bodies that no strip has, and waits until all is done.
 	template <class With> void Sweeper::forFixed(With with)
 	{
-		const long first = static_cast<long>(laidOut.order.bodyBegin.back()), count = static_cast<long>(problem.bodyCount());
+		const long first = static_cast<long>(laidOut.order.bodyBegin.back()),
+		           count = static_cast<long>(problem.bodyCount());
 #pragma omp for schedule(static)
 		for (long k = first; k < count; ++k)
 			with(k, laidOut.order.bodies[k]);
@@ -229,7 +233,9 @@ namespace {
 	/// Adds M⁻¹ Hᵀ P.
 	void Sweeper::applyStrip(std::size_t s)
 	{
-		kernels.apply(laidOut.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
+		kernels.apply(
+		        laidOut.blocks.data() + laidOut.blockBegin[s],
+		        laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodies.data());
 		applyRows(s);
 	}
 
@@ -247,7 +253,9 @@ namespace {
 	void Sweeper::keepBodies(std::size_t s)
 	{
 		const Places places = newIn(s);
-		std::copy(bodies.begin() + places.begin, bodies.begin() + places.end, bodiesBefore.begin() + places.begin);
+		std::copy(
+		        bodies.begin() + places.begin, bodies.begin() + places.end,
+		        bodiesBefore.begin() + places.begin);
 	}
 
 	/// Velocities and impulses of the warm start, and their residual. A strip's numbers are filled in and used while they are at hand.
@@ -283,7 +291,9 @@ namespace {
 	{
 		if (settings.method != Method::Accelerated) return;
 		const Places places = newIn(s);
-		kernels.extrapolate(bodies.data() + places.begin, bodiesBefore.data() + places.begin, places.end - places.begin, beta);
+		kernels.extrapolate(
+		        bodies.data() + places.begin, bodiesBefore.data() + places.begin, places.end - places.begin,
+		        beta);
 	}
 
 	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it, and the residual after the last one, strip by strip
@@ -291,23 +301,28 @@ namespace {
 	void Sweeper::sweep(const std::vector<double>& betas)
 	{
 		const int sweeps = static_cast<int>(betas.size());
-		schedule.passes(omp_get_thread_num(), sweeps + 1, [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
-			if (pass == sweeps) {
-				measureStrip(s);
-				return;
-			}
-			const double beta = betas[pass];
-			extrapolate(s, beta);
-			Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
-			const std::size_t count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
-			if (ahead.parts > 0 && outgrowsCache) {
-				const std::size_t begin = laidOut.blockBegin[ahead.strip], next = laidOut.blockBegin[ahead.strip + 1] - begin;
-				kernels.sweepAndFetch(blocks, count, bodies.data(), beta, laidOut.blocks.data() + begin + next * ahead.part / ahead.parts);
-			} else
-				kernels.sweep(blocks, count, bodies.data(), beta);
-			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
-				sweepRow(k, beta);
-		});
+		schedule.passes(
+		        omp_get_thread_num(), sweeps + 1,
+		        [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
+			        if (pass == sweeps) {
+				        measureStrip(s);
+				        return;
+			        }
+			        const double beta = betas[pass];
+			        extrapolate(s, beta);
+			        Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
+			        const std::size_t count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
+			        if (ahead.parts > 0 && outgrowsCache) {
+				        const std::size_t begin = laidOut.blockBegin[ahead.strip],
+				                          next  = laidOut.blockBegin[ahead.strip + 1] - begin;
+				        kernels.sweepAndFetch(
+				                blocks, count, bodies.data(), beta,
+				                laidOut.blocks.data() + begin + next * ahead.part / ahead.parts);
+			        } else
+				        kernels.sweep(blocks, count, bodies.data(), beta);
+			        for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+				        sweepRow(k, beta);
+		        });
 	}
 
 	void Sweeper::measureRows(std::size_t s, ResidualSums& sums) const
@@ -315,7 +330,10 @@ namespace {
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 			const Contact& c   = rows[k].contact;
 			const Impulse& p   = rows[k].p;
-			const double   one = squareNorm(c, naturalMapDefect(c, p, relativeVelocity(c, twistAt(c.i), twistAt(c.j)), rows[k].inverse));
+			const double   one = squareNorm(
+			          c,
+			          naturalMapDefect(
+			                  c, p, relativeVelocity(c, twistAt(c.i), twistAt(c.j)), rows[k].inverse));
 			sums.square += one;
 			sums.largest = std::max(sums.largest, one);
 			sums.scale += squareNorm(c, p);
@@ -326,7 +344,9 @@ namespace {
 	void Sweeper::measureStrip(std::size_t s)
 	{
 		const std::size_t begin = laidOut.blockBegin[s];
-		sums[s] = kernels.measure(laidOut.blocks.data() + begin, laidOut.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin, bodies.data());
+		sums[s]                 = kernels.measure(
+		                        laidOut.blocks.data() + begin, laidOut.inverseLength.data() + begin,
+		                        laidOut.blockBegin[s + 1] - begin, bodies.data());
 		measureRows(s, sums[s]);
 	}
 
@@ -343,7 +363,7 @@ namespace {
 				all.largest = std::max(all.largest, s.largest);
 			}
 			const double n = std::max<std::size_t>(problem.contactCount(), 1);
-			residual       = { std::sqrt(all.square / n), std::sqrt(all.largest), std::sqrt(all.scale / n) };
+			residual = { std::sqrt(all.square / n), std::sqrt(all.largest), std::sqrt(all.scale / n) };
 		}
 		if (settings.stopping != StoppingTest::NaturalMap) measureChanges();
 	}
@@ -357,12 +377,16 @@ namespace {
 			changeSums[s]  = {};
 			const auto add = [this, s](std::int32_t index, const Impulse& p) {
 				const Contact& c = problem.contacts[index];
-				changeSums[s].add(c, p, problem.inverseMass[c.i], problem.inverseMass[c.j], twist(c.i), twist(c.j));
+				changeSums[s].add(
+				        c, p, problem.inverseMass[c.i], problem.inverseMass[c.j], twist(c.i),
+				        twist(c.j));
 			};
 			for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
 				const Block& k = laidOut.blocks[b];
 				for (std::size_t l = 0; l < lanes; ++l)
-					if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) add(index, { k.n[l], k.t[l], k.r[l] });
+					if (const auto index = laidOut.contactOf[b * lanes + l];
+					    index != ContactBlocks::none)
+						add(index, { k.n[l], k.t[l], k.r[l] });
 			}
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 				add(laidOut.others[k], rows[k].p);
@@ -378,15 +402,16 @@ namespace {
 
 	bool Sweeper::solved(double slack) const
 	{
-		const double figure = settings.stopping == StoppingTest::NaturalMap ? residual.relative() : changes.figure(settings.stopping);
+		const double figure = settings.stopping == StoppingTest::NaturalMap ? residual.relative()
+		                                                                    : changes.figure(settings.stopping);
 		return figure <= settings.tolerance * slack;
 	}
 
 	/// Sweeps until the residual holds; every thread runs through it with its own copies of the scalars.
 	void Sweeper::iterate()
 	{
-		Extrapolation extrapolation(settings.method);
-		int           restarts = 0, iteration = 0;
+		Extrapolation       extrapolation(settings.method);
+		int                 restarts = 0, iteration = 0;
 		RestartRule         rule(residual.rms, settings.checkEvery);
 		std::vector<double> betas; // of the sweeps until the next look at the residual
 		while (!solved(1) && iteration < settings.maxIterations) {
@@ -513,7 +538,9 @@ namespace {
 				for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 					sweepRow(k, betas[pass - 1]);
 			} else {
-				forImpulses(s, [&](std::int32_t index, const Impulse& p) { result.impulses[index] = p.n; });
+				forImpulses(s, [&](std::int32_t index, const Impulse& p) {
+					result.impulses[index] = p.n;
+				});
 				const Places places = newIn(s);
 				for (std::size_t k = places.begin; k < places.end; ++k)
 					result.displacements[laidOut.order.bodies[k]] = twistAt(k);
@@ -534,12 +561,16 @@ namespace {
 } // namespace
 
 void correctPositions(
-        Problem& problem, const SolverSettings& settings, Workspace& workspace, const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result)
+        Problem& problem, const SolverSettings& settings, Workspace& workspace,
+        const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result)
 {
 	const ContactBlocks& blocks = workspace.laidOut;
-	if (errors.size() != problem.contactCount() || blocks.order.order.size() != problem.contactCount() || blocks.placeOf.size() != problem.bodyCount())
-		throw std::invalid_argument("correctPositions: " + std::to_string(errors.size()) + " errors for " + std::to_string(problem.contactCount())
-		                            + " contacts, of which the last solve laid out " + std::to_string(blocks.order.order.size()));
+	if (errors.size() != problem.contactCount() || blocks.order.order.size() != problem.contactCount()
+	    || blocks.placeOf.size() != problem.bodyCount())
+		throw std::invalid_argument(
+		        "correctPositions: " + std::to_string(errors.size()) + " errors for "
+		        + std::to_string(problem.contactCount()) + " contacts, of which the last solve laid out "
+		        + std::to_string(blocks.order.order.size()));
 	Sweeper(problem, settings, workspace, true).correct(errors, sweeps, result);
 }
 

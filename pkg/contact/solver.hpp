@@ -27,22 +27,24 @@ namespace nonsmooth::contact {
 enum class Method { GaussSeidel, Accelerated };
 
 struct SolverSettings {
-	Method method        = Method::Accelerated;
-	double tolerance     = 1e-4; // on Residual::relative(), or on the figures of another stopping test
-	int    maxIterations = 1000;
-	int    checkEvery    = 10; // sweeps between two residuals
-	int    threads       = 1;
-	StoppingTest stopping = StoppingTest::NaturalMap;
-	const BlockKernels* kernels = nullptr; // of availableKernels(); null: the first; the bits are the same
-	bool   reference     = false; // contact after contact as law.hpp has it, none in blocks: what blocks are measured against
+	Method              method        = Method::Accelerated;
+	double              tolerance     = 1e-4; // on Residual::relative(), or on the figures of another stopping test
+	int                 maxIterations = 1000;
+	int                 checkEvery    = 10; // sweeps between two residuals
+	int                 threads       = 1;
+	StoppingTest        stopping      = StoppingTest::NaturalMap;
+	const BlockKernels* kernels       = nullptr; // of availableKernels(); null: the first; the bits are the same
+	bool                reference
+	        = false; // contact after contact as law.hpp has it, none in blocks: what blocks are measured against
 };
 
 struct SolverStatistics {
-	int      iterations = 0;
-	int      restarts   = 0;
-	int      strips     = 0;
-	bool     converged  = true;
-	Residual residual; // of what is returned, from velocities computed anew from the impulses; whatever test stopped the solver
+	int  iterations = 0;
+	int  restarts   = 0;
+	int  strips     = 0;
+	bool converged  = true;
+	Residual
+	        residual; // of what is returned, from velocities computed anew from the impulses; whatever test stopped the solver
 	VelocityChanges changes; // the same, in the figures of LMGC90's tests; only where one of them was asked for
 };
 
@@ -55,20 +57,22 @@ struct Workspace {
 /// What one contact asks of the positions at the end of a step [m]: its bodies draw apart by −error where that is negative, and by no more than they
 /// must; they may draw together by `error` where it is positive. With `held` they do so in any case.
 struct PositionError {
-	double error   = 0;
-	bool   held    = false;
-	double impulse = 0; // Q to begin with [kg m], that of the step before: what lies deep in a packing takes several steps
+	double error = 0;
+	bool   held  = false;
+	double impulse
+	        = 0; // Q to begin with [kg m], that of the step before: what lies deep in a packing takes several steps
 };
 
 struct PositionCorrection {
 	std::vector<Twist>  displacements; // of bodies [m, m, rad]
-	std::vector<double> impulses;      // Q of contacts [kg m]
+	std::vector<double> impulses; // Q of contacts [kg m]
 };
 
 /// Displacements of the bodies that take the errors back, one error a contact. To be called after a solve with the same problem, settings and workspace,
 /// on whose blocks it sweeps. Throws std::invalid_argument where a size does not fit.
 void correctPositions(
-        Problem& problem, const SolverSettings& settings, Workspace& workspace, const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
+        Problem& problem, const SolverSettings& settings, Workspace& workspace,
+        const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
 
 /// Solves in place: reads problem.impulses as warm start, writes problem.impulses and problem.velocities.
 /// Throws std::invalid_argument naming the setting, body or contact that cannot be used (problem_check.hpp), before anything is changed.

@@ -10,7 +10,8 @@
 namespace nonsmooth::contact {
 namespace {
 
-	constexpr double maxmToQuad = 16.666; // LMGC90's number: in large dense packings Quad is near a sixteenth of Maxm
+	constexpr double maxmToQuad
+	        = 16.666; // LMGC90's number: in large dense packings Quad is near a sixteenth of Maxm
 
 	/// W p, row by row; rolling as a velocity, times ℓ.
 	Impulse velocityOf(const Contact& c, const Impulse& p, const Impulse& inverse)
@@ -29,7 +30,10 @@ StoppingTest stoppingTestOf(const char* name)
 	constexpr struct {
 		const char*  name;
 		StoppingTest test;
-	} tests[] = { { "naturalMap", StoppingTest::NaturalMap }, { "Quad", StoppingTest::Quad }, { "Maxm", StoppingTest::Maxm }, { "QM/16", StoppingTest::QM16 } };
+	} tests[] = { { "naturalMap", StoppingTest::NaturalMap },
+		      { "Quad", StoppingTest::Quad },
+		      { "Maxm", StoppingTest::Maxm },
+		      { "QM/16", StoppingTest::QM16 } };
 	for (const auto& t : tests)
 		if (std::strcmp(t.name, name) == 0) return t.test;
 	throw std::invalid_argument("'" + std::string(name) + "': it must be 'naturalMap', 'Quad', 'Maxm' or 'QM/16'");
@@ -38,13 +42,15 @@ StoppingTest stoppingTestOf(const char* name)
 double VelocityChanges::figure(StoppingTest test) const
 {
 	if (!std::isfinite(velocity + largestVelocity + work + largestWork + drift)) return HUGE_VAL; // not a solution
-	const double quad = std::max({ velocity, work, std::abs(drift) }), maxm = std::max(largestVelocity, largestWork);
+	const double quad = std::max({ velocity, work, std::abs(drift) }),
+	             maxm = std::max(largestVelocity, largestWork);
 	if (test == StoppingTest::Quad) return quad;
 	if (test == StoppingTest::Maxm) return std::max(maxm, std::abs(drift));
 	return std::max(quad, maxm / maxmToQuad);
 }
 
-void ChangeSums::add(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj)
+void ChangeSums::add(
+        const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj)
 {
 	const Impulse inverse = inverseDelassus(c, mi, mj);
 	const Impulse next    = visit(c, p, inverse, mi, mj, vi, vj);
@@ -78,7 +84,8 @@ VelocityChanges ChangeSums::changes() const
 {
 	if (active == 0 || velocity == 0 || energy == 0) return {};
 	const double n = static_cast<double>(active), speed = std::sqrt(velocity / n), meanEnergy = energy / n;
-	return { std::sqrt(square / n) / speed, std::sqrt(largest) / speed, std::sqrt(work / n) / meanEnergy, std::sqrt(largestWork) / meanEnergy, drift / energy };
+	return { std::sqrt(square / n) / speed, std::sqrt(largest) / speed, std::sqrt(work / n) / meanEnergy,
+		 std::sqrt(largestWork) / meanEnergy, drift / energy };
 }
 
 VelocityChanges velocityChanges(const Problem& problem)

@@ -45,8 +45,8 @@ struct ChangeSums {
 	long   active = 0;
 
 	/// Adds a contact with the impulses `p` and the velocities of its bodies.
-	void            add(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj);
-	void            add(const ChangeSums& other);
+	void add(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist vi, Twist vj);
+	void add(const ChangeSums& other);
 	VelocityChanges changes() const;
 };
 

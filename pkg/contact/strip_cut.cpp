@@ -32,7 +32,8 @@ namespace {
 		const auto first = std::find_if(survey.traits.begin(), survey.traits.end(), moves);
 		const auto last  = std::find_if(survey.traits.rbegin(), survey.traits.rend(), moves);
 		if (first == survey.traits.end()) return { 0 };
-		const double from = problem.positions[first - survey.traits.begin()].x, to = problem.positions[survey.traits.rend() - last - 1].x;
+		const double from = problem.positions[first - survey.traits.begin()].x,
+		             to   = problem.positions[survey.traits.rend() - last - 1].x;
 		return { 0, to < from ? -1.0 : 1.0 };
 	}
 
@@ -50,7 +51,9 @@ namespace {
 	}
 
 	/// Lower ends of some contacts. Places of the samples follow the golden section, so that no regular order of contacts falls in with them.
-	void sample(const Problem& problem, const std::vector<MovablePair>& pairs, const Way (&ways)[2], std::vector<double> (&samples)[2])
+	void
+	sample(const Problem& problem, const std::vector<MovablePair>& pairs, const Way (&ways)[2],
+	       std::vector<double> (&samples)[2])
 	{
 		for (auto& s : samples)
 			s.clear();
@@ -59,8 +62,10 @@ namespace {
 			const auto        part = std::uint64_t(std::uint32_t(k * 2654435769u)); // of 2³²
 			const MovablePair pair = pairs[part * pairs.size() >> 32];
 			const auto        low  = [&](const Way& way) {
-				const auto at = [&](std::int32_t b) { return MovablePair::moves(b) ? way(problem.positions[b]) : HUGE_VAL; };
-				return std::min(at(pair.i), at(pair.j));
+                                const auto at = [&](std::int32_t b) {
+                                        return MovablePair::moves(b) ? way(problem.positions[b]) : HUGE_VAL;
+                                };
+                                return std::min(at(pair.i), at(pair.j));
 			};
 			if (!MovablePair::moves(pair.i) && !MovablePair::moves(pair.j)) continue;
 			for (int axis : { 0, 1 })
@@ -72,7 +77,8 @@ namespace {
 	double lengthOf(const Problem& problem, const MovablePair& pair, int axis)
 	{
 		if (!MovablePair::moves(pair.i) || !MovablePair::moves(pair.j)) return 0;
-		return std::abs(coordinate(problem.positions[pair.i], axis) - coordinate(problem.positions[pair.j], axis));
+		return std::abs(
+		        coordinate(problem.positions[pair.i], axis) - coordinate(problem.positions[pair.j], axis));
 	}
 
 	/// Length of the longest contact that strips have to be as wide as.
@@ -81,48 +87,52 @@ namespace {
 		const auto&  pairs   = survey.pairs;
 		const long   count   = static_cast<long>(pairs.size());
 		const double longest = survey.longest[axis];
-		const double enough = 0.5 * static_cast<double>(std::min(pairs.size() / contactsAStrip, fewStrips));
+		const double enough  = 0.5 * static_cast<double>(std::min(pairs.size() / contactsAStrip, fewStrips));
 		std::vector<double> half; // longest/2, longest/4, … to where strips are enough
 		for (double reach = longest; reach * enough > extent && half.size() < 32; half.push_back(reach))
 			reach *= 0.5;
 		if (half.empty()) return longest;
-		std::vector<std::size_t> longer(half.size() + 1, 0); // contacts longer than half[k] and not than the one before
-		std::size_t* const       inOctave = longer.data();
-		const std::size_t        octaves  = half.size();
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : inOctave[:octaves + 1])
-		for (long k = 0; k < count; ++k) {
-			const double length = lengthOf(problem, pairs[k], axis);
-			std::size_t  o      = 0;
-			while (o < octaves && !(length > half[o]))
-				++o;
-			++inOctave[o];
-		}
-		double      reach = longest;
-		std::size_t over  = 0;
-		for (std::size_t o = 0; o < octaves && (over += longer[o]) * rareContacts <= pairs.size(); ++o)
-			reach = half[o];
-		return reach;
-	}
+		std::vector<std::size_t> longer(
+		        half.size() + 1, 0); // contacts longer than half[k] and not than the one before
+		std::size_t* const inOctave = longer.data();
+		const std::size_t  octaves  = half.size();
+#pragma omp          parallel for schedule(static) num_threads(threads) reduction(+ : inOctave[:octaves + 1])
+                for (long k = 0; k < count; ++k) {
+			         const double length = lengthOf(problem, pairs[k], axis);
+			         std::size_t  o      = 0;
+			         while (o < octaves && !(length > half[o]))
+                                ++o;
+                        ++inOctave[o];
+                }
+                double      reach = longest;
+                std::size_t over  = 0;
+                for (std::size_t o = 0; o < octaves && (over += longer[o]) * rareContacts <= pairs.size(); ++o)
+                        reach = half[o];
+                return reach;
+	         }
 
-	/// Contacts by the bin of their lower end, without those that are longer than `width` bins.
-	void count(const std::vector<MovablePair>& pairs, int threads, std::int32_t bins, std::int32_t width, StripCut& result)
-	{
-		auto&      scratch = result.scratch;
-		const long contacts = static_cast<long>(pairs.size());
-		scratch.counts.resize(std::max<std::size_t>(scratch.counts.size(), threads));
-		scratch.sums.assign(bins, 0);
-#pragma omp parallel num_threads(threads)
-		{
-			auto& counts = scratch.counts[omp_get_thread_num()];
-			counts.assign(bins, 0);
+	         /// Contacts by the bin of their lower end, without those that are longer than `width` bins.
+	         void
+	         count(const std::vector<MovablePair>& pairs, int threads, std::int32_t bins, std::int32_t width,
+	               StripCut& result)
+	         {
+		         auto&      scratch  = result.scratch;
+		         const long contacts = static_cast<long>(pairs.size());
+		         scratch.counts.resize(std::max<std::size_t>(scratch.counts.size(), threads));
+		         scratch.sums.assign(bins, 0);
+         #pragma omp parallel num_threads(threads)
+                {
+			         auto& counts = scratch.counts[omp_get_thread_num()];
+			         counts.assign(bins, 0);
 #pragma omp for schedule(static)
-			for (long k = 0; k < contacts; ++k) {
-				const auto [i, j]    = pairs[k];
-				const bool         a = MovablePair::moves(i), b = MovablePair::moves(j);
-				if (!a && !b) continue;
-				const std::int32_t from = scratch.binOfBody[a ? i : j], to = scratch.binOfBody[b ? j : i];
-				if (std::abs(from - to) <= width) ++counts[std::min(from, to)];
-			}
+                        for (long k = 0; k < contacts; ++k) {
+				         const auto [i, j] = pairs[k];
+				         const bool a = MovablePair::moves(i), b = MovablePair::moves(j);
+				         if (!a && !b) continue;
+                                const std::int32_t from = scratch.binOfBody[a ? i : j],
+				                            to   = scratch.binOfBody[b ? j : i];
+				         if (std::abs(from - to) <= width) ++counts[std::min(from, to)];
+                        }
 #pragma omp critical
 			for (std::int32_t k = 0; k < bins; ++k)
 				scratch.sums[k] += counts[k];
@@ -140,15 +150,20 @@ namespace {
 		auto&        strip  = result.scratch.stripOfBin;
 		std::size_t  begin  = 0; // of the strip that is being filled
 		double       inside = 0, share = wanted;
-		result.count        = 1;
+		result.count = 1;
 		strip.resize(sums.size());
 		for (std::size_t k = 0; k < sums.size(); ++k) {
 			strip[k] = result.count - 1;
 			inside += sums[k];
-			if (k + 1 == sums.size() || inside + 0.5 * sums[k + 1] < share || k + 1 - begin < std::size_t(width)) continue;
+			if (k + 1 == sums.size() || inside + 0.5 * sums[k + 1] < share
+			    || k + 1 - begin < std::size_t(width))
+				continue;
 			++result.count;
-			begin  = k + 1;
-			share  = wanted + std::clamp(share - inside, -0.5 * wanted, 0.5 * wanted); // what one has too much the next one has less
+			begin = k + 1;
+			share = wanted
+			        + std::clamp(
+			                share - inside, -0.5 * wanted,
+			                0.5 * wanted); // what one has too much the next one has less
 			inside = 0;
 		}
 		if (result.count > 1 && inside < 0.5 * wanted) { // not worth a strip
@@ -160,14 +175,15 @@ namespace {
 	/// Puts bodies into bins and bins into strips. Returns whether strips stayed as they were, as far as that is known without counting.
 	bool divide(const Problem& problem, const Survey& survey, int threads, StripCut& result)
 	{
-		auto&       scratch = result.scratch;
-		const auto& pairs   = survey.pairs;
+		auto&       scratch    = result.scratch;
+		const auto& pairs      = survey.pairs;
 		const auto  binsBefore = scratch.bins, widthBefore = scratch.width;
 		scratch.bins = scratch.width = 0;
 		if (problem.positions.size() != problem.bodyCount() || pairs.size() < 2 * contactsAStrip) return false;
 		const Way ways[2] = { alongX(problem, survey), { 1 } };
 		sample(problem, pairs, ways, scratch.samples);
-		const Span   spans[2] = { mostOf(scratch.samples[0], ways[0](survey.extents[0])), mostOf(scratch.samples[1], survey.extents[1]) };
+		const Span   spans[2] = { mostOf(scratch.samples[0], ways[0](survey.extents[0])),
+			                  mostOf(scratch.samples[1], survey.extents[1]) };
 		const int    axis     = spans[0].length() >= spans[1].length() ? 0 : 1;
 		const Span   span     = spans[axis];
 		const Way    way      = ways[axis];
@@ -175,11 +191,12 @@ namespace {
 		if (!(extent > 0) || !std::isfinite(extent)) return false;
 		const std::size_t strips = pairs.size() / contactsAStrip;
 		const auto        bins   = static_cast<std::int32_t>(strips * binsAStrip);
-		const double      scale  = bins / extent, reach = reachOf(problem, survey, threads, axis, extent);
-		scratch.bins             = bins;
-		scratch.width            = static_cast<std::int32_t>(std::min<double>(bins, std::max(1.0, std::ceil(reach * rounding * scale))));
-		const long bodies        = static_cast<long>(problem.bodyCount());
-		bool       moved         = scratch.binOfBody.size() != problem.bodyCount();
+		const double      scale = bins / extent, reach = reachOf(problem, survey, threads, axis, extent);
+		scratch.bins  = bins;
+		scratch.width = static_cast<std::int32_t>(
+		        std::min<double>(bins, std::max(1.0, std::ceil(reach * rounding * scale))));
+		const long bodies = static_cast<long>(problem.bodyCount());
+		bool       moved  = scratch.binOfBody.size() != problem.bodyCount();
 		scratch.binOfBody.resize(problem.bodyCount());
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
 		for (long b = 0; b < bodies; ++b) {
@@ -206,7 +223,9 @@ bool cutIntoStrips(const Problem& problem, const Survey& survey, int threads, St
 	const long bodies = static_cast<long>(problem.bodyCount());
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : moved)
 	for (long b = 0; b < bodies; ++b) {
-		const auto strip      = !(survey.traits[b] & Survey::moves) ? -1 : (result.count == 1 ? 0 : result.scratch.stripOfBin[result.scratch.binOfBody[b]]);
+		const auto strip      = !(survey.traits[b] & Survey::moves)
+		             ? -1
+		             : (result.count == 1 ? 0 : result.scratch.stripOfBin[result.scratch.binOfBody[b]]);
 		moved                 = moved || strip != result.stripOfBody[b];
 		result.stripOfBody[b] = strip;
 	}

@@ -11,14 +11,17 @@ namespace nonsmooth::contact {
 
 /// Filled by cutIntoStrips(), whose memory it keeps from one call to the next.
 struct StripCut {
-	std::int32_t count = 1;                // strips
+	std::int32_t              count = 1; // strips
 	std::vector<std::int32_t> stripOfBody; // -1: it can't move
 
 	struct {
-		std::vector<std::int32_t>              binOfBody, stripOfBin; // the packing is first cut into many bins of one width; -1: it can't move
-		std::int32_t                           bins = 0, width = 0;   // how many, and as how many of them a strip must be wide; none where there is one strip
-		std::vector<std::vector<std::int32_t>> counts;                // contacts in each bin, by thread
-		std::vector<std::int32_t>              sums;                  // all of them
+		std::vector<std::int32_t> binOfBody,
+		        stripOfBin; // the packing is first cut into many bins of one width; -1: it can't move
+		std::int32_t bins = 0,
+		             width
+		        = 0; // how many, and as how many of them a strip must be wide; none where there is one strip
+		std::vector<std::vector<std::int32_t>> counts; // contacts in each bin, by thread
+		std::vector<std::int32_t>              sums; // all of them
 		std::vector<double>                    samples[2];
 	} scratch;
 };

@@ -11,11 +11,11 @@ namespace {
 
 void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t evenStrips, int workers)
 {
-	strips   = begin.size() < 2 ? 0 : begin.size() - 2;
-	pairs    = evenStrips;
-	leftOver = strips > 0 && begin.back() > begin[strips];
-	const auto        size  = [&](std::size_t place) { return place < strips ? begin[place + 1] - begin[place] : 0; };
-	const auto        odd   = [&](std::size_t pair) { return evenStrips + pair; };
+	strips          = begin.size() < 2 ? 0 : begin.size() - 2;
+	pairs           = evenStrips;
+	leftOver        = strips > 0 && begin.back() > begin[strips];
+	const auto size = [&](std::size_t place) { return place < strips ? begin[place + 1] - begin[place] : 0; };
+	const auto odd  = [&](std::size_t pair) { return evenStrips + pair; };
 	const std::size_t count = std::min(pairs, static_cast<std::size_t>(std::max(1, workers)));
 
 	// a stretch ends with the pair that comes nearest to its share, but has one at least
@@ -27,15 +27,16 @@ void StripSchedule::plan(const std::vector<std::size_t>& begin, std::size_t even
 		const std::size_t worker = ends.size();
 		if (worker + 1 == count) break;
 		const std::size_t next = p + 1 < pairs ? size(p + 1) + size(odd(p + 1)) : 0;
-		if ((2 * done + next) * count >= 2 * all * (worker + 1) || pairs - (p + 1) == count - (worker + 1)) ends.push_back(p + 1);
+		if ((2 * done + next) * count >= 2 * all * (worker + 1) || pairs - (p + 1) == count - (worker + 1))
+			ends.push_back(p + 1);
 	}
 	if (count > 0) ends.push_back(pairs);
 
 	stretches.assign(ends.size(), {});
-	progress = std::vector<Progress>(ends.size());
+	progress          = std::vector<Progress>(ends.size());
 	std::size_t first = 0, shortest = pairs;
 	for (std::size_t w = 0; w < ends.size(); ++w) {
-		Stretch&          s    = stretches[w];
+		Stretch& s             = stretches[w];
 		s.first                = first;
 		s.end                  = ends[w];
 		shortest               = std::min(shortest, ends[w] - first);

@@ -61,8 +61,8 @@ private:
 	struct Stretch {
 		std::size_t              first, end; // pairs
 		std::vector<std::size_t> visits;
-		std::size_t              joint;   // how many of them come before the one that reaches into the next stretch
-		bool                     reaches; // whether there is such a one
+		std::size_t joint; // how many of them come before the one that reaches into the next stretch
+		bool        reaches; // whether there is such a one
 	};
 	/// Passes in which a worker has visited its first strip, the one that reaches into the next stretch, and all, of the first worker with what is
 	/// left over; on a cache line of their own.
@@ -94,7 +94,7 @@ private:
 
 	std::size_t           strips = 0, pairs = 0;
 	bool                  leftOver = false;
-	int                   depth = 1; // passes to be made at once
+	int                   depth    = 1; // passes to be made at once
 	std::vector<Stretch>  stretches;
 	std::vector<Progress> progress;
 };
@@ -141,8 +141,8 @@ template <class Visit> void StripSchedule::together(int worker, int first, int c
 	const Stretch& own  = stretches[worker];
 	Progress&      mine = progress[worker];
 	const long     turn = mine.passes++, begin = own.first, end = own.end;
-	const auto     odd  = [&](long pair, int k, const Ahead& ahead = {}) {
-		if (pairs + pair < strips) visit(pairs + pair, first + k, ahead);
+	const auto     odd = [&](long pair, int k, const Ahead& ahead = {}) {
+                if (pairs + pair < strips) visit(pairs + pair, first + k, ahead);
 	};
 	// where there is no neighbour, nothing is left out
 	const auto from = [&](long k) { return worker > 0 ? begin + k : begin; };
@@ -153,7 +153,8 @@ template <class Visit> void StripSchedule::together(int worker, int first, int c
 			const long pair = front - k;
 			// what the first pass visits when the front has moved on
 			const int   parts = front + 1 < end ? count : 0;
-			const Ahead even { static_cast<std::size_t>(front + 1), k, parts }, uneven { pairs + front, k, parts };
+			const Ahead even { static_cast<std::size_t>(front + 1), k, parts },
+			        uneven { pairs + front, k, parts };
 			if (pair >= from(k) && pair < to(k)) visit(pair, first + k, even);
 			if (pair > from(k) && (pair < to(k) || (!own.reaches && pair == end))) odd(pair - 1, k, uneven);
 		}

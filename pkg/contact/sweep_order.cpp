@@ -33,8 +33,10 @@ namespace {
 		auto&              scratch = result.scratch;
 		auto&              partOf  = scratch.partOf;
 		const std::int32_t strips = scratch.cut.count, even = (strips + 1) / 2;
-		const auto         stripAt = [&scratch](std::int32_t b) { return MovablePair::moves(b) ? scratch.cut.stripOfBody[b] : -1; };
-		const long         count   = static_cast<long>(survey.pairs.size());
+		const auto         stripAt = [&scratch](std::int32_t b) {
+                        return MovablePair::moves(b) ? scratch.cut.stripOfBody[b] : -1;
+		};
+		const long count = static_cast<long>(survey.pairs.size());
 		partOf.resize(count);
 		result.order.resize(count);
 		result.evenStrips = even;
@@ -44,33 +46,35 @@ namespace {
 		{
 			const int  thread = omp_get_thread_num(), all = omp_get_num_threads();
 			const long begin = count * thread / all, end = count * (thread + 1) / all;
-			auto&      next  = scratch.counts[thread];
+			auto&      next = scratch.counts[thread];
 			next.assign(strips + 1, 0);
 			for (long k = begin; k < end; ++k) {
 				const std::int32_t i = stripAt(survey.pairs[k].i), j = stripAt(survey.pairs[k].j);
 				const std::int32_t strip = i < 0 ? std::max(j, 0) : (j < 0 ? i : std::min(i, j));
 				const bool         far   = i >= 0 && j >= 0 && std::abs(i - j) > 1;
-				partOf[k]                = far ? strips : (strip % 2 == 0 ? strip / 2 : even + strip / 2);
+				partOf[k] = far ? strips : (strip % 2 == 0 ? strip / 2 : even + strip / 2);
 				++next[partOf[k]];
 			}
 #pragma omp barrier
-#pragma omp single
-			{
-				std::size_t place = 0;
-				for (std::int32_t s = 0; s <= strips; ++s) {
-					result.partBegin[s] = place;
-					for (int t = 0; t < all; ++t)
-						place += std::exchange(scratch.counts[t][s], place);
-				}
-				result.partBegin[strips + 1] = place;
-			}
-			for (long k = begin; k < end; ++k)
-				result.order[next[partOf[k]]++] = static_cast<std::int32_t>(k);
+#pragma omp          single
+                        {
+                                std::size_t place = 0;
+                                for (std::int32_t s = 0; s <= strips; ++s) {
+					         result.partBegin[s] = place;
+					         for (int t = 0; t < all; ++t)
+                                                place += std::exchange(scratch.counts[t][s], place);
+                                }
+				         result.partBegin[strips + 1] = place;
+                        }
+                        for (long k = begin; k < end; ++k)
+                                result.order[next[partOf[k]]++] = static_cast<std::int32_t>(k);
 		}
 	}
 
 	/// Counting sort of one part's contacts by colour; stable.
-	void sortByColour(std::int32_t* begin, std::int32_t* end, const std::vector<std::uint8_t>& colours, std::vector<std::int32_t>& unsorted)
+	void sortByColour(
+	        std::int32_t* begin, std::int32_t* end, const std::vector<std::uint8_t>& colours,
+	        std::vector<std::int32_t>& unsorted)
 	{
 		std::size_t next[colourCount + 1] = {};
 		unsorted.assign(begin, end);
@@ -84,7 +88,9 @@ namespace {
 
 } // namespace
 
-void colour(const std::vector<MovablePair>& pairs, std::size_t bodyCount, std::vector<std::uint8_t>& colours, std::vector<std::uint64_t>& used)
+void colour(
+        const std::vector<MovablePair>& pairs, std::size_t bodyCount, std::vector<std::uint8_t>& colours,
+        std::vector<std::uint64_t>& used)
 {
 	constexpr int last = colourCount - 1;
 	used.assign(bodyCount, 0);
@@ -105,7 +111,7 @@ bool arrange(const Problem& problem, const Survey& survey, int threads, SweepOrd
 	auto&      scratch    = result.scratch;
 	const bool sameStrips = cutIntoStrips(problem, survey, threads, scratch.cut);
 	if (survey.pairsKept && sameStrips && !result.partBegin.empty()) return true;
-	// each of the two goes from one contact or body to the next, but they do not need each other
+		// each of the two goes from one contact or body to the next, but they do not need each other
 #pragma omp parallel sections num_threads(threads)
 	{
 #pragma omp section
@@ -117,8 +123,9 @@ bool arrange(const Problem& problem, const Survey& survey, int threads, SweepOrd
 	scratch.unsorted.resize(std::max<std::size_t>(scratch.unsorted.size(), threads));
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (std::size_t s = 0; s < result.partCount(); ++s)
-		sortByColour(result.order.data() + result.partBegin[s], result.order.data() + result.partBegin[s + 1], scratch.colours,
-		             scratch.unsorted[omp_get_thread_num()]);
+		sortByColour(
+		        result.order.data() + result.partBegin[s], result.order.data() + result.partBegin[s + 1],
+		        scratch.colours, scratch.unsorted[omp_get_thread_num()]);
 	return false;
 }
 

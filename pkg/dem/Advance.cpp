@@ -32,7 +32,7 @@ namespace {
 	public:
 		Entered(const Scene& scene, long steps, Real until) { present.set(&scene, steps, until); }
 		~Entered() { present.set(scene, left, until); }
-		Entered(const Entered&) = delete;
+		Entered(const Entered&)            = delete;
 		Entered& operator=(const Entered&) = delete;
 
 	private:
@@ -54,7 +54,7 @@ namespace {
 	public:
 		Unlocked() = default;
 		~Unlocked() { PyEval_RestoreThread(state); }
-		Unlocked(const Unlocked&) = delete;
+		Unlocked(const Unlocked&)            = delete;
 		Unlocked& operator=(const Unlocked&) = delete;
 
 		/// Lets Python's handlers of signals run, and throws what they raise.
@@ -75,14 +75,21 @@ namespace {
 		~Shown() { Resident::of(scene)->show("the end of advance()", true); }
 	};
 
-	[[noreturn]] void refuse(const string& why) { throw std::runtime_error("ContactDynamicsEngine.advance: " + why); }
-	[[noreturn]] void refuseValue(const string& why) { throw std::invalid_argument("ContactDynamicsEngine.advance: " + why); }
+	[[noreturn]] void refuse(const string& why)
+	{
+		throw std::runtime_error("ContactDynamicsEngine.advance: " + why);
+	}
+	[[noreturn]] void refuseValue(const string& why)
+	{
+		throw std::invalid_argument("ContactDynamicsEngine.advance: " + why);
+	}
 
 	long countOf(const py::object& steps)
 	{
 		if (steps.is_none()) return endless;
-		const py::object whole(py::handle<>(PyNumber_Index(steps.ptr()))); // numbers of NumPy too; TypeError for a float
-		const long       count = PyLong_AsLong(whole.ptr());
+		const py::object whole(
+		        py::handle<>(PyNumber_Index(steps.ptr()))); // numbers of NumPy too; TypeError for a float
+		const long count = PyLong_AsLong(whole.ptr());
 		if (count == -1 && PyErr_Occurred()) py::throw_error_already_set();
 		if (count < 0) refuseValue("steps = " + std::to_string(count) + ": give 0 or more");
 		return count;
@@ -93,7 +100,8 @@ namespace {
 		if (until.is_none()) return never;
 		const Real time = PyFloat_AsDouble(until.ptr());
 		if (PyErr_Occurred()) py::throw_error_already_set();
-		if (!std::isfinite(time)) refuseValue("until = " + boost::lexical_cast<string>(time) + ": give a finite time [s]");
+		if (!std::isfinite(time))
+			refuseValue("until = " + boost::lexical_cast<string>(time) + ": give a finite time [s]");
 		return time;
 	}
 
@@ -102,11 +110,15 @@ namespace {
 
 	void check(const Scene& scene)
 	{
-		if (Omega::instance().isRunning()) refuse("O.run() is making steps in the background: call O.pause() or O.wait() first");
-		if (scene.subStepping) refuse("O.subStepping is on, and a step is more than one call then: set O.subStepping = False, or call O.step()");
-		if (present.scene == &scene) refuse("it is making steps of this scene already: call it between two steps, not from an engine or another thread");
+		if (Omega::instance().isRunning())
+			refuse("O.run() is making steps in the background: call O.pause() or O.wait() first");
+		if (scene.subStepping)
+			refuse("O.subStepping is on, and a step is more than one call then: set O.subStepping = False, or call O.step()");
+		if (present.scene == &scene)
+			refuse("it is making steps of this scene already: call it between two steps, not from an engine or another thread");
 		if (scene.subStep >= 0 && !broken.is(scene))
-			refuse("step " + std::to_string(scene.iter) + " has begun and is not over: call it between two steps and not from an engine; where an error has ended the step, call O.step() to finish it");
+			refuse("step " + std::to_string(scene.iter)
+			       + " has begun and is not over: call it between two steps and not from an engine; where an error has ended the step, call O.step() to finish it");
 	}
 }
 
@@ -121,7 +133,8 @@ long advance(const py::object& steps, const py::object& until)
 	const long count = countOf(steps);
 	const Real end   = timeOf(until);
 	if (count == endless && end == never) refuseValue("give steps, until [s], or both");
-	const shared_ptr<Scene> scene = Omega::instance().getScene(); // held: an engine may end it, and its step goes on
+	const shared_ptr<Scene> scene = Omega::instance()
+	                                        .getScene(); // held: an engine may end it, and its step goes on
 	check(*scene);
 	if (count == 0) return 0;
 	const Entered entered(*scene, count, end);
@@ -142,7 +155,8 @@ long advance(const py::object& steps, const py::object& until)
 		++made;
 		if (count != endless) --present.left;
 		if (Omega::instance().getScene() != scene)
-			refuse("after " + std::to_string(made) + " steps an engine has put another scene in the place of the one that was to be advanced (O.reset, O.load, O.switchScene)");
+			refuse("after " + std::to_string(made)
+			       + " steps an engine has put another scene in the place of the one that was to be advanced (O.reset, O.load, O.switchScene)");
 		if (Steady::now() - looked < betweenLooks) continue;
 		unlocked.hearSignals();
 		looked = Steady::now();

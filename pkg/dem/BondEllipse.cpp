@@ -6,9 +6,11 @@ namespace yade::nscd {
 BondPair bondPair(const Body& b1, const Body& b2)
 {
 	// almost all are, and this class itself is recognised without a search
-	const auto isSphere = [](const Shape& s) { return typeid(s) == typeid(Sphere) || dynamic_cast<const Sphere*>(&s); };
+	const auto isSphere = [](const Shape& s) {
+		return typeid(s) == typeid(Sphere) || dynamic_cast<const Sphere*>(&s);
+	};
 	const bool sphere1 = isSphere(*b1.shape), sphere2 = isSphere(*b2.shape);
-	const bool swap    = sphere1 == sphere2 ? b1.getId() > b2.getId() : sphere1;
+	const bool swap = sphere1 == sphere2 ? b1.getId() > b2.getId() : sphere1;
 	return swap ? BondPair { &b2, &b1, true } : BondPair { &b1, &b2, false };
 }
 
@@ -26,8 +28,9 @@ NscdPhys::Mode bondMode(const Vector3r& yieldPath)
 {
 	namespace plane = nonsmooth::contact::plane;
 	using plane::BreakMode;
-	static_assert(int(BreakMode::Tension) == NscdPhys::Tension && int(BreakMode::Shear) == NscdPhys::Shear && int(BreakMode::Torque) == NscdPhys::Torque
-	              && int(BreakMode::Mixed) == NscdPhys::Mixed);
+	static_assert(
+	        int(BreakMode::Tension) == NscdPhys::Tension && int(BreakMode::Shear) == NscdPhys::Shear
+	        && int(BreakMode::Torque) == NscdPhys::Torque && int(BreakMode::Mixed) == NscdPhys::Mixed);
 	return static_cast<NscdPhys::Mode>(plane::breakMode({ yieldPath[0], yieldPath[1], yieldPath[2] }));
 }
 

@@ -17,7 +17,8 @@ struct BondPair {
 BondPair bondPair(const Body& b1, const Body& b2);
 
 /// Marks the points of a bond on its bodies; `Marks` has anchor1, anchor2 and axis as NscdPhys has. `normal` points from the first body to the second.
-template <class Marks> void markPoints(Marks& marks, const State& first, const State& second, const Vector3r& normal, Real secondRadius)
+template <class Marks>
+void markPoints(Marks& marks, const State& first, const State& second, const Vector3r& normal, Real secondRadius)
 {
 	const Vector3r point = second.pos - secondRadius * normal;
 	marks.anchor1        = first.ori.conjugate() * (point - first.pos);
@@ -29,7 +30,9 @@ template <class Marks> void markPoints(Marks& marks, const State& first, const S
 void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius);
 
 /// Of the marked point, in the ellipse's axes; `Place`: a State, or anything else with `pos` and `ori`.
-template <class Marks, class Place> nonsmooth::contact::plane::BondDisplacement bondDisplacement(const Marks& marks, const Place& first, const Place& second)
+template <class Marks, class Place>
+nonsmooth::contact::plane::BondDisplacement
+bondDisplacement(const Marks& marks, const Place& first, const Place& second)
 {
 	const Vector3r d = second.pos + second.ori * marks.anchor2 - first.pos - first.ori * marks.anchor1;
 	const Vector3r n = first.ori * marks.axis;

@@ -19,7 +19,8 @@ namespace {
 	bool holds(const Interaction* contact)
 	{
 		if (!contact || !contact->isReal()) return false;
-		if (const auto* phys = dynamic_cast<const CohFrictPhys*>(contact->phys.get())) return !phys->cohesionBroken;
+		if (const auto* phys = dynamic_cast<const CohFrictPhys*>(contact->phys.get()))
+			return !phys->cohesionBroken;
 		const auto* phys = dynamic_cast<const WallPhys*>(contact->phys.get());
 		return phys && phys->bonded;
 	}
@@ -28,7 +29,7 @@ namespace {
 	{
 		if (auto* phys = dynamic_cast<CohFrictPhys*>(&physics)) {
 			phys->SetBreakingState(true);
-			phys->unp                    = 0; // from now on it presses when the disks touch, not where the bond did
+			phys->unp = 0; // from now on it presses when the disks touch, not where the bond did
 			phys->tangensOfFrictionAngle = residual[0];
 			phys->maxRollPl              = residual[1];
 		} else
@@ -36,19 +37,24 @@ namespace {
 	}
 }
 
-void BondEllipseEngine::add(int id1, int id2, Real ellipseNormal, Real ellipseTangential, Real friction, Real rollingArm)
+void BondEllipseEngine::add(
+        int id1, int id2, Real ellipseNormal, Real ellipseTangential, Real friction, Real rollingArm)
 {
 	const auto &b1 = Body::byId(id1, scene), &b2 = Body::byId(id2, scene);
 	const auto  contact = scene->interactions->find(id1, id2);
 	if (!b1 || !b2 || !contact || !holds(contact.get()))
-		throw std::invalid_argument("BondEllipseEngine.add: bodies " + std::to_string(id1) + " and " + std::to_string(id2) + " are not bonded");
-	if (!(ellipseNormal > 0) || !(ellipseTangential > 0)) throw std::invalid_argument("BondEllipseEngine.add: half-axes must be positive [m]");
+		throw std::invalid_argument(
+		        "BondEllipseEngine.add: bodies " + std::to_string(id1) + " and " + std::to_string(id2)
+		        + " are not bonded");
+	if (!(ellipseNormal > 0) || !(ellipseTangential > 0))
+		throw std::invalid_argument("BondEllipseEngine.add: half-axes must be positive [m]");
 	const auto     pair   = nscd::bondPair(*b1, *b2);
 	const Vector3r normal = static_cast<const GenericSpheresContact&>(*contact->geom).normal;
 	const auto&    second = static_cast<const Sphere&>(*pair.second->shape);
 	const bool     along  = contact->getId1() == pair.first->getId();
 	Marks          marks;
-	nscd::markPoints(marks, *pair.first->state, *pair.second->state, along ? normal : Vector3r(-normal), second.radius);
+	nscd::markPoints(
+	        marks, *pair.first->state, *pair.second->state, along ? normal : Vector3r(-normal), second.radius);
 	pairs.push_back(Vector2i(pair.first->getId(), pair.second->getId()));
 	anchors1.push_back(marks.anchor1);
 	anchors2.push_back(marks.anchor2);
@@ -64,7 +70,8 @@ void BondEllipseEngine::action()
 		const auto contact = scene->interactions->find(pairs[k][0], pairs[k][1]);
 		if (!holds(contact.get())) continue;
 		const auto displacement = nscd::bondDisplacement(
-		        Marks { anchors1[k], anchors2[k], axes[k] }, *Body::byId(pairs[k][0], scene)->state, *Body::byId(pairs[k][1], scene)->state);
+		        Marks { anchors1[k], anchors2[k], axes[k] }, *Body::byId(pairs[k][0], scene)->state,
+		        *Body::byId(pairs[k][1], scene)->state);
 		if (!plane::bondLives(displacement, { ellipses[k][0], ellipses[k][1] })) {
 			breakBond(*contact->phys, residuals[k]);
 			++broken;
@@ -76,7 +83,8 @@ void BondEllipseEngine::action()
 		}
 		++kept;
 	}
-	pairs.resize(kept), anchors1.resize(kept), anchors2.resize(kept), axes.resize(kept), ellipses.resize(kept), residuals.resize(kept);
+	pairs.resize(kept), anchors1.resize(kept), anchors2.resize(kept), axes.resize(kept), ellipses.resize(kept),
+	        residuals.resize(kept);
 }
 
 } // namespace yade

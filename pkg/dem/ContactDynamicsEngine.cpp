@@ -27,7 +27,9 @@ void ContactDynamicsEngine::action()
 	nscd::Turn turn(*this, threads);
 	auto&      resident = turn.resident();
 	if (!resident.hasContacts()) resident.takeContacts(*scene);
-	seam.gather(*scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap }, threads);
+	seam.gather(
+	        *scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap },
+	        threads);
 	stepSolved = scene->dt;
 	timer.next(Stage::Solve);
 	auto statistics = contact::solve(seam.problem, settings(), &workspace);
@@ -39,7 +41,9 @@ void ContactDynamicsEngine::action()
 	timer.next(Stage::Correct);
 	seam.correct(settings(), workspace, correctionSweeps);
 	timer.next(Stage::Scatter);
-	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get()); });
+	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) {
+		return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get());
+	});
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
 	account(sums, resident);
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
@@ -50,13 +54,18 @@ void ContactDynamicsEngine::growGravity(NewtonIntegrator& newton, Real time)
 {
 	if (gravityRamp == 0) return;
 	const auto refuse = [](const char* name, const string& value, const char* what) {
-		throw std::runtime_error(string("ContactDynamicsEngine: ") + name + " = " + value + ": it must be " + what);
+		throw std::runtime_error(
+		        string("ContactDynamicsEngine: ") + name + " = " + value + ": it must be " + what);
 	};
 	const auto text = [](Real value) { return boost::lexical_cast<string>(value); };
-	if (!(gravityRamp > 0) || !std::isfinite(gravityRamp)) refuse("gravityRamp", text(gravityRamp), "0 or more, and finite [s]");
+	if (!(gravityRamp > 0) || !std::isfinite(gravityRamp))
+		refuse("gravityRamp", text(gravityRamp), "0 or more, and finite [s]");
 	if (!std::isfinite(gravityBegin)) refuse("gravityBegin", text(gravityBegin), "finite [s]");
 	for (int i = 0; i < 3; ++i)
-		if (!std::isfinite(finalGravity[i])) refuse("finalGravity", text(finalGravity[0]) + ", " + text(finalGravity[1]) + ", " + text(finalGravity[2]), "finite [m/s²]");
+		if (!std::isfinite(finalGravity[i]))
+			refuse("finalGravity",
+			       text(finalGravity[0]) + ", " + text(finalGravity[1]) + ", " + text(finalGravity[2]),
+			       "finite [m/s²]");
 	const Real share = std::max(Real(0), std::min(Real(1), (time - gravityBegin) / gravityRamp));
 	newton.gravity   = share * finalGravity;
 	if (share == 1) gravityRamp = 0;
@@ -65,22 +74,28 @@ void ContactDynamicsEngine::growGravity(NewtonIntegrator& newton, Real time)
 void ContactDynamicsEngine::validate() const
 {
 	const auto fail   = [](const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); };
-	const auto refuse = [&](const char* name, Real value, const char* what) { fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be " + what); };
+	const auto refuse = [&](const char* name, Real value, const char* what) {
+		fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be " + what);
+	};
 	nscd::checkEngines(*scene, *this);
 	// here and not where contacts are made: an exception in InteractionLoop's threads would end the program
 	for (const auto& material : scene->materials)
 		if (const auto* nscd = dynamic_cast<const NscdMat*>(material.get())) nscd->validate();
 	if (scene->isPeriodic) fail("periodic scenes are not supported: set O.periodic = False");
-	if (!(scene->dt > 0) || !std::isfinite(scene->dt)) fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");
+	if (!(scene->dt > 0) || !std::isfinite(scene->dt))
+		fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");
 	if (!(tolerance > 0) || !std::isfinite(tolerance)) refuse("tolerance", tolerance, "positive and finite");
 	if (maxIterations < 1) fail("maxIterations = " + std::to_string(maxIterations) + ": it must be at least 1");
-	if (correctionSweeps < 0) fail("correctionSweeps = " + std::to_string(correctionSweeps) + ": it must be 0 or more");
+	if (correctionSweeps < 0)
+		fail("correctionSweeps = " + std::to_string(correctionSweeps) + ": it must be 0 or more");
 	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
 	if (!(relaxationRate >= 0 && relaxationRate <= 1)) refuse("relaxationRate", relaxationRate, "from 0 to 1");
 	if (!(correctionSpeed >= 0)) refuse("correctionSpeed", correctionSpeed, "0 or more [m/s]");
-	if (!(correctionSlack >= 0 && correctionSlack < 1)) refuse("correctionSlack", correctionSlack, "from 0 to less than 1 [ℓ]");
+	if (!(correctionSlack >= 0 && correctionSlack < 1))
+		refuse("correctionSlack", correctionSlack, "from 0 to less than 1 [ℓ]");
 	if (!(openGap >= 0)) refuse("openGap", openGap, "0 or more [ℓ]");
-	if (method != "accelerated" && method != "gaussSeidel") fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
+	if (method != "accelerated" && method != "gaussSeidel")
+		fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
 	try {
 		contact::stoppingTestOf(stoppingTest.c_str());
 	} catch (const std::invalid_argument& error) {
@@ -106,7 +121,8 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	potentialEnergy = s.potential;
 	if (std::isnan(energyStart)) energyStart = kineticEnergy + potentialEnergy;
 	// energies belong to the beginning of the step, the sums to the steps before it
-	energyError = kineticEnergy + potentialEnergy - energyStart - externalWork - wallWork - correctionEnergy + slidingLoss + rollingLoss + debondingLoss + impactLoss;
+	energyError = kineticEnergy + potentialEnergy - energyStart - externalWork - wallWork - correctionEnergy
+	        + slidingLoss + rollingLoss + debondingLoss + impactLoss;
 	externalWork += s.external;
 	wallWork += s.wallWork;
 	slidingLoss += s.sliding;
@@ -115,9 +131,10 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	impactLoss += s.impact;
 	correctionEnergy += s.correction;
 	if (scene->trackEnergy) {
-		const std::pair<const char*, Real> parts[] = {
-			{ "contactSliding", s.sliding }, { "contactRolling", s.rolling }, { "contactDebonding", s.debonding }, { "contactImpact", s.impact }
-		};
+		const std::pair<const char*, Real> parts[] = { { "contactSliding", s.sliding },
+			                                       { "contactRolling", s.rolling },
+			                                       { "contactDebonding", s.debonding },
+			                                       { "contactImpact", s.impact } };
 		for (int k = 0; k < 4; ++k)
 			scene->energy->add(parts[k].second, parts[k].first, energyIx[k]);
 	}
@@ -136,10 +153,10 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	recordBreaks(resident);
 	contactRate = s.contactRate;
 	bondRate    = s.bondRate;
-	meanSpeed = s.bodies > 0 ? s.speed / s.bodies : 0;
-	maxSpeed  = s.largestSpeed;
-	centroid  = s.mass > 0 ? Vector3r(s.centre / s.mass) : Vector3r(Vector3r::Zero());
-	momentum  = s.momentum;
+	meanSpeed   = s.bodies > 0 ? s.speed / s.bodies : 0;
+	maxSpeed    = s.largestSpeed;
+	centroid    = s.mass > 0 ? Vector3r(s.centre / s.mass) : Vector3r(Vector3r::Zero());
+	momentum    = s.momentum;
 }
 
 void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
@@ -147,20 +164,24 @@ void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 	for (const size_t k : seam.broken) {
 		const nscd::Reading& r  = seam.readingOf(seam.links[k]);
 		const Vector3r       at = resident.contactPoint(r);
-		breakLog.insert(breakLog.end(), { Real(scene->iter), scene->time, Real(std::min(r.first, r.second)), Real(std::max(r.first, r.second)), Real(r.broken), at[0], at[1] });
+		breakLog.insert(
+		        breakLog.end(),
+		        { Real(scene->iter), scene->time, Real(std::min(r.first, r.second)),
+		          Real(std::max(r.first, r.second)), Real(r.broken), at[0], at[1] });
 	}
 }
 
-void ContactDynamicsEngine::view() const
-{
-	nscd::Resident::of(*Omega::instance().getScene())->showBetweenTurns();
-}
+void ContactDynamicsEngine::view() const { nscd::Resident::of(*Omega::instance().getScene())->showBetweenTurns(); }
 
-void ContactDynamicsEngine::preSave(ContactDynamicsEngine&) { nscd::Resident::of(*Omega::instance().getScene())->showForSaving(); }
+void ContactDynamicsEngine::preSave(ContactDynamicsEngine&)
+{
+	nscd::Resident::of(*Omega::instance().getScene())->showForSaving();
+}
 
 void ContactDynamicsEngine::dump(const std::string& path) const
 {
-	if (stepSolved == 0) throw std::runtime_error("ContactDynamicsEngine.dump: no step was made yet: call O.step() first");
+	if (stepSolved == 0)
+		throw std::runtime_error("ContactDynamicsEngine.dump: no step was made yet: call O.step() first");
 	contact::write(path, { seam.problem, seam.warmStart, stepSolved });
 }
 
@@ -169,17 +190,19 @@ void ContactDynamicsEngine::reportOverlap()
 	constexpr Real deep = 0.05; // ℓ; what a step of an ordinary run begins with is a hundredth of that
 	if (overlapWorst < deep || !nscd::seldom(++overlappedSteps)) return;
 	LOG_WARN(
-	        "step " << scene->iter << " began with bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1] << " " << 100 * overlapWorst
-	                << " % of their mean diameter in each other (" << overlappedSteps << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
-	                   " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors.");
+	        "step "
+	        << scene->iter << " began with bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1]
+	        << " " << 100 * overlapWorst << " % of their mean diameter in each other (" << overlappedSteps
+	        << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
+	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors.");
 }
 
 void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, Real meanWeight)
 {
 	iterations = lastIterations = statistics.iterations;
-	lastUnsolved  = !statistics.converged;
-	residual      = statistics.residual.relative();
-	residualForce = statistics.residual.rms / scene->dt;
+	lastUnsolved                = !statistics.converged;
+	residual                    = statistics.residual.relative();
+	residualForce               = statistics.residual.rms / scene->dt;
 	++steps;
 	totalIterations += iterations;
 	if (!statistics.converged) ++unconverged;
@@ -187,16 +210,20 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 	const bool ours   = test == contact::StoppingTest::NaturalMap;
 	const Real figure = ours ? residual : statistics.changes.figure(test);
 	// A step in which bodies meet hard may miss the tolerance, and so do forces that are next to nothing: that is counted. What lasts, or outweighs a body, matters.
-	constexpr Real missed = 10; // tolerances
-	constexpr int  lasts  = 10; // steps
-	const bool     matters = !statistics.converged && !(figure <= missed * tolerance) && !(residualForce <= missed * tolerance * meanWeight);
-	unsolvedOnEnd          = matters ? unsolvedOnEnd + 1 : 0;
-	const bool outweighs   = matters && meanWeight > 0 && residualForce > meanWeight;
+	constexpr Real missed  = 10; // tolerances
+	constexpr int  lasts   = 10; // steps
+	const bool     matters = !statistics.converged && !(figure <= missed * tolerance)
+	        && !(residualForce <= missed * tolerance * meanWeight);
+	unsolvedOnEnd        = matters ? unsolvedOnEnd + 1 : 0;
+	const bool outweighs = matters && meanWeight > 0 && residualForce > meanWeight;
 	if ((unsolvedOnEnd != lasts && !outweighs) || !nscd::seldom(++unsolved)) return;
 	LOG_WARN(
-	        "step " << scene->iter << " was not solved" << (unsolvedOnEnd >= lasts ? ", like those before it" : "") << ": " << (ours ? "residual" : stoppingTest) << " " << figure
-	                << " after " << iterations << " sweeps, wanted " << tolerance << "; reactions miss the law by " << residualForce << " N (rms), a body weighs " << meanWeight
-	                << " N (mean); " << unconverged << " steps so far ended above the tolerance. Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
+	        "step "
+	        << scene->iter << " was not solved" << (unsolvedOnEnd >= lasts ? ", like those before it" : "") << ": "
+	        << (ours ? "residual" : stoppingTest) << " " << figure << " after " << iterations << " sweeps, wanted "
+	        << tolerance << "; reactions miss the law by " << residualForce << " N (rms), a body weighs "
+	        << meanWeight << " N (mean); " << unconverged
+	        << " steps so far ended above the tolerance. Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
 }
 
 int ContactDynamicsEngine::bond()
@@ -212,7 +239,9 @@ int ContactDynamicsEngine::bond()
 		if (!phys || !phys->bondable || phys->bonded || gap > phys->creationDistance) continue;
 		const auto  pair   = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
 		const auto* sphere = dynamic_cast<const Sphere*>(pair.second->shape.get());
-		nscd::markBond(*phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap, sphere ? sphere->radius : 0);
+		nscd::markBond(
+		        *phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap,
+		        sphere ? sphere->radius : 0);
 		++count;
 	}
 	return count;
@@ -237,16 +266,19 @@ void ContactDynamicsEngine::updateStrengths()
 	scene = Omega::instance().getScene().get();
 	view();
 	for (const auto& b : *scene->bodies) // before anything is changed
-		if (const auto* material = b ? dynamic_cast<const NscdMat*>(b->material.get()) : nullptr) material->validate();
+		if (const auto* material = b ? dynamic_cast<const NscdMat*>(b->material.get()) : nullptr)
+			material->validate();
 	for (const auto& i : *scene->interactions)
 		if (auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr)
-			Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(*phys, *Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
+			Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(
+			        *phys, *Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
 }
 
 void ContactDynamicsEngine::forgetEnergies()
 {
 	energyStart = NaN;
-	for (Real* value : { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss, &correctionEnergy })
+	for (Real* value :
+	     { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss, &correctionEnergy })
 		*value = 0;
 }
 
@@ -277,7 +309,8 @@ boost::python::dict ContactDynamicsEngine::stageSeconds() const
 nscd::StageClock* nscd::StageClock::of(const Scene& scene)
 {
 	for (const auto& engine : scene.engines)
-		if (auto* solver = engine->dead ? nullptr : dynamic_cast<ContactDynamicsEngine*>(engine.get())) return &solver->clock;
+		if (auto* solver = engine->dead ? nullptr : dynamic_cast<ContactDynamicsEngine*>(engine.get()))
+			return &solver->clock;
 	return nullptr;
 }
 
@@ -289,14 +322,18 @@ boost::python::object ContactDynamicsEngine::bodyTable() const
 		const auto* sphere = b ? dynamic_cast<const Sphere*>(b->shape.get()) : nullptr;
 		if (!sphere) continue;
 		const State& s = *b->state;
-		for (const double v : { double(b->getId()), double(s.pos[0]), double(s.pos[1]), double(sphere->radius), double(2 * std::atan2(s.ori.z(), s.ori.w())),
-		                        double(s.vel[0]), double(s.vel[1]), double(s.angVel[2]) })
+		for (const double v : { double(b->getId()), double(s.pos[0]), double(s.pos[1]), double(sphere->radius),
+		                        double(2 * std::atan2(s.ori.z(), s.ori.w())), double(s.vel[0]),
+		                        double(s.vel[1]), double(s.angVel[2]) })
 			rows.push_back(v);
 	}
 	return nscd::asBytes(rows);
 }
 
-boost::python::object ContactDynamicsEngine::breakTable() const { return nscd::asBytes<double>({ breakLog.begin(), breakLog.end() }); }
+boost::python::object ContactDynamicsEngine::breakTable() const
+{
+	return nscd::asBytes<double>({ breakLog.begin(), breakLog.end() });
+}
 
 boost::python::object ContactDynamicsEngine::contactTable() const
 {
@@ -306,9 +343,11 @@ boost::python::object ContactDynamicsEngine::contactTable() const
 		const auto* phys = i->isReal() ? dynamic_cast<const NscdPhys*>(i->phys.get()) : nullptr;
 		if (!phys) continue;
 		const auto& g = static_cast<const ScGeom&>(*i->geom);
-		for (const double v : { double(i->getId1()), double(i->getId2()), double(phys->normal), double(phys->tangential), double(phys->torque),
-		                        double(g.normal[0]), double(g.normal[1]), double(-g.penetrationDepth), double(phys->bonded), double(phys->brokenMode),
-		                        double(g.contactPoint[0]), double(g.contactPoint[1]) })
+		for (const double v :
+		     { double(i->getId1()), double(i->getId2()), double(phys->normal), double(phys->tangential),
+		       double(phys->torque), double(g.normal[0]), double(g.normal[1]), double(-g.penetrationDepth),
+		       double(phys->bonded), double(phys->brokenMode), double(g.contactPoint[0]),
+		       double(g.contactPoint[1]) })
 			rows.push_back(v);
 	}
 	return nscd::asBytes(rows);

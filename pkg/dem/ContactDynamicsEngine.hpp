@@ -27,22 +27,22 @@ public:
 	/// Makes bonds at all real interactions of bondable pairs whose gap is below Δ; returns how many.
 	int bond();
 	/// Ends all bonds without counting them as broken; returns how many.
-	int  unbond();
+	int unbond();
 	/// Takes the strengths of all contacts from the materials anew.
 	void updateStrengths();
 	void forgetEnergies();
 	/// While the ramp of gravity lasts: gives the integrator what is due in a step that begins at `time` [s]; ends the ramp when all of it is due.
-	void growGravity(NewtonIntegrator& newton, Real time);
-	void forgetBreaks() { breakLog.clear(); }
-	boost::python::dict energies() const;
-	boost::python::dict stageSeconds() const;
+	void                  growGravity(NewtonIntegrator& newton, Real time);
+	void                  forgetBreaks() { breakLog.clear(); }
+	boost::python::dict   energies() const;
+	boost::python::dict   stageSeconds() const;
 	boost::python::object bodyTable() const;
 	boost::python::object contactTable() const;
 	boost::python::object breakTable() const;
 	/// Brings YADE's bodies and interactions up to date.
 	void view() const;
 	/// A scene is saved as it is: its engines come before its bodies and interactions.
-	void preSave(ContactDynamicsEngine&);
+	void        preSave(ContactDynamicsEngine&);
 	long        viewsSoFar() const { return nscd::Resident::of(*Omega::instance().getScene())->shown; }
 	std::string viewedBy() const { return nscd::Resident::of(*Omega::instance().getScene())->shownTo; }
 	/// Writes the last step's contact problem, see contact/problem_file.hpp.
@@ -138,16 +138,16 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 	nscd::StageClock clock;
 
 private:
-	void                                 validate() const;
-	nonsmooth::contact::SolverSettings   settings() const;
-	void                                 account(const nscd::StepSums& sums, const nscd::Resident& resident);
-	void                                 recordBreaks(const nscd::Resident& resident);
-	void                                 report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
-	void                                 reportOverlap();
+	void                               validate() const;
+	nonsmooth::contact::SolverSettings settings() const;
+	void                               account(const nscd::StepSums& sums, const nscd::Resident& resident);
+	void                               recordBreaks(const nscd::Resident& resident);
+	void report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
+	void reportOverlap();
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;
-	Real                                     stepSolved = 0; // h of the last step, 0 before it
+	Real                          stepSolved  = 0; // h of the last step, 0 before it
 	int                           energyIx[4] = { -1, -1, -1, -1 };
 };
 REGISTER_SERIALIZABLE(ContactDynamicsEngine);

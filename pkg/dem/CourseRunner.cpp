@@ -9,7 +9,9 @@ YADE_PLUGIN((CourseRunner));
 void CourseRunner::action()
 {
 	const auto& engines = scene->engines;
-	if (engines.empty() || engines.front().get() != this) throw std::runtime_error("CourseRunner: it is not the first of O.engines, where the step before is over: put it there");
+	if (engines.empty() || engines.front().get() != this)
+		throw std::runtime_error(
+		        "CourseRunner: it is not the first of O.engines, where the step before is over: put it there");
 	if (command.empty()) return;
 	// a scene that is saved now is one between two steps
 	struct Between {

@@ -9,7 +9,8 @@ namespace yade::nscd {
 inline NewtonIntegrator* findNewton(const Scene& scene)
 {
 	for (const auto& engine : scene.engines)
-		if (auto* newton = engine->dead ? nullptr : dynamic_cast<NewtonIntegrator*>(engine.get())) return newton;
+		if (auto* newton = engine->dead ? nullptr : dynamic_cast<NewtonIntegrator*>(engine.get()))
+			return newton;
 	return nullptr;
 }
 

@@ -25,7 +25,8 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 	const Real  gap  = -geom.penetrationDepth;
 
 	if (phys.bonded) {
-		const auto pair = nscd::bondPair(*Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
+		const auto pair = nscd::bondPair(
+		        *Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
 		followBond(phys, gap, *pair.first->state, *pair.second->state);
 	}
 	if (!keeps(phys, gap)) return false;

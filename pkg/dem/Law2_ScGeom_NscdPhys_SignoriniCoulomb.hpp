@@ -23,7 +23,10 @@ public:
 	template <class Place> void followBond(NscdPhys& phys, Real gap, const Place& first, const Place& second) const
 	{
 		namespace plane = nonsmooth::contact::plane;
-		if (!plane::bondLives(nscd::bondDisplacement(phys, first, second), { phys.ellipseNormal, phys.ellipseTangential })) breakBond(phys);
+		if (!plane::bondLives(
+		            nscd::bondDisplacement(phys, first, second),
+		            { phys.ellipseNormal, phys.ellipseTangential }))
+			breakBond(phys);
 		else if (phys.yielded)
 			phys.restGap = plane::grownRestGap(phys.restGap, gap);
 	}
@@ -36,7 +39,10 @@ public:
 		phys.breaks     = true;
 	}
 	/// Whether a contact with that gap is kept; one whose bond broke in this step stays for the step, to be counted.
-	bool keeps(const NscdPhys& phys, Real gap) const { return phys.bonded || phys.breaks || isWithinReach(gap, phys.length); }
+	bool keeps(const NscdPhys& phys, Real gap) const
+	{
+		return phys.bonded || phys.breaks || isWithinReach(gap, phys.length);
+	}
 	bool isWithinReach(Real gap, Real length) const { return gap <= reach * length; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Law2_ScGeom_NscdPhys_SignoriniCoulomb,LawFunctor,

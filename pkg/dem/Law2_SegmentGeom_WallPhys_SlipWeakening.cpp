@@ -13,7 +13,8 @@ namespace {
 	Thresholds strengths(const WallPhys& phys, Real left)
 	{
 		Thresholds s = nonsmooth::contact::plane::thresholdsOf(
-		        { phys.tensileForce, phys.friction, phys.rollingArm }, { 0, phys.residualFriction, phys.residualRollingArm }, phys.bonded, true);
+		        { phys.tensileForce, phys.friction, phys.rollingArm },
+		        { 0, phys.residualFriction, phys.residualRollingArm }, phys.bonded, true);
 		if (phys.wallMaterial) phys.wallMaterial->weaken(s.adhesion, s.friction, phys.length, left);
 		return s;
 	}
@@ -36,10 +37,13 @@ bool Law2_SegmentGeom_WallPhys_SlipWeakening::go(shared_ptr<IGeom>& ig, shared_p
 		const std::lock_guard<std::mutex> guard(slipLock);
 		left = phys.wallMaterial->remaining(phys.body);
 	}
-	const auto normalForce = [&] { return phys.kn * (geom.penetrationDepth - (phys.bonded ? phys.restPenetration : 0)); };
-	Thresholds s           = strengths(phys, left);
+	const auto normalForce = [&] {
+		return phys.kn * (geom.penetrationDepth - (phys.bonded ? phys.restPenetration : 0));
+	};
+	Thresholds s      = strengths(phys, left);
 	Real       normal = normalForce(), held = s.adhesion + normal;
-	if (phys.bonded && phys.fragile && (held < 0 || shear.norm() > s.friction * held || std::abs(phys.rollingTorque) > s.rollingArm * held)) {
+	if (phys.bonded && phys.fragile
+	    && (held < 0 || shear.norm() > s.friction * held || std::abs(phys.rollingTorque) > s.rollingArm * held)) {
 		phys.bonded = false;
 		if (geom.penetrationDepth < 0 || !geom.owned) return false;
 		s      = strengths(phys, left);
@@ -66,7 +70,9 @@ bool Law2_SegmentGeom_WallPhys_SlipWeakening::go(shared_ptr<IGeom>& ig, shared_p
 	phys.tangensOfFrictionAngle = s.friction;
 	phys.normalForce            = normal * geom.normal;
 
-	applyForceAtContactPoint(-phys.normalForce - shear, geom.contactPoint, interaction->getId1(), wall.se3.position, interaction->getId2(), disk.se3.position);
+	applyForceAtContactPoint(
+	        -phys.normalForce - shear, geom.contactPoint, interaction->getId1(), wall.se3.position,
+	        interaction->getId2(), disk.se3.position);
 	scene->forces.addTorque(interaction->getId1(), Vector3r(0, 0, -phys.rollingTorque));
 	scene->forces.addTorque(interaction->getId2(), Vector3r(0, 0, phys.rollingTorque));
 	return true;

@@ -55,17 +55,21 @@ std::string& refusal()
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::runtime_error(reason); }
 
-[[noreturn]] void misplaced(const std::string& attribute) { refuse("YADE's " + attribute + " is not where its header says it is in memory."); }
+[[noreturn]] void misplaced(const std::string& attribute)
+{
+	refuse("YADE's " + attribute + " is not where its header says it is in memory.");
+}
 
 void checkVersionAndFeatures()
 {
-	const py::object config  = py::import("yade.config");
+	const py::object  config  = py::import("yade.config");
 	const std::string version = py::extract<std::string>(config.attr("version"));
 	if (version != NONSMOOTH_YADE_VERSION)
 		refuse("it was built for YADE " NONSMOOTH_YADE_VERSION ", and this is YADE " + version + ".");
 	const std::string features = py::extract<std::string>(py::str(" ").join(config.attr("features")));
 	if (features != NONSMOOTH_YADE_FEATURES)
-		refuse("it was built for a YADE with the features '" NONSMOOTH_YADE_FEATURES "', and this one has '" + features + "'.");
+		refuse("it was built for a YADE with the features '" NONSMOOTH_YADE_FEATURES "', and this one has '"
+		       + features + "'.");
 }
 
 template <class Class> boost::shared_ptr<Serializable> make(const char* name)
@@ -76,12 +80,12 @@ template <class Class> boost::shared_ptr<Serializable> make(const char* name)
 	return object;
 }
 
-template <class Class, class Member, class Value> void check(const char* name, const char* attribute, Member Class::*member, Value value)
+template <class Class, class Member, class Value>
+void check(const char* name, const char* attribute, Member Class::*member, Value value)
 {
 	const auto object = make<Class>(name);
 	object->pySetAttr(attribute, py::object(value));
-	if (static_cast<const Class&>(*object).*member != value)
-		misplaced(std::string(name) + "." + attribute);
+	if (static_cast<const Class&>(*object).*member != value) misplaced(std::string(name) + "." + attribute);
 }
 
 // For each class the engines touch: its own first and last attributes of a plain type, so that a member
@@ -97,7 +101,8 @@ void checkLayout()
 
 	// the containers of a scene, two of which have no attributes that could be set: what YADE's own code leaves in them
 	auto& live = static_cast<Scene&>(*scene);
-	if (live.interactions->size() != 0 or live.interactions->iterColliderLastRun != -1) misplaced("InteractionContainer.iterColliderLastRun");
+	if (live.interactions->size() != 0 or live.interactions->iterColliderLastRun != -1)
+		misplaced("InteractionContainer.iterColliderLastRun");
 	if (not live.forces.synced or live.forces.lastReset != 0) misplaced("ForceContainer.synced");
 	live.forces.addForce(0, Vector3r(1, 0, 0));
 	if (live.forces.synced) misplaced("ForceContainer.synced");
@@ -161,13 +166,15 @@ void checkLayout()
 	check("Bo1_Sphere_Aabb", "aabbEnlargeFactor", &Bo1_Sphere_Aabb::aabbEnlargeFactor, 6.125);
 	if constexpr (std::is_same<mask_t, int>::value) { // masks of many bits are no plain attributes
 		check("Body", "groupMask", &Body::groupMask, mask_t(50));
-		check("InsertionSortCollider", "avoidSelfInteractionMask", &Collider::avoidSelfInteractionMask, mask_t(51));
+		check("InsertionSortCollider", "avoidSelfInteractionMask", &Collider::avoidSelfInteractionMask,
+		      mask_t(51));
 	}
 	check("NewtonIntegrator", "ompThreads", &NewtonIntegrator::ompThreads, 3);
 	check("NewtonIntegrator", "damping", &NewtonIntegrator::damping, 0.0625);
 	check("NewtonIntegrator", "mask", &NewtonIntegrator::mask, 5);
 	check("Ig2_Sphere_Sphere_ScGeom", "label", &Ig2_Sphere_Sphere_ScGeom::label, std::string("probe"));
-	check("Ig2_Sphere_Sphere_ScGeom", "interactionDetectionFactor", &Ig2_Sphere_Sphere_ScGeom::interactionDetectionFactor, 1.5);
+	check("Ig2_Sphere_Sphere_ScGeom", "interactionDetectionFactor",
+	      &Ig2_Sphere_Sphere_ScGeom::interactionDetectionFactor, 1.5);
 }
 
 void loadEngines()

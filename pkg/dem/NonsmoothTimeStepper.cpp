@@ -11,17 +11,21 @@ void NonsmoothTimeStepper::validate() const
 {
 	const auto fail     = [](const string& why) { throw std::runtime_error("NonsmoothTimeStepper: " + why); };
 	const auto positive = [&](const char* name, Real value) {
-		if (!(value > 0) || !std::isfinite(value)) fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be positive");
+		if (!(value > 0) || !std::isfinite(value))
+			fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be positive");
 	};
 	positive("smallest", smallest);
 	positive("path", path);
 	positive("bondPath", bondPath);
 	if (!(largest >= smallest) || !std::isfinite(largest))
-		fail("largest = " + boost::lexical_cast<string>(largest) + ": it must not be below smallest = " + boost::lexical_cast<string>(smallest));
+		fail("largest = " + boost::lexical_cast<string>(largest)
+		     + ": it must not be below smallest = " + boost::lexical_cast<string>(smallest));
 	if (!(growth >= 1)) fail("growth = " + boost::lexical_cast<string>(growth) + ": it must be at least 1");
 	// a CourseRunner looks at the step before
 	const auto& all   = scene->engines;
-	const auto  first = std::find_if(all.begin(), all.end(), [](const auto& e) { return !dynamic_cast<const CourseRunner*>(e.get()); });
+	const auto  first = std::find_if(all.begin(), all.end(), [](const auto& e) {
+                return !dynamic_cast<const CourseRunner*>(e.get());
+        });
 	if (first == all.end() || first->get() != this)
 		fail("it must stand first in O.engines, since every engine after it works with the step it chooses");
 }
@@ -31,8 +35,12 @@ void NonsmoothTimeStepper::action()
 	validate();
 	const ContactDynamicsEngine* solver = nullptr;
 	for (const auto& engine : scene->engines)
-		if (const auto* found = engine->dead ? nullptr : dynamic_cast<const ContactDynamicsEngine*>(engine.get())) solver = found;
-	if (!solver) throw std::runtime_error("NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine: add one, or set O.dt yourself");
+		if (const auto* found = engine->dead ? nullptr
+		                                     : dynamic_cast<const ContactDynamicsEngine*>(engine.get()))
+			solver = found;
+	if (!solver)
+		throw std::runtime_error(
+		        "NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine: add one, or set O.dt yourself");
 
 	Real       step  = largest;
 	const auto bound = [&](Real most, Limit why) {

@@ -29,7 +29,9 @@ namespace {
 		if (typeid(*I->geom) != typeid(ScGeom) || !nscd::physOf(*I->phys)) return;
 		auto& geom = static_cast<ScGeom&>(*I->geom);
 		// a new contact has no axes, which nothing else can be asked to write; its shear increment is made of the velocities
-		geom.precompute(*Body::byId(I->getId1(), &scene)->state, *Body::byId(I->getId2(), &scene)->state, &scene, I, Vector3r(geom.normal), true, Vector3r::Zero());
+		geom.precompute(
+		        *Body::byId(I->getId1(), &scene)->state, *Body::byId(I->getId2(), &scene)->state, &scene, I,
+		        Vector3r(geom.normal), true, Vector3r::Zero());
 		geom.shearInc = Vector3r::Zero();
 	}
 
@@ -43,8 +45,9 @@ namespace {
 
 	string missing(const Interaction& I, const string& kind, const string& a, const string& b)
 	{
-		return "NscdInteractionLoop: bodies #" + std::to_string(I.getId1()) + " and #" + std::to_string(I.getId2()) + ": there is no functor " + kind + " for "
-		        + a + " and " + b + ": add one to the list";
+		return "NscdInteractionLoop: bodies #" + std::to_string(I.getId1()) + " and #"
+		        + std::to_string(I.getId2()) + ": there is no functor " + kind + " for " + a + " and " + b
+		        + ": add one to the list";
 	}
 
 	/// One interaction as YADE's loop treats it; returns false where it should be erased.
@@ -63,17 +66,24 @@ namespace {
 			}
 		}
 		for (const auto* b : { b1_.get(), b2_.get() })
-			if (!b->material) throw std::runtime_error("NscdInteractionLoop: body #" + std::to_string(b->getId()) + " has no material: give it an NscdMat");
+			if (!b->material)
+				throw std::runtime_error(
+				        "NscdInteractionLoop: body #" + std::to_string(b->getId())
+				        + " has no material: give it an NscdMat");
 		if (swap) I->swapOrder();
 		const shared_ptr<Body>&b1 = swap ? b2_ : b1_, &b2 = swap ? b1_ : b2_;
-		const bool wasReal = I->isReal();
-		if (!cache.geom->go(b1->shape, b2->shape, *b1->state, *b2->state, Vector3r::Zero(), false, I)) return !wasReal;
+		const bool             wasReal = I->isReal();
+		if (!cache.geom->go(b1->shape, b2->shape, *b1->state, *b2->state, Vector3r::Zero(), false, I))
+			return !wasReal;
 		if (!cache.phys) cache.phys = loop.physDispatcher->getFunctor2D(b1->material, b2->material, swap);
-		if (!cache.phys) throw std::runtime_error(missing(*I, "Ip2", b1->material->getClassName(), b2->material->getClassName()));
+		if (!cache.phys)
+			throw std::runtime_error(
+			        missing(*I, "Ip2", b1->material->getClassName(), b2->material->getClassName()));
 		cache.phys->go(b1->material, b2->material, I);
 		if (!wasReal) I->iterMadeReal = scene.iter;
 		if (!cache.constLaw) cache.constLaw = loop.lawDispatcher->getFunctor2D(I->geom, I->phys, swap);
-		if (!cache.constLaw) throw std::runtime_error(missing(*I, "Law2", I->geom->getClassName(), I->phys->getClassName()));
+		if (!cache.constLaw)
+			throw std::runtime_error(missing(*I, "Law2", I->geom->getClassName(), I->phys->getClassName()));
 		return cache.constLaw->go(I->geom, I->phys, I.get());
 	}
 }
@@ -84,9 +94,10 @@ void NscdInteractionLoop::action()
 	auto&                  list = *scene->interactions;
 	if (!nscd::hasSolver(*scene))
 		for (const auto& law : lawDispatcher->functors)
-			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get())) throw std::runtime_error("NscdInteractionLoop: " + nscd::noSolver(*scene));
-	const int      threads = nscd::threadsOf(*this);
-	nscd::Turn     turn(*this, threads);
+			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get()))
+				throw std::runtime_error("NscdInteractionLoop: " + nscd::noSolver(*scene));
+	const int       threads = nscd::threadsOf(*this);
+	nscd::Turn      turn(*this, threads);
 	nscd::Resident& resident = turn.resident();
 	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0) {
 		resident.show();
@@ -102,7 +113,8 @@ void NscdInteractionLoop::action()
 
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
 	const auto& shapes = geomDispatcher->functors;
-	const Ours  now { exactly<Ig2_Sphere_Sphere_ScGeom>(shapes), exactly<Ig2_Segment_Sphere_ScGeom>(shapes), exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
+	const Ours  now { exactly<Ig2_Sphere_Sphere_ScGeom>(shapes), exactly<Ig2_Segment_Sphere_ScGeom>(shapes),
+                         exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
 	if (now.spheres != ours.spheres || now.law != ours.law) resident.show();
 	ours = now;
 	if (!resident.hasBodies()) resident.takeBodies(*scene);
@@ -115,12 +127,16 @@ void NscdInteractionLoop::action()
 	resident.places.resize(size);
 	const auto isOurs   = [](const nscd::BodyReading& b) { return b.plain && b.planar; };
 	const auto keeperOf = [&](const Reading& r) {
-		if (!ours.spheres || !ours.law || !r.phys || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]) || typeid(*r.phys) != typeid(NscdPhys)) return Reading::Functors;
+		if (!ours.spheres || !ours.law || !r.phys || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second])
+		    || typeid(*r.phys) != typeid(NscdPhys))
+			return Reading::Functors;
 		const auto& cache = r.interaction->functorCache;
-		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? Reading::Arrays : Reading::Functors;
+		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? Reading::Arrays
+		                                                                            : Reading::Functors;
 	};
 	struct Part {
-		std::vector<int> others, gone; // contacts that go through their functors, and that are forgotten: places in the order
+		std::vector<int> others,
+		        gone; // contacts that go through their functors, and that are forgotten: places in the order
 	};
 	std::vector<Part> parts(threads);
 #pragma omp parallel num_threads(threads)
@@ -134,7 +150,8 @@ void NscdInteractionLoop::action()
 			const int slot = resident.order[k].slot;
 			Reading&  r    = resident.readings[slot];
 			// functors in use and the contact's own are what they were, or it was read anew; its bodies may have changed
-			if (r.keeper == Reading::Unknown || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second])) r.keeper = keeperOf(r);
+			if (r.keeper == Reading::Unknown || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]))
+				r.keeper = keeperOf(r);
 			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
 			else if (!follow(resident, r, resident.bonds[slot], ours))
 				part.gone.push_back(int(k));
@@ -150,26 +167,30 @@ void NscdInteractionLoop::action()
 	const auto before = [](const auto& a, const auto& b) { return a.interaction->linIx < b.interaction->linIx; };
 	auto&      unreal = resident.potential;
 	if (!std::is_sorted(unreal.begin(), unreal.end(), before)) std::sort(unreal.begin(), unreal.end(), before);
-	resident.potentialOf = scene->subStepping ? nscd::Resident::never : scene->iter; // a script may do anything between sub-steps
+	resident.potentialOf = scene->subStepping ? nscd::Resident::never
+	                                          : scene->iter; // a script may do anything between sub-steps
 	turn.end();
 }
 
 /// Brings a contact of two disks up to date, in the order of operations of Ig2_Sphere_Sphere_ScGeom and of the law's functor; returns false where it is forgotten.
-bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, const nscd::BondReading& bond, const Ours& ours) const
+bool NscdInteractionLoop::follow(
+        const nscd::Resident& resident, Reading& r, const nscd::BondReading& bond, const Ours& ours) const
 {
 	const auto &p1 = resident.bodies[r.first], &p2 = resident.bodies[r.second];
 	const Real  dz = p2.z - p1.z; // disks may be a little out of one plane, see nscd::flatness
 	const auto  at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius, dz);
-	r.nx  = at.nx;
-	r.ny  = at.ny;
-	r.nz  = dz / at.distance;
-	r.gap = at.gap;
+	r.nx           = at.nx;
+	r.ny           = at.ny;
+	r.nz           = dz / at.distance;
+	r.gap          = at.gap;
 	if (r.broken != NscdPhys::None && !r.phys->breaks) r.broken = NscdPhys::None; // that was the step before
 	bool       refresh = r.wasRead; // a script may have changed its strengths
 	const bool swap    = r.first > r.second;
 	r.wasRead          = false;
 	if (r.bonded) {
-		if (!plane::bondLives(plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion), bond.zone)) {
+		if (!plane::bondLives(
+		            plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion),
+		            bond.zone)) {
 			r.phys->restGap   = r.restGap;
 			r.phys->yieldPath = nscd::vectorOf(r.path);
 			r.phys->yielded   = r.yielded;
@@ -181,7 +202,10 @@ bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, con
 			r.restGap = plane::grownRestGap(r.restGap, r.gap);
 	}
 	const bool stays = r.bonded || r.broken != NscdPhys::None;
-	if (!stays && (!ours.law->isWithinReach(r.gap, r.length) || (ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap)))) return false;
+	if (!stays
+	    && (!ours.law->isWithinReach(r.gap, r.length)
+	        || (ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap))))
+		return false;
 	if (refresh) {
 		r.phys->updateThresholds(r.gap, ours.law->adhesionRange);
 		nscd::readThresholds(r);
@@ -192,10 +216,13 @@ bool NscdInteractionLoop::follow(const nscd::Resident& resident, Reading& r, con
 }
 
 /// Contacts that go through their functors, and interactions that may become contacts.
-void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads)
+void NscdInteractionLoop::visitOthers(
+        nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads)
 {
 	auto&      list    = *scene->interactions;
-	const auto isThere = [&](int id) { return id >= 0 && id < (int)resident.bodies.size() && resident.bodies[id].present; };
+	const auto isThere = [&](int id) {
+		return id >= 0 && id < (int)resident.bodies.size() && resident.bodies[id].present;
+	};
 	const auto& bodies  = resident.bodies;
 	const auto  isPlain = [&](int id) { return isThere(id) && bodies[id].plain; };
 	// what is out of reach need not be shown to its functor
@@ -204,20 +231,26 @@ void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vecto
 		const auto &p1 = bodies[i.getId1()], &p2 = bodies[i.getId2()];
 		const auto* functor = i.functorCache.geom.get();
 		if (p1.plain && p2.plain && functor && functor == ours.spheres)
-			return std::pow(ours.spheres->interactionDetectionFactor * (p1.radius + p2.radius), 2) - (p2.place() - p1.place()).squaredNorm() < 0;
+			return std::pow(ours.spheres->interactionDetectionFactor * (p1.radius + p2.radius), 2)
+			        - (p2.place() - p1.place()).squaredNorm()
+			        < 0;
 		if (!p1.planar || !p2.plain || !functor || functor != ours.segments) return false;
-		const Real reach = (2 * ours.segments->interactionDetectionFactor - 1) * p2.radius; // of its centre from the segment
-		return nscd::isBeyond(reach * (1 + 1e-6), static_cast<const Segment&>(*(*scene->bodies)[i.getId1()]->shape), p1.motion, p2.motion.position);
+		const Real reach = (2 * ours.segments->interactionDetectionFactor - 1)
+		        * p2.radius; // of its centre from the segment
+		return nscd::isBeyond(
+		        reach * (1 + 1e-6), static_cast<const Segment&>(*(*scene->bodies)[i.getId1()]->shape),
+		        p1.motion, p2.motion.position);
 	};
 	std::vector<char> near(resident.potential.size(), 1);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < (long)near.size(); ++k) {
-		if (k + (long)soon < (long)near.size()) fetch<sizeof(Interaction)>(resident.potential[k + soon].interaction.get());
+		if (k + (long)soon < (long)near.size())
+			fetch<sizeof(Interaction)>(resident.potential[k + soon].interaction.get());
 		near[k] = !isOutOfReach(*resident.potential[k].interaction);
 	}
 	std::vector<int> looked; // bodies that functors will look at
 	const auto       look = [&](int id) {
-		if (isThere(id)) looked.push_back(id);
+                if (isThere(id)) looked.push_back(id);
 	};
 	for (const int k : others) {
 		look(resident.order[k].low);
@@ -230,18 +263,20 @@ void NscdInteractionLoop::visitOthers(nscd::Resident& resident, const std::vecto
 		}
 	resident.showBodies(looked);
 
-	std::string error; // thrown after the loop, since threads may not
-	const long  known = (long)others.size(), all = known + (long)near.size();
+	std::string       error; // thrown after the loop, since threads may not
+	const long        known = (long)others.size(), all = known + (long)near.size();
 	std::vector<char> ends(known, 0);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < all; ++k) {
 		if (k >= known && !near[k - known]) continue;
-		const int                      slot = k < known ? resident.order[others[k]].slot : -1;
-		const shared_ptr<Interaction>& I    = k < known ? list[resident.readings[slot].interaction->linIx] : resident.potential[k - known].interaction;
+		const int                      slot  = k < known ? resident.order[others[k]].slot : -1;
+		const shared_ptr<Interaction>& I     = k < known ? list[resident.readings[slot].interaction->linIx]
+		                                                 : resident.potential[k - known].interaction;
 		bool                           stays = false;
 		try {
 			stays = visit(I, *scene, *this);
-			if (stays && isPlain(I->getId1()) && isPlain(I->getId2()) && I->isReal()) forgetShear(I, *scene);
+			if (stays && isPlain(I->getId1()) && isPlain(I->getId2()) && I->isReal())
+				forgetShear(I, *scene);
 		} catch (const std::exception& e) {
 #pragma omp critical
 			error = e.what();

@@ -32,14 +32,15 @@ boundaries, callbacks or sorted interactions it is the plain loop.)""");
 private:
 	/// The functors that contacts, or disks out of their reach, may do without, each null where there is none; and the collider whose reach holds.
 	struct Ours {
-		const Ig2_Sphere_Sphere_ScGeom*                    spheres;
-		const Ig2_Segment_Sphere_ScGeom*                   segments;
-		const Law2_ScGeom_NscdPhys_SignoriniCoulomb*       law;
-		const PlanarGridCollider*                          collider;
+		const Ig2_Sphere_Sphere_ScGeom*              spheres;
+		const Ig2_Segment_Sphere_ScGeom*             segments;
+		const Law2_ScGeom_NscdPhys_SignoriniCoulomb* law;
+		const PlanarGridCollider*                    collider;
 	};
 	const PlanarGridCollider* colliderBefore() const;
-	bool                      follow(const nscd::Resident& resident, nscd::Reading& r, const nscd::BondReading& bond, const Ours& ours) const;
-	void                      visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
+	bool
+	follow(const nscd::Resident& resident, nscd::Reading& r, const nscd::BondReading& bond, const Ours& ours) const;
+	void visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 
 	Ours ours {}; // of the last turn
 };

@@ -9,7 +9,10 @@ YADE_PLUGIN((NscdMat)(SlipWeakeningMat));
 
 void NscdMat::require(bool good, const char* name, Real value, const char* what) const
 {
-	if (!good) throw std::invalid_argument(getClassName() + " '" + label + "': " + name + " = " + boost::lexical_cast<string>(value) + ", it must be " + what);
+	if (!good)
+		throw std::invalid_argument(
+		        getClassName() + " '" + label + "': " + name + " = " + boost::lexical_cast<string>(value)
+		        + ", it must be " + what);
 }
 
 void NscdMat::validate() const
@@ -17,18 +20,25 @@ void NscdMat::validate() const
 	require(density > 0, "density", density, "positive [kg/m³], also for walls, which have no use for it");
 	require(tensileStrength >= 0, "tensileStrength", tensileStrength, "0 or more [Pa]");
 	require(residualTensileStrength >= 0, "residualTensileStrength", residualTensileStrength, "0 or more [Pa]");
-	require(frictionAngle >= 0 && frictionAngle < Mathr::PI / 2, "frictionAngle", frictionAngle, "from 0 to below π/2 [rad]");
-	require(residualFrictionAngle < Mathr::PI / 2, "residualFrictionAngle", residualFrictionAngle, "below π/2 [rad], or negative for the peak value");
+	require(frictionAngle >= 0 && frictionAngle < Mathr::PI / 2, "frictionAngle", frictionAngle,
+	        "from 0 to below π/2 [rad]");
+	require(residualFrictionAngle < Mathr::PI / 2, "residualFrictionAngle", residualFrictionAngle,
+	        "below π/2 [rad], or negative for the peak value");
 	require(rollingFriction >= 0, "rollingFriction", rollingFriction, "0 or more");
-	require(!std::isnan(residualRollingFriction), "residualRollingFriction", residualRollingFriction, "0 or more, or negative for the peak value");
+	require(!std::isnan(residualRollingFriction), "residualRollingFriction", residualRollingFriction,
+	        "0 or more, or negative for the peak value");
 	require(bondEllipseNormal > 0, "bondEllipseNormal", bondEllipseNormal, "positive (units of ℓ)");
 	require(bondEllipseTangential > 0, "bondEllipseTangential", bondEllipseTangential, "positive (units of ℓ)");
 	require(bondCreationDistance >= 0, "bondCreationDistance", bondCreationDistance, "0 or more (units of ℓ)");
 	require(restitution >= 0 && restitution <= 1, "restitution", restitution, "from 0 to 1");
-	require(interfaceLaws.size() == interfaceLayers.size(), "len(interfaceLaws)", interfaceLaws.size(), "that of interfaceLayers: give a law for each");
+	require(interfaceLaws.size() == interfaceLayers.size(), "len(interfaceLaws)", interfaceLaws.size(),
+	        "that of interfaceLayers: give a law for each");
 	for (const auto& law : interfaceLaws) {
 		const auto* material = dynamic_cast<const NscdMat*>(law.get());
-		if (!material) throw std::invalid_argument(getClassName() + " '" + label + "': interfaceLaws has what is no NscdMat: give NscdMats");
+		if (!material)
+			throw std::invalid_argument(
+			        getClassName() + " '" + label
+			        + "': interfaceLaws has what is no NscdMat: give NscdMats");
 		if (material->interfaceLaws.empty()) material->validate(); // an interface has none of its own
 	}
 }
@@ -37,7 +47,8 @@ const NscdMat* NscdMat::interfaceWith(const NscdMat& other) const
 {
 	const auto find = [](const NscdMat& one, int layer) -> const NscdMat* {
 		for (size_t k = 0; k < std::min(one.interfaceLayers.size(), one.interfaceLaws.size()); ++k)
-			if (one.interfaceLayers[k] == layer) return dynamic_cast<const NscdMat*>(one.interfaceLaws[k].get());
+			if (one.interfaceLayers[k] == layer)
+				return dynamic_cast<const NscdMat*>(one.interfaceLaws[k].get());
 		return nullptr;
 	};
 	if (wall || other.wall) return nullptr;
@@ -48,9 +59,11 @@ const NscdMat* NscdMat::interfaceWith(const NscdMat& other) const
 void SlipWeakeningMat::validate() const
 {
 	NscdMat::validate();
-	require(weakenedFrictionAngle >= 0 && weakenedFrictionAngle < Mathr::PI / 2, "weakenedFrictionAngle", weakenedFrictionAngle, "from 0 to below π/2 [rad]");
+	require(weakenedFrictionAngle >= 0 && weakenedFrictionAngle < Mathr::PI / 2, "weakenedFrictionAngle",
+	        weakenedFrictionAngle, "from 0 to below π/2 [rad]");
 	require(weakenedTensileStrength >= 0, "weakenedTensileStrength", weakenedTensileStrength, "0 or more [Pa]");
-	nonsmooth::contact::slipWeakening(weakening, 0, criticalSlip); // throws for a name or a slip that it does not know
+	nonsmooth::contact::slipWeakening(
+	        weakening, 0, criticalSlip); // throws for a name or a slip that it does not know
 }
 
 Real SlipWeakeningMat::remaining(Body::id_t id) const
@@ -62,9 +75,11 @@ Real SlipWeakeningMat::remaining(Body::id_t id) const
 
 void SlipWeakeningMat::weaken(Real& adhesion, Real& friction, Real length, Real left) const
 {
-	const auto weakened = [left](Real strong, Real weak) { return strong > weak ? weak + (strong - weak) * left : strong; };
-	adhesion            = weakened(adhesion, weakenedTensileStrength * length);
-	friction            = weakened(friction, std::tan(weakenedFrictionAngle));
+	const auto weakened = [left](Real strong, Real weak) {
+		return strong > weak ? weak + (strong - weak) * left : strong;
+	};
+	adhesion = weakened(adhesion, weakenedTensileStrength * length);
+	friction = weakened(friction, std::tan(weakenedFrictionAngle));
 }
 
 void SlipWeakeningMat::addSlip(Body::id_t id, Real distance)

@@ -66,7 +66,8 @@ public:
 	Real meanSlip() const;
 	int  slippedCount() const;
 	void forgetSlip() { slip.clear(); }
-	std::vector<std::pair<long, Real>> ofStep; // by body: the last step in which it slipped along an interface, and how far
+	std::vector<std::pair<long, Real>>
+	        ofStep; // by body: the last step in which it slipped along an interface, and how far
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningMat,NscdMat,
 R"""(Material of a wall, or of an interface (:yref:`NscdMat.interfaceLaws`), that loses strength as bodies slip along it (Taboada and Estrada 2009, section 5.3). Friction and cohesion of a

@@ -12,10 +12,14 @@ YADE_PLUGIN((NscdPhys)(SlipWeakeningPhys)(Ip2_NscdMat_NscdMat_NscdPhys));
 void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 {
 	namespace plane = nonsmooth::contact::plane;
-	const plane::Thresholds bond { tensileForce, friction, rollingArm }, residual { residualTensileForce, residualFriction, residualRollingArm };
-	const plane::Thresholds now = plane::thresholdsOf(bond, residual, bonded, plane::touches(gap, adhesionRange, length));
+	const plane::Thresholds bond { tensileForce, friction, rollingArm },
+	        residual { residualTensileForce, residualFriction, residualRollingArm };
+	const plane::Thresholds now = plane::thresholdsOf(
+	        bond, residual, bonded, plane::touches(gap, adhesionRange, length));
 	// most keep theirs, and what is not written need not go back to memory
-	const auto set = [](Real& threshold, Real value) { if (threshold != value) threshold = value; };
+	const auto set = [](Real& threshold, Real value) {
+		if (threshold != value) threshold = value;
+	};
 	set(adhesion, now.adhesion);
 	set(currentFriction, now.friction);
 	set(currentRollingArm, now.rollingArm);
@@ -46,7 +50,8 @@ namespace nscd {
 		const auto* s2 = dynamic_cast<const Sphere*>(b2.shape.get());
 		if (s1 && s2) return s1->radius + s2->radius;
 		if (s1 || s2) return 2 * (s1 ? s1 : s2)->radius;
-		throw std::invalid_argument("Ip2_NscdMat_NscdMat_NscdPhys: one of two bodies in contact must be a Sphere");
+		throw std::invalid_argument(
+		        "Ip2_NscdMat_NscdMat_NscdPhys: one of two bodies in contact must be a Sphere");
 	}
 }
 
@@ -63,28 +68,31 @@ namespace {
 	}
 }
 
-void Ip2_NscdMat_NscdMat_NscdPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
+void Ip2_NscdMat_NscdMat_NscdPhys::go(
+        const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
 {
 	if (interaction->phys) return;
 	const Body &b1 = *Body::byId(interaction->getId1(), scene), &b2 = *Body::byId(interaction->getId2(), scene);
 	if (!usable(m1) || !usable(m2)) {
 		// no exception may leave the threads of YADE's loop: ContactDynamicsEngine meets these numbers in the same step, and says why they are none
 		const auto spoilt = boost::make_shared<NscdPhys>();
-		spoilt->length = nscd::meanDiameter(b1, b2);
+		spoilt->length    = nscd::meanDiameter(b1, b2);
 		for (Real* value : { &spoilt->friction, &spoilt->residualFriction, &spoilt->restitution })
 			*value = NaN;
 		interaction->phys = spoilt;
 		return;
 	}
 	shared_ptr<NscdPhys> phys;
-	const auto           weak1 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1), weak2 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
-	const auto*          law   = static_cast<const NscdMat&>(*m1).interfaceWith(static_cast<const NscdMat&>(*m2));
+	const auto           weak1 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1),
+	           weak2           = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
+	const auto* law            = static_cast<const NscdMat&>(*m1).interfaceWith(static_cast<const NscdMat&>(*m2));
 	if (const auto* weakLaw = dynamic_cast<const SlipWeakeningMat*>(law)) {
 		auto weak          = boost::make_shared<SlipWeakeningPhys>();
-		weak->wallMaterial = boost::static_pointer_cast<SlipWeakeningMat>(const_cast<SlipWeakeningMat*>(weakLaw)->shared_from_this());
-		weak->body         = std::min(interaction->getId1(), interaction->getId2());
-		weak->other        = std::max(interaction->getId1(), interaction->getId2());
-		phys               = weak;
+		weak->wallMaterial = boost::static_pointer_cast<SlipWeakeningMat>(
+		        const_cast<SlipWeakeningMat*>(weakLaw)->shared_from_this());
+		weak->body  = std::min(interaction->getId1(), interaction->getId2());
+		weak->other = std::max(interaction->getId1(), interaction->getId2());
+		phys        = weak;
 	} else if (!law && (weak1 || weak2)) {
 		auto weak          = boost::make_shared<SlipWeakeningPhys>();
 		weak->wallMaterial = weak1 ? weak1 : weak2;
@@ -102,7 +110,9 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, 
 		const string who = "body #" + std::to_string(body->getId());
 		if (!body->material) throw std::runtime_error(who + " has no material: give it an NscdMat");
 		if (!dynamic_cast<const NscdMat*>(body->material.get()))
-			throw std::runtime_error(who + " has a " + body->material->getClassName() + " in a rigid contact: give it an NscdMat");
+			throw std::runtime_error(
+			        who + " has a " + body->material->getClassName()
+			        + " in a rigid contact: give it an NscdMat");
 	}
 	const auto &a = static_cast<const NscdMat&>(*b1.material), &b = static_cast<const NscdMat&>(*b2.material);
 	if (const NscdMat* law = a.interfaceWith(b)) {
@@ -110,23 +120,28 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, 
 		return;
 	}
 	const bool sameLayer = a.layer == b.layer, anyWall = a.wall || b.wall;
-	setStrengths(phys, a, b, nscd::meanDiameter(b1, b2), a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer && a.layer >= 0));
+	setStrengths(
+	        phys, a, b, nscd::meanDiameter(b1, b2),
+	        a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer && a.layer >= 0));
 	if (!sameLayer && !anyWall) phys.residualTensileForce = 0;
 }
 
-void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const NscdMat& a, const NscdMat& b, Real length, bool bondable)
+void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(
+        NscdPhys& phys, const NscdMat& a, const NscdMat& b, Real length, bool bondable)
 {
 	// a wall's own value, or the weaker of two particles'
-	const auto pick = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
+	const auto pick           = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
 	phys.length               = length;
 	phys.tensileForce         = length * pick(a.tensileStrength, b.tensileStrength);
 	phys.residualTensileForce = length * pick(a.residualTensileStrength, b.residualTensileStrength);
 	phys.friction             = pick(std::tan(a.frictionAngle), std::tan(b.frictionAngle));
 	phys.residualFriction     = pick(
-                std::tan(nscd::residual(a.residualFrictionAngle, a.frictionAngle)), std::tan(nscd::residual(b.residualFrictionAngle, b.frictionAngle)));
+	            std::tan(nscd::residual(a.residualFrictionAngle, a.frictionAngle)),
+	            std::tan(nscd::residual(b.residualFrictionAngle, b.frictionAngle)));
 	phys.rollingArm         = length * pick(a.rollingFriction, b.rollingFriction);
 	phys.residualRollingArm = length
-	        * pick(nscd::residual(a.residualRollingFriction, a.rollingFriction), nscd::residual(b.residualRollingFriction, b.rollingFriction));
+	        * pick(nscd::residual(a.residualRollingFriction, a.rollingFriction),
+	               nscd::residual(b.residualRollingFriction, b.rollingFriction));
 	phys.restitution       = std::max(a.restitution, b.restitution);
 	phys.ellipseNormal     = length * pick(a.bondEllipseNormal, b.bondEllipseNormal);
 	phys.ellipseTangential = length * pick(a.bondEllipseTangential, b.bondEllipseTangential);

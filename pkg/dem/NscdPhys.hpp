@@ -88,7 +88,8 @@ REGISTER_SERIALIZABLE(SlipWeakeningPhys);
 
 class Ip2_NscdMat_NscdMat_NscdPhys : public IPhysFunctor {
 public:
-	void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction) override;
+	void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2,
+	        const shared_ptr<Interaction>& interaction) override;
 	FUNCTOR2D(NscdMat, NscdMat);
 	/// Sets strengths and lengths of a contact from the materials of its bodies; bond and reactions stay.
 	static void setStrengths(NscdPhys& phys, const Body& b1, const Body& b2);

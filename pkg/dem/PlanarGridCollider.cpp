@@ -24,19 +24,25 @@ namespace {
 void PlanarGridCollider::action()
 {
 	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Collide);
-	if (scene->isPeriodic) throw std::runtime_error("PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
+	if (scene->isPeriodic)
+		throw std::runtime_error(
+		        "PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
 	if (!(sureReach >= 0))
-		throw std::runtime_error("PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach) + ": give a gap in units of ℓ that is not negative");
+		throw std::runtime_error(
+		        "PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach)
+		        + ": give a gap in units of ℓ that is not negative");
 	if (!std::isfinite(verletDist))
-		throw std::runtime_error("PlanarGridCollider: verletDist = " + boost::lexical_cast<string>(verletDist) + ": give a length [m], or a negative number of smallest radii");
+		throw std::runtime_error(
+		        "PlanarGridCollider: verletDist = " + boost::lexical_cast<string>(verletDist)
+		        + ": give a length [m], or a negative number of smallest radii");
 	threads = nscd::threadsOf(*this);
 	ranIn   = never; // until all is done; a step's number comes again after O.resetTime()
 	nscd::Turn turn(*this, threads);
-	resident           = &turn.resident();
-	const auto& bodies = resident->bodies;
+	resident                                 = &turn.resident();
+	const auto& bodies                       = resident->bodies;
 	scene->interactions->iterColliderLastRun = -1;
 	scene->forces.addMaxId(scene->bodies->size());
-	bool anew = changed();
+	bool       anew = changed();
 	const long size = (long)bodies.size();
 	disks.resize(size);
 	velocities.resize(size);
@@ -44,7 +50,8 @@ void PlanarGridCollider::action()
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : turned)
 	for (long id = 0; id < size; ++id) {
 		const auto& b  = bodies[id];
-		disks[id]      = b.present && b.plain ? Disk { b.motion.position.x, b.motion.position.y, b.radius } : Disk { 0, 0, -1 };
+		disks[id]      = b.present && b.plain ? Disk { b.motion.position.x, b.motion.position.y, b.radius }
+		                                      : Disk { 0, 0, -1 };
 		velocities[id] = { b.motion.velocity.x, b.motion.velocity.y };
 		turned         = turned || hasTurned(id);
 	}
@@ -97,8 +104,8 @@ bool PlanarGridCollider::changed()
 		if (const auto* sphere = dynamic_cast<const Bo1_Sphere_Aabb*>(functor.get()))
 			if (sphere->aabbEnlargeFactor > 0) wanted = sphere->aabbEnlargeFactor;
 	auto&      all = *scene->bodies;
-	const bool is  = wanted != factor || verletDist != verletDistOfLists || reference.size() != all.size() || scene->doSort || scene->interactions->dirty
-	        || !all.checkedByCollider;
+	const bool is  = wanted != factor || verletDist != verletDistOfLists || reference.size() != all.size()
+	        || scene->doSort || scene->interactions->dirty || !all.checkedByCollider;
 	factor            = wanted;
 	verletDistOfLists = verletDist;
 	scene->doSort = scene->interactions->dirty = false;
@@ -163,7 +170,8 @@ void PlanarGridCollider::eraseUnreal()
 			continue;
 		}
 		eraseIfUnreal(a, b);
-		const auto begin = pairs.second.begin() + pairs.begin[a], end = pairs.second.begin() + pairs.begin[a + 1], at = std::lower_bound(begin, end, b);
+		const auto begin = pairs.second.begin() + pairs.begin[a],
+		           end = pairs.second.begin() + pairs.begin[a + 1], at = std::lower_bound(begin, end, b);
 		if (at != end && *at == b) known[at - pairs.second.begin()] = 0;
 	}
 	potential.resize(left);
@@ -173,10 +181,14 @@ void PlanarGridCollider::eraseUnreal()
 PlanarGridCollider::SidePair* PlanarGridCollider::sidePairOf(Body::id_t a, Body::id_t b)
 {
 	if (disks[a].r >= 0) std::swap(a, b);
-	const auto side = std::lower_bound(sides.begin(), sides.end(), a, [](const Side& s, Body::id_t id) { return s.id < id; });
+	const auto side = std::lower_bound(sides.begin(), sides.end(), a, [](const Side& s, Body::id_t id) {
+		return s.id < id;
+	});
 	if (side == sides.end() || side->id != a) return nullptr;
 	const std::pair<int, int> wanted { int(side - sides.begin()), b };
-	const auto at = std::lower_bound(sidePairs.begin(), sidePairs.end(), wanted, [](const SidePair& p, const auto& w) { return std::make_pair(p.side, p.disk) < w; });
+	const auto                at = std::lower_bound(
+	                       sidePairs.begin(), sidePairs.end(), wanted,
+	                       [](const SidePair& p, const auto& w) { return std::make_pair(p.side, p.disk) < w; });
 	return at != sidePairs.end() && at->side == wanted.first && at->disk == b ? &*at : nullptr;
 }
 
@@ -199,7 +211,8 @@ void PlanarGridCollider::boundSpeeds()
 bool PlanarGridCollider::moved()
 {
 	for (const Side& s : sides)
-		for (const Real d : { s.box.xMin - s.reference.xMin, s.box.yMin - s.reference.yMin, s.box.xMax - s.reference.xMax, s.box.yMax - s.reference.yMax })
+		for (const Real d : { s.box.xMin - s.reference.xMin, s.box.yMin - s.reference.yMin,
+		                      s.box.xMax - s.reference.xMax, s.box.yMax - s.reference.yMax })
 			if (!(std::abs(d) <= farPath)) return true;
 	const long size  = (long)disks.size();
 	bool       other = false;
@@ -207,7 +220,9 @@ bool PlanarGridCollider::moved()
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
 	for (long id = 0; id < size; ++id) {
 		paths[id] = { disks[id].x - reference[id].x, disks[id].y - reference[id].y };
-		other     = other || disks[id].r != reference[id].r || (regions.of(int(id)) >= 0 && !(std::max(std::abs(paths[id].x), std::abs(paths[id].y)) <= farPath));
+		other     = other || disks[id].r != reference[id].r
+		        || (regions.of(int(id)) >= 0
+		            && !(std::max(std::abs(paths[id].x), std::abs(paths[id].y)) <= farPath));
 	}
 	if (other) return true;
 	boundSpeeds();
@@ -231,7 +246,7 @@ void PlanarGridCollider::search()
 		}
 	const Real farthest = largest > 0 ? 2 * factor * largest : 1;
 	const Real margin   = largest > 0 && verletDist < 0 ? -verletDist * smallest : std::max(Real(0), verletDist);
-	farPath = farthest / 4;
+	farPath             = farthest / 4;
 	regions.build(disks, farthest + 2 * farPath);
 	boundSpeeds();
 	allowances.resize(regions.count());
@@ -300,12 +315,15 @@ void PlanarGridCollider::findNear()
 		for (long i = 0; i < size; ++i)
 			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
 				const int  j     = pairs.second[k];
-				const Real reach = factor * (disks[i].r + disks[j].r), dx = disks[j].x - disks[i].x, dy = disks[j].y - disks[i].y, apart = dx * dx + dy * dy;
-				if (!(apart <= reach * reach * (1 + 1e-9))) known[k] = 0; // the functor decides, with rounding of its own
+				const Real reach = factor * (disks[i].r + disks[j].r), dx = disks[j].x - disks[i].x,
+				           dy = disks[j].y - disks[i].y, apart = dx * dx + dy * dy;
+				if (!(apart <= reach * reach * (1 + 1e-9)))
+					known[k] = 0; // the functor decides, with rounding of its own
 				else if (!known[k])
 					comes.emplace_back(int(i), k);
 				if (!decides) continue;
-				const Real x = velocities[j].x - velocities[i].x, y = velocities[j].y - velocities[i].y, square = x * x + y * y;
+				const Real x = velocities[j].x - velocities[i].x, y = velocities[j].y - velocities[i].y,
+				           square = x * x + y * y;
 				if (square <= std::min(speed[i], speed[j]) || apart > reach * reach) continue;
 				// by itself it must be wanted, so that it does not matter when pairs were looked up
 				const Real wanted = wantedWithin(int(i), j, std::sqrt(square));
@@ -349,7 +367,8 @@ void PlanarGridCollider::takeSides()
 
 void PlanarGridCollider::insert(Body::id_t a, Body::id_t b)
 {
-	if (!nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene)) || scene->interactions->found(a, b)) return;
+	if (!nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene)) || scene->interactions->found(a, b))
+		return;
 	const auto interaction = boost::make_shared<Interaction>(a, b);
 	scene->interactions->insert(interaction);
 	if (resident->hasContacts()) resident->addPotential(interaction);
@@ -360,9 +379,12 @@ vector<Body::id_t> PlanarGridCollider::probeBoundingVolume(const Bound& bound)
 	const Box          box { bound.min[0], bound.min[1], bound.max[0], bound.max[1] };
 	vector<Body::id_t> found;
 	for (size_t id = 0; id < disks.size(); ++id)
-		if (disks[id].r >= 0 && isNear(box, disks[id].x, disks[id].y, factor * disks[id].r)) found.push_back(Body::id_t(id));
+		if (disks[id].r >= 0 && isNear(box, disks[id].x, disks[id].y, factor * disks[id].r))
+			found.push_back(Body::id_t(id));
 	for (const Side& s : sides)
-		if (s.box.xMin <= box.xMax && s.box.xMax >= box.xMin && s.box.yMin <= box.yMax && s.box.yMax >= box.yMin) found.push_back(s.id);
+		if (s.box.xMin <= box.xMax && s.box.xMax >= box.xMin && s.box.yMin <= box.yMax
+		    && s.box.yMax >= box.yMin)
+			found.push_back(s.id);
 	return found;
 }
 

@@ -72,47 +72,49 @@ private:
 	}
 	/// Whether a body is a disk now and was none when pairs were looked up, or the other way round.
 	bool hasTurned(size_t id) const { return id < reference.size() && (disks[id].r < 0) != (reference[id].r < 0); }
-	bool      changed();
-	bool      renewShapes(bool turned);
-	void      listSides();
-	void      boundSides();
-	void      forget();
-	void      eraseUnreal();
-	bool      moved();
-	Real      listed() const { return std::min(factor, 1 + sureReach); }
-	void      search();
-	void      searchSides();
-	void      boundSpeeds();
-	void      findNear();
-	void      takeDisks();
-	void      takeSides();
-	void      insert(Body::id_t a, Body::id_t b);
-	void      eraseIfUnreal(Body::id_t a, Body::id_t b);
+	bool changed();
+	bool renewShapes(bool turned);
+	void listSides();
+	void boundSides();
+	void forget();
+	void eraseUnreal();
+	bool moved();
+	Real listed() const { return std::min(factor, 1 + sureReach); }
+	void search();
+	void searchSides();
+	void boundSpeeds();
+	void findNear();
+	void takeDisks();
+	void takeSides();
+	void insert(Body::id_t a, Body::id_t b);
+	void eraseIfUnreal(Body::id_t a, Body::id_t b);
 	SidePair* sidePairOf(Body::id_t a, Body::id_t b);
 
 	static constexpr Real foresight = 2; // steps in which a pair beyond the sure reach may come to be within it
 	static constexpr Real ahead     = 12; // steps for which pairs are looked up, as fast as they are then
 
-	int                                       threads = 1;
-	size_t                                    sizeLeft = 0; // of O.interactions at the end of the last run
-	Real                                      factor = 1; // reach of disks in sums of radii
-	Real                                      verletDistOfLists = 0; // the attribute as it was when they were made
-	nscd::Resident*                           resident = nullptr; // during a turn
-	static constexpr long                     never = std::numeric_limits<long>::min();
-	long                                      ranIn = never; // step
-	std::vector<nonsmooth::neighbours::Disk>  disks, reference; // by body, now and when pairs were looked up; none where that must be done anew
-	nonsmooth::neighbours::DiskGrid           grid;
-	nonsmooth::neighbours::Pairs              pairs, before;
-	std::vector<char>                         known, knownBefore; // by pair: it is in O.interactions, or may not be
-	std::vector<Real>                         fastest; // by body: largest speed of a disk against those near it [m/s]
-	std::vector<std::vector<Real>>            fastestOf; // the same of the pairs of each thread
+	int                                      threads           = 1;
+	size_t                                   sizeLeft          = 0; // of O.interactions at the end of the last run
+	Real                                     factor            = 1; // reach of disks in sums of radii
+	Real                                     verletDistOfLists = 0; // the attribute as it was when they were made
+	nscd::Resident*                          resident          = nullptr; // during a turn
+	static constexpr long                    never             = std::numeric_limits<long>::min();
+	long                                     ranIn             = never; // step
+	std::vector<nonsmooth::neighbours::Disk> disks,
+	        reference; // by body, now and when pairs were looked up; none where that must be done anew
+	nonsmooth::neighbours::DiskGrid grid;
+	nonsmooth::neighbours::Pairs    pairs, before;
+	std::vector<char>               known, knownBefore; // by pair: it is in O.interactions, or may not be
+	std::vector<Real>               fastest; // by body: largest speed of a disk against those near it [m/s]
+	std::vector<std::vector<Real>>  fastestOf; // the same of the pairs of each thread
 	std::vector<nonsmooth::neighbours::Vector> velocities, paths; // by body, paths since pairs were looked up
-	nonsmooth::neighbours::Regions            regions;
-	std::vector<Real>                         rates, widestRates, spreads, allowances; // D, D', S, a by region
-	Real                                      farPath = 0; // of a disk or a box, in any direction
-	std::vector<Side>                         sides;
-	std::vector<SidePair>                     sidePairs; // by side, then disk
-	std::vector<std::vector<std::pair<int, int>>> near; // by thread: pairs within reach that O.interactions has not, the lower body and the pair
+	nonsmooth::neighbours::Regions             regions;
+	std::vector<Real>                          rates, widestRates, spreads, allowances; // D, D', S, a by region
+	Real                                       farPath = 0; // of a disk or a box, in any direction
+	std::vector<Side>                          sides;
+	std::vector<SidePair>                      sidePairs; // by side, then disk
+	std::vector<std::vector<std::pair<int, int>>>
+	        near; // by thread: pairs within reach that O.interactions has not, the lower body and the pair
 };
 REGISTER_SERIALIZABLE(PlanarGridCollider);
 

@@ -10,7 +10,9 @@ YADE_PLUGIN((PlanarNewtonIntegrator));
 
 namespace {
 	namespace plane = nonsmooth::contact::plane;
-	static_assert(plane::blockedX == State::DOF_X && plane::blockedY == State::DOF_Y && plane::blockedTurn == State::DOF_RZ && plane::blockedAll == State::DOF_ALL);
+	static_assert(
+	        plane::blockedX == State::DOF_X && plane::blockedY == State::DOF_Y
+	        && plane::blockedTurn == State::DOF_RZ && plane::blockedAll == State::DOF_ALL);
 
 	/// Velocity and place at the end of a step, as NewtonIntegrator without damping has them, of a body that moves in space.
 	void integrate(State& s, const Vector3r& force, const Vector3r& torque, const Vector3r& gravity, Real dt)
@@ -37,11 +39,12 @@ namespace {
 void PlanarNewtonIntegrator::action()
 {
 	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Integrate);
-	const int       threads = nscd::threadsOf(*this);
-	nscd::Turn      turn(*this, threads);
-	nscd::Resident& resident = turn.resident();
-	const Cell&     cell     = *scene->cell;
-	if (damping != 0 || scene->isPeriodic || densityScaling || mask > 0 || scene->trackEnergy || cell.velGradChanged || cell.nextVelGrad != Matrix3r::Zero()) {
+	const int              threads = nscd::threadsOf(*this);
+	nscd::Turn             turn(*this, threads);
+	nscd::Resident&        resident = turn.resident();
+	const Cell&            cell     = *scene->cell;
+	if (damping != 0 || scene->isPeriodic || densityScaling || mask > 0 || scene->trackEnergy || cell.velGradChanged
+	    || cell.nextVelGrad != Matrix3r::Zero()) {
 		resident.show();
 		NewtonIntegrator::action();
 		turn.end();
@@ -49,11 +52,14 @@ void PlanarNewtonIntegrator::action()
 	}
 	scene->forces.sync();
 	if (warnNoForceReset && scene->forces.lastReset < scene->iter)
-		LOG_WARN("O.forces were last reset in step " << scene->forces.lastReset << ": put ForceResetter() first in O.engines.");
+		LOG_WARN(
+		        "O.forces were last reset in step " << scene->forces.lastReset
+		                                            << ": put ForceResetter() first in O.engines.");
 	auto&      bodies = resident.bodies;
 	const long count  = (long)bodies.size();
 	int        bad    = -1;
-	Real       moved  = 0; // 2 where a body has left its bounding box's margin, 0.5 where it has not: what the collider asks for
+	Real       moved
+	        = 0; // 2 where a body has left its bounding box's margin, 0.5 where it has not: what the collider asks for
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad, moved)
 	for (long id = 0; id < count; ++id) {
 		nscd::BodyReading& b = bodies[id];
@@ -64,7 +70,9 @@ void PlanarNewtonIntegrator::action()
 		}
 		const Vector3r &force = scene->forces.getForce(id), &torque = scene->forces.getTorque(id);
 		if (b.planar) {
-			plane::integrate(b.motion, { force[0], force[1], torque[2] }, b.mass, b.inertia, b.blocked, { gravity[0], gravity[1] }, scene->dt);
+			plane::integrate(
+			        b.motion, { force[0], force[1], torque[2] }, b.mass, b.inertia, b.blocked,
+			        { gravity[0], gravity[1] }, scene->dt);
 			b.moved = true;
 		} else { // with motions that the arrays do not know
 			State& s = *(*scene->bodies)[id]->state;
@@ -78,7 +86,8 @@ void PlanarNewtonIntegrator::action()
 	}
 	if (bad >= 0)
 		throw std::runtime_error(
-		        "PlanarNewtonIntegrator: body #" + std::to_string(bad) + " is aspherical or belongs to a clump: use single spheres, or NewtonIntegrator");
+		        "PlanarNewtonIntegrator: body #" + std::to_string(bad)
+		        + " is aspherical or belongs to a clump: use single spheres, or NewtonIntegrator");
 	maxVelocitySq = moved;
 	turn.end();
 }

@@ -14,10 +14,11 @@ Real PorePressureEngine::heightAt(Real time) const
 {
 	if (times.size() != heights.size())
 		throw std::invalid_argument(
-		        "PorePressureEngine: times has " + std::to_string(times.size()) + " entries and heights " + std::to_string(heights.size())
-		        + ": give as many of both");
+		        "PorePressureEngine: times has " + std::to_string(times.size()) + " entries and heights "
+		        + std::to_string(heights.size()) + ": give as many of both");
 	if (times.empty()) return 0;
-	if (!std::is_sorted(times.begin(), times.end())) throw std::invalid_argument("PorePressureEngine: times must rise");
+	if (!std::is_sorted(times.begin(), times.end()))
+		throw std::invalid_argument("PorePressureEngine: times must rise");
 	if (time <= times.front()) return heights.front();
 	if (time >= times.back()) return heights.back();
 	const size_t k = std::upper_bound(times.begin(), times.end(), time) - times.begin();
@@ -38,7 +39,8 @@ void PorePressureEngine::action()
 	const Vector3r normal   = planeNormal.normalized();
 	const Real     cosDip   = gravity.norm() > 0 ? -gravity.normalized().dot(normal) : 1;
 	const Vector3r down     = gravity - gravity.dot(normal) * normal;
-	const Vector3r downhill = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized()) : Vector3r(Vector3r::Zero());
+	const Vector3r downhill = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized())
+	                                                              : Vector3r(Vector3r::Zero());
 	const Vector3r slope    = gradient != Vector3r::Zero() ? gradient : Vector3r(unitWeight * cosDip * normal);
 	height                  = heightAt(scene->time);
 	wetCount                = 0;
@@ -54,7 +56,9 @@ void PorePressureEngine::action()
 		reference.push_back(bodies[id].present ? bodies[id].place() : Vector3r(Vector3r::Zero()));
 	for (size_t id = 0; id < size; ++id) {
 		const auto& b = bodies[id];
-		if (!b.present || b.blocked == State::DOF_ALL || b.radius < 0 || (mask != 0 && !(*scene->bodies)[id]->maskOk(mask))) continue;
+		if (!b.present || b.blocked == State::DOF_ALL || b.radius < 0
+		    || (mask != 0 && !(*scene->bodies)[id]->maskOk(mask)))
+			continue;
 		const Vector3r place = b.place();
 		if (!released[id] && (place - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
 		releasedCount += released[id];

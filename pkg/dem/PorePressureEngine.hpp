@@ -20,8 +20,8 @@ public:
 		released.clear();
 		reference.clear();
 	}
-	bool isReleased(int id) const { return id < (int)released.size() && released[id] != 0; }
-	bool isWet(int id) const { return id < (int)wet.size() && wet[id] != 0; }
+	bool                  isReleased(int id) const { return id < (int)released.size() && released[id] != 0; }
+	bool                  isWet(int id) const { return id < (int)wet.size() && wet[id] != 0; }
 	boost::python::object bodyTable() const;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PorePressureEngine,GlobalEngine,

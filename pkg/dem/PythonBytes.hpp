@@ -9,7 +9,8 @@ namespace yade::nscd {
 template <class Number> boost::python::object asBytes(const std::vector<Number>& rows)
 {
 	const auto* first = reinterpret_cast<const char*>(rows.data());
-	return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(first, Py_ssize_t(rows.size() * sizeof(Number)))));
+	return boost::python::object(
+	        boost::python::handle<>(PyBytes_FromStringAndSize(first, Py_ssize_t(rows.size() * sizeof(Number)))));
 }
 
 } // namespace yade::nscd

@@ -9,7 +9,10 @@
 
 namespace yade::nscd {
 
-string named(const Engine& engine) { return engine.getClassName() + (engine.label.empty() ? "" : " '" + engine.label + "'"); }
+string named(const Engine& engine)
+{
+	return engine.getClassName() + (engine.label.empty() ? "" : " '" + engine.label + "'");
+}
 
 namespace {
 	[[noreturn]] void fail(const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); }
@@ -34,7 +37,9 @@ namespace {
 		void require(const char* remedy) const
 		{
 			if (first) return;
-			if (dead) fail(named(*dead) + " is dead: set dead = False, or take the engine out of O.engines and put another in its place");
+			if (dead)
+				fail(named(*dead)
+				     + " is dead: set dead = False, or take the engine out of O.engines and put another in its place");
 			fail(remedy);
 		}
 		void requireBefore() const
@@ -62,7 +67,7 @@ namespace {
 void checkEngines(const Scene& scene, const Engine& solver)
 {
 	Kind                    resetters, colliders, loops, integrators;
-	bool                    passed = false;
+	bool                    passed  = false;
 	const Engine*           between = nullptr;
 	const NewtonIntegrator* newton  = nullptr;
 	for (const auto& pointer : scene.engines) {
@@ -76,13 +81,16 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		if (const auto* found = dynamic_cast<const NewtonIntegrator*>(&engine)) {
 			integrators.take(engine, passed);
 			if (engine.dead) continue;
-			if (newton) fail("O.engines has a second integrator, " + named(engine) + ", which would move bodies twice a step: take one out");
+			if (newton)
+				fail("O.engines has a second integrator, " + named(engine)
+				     + ", which would move bodies twice a step: take one out");
 			newton = found;
 			continue;
 		}
 		const auto* stepper = dynamic_cast<const TimeStepper*>(&engine);
 		if (stepper && stepper->active && !stepper->dead)
-			fail(stepper->getClassName() + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
+			fail(stepper->getClassName()
+			     + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
 		if (dynamic_cast<const ForceResetter*>(&engine)) resetters.take(engine, passed);
 		else if (dynamic_cast<const Collider*>(&engine))
 			colliders.take(engine, passed);
@@ -93,16 +101,19 @@ void checkEngines(const Scene& scene, const Engine& solver)
 	integrators.require("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");
 	if (!integrators.after) fail("it stands after NewtonIntegrator in O.engines: put it before");
 	checkIntegrator(*newton);
-	loops.require("O.engines has no InteractionLoop, so no contact would be known: add NscdInteractionLoop(...) before it, see yade.nonsmooth.scene.engines");
+	loops.require(
+	        "O.engines has no InteractionLoop, so no contact would be known: add NscdInteractionLoop(...) before it, see yade.nonsmooth.scene.engines");
 	loops.requireBefore();
-	colliders.require("O.engines has no collider, so no contact would be found: add PlanarGridCollider(...) before InteractionLoop, see yade.nonsmooth.scene.engines");
+	colliders.require(
+	        "O.engines has no collider, so no contact would be found: add PlanarGridCollider(...) before InteractionLoop, see yade.nonsmooth.scene.engines");
 	colliders.requireBefore();
 	if (between)
 		fail(named(*between) + " stands between it and " + named(*newton)
 		     + " in O.engines, where a force or a velocity that it changes is one that no reaction answers: put it before this engine, or after the integrator");
 	if (resetters.dead && !resetters.first) resetters.require("");
 	if (scene.forces.lastReset < scene.iter)
-		fail("O.forces were last reset in step " + std::to_string(scene.forces.lastReset) + ", and this is step " + std::to_string(scene.iter)
+		fail("O.forces were last reset in step " + std::to_string(scene.forces.lastReset)
+		     + ", and this is step " + std::to_string(scene.iter)
 		     + ", so that reactions of steps before would act again: put ForceResetter() first in O.engines");
 }
 
@@ -127,14 +138,18 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 	};
 	const auto second = std::find_if(first + 1, bodies.end(), isDisk);
 	if (second != bodies.end() && !known((*scene.bodies)[second - bodies.begin()]->shape))
-		fail("InteractionLoop has no functor for two " + disk->getClassName() + "s, so disks would pass through each other: add Ig2_Sphere_Sphere_ScGeom to its list");
+		fail("InteractionLoop has no functor for two " + disk->getClassName()
+		     + "s, so disks would pass through each other: add Ig2_Sphere_Sphere_ScGeom to its list");
 	for (const int id : shaped) {
 		const auto& b     = (*scene.bodies)[id];
 		auto&       shape = b->shape;
 		if (!shape || !b->isBounded()) continue; // meant to touch nothing
-		if (const Sphere* sphere = sphereOf(*b)) fail(body(id) + " is a Sphere of radius " + number(sphere->radius) + ": give it a positive radius [m]");
+		if (const Sphere* sphere = sphereOf(*b))
+			fail(body(id) + " is a Sphere of radius " + number(sphere->radius)
+			     + ": give it a positive radius [m]");
 		const auto lacks = [&](const Engine& engine, const string& functor) {
-			fail(body(id) + " has a " + shape->getClassName() + ", for which " + named(engine) + " has no " + functor
+			fail(body(id) + " has a " + shape->getClassName() + ", for which " + named(engine) + " has no "
+			     + functor
 			     + ", so disks would pass through it: add one to its list, or set the body's bounded = False if nothing is to touch it");
 		};
 		if (!known(shape)) lacks(*loop, "Ig2 functor with a " + disk->getClassName());
@@ -150,33 +165,43 @@ void refuseContact(const Scene& scene, const Reading& reading)
 	for (const auto& b : { b1, b2 }) { // what is wrong with a material is wrong with its contacts
 		if (!b->material) fail(body(b->getId()) + " has no material: give it an NscdMat");
 		const auto* material = dynamic_cast<const NscdMat*>(b->material.get());
-		if (!material) fail(pair + " has a " + i.phys->getClassName() + ", and " + body(b->getId()) + " a " + b->material->getClassName()
-			            + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+		if (!material)
+			fail(pair + " has a " + i.phys->getClassName() + ", and " + body(b->getId()) + " a "
+			     + b->material->getClassName()
+			     + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
 		try {
 			material->validate();
 		} catch (const std::invalid_argument& error) {
 			fail(body(b->getId()) + ": " + error.what());
 		}
 	}
-	if (!reading.phys) fail(pair + " has a " + i.phys->getClassName() + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+	if (!reading.phys)
+		fail(pair + " has a " + i.phys->getClassName()
+		     + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
 	if (!reading.usable && std::abs(reading.nz) > flatness)
-		fail(pair + " has a normal that leaves the x-y plane, of which only a part would act (z component " + number(reading.nz)
-		     + "; centres at z = " + number(b1->state->pos[2]) + " and " + number(b2->state->pos[2]) + " m): put all disks at one z, and walls upright to the plane");
-	fail(pair + " has numbers without sense: friction " + number(reading.friction) + ", tensile force " + number(reading.adhesion) + " N, rolling arm "
-	     + number(reading.rollingArm) + " m, mean diameter " + number(reading.length) + " m, restitution " + number(reading.restitution)
+		fail(pair + " has a normal that leaves the x-y plane, of which only a part would act (z component "
+		     + number(reading.nz) + "; centres at z = " + number(b1->state->pos[2]) + " and "
+		     + number(b2->state->pos[2]) + " m): put all disks at one z, and walls upright to the plane");
+	fail(pair + " has numbers without sense: friction " + number(reading.friction) + ", tensile force "
+	     + number(reading.adhesion) + " N, rolling arm " + number(reading.rollingArm) + " m, mean diameter "
+	     + number(reading.length) + " m, restitution " + number(reading.restitution)
 	     + "; all must be finite and not negative, the diameter positive, restitution from 0 to 1: set them in its phys, or take them from the materials with "
 	       "ContactDynamicsEngine.updateStrengths()");
 }
 
 bool hasSolver(const Scene& scene)
 {
-	return std::any_of(scene.engines.begin(), scene.engines.end(), [](const auto& e) { return !e->dead && dynamic_cast<const ContactDynamicsEngine*>(e.get()); });
+	return std::any_of(scene.engines.begin(), scene.engines.end(), [](const auto& e) {
+		return !e->dead && dynamic_cast<const ContactDynamicsEngine*>(e.get());
+	});
 }
 
 string noSolver(const Scene& scene)
 {
 	for (const auto& engine : scene.engines)
-		if (dynamic_cast<const ContactDynamicsEngine*>(engine.get())) return "contacts bear nothing, since " + named(*engine) + " in O.engines is dead: set its dead = False";
+		if (dynamic_cast<const ContactDynamicsEngine*>(engine.get()))
+			return "contacts bear nothing, since " + named(*engine)
+			        + " in O.engines is dead: set its dead = False";
 	return "contacts bear nothing, since O.engines has no ContactDynamicsEngine: add one before NewtonIntegrator, see yade.nonsmooth.scene.engines";
 }
 

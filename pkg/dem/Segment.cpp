@@ -21,7 +21,7 @@ void Bo1_Segment_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bou
 namespace nscd {
 	/// Where a sphere's centre stands to a segment: distance vector from the nearest point and whose the contact is.
 	struct SegmentNearest {
-		Vector3r normal;   // from the wall to the sphere
+		Vector3r normal; // from the wall to the sphere
 		Real     distance; // of the centre from the wall, negative behind a one-sided wall
 		bool     owned;
 	};
@@ -31,8 +31,9 @@ namespace nscd {
 		const Vector3r along = state.ori * Vector3r(1, 0, 0), up = state.ori * Vector3r(0, 1, 0);
 		const Vector3r d = centre - state.pos;
 		const Real     s = d.dot(along), m = d.dot(up), half = segment.halfLength;
-		const bool     ownsEnd = segment.nextDirection != Vector3r::Zero(), ownsStart = segment.previousDirection != Vector3r::Zero();
-		const bool     inside  = (ownsStart ? s > -half : s >= -half) && (ownsEnd ? s < half : s <= half);
+		const bool     ownsEnd = segment.nextDirection != Vector3r::Zero(),
+		           ownsStart   = segment.previousDirection != Vector3r::Zero();
+		const bool inside      = (ownsStart ? s > -half : s >= -half) && (ownsEnd ? s < half : s <= half);
 
 		SegmentNearest result;
 		const int      side = segment.sense != 0 ? segment.sense : (m < 0 ? -1 : 1);
@@ -62,20 +63,17 @@ namespace nscd {
 }
 
 bool Ig2_Segment_Sphere_ScGeom::go(
-        const shared_ptr<Shape>&       shape1,
-        const shared_ptr<Shape>&       shape2,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& interaction)
+        const shared_ptr<Shape>& shape1, const shared_ptr<Shape>& shape2, const State& state1, const State& state2,
+        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& interaction)
 {
 	const auto& segment = static_cast<const Segment&>(*shape1);
 	const Real  radius  = static_cast<const Sphere&>(*shape2).radius;
 	const auto  near    = nscd::nearest(segment, state1, state2.pos + shift2);
 	const Real  gap     = near.distance - radius;
 	if (!interaction->isReal() && !force) {
-		if (!near.owned || gap > (interactionDetectionFactor - 1) * 2 * radius || (segment.sense != 0 && near.distance < -radius)) return false;
+		if (!near.owned || gap > (interactionDetectionFactor - 1) * 2 * radius
+		    || (segment.sense != 0 && near.distance < -radius))
+			return false;
 	}
 	const bool              isNew = !interaction->geom;
 	shared_ptr<SegmentGeom> geom;
@@ -85,18 +83,14 @@ bool Ig2_Segment_Sphere_ScGeom::go(
 	geom->owned = near.owned;
 	// both radii the sphere's, as the box functor does it
 	geom->doIg2Work(
-	        state2.pos + shift2 - near.normal * (radius + 0.5 * gap), -gap, radius, radius, state1, state2, scene, interaction, near.normal, shift2, isNew, false);
+	        state2.pos + shift2 - near.normal * (radius + 0.5 * gap), -gap, radius, radius, state1, state2, scene,
+	        interaction, near.normal, shift2, isNew, false);
 	return true;
 }
 
 bool Ig2_Segment_Sphere_ScGeom::goReverse(
-        const shared_ptr<Shape>&       sphere,
-        const shared_ptr<Shape>&       segment,
-        const State&                   state1,
-        const State&                   state2,
-        const Vector3r&                shift2,
-        const bool&                    force,
-        const shared_ptr<Interaction>& interaction)
+        const shared_ptr<Shape>& sphere, const shared_ptr<Shape>& segment, const State& state1, const State& state2,
+        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& interaction)
 {
 	interaction->swapOrder();
 	return go(segment, sphere, state2, state1, -shift2, force, interaction);

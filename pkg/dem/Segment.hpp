@@ -43,11 +43,14 @@ REGISTER_SERIALIZABLE(Bo1_Segment_Aabb);
 
 namespace nscd {
 	/// Whether a point is surely farther than `reach` [m] from a segment that lies in the plane with that motion.
-	inline bool isBeyond(Real reach, const Segment& segment, const nonsmooth::contact::plane::Motion& wall, const nonsmooth::contact::Point& point)
+	inline bool isBeyond(
+	        Real reach, const Segment& segment, const nonsmooth::contact::plane::Motion& wall,
+	        const nonsmooth::contact::Point& point)
 	{
 		const auto along = nonsmooth::contact::plane::rotate(wall.rotation, { 1, 0 });
 		const Real dx = point.x - wall.position.x, dy = point.y - wall.position.y;
-		return std::abs(along.x * dy - along.y * dx) > reach || std::abs(along.x * dx + along.y * dy) > segment.halfLength + reach;
+		return std::abs(along.x * dy - along.y * dx) > reach
+		        || std::abs(along.x * dx + along.y * dy) > segment.halfLength + reach;
 	}
 }
 
@@ -68,22 +71,13 @@ REGISTER_SERIALIZABLE(SegmentGeom);
 
 class Ig2_Segment_Sphere_ScGeom : public IGeomFunctor {
 public:
-	bool
-	go(const shared_ptr<Shape>&       segment,
-	   const shared_ptr<Shape>&       sphere,
-	   const State&                   state1,
-	   const State&                   state2,
-	   const Vector3r&                shift2,
-	   const bool&                    force,
-	   const shared_ptr<Interaction>& interaction) override;
-	bool
-	goReverse(const shared_ptr<Shape>&       sphere,
-	          const shared_ptr<Shape>&       segment,
-	          const State&                   state1,
-	          const State&                   state2,
-	          const Vector3r&                shift2,
-	          const bool&                    force,
-	          const shared_ptr<Interaction>& interaction) override;
+	bool go(const shared_ptr<Shape>& segment, const shared_ptr<Shape>& sphere, const State& state1,
+	        const State& state2, const Vector3r& shift2, const bool& force,
+	        const shared_ptr<Interaction>& interaction) override;
+	bool goReverse(
+	        const shared_ptr<Shape>& sphere, const shared_ptr<Shape>& segment, const State& state1,
+	        const State& state2, const Vector3r& shift2, const bool& force,
+	        const shared_ptr<Interaction>& interaction) override;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Segment_Sphere_ScGeom,IGeomFunctor,
 R"""(Make or update the geometry of a :yref:`Segment` and a :yref:`Sphere`, also while the gap is open.)""",

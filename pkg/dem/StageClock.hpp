@@ -11,7 +11,8 @@ namespace yade::nscd {
 enum class Stage { Collide, Interactions, Gather, Solve, Correct, Scatter, Integrate };
 
 struct StageClock {
-	static constexpr std::array<const char*, 7> names { "collide", "interactions", "gather", "solve", "correct", "scatter", "integrate" };
+	static constexpr std::array<const char*, 7> names { "collide", "interactions", "gather",   "solve",
+		                                            "correct", "scatter",      "integrate" };
 
 	std::array<Real, names.size()> seconds {}; // by stage, so far
 
@@ -29,7 +30,7 @@ public:
 	{
 	}
 	~StageTimer() { count(Steady::now()); }
-	StageTimer(const StageTimer&) = delete;
+	StageTimer(const StageTimer&)            = delete;
 	StageTimer& operator=(const StageTimer&) = delete;
 
 	/// Ends a stage and begins another.

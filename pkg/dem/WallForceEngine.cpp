@@ -8,11 +8,17 @@ YADE_PLUGIN((WallForceEngine));
 void WallForceEngine::action()
 {
 	const auto fail = [](const string& why) { throw std::runtime_error("WallForceEngine: " + why); };
-	if (along.size() != ids.size()) fail(std::to_string(ids.size()) + " ids and " + std::to_string(along.size()) + " directions: give one along each piece");
+	if (along.size() != ids.size())
+		fail(std::to_string(ids.size()) + " ids and " + std::to_string(along.size())
+		     + " directions: give one along each piece");
 	if (period < 1) fail("period = " + std::to_string(period) + ": it must be at least 1");
 	const auto& engines = scene->engines;
-	const auto  before  = std::find_if(engines.begin(), engines.end(), [this](const auto& e) { return e.get() == this; });
-	if (std::none_of(engines.begin(), before, [](const auto& e) { return !e->dead && dynamic_cast<const NewtonIntegrator*>(e.get()); }))
+	const auto  before  = std::find_if(engines.begin(), engines.end(), [this](const auto& e) {
+                return e.get() == this;
+        });
+	if (std::none_of(engines.begin(), before, [](const auto& e) {
+		    return !e->dead && dynamic_cast<const NewtonIntegrator*>(e.get());
+	    }))
 		fail("it stands before the integrator in O.engines, where forces are not yet whole: put it behind");
 	if ((scene->iter + 1) % period != 0) return;
 

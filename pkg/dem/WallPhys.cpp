@@ -8,7 +8,8 @@ namespace yade {
 
 YADE_PLUGIN((WallPhys)(Ip2_NscdMat_FrictMat_WallPhys));
 
-void Ip2_NscdMat_FrictMat_WallPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
+void Ip2_NscdMat_FrictMat_WallPhys::go(
+        const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
 {
 	if (interaction->phys) return;
 	const auto& wall   = static_cast<const NscdMat&>(*m1);

@@ -37,8 +37,11 @@ REGISTER_SERIALIZABLE(WallPhys);
 
 class Ip2_NscdMat_FrictMat_WallPhys : public IPhysFunctor {
 public:
-	void go(const shared_ptr<Material>& wall, const shared_ptr<Material>& disk, const shared_ptr<Interaction>& interaction) override;
-	void goReverse(const shared_ptr<Material>& disk, const shared_ptr<Material>& wall, const shared_ptr<Interaction>& interaction) override
+	void go(const shared_ptr<Material>& wall, const shared_ptr<Material>& disk,
+	        const shared_ptr<Interaction>& interaction) override;
+	void goReverse(
+	        const shared_ptr<Material>& disk, const shared_ptr<Material>& wall,
+	        const shared_ptr<Interaction>& interaction) override
 	{
 		go(wall, disk, interaction);
 	}

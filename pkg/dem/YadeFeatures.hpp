@@ -24,7 +24,8 @@ inline int threadsOf([[maybe_unused]] const Engine& engine)
 {
 #ifdef YADE_OPENMP
 	const int all = omp_get_max_threads();
-	return engine.ompThreads > 0 ? std::min(engine.ompThreads, all) : int(std::clamp<size_t>(engine.scene->bodies->size() / bodiesForAThread, 1, all));
+	return engine.ompThreads > 0 ? std::min(engine.ompThreads, all)
+	                             : int(std::clamp<size_t>(engine.scene->bodies->size() / bodiesForAThread, 1, all));
 #else
 	return 1;
 #endif

@@ -13,12 +13,17 @@ namespace {
 
 DiskGrid::Cell DiskGrid::Level::cellOf(double x, double y) const
 {
-	const auto index = [this](double v) { return std::int32_t(std::clamp(std::floor(v / width), -farthest, farthest)); };
+	const auto index = [this](double v) {
+		return std::int32_t(std::clamp(std::floor(v / width), -farthest, farthest));
+	};
 	return { index(x), index(y) };
 }
 
 /// Cells of a row stand side by side, so that three neighbours are one stretch of memory.
-std::uint32_t DiskGrid::Level::bucketOf(Cell c) const { return (std::uint32_t(c.x) + 73856093u * std::uint32_t(c.y)) & mask; }
+std::uint32_t DiskGrid::Level::bucketOf(Cell c) const
+{
+	return (std::uint32_t(c.x) + 73856093u * std::uint32_t(c.y)) & mask;
+}
 
 /// Calls `each` with the entries of all cells that a box touches, and perhaps with others.
 template <class F> void DiskGrid::Level::visit(const Box& box, F&& each) const
@@ -102,11 +107,17 @@ void DiskGrid::pairs(int threads, Pairs& found)
 					const Level& other = levels[b];
 					if (other.entries.empty()) continue;
 					const double out = factor * (e.r + other.largest) + e.margin;
-					other.visit({ e.x - out, e.y - out, e.x + out, e.y + out }, [&](const Entry& o) {
-						if (b == a && o.disk <= e.disk) return;
-						const double x = o.x - e.x, y = o.y - e.y, far = factor * (e.r + o.r) + std::min(e.margin, o.margin);
-						if (x * x + y * y < far * far) part.emplace_back(std::min(e.disk, o.disk), std::max(e.disk, o.disk));
-					});
+					other.visit(
+					        { e.x - out, e.y - out, e.x + out, e.y + out }, [&](const Entry& o) {
+						        if (b == a && o.disk <= e.disk) return;
+						        const double x = o.x - e.x, y = o.y - e.y,
+						                     far = factor * (e.r + o.r)
+						                + std::min(e.margin, o.margin);
+						        if (x * x + y * y < far * far)
+							        part.emplace_back(
+							                std::min(e.disk, o.disk),
+							                std::max(e.disk, o.disk));
+					        });
 				}
 			}
 		}

@@ -56,20 +56,20 @@ private:
 	};
 	/// Disks of one range of sizes by cells; entries of bucket b lie from bucket[b] to bucket[b + 1].
 	struct Level {
-		double                     largest = 0, width = 0; // of its disks' radii, of a cell
-		std::vector<Entry>         entries;
-		std::vector<int>           bucket;
-		std::uint32_t              mask = 0;
-		Cell                       cellOf(double x, double y) const;
-		std::uint32_t              bucketOf(Cell c) const;
-		template <class F> void    visit(const Box& box, F&& each) const;
-		void                       sort(std::vector<Entry>& spare);
+		double                  largest = 0, width = 0; // of its disks' radii, of a cell
+		std::vector<Entry>      entries;
+		std::vector<int>        bucket;
+		std::uint32_t           mask = 0;
+		Cell                    cellOf(double x, double y) const;
+		std::uint32_t           bucketOf(Cell c) const;
+		template <class F> void visit(const Box& box, F&& each) const;
+		void                    sort(std::vector<Entry>& spare);
 	};
-	std::vector<Level>             levels;
-	std::vector<Entry>             spare;
+	std::vector<Level>                            levels;
+	std::vector<Entry>                            spare;
 	std::vector<std::vector<std::pair<int, int>>> parts; // found by each thread
-	double                         factor = 1;
-	int                            count  = 0;
+	double                                        factor = 1;
+	int                                           count  = 0;
 };
 
 } // namespace nonsmooth::neighbours

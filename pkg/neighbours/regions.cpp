@@ -13,7 +13,9 @@ namespace {
 
 void Regions::build(const std::vector<Disk>& disks, double width)
 {
-	const auto index = [width](double v) { return std::int64_t(std::clamp(std::floor(v / width), -farthest, farthest)); };
+	const auto index = [width](double v) {
+		return std::int64_t(std::clamp(std::floor(v / width), -farthest, farthest));
+	};
 	const auto keyOf = [](std::int64_t x, std::int64_t y) { return (std::int64_t(1) << 32) * x + y; };
 	std::unordered_map<std::int64_t, int>              numbers;
 	std::vector<std::pair<std::int64_t, std::int64_t>> places;
@@ -51,7 +53,8 @@ void Regions::differences(int threads, const std::vector<Vector>& vectors, std::
 			Extent           e { all, all, -all, -all };
 			for (int k = begin[s]; k < begin[s + 1]; ++k) {
 				const Vector& v = vectors[member[k]];
-				e = { std::min(e.xMin, v.x), std::min(e.yMin, v.y), std::max(e.xMax, v.x), std::max(e.yMax, v.y) };
+				e               = { std::min(e.xMin, v.x), std::min(e.yMin, v.y), std::max(e.xMax, v.x),
+					            std::max(e.yMax, v.y) };
 			}
 			extents[s] = e;
 		}
@@ -60,9 +63,11 @@ void Regions::differences(int threads, const std::vector<Vector>& vectors, std::
 			Extent e = extents[s];
 			for (const int other : around[s]) {
 				const Extent& o = extents[other];
-				e = { std::min(e.xMin, o.xMin), std::min(e.yMin, o.yMin), std::max(e.xMax, o.xMax), std::max(e.yMax, o.yMax) };
+				e = { std::min(e.xMin, o.xMin), std::min(e.yMin, o.yMin), std::max(e.xMax, o.xMax),
+				      std::max(e.yMax, o.yMax) };
 			}
-			found[s] = std::sqrt((e.xMax - e.xMin) * (e.xMax - e.xMin) + (e.yMax - e.yMin) * (e.yMax - e.yMin));
+			found[s] = std::sqrt(
+			        (e.xMax - e.xMin) * (e.xMax - e.xMin) + (e.yMax - e.yMin) * (e.yMax - e.yMin));
 		}
 	}
 }

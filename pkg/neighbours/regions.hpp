@@ -29,10 +29,10 @@ private:
 	struct Extent {
 		double xMin, yMin, xMax, yMax;
 	};
-	std::vector<int>                square;        // by disk
-	std::vector<int>                begin, member; // disks of square s from member[begin[s]] to member[begin[s + 1]]
-	std::vector<std::array<int, 9>> around;        // squares, itself among them; itself again where there is none
-	std::vector<Extent>             extents;       // of the vectors in each
+	std::vector<int> square; // by disk
+	std::vector<int> begin, member; // disks of square s from member[begin[s]] to member[begin[s + 1]]
+	std::vector<std::array<int, 9>> around; // squares, itself among them; itself again where there is none
+	std::vector<Extent>             extents; // of the vectors in each
 };
 
 } // namespace nonsmooth::neighbours

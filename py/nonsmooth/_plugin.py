@@ -11,7 +11,8 @@ def require():
     if not os.path.exists(gate):
         raise RuntimeError(
             "the engines of yade-nonsmooth are not in this YADE (%s is missing): run the script with "
-            "scripts/yade-nonsmooth, or install the plugin with cmake --install" % gate)
+            "scripts/yade-nonsmooth, or install the plugin with cmake --install" % gate
+        )
     refusal = ctypes.CDLL(gate).nonsmooth_refusal
     refusal.restype = ctypes.c_char_p
     reason = refusal().decode()

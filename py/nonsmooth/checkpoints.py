@@ -19,7 +19,16 @@ from .whole_files import WriteError, remove_parts, sync_folder, whole, write_ato
 __all__ = ["exists", "forget", "read", "write"]
 
 FORMAT = 2
-OWN = ("format", "scene", "size", "sha256", "step", "key", "engines", "sum")  # keys of the JSON file that are not the caller's
+OWN = (
+    "format",
+    "scene",
+    "size",
+    "sha256",
+    "step",
+    "key",
+    "engines",
+    "sum",
+)  # keys of the JSON file that are not the caller's
 
 
 def exists(folder):
@@ -37,7 +46,9 @@ def forget(folder):
             for scene in whole(path.parent, "scene-*.yade*"):
                 scene.unlink()
     except OSError as error:
-        raise WriteError(f"{path.parent}: the checkpoint of an earlier run cannot be removed ({error.strerror}); remove it, or give another folder") from None
+        raise WriteError(
+            f"{path.parent}: the checkpoint of an earlier run cannot be removed ({error.strerror}); remove it, or give another folder"
+        ) from None
     remove_parts(path.parent)
 
 
@@ -51,9 +62,19 @@ def write(folder, key, content):
         # named by its content too: a second checkpoint of one step must not take the place of what the first names
         name, size = f"scene-{O.iter:08d}-{whole_sum[:8]}.yade", len(scene)
         write_atomically(folder / name, scene)
-    head = {"format": FORMAT, "scene": name, "size": size, "sha256": whole_sum, "step": O.iter, "key": key, "engines": _engines()}
+    head = {
+        "format": FORMAT,
+        "scene": name,
+        "size": size,
+        "sha256": whole_sum,
+        "step": O.iter,
+        "key": key,
+        "engines": _engines(),
+    }
     told = {**content, **head}
-    write_atomically(folder / "checkpoint.json", json.dumps({**told, "sum": key_of(told)}, indent=1, allow_nan=False).encode())
+    write_atomically(
+        folder / "checkpoint.json", json.dumps({**told, "sum": key_of(told)}, indent=1, allow_nan=False).encode()
+    )
     for old in whole(folder, "scene-*.yade*"):
         if old.name != name:
             old.unlink(missing_ok=True)
@@ -71,16 +92,24 @@ def read(folder, key, error, again="run without --resume"):
     anew = f"remove {path.parent} and {again}"
     told = _told(path, again, anew, error)
     if told.get("format") != FORMAT or told["engines"] != _engines():
-        raise error(f"{path}: another version of the plugin or of YADE wrote this checkpoint, and would not go on with the same bits; resume with that one, or {anew}")
+        raise error(
+            f"{path}: another version of the plugin or of YADE wrote this checkpoint, and would not go on with the same bits; resume with that one, or {anew}"
+        )
     if told["key"] != key:
-        raise error(f"{path}: this checkpoint belongs to other settings (input, number of disks or seed); give the same ones, or another --out")
+        raise error(
+            f"{path}: this checkpoint belongs to other settings (input, number of disks or seed); give the same ones, or another --out"
+        )
     scene = path.parent / told["scene"]
     try:
         found = scene.read_bytes()
     except OSError as problem:
-        raise error(f"{scene}: the checkpoint's scene is missing or cannot be read ({problem.strerror}); {anew}") from None
+        raise error(
+            f"{scene}: the checkpoint's scene is missing or cannot be read ({problem.strerror}); {anew}"
+        ) from None
     if len(found) != told["size"]:
-        raise error(f"{scene}: the checkpoint's scene is truncated or too long: {len(found)} bytes instead of {told['size']}; {anew}")
+        raise error(
+            f"{scene}: the checkpoint's scene is truncated or too long: {len(found)} bytes instead of {told['size']}; {anew}"
+        )
     if hashlib.sha256(found).hexdigest() != told["sha256"]:
         raise error(f"{scene}: the checkpoint's scene is damaged: it does not match its checksum; {anew}")
     del found
@@ -131,7 +160,9 @@ def _saved(folder):
             os.ftruncate(file.fileno(), size)
             saved = mmap.mmap(file.fileno(), size, access=mmap.ACCESS_READ)
         except (OSError, RuntimeError, ValueError) as error:
-            raise WriteError(f"{folder}: the checkpoint cannot be written ({getattr(error, 'strerror', None) or error}); give a folder that can be written and has "
-                             "room, and no limit on the size of files or on memory") from None
+            raise WriteError(
+                f"{folder}: the checkpoint cannot be written ({getattr(error, 'strerror', None) or error}); give a folder that can be written and has "
+                "room, and no limit on the size of files or on memory"
+            ) from None
         with saved:
             yield saved

@@ -29,7 +29,10 @@ def run(main, kept="nothing is kept: run it again"):
     except OSError as error:
         if error.errno not in REFUSALS:
             raise
-        _end(1, f"error: {error.filename or 'a file'}: cannot be used ({error.strerror}); give a folder that can be written and has room")
+        _end(
+            1,
+            f"error: {error.filename or 'a file'}: cannot be used ({error.strerror}); give a folder that can be written and has room",
+        )
     except KeyboardInterrupt as stop:
         _end(INTERRUPTED, f"stopped: {str(stop) if isinstance(stop, Interrupted) else kept}")
 

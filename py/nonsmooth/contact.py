@@ -20,7 +20,19 @@ import numpy as np
 
 from .errors import UserError
 
-__all__ = ["ContactProblem", "ProblemError", "Residual", "Solution", "VelocityChanges", "load", "paths", "residual", "save", "solve", "velocity_changes"]
+__all__ = [
+    "ContactProblem",
+    "ProblemError",
+    "Residual",
+    "Solution",
+    "VelocityChanges",
+    "load",
+    "paths",
+    "residual",
+    "save",
+    "solve",
+    "velocity_changes",
+]
 
 
 class ProblemError(UserError, ValueError):
@@ -31,20 +43,20 @@ class ProblemError(UserError, ValueError):
 class ContactProblem:
     """b bodies and c contacts; SI units, masses and impulses per metre of thickness, compression positive, contacts from i to j."""
 
-    time_step: float           # h [s]
-    inverse_mass: np.ndarray   # (b, 3): 1/m_x, 1/m_y [1/kg], 1/I [1/(kg m²)]; 0 where blocked
+    time_step: float  # h [s]
+    inverse_mass: np.ndarray  # (b, 3): 1/m_x, 1/m_y [1/kg], 1/I [1/(kg m²)]; 0 where blocked
     free_velocity: np.ndarray  # (b, 3): velocities at the end of the step if no contact acted [m/s, m/s, rad/s]
-    velocity: np.ndarray       # (b, 3): the step's solution
-    body: np.ndarray           # (c, 2) int32: i, j
-    normal: np.ndarray         # (c, 2)
-    lever: np.ndarray          # (c, 4): λn_i, λt_i, λn_j, λt_j [m]
-    bias: np.ndarray           # (c, 3): b_n, b_t [m/s], b_r [rad/s]
-    adhesion: np.ndarray       # (c,): h F_a [N s]
-    friction: np.ndarray       # (c,): μ_s
-    rolling_arm: np.ndarray    # (c,): μ_r ℓ [m]
-    length: np.ndarray         # (c,): ℓ [m]
-    warm_start: np.ndarray     # (c, 3): impulses the step's solve began with [N s, N s, N m s]
-    impulse: np.ndarray        # (c, 3): the step's solution
+    velocity: np.ndarray  # (b, 3): the step's solution
+    body: np.ndarray  # (c, 2) int32: i, j
+    normal: np.ndarray  # (c, 2)
+    lever: np.ndarray  # (c, 4): λn_i, λt_i, λn_j, λt_j [m]
+    bias: np.ndarray  # (c, 3): b_n, b_t [m/s], b_r [rad/s]
+    adhesion: np.ndarray  # (c,): h F_a [N s]
+    friction: np.ndarray  # (c,): μ_s
+    rolling_arm: np.ndarray  # (c,): μ_r ℓ [m]
+    length: np.ndarray  # (c,): ℓ [m]
+    warm_start: np.ndarray  # (c, 3): impulses the step's solve began with [N s, N s, N m s]
+    impulse: np.ndarray  # (c, 3): the step's solution
     position: np.ndarray | None = None  # (b, 2) [m], for the order of the sweep only
 
 
@@ -52,42 +64,53 @@ class ContactProblem:
 class Residual:
     """Distance from the graphs of the law (natural map), whoever found the impulses; rms and largest value over contacts."""
 
-    relative: float       # rms over the rms impulse: what tolerances are given for
-    force_rms: float      # [N]
+    relative: float  # rms over the rms impulse: what tolerances are given for
+    force_rms: float  # [N]
     force_largest: float  # [N]
-    speed_rms: float      # [m/s]
+    speed_rms: float  # [m/s]
     speed_largest: float  # [m/s]
-    defect: np.ndarray    # (c, 3): P − proj(P − (U + b)/W) of every contact [N s, N s, N m s]
+    defect: np.ndarray  # (c, 3): P − proj(P − (U + b)/W) of every contact [N s, N s, N m s]
 
 
 @dataclass(frozen=True)
 class VelocityChanges:
     """What LMGC90's stopping tests look at, for impulses whoever found them: the changes of relative velocity that one more visit of each contact
-    would make, in five dimensionless figures (``pkg/contact/stopping.hpp``), and what each test compares with its tolerance."""
+    would make, in five dimensionless figures (``pkg/contact/stopping.hpp``), and what each test compares with its tolerance.
+    """
 
-    velocity: float          # rms change of velocity over rms W P
+    velocity: float  # rms change of velocity over rms W P
     largest_velocity: float  # largest change over the same
-    work: float              # rms of change times reaction, over the mean of P·W P
+    work: float  # rms of change times reaction, over the mean of P·W P
     largest_work: float
-    drift: float             # mean of change times reaction, with its sign, over the same
-    quad: float              # figure of the test "Quad"
-    maxm: float              # of "Maxm"
-    qm16: float              # of "QM/16"
+    drift: float  # mean of change times reaction, with its sign, over the same
+    quad: float  # figure of the test "Quad"
+    maxm: float  # of "Maxm"
+    qm16: float  # of "QM/16"
 
 
 @dataclass(frozen=True)
 class Solution:
-    impulse: np.ndarray   # (c, 3)
+    impulse: np.ndarray  # (c, 3)
     velocity: np.ndarray  # (b, 3)
     iterations: int
     restarts: int
     converged: bool
-    relative: float       # residual (natural map) of what is returned, whatever test stopped the solver
-    seconds: float        # wall time of the solve, without the copying of arrays [s]
+    relative: float  # residual (natural map) of what is returned, whatever test stopped the solver
+    seconds: float  # wall time of the solve, without the copying of arrays [s]
 
 
 _BODIES = {"inverse_mass": 3, "free_velocity": 3, "velocity": 3}
-CONTACT_ARRAYS = {"normal": 2, "lever": 4, "bias": 3, "adhesion": 0, "friction": 0, "rolling_arm": 0, "length": 0, "warm_start": 3, "impulse": 3}
+CONTACT_ARRAYS = {
+    "normal": 2,
+    "lever": 4,
+    "bias": 3,
+    "adhesion": 0,
+    "friction": 0,
+    "rolling_arm": 0,
+    "length": 0,
+    "warm_start": 3,
+    "impulse": 3,
+}
 
 
 def load(path) -> ContactProblem:
@@ -121,7 +144,9 @@ def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
         _checked(f"{what}: {name}", getattr(problem, name), shape, "iu" if name == "body" else "fiu")
     if contacts and not (0 <= np.min(problem.body) and np.max(problem.body) < bodies):
         k = int(np.argmax(((np.asarray(problem.body) < 0) | (np.asarray(problem.body) >= bodies)).any(axis=1)))
-        raise ProblemError(f"{what}: body: contact {k} names bodies {tuple(np.asarray(problem.body)[k].tolist())}; there are {bodies}, counted from 0")
+        raise ProblemError(
+            f"{what}: body: contact {k} names bodies {tuple(np.asarray(problem.body)[k].tolist())}; there are {bodies}, counted from 0"
+        )
     return problem
 
 
@@ -145,16 +170,38 @@ def save(path, problem: ContactProblem) -> Path:
     path = Path(path)
     check(problem)
     try:
-        _nonsmooth_contact.save(os.fspath(path), {**_arrays(problem, problem.impulse), "time_step": float(problem.time_step), "velocity": problem.velocity,
-                                                  "warm_start": problem.warm_start})
+        _nonsmooth_contact.save(
+            os.fspath(path),
+            {
+                **_arrays(problem, problem.impulse),
+                "time_step": float(problem.time_step),
+                "velocity": problem.velocity,
+                "warm_start": problem.warm_start,
+            },
+        )
     except RuntimeError as error:
         raise ProblemError(str(error)) from None
     return path
 
 
 def _arrays(problem, impulse):
-    fields = ("inverse_mass", "free_velocity", "position", "body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length")
-    return {**{name: getattr(problem, name) for name in fields}, "impulse": _checked("impulse", impulse, (len(problem.normal), 3), "fiu")}
+    fields = (
+        "inverse_mass",
+        "free_velocity",
+        "position",
+        "body",
+        "normal",
+        "lever",
+        "bias",
+        "adhesion",
+        "friction",
+        "rolling_arm",
+        "length",
+    )
+    return {
+        **{name: getattr(problem, name) for name in fields},
+        "impulse": _checked("impulse", impulse, (len(problem.normal), 3), "fiu"),
+    }
 
 
 def _whole(name, value, least, most):
@@ -163,8 +210,17 @@ def _whole(name, value, least, most):
     return int(value)
 
 
-def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_iterations=1000, check_every=10, threads=1, start="warm",
-          stopping="naturalMap", path="best") -> Solution:
+def solve(
+    problem: ContactProblem,
+    method="accelerated",
+    tolerance=1e-4,
+    max_iterations=1000,
+    check_every=10,
+    threads=1,
+    start="warm",
+    stopping="naturalMap",
+    path="best",
+) -> Solution:
     """Solves the problem with the project's solver.
 
     ``method``: "accelerated" or "gaussSeidel"; ``start``: "warm" (what the step began with), "cold" (zero) or impulses of shape (c, 3).
@@ -179,18 +235,31 @@ def solve(problem: ContactProblem, method="accelerated", tolerance=1e-4, max_ite
         if start not in ("warm", "cold"):
             raise ProblemError(f"start = {start!r}: it must be 'warm', 'cold' or an array of impulses")
         start = problem.warm_start if start == "warm" else np.zeros_like(problem.warm_start)
-    if not isinstance(tolerance, numbers.Real) or isinstance(tolerance, bool) or not (np.isfinite(tolerance) and tolerance > 0):
+    if (
+        not isinstance(tolerance, numbers.Real)
+        or isinstance(tolerance, bool)
+        or not (np.isfinite(tolerance) and tolerance > 0)
+    ):
         raise ProblemError(f"tolerance = {tolerance!r}: it must be a positive, finite number")
     for name, value in (("method", method), ("stopping", stopping), ("path", path)):
         if not isinstance(value, str):
             raise ProblemError(f"{name} = {value!r}: it must be a string")
-    sweeps = _whole("max_iterations", max_iterations, 0, 2**31 - 1), _whole("check_every", check_every, 1, _nonsmooth_contact.most_check_every)
+    sweeps = _whole("max_iterations", max_iterations, 0, 2**31 - 1), _whole(
+        "check_every", check_every, 1, _nonsmooth_contact.most_check_every
+    )
     threads = _whole("threads", threads, 1, _nonsmooth_contact.most_threads)
     try:
-        found = _nonsmooth_contact.solve(_arrays(check(problem), start), method, float(tolerance), *sweeps, threads, stopping, path)
+        found = _nonsmooth_contact.solve(
+            _arrays(check(problem), start), method, float(tolerance), *sweeps, threads, stopping, path
+        )
     except ValueError as error:
         raise ProblemError(str(error)) from None
-    return Solution(**{name: found[name] for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative", "seconds")})
+    return Solution(
+        **{
+            name: found[name]
+            for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative", "seconds")
+        }
+    )
 
 
 def paths() -> tuple:
@@ -213,4 +282,6 @@ def velocity_changes(problem: ContactProblem, impulse=None) -> VelocityChanges:
     """Figures of LMGC90's stopping tests for impulses of shape (c, 3) (default: those in the problem), from velocities computed anew."""
     import _nonsmooth_contact
 
-    return VelocityChanges(**_nonsmooth_contact.velocity_changes(_arrays(check(problem), problem.impulse if impulse is None else impulse)))
+    return VelocityChanges(
+        **_nonsmooth_contact.velocity_changes(_arrays(check(problem), problem.impulse if impulse is None else impulse))
+    )

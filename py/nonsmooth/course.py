@@ -24,14 +24,32 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-__all__ = ["STAGES", "Seen", "State", "after", "care", "damping", "foreseen", "gravity_share", "keeps_frame", "noted", "next_row", "tolerance", "water_table"]
+__all__ = [
+    "STAGES",
+    "Seen",
+    "State",
+    "after",
+    "care",
+    "damping",
+    "foreseen",
+    "gravity_share",
+    "keeps_frame",
+    "noted",
+    "next_row",
+    "tolerance",
+    "water_table",
+]
 
 STAGES = ("settle", "dry", "water")  # by their number in the series
-FRAME_ROWS = 5           # between two snapshots, for the video and the figures
-SLOW_FRACTION = 0.1      # of the largest mean speed, see above
-STILL_SHARE = 0.25       # the tolerance of a slope that is still, of itself
+FRAME_ROWS = 5  # between two snapshots, for the video and the figures
+SLOW_FRACTION = 0.1  # of the largest mean speed, see above
+STILL_SHARE = 0.25  # the tolerance of a slope that is still, of itself
 # for the progress bar alone
-SETTLING, MOTION, RISE = 8.0, 55.0, 25.0  # s of a usual settling and of a usual avalanche; m of water that a usual slope bears
+SETTLING, MOTION, RISE = (
+    8.0,
+    55.0,
+    25.0,
+)  # s of a usual settling and of a usual avalanche; m of water that a usual slope bears
 
 
 @dataclass
@@ -78,8 +96,16 @@ class Seen:
 # ---- the state --------------------------------------------------------------------------------------
 def noted(state, seen, scales):
     """The State with what counts before a row is written: whether the slope got going before the water, and its largest mean speed since it counts."""
-    failed_dry = seen.time if state.stage != "water" and state.failed_dry is None and seen.speed >= scales.going_speed else state.failed_dry
-    return replace(state, failed_dry=failed_dry, speed_max=max(state.speed_max, seen.speed) if state.stage == "water" or failed_dry is not None else 0.0)
+    failed_dry = (
+        seen.time
+        if state.stage != "water" and state.failed_dry is None and seen.speed >= scales.going_speed
+        else state.failed_dry
+    )
+    return replace(
+        state,
+        failed_dry=failed_dry,
+        speed_max=max(state.speed_max, seen.speed) if state.stage == "water" or failed_dry is not None else 0.0,
+    )
 
 
 def after(state, seen, section, scales):
@@ -107,8 +133,18 @@ def _water(state, seen, section, scales):
     stages, s = section.stages, replace(state, stood=state.stood or seen.speed < scales.stopped_speed)
     follows, rises = stages.water_hold == "motion", seen.water is not None
     if s.moving is None and seen.speed >= scales.moving_speed:
-        s = replace(s, moving=seen.time, failed_dry=s.failed_dry if s.stood else seen.time, water_hold=seen.water if rises and (follows or not s.stood) else s.water_hold)
-    elif s.moving is not None and s.failed_dry is None and seen.speed < scales.stopped_speed and s.speed_max < scales.going_speed:
+        s = replace(
+            s,
+            moving=seen.time,
+            failed_dry=s.failed_dry if s.stood else seen.time,
+            water_hold=seen.water if rises and (follows or not s.stood) else s.water_hold,
+        )
+    elif (
+        s.moving is not None
+        and s.failed_dry is None
+        and seen.speed < scales.stopped_speed
+        and s.speed_max < scales.going_speed
+    ):
         if rises and follows:
             s = replace(s, water_delay=s.water_delay + (seen.time - s.moving), water_hold=None)
         s = replace(s, moving=None)
@@ -118,7 +154,13 @@ def _water(state, seen, section, scales):
     since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
     height = seen.water if rises else 0.0
     over = _passed(seen, s.settled + stages.end.time) or (resting and _passed(seen, stages.end.rest_hold, since))
-    return replace(s, stage="done" if over else "water", resting_since=since, table=height, table_since=s.table_since if height == s.table else seen.time)
+    return replace(
+        s,
+        stage="done" if over else "water",
+        resting_since=since,
+        table=height,
+        table_since=s.table_since if height == s.table else seen.time,
+    )
 
 
 def _passed(seen, time, since=0.0):
@@ -150,7 +192,10 @@ def flowing(speed, largest):
 def care(state, seen, scales):
     """How exactly contacts want to be computed in the water stage: (from 0 at rest to 1 on the move, whether the slope is still)."""
     # reactions at rest depend on how the mass came to rest, so more care while it slows down
-    return 0.0 if state.moving is None else flowing(seen.speed, state.speed_max), state.moving is None and seen.time - state.table_since >= scales.still_seconds
+    return (
+        0.0 if state.moving is None else flowing(seen.speed, state.speed_max),
+        state.moving is None and seen.time - state.table_since >= scales.still_seconds,
+    )
 
 
 def tolerance(flowing, still, numerics):

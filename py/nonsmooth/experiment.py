@@ -21,7 +21,20 @@ from yade import O
 from yade.minieigenHP import Vector3
 from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator
 
-from . import checkpoints, course, interrupts, keys, packing, records, results, run_figures, scales, section_data, slope, tables
+from . import (
+    checkpoints,
+    course,
+    interrupts,
+    keys,
+    packing,
+    records,
+    results,
+    run_figures,
+    scales,
+    section_data,
+    slope,
+    tables,
+)
 from .course import State
 from .errors import UserError
 from .measure.fronts import front_of
@@ -30,14 +43,26 @@ from .wall_series import WallSeries
 
 __all__ = ["Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
-FORCE_SAMPLES = 100      # of the forces on walls in a row, with soft contacts; each step with hard ones
+FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each step with hard ones
 CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
 CHECKPOINT_SHARE = 0.02  # ... and so many that they take this part of it at most
 
 COLUMNS = tuple(records.COLUMNS)
 #: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
-OF_SOLVER = ("iterations", "residual", "residual_N_per_m", "tolerance", "energy_water_J", "energy_walls_J", "energy_sliding_J", "energy_rolling_J",
-             "energy_impact_J", "energy_bonds_J", "energy_correction_J", "energy_error_rel")
+OF_SOLVER = (
+    "iterations",
+    "residual",
+    "residual_N_per_m",
+    "tolerance",
+    "energy_water_J",
+    "energy_walls_J",
+    "energy_sliding_J",
+    "energy_rolling_J",
+    "energy_impact_J",
+    "energy_bonds_J",
+    "energy_correction_J",
+    "energy_error_rel",
+)
 
 
 class ExperimentError(UserError, RuntimeError):
@@ -68,7 +93,8 @@ class Experiment:
             results.forget(self.folder)
             section_data.write(self.section, self.folder / section_data.FILE)
         self.series = records.SeriesWriter(
-            self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True)
+            self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True
+        )
         # soft steps are thousands a row, and as cheap as a look at the walls
         period = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
         self.walls = WallSeries(built, self.layers, self.folder / "walls.csv", period, mark and mark["walls"])
@@ -103,7 +129,11 @@ class Experiment:
             if interrupted():
                 self.checkpoint()
                 self._close()
-                kept = "the checkpoint is written, go on with --resume" if self.hard else "a slope of soft contacts has no checkpoint, run it again"
+                kept = (
+                    "the checkpoint is written, go on with --resume"
+                    if self.hard
+                    else "a slope of soft contacts has no checkpoint, run it again"
+                )
                 raise interrupts.Interrupted(f"at {O.time:.1f} s of simulated time; {kept}")
         self.checkpoint()
         self._close()
@@ -129,9 +159,13 @@ class Experiment:
         """
         global _attached
         if not self.hard:
-            raise ExperimentError("a slope of soft contacts is driven by Experiment.run() alone: its gravity grows in Python; call that instead of O.run()")
+            raise ExperimentError(
+                "a slope of soft contacts is driven by Experiment.run() alone: its gravity grows in Python; call that instead of O.run()"
+            )
         _attached = self
-        self.runner = CourseRunner(label="slopeCourse", command="import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()")
+        self.runner = CourseRunner(
+            label="slopeCourse", command="import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()"
+        )
         O.engines = [self.runner, *(e for e in O.engines if not isinstance(e, CourseRunner))]
         self._wait()
         return self.runner
@@ -209,7 +243,11 @@ class Experiment:
         s.contacts_initial = solver.contacts
         self.walls.forget()
         if self.hard:  # from here on it grows by itself
-            solver.finalGravity, solver.gravityBegin, solver.gravityRamp = self._gravity(math.inf), 0.0, self.section.stages.settle.ramp
+            solver.finalGravity, solver.gravityBegin, solver.gravityRamp = (
+                self._gravity(math.inf),
+                0.0,
+                self.section.stages.settle.ramp,
+            )
 
     def _gravity(self, time):
         """Gravity [m/s²] at a time [s]."""
@@ -242,7 +280,9 @@ class Experiment:
 
     def _mean_speed(self, t):
         """Of the disks of the mass [m/s]; ``t``: the disks' table."""
-        return self.slope.solver.meanSpeed if self.mass is None else float(np.mean(np.hypot(t["vx"], t["vy"])[self.mass]))
+        return (
+            self.slope.solver.meanSpeed if self.mass is None else float(np.mean(np.hypot(t["vx"], t["vy"])[self.mass]))
+        )
 
     def _centroid(self, t):
         """Of the mass, (x, y) [m]."""
@@ -273,28 +313,55 @@ class Experiment:
             k = int(np.flatnonzero(out)[0])
             raise ExperimentError(
                 f"disk {k} left the section at t = {O.time:.3f} s: it is at ({t['x'][k]:.1f}, {t['y'][k]:.1f}) m; close the walls of "
-                f"{self.section.source} there, or lower numerics.time_step. What was written until now stays in {self.folder}")
+                f"{self.section.source} there, or lower numerics.time_step. What was written until now stays in {self.folder}"
+            )
 
     def _row(self, disks):
         e, water, section = self.slope.solver, self.slope.water, self.section
         forces = self.walls.take()
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
-        u = (total[0] * section.water.normal[0] + total[1] * section.water.normal[1]) * self._share_of_mass(disks) if water else 0.0
+        u = (
+            (total[0] * section.water.normal[0] + total[1] * section.water.normal[1]) * self._share_of_mass(disks)
+            if water
+            else 0.0
+        )
         slip, (x, y) = self.walls.slip(), self._centroid(disks)
         row = {
-            "step": O.iter, "time_s": O.time, "stage": course.STAGES.index(self.state.stage), "water_m": water.height if water else 0.0,
-            "dp_normal_total_N_per_m": dp[0] + u, "dp_normal_effective_N_per_m": dp[0], "dp_water_N_per_m": u, "dp_shear_N_per_m": dp[1],
-            "fb_normal_N_per_m": fb[0], "fb_shear_N_per_m": fb[1], "ss_normal_N_per_m": ss[0], "ss_shear_N_per_m": ss[1],
-            "dp_normal_peak_N_per_m": dp[2], "fb_normal_peak_N_per_m": fb[2], "ss_normal_peak_N_per_m": ss[2],
-            "wet_disks": water.wetCount if water else 0, "released_disks": water.releasedCount if water else 0,
-            "speed_mean_m_per_s": self._mean_speed(disks), "speed_max_m_per_s": e.maxSpeed, "front_m": self._front(disks),
-            "centroid_x_m": x, "centroid_y_m": y, "bonds_alive": e.bonds,
-            "bonds_broken_tension": e.brokenTension, "bonds_broken_shear": e.brokenShear,
-            "bonds_broken_torque": e.brokenTorque, "bonds_broken_mixed": e.brokenMixed, "contacts": e.contacts,
-            "slip_mean_dp_m": slip.mean, "weakened_disks": slip.weakened,
-            "overlap_worst_rel": e.overlapWorst, "overlap_mean_rel": e.overlapMean,
-            "energy_kinetic_J": e.kineticEnergy, "energy_potential_J": e.potentialEnergy,
+            "step": O.iter,
+            "time_s": O.time,
+            "stage": course.STAGES.index(self.state.stage),
+            "water_m": water.height if water else 0.0,
+            "dp_normal_total_N_per_m": dp[0] + u,
+            "dp_normal_effective_N_per_m": dp[0],
+            "dp_water_N_per_m": u,
+            "dp_shear_N_per_m": dp[1],
+            "fb_normal_N_per_m": fb[0],
+            "fb_shear_N_per_m": fb[1],
+            "ss_normal_N_per_m": ss[0],
+            "ss_shear_N_per_m": ss[1],
+            "dp_normal_peak_N_per_m": dp[2],
+            "fb_normal_peak_N_per_m": fb[2],
+            "ss_normal_peak_N_per_m": ss[2],
+            "wet_disks": water.wetCount if water else 0,
+            "released_disks": water.releasedCount if water else 0,
+            "speed_mean_m_per_s": self._mean_speed(disks),
+            "speed_max_m_per_s": e.maxSpeed,
+            "front_m": self._front(disks),
+            "centroid_x_m": x,
+            "centroid_y_m": y,
+            "bonds_alive": e.bonds,
+            "bonds_broken_tension": e.brokenTension,
+            "bonds_broken_shear": e.brokenShear,
+            "bonds_broken_torque": e.brokenTorque,
+            "bonds_broken_mixed": e.brokenMixed,
+            "contacts": e.contacts,
+            "slip_mean_dp_m": slip.mean,
+            "weakened_disks": slip.weakened,
+            "overlap_worst_rel": e.overlapWorst,
+            "overlap_mean_rel": e.overlapMean,
+            "energy_kinetic_J": e.kineticEnergy,
+            "energy_potential_J": e.potentialEnergy,
         }
         return row | self._of_solver(e) if self.hard else row
 
@@ -308,12 +375,22 @@ class Experiment:
     def _of_solver(self, e):
         """The columns of OF_SOLVER."""
         losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
-        turned = losses + e.kineticEnergy + abs(e.externalWork) if self.state.stage != "settle" else 0.0  # gravity grows: no balance yet
+        turned = (
+            losses + e.kineticEnergy + abs(e.externalWork) if self.state.stage != "settle" else 0.0
+        )  # gravity grows: no balance yet
         return {
-            "iterations": e.iterations, "residual": e.residual, "residual_N_per_m": e.residualForce, "tolerance": e.tolerance,
-            "energy_water_J": e.externalWork, "energy_walls_J": e.wallWork, "energy_sliding_J": e.slidingLoss, "energy_rolling_J": e.rollingLoss,
-            "energy_impact_J": e.impactLoss, "energy_bonds_J": e.debondingLoss,
-            "energy_correction_J": e.correctionEnergy, "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
+            "iterations": e.iterations,
+            "residual": e.residual,
+            "residual_N_per_m": e.residualForce,
+            "tolerance": e.tolerance,
+            "energy_water_J": e.externalWork,
+            "energy_walls_J": e.wallWork,
+            "energy_sliding_J": e.slidingLoss,
+            "energy_rolling_J": e.rollingLoss,
+            "energy_impact_J": e.impactLoss,
+            "energy_bonds_J": e.debondingLoss,
+            "energy_correction_J": e.correctionEnergy,
+            "energy_error_rel": e.energyError / turned if turned > 0 else 0.0,
         }
 
     def snapshot(self, path, contacts=False):
@@ -327,7 +404,9 @@ class Experiment:
         if contacts:
             wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
             arrays.update(tables.loaded_contacts(built.solver, first, wall_numbers))
-        records.write_snapshot(path, time_s=O.time, step=O.iter, layer=self.layers, water_m=water.height if water else 0.0, **arrays)
+        records.write_snapshot(
+            path, time_s=O.time, step=O.iter, layer=self.layers, water_m=water.height if water else 0.0, **arrays
+        )
 
     # ---- checkpoints --------------------------------------------------------------------------
     def checkpoint(self):
@@ -339,9 +418,18 @@ class Experiment:
         self.walls.file.sync()
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
         if self.hard:
-            checkpoints.write(self.folder, run_key(self.section), {
-                "walls": self.slope.walls, "first_disk": self.slope.first_disk, "count": self.slope.count, "state": asdict(self.state),
-                "series": self.series.mark(), "wall_series": self.walls.file.mark()})
+            checkpoints.write(
+                self.folder,
+                run_key(self.section),
+                {
+                    "walls": self.slope.walls,
+                    "first_disk": self.slope.first_disk,
+                    "count": self.slope.count,
+                    "state": asdict(self.state),
+                    "series": self.series.mark(),
+                    "wall_series": self.walls.file.mark(),
+                },
+            )
         self._saved = time.monotonic()
         self._saving = self._saved - now
 
@@ -352,7 +440,9 @@ _attached = None  # that a CourseRunner drives
 def row():
     """What the CourseRunner of :meth:`Experiment.attach` calls. Raises ExperimentError where there is no such Experiment, as after O.load()."""
     if _attached is None or _attached.runner not in O.engines:
-        raise ExperimentError("this scene's course is not known to this process, its scene was loaded by itself: go on with experiment.resume(section, folder).attach()")
+        raise ExperimentError(
+            "this scene's course is not known to this process, its scene was loaded by itself: go on with experiment.resume(section, folder).attach()"
+        )
     _attached._row_came()
 
 
@@ -365,8 +455,15 @@ def begin(section, folder, progress=None):
 
 def run_key(section):
     """What must agree between a checkpoint and the section it is resumed with."""
-    return keys.key_of({"key": section.key("settled"), "water": asdict(section.water) if section.water else None, "stages": asdict(section.stages),
-                               "seed": section.seed, "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)]})
+    return keys.key_of(
+        {
+            "key": section.key("settled"),
+            "water": asdict(section.water) if section.water else None,
+            "stages": asdict(section.stages),
+            "seed": section.seed,
+            "roles": [[item.name, item.role] for item in (*section.walls, *section.layers, *section.interfaces)],
+        }
+    )
 
 
 def resume(section, folder, progress=None):
@@ -379,7 +476,9 @@ def resume(section, folder, progress=None):
     try:
         state, mark = State(**content["state"]), {"series": content["series"], "walls": content["wall_series"]}
     except (KeyError, TypeError) as error:
-        raise ExperimentError(f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume") from None
+        raise ExperimentError(
+            f"{folder}: the checkpoint cannot be read ({error}); remove {folder}/checkpoint and run without --resume"
+        ) from None
     for name, one in mark.items():
         records.kept(Path(folder) / f"{name}.csv", one)  # all of them, before any is written to
     O.engines = [e for e in O.engines if not isinstance(e, CourseRunner)]  # of the run that saved it

@@ -19,8 +19,21 @@ from shapely.geometry.polygon import orient
 from shapely.ops import linemerge, unary_union
 from shapely.validation import explain_validity
 
-__all__ = ["Edges", "area", "area_inside", "border", "distance", "edges", "invalid_reason", "outline", "parts",
-           "sides", "straight", "together", "uncovered"]
+__all__ = [
+    "Edges",
+    "area",
+    "area_inside",
+    "border",
+    "distance",
+    "edges",
+    "invalid_reason",
+    "outline",
+    "parts",
+    "sides",
+    "straight",
+    "together",
+    "uncovered",
+]
 
 
 def invalid_reason(vertices) -> str | None:
@@ -59,8 +72,13 @@ def outline(polygons, tolerance: float) -> MultiPolygon:
     """
     closed = unary_union([p.buffer(tolerance, join_style=2) for p in polygons])
     closed = closed.buffer(-tolerance, join_style=2)
-    given = np.array(sorted({tuple(v[:2]) for p in polygons for ring in (p.exterior, *p.interiors) for v in ring.coords}))
-    exact = [Polygon(_exact(p.exterior, given, tolerance), sorted(_exact(hole, given, tolerance) for hole in p.interiors)) for p in parts(closed)]
+    given = np.array(
+        sorted({tuple(v[:2]) for p in polygons for ring in (p.exterior, *p.interiors) for v in ring.coords})
+    )
+    exact = [
+        Polygon(_exact(p.exterior, given, tolerance), sorted(_exact(hole, given, tolerance) for hole in p.interiors))
+        for p in parts(closed)
+    ]
     return MultiPolygon(sorted(exact, key=lambda p: list(p.exterior.coords)))
 
 
@@ -71,7 +89,11 @@ def _exact(ring, given, tolerance):
         away = distance(*(given - v).T)
         nearest = int(np.argmin(away))
         grid = tolerance / 64
-        place = tuple(given[nearest].tolist()) if away[nearest] <= 3 * tolerance else tuple((np.rint(v / grid) * grid).tolist())
+        place = (
+            tuple(given[nearest].tolist())
+            if away[nearest] <= 3 * tolerance
+            else tuple((np.rint(v / grid) * grid).tolist())
+        )
         if place not in (found[-1:] + found[:1]):
             found.append(place)
     first = found.index(min(found))
@@ -91,7 +113,11 @@ def border(one: Polygon, other: Polygon, tolerance: float) -> np.ndarray:
         common = one.exterior.intersection(rim)
         pieces = [g for g in getattr(common, "geoms", [common]) if g.geom_type == "LineString" and not g.is_empty]
         merged = linemerge(pieces) if len(pieces) > 1 else (pieces or [longest])[0]
-        longest = max((g for g in getattr(merged, "geoms", [merged]) if g.length > 10 * tolerance), key=lambda g: g.length, default=longest)
+        longest = max(
+            (g for g in getattr(merged, "geoms", [merged]) if g.length > 10 * tolerance),
+            key=lambda g: g.length,
+            default=longest,
+        )
         if not longest.is_empty:
             break
     if longest.is_empty:
@@ -167,6 +193,7 @@ def edges(region) -> Edges:
 
 def sides(line) -> tuple[Edges, Edges]:
     """Edges of a polyline (n, 2) from left to right, for what lies on its left, above it, and for what lies on its right."""
+
     def of(points):
         along = np.diff(points, axis=0)
         size = distance(along[:, 0], along[:, 1])
@@ -180,7 +207,12 @@ def sides(line) -> tuple[Edges, Edges]:
 
 def together(tables) -> Edges:
     """Several tables of edges as one, in their order."""
-    return Edges(*(np.concatenate([getattr(t, name) for t in tables]) for name in ("start", "direction", "length", "convex_start", "convex_end")))
+    return Edges(
+        *(
+            np.concatenate([getattr(t, name) for t in tables])
+            for name in ("start", "direction", "length", "convex_start", "convex_end")
+        )
+    )
 
 
 def area_inside(x, y, r, region) -> float:

@@ -17,7 +17,9 @@ __all__ = ["InstallationError", "command", "engines"]
 
 _PACKAGE = Path(__file__).resolve().parent
 _CHECKOUT = _PACKAGE.parents[1]
-_INSTALLED = Path(__file__).parents[3]  # the folder of a YADE's libraries, where this package is installed in its py/yade
+_INSTALLED = Path(__file__).parents[
+    3
+]  # the folder of a YADE's libraries, where this package is installed in its py/yade
 
 
 class InstallationError(UserError, RuntimeError):
@@ -33,7 +35,12 @@ def command(threads) -> list:
     """The words that run a script in YADE, without graphics; the script and its arguments follow. Raises InstallationError."""
     here, prefix = _within(), os.environ.get("YADE_PREFIX")  # set where the plugin is used from its build folder
     if here:
-        return [str(Path(prefix or here.prefix) / "bin" / ("yade" if prefix else f"yade{here.suffix}")), "-n", "-x", f"-j{threads}"]
+        return [
+            str(Path(prefix or here.prefix) / "bin" / ("yade" if prefix else f"yade{here.suffix}")),
+            "-n",
+            "-x",
+            f"-j{threads}",
+        ]
     engines()
     program = _prefix() / "bin" / "yade"
     found = str(program) if program.exists() else shutil.which("yade")
@@ -48,7 +55,9 @@ def engines() -> Path:
     found = [Path(here.libDir, name)] if here else [*sorted(_prefix().glob(f"lib/*/yade*/{name}")), _INSTALLED / name]
     path = next((p for p in found if p.is_file()), None)
     if path is None:
-        raise InstallationError(f"the plugin is not built: run {_CHECKOUT}/scripts/setup.sh first, or name its build folder in NONSMOOTH_BUILD")
+        raise InstallationError(
+            f"the plugin is not built: run {_CHECKOUT}/scripts/setup.sh first, or name its build folder in NONSMOOTH_BUILD"
+        )
     return path
 
 

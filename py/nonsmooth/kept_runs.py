@@ -52,7 +52,9 @@ def begun(folder, key):
 
 def keep(folder, key, found):
     """Writes the result of a run; ``key``: of its input, see keys.key_of. What it is of stands beside it: input, engines and code."""
-    write_atomically(Path(folder) / "result.json", json.dumps({"key": keys.run_key(key), "found": found}, indent=1).encode())
+    write_atomically(
+        Path(folder) / "result.json", json.dumps({"key": keys.run_key(key), "found": found}, indent=1).encode()
+    )
 
 
 def forget(folder):
@@ -62,7 +64,9 @@ def forget(folder):
         try:
             path.unlink(missing_ok=True)
         except OSError as error:
-            raise WriteError(f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another --out") from None
+            raise WriteError(
+                f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another --out"
+            ) from None
 
 
 def kept(folder, key):

@@ -32,26 +32,34 @@ def claim(folder, command, resume=False):
         place = folder.resolve()
         lock = _held.get(place) or open(folder / LOCK, "a+")
     except OSError as error:
-        raise FolderError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out") from None
+        raise FolderError(
+            f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out"
+        ) from None
     _held[place] = lock  # open as long as the process lives: the system unlocks it, however that ends
     alone = True
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         del _held[place]
-        raise FolderError(f"{folder}: another run is writing into this folder; wait for its end, stop it, or give another with --out") from None
+        raise FolderError(
+            f"{folder}: another run is writing into this folder; wait for its end, stop it, or give another with --out"
+        ) from None
     except OSError:
         alone = False  # a file system without locks: nobody knows
     lock.seek(0)
     names = lock.read().splitlines()
     if resume and names and command not in names:
-        raise FolderError(f"{folder}: holds what {' and '.join(names)} wrote, nothing of {command}: there is nothing to resume; give another --out, or leave out --resume")
+        raise FolderError(
+            f"{folder}: holds what {' and '.join(names)} wrote, nothing of {command}: there is nothing to resume; give another --out, or leave out --resume"
+        )
     if command not in names:
         try:
             lock.write(f"{command}\n")
             lock.flush()
             os.fsync(lock.fileno())
         except OSError as error:
-            raise FolderError(f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out, or free some space") from None
+            raise FolderError(
+                f"{folder}: the output folder cannot be written ({error.strerror}); give another with --out, or free some space"
+            ) from None
     if alone:
         remove_parts_below(folder, LOCK)

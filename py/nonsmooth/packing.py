@@ -20,15 +20,28 @@ from scipy.spatial import cKDTree
 from scipy.stats import qmc
 
 from . import geometry, similar
-from .packing_files import (FORMAT, Packing, PackingError, cache_path, load, read_text, save, write_text)
+from .packing_files import FORMAT, Packing, PackingError, cache_path, load, read_text, save, write_text
 
-__all__ = ["FORMAT", "Overlaps", "Packing", "PackingError", "cache_path", "cached_pack", "load", "overlaps", "pack",
-           "packing_fraction", "read_text", "save", "write_text"]
+__all__ = [
+    "FORMAT",
+    "Overlaps",
+    "Packing",
+    "PackingError",
+    "cache_path",
+    "cached_pack",
+    "load",
+    "overlaps",
+    "pack",
+    "packing_fraction",
+    "read_text",
+    "save",
+    "write_text",
+]
 
 # Disks are packed with radii this much larger than they get, so that overlaps left are gaps in the end.
 INFLATION = 5e-4
 TARGET = 0.8 * INFLATION  # worst overlap, relative to the mean diameter, at which the minimisation ends
-SWEEPS = 40_000           # most FIRE steps
+SWEEPS = 40_000  # most FIRE steps
 SWAP_EVERY = 20
 
 
@@ -66,10 +79,12 @@ def pack(section, seed: int | None = None, progress=None) -> Packing:
     for polygon in geometry.parts(section.outline):
         inside |= geometry.contains(polygon, packing.x, packing.y)
     if found.worst > 1e-3 or found.mean > 1e-5 or not inside.all():
-        raise PackingError(f"{section.source}: {len(packing)} disks do not fit at a packing fraction of "
-                           f"{section.disks.packing_fraction:g} (worst overlap {found.worst:.1e} of a diameter, "
-                           f"{np.count_nonzero(~inside)} outside); lower disks.packing_fraction, widen disks.diameter "
-                           "or take more disks")
+        raise PackingError(
+            f"{section.source}: {len(packing)} disks do not fit at a packing fraction of "
+            f"{section.disks.packing_fraction:g} (worst overlap {found.worst:.1e} of a diameter, "
+            f"{np.count_nonzero(~inside)} outside); lower disks.packing_fraction, widen disks.diameter "
+            "or take more disks"
+        )
     if progress:
         progress(1.0)
     return packing

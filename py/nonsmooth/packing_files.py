@@ -18,7 +18,7 @@ from .whole_files import write_arrays, write_atomically
 __all__ = ["FORMAT", "Packing", "PackingError", "cache_folder", "cache_path", "load", "read_text", "save", "write_text"]
 
 LARGEST_FILE = 2_000_000_000  # bytes of a text file; ten million disks have less
-FARTHEST = 1e7                # m, as in a section
+FARTHEST = 1e7  # m, as in a section
 FORMAT = 2  # of cache files and of the way packings are made; a new number makes old files unused
 
 
@@ -63,7 +63,15 @@ class Packing:
 
 def save(packing: Packing, path) -> None:
     """Write a packing as .npz with a checksum of its content. Raises WriteError."""
-    write_arrays(path, x=packing.x, y=packing.y, r=packing.r, layer=packing.layer, format=np.int64(FORMAT), checksum=np.array(packing.checksum))
+    write_arrays(
+        path,
+        x=packing.x,
+        y=packing.y,
+        r=packing.r,
+        layer=packing.layer,
+        format=np.int64(FORMAT),
+        checksum=np.array(packing.checksum),
+    )
 
 
 def load(path) -> Packing:
@@ -101,8 +109,10 @@ def cache_path(section, seed: int | None = None) -> Path:
 def write_text(packing: Packing, path) -> None:
     """Write lines of `x y r layer` that read back to the same bits. Raises PackingError."""
     lines = ["# x [m]  y [m]  r [m]  layer (from 0)", f"# disks: {len(packing)}"]
-    lines += [f"{x!r} {y!r} {r!r} {k}" for x, y, r, k in
-              zip(packing.x.tolist(), packing.y.tolist(), packing.r.tolist(), packing.layer.tolist())]
+    lines += [
+        f"{x!r} {y!r} {r!r} {k}"
+        for x, y, r, k in zip(packing.x.tolist(), packing.y.tolist(), packing.r.tolist(), packing.layer.tolist())
+    ]
     write_atomically(path, ("\n".join(lines) + "\n").encode())
 
 
@@ -116,13 +126,16 @@ def read_text(path) -> Packing:
     try:
         with path.open("rb") as file:
             if stat.S_ISCHR(os.fstat(file.fileno()).st_mode) or os.fstat(file.fileno()).st_size > LARGEST_FILE:
-                raise PackingError(f"{path}: has no end, or more than {LARGEST_FILE} bytes; give a text file of x y r [layer]")
+                raise PackingError(
+                    f"{path}: has no end, or more than {LARGEST_FILE} bytes; give a text file of x y r [layer]"
+                )
             lines = file.read().decode("utf-8").splitlines()
     except UnicodeDecodeError as error:
         raise PackingError(f"{path}: byte {error.start} is no text; give a text file of x y r [layer]") from None
     except OSError as error:
-        raise PackingError(f"{path}: cannot be read ({error.strerror}); "
-                           "give a readable text file of x y r [layer]") from None
+        raise PackingError(
+            f"{path}: cannot be read ({error.strerror}); " "give a readable text file of x y r [layer]"
+        ) from None
     rows, announced, columns = [], None, None
     for number, line in enumerate(lines, 1):
         text, _, comment = line.partition("#")
@@ -136,8 +149,10 @@ def read_text(path) -> Packing:
         if len(fields) not in (3, 4):
             raise PackingError(f"{where}: {len(fields)} values ({text.strip()[:40]!r}); give x y r [layer]")
         if columns and len(fields) != columns:
-            raise PackingError(f"{where}: {len(fields)} values after lines of {columns}; "
-                               "the file may be truncated there: give a layer in all lines or in none")
+            raise PackingError(
+                f"{where}: {len(fields)} values after lines of {columns}; "
+                "the file may be truncated there: give a layer in all lines or in none"
+            )
         columns = len(fields)
         try:
             x, y, r = map(float, fields[:3])
@@ -152,12 +167,15 @@ def read_text(path) -> Packing:
         if r < 1e-9:
             raise PackingError(f"{where}: the radius is {r:g} m; give one above 1e-9 m")
         if not 0 <= layer < 1000:
-            raise PackingError(f"{where}: the layer is {layer if abs(layer) < 1e9 else fields[3][:40]}; give a number from 0")
+            raise PackingError(
+                f"{where}: the layer is {layer if abs(layer) < 1e9 else fields[3][:40]}; give a number from 0"
+            )
         rows.append((x, y, r, layer))
     if not rows:
         raise PackingError(f"{path}: holds no disk; give lines of x y r [layer]")
     if announced is not None and announced != len(rows):
-        raise PackingError(f"{path}: holds {len(rows)} disks of the {announced} it announces; "
-                           "it is truncated: write it anew")
+        raise PackingError(
+            f"{path}: holds {len(rows)} disks of the {announced} it announces; " "it is truncated: write it anew"
+        )
     x, y, r, layer = map(np.array, zip(*rows))
     return Packing(x, y, r, layer)

@@ -18,14 +18,24 @@ from .records import RecordsError, read_breaks, read_snapshot
 from .scene_arrays import read as read_scene
 from .tables import BREAK_MODES
 
-__all__ = ["write_breaks", "write_collection", "write_contacts", "write_disks", "write_run", "write_scene_walls", "write_walls"]
+__all__ = [
+    "write_breaks",
+    "write_collection",
+    "write_contacts",
+    "write_disks",
+    "write_run",
+    "write_scene_walls",
+    "write_walls",
+]
 
 
 def _write(path, points, cells, point_data=None, cell_data=None):
     """A .vtu file in the plane z = 0, written beside and renamed; empty sets are written as one without cells."""
     path = Path(path)
     flat = np.column_stack([points, np.zeros(len(points))])
-    mesh = meshio.Mesh(flat, cells, point_data=point_data or {}, cell_data={k: [v] for k, v in (cell_data or {}).items()})
+    mesh = meshio.Mesh(
+        flat, cells, point_data=point_data or {}, cell_data={k: [v] for k, v in (cell_data or {}).items()}
+    )
     try:
         with beside(path) as part:
             mesh.write(part, file_format="vtu", binary=True)
@@ -60,7 +70,9 @@ def write_breaks(breaks, path):
     """One point a broken bond, with ``time`` [s] and ``mode`` (1 tension, 2 shear, 3 torque, 4 mixed); ``breaks`` as records.read_breaks gives it."""
     mode = np.array([BREAK_MODES.index(word) for word in breaks["mode"]], np.int32)
     points = np.column_stack([breaks["x_m"], breaks["y_m"]])
-    return _write(path, points, [("vertex", np.arange(len(points))[:, None])], point_data={"time": breaks["time_s"], "mode": mode})
+    return _write(
+        path, points, [("vertex", np.arange(len(points))[:, None])], point_data={"time": breaks["time_s"], "mode": mode}
+    )
 
 
 def write_walls(section, path):
@@ -71,17 +83,28 @@ def write_walls(section, path):
         points += [tuple(p) for p in wall.points]
         lines += [(first + n, first + n + 1) for n in range(len(wall.points) - 1)]
         number += [k] * (len(wall.points) - 1)
-    return _write(path, np.array(points, float), [("line", np.array(lines))], cell_data={"wall": np.array(number, np.int32)})
+    return _write(
+        path, np.array(points, float), [("line", np.array(lines))], cell_data={"wall": np.array(number, np.int32)}
+    )
 
 
 def write_scene_walls(O, path):
     """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment: one line for each edge, see :mod:`.scene_arrays`; a Wall, which has no ends,
     across all that is there and a tenth beyond. Raises RecordsError for a scene without disks."""
     scene = read_scene(O)
-    places = np.concatenate([*scene.walls, np.column_stack([scene.x - scene.r, scene.y - scene.r]), np.column_stack([scene.x + scene.r, scene.y + scene.r])])
+    places = np.concatenate(
+        [
+            *scene.walls,
+            np.column_stack([scene.x - scene.r, scene.y - scene.r]),
+            np.column_stack([scene.x + scene.r, scene.y + scene.r]),
+        ]
+    )
     low, high = places.min(axis=0), places.max(axis=0)
     low, high = low - 0.1 * (high - low), high + 0.1 * (high - low)
-    across = [np.array([(at, low[1]), (at, high[1])] if axis == 0 else [(low[0], at), (high[0], at)]) for axis, at in scene.axes]
+    across = [
+        np.array([(at, low[1]), (at, high[1])] if axis == 0 else [(low[0], at), (high[0], at)])
+        for axis, at in scene.axes
+    ]
     points = np.concatenate([*scene.walls, *across]) if scene.walls or across else np.zeros((0, 2))
     return _write(path, points, [("line", np.arange(len(points)).reshape(-1, 2))])
 
@@ -89,7 +112,10 @@ def write_scene_walls(O, path):
 def write_collection(entries, path):
     """The .pvd file that shows files in the course of time; ``entries``: (time [s], path) pairs in one folder or below ``path``'s."""
     path = Path(path)
-    lines = [f'    <DataSet timestep="{time!r}" file={quoteattr(os.path.relpath(file, path.parent))}/>' for time, file in entries]
+    lines = [
+        f'    <DataSet timestep="{time!r}" file={quoteattr(os.path.relpath(file, path.parent))}/>'
+        for time, file in entries
+    ]
     text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n{}\n  </Collection>\n</VTKFile>\n'
     write_atomically(path, text.format("\n".join(lines)).encode())
     return path

@@ -37,7 +37,9 @@ def call(function, folder, arguments, threads=1):
     """
     folder, began = Path(folder), time.monotonic()
     request = folder / "request.json"
-    write_atomically(request, json.dumps({"function": named(function), "arguments": arguments, "parent": os.getpid()}).encode())
+    write_atomically(
+        request, json.dumps({"function": named(function), "arguments": arguments, "parent": os.getpid()}).encode()
+    )
     for name in ("found.json", "refused.txt"):
         (folder / name).unlink(missing_ok=True)
     # the log's last line is to be the last that was said: standard output unbuffered, as errors are
@@ -45,7 +47,13 @@ def call(function, folder, arguments, threads=1):
     if threads == 1:  # waiting threads must not spin where processes share the cores
         environment["OMP_WAIT_POLICY"] = "passive"
     with open(folder / "log.txt", "wb") as log:
-        status = _run([*installation.command(threads), str(_WORKER), str(folder)], stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
+        status = _run(
+            [*installation.command(threads), str(_WORKER), str(folder)],
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            env=environment,
+        )
     try:
         found = json.loads((folder / "found.json").read_text())
     except (OSError, ValueError):
@@ -53,13 +61,19 @@ def call(function, folder, arguments, threads=1):
             raise RunError((folder / "refused.txt").read_text()) from None
         lines = (folder / "log.txt").read_text(errors="replace").split("\n")
         last = next((line.strip() for line in reversed(lines) if line.strip()), "no output")
-        raise RunError(f"the run ended with status {status} and no result: {last} (all of it: {folder / 'log.txt'})") from None
+        raise RunError(
+            f"the run ended with status {status} and no result: {last} (all of it: {folder / 'log.txt'})"
+        ) from None
     return {"wall_s": time.monotonic() - began, **found}
 
 
 def named(function):
     """The name of a function of this package, as :func:`call` takes it; a name as it is."""
-    return function if isinstance(function, str) else f"{function.__module__.removeprefix(f'{__package__}.')}:{function.__name__}"
+    return (
+        function
+        if isinstance(function, str)
+        else f"{function.__module__.removeprefix(f'{__package__}.')}:{function.__name__}"
+    )
 
 
 def _run(command, **options):

@@ -44,10 +44,17 @@ COLUMNS = {
     "time_s": Column("s", "simulated time"),
     "stage": _count("stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
     "water_m": Column("m", "height of the water table above its plane (DP), h_w"),
-    "dp_normal_total_N_per_m": Column("N/m", "total normal force on the slip surfaces (DP), N_DP = N'_DP + U_DP, mean over the row"),
-    "dp_normal_effective_N_per_m": Column("N/m", "effective (contact) normal force on the slip surfaces, N'_DP, mean over the row"),
+    "dp_normal_total_N_per_m": Column(
+        "N/m", "total normal force on the slip surfaces (DP), N_DP = N'_DP + U_DP, mean over the row"
+    ),
+    "dp_normal_effective_N_per_m": Column(
+        "N/m", "effective (contact) normal force on the slip surfaces, N'_DP, mean over the row"
+    ),
     "dp_water_N_per_m": Column("N/m", "force of the pore water normal to its plane, U_DP"),
-    "dp_shear_N_per_m": Column("N/m", "shear force on the slip surfaces, T_DP, mean over the row; positive when the wall resists downslope motion"),
+    "dp_shear_N_per_m": Column(
+        "N/m",
+        "shear force on the slip surfaces, T_DP, mean over the row; positive when the wall resists downslope motion",
+    ),
     "fb_normal_N_per_m": Column("N/m", "normal force on the backstops (FB), N'_FB, mean over the row; 0 without one"),
     "fb_shear_N_per_m": Column("N/m", "shear force on the backstops, mean over the row"),
     "ss_normal_N_per_m": Column("N/m", "normal force on the walls that are ground (SS), mean over the row"),
@@ -85,7 +92,9 @@ COLUMNS = {
     "energy_impact_J": Column("J/m", "energy dissipated by impacts"),
     "energy_bonds_J": Column("J/m", "energy dissipated by pulling contacts apart against their adhesion"),
     "energy_correction_J": Column("J/m", "energy added by the correction of overlaps"),
-    "energy_error_rel": Column("1", "what the energy balance leaves over, relative; 0 while settling, as it begins then"),
+    "energy_error_rel": Column(
+        "1", "what the energy balance leaves over, relative; 0 while settling, as it begins then"
+    ),
 }
 
 
@@ -94,12 +103,20 @@ WALL_COLUMNS = {
     "step": COLUMNS["step"],
     "time_s": COLUMNS["time_s"],
     "wall": Column("-", "name of the wall, of the interface, or of the layer that is an obstacle"),
-    "normal_N_per_m": Column("N/m", "normal force on the wall, into it positive, mean over the row; across an interface, pressing positive, or the horizontal push of the mass on an "
-                             "obstacle of disks, downslope positive, in the last step"),
-    "shear_N_per_m": Column("N/m", "shear force on the wall, mean over the row, or across an interface in the last step; positive when it resists downslope motion; on an obstacle of disks "
-                            "the downward force"),
+    "normal_N_per_m": Column(
+        "N/m",
+        "normal force on the wall, into it positive, mean over the row; across an interface, pressing positive, or the horizontal push of the mass on an "
+        "obstacle of disks, downslope positive, in the last step",
+    ),
+    "shear_N_per_m": Column(
+        "N/m",
+        "shear force on the wall, mean over the row, or across an interface in the last step; positive when it resists downslope motion; on an obstacle of disks "
+        "the downward force",
+    ),
     "normal_peak_N_per_m": Column("N/m", "largest normal force in a step of the row; between disks that of the last"),
-    "slip_mean_m": Column("m", "mean cumulated slip of the disks that have touched a wall or an interface that weakens"),
+    "slip_mean_m": Column(
+        "m", "mean cumulated slip of the disks that have touched a wall or an interface that weakens"
+    ),
     "weakened_disks": _count("disks whose slip on it has passed the critical slip D_c"),
     "weakened_share": Column("1", "the same as a share of the disks that have touched it"),
 }
@@ -138,7 +155,11 @@ def kept(path, mark):
     with open(path, "rb") as file:
         data = file.read(mark["bytes"])
     if len(data) < mark["bytes"] or hashlib.sha256(data).hexdigest() != mark["sha256"]:
-        wrong = f"has {len(data)} bytes of the {mark['bytes']} it had then" if len(data) < mark["bytes"] else "has been changed since"
+        wrong = (
+            f"has {len(data)} bytes of the {mark['bytes']} it had then"
+            if len(data) < mark["bytes"]
+            else "has been changed since"
+        )
         raise RecordsError(
             f"{path}: does not match the checkpoint, it {wrong}; restore the file from a copy, or start the "
             "run anew without --resume"
@@ -337,9 +358,16 @@ def read_walls(path):
         if header != list(WALL_COLUMNS) or any(len(row) != len(header) for row in rows):
             raise ValueError("wrong columns")
         columns = dict(zip(header, zip(*rows) if rows else [()] * len(header)))
-        return {name: np.array(cells, dtype=str) if name == "wall" else np.array([float(c) if c else math.nan for c in cells]) for name, cells in columns.items()}
+        return {
+            name: np.array(cells, dtype=str)
+            if name == "wall"
+            else np.array([float(c) if c else math.nan for c in cells])
+            for name, cells in columns.items()
+        }
     except (OSError, ValueError) as error:
-        raise RecordsError(f"{path}: cannot be read as the forces on walls ({getattr(error, 'strerror', None) or error}); check the folder given") from None
+        raise RecordsError(
+            f"{path}: cannot be read as the forces on walls ({getattr(error, 'strerror', None) or error}); check the folder given"
+        ) from None
 
 
 def since_settled(series):
@@ -358,7 +386,9 @@ def write_breaks(path, breaks, first_disk=0):
     ``disk1`` is empty where the bond was one to a wall; ``mode`` is tension, shear, torque or mixed. The file is written beside and renamed.
     """
     lines = [",".join(BREAK_COLUMNS)]
-    for step, time, a, b, mode, x, y in zip(*(breaks[name].tolist() for name in ("step", "time", "id1", "id2", "mode", "x", "y"))):
+    for step, time, a, b, mode, x, y in zip(
+        *(breaks[name].tolist() for name in ("step", "time", "id1", "id2", "mode", "x", "y"))
+    ):
         one = "" if a < first_disk else a - first_disk
         lines.append(f"{step},{time!r},{one},{b - first_disk},{BREAK_MODES[mode]},{x!r},{y!r}")
     write_atomically(Path(path), ("\n".join(lines) + "\n").encode())
@@ -380,7 +410,12 @@ def read_breaks(path):
     except (OSError, ValueError) as error:
         raise RecordsError(f"{path}: cannot be read as a list of broken bonds ({error})") from None
     step, time, one, two, x, y = numbers
-    return dict(zip(BREAK_COLUMNS, (step.astype(int), time, one.astype(int), two.astype(int), np.array(columns[4], dtype=str), x, y)))
+    return dict(
+        zip(
+            BREAK_COLUMNS,
+            (step.astype(int), time, one.astype(int), two.astype(int), np.array(columns[4], dtype=str), x, y),
+        )
+    )
 
 
 @dataclass

@@ -32,7 +32,15 @@ ENTRAINED = 2.0  # mean diameters
 
 # what a run leaves besides its series and its checkpoint
 SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = "summary.json", "breaks.csv", "t0.npz", "end.npz", "snapshots", "vtk"
-FIGURES = ("force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png", "avalanche.mp4")
+FIGURES = (
+    "force_chains.png",
+    "forces.png",
+    "snapshots.png",
+    "deposit.png",
+    "energy.png",
+    "solver.png",
+    "avalanche.mp4",
+)
 
 
 def forget(folder):
@@ -41,8 +49,12 @@ def forget(folder):
     Half-written files that killed runs have left go too. Raises WriteError.
     """
     folder = Path(folder)
-    _remove([folder / name for name in (SUMMARY, BREAKS, BEGIN, END, *FIGURES)] + whole(folder / SNAPSHOTS, "*.npz") + whole(folder / PARAVIEW, "*.vtu") +
-            [folder / PARAVIEW / "avalanche.pvd"])
+    _remove(
+        [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, *FIGURES)]
+        + whole(folder / SNAPSHOTS, "*.npz")
+        + whole(folder / PARAVIEW, "*.vtu")
+        + [folder / PARAVIEW / "avalanche.pvd"]
+    )
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW)
 
 
@@ -59,7 +71,9 @@ def _remove(paths):
         try:
             path.unlink(missing_ok=True)
         except OSError as error:
-            raise WriteError(f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another folder") from None
+            raise WriteError(
+                f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another folder"
+            ) from None
 
 
 def chosen_rows(series, state):
@@ -135,10 +149,18 @@ def _passive(section, packing_fraction, water, force):
     envelope = section.materials[section.layers[0].material].envelope
     if envelope is None or section.water is None or section.water.wall is None or not section.of_role("backstop"):
         return {}
-    found = toe.passive(section, envelope.cohesion, envelope.friction_deg, packing_fraction or section.disks.packing_fraction)
-    return {"water_passive_m": found.water_m, "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
-            "passive_resistance_dry_N_per_m": found.resistance_dry, "passive_force_N_per_m": found.push_N_per_m,
-            "fb_force_at_failure_over_passive": force / found.push_N_per_m if force is not None and found.push_N_per_m else None}
+    found = toe.passive(
+        section, envelope.cohesion, envelope.friction_deg, packing_fraction or section.disks.packing_fraction
+    )
+    return {
+        "water_passive_m": found.water_m,
+        "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
+        "passive_resistance_dry_N_per_m": found.resistance_dry,
+        "passive_force_N_per_m": found.push_N_per_m,
+        "fb_force_at_failure_over_passive": force / found.push_N_per_m
+        if force is not None and found.push_N_per_m
+        else None,
+    }
 
 
 def _of_bed(section, start, end):
@@ -158,7 +180,9 @@ def _of_bed(section, start, end):
     bed, mass = np.isin(end.layer, beds), np.isin(end.layer, ground.mass)
     moved = np.hypot(end.x - start.x, end.y - start.y) > ENTRAINED * size[end.layer]
     beyond = section.side * (end.x - ground.foot[0]) > 0
-    return dict(zip(names, (float(weight[chosen].sum()) for chosen in (bed & moved, bed, mass & beyond, mass)), strict=True))
+    return dict(
+        zip(names, (float(weight[chosen].sum()) for chosen in (bed & moved, bed, mass & beyond, mass)), strict=True)
+    )
 
 
 def summarise(folder, section, state, threads=None) -> dict:
@@ -171,7 +195,11 @@ def summarise(folder, section, state, threads=None) -> dict:
     times = characteristic_times(series, section, state)
     last, second = float(series["time_s"][-1]), scales.of(section).mean_seconds
     leans = bool(section.of_role("backstop"))  # or its force has no meaning
-    at = lambda name, end, span=second: None if end is None or not (leans or name != "fb_normal_N_per_m") else mean_of(series, name, end, span)  # noqa: E731
+    at = (
+        lambda name, end, span=second: None
+        if end is None or not (leans or name != "fb_normal_N_per_m")
+        else mean_of(series, name, end, span)
+    )  # noqa: E731
     t0, t1 = times["t0"], times["t1"]
     finished = state["stage"] == "done"
     begin = t0 if t0 is not None else last if failed_dry is None else 0.0
@@ -189,34 +217,55 @@ def summarise(folder, section, state, threads=None) -> dict:
             areas.append(float(np.nansum(height)) * float(x[1] - x[0]))
         thickness = float(np.nanmax(height))
         bulking = areas[1] / areas[0] if failed_dry is None else None  # it had loosened before
-        moved = math.hypot(series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
-                           series["centroid_y_m"][-1] - series["centroid_y_m"][after][0])
+        moved = math.hypot(
+            series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
+            series["centroid_y_m"][-1] - series["centroid_y_m"][after][0],
+        )
     losses = sum(balanced[name] for name in records.LOSSES)
     dissipated = float(losses[-1])
     turned = max(dissipated, float(np.max(balanced["energy_kinetic_J"])))
-    error = np.abs(balanced["energy_error_rel"]) * (losses + balanced["energy_kinetic_J"] + np.abs(balanced["energy_water_J"]))
+    error = np.abs(balanced["energy_error_rel"]) * (
+        losses + balanced["energy_kinetic_J"] + np.abs(balanced["energy_water_J"])
+    )
     summary = {
-        "section": section.name, "finished": finished, "disks": int(len(start.x)) if start is not None else None,
-        "contacts_initial": state["contacts_initial"], "bonds_initial": state["bonds_initial"],
-        "packing_fraction": state["packing_fraction"], "time_step_s": section.numerics.time_step, "path_rel": section.numerics.path,
-        "steps": int(series["step"][-1] - state["first_step"]), "simulated_s": last - (state["settled"] or 0.0),
-        "wall_s": state["wall_s"], "wall_packing_s": state["wall_packing_s"], "threads": threads,
+        "section": section.name,
+        "finished": finished,
+        "disks": int(len(start.x)) if start is not None else None,
+        "contacts_initial": state["contacts_initial"],
+        "bonds_initial": state["bonds_initial"],
+        "packing_fraction": state["packing_fraction"],
+        "time_step_s": section.numerics.time_step,
+        "path_rel": section.numerics.path,
+        "steps": int(series["step"][-1] - state["first_step"]),
+        "simulated_s": last - (state["settled"] or 0.0),
+        "wall_s": state["wall_s"],
+        "wall_packing_s": state["wall_packing_s"],
+        "threads": threads,
         "iterations_mean": float(np.mean(series["iterations"])),
-        "tolerance": section.numerics.tolerance, "tolerance_moving": section.numerics.tolerance_moving,
+        "tolerance": section.numerics.tolerance,
+        "tolerance_moving": section.numerics.tolerance_moving,
         "residual_p95": float(np.percentile(series["residual"], 95)),
         "residual_N_per_m_p95": float(np.percentile(series["residual_N_per_m"], 95)),
         "residual_p95_over_tolerance": float(np.percentile(series["residual"] / series["tolerance"], 95)),
-        "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])), "overlap_mean_rel": float(np.max(series["overlap_mean_rel"])),
-        "failed_dry_s": failed_dry, "times_s": times, "water_at_failure_m": at("water_m", t1, 0.0),
-        "fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0), "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", t1),
+        "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])),
+        "overlap_mean_rel": float(np.max(series["overlap_mean_rel"])),
+        "failed_dry_s": failed_dry,
+        "times_s": times,
+        "water_at_failure_m": at("water_m", t1, 0.0),
+        "fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0),
+        "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", t1),
         "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2 * second) if finished else None,
-        "dp_shear_dry_N_per_m": at("dp_shear_N_per_m", t0), "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", t1),
+        "dp_shear_dry_N_per_m": at("dp_shear_N_per_m", t0),
+        "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", t1),
         "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2 * second) if finished else None,
-        "triggering_s": _difference(times["t3"], times["t2"]), "motion_s": _difference(times["t5"], times["t3"]),
+        "triggering_s": _difference(times["t3"], times["t2"]),
+        "motion_s": _difference(times["t5"], times["t3"]),
         "front_travel_m": section.side * float(series["front_m"][-1] - front0) if front0 is not None else None,
-        "centroid_travel_m": moved, "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
+        "centroid_travel_m": moved,
+        "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
-        "deposit_thickness_max_m": thickness, "bulking_factor": bulking,
+        "deposit_thickness_max_m": thickness,
+        "bulking_factor": bulking,
         "energy_dissipated_J_per_m": dissipated,
         "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES},
         "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,
@@ -228,7 +277,9 @@ def summarise(folder, section, state, threads=None) -> dict:
         drop = summary["dp_shear_dry_N_per_m"] - summary["dp_shear_at_failure_N_per_m"]
         summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
     summary |= _of_bed(section, start, end)
-    summary |= _passive(section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"])
+    summary |= _passive(
+        section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]
+    )
     clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
     write_atomically(folder / SUMMARY, (json.dumps(clean, indent=1) + "\n").encode())
     return clean
@@ -237,7 +288,11 @@ def summarise(folder, section, state, threads=None) -> dict:
 def frames(folder, series):
     """The run's snapshots in the course of time: (time [s], path); ``series``: all of its rows. Other files are none of the run's."""
     time_of = dict(zip(series["step"].astype(int).tolist(), series["time_s"].tolist()))
-    return [(time_of[int(p.stem)], p) for p in whole(Path(folder) / SNAPSHOTS, "*.npz") if p.stem.isdecimal() and int(p.stem) in time_of]
+    return [
+        (time_of[int(p.stem)], p)
+        for p in whole(Path(folder) / SNAPSHOTS, "*.npz")
+        if p.stem.isdecimal() and int(p.stem) in time_of
+    ]
 
 
 def nearest(frames, time):

@@ -27,8 +27,8 @@ __all__ = ["ROLES", "assigned", "chord", "dip_of"]
 
 ROLES = ("slip", "backstop", "ground", "obstacle")
 
-FACES = 0.5    # sine of the angle by which a backstop faces upslope, at least
-LEANS = 10.0   # tolerances of the section: a shorter share of the layers' border is a corner
+FACES = 0.5  # sine of the angle by which a backstop faces upslope, at least
+LEANS = 10.0  # tolerances of the section: a shorter share of the layers' border is a corner
 
 
 def assigned(section):
@@ -37,12 +37,22 @@ def assigned(section):
     lean = {w.name: _leaning(section, w) for w in section.walls}
     length = {name: math.fsum(lengths) for name, lengths in lean.items()}
     free = [w for w in section.walls if w.role is None]
-    slip = [w.name for w in free if section.materials[w.material].slip_weakening or (section.water and section.water.wall == w.name)]
+    slip = [
+        w.name
+        for w in free
+        if section.materials[w.material].slip_weakening or (section.water and section.water.wall == w.name)
+    ]
     if not slip and "slip" not in given.values() and not any(i.role == "slip" for i in section.interfaces) and free:
         slip = [max(free, key=lambda w: length[w.name]).name]
     surfaces = [w.points for w in section.walls if given.get(w.name) == "slip" or w.name in slip]
     down = chord([*surfaces, *(section.line_of(i) for i in section.interfaces if i.role == "slip")])
-    backstops = [w.name for w in free if w.name not in slip and length[w.name] > LEANS * section.tolerance and _facing(w, lean[w.name], down) <= -FACES]
+    backstops = [
+        w.name
+        for w in free
+        if w.name not in slip
+        and length[w.name] > LEANS * section.tolerance
+        and _facing(w, lean[w.name], down) <= -FACES
+    ]
     role = lambda name: "slip" if name in slip else "backstop" if name in backstops else "ground"  # noqa: E731
     return tuple(dataclasses.replace(w, role=w.role or role(w.name)) for w in section.walls)
 

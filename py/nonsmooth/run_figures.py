@@ -18,7 +18,12 @@ class Drawing:
     """Draws the figures of the run in ``folder``, of a Section, with its ``summary``."""
 
     def __init__(self, folder, section, summary):
-        self.folder, self.section, self.times, self.failed_dry = Path(folder), section, summary["times_s"], summary["failed_dry_s"]
+        self.folder, self.section, self.times, self.failed_dry = (
+            Path(folder),
+            section,
+            summary["times_s"],
+            summary["failed_dry_s"],
+        )
         self.window = scales.of(section).mean_seconds
 
     @cached_property
@@ -81,13 +86,25 @@ class Drawing:
 def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
     """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
     drawing = Drawing(folder, section, summary)
-    notes = ["no figures of force chains and deposit: the slope was on the move already when they would begin"] if drawing.failed_dry is not None else []
+    notes = (
+        ["no figures of force chains and deposit: the slope was on the move already when they would begin"]
+        if drawing.failed_dry is not None
+        else []
+    )
     made = [path for name in NAMES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None]
     files = [p for _, p in drawing.shots]
     if files:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
             written = beside.submit(paraview.write_run, drawing.folder, section, drawing.shots)
-            path, note = video.write_mp4(files, section, drawing.folder / "avalanche.mp4", series=drawing.series, times=drawing.times, window=drawing.window, progress=progress)
+            path, note = video.write_mp4(
+                files,
+                section,
+                drawing.folder / "avalanche.mp4",
+                series=drawing.series,
+                times=drawing.times,
+                window=drawing.window,
+                progress=progress,
+            )
             made.append(written.result())
         (made if path else notes).append(path or note)
     return [Path(p) for p in made], notes

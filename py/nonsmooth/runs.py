@@ -64,7 +64,9 @@ class Run:
         try:
             import pandas
         except ImportError:
-            raise RunError("pandas is not installed: apt install python3-pandas, or take the arrays of run.series, run.walls and run.breaks") from None
+            raise RunError(
+                "pandas is not installed: apt install python3-pandas, or take the arrays of run.series, run.walls and run.breaks"
+            ) from None
         return pandas.DataFrame(getattr(self, name))
 
     def snapshot(self, name) -> records.Snapshot:
@@ -82,7 +84,9 @@ class Run:
             raise RunError(f"{self.folder}: no figure is called {name!r}; give one of {', '.join(FIGURES)}")
         found = run_figures.Drawing(self.folder, self.section, self.summary).figure(name)
         if found is None:
-            raise RunError(f"{self.folder}: the run has not come to what {name} shows, or failed before it; let it go on with --resume")
+            raise RunError(
+                f"{self.folder}: the run has not come to what {name} shows, or failed before it; let it go on with --resume"
+            )
         return found
 
     def _file(self, name):
@@ -95,5 +99,7 @@ class Run:
 def open_run(folder) -> Run:
     """The Run in a folder. Raises RunError where it is none."""
     if not (Path(folder) / section_data.FILE).is_file():
-        raise RunError(f"{folder}: has no {section_data.FILE}, so no run of a slope of this version is here; give the folder that was given to --out")
+        raise RunError(
+            f"{folder}: has no {section_data.FILE}, so no run of a slope of this version is here; give the folder that was given to --out"
+        )
     return Run(folder)

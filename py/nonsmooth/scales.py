@@ -12,7 +12,7 @@ from dataclasses import dataclass
 __all__ = ["Scales", "of"]
 
 AREA = 78885.30336300003  # m² of the shipped section's layers
-GRAVITY = 9.81            # m/s²
+GRAVITY = 9.81  # m/s²
 
 
 @dataclass(frozen=True)

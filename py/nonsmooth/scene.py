@@ -8,9 +8,22 @@ import numpy as np
 
 from yade import O, utils
 from yade.wrapper import (
-    Body, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ContactDynamicsEngine, ForceResetter, Ig2_Segment_Sphere_ScGeom,
-    Ig2_Sphere_Sphere_ScGeom, Ip2_NscdMat_NscdMat_NscdPhys, Law2_ScGeom_NscdPhys_SignoriniCoulomb,
-    NscdInteractionLoop, NscdMat, PlanarGridCollider, PlanarNewtonIntegrator, Segment, SlipWeakeningMat)
+    Body,
+    Bo1_Segment_Aabb,
+    Bo1_Sphere_Aabb,
+    ContactDynamicsEngine,
+    ForceResetter,
+    Ig2_Segment_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom,
+    Ip2_NscdMat_NscdMat_NscdPhys,
+    Law2_ScGeom_NscdPhys_SignoriniCoulomb,
+    NscdInteractionLoop,
+    NscdMat,
+    PlanarGridCollider,
+    PlanarNewtonIntegrator,
+    Segment,
+    SlipWeakeningMat,
+)
 from yade.minieigenHP import Quaternion, Vector3
 
 from . import geometry
@@ -24,10 +37,18 @@ def material(m, kind=NscdMat, **others):
     ``kind``: NscdMat or a class derived from it; ``others``: further attributes, or other values. A wall may have no density; it then gets a rock's.
     """
     values = dict(
-        density=m.density or 2500.0, tensileStrength=m.tensile_strength, residualTensileStrength=m.residual_tensile_strength,
-        frictionAngle=math.atan(m.friction), residualFrictionAngle=math.atan(m.residual_friction), rollingFriction=m.rolling_friction,
-        residualRollingFriction=m.residual_rolling_friction, bondEllipseNormal=m.bond_ellipse[0], bondEllipseTangential=m.bond_ellipse[1],
-        bondCreationDistance=m.bond_creation_distance, restitution=m.restitution)
+        density=m.density or 2500.0,
+        tensileStrength=m.tensile_strength,
+        residualTensileStrength=m.residual_tensile_strength,
+        frictionAngle=math.atan(m.friction),
+        residualFrictionAngle=math.atan(m.residual_friction),
+        rollingFriction=m.rolling_friction,
+        residualRollingFriction=m.residual_rolling_friction,
+        bondEllipseNormal=m.bond_ellipse[0],
+        bondEllipseTangential=m.bond_ellipse[1],
+        bondCreationDistance=m.bond_creation_distance,
+        restitution=m.restitution,
+    )
     return kind(**{**values, **others})
 
 
@@ -40,8 +61,12 @@ def wall_material(m, **others):
     weak = m.slip_weakening
     if weak is None:
         return material(m, **{**options, **others})
-    options |= dict(criticalSlip=weak.critical_slip, weakening=weak.law, weakenedFrictionAngle=math.atan(weak.friction),
-                    weakenedTensileStrength=weak.tensile_strength)
+    options |= dict(
+        criticalSlip=weak.critical_slip,
+        weakening=weak.law,
+        weakenedFrictionAngle=math.atan(weak.friction),
+        weakenedTensileStrength=weak.tensile_strength,
+    )
     return material(m, SlipWeakeningMat, **{**options, **others})
 
 
@@ -112,7 +137,9 @@ def join(one, other, along, backwards=False):
         one.shape.nextDirection, other.shape.hasPrevious = along, True
 
 
-def engines(gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=0.1, before=(), after=(), label="contactDynamics", **options):
+def engines(
+    gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=0.1, before=(), after=(), label="contactDynamics", **options
+):
     """The list O.engines of a Contact Dynamics simulation.
 
     ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``far``: the same for disks that are fast
@@ -126,10 +153,13 @@ def engines(gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=0.1, before=(), 
         ForceResetter(),
         PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + far), Bo1_Segment_Aabb()], verletDist=verlet, **sure),
         NscdInteractionLoop(
-            [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + far),
-             Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + far)],
+            [
+                Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + far),
+                Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + far),
+            ],
             [Ip2_NscdMat_NscdMat_NscdPhys()],
-            [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=far)]),
+            [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=far)],
+        ),
         *before,
         solver,
         PlanarNewtonIntegrator(damping=0, gravity=gravity),

@@ -44,19 +44,38 @@ def read(O) -> Scene:
         kind, (x, y) = type(b.shape).__name__, (b.state.pos[0], b.state.pos[1])
         if kind == "Sphere":
             order[b.id] = len(disks)
-            disks.append((x, y, b.shape.radius, kinds.setdefault(_id_of(b.material), len(kinds)), "x" in b.state.blockedDOFs and "y" in b.state.blockedDOFs))
+            disks.append(
+                (
+                    x,
+                    y,
+                    b.shape.radius,
+                    kinds.setdefault(_id_of(b.material), len(kinds)),
+                    "x" in b.state.blockedDOFs and "y" in b.state.blockedDOFs,
+                )
+            )
         elif kind == "Wall":
             axes += [(b.shape.axis, b.state.pos[b.shape.axis])] if b.shape.axis < 2 else []
         elif kind in ("Segment", "Box", "Facet"):
             turn = b.state.ori.toRotationMatrix()
-            corners = np.array([[x + sum(turn[0, k] * c[k] for k in range(3)), y + sum(turn[1, k] * c[k] for k in range(3))] for c in _corners(kind, b.shape)])
+            corners = np.array(
+                [
+                    [x + sum(turn[0, k] * c[k] for k in range(3)), y + sum(turn[1, k] * c[k] for k in range(3))]
+                    for c in _corners(kind, b.shape)
+                ]
+            )
             walls += [np.array([corners[k], corners[k - 1]]) for k in range(len(corners)) if len(corners) > 2 or k]
     if not disks:
         raise RecordsError("there is no disk in the scene; draw it when its bodies have been appended")
     contacts = [one for i in O.interactions if i.isReal and (one := _contact(i, order))]
     x, y, r, material, fixed = (np.array(column) for column in zip(*disks))
-    ci, cj, cx, cy, cn, bonded = (np.array(column) for column in zip(*contacts)) if contacts else (np.zeros(0, int), np.zeros(0, int), *np.zeros((3, 0)), np.zeros(0, bool))
-    return Scene(x, y, r, material.astype(int), fixed.astype(bool), walls, axes, ci, cj, cx, cy, cn, bonded.astype(bool))
+    ci, cj, cx, cy, cn, bonded = (
+        (np.array(column) for column in zip(*contacts))
+        if contacts
+        else (np.zeros(0, int), np.zeros(0, int), *np.zeros((3, 0)), np.zeros(0, bool))
+    )
+    return Scene(
+        x, y, r, material.astype(int), fixed.astype(bool), walls, axes, ci, cj, cx, cy, cn, bonded.astype(bool)
+    )
 
 
 def _id_of(material):
@@ -83,6 +102,10 @@ def _contact(i, order):
         a, b = b, a
     if a < 0:
         return None
-    bonded = i.phys.bonded if hasattr(i.phys, "bonded") else not getattr(i.phys, "cohesionBroken", not getattr(i.phys, "isCohesive", False))
+    bonded = (
+        i.phys.bonded
+        if hasattr(i.phys, "bonded")
+        else not getattr(i.phys, "cohesionBroken", not getattr(i.phys, "isCohesive", False))
+    )
     point = getattr(i.geom, "contactPoint", (0.0, 0.0))
     return a, b, point[0], point[1], sum(i.phys.normalForce[k] * i.geom.normal[k] for k in range(3)), bonded

@@ -21,12 +21,42 @@ from types import MappingProxyType
 import numpy as np
 
 from . import geometry, roles
-from .section_parts import (Disks, End, Envelope, Interface, Layer, Material, Numerics, Settle, SlipWeakening, Stages, Wall, Water,
-                            normal_of)
+from .section_parts import (
+    Disks,
+    End,
+    Envelope,
+    Interface,
+    Layer,
+    Material,
+    Numerics,
+    Settle,
+    SlipWeakening,
+    Stages,
+    Wall,
+    Water,
+    normal_of,
+)
 from .section_reader import SectionError, read, take
 
-__all__ = ["Disks", "End", "Envelope", "Interface", "Layer", "Material", "Numerics", "Section", "SectionError", "Settle",
-           "SlipWeakening", "Stages", "Wall", "Water", "load", "of", "shipped"]
+__all__ = [
+    "Disks",
+    "End",
+    "Envelope",
+    "Interface",
+    "Layer",
+    "Material",
+    "Numerics",
+    "Section",
+    "SectionError",
+    "Settle",
+    "SlipWeakening",
+    "Stages",
+    "Wall",
+    "Water",
+    "load",
+    "of",
+    "shipped",
+]
 
 FOLDER = Path(__file__).resolve().parent / "sections"
 
@@ -159,8 +189,16 @@ class Section:
         """Length [m] of each layer's share of the outline, and of flat interfaces, to six digits: the next ones depend on the version of GEOS."""
         rim = self.outline.boundary.buffer(10 * self.tolerance)
         flat = [(i.between, self.line_of(i)) for i in self.interfaces if i.flat]
-        inside = {layer.name: math.fsum(geometry.distance(*np.diff(line, axis=0).T).sum() for between, line in flat if layer.name in between) for layer in self.layers}
-        return tuple(float(f"{layer.polygon.exterior.intersection(rim).length + inside[layer.name]:.6g}") for layer in self.layers)
+        inside = {
+            layer.name: math.fsum(
+                geometry.distance(*np.diff(line, axis=0).T).sum() for between, line in flat if layer.name in between
+            )
+            for layer in self.layers
+        }
+        return tuple(
+            float(f"{layer.polygon.exterior.intersection(rim).length + inside[layer.name]:.6g}")
+            for layer in self.layers
+        )
 
     def disk_areas(self) -> tuple[float, ...]:
         """Area of disks [m²] in each layer that gives the packing fraction in the bulk.
@@ -169,13 +207,22 @@ class Section:
         walls leave looser.
         """
         of = [self.disks_of(layer) for layer in self.layers]
-        return tuple(d.packing_fraction * max(layer.area - BORDER_STRIP * math.sqrt(d.mean_square) * border, 0)
-                     for d, layer, border in zip(of, self.layers, self._borders))
+        return tuple(
+            d.packing_fraction * max(layer.area - BORDER_STRIP * math.sqrt(d.mean_square) * border, 0)
+            for d, layer, border in zip(of, self.layers, self._borders)
+        )
 
     def disk_counts(self) -> tuple[int, ...]:
         """Number of disks in each layer; rounding is carried from layer to layer."""
         if self.mixed:
-            ends = np.rint(np.cumsum([a / (math.pi / 4 * self.disks_of(layer).mean_square) for a, layer in zip(self.disk_areas(), self.layers)])).astype(int)
+            ends = np.rint(
+                np.cumsum(
+                    [
+                        a / (math.pi / 4 * self.disks_of(layer).mean_square)
+                        for a, layer in zip(self.disk_areas(), self.layers)
+                    ]
+                )
+            ).astype(int)
         else:
             ends = np.rint(np.cumsum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)).astype(int)
         return tuple(int(n) for n in np.diff(ends, prepend=0))
@@ -189,33 +236,52 @@ class Section:
             raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1 to {MOST_DISKS}")
         if self.like:
             original, factor = self.like[0].with_disks(count), self.like[1]
-            layers = tuple(dataclasses.replace(mine, disks=theirs.with_disks(factor).disks) for mine, theirs in zip(self.layers, original.layers))
-            return dataclasses.replace(self, disks=original.disks.scaled(factor), layers=layers, scale=original.scale, like=(original, factor))
+            layers = tuple(
+                dataclasses.replace(mine, disks=theirs.with_disks(factor).disks)
+                for mine, theirs in zip(self.layers, original.layers)
+            )
+            return dataclasses.replace(
+                self, disks=original.disks.scaled(factor), layers=layers, scale=original.scale, like=(original, factor)
+            )
         m = self.disks.mean_square
         phi = self.disks.packing_fraction
         if self.mixed:  # count = full / s² - strip / s
             of = [self.disks_of(layer) for layer in self.layers]
-            inside = math.fsum(d.packing_fraction * layer.area / (math.pi / 4 * d.mean_square) for d, layer in zip(of, self.layers))
-            strip = math.fsum(d.packing_fraction * BORDER_STRIP * b / (math.pi / 4 * math.sqrt(d.mean_square)) for d, b in zip(of, self._borders))
+            inside = math.fsum(
+                d.packing_fraction * layer.area / (math.pi / 4 * d.mean_square) for d, layer in zip(of, self.layers)
+            )
+            strip = math.fsum(
+                d.packing_fraction * BORDER_STRIP * b / (math.pi / 4 * math.sqrt(d.mean_square))
+                for d, b in zip(of, self._borders)
+            )
             s = (math.sqrt(strip**2 + 4 * count * inside) - strip) / (2 * count)
         else:
             strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
             full = count * math.pi / 4 * m
             s = (math.sqrt(strip**2 + 4 * full * phi * self.area) - strip) / (2 * full)
         disks = dataclasses.replace(self.disks.scaled(s), count=int(count))
-        scaled = dataclasses.replace(self, disks=disks, layers=tuple(layer.with_disks(s) for layer in self.layers), scale=self.scale * s)
+        scaled = dataclasses.replace(
+            self, disks=disks, layers=tuple(layer.with_disks(s) for layer in self.layers), scale=self.scale * s
+        )
         scaled._check_room(f"{count} disks", "ask for more disks")
         if self.numerics.time_step > scaled.longest_step:
-            raise SectionError(f"{self.source}: {count} disks: the smallest, {scaled.smallest:.4g} m, would fall past its own diameter in a step of "
-                               f"{self.numerics.time_step:g} s; lower numerics.time_step below {scaled.longest_step:.2g} s, or ask for fewer disks")
+            raise SectionError(
+                f"{self.source}: {count} disks: the smallest, {scaled.smallest:.4g} m, would fall past its own diameter in a step of "
+                f"{self.numerics.time_step:g} s; lower numerics.time_step below {scaled.longest_step:.2g} s, or ask for fewer disks"
+            )
         return scaled
 
     def with_rock(self, rock: Material) -> Section:
         """The same slope with all layers of `rock`; the names of their materials stay. Raises SectionError for a rock without density."""
         if rock.density is None:
-            raise SectionError(f"{rock.name}: no density, and layers are to be made of it; add `density` (kg/m³, of the disks)")
+            raise SectionError(
+                f"{rock.name}: no density, and layers are to be made of it; add `density` (kg/m³, of the disks)"
+            )
         names = {layer.material for layer in self.layers}
-        made = {k: dataclasses.replace(rock, name=k, slip_weakening=None) if k in names else m for k, m in self.materials.items()}
+        made = {
+            k: dataclasses.replace(rock, name=k, slip_weakening=None) if k in names else m
+            for k, m in self.materials.items()
+        }
         return dataclasses.replace(self, materials=MappingProxyType(made))
 
     @property
@@ -224,15 +290,21 @@ class Section:
         return math.sqrt(self.smallest / (2 * self.gravity))
 
     def _check_room(self, what: str, remedy: str) -> None:
-        total = sum(self.disk_counts()) if self.mixed else sum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)
+        total = (
+            sum(self.disk_counts()) if self.mixed else sum(self.disk_areas()) / (math.pi / 4 * self.disks.mean_square)
+        )
         if total > MOST_DISKS:
-            raise SectionError(f"{self.source}: {what}: {total:.2g} disks would fill the layers, more than {MOST_DISKS}; give larger diameters")
+            raise SectionError(
+                f"{self.source}: {what}: {total:.2g} disks would fill the layers, more than {MOST_DISKS}; give larger diameters"
+            )
         for polygon in geometry.parts(self.outline):
             largest = max(self.disks_of(layer).d_max for layer in self.layers if layer.polygon.intersects(polygon))
             if polygon.buffer(-largest / 2).is_empty or min(self.disk_counts()) < 1:
                 x, y = polygon.representative_point().coords[0]
-                raise SectionError(f"{self.source}: {what}: disks of {largest:.4g} m have no room "
-                                   f"in the layers at ({x:.6g}, {y:.6g}); {remedy}")
+                raise SectionError(
+                    f"{self.source}: {what}: disks of {largest:.4g} m have no room "
+                    f"in the layers at ({x:.6g}, {y:.6g}); {remedy}"
+                )
 
     def key(self, scope: str = "packing") -> str:
         """SHA-256 (hex) of all that determines a packing, the seed apart; names and comments do not.
@@ -241,21 +313,30 @@ class Section:
         and the settling stage.
         """
         d = self.disks
-        content = {"layers": [layer.vertices for layer in self.layers],
-                   "disks": [d.d_min, d.d_max, d.distribution, d.packing_fraction]}
+        content = {
+            "layers": [layer.vertices for layer in self.layers],
+            "disks": [d.d_min, d.d_max, d.distribution, d.packing_fraction],
+        }
         if self.mixed:
-            content["disks"] = [[d.d_min, d.d_max, d.distribution, d.packing_fraction] for d in map(self.disks_of, self.layers)]
+            content["disks"] = [
+                [d.d_min, d.d_max, d.distribution, d.packing_fraction] for d in map(self.disks_of, self.layers)
+            ]
         if any(i.flat for i in self.interfaces):
             content["flat"] = [[x.tolist() for x in self.line_of(i)] for i in self.interfaces if i.flat]
         if self.like:
             content["like"] = [self.like[0].key(), self.like[1]]
         if scope == "settled":
-            plain = {name: {k: v for k, v in dataclasses.asdict(m).items() if k not in ("name", "envelope")}
-                     for name, m in self.materials.items()}
-            content |= {"walls": [[w.vertices, plain[w.material]] for w in self.walls],
-                        "rock": [plain[layer.material] for layer in self.layers], "gravity": self.gravity,
-                        "numerics": dataclasses.asdict(self.numerics),
-                        "settle": dataclasses.asdict(self.stages.settle)}
+            plain = {
+                name: {k: v for k, v in dataclasses.asdict(m).items() if k not in ("name", "envelope")}
+                for name, m in self.materials.items()
+            }
+            content |= {
+                "walls": [[w.vertices, plain[w.material]] for w in self.walls],
+                "rock": [plain[layer.material] for layer in self.layers],
+                "gravity": self.gravity,
+                "numerics": dataclasses.asdict(self.numerics),
+                "settle": dataclasses.asdict(self.stages.settle),
+            }
             if self.interfaces:
                 content["interfaces"] = [[self.numbers_of(i), plain[i.material]] for i in self.interfaces]
         elif scope != "packing":
@@ -276,13 +357,18 @@ def load(path_or_name) -> Section:
     path = Path(path_or_name)
     try:
         # a folder of results may have the name of a shipped section
-        given = path.suffix in (".yaml", ".yml") or (path.exists() and not path.is_dir()) or path.name != str(path_or_name)
+        given = (
+            path.suffix in (".yaml", ".yml") or (path.exists() and not path.is_dir()) or path.name != str(path_or_name)
+        )
     except (OSError, ValueError) as error:  # a name that no system takes
-        raise SectionError(f"{str(path)[:60]!r}: no path ({getattr(error, 'strerror', None) or error}); give a path or one of: {', '.join(shipped())}") from None
+        raise SectionError(
+            f"{str(path)[:60]!r}: no path ({getattr(error, 'strerror', None) or error}); give a path or one of: {', '.join(shipped())}"
+        ) from None
     if not given:
         if path.name not in shipped():
-            raise SectionError(f"{path}: neither a file nor a shipped section; give a path or one of: "
-                               f"{', '.join(shipped())}")
+            raise SectionError(
+                f"{path}: neither a file nor a shipped section; give a path or one of: " f"{', '.join(shipped())}"
+            )
         path = FOLDER / f"{path.name}.yaml"
     from . import section_building
 

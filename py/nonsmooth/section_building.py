@@ -8,7 +8,20 @@ from types import MappingProxyType
 
 from . import geometry, roles, section_checks, section_defaults
 from .section import Section
-from .section_parts import Disks, End, Envelope, Interface, Layer, Material, Numerics, Settle, SlipWeakening, Stages, Water, points_of
+from .section_parts import (
+    Disks,
+    End,
+    Envelope,
+    Interface,
+    Layer,
+    Material,
+    Numerics,
+    Settle,
+    SlipWeakening,
+    Stages,
+    Water,
+    points_of,
+)
 
 __all__ = ["build", "material_from"]
 
@@ -20,18 +33,41 @@ def build(document, source: str) -> Section:
     walls = section_checks.walls(document)
     size = raw["disks"]
     disks = Disks(*map(float, size["diameter"]), size["distribution"], float(size["packing_fraction"]))
-    layers = tuple(Layer(v["name"], v["material"], points_of(v["vertices"]), v.get("role", "mass"), _own(v.get("disks"), disks)) for v in raw["layers"])
-    interfaces = tuple(Interface(v.get("name", "-".join(v["between"])), tuple(v["between"]), v["material"], v.get("role"), v.get("flat", True))
-                       for v in raw.get("interfaces", ()))
+    layers = tuple(
+        Layer(v["name"], v["material"], points_of(v["vertices"]), v.get("role", "mass"), _own(v.get("disks"), disks))
+        for v in raw["layers"]
+    )
+    interfaces = tuple(
+        Interface(
+            v.get("name", "-".join(v["between"])),
+            tuple(v["between"]),
+            v["material"],
+            v.get("role"),
+            v.get("flat", True),
+        )
+        for v in raw.get("interfaces", ())
+    )
     stages = raw["stages"]
     section = Section(
-        name=raw["name"], description=raw.get("description", "").strip(), gravity=float(raw["gravity"]),
-        walls=walls, layers=layers,
+        name=raw["name"],
+        description=raw.get("description", "").strip(),
+        gravity=float(raw["gravity"]),
+        walls=walls,
+        layers=layers,
         materials=MappingProxyType({k: material_from(k, v) for k, v in raw["materials"].items()}),
-        disks=disks, water=None,
-        stages=Stages(Settle(**{k: v if k == "bond" else float(v) for k, v in stages["settle"].items()}), float(stages["dry"]),
-                      stages.get("water", {}).get("hold", "motion"), End(**_floats(stages["end"]))),
-        numerics=Numerics(**raw["numerics"]), seed=raw["seed"], source=source, interfaces=interfaces)
+        disks=disks,
+        water=None,
+        stages=Stages(
+            Settle(**{k: v if k == "bond" else float(v) for k, v in stages["settle"].items()}),
+            float(stages["dry"]),
+            stages.get("water", {}).get("hold", "motion"),
+            End(**_floats(stages["end"])),
+        ),
+        numerics=Numerics(**raw["numerics"]),
+        seed=raw["seed"],
+        source=source,
+        interfaces=interfaces,
+    )
     section_checks.check(section, document)
     if "water" in raw:
         section = dataclasses.replace(section, water=_water(raw["water"], section, document))
@@ -47,7 +83,12 @@ def _own(raw, disks: Disks) -> Disks | None:
     if raw is None:
         return None
     low, high = map(float, raw.get("diameter", (disks.d_min, disks.d_max)))
-    return Disks(low, high, raw.get("distribution", disks.distribution), float(raw.get("packing_fraction", disks.packing_fraction)))
+    return Disks(
+        low,
+        high,
+        raw.get("distribution", disks.distribution),
+        float(raw.get("packing_fraction", disks.packing_fraction)),
+    )
 
 
 def _floats(mapping) -> dict:
@@ -65,8 +106,9 @@ def material_from(name: str, raw: dict) -> Material:
         raw["slip_weakening"] = SlipWeakening(**raw["slip_weakening"])
     if "envelope" in raw:
         raw["envelope"] = Envelope(**_floats(raw["envelope"]))
-    return Material(name, **{k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v
-                             for k, v in raw.items()})
+    return Material(
+        name, **{k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v for k, v in raw.items()}
+    )
 
 
 def _water(raw: dict, section: Section, document) -> Water:
@@ -74,16 +116,23 @@ def _water(raw: dict, section: Section, document) -> Water:
     if isinstance(plane, str):
         names = [w.name for w in section.walls]
         if plane not in names:
-            document.refuse(("water", "plane"), f"no wall is called {plane!r}",
-                            f"give one of {', '.join(names)}, or {{point: [x, y], dip: degrees}}")
+            document.refuse(
+                ("water", "plane"),
+                f"no wall is called {plane!r}",
+                f"give one of {', '.join(names)}, or {{point: [x, y], dip: degrees}}",
+            )
         wall = section.wall(plane)
         if not geometry.straight(wall.vertices, section.tolerance):
-            document.refuse(("water", "plane"), f"the wall {plane} is not straight",
-                            "give a straight wall, or {point: [x, y], dip: degrees}")
+            document.refuse(
+                ("water", "plane"),
+                f"the wall {plane} is not straight",
+                "give a straight wall, or {point: [x, y], dip: degrees}",
+            )
         dx, dy = wall.points[-1] - wall.points[0]
         if dx == 0:
-            document.refuse(("water", "plane"), f"the wall {plane} is vertical",
-                            "give a plane that dips less than 90 degrees")
+            document.refuse(
+                ("water", "plane"), f"the wall {plane} is vertical", "give a plane that dips less than 90 degrees"
+            )
         point, dip = min(wall.vertices, key=lambda p: p[1]), roles.dip_of(dx, dy)
     else:
         point, dip = tuple(map(float, plane["point"])), float(plane["dip"])
@@ -95,7 +144,19 @@ def _water(raw: dict, section: Section, document) -> Water:
     points = points_of(table.get("points", [[0.0, 0.0]]))
     for i, (before, after) in enumerate(zip(points, points[1:]), 1):
         if after[0] <= before[0]:
-            document.refuse(("water", "table", "points", i), f"the time {after[0]:g} s does not follow {before[0]:g} s",
-                            "give the times in rising order")
-    return Water(float(raw["unit_weight"]), point, dip, tuple(map(float, gradient)), raw["volume"], points,
-                 float(table.get("rate", 0.0)), float(raw["release_distance"]), wall.name if wall else None)
+            document.refuse(
+                ("water", "table", "points", i),
+                f"the time {after[0]:g} s does not follow {before[0]:g} s",
+                "give the times in rising order",
+            )
+    return Water(
+        float(raw["unit_weight"]),
+        point,
+        dip,
+        tuple(map(float, gradient)),
+        raw["volume"],
+        points,
+        float(table.get("rate", 0.0)),
+        float(raw["release_distance"]),
+        wall.name if wall else None,
+    )

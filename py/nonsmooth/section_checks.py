@@ -24,7 +24,9 @@ def check_extent(document) -> None:
     """Raise SectionError where the vertices of walls and layers are too many, or all at one place."""
     vertices = [p for kind in ("walls", "layers") for item in document.data[kind] for p in item["vertices"]]
     if len(vertices) > MOST_VERTICES:
-        document.refuse(("walls",), f"walls and layers have {len(vertices)} vertices together", f"give at most {MOST_VERTICES}")
+        document.refuse(
+            ("walls",), f"walls and layers have {len(vertices)} vertices together", f"give at most {MOST_VERTICES}"
+        )
     if not np.ptp(np.array(vertices, float), axis=0).max() >= 1e-5:
         document.refuse(("walls",), "walls and layers have no extent", "give coordinates in m, 1e-5 m apart or more")
 
@@ -54,26 +56,42 @@ def check(section: Section, document) -> None:
     _check_names(section, document)
     _check_interfaces(section, document)
     _check_materials(section, document)
-    for keys, d in ((("disks", "diameter"), section.disks), *((("layers", i, "disks", "diameter"), layer.disks) for i, layer in enumerate(section.layers))):
+    for keys, d in (
+        (("disks", "diameter"), section.disks),
+        *((("layers", i, "disks", "diameter"), layer.disks) for i, layer in enumerate(section.layers)),
+    ):
         if d and d.d_min > d.d_max:
-            document.refuse(keys, f"the smallest, {d.d_min:g} m, exceeds the largest, {d.d_max:g} m", "give the smaller one first")
+            document.refuse(
+                keys, f"the smallest, {d.d_min:g} m, exceeds the largest, {d.d_max:g} m", "give the smaller one first"
+            )
     _check_walls(section, document)
     _check_layers(section, document)
     section._check_room("disks.diameter", "give smaller diameters or thicker layers")
     step = section.numerics.time_step
     if step > section.longest_step and "count" not in document.data["disks"]:
-        document.refuse(("numerics", "time_step"), f"in {step:g} s the smallest disk, {section.smallest:g} m, would fall past its own diameter",
-                        f"give less than {section.longest_step:.2g} s")
+        document.refuse(
+            ("numerics", "time_step"),
+            f"in {step:g} s the smallest disk, {section.smallest:g} m, would fall past its own diameter",
+            f"give less than {section.longest_step:.2g} s",
+        )
 
 
 def check_roles(section: Section, document) -> None:
     """Raise SectionError for a section whose walls are no slip surface: nothing says then which way its slope falls."""
     for i, interface in enumerate(section.interfaces):
         if interface.role == "slip" and len(section.line_of(interface)) < 2:
-            document.refuse(("interfaces", i, "role"), f"the layers {' and '.join(interface.between)} do not touch", "give role slip to an interface of layers that do")
+            document.refuse(
+                ("interfaces", i, "role"),
+                f"the layers {' and '.join(interface.between)} do not touch",
+                "give role slip to an interface of layers that do",
+            )
     if section.slip_surfaces:
         return
-    document.refuse(("walls",), "none of them has the role slip, and no interface has it", "give `role: slip` to the wall along which the mass may slide")
+    document.refuse(
+        ("walls",),
+        "none of them has the role slip, and no interface has it",
+        "give `role: slip` to the wall along which the mass may slide",
+    )
 
 
 def _check_names(section, document) -> None:
@@ -83,8 +101,11 @@ def _check_names(section, document) -> None:
             if item.name in names[:i]:
                 document.refuse((kind, i, "name"), f"{item.name!r} is taken", "give each its own name")
             if item.material not in section.materials:
-                document.refuse((kind, i, "material"), f"{item.material!r} is not defined",
-                                f"add it to `materials`, or give one of {', '.join(section.materials)}")
+                document.refuse(
+                    (kind, i, "material"),
+                    f"{item.material!r} is not defined",
+                    f"add it to `materials`, or give one of {', '.join(section.materials)}",
+                )
 
 
 def _check_interfaces(section, document) -> None:
@@ -93,18 +114,33 @@ def _check_interfaces(section, document) -> None:
     for i, interface in enumerate(section.interfaces):
         for name in interface.between:
             if name not in layers:
-                document.refuse(("interfaces", i, "between"), f"no layer is called {name!r}", f"give two of {', '.join(layers)}")
+                document.refuse(
+                    ("interfaces", i, "between"), f"no layer is called {name!r}", f"give two of {', '.join(layers)}"
+                )
         if interface.between[0] == interface.between[1]:
-            document.refuse(("interfaces", i, "between"), f"both are {interface.between[0]}", "give two different layers")
+            document.refuse(
+                ("interfaces", i, "between"), f"both are {interface.between[0]}", "give two different layers"
+            )
         pair = frozenset(interface.between)
         if pair in seen:
-            document.refuse(("interfaces", i, "between"), f"{' and '.join(interface.between)} have an interface already, {seen[pair]}", "keep one of the two")
+            document.refuse(
+                ("interfaces", i, "between"),
+                f"{' and '.join(interface.between)} have an interface already, {seen[pair]}",
+                "keep one of the two",
+            )
         seen[pair] = interface.name
         if interface.material not in section.materials:
-            document.refuse(("interfaces", i, "material"), f"{interface.material!r} is not defined",
-                            f"add it to `materials`, or give one of {', '.join(section.materials)}")
+            document.refuse(
+                ("interfaces", i, "material"),
+                f"{interface.material!r} is not defined",
+                f"add it to `materials`, or give one of {', '.join(section.materials)}",
+            )
         if interface.name in taken:
-            document.refuse(("interfaces", i, "name" if "name" in document.data["interfaces"][i] else "between"), f"the name {interface.name!r} is taken", "give each its own `name`")
+            document.refuse(
+                ("interfaces", i, "name" if "name" in document.data["interfaces"][i] else "between"),
+                f"the name {interface.name!r} is taken",
+                "give each its own `name`",
+            )
         taken.add(interface.name)
 
 
@@ -112,17 +148,25 @@ def _check_materials(section, document) -> None:
     for name, material in section.materials.items():
         raw = document.data["materials"][name]
         if material.bonded and "tensile_strength" not in raw:
-            document.refuse(("materials", name), "a bonded material without tensile_strength",
-                            "give tensile_strength [Pa], or bonded: false")
+            document.refuse(
+                ("materials", name),
+                "a bonded material without tensile_strength",
+                "give tensile_strength [Pa], or bonded: false",
+            )
     for layer in section.layers:
         material = section.materials[layer.material]
         if material.density is None:
-            document.refuse(("materials", material.name), f"no density, and layer {layer.name} is made of it",
-                            "give density [kg/m³]")
+            document.refuse(
+                ("materials", material.name),
+                f"no density, and layer {layer.name} is made of it",
+                "give density [kg/m³]",
+            )
         if material.slip_weakening:
-            document.refuse(("materials", material.name, "slip_weakening"),
-                            f"layer {layer.name} is made of this material",
-                            "give slip_weakening to materials of walls only")
+            document.refuse(
+                ("materials", material.name, "slip_weakening"),
+                f"layer {layer.name} is made of this material",
+                "give slip_weakening to materials of walls only",
+            )
 
 
 def _check_walls(section, document) -> None:
@@ -143,18 +187,28 @@ def _check_walls(section, document) -> None:
         ends = [p for p in (section.walls[i].vertices[0], section.walls[i].vertices[-1])]
         for j, other in enumerate(section.walls):
             tips = (other.vertices[0], other.vertices[-1])
-            if j not in joined and j not in waiting and any(p in other.vertices for p in ends) | any(
-                    p in section.walls[i].vertices for p in tips):
+            if (
+                j not in joined
+                and j not in waiting
+                and any(p in other.vertices for p in ends) | any(p in section.walls[i].vertices for p in tips)
+            ):
                 waiting.append(j)
     for i, wall in enumerate(section.walls):
         if i in joined or wall.apart:
             continue
         tips = (wall.vertices[0], wall.vertices[-1])
-        gap, mine, other, theirs = min((math.dist(p, q), p, section.walls[j].name, q)
-                                       for j in joined for q in section.walls[j].vertices for p in tips)
-        document.refuse(("walls", i, "vertices"), f"a hole of {gap:.4g} m: the wall's end {_at(mine)} does not meet "
-                        f"{other}, whose nearest vertex is {_at(theirs)}",
-                        "make them the same point, or set `apart: true` if the gap is wanted")
+        gap, mine, other, theirs = min(
+            (math.dist(p, q), p, section.walls[j].name, q)
+            for j in joined
+            for q in section.walls[j].vertices
+            for p in tips
+        )
+        document.refuse(
+            ("walls", i, "vertices"),
+            f"a hole of {gap:.4g} m: the wall's end {_at(mine)} does not meet "
+            f"{other}, whose nearest vertex is {_at(theirs)}",
+            "make them the same point, or set `apart: true` if the gap is wanted",
+        )
 
 
 def _check_crossings(section, lines, document) -> None:
@@ -168,8 +222,11 @@ def _check_crossings(section, lines, document) -> None:
             common = line.intersection(crossed).difference(MultiPoint([*shared, *ends]).buffer(3 * section.tolerance))
             if not common.is_empty:
                 where = common.representative_point().coords[0]
-                document.refuse(("walls", i, "vertices"), f"the wall crosses or covers {other.name} at {_at(where)}",
-                                "let walls meet at vertices only")
+                document.refuse(
+                    ("walls", i, "vertices"),
+                    f"the wall crosses or covers {other.name} at {_at(where)}",
+                    "let walls meet at vertices only",
+                )
 
 
 def _check_sense(section, document) -> None:
@@ -183,9 +240,16 @@ def _check_sense(section, document) -> None:
             t = (b - a) / length
             (along0, off0), (along1, off1) = (((p - a) @ t, (p - a) @ (-t[1], t[0])) for p in (table.start, finish))
             on = (np.abs(off0) <= 3 * tolerance) & (np.abs(off1) <= 3 * tolerance)
-            on &= np.minimum(np.maximum(along0, along1), length) - np.maximum(np.minimum(along0, along1), 0) > 10 * tolerance
+            on &= (
+                np.minimum(np.maximum(along0, along1), length) - np.maximum(np.minimum(along0, along1), 0)
+                > 10 * tolerance
+            )
             if np.any(on & (along1 < along0)):  # the outline has the layers on its left
-                document.refuse(("walls", i, "vertices"), f"from {_at(a)} to {_at(b)} the layers lie to the right of the wall", remedy)
+                document.refuse(
+                    ("walls", i, "vertices"),
+                    f"from {_at(a)} to {_at(b)} the layers lie to the right of the wall",
+                    remedy,
+                )
     for end, name in ((0, "begin"), (-1, "end")):
         passed = {p for wall in section.walls for p in (wall.vertices[1:-1] + (wall.vertices[-1 - end],))}
         at = {}
@@ -193,8 +257,11 @@ def _check_sense(section, document) -> None:
             p = wall.vertices[end]
             other = at.setdefault(p, wall.name)
             if other != wall.name and p not in passed:
-                document.refuse(("walls", i, "vertices"), f"both {other} and {wall.name} {name} at {_at(p)}, so one of them acts on its other side",
-                                f"{remedy}, or those of {other}: one wall goes on where another ends")
+                document.refuse(
+                    ("walls", i, "vertices"),
+                    f"both {other} and {wall.name} {name} at {_at(p)}, so one of them acts on its other side",
+                    f"{remedy}, or those of {other}: one wall goes on where another ends",
+                )
 
 
 def _check_layers(section, document) -> None:
@@ -202,10 +269,15 @@ def _check_layers(section, document) -> None:
     for i, layer in enumerate(section.layers):
         reason = geometry.invalid_reason(layer.vertices)
         if reason:
-            document.refuse(("layers", i, "vertices"), f"no simple polygon: {reason}",
-                            "list the vertices in order around the layer")
+            document.refuse(
+                ("layers", i, "vertices"), f"no simple polygon: {reason}", "list the vertices in order around the layer"
+            )
         if layer.polygon.buffer(-10 * tolerance).is_empty:
-            document.refuse(("layers", i, "vertices"), f"the layer is thinner than {20 * tolerance:.2g} m", "give it some thickness, or leave it out")
+            document.refuse(
+                ("layers", i, "vertices"),
+                f"the layer is thinner than {20 * tolerance:.2g} m",
+                "give it some thickness, or leave it out",
+            )
     for i, layer in enumerate(section.layers):
         for j in range(i):
             _check_overlap(section.layers[j], layer, j, i, tolerance, document)
@@ -215,14 +287,19 @@ def _check_layers(section, document) -> None:
             cut = LineString(wall.vertices).intersection(core)
             if cut.length > 10 * tolerance:
                 where = cut.representative_point().coords[0]
-                document.refuse(("layers", i, "vertices"),
-                                f"the wall {wall.name} runs through the layer at {_at(where)}",
-                                "keep layers on one side of a wall")
+                document.refuse(
+                    ("layers", i, "vertices"),
+                    f"the wall {wall.name} runs through the layer at {_at(where)}",
+                    "keep layers on one side of a wall",
+                )
     hole = geometry.uncovered(section.outline, [w.vertices for w in section.walls], tolerance)
     if hole:
         i = min(range(len(section.layers)), key=lambda k: section.layers[k].polygon.distance(LineString(hole)))
-        document.refuse(("layers", i, "vertices"), f"disks could fall out: no wall below the layer from {_at(hole[0])} "
-                        f"to {_at(hole[1])}", "extend a wall along it, or move the layer onto a wall")
+        document.refuse(
+            ("layers", i, "vertices"),
+            f"disks could fall out: no wall below the layer from {_at(hole[0])} " f"to {_at(hole[1])}",
+            "extend a wall along it, or move the layer onto a wall",
+        )
     _check_sense(section, document)
 
 
@@ -231,6 +308,8 @@ def _check_overlap(lower: Layer, upper: Layer, j: int, i: int, tolerance: float,
     if common.buffer(-2 * tolerance).is_empty:
         return
     where = common.representative_point().coords[0]
-    document.refuse(("layers", i, "vertices"),
-                    f"overlaps layer {lower.name} by {common.area:.4g} m² around {_at(where)}",
-                    "move the vertices so that the layers touch at most")
+    document.refuse(
+        ("layers", i, "vertices"),
+        f"overlaps layer {lower.name} by {common.area:.4g} m² around {_at(where)}",
+        "move the vertices so that the layers touch at most",
+    )

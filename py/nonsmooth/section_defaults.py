@@ -28,12 +28,28 @@ def filled(data: dict) -> dict:
     made = {"gravity": gravity, "seed": 1, **data}
     made["disks"] = {"distribution": "uniform_by_volume", "packing_fraction": 0.84, **data["disks"]}
     made["stages"] = {
-        "dry": 3.0 * time, **stages, "settle": {"ramp": 4.0 * time, "time_max": 30.0 * time, "speed_rest": 5e-3 * speed, **stages.get("settle", {})},
-        "end": {"time": 150.0 * time, "rest_fraction": 0.02, "rest_hold": 5.0 * time, **stages.get("end", {})}}
-    made["numerics"] = {"time_step": 1e-2 * math.sqrt(smallest / pull), "path": 0.1, "tolerance": 1e-6, "tolerance_moving": 2e-4, "max_iterations": 300,
-                        "verlet_distance": 0.6, **data.get("numerics", {})}
+        "dry": 3.0 * time,
+        **stages,
+        "settle": {"ramp": 4.0 * time, "time_max": 30.0 * time, "speed_rest": 5e-3 * speed, **stages.get("settle", {})},
+        "end": {"time": 150.0 * time, "rest_fraction": 0.02, "rest_hold": 5.0 * time, **stages.get("end", {})},
+    }
+    made["numerics"] = {
+        "time_step": 1e-2 * math.sqrt(smallest / pull),
+        "path": 0.1,
+        "tolerance": 1e-6,
+        "tolerance_moving": 2e-4,
+        "max_iterations": 300,
+        "verlet_distance": 0.6,
+        **data.get("numerics", {}),
+    }
     if "numerics" in data and "path" not in data["numerics"]:
         del made["numerics"]["path"]  # said otherwise: all steps are as long
     if "water" in data:
-        made["water"] = {"unit_weight": WATER_DENSITY * gravity, "gradient": "buoyant", "volume": "disk", "release_distance": 5.0 * length, **data["water"]}
+        made["water"] = {
+            "unit_weight": WATER_DENSITY * gravity,
+            "gradient": "buoyant",
+            "volume": "disk",
+            "release_distance": 5.0 * length,
+            **data["water"],
+        }
     return made

@@ -11,7 +11,22 @@ from shapely.geometry import Polygon
 
 from . import geometry
 
-__all__ = ["Disks", "End", "Envelope", "Interface", "Layer", "Material", "Numerics", "Settle", "SlipWeakening", "Stages", "Wall", "Water", "normal_of", "points_of"]
+__all__ = [
+    "Disks",
+    "End",
+    "Envelope",
+    "Interface",
+    "Layer",
+    "Material",
+    "Numerics",
+    "Settle",
+    "SlipWeakening",
+    "Stages",
+    "Wall",
+    "Water",
+    "normal_of",
+    "points_of",
+]
 
 
 @dataclass(frozen=True)

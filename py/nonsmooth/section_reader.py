@@ -22,11 +22,11 @@ from .errors import UserError
 __all__ = ["Document", "SectionError", "read", "take"]
 
 # What a file may ask for, so that reading it ends within seconds; the shipped section has 17 kB, 400 values and 6 levels.
-LARGEST_FILE = 500_000   # bytes
-MOST_VALUES = 50_000     # with each alias (`*name`) counted as what it stands for
-DEEPEST = 50             # lists and maps inside each other
-MOST_ERRORS = 200        # looked at, to find the first of them
-LARGEST_NUMBER = 1e15    # squares and products of some such numbers are still finite
+LARGEST_FILE = 500_000  # bytes
+MOST_VALUES = 50_000  # with each alias (`*name`) counted as what it stands for
+DEEPEST = 50  # lists and maps inside each other
+MOST_ERRORS = 200  # looked at, to find the first of them
+LARGEST_NUMBER = 1e15  # squares and products of some such numbers are still finite
 
 
 class SectionError(UserError, ValueError):
@@ -40,20 +40,33 @@ class _Loader(yaml.SafeLoader):
         seen = {}
         for key, _ in node.value:
             if not isinstance(key, yaml.ScalarNode):
-                raise yaml.constructor.ConstructorError(None, None, "a list or a map stands where a key is needed", key.start_mark)
+                raise yaml.constructor.ConstructorError(
+                    None, None, "a list or a map stands where a key is needed", key.start_mark
+                )
             if key.value in seen:
                 raise yaml.constructor.ConstructorError(
-                    None, None, f"the key {key.value!r} is given twice, first in line {seen[key.value]}; keep one",
-                    key.start_mark)
+                    None,
+                    None,
+                    f"the key {key.value!r} is given twice, first in line {seen[key.value]}; keep one",
+                    key.start_mark,
+                )
             seen[key.value] = key.start_mark.line + 1
         return super().construct_mapping(node, deep)
 
 
 _OWN = ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float", "tag:yaml.org,2002:timestamp")
-_Loader.yaml_implicit_resolvers = {k: [(tag, pattern) for tag, pattern in v if tag not in _OWN] for k, v in yaml.SafeLoader.yaml_implicit_resolvers.items()}
+_Loader.yaml_implicit_resolvers = {
+    k: [(tag, pattern) for tag, pattern in v if tag not in _OWN]
+    for k, v in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
 _Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?(0|[1-9][0-9]*)$"), list("-+0123456789"))
-_Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(
-    r"^[-+]?([0-9]+\.[0-9]*|\.[0-9]+|[0-9]+(?=[eE]))([eE][-+]?[0-9]+)?$|^[-+]?\.(inf|Inf|INF)$|^\.(nan|NaN|NAN)$"), list("-+0123456789."))
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(
+        r"^[-+]?([0-9]+\.[0-9]*|\.[0-9]+|[0-9]+(?=[eE]))([eE][-+]?[0-9]+)?$|^[-+]?\.(inf|Inf|INF)$|^\.(nan|NaN|NAN)$"
+    ),
+    list("-+0123456789."),
+)
 
 
 class Document:
@@ -117,12 +130,17 @@ def _text(path: Path) -> str:
             raise SectionError(f"{path}: has more than {LARGEST_FILE} bytes; a section is smaller, give another file")
         return raw.decode("utf-8")
     except FileNotFoundError:
-        raise SectionError(f"{path}: there is no such file; give the path of a section file, "
-                           "or a shipped name") from None
+        raise SectionError(
+            f"{path}: there is no such file; give the path of a section file, " "or a shipped name"
+        ) from None
     except UnicodeDecodeError as error:
         raise SectionError(f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8") from None
     except (OSError, ValueError) as error:  # ValueError: a zero in the name
-        raise SectionError(_line(f"{str(path)[:200]}: cannot be read ({getattr(error, 'strerror', None) or error}); give a readable section file")) from None
+        raise SectionError(
+            _line(
+                f"{str(path)[:200]}: cannot be read ({getattr(error, 'strerror', None) or error}); give a readable section file"
+            )
+        ) from None
 
 
 def _yaml(path: Path):
@@ -141,13 +159,17 @@ def _yaml(path: Path):
         line = f"line {mark.line + 1}: " if mark else ""
         raise SectionError(_line(f"{path}: {line}{error.problem or error.context}; correct the YAML there")) from None
     except RecursionError:
-        raise SectionError(f"{path}: lists and maps stand inside each other more than {DEEPEST} times; a section needs 6 levels") from None
+        raise SectionError(
+            f"{path}: lists and maps stand inside each other more than {DEEPEST} times; a section needs 6 levels"
+        ) from None
     # SafeLoader lets through what its conversions raise, as for `!!int x` or a number of 5000 digits
     except (yaml.YAMLError, ValueError, TypeError, ArithmeticError, LookupError, AttributeError) as error:
         raise SectionError(_line(f"{path}: no valid YAML ({error}); correct the file")) from None
     if not isinstance(data, dict):
-        raise SectionError(f"{path}: holds {_kind(data)} where keys such as `walls:` are needed; "
-                           "start from a copy of a shipped section")
+        raise SectionError(
+            f"{path}: holds {_kind(data)} where keys such as `walls:` are needed; "
+            "start from a copy of a shipped section"
+        )
     return data, root
 
 
@@ -162,7 +184,9 @@ def _size(root, path) -> None:
         if id(node) in open_:
             raise SectionError(f"{where}: an alias stands for a list or a map that holds it; write out what is meant")
         if depth > DEEPEST:
-            raise SectionError(f"{where}: lists and maps stand inside each other more than {DEEPEST} times; a section needs 6 levels")
+            raise SectionError(
+                f"{where}: lists and maps stand inside each other more than {DEEPEST} times; a section needs 6 levels"
+            )
         open_.add(id(node))
         inner = node.value if isinstance(node, yaml.CollectionNode) else ()
         total = 1
@@ -171,7 +195,9 @@ def _size(root, path) -> None:
                 total += size(part, depth + 1)
         open_.discard(id(node))
         if total > MOST_VALUES:
-            raise SectionError(f"{where}: this holds more than {MOST_VALUES} values, each alias counted as what it stands for; a section needs some hundred")
+            raise SectionError(
+                f"{where}: this holds more than {MOST_VALUES} values, each alias counted as what it stands for; a section needs some hundred"
+            )
         sizes[id(node)] = total
         return total
 
@@ -204,7 +230,15 @@ def _text_of(document, text, keys):
 
 
 def _kind(value) -> str:
-    names = {dict: "keys", list: "a list", str: "text", bool: "true or false", type(None): "nothing", int: "a number", float: "a number"}
+    names = {
+        dict: "keys",
+        list: "a list",
+        str: "text",
+        bool: "true or false",
+        type(None): "nothing",
+        int: "a number",
+        float: "a number",
+    }
     return names.get(type(value), f"of YAML's type {type(value).__name__}")
 
 

@@ -18,10 +18,14 @@ def close():
 
     ports = []
     # YADE keeps no name for them; by type(), since a dead weak reference cannot be asked for its class
-    for server in [o for o in gc.get_objects() if issubclass(type(o), socketserver.TCPServer) and o.socket.fileno() >= 0]:
-        if isinstance(getattr(server, "instance", None), remote.InfoProvider) or server.RequestHandlerClass is remote.PythonConsoleSocketEmulator:
+    for server in [
+        o for o in gc.get_objects() if issubclass(type(o), socketserver.TCPServer) and o.socket.fileno() >= 0
+    ]:
+        if (
+            isinstance(getattr(server, "instance", None), remote.InfoProvider)
+            or server.RequestHandlerClass is remote.PythonConsoleSocketEmulator
+        ):
             ports.append(server.server_address[1])
             server.shutdown()  # ends its thread, which may be about to accept
             server.server_close()
     return sorted(ports)
-

@@ -43,7 +43,9 @@ def check(runs, error=processes.RunError, advice=""):
         raise error(f"{', '.join(sorted(folder.name for folder in twice))}: two runs of one name{advice}")
 
 
-def run(runs, threads, resume=False, error=processes.RunError, advice="", progress=lambda share, ended: None, go_on=False):
+def run(
+    runs, threads, resume=False, error=processes.RunError, advice="", progress=lambda share, ended: None, go_on=False
+):
     """Does all Runs, the costly ones first so that threads end together. Returns what their functions returned, in the order of ``runs``, each with
     ``process_wall_s``: wall time of its process [s].
 
@@ -70,10 +72,15 @@ def run(runs, threads, resume=False, error=processes.RunError, advice="", progre
             left = set(futures.values())
             while left:
                 left = wait(left, timeout=LOOK_SECONDS).not_done
-                progress(sum(r.work * kept_runs.share(r.folder) for r in runs) / whole, sum(f.done() for f in futures.values()))
+                progress(
+                    sum(r.work * kept_runs.share(r.folder) for r in runs) / whole,
+                    sum(f.done() for f in futures.values()),
+                )
     except KeyboardInterrupt:
         ended = sum(f.done() and not f.cancelled() and not f.exception() for f in futures.values())
-        raise Interrupted(f"{ended} of {len(runs)} runs have ended and are kept{', others have their checkpoint' if go_on else ''}; go on with --resume") from None
+        raise Interrupted(
+            f"{ended} of {len(runs)} runs have ended and are kept{', others have their checkpoint' if go_on else ''}; go on with --resume"
+        ) from None
     failures = [f"{r.name}: {failed}" for r in runs if (failed := futures[r.folder].exception())]
     if failures:
         raise error(failures[0] + (f" (and {len(failures) - 1} more)" if len(failures) > 1 else "") + advice)
@@ -86,7 +93,9 @@ def _clear(folder):
     try:
         empty(folder, output_folder.LOCK)  # that of a process which holds the folder
     except OSError as error:
-        raise WriteError(f"{folder}: what an earlier run left there cannot be removed ({error.strerror}); remove it, or give another --out") from None
+        raise WriteError(
+            f"{folder}: what an earlier run left there cannot be removed ({error.strerror}); remove it, or give another --out"
+        ) from None
 
 
 def _one(r, known):

@@ -43,29 +43,59 @@ def scaled_packing(packing, factor):
 def scaled(section: Section, factor: float) -> Section:
     """The Section ``factor`` times as large, with all times, speeds and strengths so that it does the same, and with the same packing. Raises SectionError for a factor out of all bounds."""
     if not FACTORS[0] <= factor <= FACTORS[1]:
-        raise SectionError(f"{section.source}: {factor:g} times as large; give a factor from {FACTORS[0]:g} to {FACTORS[1]:g}")
+        raise SectionError(
+            f"{section.source}: {factor:g} times as large; give a factor from {FACTORS[0]:g} to {FACTORS[1]:g}"
+        )
     s, t = factor, math.sqrt(factor)
     grown = lambda vertices: tuple((s * x, s * y) for x, y in vertices)  # noqa: E731
-    sizes = lambda items: tuple(dataclasses.replace(item, vertices=grown(item.vertices)) for item in items)  # noqa: E731
+    sizes = lambda items: tuple(
+        dataclasses.replace(item, vertices=grown(item.vertices)) for item in items
+    )  # noqa: E731
     materials = {name: _material(m, s) for name, m in section.materials.items()}
     water, stages = section.water, section.stages
     if water is not None:
         table = tuple((t * when, s * height) for when, height in water.table)
-        water = dataclasses.replace(water, point=grown([water.point])[0], table=table, rate=t * water.rate, release_distance=s * water.release_distance)
-    settle = dataclasses.replace(stages.settle, ramp=t * stages.settle.ramp, time_max=t * stages.settle.time_max, speed_rest=t * stages.settle.speed_rest)
+        water = dataclasses.replace(
+            water,
+            point=grown([water.point])[0],
+            table=table,
+            rate=t * water.rate,
+            release_distance=s * water.release_distance,
+        )
+    settle = dataclasses.replace(
+        stages.settle,
+        ramp=t * stages.settle.ramp,
+        time_max=t * stages.settle.time_max,
+        speed_rest=t * stages.settle.speed_rest,
+    )
     end = dataclasses.replace(stages.end, time=t * stages.end.time, rest_hold=t * stages.end.rest_hold)
     hold = stages.water_hold if isinstance(stages.water_hold, str) else s * stages.water_hold
     numerics = dataclasses.replace(section.numerics, time_step=t * section.numerics.time_step)
-    return dataclasses.replace(section, walls=sizes(section.walls), layers=tuple(layer.with_disks(s) for layer in sizes(section.layers)), materials=MappingProxyType(materials), disks=section.disks.scaled(s), water=water,
-                               stages=dataclasses.replace(stages, settle=settle, dry=t * stages.dry, water_hold=hold, end=end), numerics=numerics,
-                               like=(section.like[0], s * section.like[1]) if section.like else (section, s))
+    return dataclasses.replace(
+        section,
+        walls=sizes(section.walls),
+        layers=tuple(layer.with_disks(s) for layer in sizes(section.layers)),
+        materials=MappingProxyType(materials),
+        disks=section.disks.scaled(s),
+        water=water,
+        stages=dataclasses.replace(stages, settle=settle, dry=t * stages.dry, water_hold=hold, end=end),
+        numerics=numerics,
+        like=(section.like[0], s * section.like[1]) if section.like else (section, s),
+    )
 
 
 def _material(material, s):
     weak, envelope = material.slip_weakening, material.envelope
     if weak is not None:
-        weak = dataclasses.replace(weak, critical_slip=s * weak.critical_slip, tensile_strength=s * weak.tensile_strength)
+        weak = dataclasses.replace(
+            weak, critical_slip=s * weak.critical_slip, tensile_strength=s * weak.tensile_strength
+        )
     if envelope is not None:
         envelope = dataclasses.replace(envelope, cohesion=s * envelope.cohesion)
-    return dataclasses.replace(material, tensile_strength=s * material.tensile_strength, residual_tensile_strength=s * material.residual_tensile_strength,
-                               slip_weakening=weak, envelope=envelope)
+    return dataclasses.replace(
+        material,
+        tensile_strength=s * material.tensile_strength,
+        residual_tensile_strength=s * material.residual_tensile_strength,
+        slip_weakening=weak,
+        envelope=envelope,
+    )

@@ -21,7 +21,7 @@ PIECE = 8.0
 REACH = 0.05  # gap [ℓ] up to which they are known in any case
 SLACK = 1e-3  # ℓ, overlaps and errors of bonds' lengths that stay: what is taken back below opens and shuts contacts, whose forces must be found anew in each step
 SHORTEST_STEP = 0.1  # of a section's time step, however fast its disks are
-STEP_GROWTH = 1.2    # one bond that is torn apart shortens a step, and should not shorten the next dozen
+STEP_GROWTH = 1.2  # one bond that is torn apart shortens a step, and should not shorten the next dozen
 
 
 @dataclass
@@ -48,7 +48,9 @@ def _walls(section, world):
     piece, backwards = PIECE * math.sqrt(section.disks.mean_square), section.side < 0
     ids, last = {}, None
     for wall in reversed(section.walls) if backwards else section.walls:
-        material = O.materials[O.materials.append(world.wall_material(section.materials[wall.material], label=f"wall-{wall.name}"))]
+        material = O.materials[
+            O.materials.append(world.wall_material(section.materials[wall.material], label=f"wall-{wall.name}"))
+        ]
         bodies = scene.segments(wall.points, material, piece=piece, sense=1, backwards=backwards)
         start, end = (wall.points[0], wall.points[-1])[:: -1 if backwards else 1]
         if last is not None and np.allclose(last[1], start, rtol=0, atol=section.tolerance):
@@ -66,7 +68,14 @@ def hard(section) -> worlds.Hard:
     reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
     # known early enough for disks that approach each other at such a speed; the fastest of the paper's slope reach 50 m/s
     far = scales.of(section).approach_speed * n.time_step / section.smallest
-    return worlds.Hard(n.time_step, n.tolerance, reach, far, -n.verlet_distance, {"maxIterations": n.max_iterations, "correctionSlack": SLACK})
+    return worlds.Hard(
+        n.time_step,
+        n.tolerance,
+        reach,
+        far,
+        -n.verlet_distance,
+        {"maxIterations": n.max_iterations, "correctionSlack": SLACK},
+    )
 
 
 def order_of(section, packing) -> np.ndarray:
@@ -83,28 +92,52 @@ def build(section, packing, world=None) -> Slope:
     O.reset()
     walls = _walls(section, world)
     rocks = [section.materials[layer.material] for layer in section.layers]
-    materials = [O.materials[O.materials.append(world.material(m, layer=k, label=_label(layer, k)))] for k, (layer, m) in enumerate(zip(section.layers, rocks))]
+    materials = [
+        O.materials[O.materials.append(world.material(m, layer=k, label=_label(layer, k)))]
+        for k, (layer, m) in enumerate(zip(section.layers, rocks))
+    ]
     for interface in section.interfaces:
         world.interface(*(materials[k] for k in section.numbers_of(interface)), section.materials[interface.material])
     order = order_of(section, packing)
-    disks = [scene.disk((float(packing.x[k]), float(packing.y[k])), float(packing.r[k]), materials[packing.layer[k]]) for k in order]
+    disks = [
+        scene.disk((float(packing.x[k]), float(packing.y[k])), float(packing.r[k]), materials[packing.layer[k]])
+        for k in order
+    ]
     ids = O.bodies.append(disks)
     before = []
     if section.water is not None:
         w = section.water
-        before.append(PorePressureEngine(
-            label="porePressure", unitWeight=w.unit_weight, planePoint=Vector3(*w.point, 0), planeNormal=Vector3(*w.normal, 0),
-            gradient=Vector3(*w.gradient, 0), releaseDistance=w.release_distance, volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction))
+        before.append(
+            PorePressureEngine(
+                label="porePressure",
+                unitWeight=w.unit_weight,
+                planePoint=Vector3(*w.point, 0),
+                planeNormal=Vector3(*w.normal, 0),
+                gradient=Vector3(*w.gradient, 0),
+                releaseDistance=w.release_distance,
+                volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction,
+            )
+        )
     O.engines = world.engines(gravity=(0, -section.gravity, 0), before=before)
     n = section.numerics
     if world.name == "hard" and n.path:
-        O.engines = [NonsmoothTimeStepper(label="timeStepper", smallest=SHORTEST_STEP * n.time_step, largest=n.time_step, path=n.path,
-                                          growth=STEP_GROWTH), *O.engines]
+        O.engines = [
+            NonsmoothTimeStepper(
+                label="timeStepper",
+                smallest=SHORTEST_STEP * n.time_step,
+                largest=n.time_step,
+                path=n.path,
+                growth=STEP_GROWTH,
+            ),
+            *O.engines,
+        ]
     O.dt = world.step_for(rocks)
     built = find(section, walls, ids[0], len(ids))
     if world.name == "soft":
         layer = packing.layer[order]
-        built.solver = Measures(world, [(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)])
+        built.solver = Measures(
+            world, [(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)]
+        )
     return built
 
 
@@ -117,7 +150,9 @@ def interface_law(slope: Slope, interface):
 def find(section, walls, first_disk, count) -> Slope:
     """Handles of a scene that is there already, as after O.load."""
     engines = {type(e).__name__: e for e in O.engines}
-    return Slope(section, walls, first_disk, count, engines.get("ContactDynamicsEngine"), engines.get("PorePressureEngine"))
+    return Slope(
+        section, walls, first_disk, count, engines.get("ContactDynamicsEngine"), engines.get("PorePressureEngine")
+    )
 
 
 def _label(layer, number):

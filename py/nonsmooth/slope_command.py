@@ -24,13 +24,29 @@ def arguments(name, about, default):
     parser = argparse.ArgumentParser(prog=name, description=about)
     section_arguments.add(parser, default, ["--list"])
     if default is None:
-        parser.add_argument("--list", action="store_true", help="print the names of the shipped sections, one a line, and end")
-    parser.add_argument("--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own")
+        parser.add_argument(
+            "--list", action="store_true", help="print the names of the shipped sections, one a line, and end"
+        )
+    parser.add_argument(
+        "--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own"
+    )
     parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/ and the section's name)")
-    parser.add_argument("--threads", type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"), metavar="T", help="threads (default: all cores)")
-    parser.add_argument("--end", type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"), metavar="SECONDS", help="stop after so many seconds of simulated time, settling included")
+    parser.add_argument(
+        "--threads",
+        type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"),
+        metavar="T",
+        help="threads (default: all cores)",
+    )
+    parser.add_argument(
+        "--end",
+        type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"),
+        metavar="SECONDS",
+        help="stop after so many seconds of simulated time, settling included",
+    )
     parser.add_argument("--resume", action="store_true", help="go on from the last checkpoint in DIR")
-    parser.add_argument("--no-figures", action="store_true", help="tables alone: no figures, no video, nothing for ParaView")
+    parser.add_argument(
+        "--no-figures", action="store_true", help="tables alone: no figures, no video, nothing for ParaView"
+    )
     return parser.parse_args()
 
 
@@ -51,7 +67,11 @@ class Bar:
 
     def __init__(self):
         self._shown = -math.inf
-        self.bar = tqdm(total=1, unit="s", bar_format="{desc} {percentage:3.0f}%|{bar}| {n:.1f}/{total:.0f} s simulated, {elapsed} gone, about {remaining} left")
+        self.bar = tqdm(
+            total=1,
+            unit="s",
+            bar_format="{desc} {percentage:3.0f}%|{bar}| {n:.1f}/{total:.0f} s simulated, {elapsed} gone, about {remaining} left",
+        )
 
     def __call__(self, stage, now, foreseen):
         self.bar.total = max(foreseen, now)
@@ -64,9 +84,14 @@ class Bar:
 
 def dry_failure(since):
     """What is said of a slope that did not wait for the water, or nothing."""
-    return "" if since is None else (
-        f"\nTHE SLOPE FAILED DRY, at {since:.1f} s: it does not bear its own weight, so nothing here is a failure by water. "
-        "Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the plane.\n\n")
+    return (
+        ""
+        if since is None
+        else (
+            f"\nTHE SLOPE FAILED DRY, at {since:.1f} s: it does not bear its own weight, so nothing here is a failure by water. "
+            "Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the plane.\n\n"
+        )
+    )
 
 
 def run(name, about, default=None):
@@ -76,7 +101,9 @@ def run(name, about, default=None):
         print("\n".join(section.shipped()))
         return
     s = section_arguments.read(args)
-    out = Path(args.out or f"out/{Path(args.section).stem}{'-mirrored' * args.mirror}{f'-{args.size:g}' if args.size else ''}")
+    out = Path(
+        args.out or f"out/{Path(args.section).stem}{'-mirrored' * args.mirror}{f'-{args.size:g}' if args.size else ''}"
+    )
     output_folder.claim(out, name)
     if args.resume:
         course = experiment.resume(s, out)
@@ -85,7 +112,10 @@ def run(name, about, default=None):
         built = slope.build(s, made)
         course = experiment.Experiment(built, out)
         course.state.wall_packing_s = seconds
-        print(f"{len(made)} disks, packing fraction {packing.packing_fraction(made, s.outline):.3f}, results go to {out}", flush=True)
+        print(
+            f"{len(made)} disks, packing fraction {packing.packing_fraction(made, s.outline):.3f}, results go to {out}",
+            flush=True,
+        )
         for sentence in packing_checks.sparse_layers(made, s):
             print(sentence, flush=True)
     course.progress = Bar()
@@ -99,14 +129,25 @@ def run(name, about, default=None):
     made, notes = ([], []) if args.no_figures else course.draw()
     for note in notes:
         print(note)
-    print(f"\n{'finished' if summary['finished'] else 'stopped (go on with --resume)'} at {O.time:.1f} s of simulated time, "
-          f"{summary['wall_s']:.0f} s of wall time")
-    for name in ("water_at_failure_m", "triggering_s", "motion_s", "front_travel_m", "deposit_thickness_max_m", "energy_error_rel"):
+    print(
+        f"\n{'finished' if summary['finished'] else 'stopped (go on with --resume)'} at {O.time:.1f} s of simulated time, "
+        f"{summary['wall_s']:.0f} s of wall time"
+    )
+    for name in (
+        "water_at_failure_m",
+        "triggering_s",
+        "motion_s",
+        "front_travel_m",
+        "deposit_thickness_max_m",
+        "energy_error_rel",
+    ):
         value = summary[name]
         print(f"  {name:28s} {'-' if value is None else f'{value:.4g}'}")
     if summary.get("water_at_failure_over_passive"):
-        print(f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water "
-              f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
-              f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop")
+        print(
+            f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water "
+            f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
+            f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop"
+        )
     print(dry_failure(summary["failed_dry_s"]), end="")
     print(f"results: {', '.join([f'{out}/summary.json', 'series.csv', *(p.name for p in made)])}")

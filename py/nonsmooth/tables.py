@@ -53,8 +53,15 @@ def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
     c = {name: values[keep] for name, values in c.items()}
     # walls come first in the list of bodies, so a disk is always the second body of such a pair
     a, b = np.minimum(c["id1"], c["id2"]), np.maximum(c["id1"], c["id2"])
-    return {"ci": b - first_disk, "cj": np.array([-1 - wall_numbers[i] if i in wall_numbers else i - first_disk for i in a], int),
-            "cn": c["normal"], "ct": c["tangential"], "cbonded": c["bonded"], "cx": c["x"], "cy": c["y"]}
+    return {
+        "ci": b - first_disk,
+        "cj": np.array([-1 - wall_numbers[i] if i in wall_numbers else i - first_disk for i in a], int),
+        "cn": c["normal"],
+        "ct": c["tangential"],
+        "cbonded": c["bonded"],
+        "cx": c["x"],
+        "cy": c["y"],
+    }
 
 
 def breaks(engine) -> dict[str, np.ndarray]:
@@ -73,6 +80,6 @@ def water(engine, first, count) -> tuple[np.ndarray, np.ndarray]:
     """
     found = np.zeros((count, 2), bool)
     if engine is not None:
-        rows = np.frombuffer(engine.bodyTable(), dtype=bool).reshape(-1, 2)[first:first + count]
-        found[:len(rows)] = rows
+        rows = np.frombuffer(engine.bodyTable(), dtype=bool).reshape(-1, 2)[first : first + count]
+        found[: len(rows)] = rows
     return found[:, 0].copy(), found[:, 1].copy()

@@ -65,7 +65,10 @@ def passive(section, cohesion, friction_deg, packing_fraction):
         return weight * math.sin(beta) - plane.friction * (weight * math.cos(beta) - lift * wet)
 
     def resistance(h):
-        return k * (0.5 * bulk * math.cos(beta) * thickness**2 - 0.5 * lift * h**2) + 2 * cohesion * math.sqrt(k) * thickness
+        return (
+            k * (0.5 * bulk * math.cos(beta) * thickness**2 - 0.5 * lift * h**2)
+            + 2 * cohesion * math.sqrt(k) * thickness
+        )
 
     miss = lambda h: push(h) - resistance(h)  # noqa: E731
     height = brentq(miss, 0.0, thickness) if miss(0.0) < 0 < miss(thickness) else None

@@ -75,7 +75,12 @@ class _Frames:
         for (_, letter, meaning, role, colour), force in zip(drawn, forces):
             smooth = np.where(time > late, style.running_mean(time, force, window), force) / newtons
             name = self.slope.name(role)
-            ax.plot(time, smooth, color=style.LINES[colour], label=f"{style.symbol(letter, name)}  {meaning} on {style.plain(name)}")
+            ax.plot(
+                time,
+                smooth,
+                color=style.LINES[colour],
+                label=f"{style.symbol(letter, name)}  {meaning} on {style.plain(name)}",
+            )
         ax.axhline(0, color="#555555", lw=0.7)
         ax.set_xlabel("time [s]", fontsize=11)
         ax.set_ylabel(f"force [{unit}]", fontsize=11)
@@ -94,7 +99,9 @@ class _Frames:
             self.water.set_visible(snapshot.water_m > 0)
         self.clock.set_text(f"t = {style.seconds(snapshot.time_s, self.longest)}")
         water = f"water table {style.length(snapshot.water_m, self.extent, 1)}    " if self.water is not None else ""
-        self.state.set_text(f"{water}mean speed {np.hypot(snapshot.vx, snapshot.vy).mean():.{1 if self.extent >= 20 else 2}f} m/s")
+        self.state.set_text(
+            f"{water}mean speed {np.hypot(snapshot.vx, snapshot.vy).mean():.{1 if self.extent >= 20 else 2}f} m/s"
+        )
         for cursor in self.cursors:
             cursor.set_xdata([snapshot.time_s, snapshot.time_s])
         for artist in sorted(self.moving, key=lambda a: a.get_zorder()):
@@ -119,7 +126,9 @@ def _sample(paths):
     return [read_snapshot(paths[k]) for k in sorted({0, last // 2, 3 * last // 4, last})]
 
 
-def write_mp4(snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), window=1.0, progress=None):
+def write_mp4(
+    snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), window=1.0, progress=None
+):
     """Write an MP4 with one frame for each snapshot, in the given order.
 
     ``snapshot_paths``: files of :func:`~nonsmooth.records.write_snapshot` of one run (contacts are not needed); they

@@ -19,7 +19,10 @@ class WallForces:
 
     def __init__(self, walls, period=1):
         there = {tuple(e.ids): e for e in O.engines if isinstance(e, WallForceEngine)}
-        self._engines = {name: there.get(tuple(ids)) or WallForceEngine(ids=list(ids), along=_along(ids), period=period) for name, ids in walls.items()}
+        self._engines = {
+            name: there.get(tuple(ids)) or WallForceEngine(ids=list(ids), along=_along(ids), period=period)
+            for name, ids in walls.items()
+        }
         O.engines = O.engines + [e for ids, e in zip(walls.values(), self._engines.values()) if tuple(ids) not in there]
 
     def forget(self):

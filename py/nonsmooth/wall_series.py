@@ -35,7 +35,11 @@ class WallSeries:
         self._slope, self._side = built, section.side
         self._of_role = {role: [wall.name for wall in section.of_role(role)] for role in roles.ROLES}
         # a role that several walls share has a sum, and a peak, of its own
-        shared = {(role,): [i for name in names for i in built.walls[name]] for role, names in self._of_role.items() if len(names) > 1}
+        shared = {
+            (role,): [i for name in names for i in built.walls[name]]
+            for role, names in self._of_role.items()
+            if len(names) > 1
+        }
         self._forces = WallForces({**built.walls, **shared}, period)
         self._interfaces = [(i, *section.numbers_of(i), slope.interface_law(built, i)) for i in section.interfaces]
         self._obstacles = [(layer.name, k) for k, layer in enumerate(section.layers) if layer.role == "obstacle"]
@@ -55,12 +59,19 @@ class WallSeries:
     def take(self):
         """Writes the rows of the time since the last call. Returns {role: (normal force, shear force where walls hold the mass back, peak of the normal force)}
         [N/m], zero where no wall, and no interface, has that role."""
-        forces = {name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()}
+        forces = {
+            name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()
+        }
         inside = self._between_disks()
         laws = self._laws()
         rows = {name: forces[name] for name in self._slope.walls} | inside
-        self.file.write(*(self._row(name, *force, _slip([laws[name]] if name in laws else [])) for name, force in rows.items()))
-        found = {role: forces[names[0] if len(names) == 1 else (role,)] if names else (0.0, 0.0, 0.0) for role, names in self._of_role.items()}
+        self.file.write(
+            *(self._row(name, *force, _slip([laws[name]] if name in laws else [])) for name, force in rows.items())
+        )
+        found = {
+            role: forces[names[0] if len(names) == 1 else (role,)] if names else (0.0, 0.0, 0.0)
+            for role, names in self._of_role.items()
+        }
         for interface, *_ in self._interfaces:
             if interface.role == "slip":
                 found["slip"] = tuple(a + b for a, b in zip(found["slip"], inside[interface.name]))
@@ -73,28 +84,40 @@ class WallSeries:
 
     def _laws(self):
         """{name: material} of all walls and interfaces."""
-        return {name: self._slope.wall_material(name) for name in self._slope.walls} | {i.name: law for i, _, _, law in self._interfaces}
+        return {name: self._slope.wall_material(name) for name in self._slope.walls} | {
+            i.name: law for i, _, _, law in self._interfaces
+        }
 
     def _between_disks(self):
         """{name: (normal, shear, normal again)} [N/m] of interfaces and obstacles in this step."""
         if not self._interfaces and not self._obstacles:
             return {}
         c = tables.contacts(self._slope.solver)
-        force = np.stack([c["normal"] * c["nx"] - c["tangential"] * c["ny"], c["normal"] * c["ny"] + c["tangential"] * c["nx"]])  # on the second body
+        force = np.stack(
+            [c["normal"] * c["nx"] - c["tangential"] * c["ny"], c["normal"] * c["ny"] + c["tangential"] * c["nx"]]
+        )  # on the second body
         one, other = self._layer_of[c["id1"]], self._layer_of[c["id2"]]
         section, found = self._slope.section, {}
         for interface, lower, upper, _ in self._interfaces:
-            on_upper = force[:, (one == lower) & (other == upper)].sum(axis=1) - force[:, (one == upper) & (other == lower)].sum(axis=1)
+            on_upper = force[:, (one == lower) & (other == upper)].sum(axis=1) - force[
+                :, (one == upper) & (other == lower)
+            ].sum(axis=1)
             normal, shear = float(on_upper @ section.normal), -float(on_upper @ section.downslope)
             found[interface.name] = (normal, shear, normal)
         for name, k in self._obstacles:
-            on_it = force[:, (other == k) & (one != k) & (one >= 0)].sum(axis=1) - force[:, (one == k) & (other != k) & (other >= 0)].sum(axis=1)
+            on_it = force[:, (other == k) & (one != k) & (one >= 0)].sum(axis=1) - force[
+                :, (one == k) & (other != k) & (other >= 0)
+            ].sum(axis=1)
             push = self._side * float(on_it[0])
             found[name] = (push, -float(on_it[1]), push)
         return found
 
     def _row(self, name, normal, shear, peak, slip):
-        told = (slip.mean, slip.weakened, slip.weakened / slip.touched if slip.touched else 0.0) if slip.counts else (None, None, None)
+        told = (
+            (slip.mean, slip.weakened, slip.weakened / slip.touched if slip.touched else 0.0)
+            if slip.counts
+            else (None, None, None)
+        )
         return dict(zip(records.WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told), strict=True))
 
 
@@ -103,5 +126,11 @@ def _slip(materials):
     weak = [m for m in materials if hasattr(m, "meanSlip")]
     counts = [m.slippedCount() for m in weak]
     touched = sum(counts)
-    mean = weak[0].meanSlip() if len(weak) == 1 else sum(m.meanSlip() * n for m, n in zip(weak, counts)) / touched if touched else 0.0
+    mean = (
+        weak[0].meanSlip()
+        if len(weak) == 1
+        else sum(m.meanSlip() * n for m, n in zip(weak, counts)) / touched
+        if touched
+        else 0.0
+    )
     return Slip(mean, sum(m.weakenedCount() for m in weak), touched, bool(weak))

@@ -13,7 +13,17 @@ import numpy as np
 
 from .errors import UserError
 
-__all__ = ["WriteError", "beside", "empty", "remove_parts", "remove_parts_below", "sync_folder", "whole", "write_arrays", "write_atomically"]
+__all__ = [
+    "WriteError",
+    "beside",
+    "empty",
+    "remove_parts",
+    "remove_parts_below",
+    "sync_folder",
+    "whole",
+    "write_arrays",
+    "write_atomically",
+]
 
 PART = ".part-"  # begins the names of files that are being written
 
@@ -52,7 +62,9 @@ def remove_parts(*folders):
             try:
                 path.unlink(missing_ok=True)
             except OSError as error:
-                raise WriteError(f"{path}: left from a run that was killed, and cannot be removed ({error.strerror}); remove it") from None
+                raise WriteError(
+                    f"{path}: left from a run that was killed, and cannot be removed ({error.strerror}); remove it"
+                ) from None
 
 
 def remove_parts_below(folder, held):
@@ -88,8 +100,9 @@ def write_atomically(path, content) -> None:
             file.flush()
             os.fsync(file.fileno())
     except OSError as error:
-        raise WriteError(f"{path}: cannot be written ({error.strerror}); "
-                           "give a folder that can be written and has room") from None
+        raise WriteError(
+            f"{path}: cannot be written ({error.strerror}); " "give a folder that can be written and has room"
+        ) from None
 
 
 def write_arrays(path, /, compressed=False, **arrays) -> None:

@@ -56,7 +56,10 @@ class Hard:
 
     def interface(self, lower, upper, m):
         """Gives contacts between disks of two materials of the scene, of different layers, the law of the section.Material ``m``."""
-        lower.interfaceLayers, lower.interfaceLaws = [*lower.interfaceLayers, upper.layer], [*lower.interfaceLaws, scene.wall_material(m, wall=False)]
+        lower.interfaceLayers, lower.interfaceLaws = [*lower.interfaceLayers, upper.layer], [
+            *lower.interfaceLaws,
+            scene.wall_material(m, wall=False),
+        ]
 
     def step_for(self, materials):
         """Time step [s] for these section.Materials of disks."""
@@ -65,7 +68,15 @@ class Hard:
     def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
         """The list O.engines; ``before``: engines that add forces, ``after``: engines after the integrator."""
         return scene.engines(
-            gravity=gravity, reach=self.reach, far=self.far, verlet=self.verlet, before=before, after=after, tolerance=self.tolerance, **self.options)
+            gravity=gravity,
+            reach=self.reach,
+            far=self.far,
+            verlet=self.verlet,
+            before=before,
+            after=after,
+            tolerance=self.tolerance,
+            **self.options,
+        )
 
     def bond(self, groups=()):
         """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step without gravity, which finds the contacts: call it
@@ -106,7 +117,15 @@ class Soft:
 
     def equivalent(self, m):
         """The :class:`yade.nonsmooth.soft.Equivalent` of a section.Material."""
-        return soft.equivalent(m, self.stiffness, self.model, diameter=self.diameter, shear_ratio=self.shear_ratio, rolling_ratio=self.rolling_ratio, damping=self.damping)
+        return soft.equivalent(
+            m,
+            self.stiffness,
+            self.model,
+            diameter=self.diameter,
+            shear_ratio=self.shear_ratio,
+            rolling_ratio=self.rolling_ratio,
+            damping=self.damping,
+        )
 
     def material(self, m, layer=0, **others):
         """As :meth:`Hard.material`; which disks are bonded is told to :meth:`bond`."""
@@ -118,7 +137,9 @@ class Soft:
 
     def interface(self, lower, upper, m):
         """Raises WorldError: soft contacts have no interfaces."""
-        raise WorldError("interfaces between layers need rigid contacts: leave `interfaces` out of the section, or use Contact Dynamics")
+        raise WorldError(
+            "interfaces between layers need rigid contacts: leave `interfaces` out of the section, or use Contact Dynamics"
+        )
 
     def step_for(self, materials):
         """Time step [s] for these section.Materials of disks: the share of the smallest limit."""
@@ -126,11 +147,24 @@ class Soft:
 
     def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
         """As :meth:`Hard.engines`."""
-        return soft.engines_of(self.model, self.damping, self.rolling_ratio, gravity=gravity, verlet=self.verlet, before=before, after=after, ductile=self.ductile)
+        return soft.engines_of(
+            self.model,
+            self.damping,
+            self.rolling_ratio,
+            gravity=gravity,
+            verlet=self.verlet,
+            before=before,
+            after=after,
+            ductile=self.ductile,
+        )
 
     def bond(self, groups=()):
         """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), and disks to walls that are bonded; returns
         how many. See :func:`yade.nonsmooth.soft.bond` and :func:`yade.nonsmooth.soft.bond_walls`.
         """
-        made = sum(soft.bond(self.equivalent(m), ids, fragile=not self.ductile) for m, ids in groups if m.bonded and self.model != "friction")
+        made = sum(
+            soft.bond(self.equivalent(m), ids, fragile=not self.ductile)
+            for m, ids in groups
+            if m.bonded and self.model != "friction"
+        )
         return made + soft.bond_walls([i for _, ids in groups for i in ids], fragile=not self.ductile)

@@ -29,6 +29,9 @@ PACKAGES_CROSS=(g++-aarch64-linux-gnu)
 # To hold the files of a campaign for a cluster against runs done here, in .ci/run: 670 MB on the disk with what it needs.
 PACKAGES_CAMPAIGN=(snakemake)
 
+# To hold the sources to their format, in .ci/run; scripts/format.sh wants the versions of Debian 12.
+PACKAGES_FORMAT=(clang-format black)
+
 # Installs those of the packages that apt knows, and leaves out the others.
 packages_install_known() {
     local name known=()

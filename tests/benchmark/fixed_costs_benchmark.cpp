@@ -19,7 +19,9 @@ enum class State { Rests, Moves };
 Problem packing(int columns, int rows)
 {
 	Problem p = testing::lattice(columns, rows).problem;
-	std::sort(p.contacts.begin(), p.contacts.end(), [](const Contact& a, const Contact& b) { return std::minmax(a.i, a.j) < std::minmax(b.i, b.j); });
+	std::sort(p.contacts.begin(), p.contacts.end(), [](const Contact& a, const Contact& b) {
+		return std::minmax(a.i, a.j) < std::minmax(b.i, b.j);
+	});
 	std::size_t kept = 0;
 	for (std::size_t k = 0; k < p.contactCount(); ++k)
 		if (k * 2654435761u >> 30 & 3) p.contacts[kept++] = p.contacts[k];
@@ -87,7 +89,7 @@ Times timesOf(const Steps& steps, SolverSettings settings)
 		const auto& errors = steps.errors[k % 2];
 		Problem     p      = steps.problems[k % 2];
 		const auto  least  = [k](double& time, double found) {
-			if (k >= 2) time = std::min(time, found); // the first ones take the memory
+                        if (k >= 2) time = std::min(time, found); // the first ones take the memory
 		};
 		const auto solveBy = [&](int sweeps) {
 			p.impulses             = steps.problems[k % 2].impulses;
@@ -96,13 +98,14 @@ Times timesOf(const Steps& steps, SolverSettings settings)
 		};
 		least(t.few, solveBy(few));
 		least(t.correctNone, seconds([&] { correctPositions(p, settings, workspace, errors, 0, correction); }));
-		least(t.correct, seconds([&] { correctPositions(p, settings, workspace, errors, correctionSweeps, correction); }));
+		least(t.correct,
+		      seconds([&] { correctPositions(p, settings, workspace, errors, correctionSweeps, correction); }));
 		least(t.layOut, seconds([&] { layOut(p, settings.threads, laidOut); }));
 	}
 	for (int k = 0; k < 2 * repetitions; ++k) {
 		Problem p              = steps.problems[k % 2];
 		settings.maxIterations = settings.checkEvery = many;
-		t.many                                       = std::min(t.many, seconds([&] { solve(p, settings, &workspace); }));
+		t.many = std::min(t.many, seconds([&] { solve(p, settings, &workspace); }));
 	}
 	return t;
 }
@@ -113,21 +116,28 @@ void once(benchmark::State& state, State what, int columns)
 	SolverSettings settings;
 	settings.threads = static_cast<int>(state.range(0));
 	for (auto _ : state) {
-		const Times  t = timesOf(steps, settings);
-		const double sweep = (t.many - t.few) / (many - few), once = t.few - few * sweep, correction = t.correct - t.correctNone;
+		const Times  t     = timesOf(steps, settings);
+		const double sweep = (t.many - t.few) / (many - few), once = t.few - few * sweep,
+		             correction = t.correct - t.correctNone;
 		state.SetIterationTime(once);
-		state.counters["contacts"]        = double(steps.problems[0].contactCount());
-		state.counters["sweep_us"]        = 1e6 * sweep;
-		state.counters["once_in_sweeps"]  = once / sweep;
-		state.counters["layout_us"]       = 1e6 * t.layOut;
-		state.counters["correct_us"]      = 1e6 * t.correct;
-		state.counters["correct_once_us"] = 1e6 * t.correctNone;
+		state.counters["contacts"]         = double(steps.problems[0].contactCount());
+		state.counters["sweep_us"]         = 1e6 * sweep;
+		state.counters["once_in_sweeps"]   = once / sweep;
+		state.counters["layout_us"]        = 1e6 * t.layOut;
+		state.counters["correct_us"]       = 1e6 * t.correct;
+		state.counters["correct_once_us"]  = 1e6 * t.correctNone;
 		state.counters["correct_sweep_us"] = 1e6 * correction / correctionSweeps;
 	}
 }
 
-#define NONSMOOTH_ONCE(name, ...)                                                                                                              \
-	BENCHMARK_CAPTURE(once, name, __VA_ARGS__)->ArgName("threads")->Arg(1)->Arg(2)->UseManualTime()->Iterations(1)->Unit(benchmark::kMicrosecond)
+#define NONSMOOTH_ONCE(name, ...)                                                                                      \
+	BENCHMARK_CAPTURE(once, name, __VA_ARGS__)                                                                     \
+	        ->ArgName("threads")                                                                                   \
+	        ->Arg(1)                                                                                               \
+	        ->Arg(2)                                                                                               \
+	        ->UseManualTime()                                                                                      \
+	        ->Iterations(1)                                                                                        \
+	        ->Unit(benchmark::kMicrosecond)
 NONSMOOTH_ONCE(rests_20000, State::Rests, 200);
 NONSMOOTH_ONCE(moves_20000, State::Moves, 200);
 NONSMOOTH_ONCE(rests_200000, State::Rests, 2000);

@@ -19,7 +19,7 @@ double seconds(const Problem& problem, SolverSettings settings, int sweeps, Work
 {
 	Problem p              = problem;
 	settings.maxIterations = settings.checkEvery = sweeps;
-	const auto begin       = std::chrono::steady_clock::now();
+	const auto begin                             = std::chrono::steady_clock::now();
 	solve(p, settings, &workspace);
 	return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -36,7 +36,11 @@ void sweep(benchmark::State& state, Path path, const Problem& (*problem)() = ben
 		seconds(problem(), settings, few, workspace); // takes the memory
 		double spent = 0;
 		for (auto _ : state) {
-			const double one = std::max(0.0, seconds(problem(), settings, many, workspace) - seconds(problem(), settings, few, workspace)) / (many - few);
+			const double one = std::max(
+			                           0.0,
+			                           seconds(problem(), settings, many, workspace)
+			                                   - seconds(problem(), settings, few, workspace))
+			        / (many - few);
 			state.SetIterationTime(one);
 			spent += one;
 		}
@@ -56,8 +60,14 @@ const Problem& platen()
 }
 
 // a fixed number of repetitions: the time that counts is a small part of what each takes
-#define NONSMOOTH_SWEEP(name, ...)                                                                                                             \
-	BENCHMARK_CAPTURE(sweep, name, __VA_ARGS__)->ArgName("threads")->Arg(1)->Arg(2)->UseManualTime()->Iterations(10)->Unit(benchmark::kMicrosecond)
+#define NONSMOOTH_SWEEP(name, ...)                                                                                     \
+	BENCHMARK_CAPTURE(sweep, name, __VA_ARGS__)                                                                    \
+	        ->ArgName("threads")                                                                                   \
+	        ->Arg(1)                                                                                               \
+	        ->Arg(2)                                                                                               \
+	        ->UseManualTime()                                                                                      \
+	        ->Iterations(10)                                                                                       \
+	        ->Unit(benchmark::kMicrosecond)
 NONSMOOTH_SWEEP(reference, Path::Reference);
 NONSMOOTH_SWEEP(portable, Path::Portable);
 NONSMOOTH_SWEEP(best, Path::Best);

@@ -164,14 +164,19 @@ TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
 		std::size_t cut[3] = {}, free[3] = {}; // impulses along n, t, r
 		for (std::size_t k = 0; k < b.contactOf.size(); ++k) {
 			if (b.contactOf[k] == ContactBlocks::none) continue;
-			const Contact& c       = p.contacts[b.contactOf[k]];
-			const Impulse &start   = p.impulses[b.contactOf[k]], wanted = project(c, start);
+			const Contact& c     = p.contacts[b.contactOf[k]];
+			const Impulse &start = p.impulses[b.contactOf[k]], wanted = project(c, start);
 			const Impulse  inverse = inverseDelassus(c, p.inverseMass[c.i], p.inverseMass[c.j]);
 			const Block&   block   = b.blocks[k / lanes];
 			const auto     l       = k % lanes;
-			const Impulse  now { block.n[l], block.t[l], block.r[l] }, before { block.beforeN[l], block.beforeT[l], block.beforeR[l] };
-			ASSERT_TRUE(sameBits(std::vector<Impulse> { now, before }, { wanted, wanted })) << kernels->name << ", contact " << b.contactOf[k];
-			ASSERT_TRUE(sameBits(std::vector<Impulse> { { block.inverseN[l], block.inverseT[l], block.inverseR[l] } }, { inverse })) << kernels->name;
+			const Impulse  now { block.n[l], block.t[l], block.r[l] },
+			        before { block.beforeN[l], block.beforeT[l], block.beforeR[l] };
+			ASSERT_TRUE(sameBits(std::vector<Impulse> { now, before }, { wanted, wanted }))
+			        << kernels->name << ", contact " << b.contactOf[k];
+			ASSERT_TRUE(sameBits(
+			        std::vector<Impulse> { { block.inverseN[l], block.inverseT[l], block.inverseR[l] } },
+			        { inverse }))
+			        << kernels->name;
 			ASSERT_EQ(b.inverseLength[k / lanes].v[l], 1 / c.length);
 			++(wanted.n == start.n ? free : cut)[0];
 			++(wanted.t == start.t ? free : cut)[1];
@@ -192,7 +197,7 @@ TEST(Blocks, FetchingAheadChangesNoBit)
 		layOut(p, 1, one);
 		for (std::size_t part = 0; part < one.partCount(); ++part)
 			fillIn(p, *kernels, part, one);
-		ContactBlocks       other  = one;
+		ContactBlocks       other = one;
 		std::vector<Motion> bodies(mixed().bodyCount() + 1), same(bodies.size());
 		for (std::size_t b = 0; b + 1 < bodies.size(); ++b)
 			bodies[b].v = same[b].v = Lanes { 0.01 * double(b % 7), -0.02 * double(b % 5), 0, 1e-4 };
@@ -228,7 +233,8 @@ TEST(Blocks, ReferenceFindsTheSameSolution)
 	const auto x    = solve(blocked, s);
 	s.reference     = true;
 	const auto y    = solve(reference, s);
-	for (const auto& [statistics, problem] : { std::pair<const SolverStatistics&, const Problem&> { x, blocked }, { y, reference } }) {
+	for (const auto& [statistics, problem] :
+	     { std::pair<const SolverStatistics&, const Problem&> { x, blocked }, { y, reference } }) {
 		EXPECT_TRUE(statistics.converged);
 		EXPECT_LE(naturalMapResidual(problem).relative(), tolerance * (1 + 1e-6));
 	}
@@ -260,8 +266,8 @@ TEST(Blocks, ReportedResidualIsTheIndependentOne)
 {
 	Problem        p = mixed();
 	SolverSettings s;
-	s.maxIterations = 40;
-	s.tolerance     = 1e-12;
+	s.maxIterations           = 40;
+	s.tolerance               = 1e-12;
 	const auto     statistics = solve(p, s);
 	const Residual own = statistics.residual, independent = naturalMapResidual(p);
 	// the same formula summed in another order: rounding only

@@ -31,7 +31,8 @@ inline double largestDifference(const std::vector<Impulse>& a, const std::vector
 {
 	double most = a.size() == b.size() ? 0 : HUGE_VAL;
 	for (std::size_t k = 0; k < a.size() && most < HUGE_VAL; ++k)
-		most = std::max({ most, std::abs(a[k].n - b[k].n), std::abs(a[k].t - b[k].t), std::abs(a[k].r - b[k].r) });
+		most = std::max(
+		        { most, std::abs(a[k].n - b[k].n), std::abs(a[k].t - b[k].t), std::abs(a[k].r - b[k].r) });
 	return most;
 }
 
@@ -39,7 +40,8 @@ inline double largestDifference(const std::vector<Twist>& a, const std::vector<T
 {
 	double most = a.size() == b.size() ? 0 : HUGE_VAL;
 	for (std::size_t k = 0; k < a.size() && most < HUGE_VAL; ++k)
-		most = std::max({ most, std::abs(a[k].x - b[k].x), std::abs(a[k].y - b[k].y), std::abs(a[k].w - b[k].w) });
+		most = std::max(
+		        { most, std::abs(a[k].x - b[k].x), std::abs(a[k].y - b[k].y), std::abs(a[k].w - b[k].w) });
 	return most;
 }
 

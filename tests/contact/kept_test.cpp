@@ -17,7 +17,7 @@ struct Change {
 };
 
 constexpr int columns = 60, rows = 40;
-constexpr int wall    = columns * rows; // the floor
+constexpr int wall = columns * rows; // the floor
 
 /// One after the other, each on what the one before left.
 std::vector<Change> changes()
@@ -26,82 +26,83 @@ std::vector<Change> changes()
 		{ "the same again", [](Problem&) {}, true },
 		{ "thresholds and biases",
 		  [](Problem& p) {
-			  for (std::size_t k = 0; k < p.contactCount(); ++k) {
-				  p.contacts[k].adhesion = 3 * double(k % 4);
-				  p.contacts[k].friction = 0.1 * double(k % 5);
-				  p.contacts[k].biasN -= 1e-3 * double(k % 3);
-			  }
+		          for (std::size_t k = 0; k < p.contactCount(); ++k) {
+			          p.contacts[k].adhesion = 3 * double(k % 4);
+			          p.contacts[k].friction = 0.1 * double(k % 5);
+			          p.contacts[k].biasN -= 1e-3 * double(k % 3);
+		          }
 		  },
 		  true },
 		{ "masses and free velocities",
 		  [](Problem& p) {
-			  for (int b = 0; b < wall; ++b) {
-				  p.inverseMass[b] = { p.inverseMass[b].x * 1.01, p.inverseMass[b].x * 1.01, p.inverseMass[b].w * 1.02 };
-				  p.freeVelocity[b].x += 0.01 * double(b % 7);
-			  }
+		          for (int b = 0; b < wall; ++b) {
+			          p.inverseMass[b] = { p.inverseMass[b].x * 1.01, p.inverseMass[b].x * 1.01,
+				                       p.inverseMass[b].w * 1.02 };
+			          p.freeVelocity[b].x += 0.01 * double(b % 7);
+		          }
 		  },
 		  true },
 		{ "bodies move within their bins",
 		  [](Problem& p) {
-			  for (int b = 1; b < wall; b += 3) // none of those that the ends of the packing follow
-				  p.positions[b].y += 1e-9;
+		          for (int b = 1; b < wall; b += 3) // none of those that the ends of the packing follow
+			          p.positions[b].y += 1e-9;
 		  },
 		  true },
 		{ "a row goes far",
 		  [](Problem& p) {
-			  for (int b = 0; b < columns; ++b)
-				  p.positions[b].x += 0.7;
+		          for (int b = 0; b < columns; ++b)
+			          p.positions[b].x += 0.7;
 		  },
 		  false },
 		{ "a body is held from now on",
 		  [](Problem& p) {
-			  p.inverseMass[700]  = {};
-			  p.freeVelocity[700] = { 0.01, 0, 0 };
+		          p.inverseMass[700]  = {};
+		          p.freeVelocity[700] = { 0.01, 0, 0 };
 		  },
 		  false },
 		{ "and let go again", [](Problem& p) { p.inverseMass[700] = p.inverseMass[701]; }, false },
 		{ "a contact's second body is another one",
 		  [](Problem& p) {
-			  for (Contact& c : p.contacts)
-				  if (c.i == 700) c.j = c.j + 1 == wall ? c.j - 2 : c.j + 1;
+		          for (Contact& c : p.contacts)
+			          if (c.i == 700) c.j = c.j + 1 == wall ? c.j - 2 : c.j + 1;
 		  },
 		  false },
 		{ "a contact is one with another wall",
 		  [](Problem& p) {
-			  p.inverseMass.emplace_back();
-			  p.freeVelocity.push_back({ 0.5, 0, 0 });
-			  p.positions.push_back({ 5, 0 });
-			  for (Contact& c : p.contacts)
-				  if (c.i == wall && c.j == 7) c.i = wall + 1;
+		          p.inverseMass.emplace_back();
+		          p.freeVelocity.push_back({ 0.5, 0, 0 });
+		          p.positions.push_back({ 5, 0 });
+		          for (Contact& c : p.contacts)
+			          if (c.i == wall && c.j == 7) c.i = wall + 1;
 		  },
 		  false },
 		{ "a contact does not fit into blocks", [](Problem& p) { p.contacts[500].biasT = 0.02; }, false },
-		{ "but does again", [](Problem& p) { p.contacts[500].biasT = 0; }, false },
+		{ "but does again", [](Problem& p) { p.contacts[500].biasT                     = 0; }, false },
 		{ "a contact goes",
 		  [](Problem& p) {
-			  p.contacts.erase(p.contacts.begin() + 300);
-			  p.impulses.erase(p.impulses.begin() + 300);
+		          p.contacts.erase(p.contacts.begin() + 300);
+		          p.impulses.erase(p.impulses.begin() + 300);
 		  },
 		  false },
 		{ "two exchange their places", [](Problem& p) { std::swap(p.contacts[310], p.contacts[900]); }, false },
 		{ "a body without contacts comes",
 		  [](Problem& p) {
-			  p.inverseMass.push_back({ 1e-4, 1e-4, 1e-4 });
-			  p.freeVelocity.emplace_back();
-			  p.positions.push_back({ 70, 20 });
+		          p.inverseMass.push_back({ 1e-4, 1e-4, 1e-4 });
+		          p.freeVelocity.emplace_back();
+		          p.positions.push_back({ 70, 20 });
 		  },
 		  false },
 		{ "positions are forgotten", [](Problem& p) { p.positions.clear(); }, false },
 		{ "few contacts are left",
 		  [](Problem& p) {
-			  p.contacts.resize(200);
-			  p.impulses.resize(200);
+		          p.contacts.resize(200);
+		          p.impulses.resize(200);
 		  },
 		  false },
 		{ "none is left",
 		  [](Problem& p) {
-			  p.contacts.clear();
-			  p.impulses.clear();
+		          p.contacts.clear();
+		          p.impulses.clear();
 		  },
 		  false },
 	};
@@ -156,7 +157,9 @@ TEST(Kept, ChangesNoBitAlongASequence)
 			Workspace            workspace;
 			expectSame(p, s, workspace);
 			for (const Change& change : changes()) {
-				SCOPED_TRACE(std::string(change.name) + ", " + kernels->name + ", threads " + std::to_string(threads));
+				SCOPED_TRACE(
+				        std::string(change.name) + ", " + kernels->name + ", threads "
+				        + std::to_string(threads));
 				change.make(p);
 				expectSame(p, s, workspace);
 				EXPECT_EQ(workspace.laidOut.kept, change.keeps);
@@ -177,9 +180,14 @@ void expectNext(Problem& p, const SolverSettings& s, Workspace& workspace, bool 
 std::size_t inTheMiddleOfAStrip(const StripCut& cut)
 {
 	const auto& bins   = cut.scratch.binOfBody;
-	const auto  strips = std::equal_range(cut.scratch.stripOfBin.begin(), cut.scratch.stripOfBin.end(), cut.count / 2);
-	const auto  middle = static_cast<std::int32_t>((strips.first - cut.scratch.stripOfBin.begin() + strips.second - cut.scratch.stripOfBin.begin()) / 2);
-	return std::min_element(bins.begin(), bins.end(), [middle](int a, int b) { return std::abs(a - middle) < std::abs(b - middle); }) - bins.begin();
+	const auto  strips = std::equal_range(
+	         cut.scratch.stripOfBin.begin(), cut.scratch.stripOfBin.end(), cut.count / 2);
+	const auto middle = static_cast<std::int32_t>(
+	        (strips.first - cut.scratch.stripOfBin.begin() + strips.second - cut.scratch.stripOfBin.begin()) / 2);
+	return std::min_element(
+	               bins.begin(), bins.end(),
+	               [middle](int a, int b) { return std::abs(a - middle) < std::abs(b - middle); })
+	        - bins.begin();
 }
 
 // rows are half a disk apart, so one that goes by less makes no contact longer; the ends of the packing are those of other rows
@@ -191,11 +199,11 @@ TEST(Kept, NoCutWhereBodiesGoToOtherBinsThoughWidthAndPairsStay)
 		Problem              p = lattice(columns, rows).problem;
 		Workspace            workspace;
 		expectNext(p, s, workspace, false);
-		const StripCut& cut  = workspace.laidOut.order.scratch.cut;
-		const auto      go   = [&p](double far) {
-			for (int row = 2; row < rows; row += 2)
-				for (int b = row * columns; b < (row + 1) * columns; ++b)
-					p.positions[b].x += far;
+		const StripCut& cut = workspace.laidOut.order.scratch.cut;
+		const auto      go  = [&p](double far) {
+                        for (int row = 2; row < rows; row += 2)
+                                for (int b = row * columns; b < (row + 1) * columns; ++b)
+                                        p.positions[b].x += far;
 		};
 		for (const double far : { 0.3, -0.3 }) {
 			const StripCut before = cut;
@@ -270,12 +278,16 @@ TEST(Kept, NoOrderWhereTheSecondBodyOfContactsIsHeldOrLetGo)
 	const int second = wall - 1;
 	for (const bool placed : { true, false })
 		for (const int threads : { 1, 2 }) {
-			SCOPED_TRACE((placed ? "in strips" : "in one strip") + std::string(", threads ") + std::to_string(threads));
+			SCOPED_TRACE(
+			        (placed ? "in strips" : "in one strip") + std::string(", threads ")
+			        + std::to_string(threads));
 			const SolverSettings s = someSweeps(threads, nullptr);
 			Problem              p = scene.problem;
 			if (!placed) p.positions.clear();
 			const auto of = [&p](std::int32_t Contact::*body) {
-				return std::count_if(p.contacts.begin(), p.contacts.end(), [=](const Contact& c) { return c.*body == second; });
+				return std::count_if(p.contacts.begin(), p.contacts.end(), [=](const Contact& c) {
+					return c.*body == second;
+				});
 			};
 			ASSERT_EQ(of(&Contact::i), 0);
 			ASSERT_EQ(of(&Contact::j), 6);
@@ -285,7 +297,9 @@ TEST(Kept, NoOrderWhereTheSecondBodyOfContactsIsHeldOrLetGo)
 			expectNext(p, s, workspace, false);
 			p.inverseMass[second] = {};
 			expectNext(p, s, workspace, false);
-			EXPECT_TRUE(sameBits(std::vector<Twist> { p.velocities[second] }, { p.freeVelocity[second] })); // it goes as it did, whatever pushes
+			EXPECT_TRUE(sameBits(
+			        std::vector<Twist> { p.velocities[second] },
+			        { p.freeVelocity[second] })); // it goes as it did, whatever pushes
 			expectNext(p, s, workspace, true);
 			p.inverseMass[second] = free;
 			expectNext(p, s, workspace, false);
@@ -314,7 +328,7 @@ TEST(Kept, NothingAfterARefusal)
 	Workspace            workspace;
 	expectSame(p, s, workspace);
 	std::swap(p.contacts[310], p.contacts[900]);
-	const double friction    = std::exchange(p.contacts[5].friction, -1);
+	const double friction = std::exchange(p.contacts[5].friction, -1);
 	EXPECT_THROW(solve(p, s, &workspace), std::invalid_argument);
 	p.contacts[5].friction = friction;
 	expectSame(p, s, workspace);

@@ -47,7 +47,7 @@ TEST(Law, ThresholdsFollowTheAdhesionPlusTheNormalImpulse)
 
 TEST(Law, ProjectionTakesTheNormalFirst)
 {
-	const Contact c = contact(1, 0.5, 0.1);
+	const Contact c      = contact(1, 0.5, 0.1);
 	const Impulse inside = project(c, { 1, 0.9, -0.19 });
 	EXPECT_DOUBLE_EQ(inside.n, 1);
 	EXPECT_DOUBLE_EQ(inside.t, 0.9);
@@ -73,7 +73,8 @@ TEST(Law, InverseDelassusOfBodiesThatAreHeavierOneWay)
 	c.length  = 0.5;
 	const InverseMass light { 0.2, 0.5, 0.1 }, heavy { 0.3, 0.4, 0.7 }, held {};
 	const Impulse     w = inverseDelassus(c, light, heavy);
-	EXPECT_NEAR(1 / w.n, 0.36 * 0.5 + 0.64 * 0.9 + 4 * 0.1 + 9 * 0.7, 1e-14); // n_x², n_y², levers squared; rounding
+	EXPECT_NEAR(
+	        1 / w.n, 0.36 * 0.5 + 0.64 * 0.9 + 4 * 0.1 + 9 * 0.7, 1e-14); // n_x², n_y², levers squared; rounding
 	EXPECT_NEAR(1 / w.t, 0.64 * 0.5 + 0.36 * 0.9 + 1 * 0.1 + 16 * 0.7, 1e-14);
 	EXPECT_NEAR(1 / w.r, 0.1 + 0.7, 1e-15);
 	const Impulse none = inverseDelassus(c, held, held);

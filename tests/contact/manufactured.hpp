@@ -25,37 +25,43 @@ inline Point  quarterTurn(const Point& a) { return { -a.y, a.x }; }
 /// What `link` sees of its bodies' motion: n and t of the velocity of j's point from i's point, and the difference of their turning.
 inline Impulse seen(const Link& link, const std::vector<Twist>& v)
 {
-	const auto  at = [&v](int body, const Point& arm) { return Point { v[body].x - v[body].w * arm.y, v[body].y + v[body].w * arm.x }; };
-	const Point a = at(link.i, link.armI), b = at(link.j, link.armJ), d { b.x - a.x, b.y - a.y }, t = quarterTurn(link.n);
+	const auto at = [&v](int body, const Point& arm) {
+		return Point { v[body].x - v[body].w * arm.y, v[body].y + v[body].w * arm.x };
+	};
+	const Point a = at(link.i, link.armI), b = at(link.j, link.armJ), d { b.x - a.x, b.y - a.y },
+	            t = quarterTurn(link.n);
 	return { d.x * link.n.x + d.y * link.n.y, d.x * t.x + d.y * t.y, v[link.j].w - v[link.i].w };
 }
 
 /// Adds what impulses p at the point of `link` do to the velocities of its bodies, `sign` times.
-inline void push(const Link& link, const Impulse& p, const std::vector<InverseMass>& inverse, double sign, std::vector<Twist>& v)
+inline void
+push(const Link& link, const Impulse& p, const std::vector<InverseMass>& inverse, double sign, std::vector<Twist>& v)
 {
-	const Point t = quarterTurn(link.n), f { p.n * link.n.x + p.t * t.x, p.n * link.n.y + p.t * t.y };
+	const Point t  = quarterTurn(link.n), f { p.n * link.n.x + p.t * t.x, p.n * link.n.y + p.t * t.y };
 	const auto  on = [&](int body, const Point& arm, double s) {
-		v[body].x += s * inverse[body].x * f.x;
-		v[body].y += s * inverse[body].y * f.y;
-		v[body].w += s * inverse[body].w * (cross(arm, f) + p.r);
+                v[body].x += s * inverse[body].x * f.x;
+                v[body].y += s * inverse[body].y * f.y;
+                v[body].w += s * inverse[body].w * (cross(arm, f) + p.r);
 	};
 	on(link.j, link.armJ, sign);
 	on(link.i, link.armI, -sign);
 }
 
 struct Recipe {
-	unsigned seed      = 1;
-	int      bodies    = 50;
-	double   loops     = 0;     // further contacts a body, beside the one by which it joins the tree; without any, W has full rank
-	bool     simple    = true;  // all contacts fit into blocks; otherwise about half have levers along n, biases in t and r, or a body with two masses
-	bool     smooth    = false; // neither friction nor rolling resistance
-	bool     bonded    = false; // nothing moves: every contact holds in its three rows
+	unsigned seed   = 1;
+	int      bodies = 50;
+	double   loops
+	        = 0; // further contacts a body, beside the one by which it joins the tree; without any, W has full rank
+	bool simple
+	        = true; // all contacts fit into blocks; otherwise about half have levers along n, biases in t and r, or a body with two masses
+	bool smooth = false; // neither friction nor rolling resistance
+	bool bonded = false; // nothing moves: every contact holds in its three rows
 };
 
 struct Manufactured {
 	Problem              problem; // with impulses 0
 	std::vector<Link>    links;
-	std::vector<Impulse> impulses;   // the solution
+	std::vector<Impulse> impulses; // the solution
 	std::vector<Twist>   velocities; // that belong to it
 	int                  counts[4] = {}; // contacts that are pressed, pulled, at their limit, open
 
@@ -70,9 +76,13 @@ struct Manufactured {
 			const Contact& c = problem.contacts[k];
 			const Impulse  u = seen(links[k], v), w = diagonal(k);
 			const double   pressed = std::max(0.0, p[k].n + c.adhesion);
-			const auto     row = [](double x, double velocity, double w, double least, double most) { return x - std::clamp(x - velocity / w, least, most); };
-			found.push_back({ row(p[k].n, u.n + c.biasN, w.n, -c.adhesion, HUGE_VAL), row(p[k].t, u.t + c.biasT, w.t, -c.friction * pressed, c.friction * pressed),
-			                  row(p[k].r, u.r + c.biasR, w.r, -c.rollingArm * pressed, c.rollingArm * pressed) });
+			const auto     row     = [](double x, double velocity, double w, double least, double most) {
+                                return x - std::clamp(x - velocity / w, least, most);
+			};
+			found.push_back(
+			        { row(p[k].n, u.n + c.biasN, w.n, -c.adhesion, HUGE_VAL),
+			          row(p[k].t, u.t + c.biasT, w.t, -c.friction * pressed, c.friction * pressed),
+			          row(p[k].r, u.r + c.biasR, w.r, -c.rollingArm * pressed, c.rollingArm * pressed) });
 		}
 		return found;
 	}
@@ -81,13 +91,15 @@ struct Manufactured {
 	Impulse diagonal(std::size_t k) const
 	{
 		const Link                     alone { 0, 1, links[k].n, links[k].armI, links[k].armJ };
-		const std::vector<InverseMass> inverse { problem.inverseMass[links[k].i], problem.inverseMass[links[k].j] };
+		const std::vector<InverseMass> inverse { problem.inverseMass[links[k].i],
+			                                 problem.inverseMass[links[k].j] };
 		const auto                     changed = [&](const Impulse& unit) {
-			std::vector<Twist> v(2);
-			push(alone, unit, inverse, 1, v);
-			return seen(alone, v);
+                        std::vector<Twist> v(2);
+                        push(alone, unit, inverse, 1, v);
+                        return seen(alone, v);
 		};
-		const double n = changed({ 1, 0, 0 }).n, t = changed({ 0, 1, 0 }).t, r = changed({ 0, 0, 1 }).r, l = problem.contacts[k].length;
+		const double n = changed({ 1, 0, 0 }).n, t = changed({ 0, 1, 0 }).t, r = changed({ 0, 0, 1 }).r,
+		             l = problem.contacts[k].length;
 		return { n, t > 0 ? t : n, r > 0 ? r : n / (l * l) };
 	}
 };
@@ -132,9 +144,11 @@ private:
 		if (odd()) inverse.y *= 0.5;
 		radius.push_back(r);
 		made.problem.inverseMass.push_back(isWall(k) ? InverseMass {} : inverse);
-		made.problem.positions.push_back({ 0.8 * k + uniform(0, 0.5), uniform(0, 4) }); // a long packing: strips lie across it
+		made.problem.positions.push_back(
+		        { 0.8 * k + uniform(0, 0.5), uniform(0, 4) }); // a long packing: strips lie across it
 		Twist v;
-		if (k > 0 && uniform() < 0.5) v = { uniform(-1, 1), uniform(-1, 1), isWall(k) && !odd() ? 0 : uniform(-1, 1) };
+		if (k > 0 && uniform() < 0.5)
+			v = { uniform(-1, 1), uniform(-1, 1), isWall(k) && !odd() ? 0 : uniform(-1, 1) };
 		if (inverse.w == 0 && !isWall(k)) v.w = 0;
 		if (recipe.bonded) v = {};
 		made.velocities.push_back(v);
@@ -145,10 +159,10 @@ private:
 		if (uniform() < 0.5) std::swap(a, b);
 		const double q = uniform(-1, 1), s = either(), d = 1 + q * q;
 		Link         link { a, b, { s * (1 - q * q) / d, s * 2 * q / d }, {}, {} };
-		const Point  t = quarterTurn(link.n);
+		const Point  t   = quarterTurn(link.n);
 		const auto   arm = [&](int body, double sign) {
-			const double aside = odd() ? uniform(-0.3, 0.3) : 0, out = sign * radius[body];
-			return Point { out * link.n.x + aside * t.x, out * link.n.y + aside * t.y };
+                        const double aside = odd() ? uniform(-0.3, 0.3) : 0, out = sign * radius[body];
+                        return Point { out * link.n.x + aside * t.x, out * link.n.y + aside * t.y };
 		};
 		link.armI = arm(a, 1);
 		link.armJ = arm(b, -1);
@@ -162,7 +176,10 @@ private:
 		const Link         link    = linkBetween(k, parent);
 		const InverseMass& inverse = made.problem.inverseMass[k];
 		const bool         still   = made.velocities[parent].w == 0;
-		if (still && inverse.x > 0 && (recipe.bonded || uniform() < 0.4)) { // goes along with its parent, so that loops among such bodies do not slide
+		if (still && inverse.x > 0
+		    && (recipe.bonded
+		        || uniform()
+		                < 0.4)) { // goes along with its parent, so that loops among such bodies do not slide
 			made.velocities[k] = made.velocities[parent];
 			add(link, {}, false);
 		} else
@@ -195,25 +212,29 @@ private:
 		// velocities in the graphs, bias included; impulses complementary to them
 		Impulse      u, p;
 		const double chance = recipe.bonded ? uniform(0, 0.5) : uniform();
-		const int    state = chance < 0.4 ? 0 : chance < 0.55 && c.adhesion > 0 ? 1 : chance < 0.7 ? 2 : 3;
+		const int    state  = chance < 0.4 ? 0 : chance < 0.55 && c.adhesion > 0 ? 1 : chance < 0.7 ? 2 : 3;
 		++made.counts[state];
 		p.n = state == 0 ? uniform(0.2, 2) : state == 1 ? -uniform(0.1, 0.9) * c.adhesion : -c.adhesion;
 		u.n = state == 3 ? uniform(0.1, 1) : 0;
-		const Impulse now = seen(link, made.velocities);
+		const Impulse now       = seen(link, made.velocities);
 		const bool    turnsBias = !free && odd();
 		if (turnsBias || (free && odd())) c.biasT = uniform(-0.2, 0.2), c.biasR = uniform(-0.2, 0.2);
 		const auto row = [&](double threshold, double found, double& velocity, double& impulse) {
 			const bool   chosen = free || turnsBias;
-			const double sign = either(), moving = recipe.bonded || uniform() < 0.4 ? 0 : sign * uniform(0.1, 1); // drawn one after the other
-			velocity          = chosen ? moving : found;
-			if (std::abs(velocity) < 1e-12) velocity = 0; // rounding of bodies that go along with each other
-			const double held = recipe.bonded || uniform() < 0.8 ? uniform(-0.9, 0.9) : either(); // a fifth at the threshold
+			const double sign   = either(),
+			             moving = recipe.bonded || uniform() < 0.4
+			        ? 0
+			        : sign * uniform(0.1, 1); // drawn one after the other
+			velocity            = chosen ? moving : found;
+			if (std::abs(velocity) < 1e-12)
+				velocity = 0; // rounding of bodies that go along with each other
+			const double held = recipe.bonded || uniform() < 0.8 ? uniform(-0.9, 0.9)
+			                                                     : either(); // a fifth at the threshold
 			impulse           = velocity == 0 ? held * threshold : std::copysign(threshold, -velocity);
 		};
 		row(c.friction * (c.adhesion + p.n), now.t, u.t, p.t);
 		row(c.rollingArm * (c.adhesion + p.n), now.r, u.r, p.r);
-		if (free)
-			moveChild(link, join, { u.n - c.biasN, u.t - c.biasT, u.r - c.biasR });
+		if (free) moveChild(link, join, { u.n - c.biasN, u.t - c.biasT, u.r - c.biasR });
 		else {
 			c.biasN = u.n - now.n;
 			if (turnsBias) c.biasT = u.t - now.t, c.biasR = u.r - now.r;
@@ -226,11 +247,13 @@ private:
 	/// Gives the child the velocity with which the link sees u.
 	void moveChild(const Link& link, const Join& join, const Impulse& u)
 	{
-		const double s     = join.child == link.j ? 1 : -1;
-		const Point  armP  = s > 0 ? link.armI : link.armJ, armC = s > 0 ? link.armJ : link.armI, t = quarterTurn(link.n);
-		const Twist& v     = made.velocities[join.parent];
-		const double w     = v.w + s * u.r;
-		const Point  point { v.x - v.w * armP.y + s * (u.n * link.n.x + u.t * t.x), v.y + v.w * armP.x + s * (u.n * link.n.y + u.t * t.y) };
+		const double s    = join.child == link.j ? 1 : -1;
+		const Point  armP = s > 0 ? link.armI : link.armJ, armC = s > 0 ? link.armJ : link.armI,
+		            t  = quarterTurn(link.n);
+		const Twist& v = made.velocities[join.parent];
+		const double w = v.w + s * u.r;
+		const Point  point { v.x - v.w * armP.y + s * (u.n * link.n.x + u.t * t.x),
+                                    v.y + v.w * armP.x + s * (u.n * link.n.y + u.t * t.y) };
 		made.velocities[join.child] = { point.x + w * armC.y, point.y - w * armC.x, w };
 	}
 

@@ -25,7 +25,8 @@ std::vector<Recipe> recipes()
 
 std::string nameOf(const Recipe& r)
 {
-	return std::to_string(r.bodies) + " bodies, " + std::to_string(r.loops) + " loops a body, seed " + std::to_string(r.seed) + (r.simple ? ", simple" : "");
+	return std::to_string(r.bodies) + " bodies, " + std::to_string(r.loops) + " loops a body, seed "
+	        + std::to_string(r.seed) + (r.simple ? ", simple" : "");
 }
 
 /// rms, largest and rms impulse from defects, by the definition in residual.hpp.
@@ -33,7 +34,9 @@ Residual residualOf(const Problem& p, const std::vector<Impulse>& defects, const
 {
 	Residual r;
 	for (std::size_t k = 0; k < defects.size(); ++k) {
-		const auto square = [&](const Impulse& x) { return x.n * x.n + x.t * x.t + x.r * x.r / (p.contacts[k].length * p.contacts[k].length); };
+		const auto square = [&](const Impulse& x) {
+			return x.n * x.n + x.t * x.t + x.r * x.r / (p.contacts[k].length * p.contacts[k].length);
+		};
 		r.rms += square(defects[k]);
 		r.scale += square(impulses[k]);
 		r.largest = std::max(r.largest, std::sqrt(square(defects[k])));
@@ -83,7 +86,8 @@ TEST(Manufactured, TheResidualOfTheExactSolutionIsRounding)
 			const auto statistics = solve(solved, settings);
 			EXPECT_TRUE(statistics.converged) << name;
 			EXPECT_EQ(statistics.iterations, 0) << name;
-			EXPECT_LE(largestDifference(solved.impulses, m.impulses), rounding) << name; // projected on thresholds that they lie on
+			EXPECT_LE(largestDifference(solved.impulses, m.impulses), rounding)
+			        << name; // projected on thresholds that they lie on
 			EXPECT_LE(largestDifference(solved.velocities, m.velocities), 10 * rounding) << name;
 		});
 	}
@@ -118,8 +122,8 @@ void expectMeasured(const Manufactured& m, const std::vector<Impulse>& impulses)
 	const auto defects = m.defects(impulses);
 	EXPECT_LE(largestDifference(naturalMapDefects(p), defects), 10 * rounding);
 	expectSame(naturalMapResidual(p), residualOf(p, defects, impulses), "independent of a solver");
-	const auto start = admissible(p, impulses);
-	const auto own   = residualOf(p, m.defects(start), start);
+	const auto     start = admissible(p, impulses);
+	const auto     own   = residualOf(p, m.defects(start), start);
 	SolverSettings s;
 	s.maxIterations = 0; // asks for the residual alone
 	forEachPath(m.problem, s, [&](const SolverSettings& settings, const std::string& name) {
@@ -132,12 +136,14 @@ void expectMeasured(const Manufactured& m, const std::vector<Impulse>& impulses)
 
 TEST(Manufactured, WhatIsMovedRaisesTheResidualAsTheDefinitionSays)
 {
-	for (const Recipe& recipe : { Recipe { 31, 60, 1.0, true }, Recipe { 32, 60, 1.0, false }, Recipe { 33, 700, 1.0, false } })
+	for (const Recipe& recipe :
+	     { Recipe { 31, 60, 1.0, true }, Recipe { 32, 60, 1.0, false }, Recipe { 33, 700, 1.0, false } })
 		for (const double by : { 1e-3, -1e-3, 0.5, -0.5 }) {
 			SCOPED_TRACE(nameOf(recipe) + ", moved by " + std::to_string(by));
-			const Manufactured m = manufactured(recipe);
+			const Manufactured m     = manufactured(recipe);
 			const std::size_t  count = m.impulses.size();
-			for (std::size_t k = 3; k < count; k += count / (count > 500 ? 2 : 7)) { // any contact will do: some of all states
+			for (std::size_t k = 3; k < count;
+			     k += count / (count > 500 ? 2 : 7)) { // any contact will do: some of all states
 				SCOPED_TRACE("contact " + std::to_string(k));
 				for (double Impulse::*const row : { &Impulse::n, &Impulse::t, &Impulse::r }) {
 					auto moved = m.impulses;
@@ -188,16 +194,18 @@ TEST(Manufactured, SweepsStayAtTheExactSolution)
 			SCOPED_TRACE(nameOf(recipe));
 			const Manufactured m = manufactured(recipe);
 			SolverSettings     s;
-			s.method        = method;
-			s.tolerance     = 1e-300; // never met
-			s.maxIterations = 12; // over a look at the residual; more would let wedged networks magnify rounding
+			s.method    = method;
+			s.tolerance = 1e-300; // never met
+			s.maxIterations
+			        = 12; // over a look at the residual; more would let wedged networks magnify rounding
 			forEachPath(m.problem, s, [&](const SolverSettings& settings, const std::string& name) {
 				Problem p  = m.problem;
 				p.impulses = m.impulses;
 				solve(p, settings);
 				// 12 sweeps, each of which rounds; impulses wander along what masses leave soft
 				EXPECT_LE(naturalMapResidual(p).relative(), 10 * rounding) << name;
-				EXPECT_LE(largestDifference(p.velocities, m.velocities), 1000 * rounding) << name; // 30 sweeps made 6e-11 of up to 60 m/s
+				EXPECT_LE(largestDifference(p.velocities, m.velocities), 1000 * rounding)
+				        << name; // 30 sweeps made 6e-11 of up to 60 m/s
 				EXPECT_LE(largestDifference(p.impulses, m.impulses), 1000 * rounding) << name;
 			});
 		}
@@ -206,8 +214,8 @@ TEST(Manufactured, SweepsStayAtTheExactSolution)
 struct FromZero {
 	Recipe recipe;
 	int    sweeps[2][2]; // plain and accelerated, each in blocks and by the reference
-	bool   oneMotion;    // what is found moves as what was drawn
-	bool   oneSolution;  // and has its impulses: a tree has no loop that they could run around
+	bool   oneMotion; // what is found moves as what was drawn
+	bool   oneSolution; // and has its impulses: a tree has no loop that they could run around
 };
 
 TEST(Manufactured, FromZeroTheSolverGetsThere)
@@ -220,12 +228,16 @@ TEST(Manufactured, FromZeroTheSolverGetsThere)
 		{ { 70, 700, 0, true, true }, { { 127, 127 }, { 71, 71 } }, true, true },
 		{ { 71, 25, 1.0, true }, { { 617, 617 }, { 164, 164 } }, true, false },
 		{ { 72, 25, 1.0, false }, { { 1046, 835 }, { 150, 154 } }, true, false },
-		{ { 60, 25, 1.0, false }, { { 214, 175 }, { 99, 88 } }, false, false }, // friction allows another solution, and that is the nearer one
+		{ { 60, 25, 1.0, false },
+		  { { 214, 175 }, { 99, 88 } },
+		  false,
+		  false }, // friction allows another solution, and that is the nearer one
 	};
 	const double tolerance = 1e-10;
 	for (const FromZero& one : cases)
 		for (const Method method : methods) {
-			SCOPED_TRACE(nameOf(one.recipe) + (method == Method::Accelerated ? ", accelerated" : ", plain"));
+			SCOPED_TRACE(
+			        nameOf(one.recipe) + (method == Method::Accelerated ? ", accelerated" : ", plain"));
 			const Manufactured m = manufactured(one.recipe);
 			SolverSettings     s;
 			s.method        = method;
@@ -236,10 +248,22 @@ TEST(Manufactured, FromZeroTheSolverGetsThere)
 				Problem    p          = m.problem;
 				const auto statistics = solve(p, settings);
 				EXPECT_TRUE(statistics.converged) << name;
-				EXPECT_EQ(statistics.iterations, one.sweeps[method == Method::Accelerated][settings.reference]) << name;
-				EXPECT_LE(residualOf(p, m.defects(p.impulses), p.impulses).relative(), tolerance * (1 + 1e-6)) << name;
-				EXPECT_LE(one.oneMotion ? largestDifference(p.velocities, m.velocities) : 0, 1e4 * tolerance) << name; // W's condition of a thousand, and some
-				EXPECT_LE(one.oneSolution ? largestDifference(p.impulses, m.impulses) : 0, 1e4 * tolerance) << name;
+				EXPECT_EQ(
+				        statistics.iterations,
+				        one.sweeps[method == Method::Accelerated][settings.reference])
+				        << name;
+				EXPECT_LE(
+				        residualOf(p, m.defects(p.impulses), p.impulses).relative(),
+				        tolerance * (1 + 1e-6))
+				        << name;
+				EXPECT_LE(
+				        one.oneMotion ? largestDifference(p.velocities, m.velocities) : 0,
+				        1e4 * tolerance)
+				        << name; // W's condition of a thousand, and some
+				EXPECT_LE(
+				        one.oneSolution ? largestDifference(p.impulses, m.impulses) : 0,
+				        1e4 * tolerance)
+				        << name;
 			});
 		}
 }
@@ -252,9 +276,12 @@ struct Course {
 TEST(Manufactured, SweepsAndRestartsAreAsManyAsTheRuleMakes)
 {
 	const std::pair<Recipe, std::vector<Course>> cases[] = {
-		{ { 71, 25, 1.0, true }, { { 1, 164, 7 }, { 3, 171, 4 }, { 10, 230, 3 }, { 30, 570, 1 }, { 50, 750, 0 } } },
-		{ { 54, 60, 0, false }, { { 1, 91, 3 }, { 3, 114, 2 }, { 10, 180, 0 }, { 30, 180, 0 }, { 50, 200, 0 } } },
-		{ { 53, 60, 0, true }, { { 1, 202, 6 }, { 3, 225, 5 }, { 10, 340, 4 }, { 30, 510, 3 }, { 50, 850, 2 } } },
+		{ { 71, 25, 1.0, true },
+		  { { 1, 164, 7 }, { 3, 171, 4 }, { 10, 230, 3 }, { 30, 570, 1 }, { 50, 750, 0 } } },
+		{ { 54, 60, 0, false },
+		  { { 1, 91, 3 }, { 3, 114, 2 }, { 10, 180, 0 }, { 30, 180, 0 }, { 50, 200, 0 } } },
+		{ { 53, 60, 0, true },
+		  { { 1, 202, 6 }, { 3, 225, 5 }, { 10, 340, 4 }, { 30, 510, 3 }, { 50, 850, 2 } } },
 	};
 	for (const auto& [recipe, courses] : cases)
 		for (const Course& course : courses) {

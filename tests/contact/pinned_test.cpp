@@ -25,7 +25,8 @@ std::string hashOf(const std::vector<Impulse>& impulses)
 
 Problem recorded(const char* name)
 {
-	RecordedProblem r  = read((std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / name).string());
+	RecordedProblem r = read(
+	        (std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / name).string());
 	r.problem.impulses = r.warmStart;
 	return r.problem;
 }
@@ -33,8 +34,8 @@ Problem recorded(const char* name)
 /// 60 × 40 disks on a triangular lattice above a floor, from numbers that every processor and library makes alike: no draws, no libm but √.
 Problem plainLattice()
 {
-	constexpr int columns = 60, rows = 40, floor = columns * rows;
-	Problem       p;
+	constexpr int       columns = 60, rows = 40, floor = columns * rows;
+	Problem             p;
 	std::vector<double> radius;
 	for (int k = 0; k < floor; ++k) {
 		radius.push_back(0.49 + 0.0001 * double(k * 7919 % 113));
@@ -63,7 +64,8 @@ Problem plainLattice()
 		const int right = k + 1, above = k + columns, column = k % columns, odd = k / columns % 2;
 		for (const int j : { column + 1 < columns ? right : -1, above - 1 + odd, above + odd }) {
 			if (j < 0 || j >= floor || (j != right && std::abs(j % columns - column) > 1)) continue;
-			const double x = p.positions[j].x - p.positions[k].x, y = p.positions[j].y - p.positions[k].y, d = std::sqrt(x * x + y * y);
+			const double x = p.positions[j].x - p.positions[k].x, y = p.positions[j].y - p.positions[k].y,
+			             d = std::sqrt(x * x + y * y);
 			add(k, j, x / d, y / d, d - radius[k] - radius[j], radius[k], radius[j]);
 		}
 	}
@@ -81,8 +83,10 @@ void expectPinned(const char* name, const Problem& problem, const char* blocks, 
 		return hashOf(p.impulses);
 	};
 	const auto expect = [&](const std::string& hash, const char* pinned, const std::string& how) {
-		EXPECT_EQ(hash, pinned) << name << ", " << how << ": the bits of the impulses have changed. Results of all runs change with them: if that is what you decided,"
-		                        << " put " << hash << " here and name the reason in the commit; else something is broken.";
+		EXPECT_EQ(hash, pinned)
+		        << name << ", " << how
+		        << ": the bits of the impulses have changed. Results of all runs change with them: if that is what you decided,"
+		        << " put " << hash << " here and name the reason in the commit; else something is broken.";
 	};
 	for (const int threads : { 1, 2 }) {
 		const std::string with = ", " + std::to_string(threads) + " thread(s)";
@@ -97,8 +101,14 @@ void expectPinned(const char* name, const Problem& problem, const char* blocks, 
 	}
 }
 
-TEST(Pinned, SlopeBeforeItFails) { expectPinned("slope_t1.h5", recorded("slope_t1.h5"), "e399ebe410239460", "1811f66cceb2c473"); }
-TEST(Pinned, AvalancheInMotion) { expectPinned("avalanche_t4.h5", recorded("avalanche_t4.h5"), "d72d92930e271745", "035ca5579a8498cb"); }
+TEST(Pinned, SlopeBeforeItFails)
+{
+	expectPinned("slope_t1.h5", recorded("slope_t1.h5"), "e399ebe410239460", "1811f66cceb2c473");
+}
+TEST(Pinned, AvalancheInMotion)
+{
+	expectPinned("avalanche_t4.h5", recorded("avalanche_t4.h5"), "d72d92930e271745", "035ca5579a8498cb");
+}
 TEST(Pinned, Lattice) { expectPinned("a lattice", plainLattice(), "e8ce4fe75f60bb09", "33988ee60f6d1d9b"); }
 
 } // namespace

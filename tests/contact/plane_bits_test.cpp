@@ -24,8 +24,10 @@ constexpr int    inputs = 1000000;
 constexpr double height = 0.37; // of the plane above z = 0, which must not matter
 
 /// Half of all numbers.
-constexpr std::array<double, 18> odd { 0.0,    -0.0,    1.0,    -1.0,   0.5,    -0.5, 2.0,  -3.0,  1.4142135623730951,
-	                               5e-324, -5e-324, 1e-310, -1e-170, 1e-160, 1e-17, 1e17, -1e150, 1e200 };
+constexpr std::array<double, 18> odd {
+	0.0,    -0.0,    1.0,    -1.0,    0.5,    -0.5,  2.0,  -3.0,   1.4142135623730951,
+	5e-324, -5e-324, 1e-310, -1e-170, 1e-160, 1e-17, 1e17, -1e150, 1e200
+};
 
 class Inputs {
 public:
@@ -51,13 +53,15 @@ public:
 	std::uint64_t bits() { return engine(); }
 
 private:
-	static constexpr std::array<Rotation, 8> exact { Rotation { 0, 1 }, { -0.0, 1 }, { 0, -1 }, { -0.0, -1 }, { 1, 0 }, { -1, 0 }, { 1, -0.0 }, { -1, -0.0 } };
-	std::mt19937_64 engine { 20091 };
+	static constexpr std::array<Rotation, 8> exact { Rotation { 0, 1 }, { -0.0, 1 }, { 0, -1 },   { -0.0, -1 },
+		                                         { 1, 0 },          { -1, 0 },   { 1, -0.0 }, { -1, -0.0 } };
+	std::mt19937_64                          engine { 20091 };
 };
 
 bool same(double a, double b)
 {
-	return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); // the bits of what is no number mean nothing
+	return std::memcmp(&a, &b, sizeof a) == 0
+	        || (std::isnan(a) && std::isnan(b)); // the bits of what is no number mean nothing
 }
 /// The same but for the sign of a zero, where nothing is made of it but sums and squares.
 bool sameNumber(double a, double b) { return same(a, b) || (a == 0 && b == 0); }
@@ -81,11 +85,14 @@ struct State {
 	/// Empty where it is the same as m, else what is not.
 	std::string difference(const Motion& m) const
 	{
-		const double ours[] = { m.position.x, m.position.y, m.rotation.z, m.rotation.w, m.velocity.x, m.velocity.y, m.velocity.w };
-		const double its[]  = { pos[0], pos[1], ori.z(), ori.w(), vel[0], vel[1], angVel[2] };
+		const double ours[]  = { m.position.x, m.position.y, m.rotation.z, m.rotation.w,
+			                 m.velocity.x, m.velocity.y, m.velocity.w };
+		const double its[]   = { pos[0], pos[1], ori.z(), ori.w(), vel[0], vel[1], angVel[2] };
 		const char*  names[] = { "x", "y", "qz", "qw", "vx", "vy", "w" };
 		for (int k = 0; k < 7; ++k)
-			if (!same(ours[k], its[k])) return std::string(names[k]) + " is " + std::to_string(ours[k]) + " and in space " + std::to_string(its[k]);
+			if (!same(ours[k], its[k]))
+				return std::string(names[k]) + " is " + std::to_string(ours[k]) + " and in space "
+				        + std::to_string(its[k]);
 		return "";
 	}
 };
@@ -97,7 +104,7 @@ TEST(PlaneBits, AStepIsThatOfNewtonIntegrator)
 		Motion         m = in.motion();
 		State          s(m);
 		const Twist    force { in.number(1e3), in.number(1e3), in.number(1e3) };
-		const Point    gravity  = in.bits() % 2 ? Point { 0, -9.81 } : in.point();
+		const Point    gravity = in.bits() % 2 ? Point { 0, -9.81 } : in.point();
 		const double   mass = in.positive(), inertia = in.positive(), h = 1e-3 * in.positive();
 		const unsigned blocked = in.blocked() | 4 | 8 | 16; // in the plane
 		// as it stands in YADE, without damping
@@ -127,9 +134,9 @@ TEST(PlaneBits, ADisplacementIsThatOfTheSeam)
 {
 	Inputs in;
 	for (int k = 0; k < inputs; ++k) {
-		Motion      m = in.motion();
-		State       s(m);
-		Twist       d { in.number(0.1), in.number(0.1), in.number(0.1) };
+		Motion m = in.motion();
+		State  s(m);
+		Twist  d { in.number(0.1), in.number(0.1), in.number(0.1) };
 		if (0.5 * d.w == 0) d.w = 0; // no angle
 		if (d.x != 0 || d.y != 0 || d.w != 0) {
 			s.pos += Vector3d(d.x, d.y, 0);
@@ -144,12 +151,14 @@ TEST(PlaneBits, VectorsTurnAsEigensDo)
 {
 	Inputs in;
 	for (int k = 0; k < inputs; ++k) {
-		const Rotation q = in.rotation();
-		const Point    v = in.point();
+		const Rotation q     = in.rotation();
+		const Point    v     = in.point();
 		const Vector3d there = space(q) * space(v);
 		const Point    ours  = rotate(q, v);
-		ASSERT_TRUE(sameNumber(ours.x, there[0]) && sameNumber(ours.y, there[1])) << q.z << " " << q.w << " " << v.x << " " << v.y;
-		ASSERT_TRUE(same(rotateBack(q, v), space(q).conjugate() * space(v))) << q.z << " " << q.w << " " << v.x << " " << v.y;
+		ASSERT_TRUE(sameNumber(ours.x, there[0]) && sameNumber(ours.y, there[1]))
+		        << q.z << " " << q.w << " " << v.x << " " << v.y;
+		ASSERT_TRUE(same(rotateBack(q, v), space(q).conjugate() * space(v)))
+		        << q.z << " " << q.w << " " << v.x << " " << v.y;
 	}
 }
 
@@ -180,19 +189,22 @@ TEST(PlaneBits, ABondIsMarkedAndFollowedAsInSpace)
 		const Motion first = in.motion(), second = in.motion();
 		const State  s1(first), s2(second);
 		const double angle  = in.spread(4);
-		const Point  normal = in.bits() % 4 ? Point { std::cos(angle), std::sin(angle) } : Point { in.number(1), in.number(1) };
+		const Point  normal = in.bits() % 4 ? Point { std::cos(angle), std::sin(angle) }
+		                                    : Point { in.number(1), in.number(1) };
 		const double radius = in.positive();
 
-		const Vector3d  n = space(normal), point = s2.pos - radius * n;
-		const Vector3d  anchor1 = s1.ori.conjugate() * (point - s1.pos), anchor2 = s2.ori.conjugate() * (point - s2.pos), axis = s1.ori.conjugate() * n;
+		const Vector3d n = space(normal), point = s2.pos - radius * n;
+		const Vector3d anchor1 = s1.ori.conjugate() * (point - s1.pos),
+		               anchor2 = s2.ori.conjugate() * (point - s2.pos), axis = s1.ori.conjugate() * n;
 		const BondMarks marks = markBond(first, second, normal, radius);
-		ASSERT_TRUE(same(marks.first, anchor1) && same(marks.second, anchor2) && same(marks.normal, axis)) << "input " << k;
+		ASSERT_TRUE(same(marks.first, anchor1) && same(marks.second, anchor2) && same(marks.normal, axis))
+		        << "input " << k;
 
-		const Motion   later1 = in.motion(), later2 = in.motion();
-		const State    l1(later1), l2(later2);
-		const Vector3d d = l2.pos + l2.ori * anchor2 - l1.pos - l1.ori * anchor1, axes = l1.ori * axis;
+		const Motion           later1 = in.motion(), later2 = in.motion();
+		const State            l1(later1), l2(later2);
+		const Vector3d         d = l2.pos + l2.ori * anchor2 - l1.pos - l1.ori * anchor1, axes = l1.ori * axis;
 		const BondDisplacement moved = bondDisplacement(marks, later1, later2);
-		const double dn = d.dot(axes), dt = axes[0] * d[1] - axes[1] * d[0];
+		const double           dn = d.dot(axes), dt = axes[0] * d[1] - axes[1] * d[0];
 		ASSERT_TRUE(sameNumber(moved.normal, dn) && sameNumber(moved.tangential, dt)) << "input " << k;
 	}
 }
@@ -201,9 +213,10 @@ TEST(PlaneBits, ABreakIsNamedAsBySumAndLargestOfAVector)
 {
 	Inputs in;
 	for (int k = 0; k < inputs; ++k) {
-		const Vector3d path(std::abs(in.number(1)), std::abs(in.number(1)), std::abs(in.number(in.bits() % 2 ? 1 : 4)));
-		const double   sum  = path.sum();
-		BreakMode      mode = BreakMode::Mixed;
+		const Vector3d path(
+		        std::abs(in.number(1)), std::abs(in.number(1)), std::abs(in.number(in.bits() % 2 ? 1 : 4)));
+		const double sum  = path.sum();
+		BreakMode    mode = BreakMode::Mixed;
 		if (sum > 0) {
 			int          most;
 			const double largest = path.maxCoeff(&most);

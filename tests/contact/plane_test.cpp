@@ -32,7 +32,9 @@ Contact bonded(double adhesion, double friction, double rollingArm, double lengt
 TEST(PlaneMotion, AStepTakesTheNewVelocity)
 {
 	Motion m { { 1, 2 }, {}, { 3, 4, 0.5 } };
-	integrate(m, { 8, -4, 6 }, 2, 3, 0, { 0.25, -10 }, 0.5); // a = (8/2 + 0.25, −4/2 − 10), angular 6/3; all exact in binary
+	integrate(
+	        m, { 8, -4, 6 }, 2, 3, 0, { 0.25, -10 },
+	        0.5); // a = (8/2 + 0.25, −4/2 − 10), angular 6/3; all exact in binary
 	EXPECT_EQ(m.velocity.x, 5.125);
 	EXPECT_EQ(m.velocity.y, -2);
 	EXPECT_EQ(m.velocity.w, 1.5);
@@ -94,7 +96,8 @@ TEST(PlaneMotion, VectorsTurnWithTheBodyAndBack)
 	EXPECT_NEAR(quarter.y, 2, 1e-15);
 	for (const double angle : { -3., -0.7, 0., 0.4, 2.5 }) {
 		const Point v { 0.3, -1.7 }, there = rotate(turned(angle), v), back = rotateBack(turned(angle), there);
-		EXPECT_NEAR(there.x, v.x * std::cos(angle) - v.y * std::sin(angle), 2e-15) << angle; // a few roundings of numbers below 2
+		EXPECT_NEAR(there.x, v.x * std::cos(angle) - v.y * std::sin(angle), 2e-15)
+		        << angle; // a few roundings of numbers below 2
 		EXPECT_NEAR(there.y, v.x * std::sin(angle) + v.y * std::cos(angle), 2e-15) << angle;
 		EXPECT_NEAR(back.x, v.x, 2e-15) << angle;
 		EXPECT_NEAR(back.y, v.y, 2e-15) << angle;
@@ -120,7 +123,8 @@ TEST(PlaneDisks, NormalGapAndPointByHand)
 
 TEST(PlaneDisks, ExchangedDisksHaveTheSameContactSeenFromTheOtherSide)
 {
-	const DiskContact a = diskContact({ 0.1, 0.7 }, { -1.3, 0.2 }, 0.8, 0.6), b = diskContact({ -1.3, 0.2 }, { 0.1, 0.7 }, 0.6, 0.8);
+	const DiskContact a = diskContact({ 0.1, 0.7 }, { -1.3, 0.2 }, 0.8, 0.6),
+	                  b = diskContact({ -1.3, 0.2 }, { 0.1, 0.7 }, 0.6, 0.8);
 	EXPECT_EQ(a.nx, -b.nx);
 	EXPECT_EQ(a.ny, -b.ny);
 	EXPECT_EQ(a.gap, b.gap);
@@ -140,8 +144,10 @@ TEST(PlaneDisks, LeversAreThoseFromTheCentresToTheContact)
 	EXPECT_EQ(c.leverNi, 0);
 	EXPECT_EQ(c.leverNj, 0);
 	// U by the velocity of each body's point at the contact, v + ω ẑ × ρ
-	const Twist   vi { 1, -2, 3 }, vj { -4, 5, -6 };
-	const auto    at = [&](const Twist& v, const Point& x) { return Point { v.x - v.w * (d.point.y - x.y), v.y + v.w * (d.point.x - x.x) }; };
+	const Twist vi { 1, -2, 3 }, vj { -4, 5, -6 };
+	const auto  at = [&](const Twist& v, const Point& x) {
+                return Point { v.x - v.w * (d.point.y - x.y), v.y + v.w * (d.point.x - x.x) };
+	};
 	const Point   ui = at(vi, x1), uj = at(vj, x2);
 	const Impulse u = relativeVelocity(c, vi, vj);
 	EXPECT_NEAR(u.n, d.nx * (uj.x - ui.x) + d.ny * (uj.y - ui.y), 1e-14); // rounding of numbers of about 10
@@ -193,11 +199,12 @@ TEST(PlaneBond, MotionOfThePairAsOneBodyIsNoDisplacement)
 	displace(p.second, { 0.007, -0.004, 0.02 });
 	const BondDisplacement before = p.displacement();
 	const double           angle  = 1.9;
-	const Point            arm    = rotate(turned(angle), { p.second.position.x - p.first.position.x, p.second.position.y - p.first.position.y });
-	p.first.rotation              = product(turned(angle), p.first.rotation);
-	p.second.rotation             = product(turned(angle), p.second.rotation);
-	p.first.position              = { -5, 7 };
-	p.second.position             = { -5 + arm.x, 7 + arm.y };
+	const Point            arm    = rotate(
+	                      turned(angle), { p.second.position.x - p.first.position.x, p.second.position.y - p.first.position.y });
+	p.first.rotation  = product(turned(angle), p.first.rotation);
+	p.second.rotation = product(turned(angle), p.second.rotation);
+	p.first.position  = { -5, 7 };
+	p.second.position = { -5 + arm.x, 7 + arm.y };
 	EXPECT_NEAR(p.displacement().normal, before.normal, 1e-14); // rounding of coordinates of about 8
 	EXPECT_NEAR(p.displacement().tangential, before.tangential, 1e-14);
 }
@@ -238,7 +245,8 @@ TEST(PlaneBond, YieldsAtItsThresholdsOnly)
 	const YieldPath rolled = yieldOfStep(c, { -6, 0, 1 }, u, 0.1);
 	EXPECT_EQ(rolled.shear, 0);
 	EXPECT_DOUBLE_EQ(rolled.torque, 0.0125); // h w times half of ℓ
-	const YieldPath drawn = yieldOfStep(c, { -10, 0, 0 }, u, 0.1); // nothing is left for shear and rolling, which yield with it
+	const YieldPath drawn = yieldOfStep(
+	        c, { -10, 0, 0 }, u, 0.1); // nothing is left for shear and rolling, which yield with it
 	EXPECT_DOUBLE_EQ(drawn.tension, 0.05);
 	EXPECT_DOUBLE_EQ(drawn.shear, 0.025);
 	EXPECT_DOUBLE_EQ(drawn.torque, 0.0125);
@@ -252,7 +260,9 @@ TEST(PlaneBond, TensionYieldsWhereItOpens)
 	EXPECT_FALSE(yieldsInTension(c, { -10 * (1 - 1e-8), 0, 0 }, { 0.5, 0, 0 }));
 	EXPECT_FALSE(yieldsInTension(c, { -10, 0, 0 }, { 0, 0, 0 })); // held
 	EXPECT_FALSE(yieldsInTension(c, { -10, 0, 0 }, { -0.5, 0, 0 }));
-	EXPECT_FALSE(yieldsInTension(bonded(0, 0.5, 0.25, 2), { 0, 0, 0 }, { 0.5, 0, 0 })); // without a strength a bond does not yield, it just opens
+	EXPECT_FALSE(yieldsInTension(
+	        bonded(0, 0.5, 0.25, 2), { 0, 0, 0 },
+	        { 0.5, 0, 0 })); // without a strength a bond does not yield, it just opens
 }
 
 TEST(PlaneBond, ABreakIsNamedByMostOfThePath)

@@ -8,7 +8,8 @@ using namespace nonsmooth::contact::testing;
 namespace {
 
 /// Solves, then finds the displacements.
-std::vector<Twist> displaced(Problem problem, const std::vector<PositionError>& errors, int sweeps, SolverSettings settings = {})
+std::vector<Twist>
+displaced(Problem problem, const std::vector<PositionError>& errors, int sweeps, SolverSettings settings = {})
 {
 	Workspace          workspace;
 	PositionCorrection found;
@@ -40,8 +41,8 @@ constexpr double rounding = 1e-15; // of a few operations on hundredths
 
 TEST(Positions, TwoDisksShareAnOverlapAsTheirMasses)
 {
-	const Scene  scene = row({ -0.02 }, 1.0); // four times the mass
-	const auto   d     = displaced(scene.problem, { { -0.01, false } }, 1);
+	const Scene scene = row({ -0.02 }, 1.0); // four times the mass
+	const auto  d     = displaced(scene.problem, { { -0.01, false } }, 1);
 	EXPECT_NEAR(d[0].x, -0.01 / 5, rounding);
 	EXPECT_NEAR(d[1].x, 0.01 * 4 / 5, rounding);
 	for (const Twist& t : d) {
@@ -76,7 +77,7 @@ TEST(Positions, AWallStandsAndADrivenOneDoesNotMove)
 	Scene scene({ { 0, 0.49, 0.5 } });
 	scene.wall(0, 0, 0, 1, 0.1);
 	scene.problem.freeVelocity[1] = { 0, 0.3, 0 }; // it is being driven
-	const auto d = displaced(scene.problem, { { -0.002, false } }, 1);
+	const auto d                  = displaced(scene.problem, { { -0.002, false } }, 1);
 	EXPECT_NEAR(d[0].y, 0.002, rounding);
 	EXPECT_EQ(d[1].y, 0);
 }
@@ -104,7 +105,10 @@ TEST(Positions, SweepsBeginWithTheImpulsesOfTheStepBefore)
 	SolverSettings settings;
 	for (const bool reference : { false, true }) {
 		settings.reference = reference;
-		const auto d       = displaced(scene.problem, { { -0.02, false, 0.03 * m }, { 0.01, true, -0.02 * m }, { -0.01, false, -0.05 * m } }, 0, settings);
+		const auto d       = displaced(
+		              scene.problem,
+		              { { -0.02, false, 0.03 * m }, { 0.01, true, -0.02 * m }, { -0.01, false, -0.05 * m } }, 0,
+		              settings);
 		EXPECT_NEAR(d[0].x, -0.03, rounding);
 		EXPECT_NEAR(d[1].x, 0.03 + 0.02, rounding);
 		EXPECT_NEAR(d[2].x, -0.02, rounding);
@@ -115,20 +119,27 @@ TEST(Positions, SweepsBeginWithTheImpulsesOfTheStepBefore)
 TEST(Positions, SweepsAreExtrapolatedByNesterovsNumbers)
 {
 	// two contacts of three disks of one mass by hand, contact after contact
-	const Scene scene = row({ -0.03, 0.001 });
-	const double e[2] = { -0.03, 0.001 };
+	const Scene  scene = row({ -0.03, 0.001 });
+	const double e[2]  = { -0.03, 0.001 };
 	for (const Method method : { Method::GaussSeidel, Method::Accelerated })
 		for (const int sweeps : { 1, 2, 3, 5 })
 			for (const bool reference : { false, true }) {
 				double q[2] = {}, before[2] = {}, theta[2] = { 1, 1 };
 				for (int k = 0; k < sweeps; ++k) {
-					const double beta = method == Method::Accelerated && k > 0 ? (theta[0] - 1) / theta[1] : 0;
+					const double beta = method == Method::Accelerated && k > 0
+					        ? (theta[0] - 1) / theta[1]
+					        : 0;
 					double       y[2];
 					for (int c = 0; c < 2; ++c) {
 						y[c]      = q[c] + beta * (q[c] - before[c]);
 						before[c] = q[c];
 					}
-					q[0]     = std::max(0.0, y[0] - 0.5 * (2 * y[0] - y[1] + e[0])); // W = 2 on the diagonal, −1 beside it
+					q[0] = std::max(
+					        0.0,
+					        y[0]
+					                - 0.5
+					                        * (2 * y[0] - y[1]
+					                           + e[0])); // W = 2 on the diagonal, −1 beside it
 					q[1]     = std::max(0.0, y[1] - 0.5 * (2 * y[1] - q[0] + e[1]));
 					theta[0] = k > 0 ? theta[1] : 1;
 					theta[1] = 0.5 * (1 + std::sqrt(1 + 4 * theta[0] * theta[0]));
@@ -136,7 +147,8 @@ TEST(Positions, SweepsAreExtrapolatedByNesterovsNumbers)
 				SolverSettings settings;
 				settings.method    = method;
 				settings.reference = reference;
-				const auto d       = displaced(scene.problem, { { e[0], false }, { e[1], false } }, sweeps, settings);
+				const auto d       = displaced(
+				              scene.problem, { { e[0], false }, { e[1], false } }, sweeps, settings);
 				EXPECT_NEAR(d[0].x, -q[0], rounding) << sweeps;
 				EXPECT_NEAR(d[1].x, q[0] - q[1], rounding) << sweeps;
 				EXPECT_NEAR(d[2].x, q[1], rounding) << sweeps;
@@ -153,8 +165,8 @@ std::vector<PositionError> errorsOf(const Problem& problem)
 
 TEST(Positions, TheSameBitsOnAnyThreadsAndKernels)
 {
-	const Scene scene  = lattice(60, 40);
-	const auto  errors = errorsOf(scene.problem);
+	const Scene    scene  = lattice(60, 40);
+	const auto     errors = errorsOf(scene.problem);
 	SolverSettings one;
 	one.maxIterations = 20;
 	const auto wanted = displaced(scene.problem, errors, 10, one);
@@ -163,7 +175,8 @@ TEST(Positions, TheSameBitsOnAnyThreadsAndKernels)
 			SolverSettings settings = one;
 			settings.threads        = threads;
 			settings.kernels        = kernels;
-			EXPECT_TRUE(sameBits(displaced(scene.problem, errors, 10, settings), wanted)) << threads << " threads, " << kernels->name;
+			EXPECT_TRUE(sameBits(displaced(scene.problem, errors, 10, settings), wanted))
+			        << threads << " threads, " << kernels->name;
 		}
 }
 
@@ -194,8 +207,9 @@ TEST(Positions, ReferenceAndBlocksAgree)
 	SolverSettings blocks, reference;
 	reference.reference = true;
 	// another order of contacts, the same answer once it has settled
-	const auto a = displaced(scene.problem, errors, 3000, blocks), b = displaced(scene.problem, errors, 3000, reference);
-	double     largest = 0, apart = 0;
+	const auto a   = displaced(scene.problem, errors, 3000, blocks),
+	           b   = displaced(scene.problem, errors, 3000, reference);
+	double largest = 0, apart = 0;
 	for (std::size_t k = 0; k < a.size(); ++k) {
 		largest = std::max(largest, std::abs(a[k].x) + std::abs(a[k].y));
 		apart   = std::max(apart, std::abs(a[k].x - b[k].x) + std::abs(a[k].y - b[k].y));
@@ -209,7 +223,9 @@ TEST(Positions, RefusesErrorsOfOtherContacts)
 	Problem            problem = row({ -0.02 }).problem;
 	Workspace          workspace;
 	PositionCorrection found;
-	EXPECT_THROW(correctPositions(problem, {}, workspace, { { -0.01, false } }, 1, found), std::invalid_argument); // nothing was solved yet
+	EXPECT_THROW(
+	        correctPositions(problem, {}, workspace, { { -0.01, false } }, 1, found),
+	        std::invalid_argument); // nothing was solved yet
 	solve(problem, {}, &workspace);
 	EXPECT_THROW(correctPositions(problem, {}, workspace, {}, 1, found), std::invalid_argument);
 }

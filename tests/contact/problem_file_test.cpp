@@ -17,8 +17,9 @@ class ProblemFile : public ::testing::Test {
 protected:
 	// one a test: ctest runs several at a time
 	std::filesystem::path folder = std::filesystem::path(::testing::TempDir())
-	        / (std::string("nonsmooth_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(getpid()));
-	std::string           path   = (folder / "step.h5").string();
+	        / (std::string("nonsmooth_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_"
+	           + std::to_string(getpid()));
+	std::string path = (folder / "step.h5").string();
 
 	void SetUp() override { std::filesystem::create_directories(folder); }
 	void TearDown() override { std::filesystem::remove_all(folder); }
@@ -73,9 +74,12 @@ TEST_F(ProblemFile, KeepsEveryNumberOfAContactInItsPlace)
 {
 	Contact c;
 	c.i = 1, c.j = 2;
-	double number = 0.5;
-	double Contact::*const numbers[] = { &Contact::nx, &Contact::ny, &Contact::leverNi, &Contact::leverTi, &Contact::leverNj, &Contact::leverTj, &Contact::biasN,
-		                             &Contact::biasT, &Contact::biasR, &Contact::adhesion, &Contact::friction, &Contact::rollingArm, &Contact::length };
+	double number                    = 0.5;
+	double Contact::*const numbers[] = { &Contact::nx,       &Contact::ny,       &Contact::leverNi,
+		                             &Contact::leverTi,  &Contact::leverNj,  &Contact::leverTj,
+		                             &Contact::biasN,    &Contact::biasT,    &Contact::biasR,
+		                             &Contact::adhesion, &Contact::friction, &Contact::rollingArm,
+		                             &Contact::length };
 	for (double Contact::*const x : numbers)
 		c.*x = number += 1;
 	RecordedProblem out { lattice(3, 1).problem, {}, step };
@@ -124,7 +128,8 @@ TEST_F(ProblemFile, RefusesBodiesThatAreNotThereAndStepsThatAreNone)
 	EXPECT_EQ(complaint(), "");
 	out.problem.contacts[3].j = 1000;
 	write(path, out);
-	EXPECT_NE(complaint().find("contact 3 names body 1000: there are 9, counted from 0"), std::string::npos) << complaint();
+	EXPECT_NE(complaint().find("contact 3 names body 1000: there are 9, counted from 0"), std::string::npos)
+	        << complaint();
 	out.problem.contacts[3].j = -1;
 	write(path, out);
 	EXPECT_NE(complaint().find("contact 3 names body -1"), std::string::npos) << complaint();
@@ -187,7 +192,9 @@ TEST_F(ProblemFile, FollowsNoLink)
 	EXPECT_EQ(refusal(path), "written");
 	EXPECT_FALSE(std::filesystem::is_symlink(path));
 	EXPECT_EQ(std::filesystem::file_size(victim), 8u);
-	EXPECT_EQ(complaint(), "contact problem " + path + ": /bodies/velocity has 0 rows where 9 are needed"); // ours, and HDF5
+	EXPECT_EQ(
+	        complaint(),
+	        "contact problem " + path + ": /bodies/velocity has 0 rows where 9 are needed"); // ours, and HDF5
 }
 
 } // namespace

@@ -54,14 +54,17 @@ public:
 		double largest = 0;
 		for (const Disk& d : disks)
 			largest = std::max(largest, d.r);
-		const double                                 cell = 2 * largest + alert;
+		const double                                      cell = 2 * largest + alert;
 		std::map<std::pair<long, long>, std::vector<int>> grid;
-		const auto at = [cell](const Disk& d) { return std::pair<long, long>(std::floor(d.x / cell), std::floor(d.y / cell)); };
+		const auto                                        at = [cell](const Disk& d) {
+                        return std::pair<long, long>(std::floor(d.x / cell), std::floor(d.y / cell));
+		};
 		for (std::size_t k = 0; k < disks.size(); ++k) {
 			const auto here = at(disks[k]);
 			for (long a = -1; a <= 1; ++a)
 				for (long b = -1; b <= 1; ++b)
-					if (const auto found = grid.find({ here.first + a, here.second + b }); found != grid.end())
+					if (const auto found = grid.find({ here.first + a, here.second + b });
+					    found != grid.end())
 						for (const int other : found->second)
 							pair(other, static_cast<int>(k), alert);
 			grid[here].push_back(static_cast<int>(k));
@@ -143,7 +146,8 @@ inline Problem underPlaten(int columns, int rows)
 	const Scene  scene = lattice(columns, rows);
 	Problem      p     = scene.problem;
 	const auto   body  = static_cast<std::int32_t>(p.bodyCount());
-	const double mass = 2 * scene.density * columns, x = 0.5 * columns, y = 0.5 + (rows - 1) * std::sqrt(0.75) + 0.5; // 2 m of rock
+	const double mass = 2 * scene.density * columns, x = 0.5 * columns,
+	             y = 0.5 + (rows - 1) * std::sqrt(0.75) + 0.5; // 2 m of rock
 	p.inverseMass.push_back({ 0, 1 / mass, 0 });
 	p.freeVelocity.push_back({ 0, -gravity * step, 0 });
 	p.positions.push_back({ x, y });

@@ -14,7 +14,8 @@ constexpr double width = 409.59035;
 
 std::vector<Disk> readPacking()
 {
-	const auto   path = std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / "lmgc90_5000_disks.txt.gz";
+	const auto path = std::filesystem::path(__FILE__).parent_path().parent_path() / "data"
+	        / "lmgc90_5000_disks.txt.gz";
 	const gzFile file = gzopen(path.string().c_str(), "rb");
 	if (!file) throw std::runtime_error("cannot be read: " + path.string());
 	std::string text;
@@ -47,7 +48,8 @@ Result solveCold(Method method, int sweeps)
 	scene.relaxationRate = 0; // taking back what overlaps LMGC90 left would lift the packing and press on the floor
 	const double alert   = 0.05;
 	scene.touchDisks(alert);
-	const int floor = scene.wall(0, 0, 0, 1, alert), left = scene.wall(0, 0, 1, 0, alert), right = scene.wall(width, 0, -1, 0, alert);
+	const int floor = scene.wall(0, 0, 0, 1, alert), left = scene.wall(0, 0, 1, 0, alert),
+	          right = scene.wall(width, 0, -1, 0, alert);
 	SolverSettings s;
 	s.method        = method;
 	s.maxIterations = sweeps;
@@ -68,7 +70,8 @@ Result solveCold(Method method, int sweeps)
 	result.floor /= weight;
 	result.momentum /= weight;
 	std::printf(
-	        "%4d sweeps: residual %.2e, carried %.4f of the weight\n", result.statistics.iterations, result.statistics.residual.relative(), result.carried);
+	        "%4d sweeps: residual %.2e, carried %.4f of the weight\n", result.statistics.iterations,
+	        result.statistics.residual.relative(), result.carried);
 	EXPECT_EQ(scene.disks.size(), 5000u);
 	return result;
 }
@@ -79,7 +82,8 @@ TEST(Reference, AccelerationSolvesTheColdPacking)
 
 	EXPECT_EQ(fast.statistics.iterations, 300);
 	// sweeps are deterministic; distances are not rounded alike by every libm, which moves the last digits of a residual
-	EXPECT_NEAR(fast.statistics.residual.relative(), 7.0e-6, 0.4e-6); // below the engine's default tolerance of 1e-4
+	EXPECT_NEAR(
+	        fast.statistics.residual.relative(), 7.0e-6, 0.4e-6); // below the engine's default tolerance of 1e-4
 	EXPECT_NEAR(plain.statistics.residual.relative(), 1.54e-3, 0.05e-3); // two hundred times as much
 	// LMGC90 carries 0.9985 + 0.0019; a cold start leaves some to rattlers and gaps that may still close
 	EXPECT_NEAR(fast.carried, 0.9972, 0.0005);

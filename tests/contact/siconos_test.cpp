@@ -13,7 +13,10 @@ namespace {
 /// Each with Siconos's impulses and velocities; the file has them side by side, each ending with its floor.
 std::vector<Problem> clusters()
 {
-	const Problem        all = read((std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / "siconos_clusters.h5").string()).problem;
+	const Problem all = read((std::filesystem::path(__FILE__).parent_path().parent_path() / "data"
+	                          / "siconos_clusters.h5")
+	                                 .string())
+	                            .problem;
 	std::vector<Problem> found(1);
 	std::vector<int>     of, first { 0 };
 	for (std::size_t b = 0; b < all.bodyCount(); ++b) {
@@ -57,7 +60,7 @@ TEST(SiconosAnswers, TwentyProblemsOfBothKinds)
 		bool rolls = false, sticks = false;
 		for (const Contact& c : all[k].contacts) {
 			EXPECT_LT(std::max(c.i, c.j), int(all[k].bodyCount()));
-			rolls = rolls || c.rollingArm > 0;
+			rolls  = rolls || c.rollingArm > 0;
 			sticks = sticks || c.adhesion > 0;
 		}
 		EXPECT_EQ(rolls, k % 2 == 1) << k;
@@ -84,7 +87,10 @@ TEST(SiconosAnswers, AreOursToo)
 			common.method = method;
 			forEachPath(all[k], common, [&](const SolverSettings& s, const std::string& name) {
 				// the tolerance, times 1,000 for W's condition in chains of twenty disks; impulses of closed loops are not unique
-				EXPECT_LE(largestDifference(ours(all[k], s).velocities, all[k].velocities), 1e3 * tolerance) << name;
+				EXPECT_LE(
+				        largestDifference(ours(all[k], s).velocities, all[k].velocities),
+				        1e3 * tolerance)
+				        << name;
 			});
 		}
 }
@@ -92,7 +98,8 @@ TEST(SiconosAnswers, AreOursToo)
 TEST(SiconosAnswers, ALawThatIsOffByAThousandthShows)
 {
 	const Problem p = clusters()[19];
-	for (double Contact::*const what : { &Contact::friction, &Contact::rollingArm, &Contact::adhesion, &Contact::biasN, &Contact::leverTi, &Contact::leverTj }) {
+	for (double Contact::*const what : { &Contact::friction, &Contact::rollingArm, &Contact::adhesion,
+	                                     &Contact::biasN, &Contact::leverTi, &Contact::leverTj }) {
 		Problem wrong = p;
 		for (Contact& c : wrong.contacts)
 			c.*what *= 1.001;

@@ -25,13 +25,13 @@ Problem single(const Impulse& q, double angle = 0, double mass = 1)
 	Problem p;
 	p.inverseMass = { {}, { 1 / mass, 1 / mass, 1 / mass } };
 	Contact c;
-	c.i          = 0;
-	c.j          = 1;
-	c.nx         = std::cos(angle);
-	c.ny         = std::sin(angle);
-	c.friction   = 0.3;
-	c.rollingArm = 0.1;
-	p.contacts   = { c };
+	c.i            = 0;
+	c.j            = 1;
+	c.nx           = std::cos(angle);
+	c.ny           = std::sin(angle);
+	c.friction     = 0.3;
+	c.rollingArm   = 0.1;
+	p.contacts     = { c };
 	p.freeVelocity = { {}, { c.nx * q.n - c.ny * q.t, c.ny * q.n + c.nx * q.t, q.r } };
 	p.impulses.resize(1);
 	return p;
@@ -64,7 +64,8 @@ TEST_P(OneContact, FrameAndMassScaleTheAnswer)
 		Problem p = single({ -1, 0.5, 0.2 }, angle, 7);
 		EXPECT_TRUE(solve(p, exact(GetParam())).converged);
 		expectNear(p.impulses[0], { 7, -2.1, -0.7 }, 7 * rounding);
-		expectNear(relativeVelocity(p.contacts[0], p.velocities[0], p.velocities[1]), { 0, 0.2, 0.1 }, rounding);
+		expectNear(
+		        relativeVelocity(p.contacts[0], p.velocities[0], p.velocities[1]), { 0, 0.2, 0.1 }, rounding);
 	}
 }
 
@@ -78,7 +79,7 @@ TEST_P(OneContact, SticksBelowTheThresholds)
 
 TEST_P(OneContact, OpensFreely)
 {
-	Problem p = single({ 1, 0.25, -0.05 });
+	Problem    p = single({ 1, 0.25, -0.05 });
 	const auto s = solve(p, exact(GetParam()));
 	EXPECT_TRUE(s.converged);
 	EXPECT_EQ(s.residual.relative(), 0);
@@ -88,7 +89,7 @@ TEST_P(OneContact, OpensFreely)
 TEST_P(OneContact, AdhesionShiftsTheThreeGraphs)
 {
 	// pulled apart less than F_a holds: tension, and thresholds from F_a + N = 0.5
-	Problem p             = single({ 1.5, 0.5, 0.2 });
+	Problem p              = single({ 1.5, 0.5, 0.2 });
 	p.contacts[0].adhesion = 2;
 	solve(p, exact(GetParam()));
 	expectNear(p.impulses[0], { -1.5, -0.15, -0.05 }, rounding);
@@ -103,7 +104,7 @@ TEST_P(OneContact, AdhesionShiftsTheThreeGraphs)
 
 TEST_P(OneContact, BiasIsTheGapThatMayClose)
 {
-	Problem p            = single({ -1, 0, 0 });
+	Problem p           = single({ -1, 0, 0 });
 	p.contacts[0].biasN = 0.4; // g/h
 	solve(p, exact(GetParam()));
 	expectNear(p.impulses[0], { 0.6, 0, 0 }, rounding);
@@ -133,9 +134,9 @@ TEST_P(OneContact, EachRowHasItsBias)
 
 TEST_P(OneContact, ABodyThatIsTurnedPushesByItsLever)
 {
-	Problem p             = single({ 0, 0, 0 });
-	p.freeVelocity[0]     = { 0, 0, 2 }; // held, and turned
-	p.contacts[0].leverNi = 0.5;
+	Problem p              = single({ 0, 0, 0 });
+	p.freeVelocity[0]      = { 0, 0, 2 }; // held, and turned
+	p.contacts[0].leverNi  = 0.5;
 	p.contacts[0].friction = p.contacts[0].rollingArm = 0;
 	solve(p, exact(GetParam()));
 	EXPECT_NEAR(p.velocities[1].x, 0.5 * 2, rounding); // U_n = v − λ w = 0
@@ -153,7 +154,9 @@ TEST_P(OneContact, DiskWithALeverRolls)
 		scene.problem.freeVelocity[0] = { 1, -1, 0 };
 		solve(scene.problem, exact(GetParam()));
 		const double m = scene.mass(scene.disks[0]), t = std::min(friction, 1.0 / 3) * m;
-		EXPECT_NEAR(scene.problem.impulses[0].n, m, 1e-11 * m); // the sweep's own convergence, W_tr couples the rows
+		EXPECT_NEAR(
+		        scene.problem.impulses[0].n, m,
+		        1e-11 * m); // the sweep's own convergence, W_tr couples the rows
 		EXPECT_NEAR(std::abs(scene.problem.impulses[0].t), t, 1e-11 * m);
 		EXPECT_NEAR(scene.problem.velocities[0].x, 1 - t / m, 1e-11);
 		EXPECT_NEAR(scene.problem.velocities[0].w, -2 * t / m, 1e-11);
@@ -177,15 +180,15 @@ TEST(Residual, IsASpeedRowByRow)
 	Problem p              = single({ 0.3, 0.2, 0.05 });
 	p.contacts[0].adhesion = 10;
 	p.contacts[0].length   = 2;
-	const SpeedResidual s = naturalMapSpeeds(p);
+	const SpeedResidual s  = naturalMapSpeeds(p);
 	EXPECT_NEAR(s.rms, std::sqrt(0.09 + 0.04 + 0.01), rounding);
 	EXPECT_NEAR(s.largest, s.rms, rounding);
 }
 
 TEST(Residual, ZeroAtTheAnalyticSolution)
 {
-	Problem p   = single({ -1, 0.5, 0.2 });
-	p.impulses  = { { 1, -0.3, -0.1 } };
+	Problem p  = single({ -1, 0.5, 0.2 });
+	p.impulses = { { 1, -0.3, -0.1 } };
 	EXPECT_LE(naturalMapResidual(p).rms, 1e-16); // one rounding of 0.5 − 0.3
 	const auto s = solve(p, exact(Method::Accelerated));
 	EXPECT_EQ(s.iterations, 0); // a warm start that is right needs no sweep
@@ -193,7 +196,7 @@ TEST(Residual, ZeroAtTheAnalyticSolution)
 
 TEST(Residual, MeasuresTheDistanceWhateverMadeIt)
 {
-	Problem p = single({ -1, 0.5, 0.2 });
+	Problem p  = single({ -1, 0.5, 0.2 });
 	p.impulses = { { 0, 0, 0 } };
 	// with P = 0 the normal row misses 1; the thresholds are zero, so the other rows are satisfied
 	EXPECT_NEAR(naturalMapResidual(p).rms, 1, rounding);
@@ -206,10 +209,10 @@ TEST(Residual, ReportedOneIsThatOfTheReturnedImpulses)
 	for (const Method method : { Method::GaussSeidel, Method::Accelerated }) {
 		Scene          scene = lattice(12, 8);
 		SolverSettings s;
-		s.method        = method;
-		s.tolerance     = 1e-6;
-		s.maxIterations = 37; // stopped anywhere
-		const auto     statistics = solve(scene.problem, s);
+		s.method                   = method;
+		s.tolerance                = 1e-6;
+		s.maxIterations            = 37; // stopped anywhere
+		const auto     statistics  = solve(scene.problem, s);
 		const Residual independent = naturalMapResidual(scene.problem);
 		EXPECT_GT(statistics.residual.rms, 0);
 		// the same sums in another order
@@ -232,15 +235,18 @@ TEST(Column, FiftyDisksCarryTheirWeight)
 		scene.touchDisks(0.01);
 		scene.wall(0, 0, 0, 1, 0.01);
 		ASSERT_EQ(scene.problem.contactCount(), 50u);
-		SolverSettings s = exact(method);
-		s.tolerance      = 1e-11;
+		SolverSettings s      = exact(method);
+		s.tolerance           = 1e-11;
 		const auto statistics = solve(scene.problem, s);
 		EXPECT_TRUE(statistics.converged);
 		for (std::size_t k = 0; k < 50; ++k) {
 			const Contact& c     = scene.problem.contacts[k];
-			const double   above = c.i >= 50 ? 50 : 50 - std::max(c.i, c.j); // disks that stand on this contact
+			const double   above = c.i >= 50 ? 50
+			                                 : 50 - std::max(c.i, c.j); // disks that stand on this contact
 			// residual 1e-11 times the condition number of a chain of 50, (4·50/π)² ≈ 4e3, gives 4e-8 of the rms impulse at worst
-			EXPECT_NEAR(scene.problem.impulses[k].n, above / 50 * scene.weightImpulse(), 1e-7 * scene.weightImpulse());
+			EXPECT_NEAR(
+			        scene.problem.impulses[k].n, above / 50 * scene.weightImpulse(),
+			        1e-7 * scene.weightImpulse());
 			EXPECT_NEAR(scene.problem.impulses[k].t, 0, 1e-12 * scene.weightImpulse());
 		}
 	}
@@ -251,7 +257,9 @@ TEST(Momentum, ConservedWithoutFixedBodies)
 	Scene scene = lattice(10, 10);
 	// no floor, random velocities
 	scene.problem.contacts.erase(
-	        std::remove_if(scene.problem.contacts.begin(), scene.problem.contacts.end(), [](const Contact& c) { return c.i >= 100; }),
+	        std::remove_if(
+	                scene.problem.contacts.begin(), scene.problem.contacts.end(),
+	                [](const Contact& c) { return c.i >= 100; }),
 	        scene.problem.contacts.end());
 	scene.problem.impulses.resize(scene.problem.contactCount());
 	std::mt19937                     random(3);
@@ -290,7 +298,8 @@ TEST(Driven, HeldDiskFeelsTheFullFriction)
 		p.inverseMass  = { {}, { 0, 0.5, 0 } };
 		p.freeVelocity = { { 1.0 * side, 0, 2.0 * side }, { 0, -3, 0 } };
 		Contact c;
-		c.i = 0, c.j = 1, c.nx = 0, c.ny = 1, c.leverTj = -1, c.friction = 0.3, c.rollingArm = 0.2, c.length = 2;
+		c.i = 0, c.j = 1, c.nx = 0, c.ny = 1, c.leverTj = -1, c.friction = 0.3, c.rollingArm = 0.2,
+		c.length   = 2;
 		p.contacts = { c };
 		p.impulses.resize(1);
 		SolverSettings s;
@@ -312,7 +321,8 @@ std::string complaint(Problem p, const SolverSettings& s = {})
 	try {
 		solve(p, s);
 	} catch (const std::invalid_argument& error) {
-		EXPECT_TRUE(sameBits(p.impulses, before.impulses) && p.velocities.size() == before.velocities.size()) << "changed before it was refused";
+		EXPECT_TRUE(sameBits(p.impulses, before.impulses) && p.velocities.size() == before.velocities.size())
+		        << "changed before it was refused";
 		return error.what();
 	}
 	return "taken";
@@ -331,13 +341,23 @@ TEST(Refusal, SizesAndNumbers)
 	refused([](Problem& p) { p.freeVelocity.pop_back(); }, "freeVelocity has 1");
 	refused([](Problem& p) { p.impulses.clear(); }, "impulses has 0");
 	refused([](Problem& p) { p.positions.resize(1); }, "positions has 1 entries for 2 bodies");
-	refused([=](Problem& p) { p.positions = { { 0, 0 }, { nan, 0 } }; }, "body 1 has the position (nan, 0): it must be finite");
-	refused([=](Problem& p) { p.positions = { { 0, -infinite }, { 0, 0 } }; }, "body 0 has the position (0, -inf)"); // a fixed one too
+	refused(
+	        [=](Problem& p) {
+		        p.positions = { { 0, 0 }, { nan, 0 } };
+	        },
+	        "body 1 has the position (nan, 0): it must be finite");
+	refused(
+	        [=](Problem& p) {
+		        p.positions = { { 0, -infinite }, { 0, 0 } };
+	        },
+	        "body 0 has the position (0, -inf)"); // a fixed one too
 	refused([=](Problem& p) { p.freeVelocity[1].w = nan; }, "body 1 has a velocity");
 	refused([=](Problem& p) { p.freeVelocity[1].x = infinite; }, "body 1 has a velocity");
 	refused([=](Problem& p) { p.inverseMass[0].w = nan; }, "body 0 has a velocity or mass");
-	refused([](Problem& p) { p.inverseMass[1].y = -1; }, "body 1 has the inverse mass (1, -1, 1): none may be negative");
-	refused([=](Problem& p) { p.impulses[0].r = nan; }, "contact 0 between bodies 0 and 1 has the rolling impulse nan: it must be finite");
+	refused([](Problem& p) { p.inverseMass[1].y = -1; },
+	        "body 1 has the inverse mass (1, -1, 1): none may be negative");
+	refused([=](Problem& p) { p.impulses[0].r = nan; },
+	        "contact 0 between bodies 0 and 1 has the rolling impulse nan: it must be finite");
 	refused([=](Problem& p) { p.contacts[0].leverTi = infinite; }, "has the lever t of i inf");
 	refused([=](Problem& p) { p.contacts[0].biasN = nan; }, "has the normal bias nan");
 	refused([=](Problem& p) { p.contacts[0].friction = nan; }, "has the friction nan");
@@ -351,9 +371,9 @@ TEST(Refusal, SizesAndNumbers)
 	refused([](Problem& p) { p.contacts[0].i = -1; }, "bodies -1 and 1");
 	refused([](Problem& p) { p.contacts[0].i = 1; }, "is one of a body with itself");
 	// large numbers are numbers
-	Problem large         = single({ 1e308, 1e308, 1e308 });
-	large.impulses[0]     = { 1e308, 1e308, 1e308 };
-	large.positions       = { { 1e308, 1e308 }, { -1e308, 1e308 } };
+	Problem large     = single({ 1e308, 1e308, 1e308 });
+	large.impulses[0] = { 1e308, 1e308, 1e308 };
+	large.positions   = { { 1e308, 1e308 }, { -1e308, 1e308 } };
 	EXPECT_EQ(complaint(large), "taken");
 }
 
@@ -370,7 +390,8 @@ TEST(Refusal, Settings)
 	refused([](SolverSettings& s) { s.tolerance = 0; }, "tolerance = 0: it must be positive and finite");
 	refused([](SolverSettings& s) { s.maxIterations = -1; }, "maxIterations = -1: it must not be negative");
 	refused([](SolverSettings& s) { s.checkEvery = 0; }, "checkEvery = 0: it must be from 1 to 1000000");
-	refused([](SolverSettings& s) { s.checkEvery = std::numeric_limits<int>::max(); }, "checkEvery = 2147483647: it must be from 1 to 1000000");
+	refused([](SolverSettings& s) { s.checkEvery = std::numeric_limits<int>::max(); },
+	        "checkEvery = 2147483647: it must be from 1 to 1000000");
 	refused([](SolverSettings& s) { s.threads = 0; }, "threads = 0: it must be from 1 to 1024");
 	refused([](SolverSettings& s) { s.threads = 100000; }, "threads = 100000: it must be from 1 to 1024");
 	SolverSettings none;

@@ -46,9 +46,9 @@ TEST(Stopping, FiguresOfOneContactByHand)
 TEST(Stopping, MeansAreOverActiveContactsAndMaximaAreNot)
 {
 	// one contact misses δ, one is exact, one open: D = (δ, 0, 0) in the first, N = 2, s = 1 + O(δ)
-	Problem      p     = apart({ { -1, 0, 0 }, { -1, 0, 0 }, { 1, 0, 0 } });
-	const double delta = 1e-6;
-	p.impulses         = { { 1 + delta, 0, 0 }, { 1, 0, 0 }, {} };
+	Problem      p          = apart({ { -1, 0, 0 }, { -1, 0, 0 }, { 1, 0, 0 } });
+	const double delta      = 1e-6;
+	p.impulses              = { { 1 + delta, 0, 0 }, { 1, 0, 0 }, {} };
 	const VelocityChanges c = velocityChanges(p);
 	EXPECT_NEAR(c.velocity, delta / std::sqrt(2), 2 * delta * delta);
 	EXPECT_NEAR(c.largestVelocity, delta, 2 * delta * delta);
@@ -108,16 +108,17 @@ TEST(Stopping, NothingActiveIsSolved)
 TEST(Stopping, EachStopsAtItsFirstFigureBelowTheTolerance)
 {
 	// Quad, QM/16, Maxm
-	const std::map<Method, std::vector<int>> pinned { { Method::GaussSeidel, { 35, 35, 41 } }, { Method::Accelerated, { 28, 28, 35 } } };
+	const std::map<Method, std::vector<int>> pinned { { Method::GaussSeidel, { 35, 35, 41 } },
+		                                          { Method::Accelerated, { 28, 28, 35 } } };
 	for (const auto& [method, wanted] : pinned) {
 		std::size_t number = 0;
 		for (const StoppingTest test : named) {
 			SolverSettings s;
-			s.method        = method;
-			s.stopping      = test;
-			s.tolerance     = 1e-4;
-			s.maxIterations = 20000;
-			s.checkEvery    = 1;
+			s.method              = method;
+			s.stopping            = test;
+			s.tolerance           = 1e-4;
+			s.maxIterations       = 20000;
+			s.checkEvery          = 1;
 			Scene      scene      = lattice(12, 8);
 			const auto statistics = solve(scene.problem, s);
 			EXPECT_TRUE(statistics.converged);
@@ -131,7 +132,7 @@ TEST(Stopping, EachStopsAtItsFirstFigureBelowTheTolerance)
 			const int sweeps = wanted[number++];
 			EXPECT_EQ(statistics.iterations, sweeps); // from lax to strict
 			// not a sweep too late
-			s.maxIterations = sweeps - 1;
+			s.maxIterations  = sweeps - 1;
 			Scene      again = lattice(12, 8);
 			const auto early = solve(again.problem, s);
 			EXPECT_FALSE(early.converged);
@@ -145,8 +146,8 @@ TEST(Stopping, AskingChangesNoBit)
 {
 	for (const StoppingTest test : named) {
 		SolverSettings s;
-		s.stopping  = test;
-		s.tolerance = 1e-3;
+		s.stopping    = test;
+		s.tolerance   = 1e-3;
 		Scene     one = lattice(40, 20), two = lattice(40, 20), three = lattice(40, 20);
 		const int sweeps = solve(one.problem, s).iterations;
 		s.threads        = 2;
@@ -173,7 +174,7 @@ TEST(Stopping, QuadOverlooksOneNewContactMaxmDoesNot)
 	for (std::size_t k = 0; k < scene.problem.contactCount(); ++k)
 		if (scene.problem.impulses[k].n > scene.problem.impulses[strongest].n) strongest = k;
 	scene.problem.impulses[strongest] = {}; // as if it had just been made
-	const VelocityChanges c = velocityChanges(scene.problem);
+	const VelocityChanges c           = velocityChanges(scene.problem);
 	// one of N active contacts misses all of its reaction, and its neighbours feel it: rms 1/√N of the largest, N some thousand
 	EXPECT_GT(c.figure(StoppingTest::Maxm), 1);
 	EXPECT_LT(c.figure(StoppingTest::Quad), 0.2 * c.figure(StoppingTest::Maxm));

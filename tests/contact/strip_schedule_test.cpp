@@ -19,7 +19,10 @@ std::vector<std::size_t> beginsOf(const std::vector<std::size_t>& sizes, std::si
 }
 
 /// Of a place: the strip's number from one end of the packing to the other.
-std::size_t strip(std::size_t place, std::size_t evenStrips) { return place < evenStrips ? 2 * place : 2 * (place - evenStrips) + 1; }
+std::size_t strip(std::size_t place, std::size_t evenStrips)
+{
+	return place < evenStrips ? 2 * place : 2 * (place - evenStrips) + 1;
+}
 
 /// A visit mixes a strip's value with its neighbours', so that what comes out tells in what order neighbours were visited.
 class Mixer {
@@ -47,7 +50,8 @@ public:
 };
 
 /// Expects that workers leave the values of `plain` where each of them calls make(schedule, worker, mixer).
-template <class Make> void expectSame(const Mixer& plain, std::size_t strips, std::size_t leftOver, int workers, Make make)
+template <class Make>
+void expectSame(const Mixer& plain, std::size_t strips, std::size_t leftOver, int workers, Make make)
 {
 	Mixer         mixer(strips);
 	StripSchedule schedule;
@@ -111,25 +115,38 @@ TEST(StripSchedule, SharesTheWorkEvenly)
 TEST(StripSchedule, AnyNumberOfWorkersLeavesWhatOneLeaves)
 {
 	constexpr int passes = 60;
-	for (const auto& [strips, leftOver] : std::vector<std::pair<std::size_t, std::size_t>> { { 1, 0 }, { 2, 0 }, { 3, 0 }, { 4, 0 }, { 6, 0 }, { 7, 0 },
-	                                                                                        { 20, 0 }, { 81, 0 }, { 3, 1 }, { 4, 9 }, { 20, 5 }, { 81, 5 } }) {
+	for (const auto& [strips, leftOver] : std::vector<std::pair<std::size_t, std::size_t>> { { 1, 0 },
+	                                                                                         { 2, 0 },
+	                                                                                         { 3, 0 },
+	                                                                                         { 4, 0 },
+	                                                                                         { 6, 0 },
+	                                                                                         { 7, 0 },
+	                                                                                         { 20, 0 },
+	                                                                                         { 81, 0 },
+	                                                                                         { 3, 1 },
+	                                                                                         { 4, 9 },
+	                                                                                         { 20, 5 },
+	                                                                                         { 81, 5 } }) {
 		Mixer plain(strips);
 		for (int p = 0; p < passes; ++p)
-			for (std::size_t place = 0; place < strips + (leftOver > 0); ++place) // even strips, odd ones, what is left over
+			for (std::size_t place = 0; place < strips + (leftOver > 0);
+			     ++place) // even strips, odd ones, what is left over
 				plain.visit(place);
 		for (int workers : { 1, 2, 3, 4, 7 })
-			expectSame(plain, strips, leftOver, workers, [](StripSchedule& schedule, int worker, Mixer& mixer) {
-				for (int p = 0; p < passes; ++p)
-					schedule.pass(worker, [&](std::size_t place) { mixer.visit(place); });
-			});
+			expectSame(
+			        plain, strips, leftOver, workers,
+			        [](StripSchedule& schedule, int worker, Mixer& mixer) {
+				        for (int p = 0; p < passes; ++p)
+					        schedule.pass(worker, [&](std::size_t place) { mixer.visit(place); });
+			        });
 	}
 }
 
 // one worker has 8 pairs for each of 10 passes at 160 strips, and no room for a wavefront of 4 below 64
 TEST(StripSchedule, PassesAtOnceLeaveWhatOneAfterTheOtherLeaves)
 {
-	for (const auto& [strips, leftOver] :
-	     std::vector<std::pair<std::size_t, std::size_t>> { { 5, 0 }, { 63, 0 }, { 64, 0 }, { 65, 0 }, { 161, 0 }, { 400, 0 }, { 401, 0 }, { 401, 7 } })
+	for (const auto& [strips, leftOver] : std::vector<std::pair<std::size_t, std::size_t>> {
+	             { 5, 0 }, { 63, 0 }, { 64, 0 }, { 65, 0 }, { 161, 0 }, { 400, 0 }, { 401, 0 }, { 401, 7 } })
 		for (int passes : { 1, 3, 10, 34 }) {
 			SCOPED_TRACE(std::to_string(passes) + " passes");
 			Mixer plain(strips);
@@ -137,9 +154,15 @@ TEST(StripSchedule, PassesAtOnceLeaveWhatOneAfterTheOtherLeaves)
 				for (std::size_t place = 0; place < strips + (leftOver > 0); ++place)
 					plain.visit(place, p);
 			for (int workers : { 1, 2, 3, 5 })
-				expectSame(plain, strips, leftOver, workers, [passes](StripSchedule& schedule, int worker, Mixer& mixer) {
-					schedule.passes(worker, passes, [&](std::size_t place, int p, const StripSchedule::Ahead&) { mixer.visit(place, p); });
-				});
+				expectSame(
+				        plain, strips, leftOver, workers,
+				        [passes](StripSchedule& schedule, int worker, Mixer& mixer) {
+					        schedule.passes(
+					                worker, passes,
+					                [&](std::size_t place, int p, const StripSchedule::Ahead&) {
+						                mixer.visit(place, p);
+					                });
+				        });
 		}
 }
 
@@ -148,18 +171,34 @@ TEST(StripSchedule, PassesAtOnceLeaveWhatOneAfterTheOtherLeaves)
 TEST(StripSchedule, AnyNumberOfWorkersLeavesWhatOneLeavesInTwoPasses)
 {
 	const std::vector<int> counts = { 2, 11, 3, 2, 2, 1, 2 };
-	for (const auto& [strips, leftOver] : std::vector<std::pair<std::size_t, std::size_t>> { { 1, 0 }, { 2, 0 }, { 3, 0 }, { 5, 0 }, { 31, 0 }, { 32, 0 }, { 33, 0 },
-	                                                                                        { 64, 0 }, { 97, 0 }, { 161, 0 }, { 33, 4 }, { 161, 4 } }) {
+	for (const auto& [strips, leftOver] : std::vector<std::pair<std::size_t, std::size_t>> { { 1, 0 },
+	                                                                                         { 2, 0 },
+	                                                                                         { 3, 0 },
+	                                                                                         { 5, 0 },
+	                                                                                         { 31, 0 },
+	                                                                                         { 32, 0 },
+	                                                                                         { 33, 0 },
+	                                                                                         { 64, 0 },
+	                                                                                         { 97, 0 },
+	                                                                                         { 161, 0 },
+	                                                                                         { 33, 4 },
+	                                                                                         { 161, 4 } }) {
 		Mixer plain(strips);
 		for (const int count : counts)
 			for (int p = 0; p < count; ++p)
 				for (std::size_t place = 0; place < strips + (leftOver > 0); ++place)
 					plain.visit(place, p);
 		for (int workers : { 1, 2, 3, 7 })
-			expectSame(plain, strips, leftOver, workers, [&counts](StripSchedule& schedule, int worker, Mixer& mixer) {
-				for (const int count : counts)
-					schedule.passes(worker, count, [&](std::size_t place, int p, const StripSchedule::Ahead&) { mixer.visit(place, p); });
-			});
+			expectSame(
+			        plain, strips, leftOver, workers,
+			        [&counts](StripSchedule& schedule, int worker, Mixer& mixer) {
+				        for (const int count : counts)
+					        schedule.passes(
+					                worker, count,
+					                [&](std::size_t place, int p, const StripSchedule::Ahead&) {
+						                mixer.visit(place, p);
+					                });
+			        });
 	}
 }
 
@@ -169,9 +208,15 @@ TEST(StripSchedule, FewPassesAreAtOnceWhereThereIsRoomForThem)
 	struct Case {
 		std::size_t pairs;
 		int         passes;
-		long        longest; // visits from one of a strip to the next: a pair of strips for each pass at once and one more, or all strips
+		long longest; // visits from one of a strip to the next: a pair of strips for each pass at once and one more, or all strips
 	};
-	for (const Case& c : { Case { 15, 2, 30 }, { 16, 2, 6 }, { 23, 3, 46 }, { 24, 3, 8 }, { 31, 4, 62 }, { 32, 4, 10 }, { 31, 10, 62 } }) {
+	for (const Case& c : { Case { 15, 2, 30 },
+	                       { 16, 2, 6 },
+	                       { 23, 3, 46 },
+	                       { 24, 3, 8 },
+	                       { 31, 4, 62 },
+	                       { 32, 4, 10 },
+	                       { 31, 10, 62 } }) {
 		StripSchedule schedule;
 		schedule.plan(beginsOf(std::vector<std::size_t>(2 * c.pairs, 100)), c.pairs, 1);
 		std::vector<long> last(2 * c.pairs, -1);
@@ -198,14 +243,16 @@ TEST(StripSchedule, PassesAtOnceComeBackToAStripSoon)
 		last[place] = visits++;
 	});
 	EXPECT_EQ(visits, 10 * long(strips));
-	EXPECT_EQ(longest, 22); // a pair of strips for each of ten passes, and one more, as the next pass comes a place later
+	EXPECT_EQ(
+	        longest,
+	        22); // a pair of strips for each of ten passes, and one more, as the next pass comes a place later
 }
 
 // so that the first pass does not wait for memory: a strip is announced in parts, each once, shortly before its first visit
 TEST(StripSchedule, PassesAtOnceSayWhatTheFirstOneVisitsNext)
 {
-	constexpr int    strips = 1000, passes = 10, all = (1 << passes) - 1;
-	StripSchedule    schedule;
+	constexpr int strips = 1000, passes = 10, all = (1 << passes) - 1;
+	StripSchedule schedule;
 	schedule.plan(beginsOf(std::vector<std::size_t>(strips, 100)), strips / 2, 1);
 	std::vector<int>  announced(strips, 0); // a bit for each part
 	std::vector<long> last(strips, 0);
@@ -218,14 +265,17 @@ TEST(StripSchedule, PassesAtOnceSayWhatTheFirstOneVisitsNext)
 		}
 		if (ahead.parts > 0) {
 			EXPECT_EQ(ahead.parts, passes);
-			EXPECT_EQ(announced[ahead.strip] & 1 << ahead.part, 0) << "strip " << ahead.strip << ", part " << ahead.part;
+			EXPECT_EQ(announced[ahead.strip] & 1 << ahead.part, 0)
+			        << "strip " << ahead.strip << ", part " << ahead.part;
 			announced[ahead.strip] |= 1 << ahead.part;
 			last[ahead.strip] = visits;
 		}
 		++visits;
 	});
-	EXPECT_EQ(whole, strips - 2 * passes - 1); // not those before which some passes have not begun, and not the very last
-	EXPECT_EQ(longest, 2);                     // visits since its last part
+	EXPECT_EQ(
+	        whole,
+	        strips - 2 * passes - 1); // not those before which some passes have not begun, and not the very last
+	EXPECT_EQ(longest, 2); // visits since its last part
 }
 
 TEST(StripSchedule, KeepsNothingOfAnEarlierPlan)

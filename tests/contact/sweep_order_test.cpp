@@ -101,22 +101,29 @@ void expectSound(const SweepOrder& sweep, const Problem& p)
 		ASSERT_EQ(order[k], static_cast<std::int32_t>(k));
 	ASSERT_EQ(sweep.bodies.size(), p.bodyCount());
 	ASSERT_EQ(sweep.bodyBegin.size(), sweep.stripCount() + 1);
-	ASSERT_EQ(long(sweep.bodyBegin.back()), std::count_if(p.inverseMass.begin(), p.inverseMass.end(), [](const InverseMass& m) { return !m.isFixed(); }));
+	ASSERT_EQ(
+	        long(sweep.bodyBegin.back()),
+	        std::count_if(p.inverseMass.begin(), p.inverseMass.end(), [](const InverseMass& m) {
+		        return !m.isFixed();
+	        }));
 	std::vector<std::size_t> place(p.bodyCount(), p.bodyCount());
 	for (std::size_t k = 0; k < sweep.bodies.size(); ++k)
 		place[sweep.bodies[k]] = k;
 	ASSERT_EQ(std::count(place.begin(), place.end(), p.bodyCount()), 0);
 	for (const bool even : { true, false }) {
 		std::vector<long> owner(p.bodyCount(), -1);
-		for (std::size_t s = even ? 0 : sweep.evenStrips; s < (even ? sweep.evenStrips : sweep.stripCount()); ++s)
+		for (std::size_t s = even ? 0 : sweep.evenStrips; s < (even ? sweep.evenStrips : sweep.stripCount());
+		     ++s)
 			for (std::size_t k = sweep.partBegin[s]; k < sweep.partBegin[s + 1]; ++k) {
 				const Contact& c = p.contacts[sweep.order[k]];
 				for (const int body : { c.i, c.j }) {
 					if (p.inverseMass[body].isFixed()) continue;
-					ASSERT_TRUE(owner[body] < 0 || owner[body] == static_cast<long>(s)) << "body " << body << " in two strips";
+					ASSERT_TRUE(owner[body] < 0 || owner[body] == static_cast<long>(s))
+					        << "body " << body << " in two strips";
 					owner[body] = static_cast<long>(s);
 					// a strip of the first half extrapolates its own bodies and those of the next one, the second half finds that done
-					const std::size_t number = even ? 2 * s : 2 * (s - sweep.evenStrips) + 1, end = std::min(number + 2, sweep.stripCount());
+					const std::size_t number = even ? 2 * s : 2 * (s - sweep.evenStrips) + 1,
+					                  end    = std::min(number + 2, sweep.stripCount());
 					ASSERT_GE(place[body], sweep.bodyBegin[number]);
 					ASSERT_LT(place[body], sweep.bodyBegin[end]);
 				}
@@ -126,9 +133,10 @@ void expectSound(const SweepOrder& sweep, const Problem& p)
 
 TEST(SweepOrder, StripsOfOneHalfShareNoMovableBody)
 {
-	const Problem wide = lattice(60, 20).problem, high = lattice(20, 60).problem, crowd = crowded(), platen = underPlaten(95, 95),
-	              stray = withStray(wide, 1e9, 3);
-	for (const auto& [p, strips] : { std::pair { &wide, 6u }, { &high, 6u }, { &crowd, 6u }, { &platen, 31u }, { &stray, 6u } }) {
+	const Problem wide = lattice(60, 20).problem, high = lattice(20, 60).problem, crowd = crowded(),
+	              platen = underPlaten(95, 95), stray = withStray(wide, 1e9, 3);
+	for (const auto& [p, strips] :
+	     { std::pair { &wide, 6u }, { &high, 6u }, { &crowd, 6u }, { &platen, 31u }, { &stray, 6u } }) {
 		const SweepOrder sweep = arranged(*p);
 		expectSound(sweep, *p);
 		EXPECT_EQ(sweep.stripCount(), strips);
@@ -148,8 +156,10 @@ TEST(SweepOrder, OrdinaryPackingsAreCutEvenlyAndLeaveNothingOver)
 		EXPECT_EQ(leftOver(sweep), 0u);
 		const auto   sizes = sizesOf(sweep);
 		const double mean  = double(p->contactCount()) / double(sizes.size());
-		EXPECT_NEAR(mean, 512, 26);                                                // one strip more or less would make 7
-		EXPECT_LT(double(*std::max_element(sizes.begin(), sizes.end())), 1.5 * mean); // a column of the lattice has 180
+		EXPECT_NEAR(mean, 512, 26); // one strip more or less would make 7
+		EXPECT_LT(
+		        double(*std::max_element(sizes.begin(), sizes.end())),
+		        1.5 * mean); // a column of the lattice has 180
 		EXPECT_GT(double(*std::min_element(sizes.begin(), sizes.end())), 0.5 * mean);
 	}
 }
@@ -157,8 +167,8 @@ TEST(SweepOrder, OrdinaryPackingsAreCutEvenlyAndLeaveNothingOver)
 // a heap: thick in the middle, thin at its ends
 TEST(SweepOrder, StripsAreNarrowWhereAPackingIsThick)
 {
-	const Problem    block = lattice(300, 100).problem;
-	Problem          heap = block;
+	const Problem block = lattice(300, 100).problem;
+	Problem       heap  = block;
 	heap.contacts.clear();
 	heap.impulses.clear();
 	for (const Contact& c : block.contacts) {
@@ -183,8 +193,8 @@ TEST(SweepOrder, AWidePlatenLeavesItsFarContactsOver)
 	const SweepOrder sweep = arranged(p);
 	expectSound(sweep, p);
 	EXPECT_EQ(sweep.stripCount(), 31u); // of 52 that 26,900 contacts would make
-	const int platen = 95 * 95 + 1;     // the floor comes before
-	EXPECT_EQ(leftOver(sweep), 86u);    // of 95; the nearest ones fit into strips
+	const int platen = 95 * 95 + 1; // the floor comes before
+	EXPECT_EQ(leftOver(sweep), 86u); // of 95; the nearest ones fit into strips
 	for (std::size_t k = sweep.partBegin[sweep.stripCount()]; k < sweep.order.size(); ++k)
 		EXPECT_EQ(p.contacts[sweep.order[k]].i, platen);
 }
@@ -200,7 +210,8 @@ TEST(SweepOrder, TwoThreadsShareTheWorkUnderAPlaten)
 		std::size_t of[2] = { 0, 0 };
 		for (const int worker : { 0, 1 })
 			schedule.each(worker, [&](std::size_t part) {
-				if (part < sweep.stripCount()) of[worker] += sweep.partBegin[part + 1] - sweep.partBegin[part];
+				if (part < sweep.stripCount())
+					of[worker] += sweep.partBegin[part + 1] - sweep.partBegin[part];
 			});
 		EXPECT_GT(double(p.contactCount()) / double(std::max(of[0], of[1]) + leftOver(sweep)), 1.85);
 	}
@@ -306,7 +317,10 @@ TEST(Threads, SameBitsForOneToFour)
 	const struct {
 		Problem problem;
 		int     strips;
-	} cases[] = { { lattice(60, 20).problem, 6 }, { crowded(), 6 }, { underPlaten(60, 40), 8 }, { withStray(lattice(60, 20).problem, 1e6, 0), 6 } };
+	} cases[] = { { lattice(60, 20).problem, 6 },
+		      { crowded(), 6 },
+		      { underPlaten(60, 40), 8 },
+		      { withStray(lattice(60, 20).problem, 1e6, 0), 6 } };
 	for (const Method method : { Method::GaussSeidel, Method::Accelerated })
 		for (const auto& [problem, strips] : cases)
 			for (const StoppingTest test : { StoppingTest::NaturalMap, StoppingTest::QM16 }) {
@@ -336,9 +350,9 @@ TEST(Threads, APlatensSolutionIsOne)
 {
 	Problem        p = underPlaten(95, 95);
 	SolverSettings s;
-	s.tolerance     = 1e-6;
-	s.maxIterations = 20000;
-	s.threads       = 2;
+	s.tolerance           = 1e-6;
+	s.maxIterations       = 20000;
+	s.threads             = 2;
 	const auto statistics = solve(p, s);
 	EXPECT_TRUE(statistics.converged);
 	const Residual independent = naturalMapResidual(p);

@@ -94,9 +94,10 @@ TEST(Symmetry, AMirroredProblemHasTheMirroredBits)
 		for (const Method method : methods) {
 			const Problem p = network(simple);
 			forEachPath(p, sweeps(method), [&](const SolverSettings& s, const std::string& name) {
-				const Solved one = solved(p, s), other = solved(mirrored(p), s);
+				const Solved  one = solved(p, s), other = solved(mirrored(p), s);
 				const Problem back = mirrored(other.problem);
-				EXPECT_EQ(largestDifference(back.impulses, one.problem.impulses), 0) << name; // signs alone
+				EXPECT_EQ(largestDifference(back.impulses, one.problem.impulses), 0)
+				        << name; // signs alone
 				EXPECT_EQ(largestDifference(back.velocities, one.problem.velocities), 0) << name;
 				EXPECT_EQ(other.statistics.residual.rms, one.statistics.residual.rms) << name;
 				EXPECT_GT(one.statistics.strips, 1);
@@ -110,9 +111,15 @@ TEST(Symmetry, AQuarterTurnKeepsTheBits)
 		for (const Method method : methods) {
 			const Problem p = network(simple);
 			forEachPath(p, sweeps(method), [&](const SolverSettings& s, const std::string& name) {
-				const Solved one = solved(p, s), other = solved(turned(p, 0, 1), s); // strips lie across y now
-				EXPECT_EQ(largestDifference(other.problem.impulses, one.problem.impulses), 0) << name; // signs, and two terms of a sum changed about
-				EXPECT_EQ(largestDifference(turned(other.problem, 0, -1).velocities, one.problem.velocities), 0) << name;
+				const Solved one   = solved(p, s),
+				             other = solved(turned(p, 0, 1), s); // strips lie across y now
+				EXPECT_EQ(largestDifference(other.problem.impulses, one.problem.impulses), 0)
+				        << name; // signs, and two terms of a sum changed about
+				EXPECT_EQ(
+				        largestDifference(
+				                turned(other.problem, 0, -1).velocities, one.problem.velocities),
+				        0)
+				        << name;
 				EXPECT_EQ(other.statistics.residual.rms, one.statistics.residual.rms) << name;
 			});
 		}
@@ -125,10 +132,18 @@ TEST(Symmetry, AnyTurnIsRounding)
 	for (const double angle : { 0.7, 2.5, -1.1 })
 		for (const Method method : methods)
 			forEachPath(p, sweeps(method), [&](const SolverSettings& s, const std::string& name) {
-				const Solved one = solved(p, s), other = solved(turned(p, std::cos(angle), std::sin(angle)), s);
-				EXPECT_LE(largestDifference(other.problem.impulses, one.problem.impulses), rounding) << name << ", " << angle;
-				EXPECT_LE(largestDifference(turned(other.problem, std::cos(angle), -std::sin(angle)).velocities, one.problem.velocities), rounding) << name;
-				EXPECT_NEAR(other.statistics.residual.rms, one.statistics.residual.rms, rounding) << name;
+				const Solved one   = solved(p, s),
+				             other = solved(turned(p, std::cos(angle), std::sin(angle)), s);
+				EXPECT_LE(largestDifference(other.problem.impulses, one.problem.impulses), rounding)
+				        << name << ", " << angle;
+				EXPECT_LE(
+				        largestDifference(
+				                turned(other.problem, std::cos(angle), -std::sin(angle)).velocities,
+				                one.problem.velocities),
+				        rounding)
+				        << name;
+				EXPECT_NEAR(other.statistics.residual.rms, one.statistics.residual.rms, rounding)
+				        << name;
 			});
 }
 
@@ -157,7 +172,8 @@ Problem exchanged(Problem p, std::size_t stride)
 		std::swap(c.i, c.j);
 		std::swap(c.leverNi, c.leverNj);
 		std::swap(c.leverTi, c.leverTj);
-		for (double* x : { &c.nx, &c.ny, &c.leverNi, &c.leverNj, &c.leverTi, &c.leverTj, &c.biasR, &p.impulses[k].r })
+		for (double* x :
+		     { &c.nx, &c.ny, &c.leverNi, &c.leverNj, &c.leverTi, &c.leverTj, &c.biasR, &p.impulses[k].r })
 			*x = -*x; // n and t turn round, and so U_n and U_t stay; the turning does not
 	}
 	return p;
@@ -171,8 +187,16 @@ TEST(Symmetry, WhichBodyIsTheFirstIsRounding)
 				const Problem p = network(simple);
 				forEachPath(p, sweeps(method), [&](const SolverSettings& s, const std::string& name) {
 					const Solved one = solved(p, s), other = solved(exchanged(p, stride), s);
-					EXPECT_LE(largestDifference(exchanged(other.problem, stride).impulses, one.problem.impulses), rounding) << name;
-					EXPECT_LE(largestDifference(other.problem.velocities, one.problem.velocities), rounding) << name;
+					EXPECT_LE(
+					        largestDifference(
+					                exchanged(other.problem, stride).impulses,
+					                one.problem.impulses),
+					        rounding)
+					        << name;
+					EXPECT_LE(
+					        largestDifference(other.problem.velocities, one.problem.velocities),
+					        rounding)
+					        << name;
 				});
 			}
 }
@@ -236,7 +260,8 @@ TEST(Symmetry, TheOrderOfContactsChangesNoMotion)
 		forEachPath(m.problem, exact(method), [&](const SolverSettings& s, const std::string& name) {
 			const Solved found = solved(other, s);
 			EXPECT_TRUE(found.statistics.converged) << name;
-			EXPECT_LE(largestDifference(found.problem.velocities, m.velocities), 1e-8) << name; // 1e-11 of impulses near 1, through a thousand contacts
+			EXPECT_LE(largestDifference(found.problem.velocities, m.velocities), 1e-8)
+			        << name; // 1e-11 of impulses near 1, through a thousand contacts
 		});
 }
 
@@ -247,7 +272,8 @@ TEST(Symmetry, StripsFromTheOtherEndChangeNoMotion)
 		forEachPath(m.problem, exact(method), [&](const SolverSettings& s, const std::string& name) {
 			const Solved found = solved(turned(m.problem, -1, 0), s);
 			EXPECT_TRUE(found.statistics.converged) << name;
-			EXPECT_LE(largestDifference(turned(found.problem, -1, 0).velocities, m.velocities), 1e-8) << name;
+			EXPECT_LE(largestDifference(turned(found.problem, -1, 0).velocities, m.velocities), 1e-8)
+			        << name;
 		});
 }
 
@@ -287,16 +313,27 @@ TEST(Symmetry, UnitsOfPowersOfTwoKeepTheBitsAndOthersAreRounding)
 				SolverSettings common = sweeps(method);
 				common.stopping       = test;
 				forEachPath(p, common, [&](const SolverSettings& s, const std::string& name) {
-					const Solved one = solved(p, s), other = solved(inUnits(p, binary), s), third = solved(inUnits(p, decimal), s);
+					const Solved one = solved(p, s), other = solved(inUnits(p, binary), s),
+					             third   = solved(inUnits(p, decimal), s);
 					const Problem wanted = inUnits(one.problem, binary);
 					EXPECT_TRUE(sameBits(other.problem.impulses, wanted.impulses)) << name;
 					EXPECT_TRUE(sameBits(other.problem.velocities, wanted.velocities)) << name;
-					EXPECT_EQ(other.statistics.residual.relative(), one.statistics.residual.relative()) << name;
-					EXPECT_EQ(other.statistics.changes.figure(StoppingTest::Maxm), one.statistics.changes.figure(StoppingTest::Maxm)) << name;
+					EXPECT_EQ(
+					        other.statistics.residual.relative(),
+					        one.statistics.residual.relative())
+					        << name;
+					EXPECT_EQ(
+					        other.statistics.changes.figure(StoppingTest::Maxm),
+					        one.statistics.changes.figure(StoppingTest::Maxm))
+					        << name;
 					EXPECT_EQ(other.statistics.restarts, one.statistics.restarts) << name;
-					const Problem back = inUnits(third.problem, { 1 / decimal.length, 1 / decimal.mass, 1 / decimal.time });
-					EXPECT_LE(largestDifference(back.impulses, one.problem.impulses), rounding) << name;
-					EXPECT_LE(largestDifference(back.velocities, one.problem.velocities), rounding) << name;
+					const Problem back = inUnits(
+					        third.problem,
+					        { 1 / decimal.length, 1 / decimal.mass, 1 / decimal.time });
+					EXPECT_LE(largestDifference(back.impulses, one.problem.impulses), rounding)
+					        << name;
+					EXPECT_LE(largestDifference(back.velocities, one.problem.velocities), rounding)
+					        << name;
 				});
 			}
 }
@@ -331,11 +368,14 @@ TEST(Symmetry, ProblemsSideBySideAreSweptAsEachAlone)
 	for (const Method method : methods) {
 		SolverSettings s = sweeps(method, 9);
 		s.reference      = true;
-		const Solved  x = solved(a, s), y = solved(b, s), both = solved(sideBySide(a, b), s);
+		const Solved x = solved(a, s), y = solved(b, s), both = solved(sideBySide(a, b), s);
 		EXPECT_TRUE(sameBits(both.problem.impulses, joined(x.problem.impulses, y.problem.impulses)));
 		EXPECT_TRUE(sameBits(both.problem.velocities, joined(x.problem.velocities, y.problem.velocities)));
-		const double n = double(a.contactCount()), m = double(b.contactCount()), rx = x.statistics.residual.rms, ry = y.statistics.residual.rms;
-		EXPECT_NEAR(both.statistics.residual.rms / std::sqrt((n * rx * rx + m * ry * ry) / (n + m)), 1, 1e-13); // the same squares in another order
+		const double n = double(a.contactCount()), m = double(b.contactCount()), rx = x.statistics.residual.rms,
+		             ry = y.statistics.residual.rms;
+		EXPECT_NEAR(
+		        both.statistics.residual.rms / std::sqrt((n * rx * rx + m * ry * ry) / (n + m)), 1,
+		        1e-13); // the same squares in another order
 	}
 }
 
@@ -357,7 +397,8 @@ std::vector<PositionError> errorsOf(const Problem& p)
 	std::mt19937               dice(9);
 	std::vector<PositionError> errors;
 	for (std::size_t k = 0; k < p.contactCount(); ++k)
-		errors.push_back({ 1e-3 * (dice() / 2147483648.0 - 1), dice() % 5 == 0, 1e-3 * (dice() / 4294967296.0) });
+		errors.push_back(
+		        { 1e-3 * (dice() / 2147483648.0 - 1), dice() % 5 == 0, 1e-3 * (dice() / 4294967296.0) });
 	return errors;
 }
 
@@ -391,14 +432,18 @@ TEST(Symmetry, DisplacementsToo)
 					e.error *= u.length, e.impulse *= u.mass * u.length;
 				const auto other = corrected(inUnits(p, u), scaled, s);
 				for (std::size_t k = 0; k < one.impulses.size(); ++k)
-					ASSERT_EQ(other.impulses[k], u.mass * u.length * one.impulses[k]) << name << ", contact " << k;
+					ASSERT_EQ(other.impulses[k], u.mass * u.length * one.impulses[k])
+					        << name << ", contact " << k;
 				for (std::size_t b = 0; b < one.displacements.size(); ++b) {
-					ASSERT_EQ(other.displacements[b].x, u.length * one.displacements[b].x) << name << ", body " << b;
-					ASSERT_EQ(other.displacements[b].w, one.displacements[b].w) << name << ", body " << b;
+					ASSERT_EQ(other.displacements[b].x, u.length * one.displacements[b].x)
+					        << name << ", body " << b;
+					ASSERT_EQ(other.displacements[b].w, one.displacements[b].w)
+					        << name << ", body " << b;
 				}
 				// which body is the first: rounding of thousandths
 				const auto exchange = corrected(exchanged(p, 2), errors, s);
-				EXPECT_LE(largestDifference(exchange.displacements, one.displacements), 1e-3 * rounding) << name;
+				EXPECT_LE(largestDifference(exchange.displacements, one.displacements), 1e-3 * rounding)
+				        << name;
 			});
 		}
 }

@@ -2,6 +2,6 @@
 #pragma once
 
 extern "C" {
-void                        __gcov_dump();
+void                       __gcov_dump();
 __attribute__((weak)) void nonsmooth_dump_coverage() { __gcov_dump(); }
 }

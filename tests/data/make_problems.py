@@ -4,6 +4,7 @@
   tests/data/make_problems.py [--disks N] [--out DIR]
 """
 import os, sys
+
 if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts", "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
@@ -25,7 +26,12 @@ EVERY = 0.5  # s of the simulation between two problems that are kept for the ch
 def arguments():
     parser = argparse.ArgumentParser(prog="make_problems.py", description=__doc__.splitlines()[0])
     parser.add_argument("--disks", type=int, default=1200, metavar="N", help="about N disks (default: %(default)s)")
-    parser.add_argument("--out", default=os.path.dirname(os.path.realpath(__file__)), metavar="DIR", help="default: the script's own folder")
+    parser.add_argument(
+        "--out",
+        default=os.path.dirname(os.path.realpath(__file__)),
+        metavar="DIR",
+        help="default: the script's own folder",
+    )
     parser.add_argument("--threads", type=int, metavar="T", help="threads; the result is the same with any number")
     return parser.parse_args()
 
@@ -46,7 +52,11 @@ def run(disks, folder):
 
     experiment_run.progress = keep
     experiment_run.run()
-    times = results.characteristic_times(records.since_settled(records.read_series(folder / "series.csv")), chosen, dataclasses.asdict(experiment_run.state))
+    times = results.characteristic_times(
+        records.since_settled(records.read_series(folder / "series.csv")),
+        chosen,
+        dataclasses.asdict(experiment_run.state),
+    )
     return times, problems
 
 

@@ -17,8 +17,33 @@ import fuzzing  # noqa: E402
 from nonsmooth import packing, packing_checks, packing_files  # noqa: E402
 from nonsmooth.section import load  # noqa: E402
 
-WORDS = ["nan", "-inf", "1e308", "-1e308", "1e-320", "0", "-1", "1e7", "1_0", "0x10", "one", "9" * 400, "9" * 5000, "1.0.0", "٣", "1,5", "5.5", "", "#", "# disks: 3", "\x00",
-         "\u2028", "\x1b[2J", "x" * 3000, "1 2 3 4 5 6"]
+WORDS = [
+    "nan",
+    "-inf",
+    "1e308",
+    "-1e308",
+    "1e-320",
+    "0",
+    "-1",
+    "1e7",
+    "1_0",
+    "0x10",
+    "one",
+    "9" * 400,
+    "9" * 5000,
+    "1.0.0",
+    "٣",
+    "1,5",
+    "5.5",
+    "",
+    "#",
+    "# disks: 3",
+    "\x00",
+    "\u2028",
+    "\x1b[2J",
+    "x" * 3000,
+    "1 2 3 4 5 6",
+]
 
 
 @cache
@@ -41,20 +66,38 @@ def outcome(raw, suffix, read):
                 return read(path)
             except packing.PackingError as error:
                 message = str(error)
-                assert str(path) in message and "\n" not in message and message.isprintable() and len(message) < 1000, message
+                assert (
+                    str(path) in message and "\n" not in message and message.isprintable() and len(message) < 1000
+                ), message
                 return None
 
 
 LINE = st.integers(0, 601)
 CHANGES = st.one_of(
-    st.tuples(st.just("word"), LINE, st.integers(0, 3), st.one_of(st.sampled_from(WORDS), st.floats().map(repr), st.integers().map(str))),
-    st.tuples(st.just("scale"), st.integers(0, 3), st.one_of(st.sampled_from([1.3, -1, 0, 1e-3, 1e3, 1e300, 0.99, 1.01]), st.floats(-3, 3)), st.none()),
-    st.tuples(st.just("shift"), st.integers(0, 3), st.one_of(st.sampled_from([1, -1, 1e3, -1e9]), st.floats(-30, 30)), st.none()),
+    st.tuples(
+        st.just("word"),
+        LINE,
+        st.integers(0, 3),
+        st.one_of(st.sampled_from(WORDS), st.floats().map(repr), st.integers().map(str)),
+    ),
+    st.tuples(
+        st.just("scale"),
+        st.integers(0, 3),
+        st.one_of(st.sampled_from([1.3, -1, 0, 1e-3, 1e3, 1e300, 0.99, 1.01]), st.floats(-3, 3)),
+        st.none(),
+    ),
+    st.tuples(
+        st.just("shift"),
+        st.integers(0, 3),
+        st.one_of(st.sampled_from([1, -1, 1e3, -1e9]), st.floats(-30, 30)),
+        st.none(),
+    ),
     st.tuples(st.just("take"), LINE, st.integers(1, 400), st.none()),
     st.tuples(st.just("twice"), LINE, st.integers(1, 50), st.none()),
     st.tuples(st.just("column"), st.integers(0, 3), st.none(), st.none()),
     st.tuples(st.just("cut"), st.integers(0, 40_000), st.none(), st.none()),
-    st.tuples(st.just("put"), st.integers(0, 40_000), st.binary(min_size=1, max_size=5), st.none()))
+    st.tuples(st.just("put"), st.integers(0, 40_000), st.binary(min_size=1, max_size=5), st.none()),
+)
 
 
 def altered(lines, kind, at, what, word):
@@ -64,11 +107,11 @@ def altered(lines, kind, at, what, word):
         if at < len(rows) and what < len(rows[at]):
             rows[at][what] = word
     elif kind == "take":
-        del rows[at:at + what]
+        del rows[at : at + what]
     elif kind == "twice":
-        rows[at:at] = rows[at:at + what]
+        rows[at:at] = rows[at : at + what]
     elif kind == "column":
-        rows = [row[:at] + row[at + 1:] for row in rows]
+        rows = [row[:at] + row[at + 1 :] for row in rows]
     elif kind in ("scale", "shift"):
         for row in rows:
             try:
@@ -106,11 +149,26 @@ def test_changed_text(changes, announced):
 
     found = outcome(raw, "txt", read)
     if found is not None:  # what is taken can be run: measured by rules of its own
-        assert abs((found.r**2).sum() / (made()[1].r ** 2).sum() - 1) < 0.15 and packing.overlaps(found).worst <= 0.02 and set(found.layer.tolist()) <= set(range(5))
+        assert (
+            abs((found.r**2).sum() / (made()[1].r ** 2).sum() - 1) < 0.15
+            and packing.overlaps(found).worst <= 0.02
+            and set(found.layer.tolist()) <= set(range(5))
+        )
 
 
 @fuzzing.settings("NONSMOOTH_FUZZ_PACKINGS", 40, share=1 / 3)
-@given(st.lists(st.tuples(st.sampled_from(["flip", "cut", "drop", "put"]), st.floats(0, 1), st.integers(0, 7), st.binary(min_size=1, max_size=9)), min_size=1, max_size=3))
+@given(
+    st.lists(
+        st.tuples(
+            st.sampled_from(["flip", "cut", "drop", "put"]),
+            st.floats(0, 1),
+            st.integers(0, 7),
+            st.binary(min_size=1, max_size=9),
+        ),
+        min_size=1,
+        max_size=3,
+    )
+)
 def test_damaged_arrays(changes):
     """One that was made before, from the cache: what is taken is what was written."""
     disks = made()[1]
@@ -120,11 +178,11 @@ def test_damaged_arrays(changes):
     for kind, share, bit, what in changes:
         at = int(share * max(len(file) - 1, 0))
         if kind == "flip" and file:
-            file = file[:at] + bytes([file[at] ^ (1 << bit)]) + file[at + 1:]
+            file = file[:at] + bytes([file[at] ^ (1 << bit)]) + file[at + 1 :]
         elif kind == "cut":
             file = file[:at]
         elif kind == "drop":
-            file = file[:at] + file[at + 1 + bit:]
+            file = file[:at] + file[at + 1 + bit :]
         elif kind == "put":
             file = file[:at] + what + file[at:]
     found = outcome(file, "npz", packing_files.load)
@@ -140,7 +198,7 @@ def test_every_bit_of_a_directory():
         whole = path.read_bytes()
         for at in range(len(whole) - 380, len(whole)):
             for bit in range(8):
-                path.write_bytes(whole[:at] + bytes([whole[at] ^ (1 << bit)]) + whole[at + 1:])
+                path.write_bytes(whole[:at] + bytes([whole[at] ^ (1 << bit)]) + whole[at + 1 :])
                 try:
                     assert packing_files.load(path).checksum == small.checksum
                 except packing.PackingError as error:

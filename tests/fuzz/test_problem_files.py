@@ -44,7 +44,13 @@ class Reader:
     """The process that reads files."""
 
     def __init__(self):
-        self.process = subprocess.Popen([sys.executable, "-c", WORKER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", WORKER],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.answers, self.complaints = queue.Queue(), []
         threading.Thread(target=self._collect, daemon=True).start()
         threading.Thread(target=lambda: self.complaints.extend(self.process.stderr), daemon=True).start()
@@ -72,12 +78,22 @@ class Reader:
 def _column(disks=12):
     """Disks on top of each other, each a little into the one below, on a fixed one, as arrays."""
     n = disks
-    return {"bodies/inverse_mass": np.vstack([np.zeros(3), np.tile([1e-3, 1e-3, 8e-3], (n, 1))]), "bodies/free_velocity": np.vstack([np.zeros(3), np.tile([0.01, -0.05, 0], (n, 1))]),
-            "bodies/velocity": np.zeros((n + 1, 3)), "bodies/position": np.column_stack([np.zeros(n + 1), 0.999 * np.arange(n + 1)]),
-            "contacts/body": np.column_stack([np.arange(n), np.arange(1, n + 1)]).astype(np.int32), "contacts/normal": np.tile([0.0, 1.0], (n, 1)),
-            "contacts/lever": np.tile([0, 0.5, 0, -0.5], (n, 1)), "contacts/bias": np.tile([-0.04, 0, 0], (n, 1)), "contacts/adhesion": np.full(n, 0.1),
-            "contacts/friction": np.full(n, 0.3), "contacts/rolling_arm": np.full(n, 0.1), "contacts/length": np.ones(n), "contacts/warm_start": np.full((n, 3), 0.5),
-            "contacts/impulse": np.zeros((n, 3))}
+    return {
+        "bodies/inverse_mass": np.vstack([np.zeros(3), np.tile([1e-3, 1e-3, 8e-3], (n, 1))]),
+        "bodies/free_velocity": np.vstack([np.zeros(3), np.tile([0.01, -0.05, 0], (n, 1))]),
+        "bodies/velocity": np.zeros((n + 1, 3)),
+        "bodies/position": np.column_stack([np.zeros(n + 1), 0.999 * np.arange(n + 1)]),
+        "contacts/body": np.column_stack([np.arange(n), np.arange(1, n + 1)]).astype(np.int32),
+        "contacts/normal": np.tile([0.0, 1.0], (n, 1)),
+        "contacts/lever": np.tile([0, 0.5, 0, -0.5], (n, 1)),
+        "contacts/bias": np.tile([-0.04, 0, 0], (n, 1)),
+        "contacts/adhesion": np.full(n, 0.1),
+        "contacts/friction": np.full(n, 0.3),
+        "contacts/rolling_arm": np.full(n, 0.1),
+        "contacts/length": np.ones(n),
+        "contacts/warm_start": np.full((n, 3), 0.5),
+        "contacts/impulse": np.zeros((n, 3)),
+    }
 
 
 NAMES = tuple(_column())
@@ -92,18 +108,19 @@ def _write(path, compressed):
 
 # ---- damages to the bytes of a file: from content and arguments to other content --------------------
 
+
 def flip(content, at, value):
     at = int(at * len(content))
-    return content[:at] + bytes([value]) + content[at + 1:]
+    return content[:at] + bytes([value]) + content[at + 1 :]
 
 
 def zero(content, at, length):
     at = int(at * len(content))
-    return content[:at] + bytes(len(content[at:at + length])) + content[at + length:]
+    return content[:at] + bytes(len(content[at : at + length])) + content[at + length :]
 
 
 def cut(content, at):
-    return content[:int(at * len(content))]
+    return content[: int(at * len(content))]
 
 
 def insert(content, at, extra):
@@ -112,6 +129,7 @@ def insert(content, at, extra):
 
 
 # ---- damages made by HDF5 in a sound file -----------------------------------------------------------
+
 
 def without(file, name):
     if name in file:
@@ -161,20 +179,46 @@ places = st.floats(0, 1)
 names = st.sampled_from(NAMES)
 numbers = st.one_of(st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([1e308, -1e308, 5e-324, 0.0, -1.0]))
 arrays = st.one_of(
-    st.tuples(st.integers(0, 14), st.integers(0, 5)).map(np.zeros), st.integers(0, 14).map(np.ones), st.just(np.float64(1)), st.just("text"),
-    st.just(np.zeros((12, 3), complex)), st.just(np.array([b"a", b"b"])), st.just(np.zeros((13, 3), np.int64)), st.just(np.zeros((12, 2), np.uint64) + 2**63),
-    st.just(np.zeros((12, 2))), st.just(np.zeros((2, 2, 2, 2, 2, 2, 2, 2, 2))), st.just(np.zeros(3, [("a", "f8"), ("b", "i4")])), st.just(np.zeros((13, 3), ">f4")))
-links = st.sampled_from([h5py.SoftLink("/contacts/impulse"), h5py.SoftLink("/nowhere"), h5py.ExternalLink("/dev/zero", "/x")])
-attributes = st.one_of(st.none(), st.integers(-2**40, 2**40), numbers, st.just("one"), st.just(np.zeros(3)), st.just(np.zeros(0)), st.just(1 + 2j))
+    st.tuples(st.integers(0, 14), st.integers(0, 5)).map(np.zeros),
+    st.integers(0, 14).map(np.ones),
+    st.just(np.float64(1)),
+    st.just("text"),
+    st.just(np.zeros((12, 3), complex)),
+    st.just(np.array([b"a", b"b"])),
+    st.just(np.zeros((13, 3), np.int64)),
+    st.just(np.zeros((12, 2), np.uint64) + 2**63),
+    st.just(np.zeros((12, 2))),
+    st.just(np.zeros((2, 2, 2, 2, 2, 2, 2, 2, 2))),
+    st.just(np.zeros(3, [("a", "f8"), ("b", "i4")])),
+    st.just(np.zeros((13, 3), ">f4")),
+)
+links = st.sampled_from(
+    [h5py.SoftLink("/contacts/impulse"), h5py.SoftLink("/nowhere"), h5py.ExternalLink("/dev/zero", "/x")]
+)
+attributes = st.one_of(
+    st.none(),
+    st.integers(-(2**40), 2**40),
+    numbers,
+    st.just("one"),
+    st.just(np.zeros(3)),
+    st.just(np.zeros(0)),
+    st.just(1 + 2j),
+)
 inside = st.one_of(
-    st.tuples(st.just(without), st.sampled_from((*NAMES, "bodies", "contacts"))), st.tuples(st.just(instead), names, st.one_of(arrays, links)),
+    st.tuples(st.just(without), st.sampled_from((*NAMES, "bodies", "contacts"))),
+    st.tuples(st.just(instead), names, st.one_of(arrays, links)),
     st.tuples(st.just(claimed), names, st.sampled_from([1, 13, 10**6, 10**9, 10**12, 2**62])),
     st.tuples(st.just(value), names.filter(lambda name: name != "contacts/body"), places, numbers),
-    st.tuples(st.just(value), st.just("contacts/body"), places, st.integers(-2**31, 2**31 - 1)),
-    st.tuples(st.just(attribute), st.sampled_from(["format", "time_step"]), attributes))
+    st.tuples(st.just(value), st.just("contacts/body"), places, st.integers(-(2**31), 2**31 - 1)),
+    st.tuples(st.just(attribute), st.sampled_from(["format", "time_step"]), attributes),
+)
 bytewise = st.one_of(
-    st.tuples(st.just(flip), places, st.integers(0, 255)), st.tuples(st.just(flip), st.floats(0, 0.15), st.integers(0, 255)),
-    st.tuples(st.just(zero), places, st.integers(1, 4000)), st.tuples(st.just(cut), places), st.tuples(st.just(insert), places, st.binary(min_size=1, max_size=50)))
+    st.tuples(st.just(flip), places, st.integers(0, 255)),
+    st.tuples(st.just(flip), st.floats(0, 0.15), st.integers(0, 255)),
+    st.tuples(st.just(zero), places, st.integers(1, 4000)),
+    st.tuples(st.just(cut), places),
+    st.tuples(st.just(insert), places, st.binary(min_size=1, max_size=50)),
+)
 
 
 @pytest.fixture(scope="module")
@@ -195,7 +239,9 @@ def _judge(answer, path, complaints):
         return
     reported, independent = answer["reported"], answer["independent"]
     # one formula, summed in two orders; what overflows has no residual in either
-    assert reported == pytest.approx(independent, rel=1e-6, abs=1e-9) or not (np.isfinite(reported) and np.isfinite(independent)), answer
+    assert reported == pytest.approx(independent, rel=1e-6, abs=1e-9) or not (
+        np.isfinite(reported) and np.isfinite(independent)
+    ), answer
 
 
 def test_an_undamaged_file_is_read_and_solved(reader, tmp_path):
@@ -208,31 +254,45 @@ def test_an_undamaged_file_is_read_and_solved(reader, tmp_path):
 
 
 @settings(max_examples=FILES, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
-@given(compressed=st.booleans(), changes=st.one_of(st.tuples(st.lists(inside, min_size=1, max_size=2), st.just([])),
-                                                   st.tuples(st.lists(inside, max_size=1), st.lists(bytewise, min_size=1, max_size=4))))
+@given(
+    compressed=st.booleans(),
+    changes=st.one_of(
+        st.tuples(st.lists(inside, min_size=1, max_size=2), st.just([])),
+        st.tuples(st.lists(inside, max_size=1), st.lists(bytewise, min_size=1, max_size=4)),
+    ),
+)
 def test_damaged_files_are_refused_or_solved(reader, tmp_path_factory, compressed, changes):
     path = damaged(tmp_path_factory.getbasetemp() / "damaged.h5", compressed, *changes)
     _judge(reader.ask(path), path, reader.complaints)
 
 
-@pytest.mark.parametrize("words, change", [
-    ("/contacts/normal says that it has 1000000000000 rows, which are not in the file", (claimed, "contacts/normal", 10**12)),
-    ("/bodies/velocity says that it has 12 rows, which are not in the file", (claimed, "bodies/velocity", 12)),
-    ("/contacts/body must hold whole numbers", (instead, "contacts/body", np.zeros((12, 2)))),
-    ("/contacts/friction must hold floating-point numbers", (instead, "contacts/friction", "text")),
-    ("/contacts/friction has 11 rows where 12 are needed", (instead, "contacts/friction", np.zeros(11))),
-    ("/contacts/friction must have 1 column(s)", (instead, "contacts/friction", np.zeros((12, 1)))),
-    ("has no dataset /contacts/normal", (without, "contacts")),
-    ("has no dataset /contacts/lever", (instead, "contacts/lever", h5py.SoftLink("/nowhere"))),
-    ("contact 11 names body 13: there are 13, counted from 0", (value, "contacts/body", 1, 13)),
-    ("contact 11 names body -1", (value, "contacts/body", 1, -1)),
-    ("is not a contact problem of format 1, but of 2", (attribute, "format", 2)),
-    ("has no usable attribute format", (attribute, "format", "one")),
-    ("has no attribute format", (attribute, "format", None)),
-    ("has no usable attribute time_step", (attribute, "time_step", np.zeros(3))),
-    ("has the time_step nan: it must be positive and finite", (attribute, "time_step", float("nan"))),
-    ("body 0 has the position (nan, 0): it must be finite", (value, "bodies/position", 0, float("nan"))),  # by the solver
-])
+@pytest.mark.parametrize(
+    "words, change",
+    [
+        (
+            "/contacts/normal says that it has 1000000000000 rows, which are not in the file",
+            (claimed, "contacts/normal", 10**12),
+        ),
+        ("/bodies/velocity says that it has 12 rows, which are not in the file", (claimed, "bodies/velocity", 12)),
+        ("/contacts/body must hold whole numbers", (instead, "contacts/body", np.zeros((12, 2)))),
+        ("/contacts/friction must hold floating-point numbers", (instead, "contacts/friction", "text")),
+        ("/contacts/friction has 11 rows where 12 are needed", (instead, "contacts/friction", np.zeros(11))),
+        ("/contacts/friction must have 1 column(s)", (instead, "contacts/friction", np.zeros((12, 1)))),
+        ("has no dataset /contacts/normal", (without, "contacts")),
+        ("has no dataset /contacts/lever", (instead, "contacts/lever", h5py.SoftLink("/nowhere"))),
+        ("contact 11 names body 13: there are 13, counted from 0", (value, "contacts/body", 1, 13)),
+        ("contact 11 names body -1", (value, "contacts/body", 1, -1)),
+        ("is not a contact problem of format 1, but of 2", (attribute, "format", 2)),
+        ("has no usable attribute format", (attribute, "format", "one")),
+        ("has no attribute format", (attribute, "format", None)),
+        ("has no usable attribute time_step", (attribute, "time_step", np.zeros(3))),
+        ("has the time_step nan: it must be positive and finite", (attribute, "time_step", float("nan"))),
+        (
+            "body 0 has the position (nan, 0): it must be finite",
+            (value, "bodies/position", 0, float("nan")),
+        ),  # by the solver
+    ],
+)
 def test_messages(reader, tmp_path, words, change):
     path = damaged(tmp_path / "step.h5", inside=[change])
     answer = reader.ask(path)

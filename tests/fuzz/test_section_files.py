@@ -21,11 +21,77 @@ DATA = yaml.safe_load(TEXT)
 
 # What people and scripts write by mistake, and what breaks programs. Text that begins with @ goes into the file as it is.
 HOSTILE = [
-    None, True, "", "x", "DP", "rock", [], {}, [[]], [1], [1, 2, 3], {"x": 1}, 0, 1, -1, 2, 300.0, 0.5, -0.0, 1e-300, 5e-324, 1e-6, 1e6, 1e15, 1e16, 1e308,
-    -1e308, float("inf"), float("-inf"), float("nan"), 2**31, 2**63, 10**12, 10**400, -(10**400), "@" + "9" * 5000, "@0x10", "@1_000", "@1:30", "@010", "@.5e3",
-    "@1e400", "@!!int x", "@!!binary AAAA", "@!!set {a, b}", "@2020-01-02", "@*rock", "@*nothing", "@&again [*again]", "@&rock {}", "@<<", "@- 1", "@? [1]", "@{[1]: 2}",
-    "@{a: 1, a: 2}", "@" + "[" * 60 + "]" * 60, "@" + "[" * 3000, "@!!python/object:os.system x", "\x1b[2J", "a\nb", "\u2028", "long " * 50, [1e7, 1e7], [0.0, 0.0],
-    [[0, 0], [1, 0]], [[0.0, 0.0], [1e-9, 0.0], [0.0, 1e-9]], "motion", "linear", "uniform_by_number", "@\ud7ff"]
+    None,
+    True,
+    "",
+    "x",
+    "DP",
+    "rock",
+    [],
+    {},
+    [[]],
+    [1],
+    [1, 2, 3],
+    {"x": 1},
+    0,
+    1,
+    -1,
+    2,
+    300.0,
+    0.5,
+    -0.0,
+    1e-300,
+    5e-324,
+    1e-6,
+    1e6,
+    1e15,
+    1e16,
+    1e308,
+    -1e308,
+    float("inf"),
+    float("-inf"),
+    float("nan"),
+    2**31,
+    2**63,
+    10**12,
+    10**400,
+    -(10**400),
+    "@" + "9" * 5000,
+    "@0x10",
+    "@1_000",
+    "@1:30",
+    "@010",
+    "@.5e3",
+    "@1e400",
+    "@!!int x",
+    "@!!binary AAAA",
+    "@!!set {a, b}",
+    "@2020-01-02",
+    "@*rock",
+    "@*nothing",
+    "@&again [*again]",
+    "@&rock {}",
+    "@<<",
+    "@- 1",
+    "@? [1]",
+    "@{[1]: 2}",
+    "@{a: 1, a: 2}",
+    "@" + "[" * 60 + "]" * 60,
+    "@" + "[" * 3000,
+    "@!!python/object:os.system x",
+    "\x1b[2J",
+    "a\nb",
+    "\u2028",
+    "long " * 50,
+    [1e7, 1e7],
+    [0.0, 0.0],
+    [[0, 0], [1, 0]],
+    [[0.0, 0.0], [1e-9, 0.0], [0.0, 1e-9]],
+    "motion",
+    "linear",
+    "uniform_by_number",
+    "@\ud7ff",
+]
 
 
 def places(value, path=()):
@@ -41,15 +107,31 @@ NUMBERS = st.one_of(st.floats(), st.integers(), st.floats(-10, 10), st.integers(
 VALUES = st.one_of(st.sampled_from(HOSTILE), NUMBERS, st.text(max_size=20))
 CHANGES = st.one_of(
     st.tuples(st.just("set"), st.sampled_from(PLACES), VALUES),
-    st.tuples(st.just("scale"), st.sampled_from(PLACES), st.one_of(st.floats(-2, 3), st.sampled_from([1e-3, 1e3, -1, 0, 1e-9, 1e9]))),
+    st.tuples(
+        st.just("scale"),
+        st.sampled_from(PLACES),
+        st.one_of(st.floats(-2, 3), st.sampled_from([1e-3, 1e3, -1, 0, 1e-9, 1e9])),
+    ),
     st.tuples(st.just("take"), st.sampled_from(PLACES), st.none()),
     st.tuples(st.just("twice"), st.sampled_from(PLACES), st.none()),
     st.tuples(st.just("swap"), st.sampled_from(PLACES), st.sampled_from(PLACES)),
-    st.tuples(st.just("turn"), st.sampled_from([p for p in PLACES if p[-1] in ("vertices", "walls", "layers", "diameter")]), st.none()))
+    st.tuples(
+        st.just("turn"),
+        st.sampled_from([p for p in PLACES if p[-1] in ("vertices", "walls", "layers", "diameter")]),
+        st.none(),
+    ),
+)
 BYTES = st.one_of(
     st.tuples(st.just("cut"), st.integers(0, len(TEXT)), st.none()),
-    st.tuples(st.just("put"), st.integers(0, len(TEXT)), st.one_of(st.binary(max_size=6), st.sampled_from([b"\t", b"\x00", b"\xff\xfe", b": ", b"- ", b"&rock ", b"*rock "]))),
-    st.tuples(st.just("drop"), st.integers(0, len(TEXT)), st.integers(1, 200)))
+    st.tuples(
+        st.just("put"),
+        st.integers(0, len(TEXT)),
+        st.one_of(
+            st.binary(max_size=6), st.sampled_from([b"\t", b"\x00", b"\xff\xfe", b": ", b"- ", b"&rock ", b"*rock "])
+        ),
+    ),
+    st.tuples(st.just("drop"), st.integers(0, len(TEXT)), st.integers(1, 200)),
+)
 
 
 def holder(data, path):
@@ -59,7 +141,11 @@ def holder(data, path):
             data = data[key]
         except (KeyError, IndexError, TypeError):
             return None, None
-    there = path[-1] in data if isinstance(data, dict) else isinstance(data, list) and isinstance(path[-1], int) and path[-1] < len(data)
+    there = (
+        path[-1] in data
+        if isinstance(data, dict)
+        else isinstance(data, list) and isinstance(path[-1], int) and path[-1] < len(data)
+    )
     return (data, path[-1]) if there else (None, None)
 
 
@@ -95,6 +181,7 @@ def change(data, kind, path, what):
 
 def written(data):
     """YAML with what begins with @ as it is."""
+
     class Dumper(yaml.SafeDumper):
         def ignore_aliases(self, data):
             return True
@@ -127,7 +214,9 @@ def check(raw: bytes):
                 assert min(counts) >= 1 and sum(counts) <= 10_000_000 and made.dip > -0.01 and made.key("settled")
             except SectionError as error:
                 message = str(error)
-                assert str(path) in message and "\n" not in message and message.isprintable() and 20 < len(message) < 1500, message
+                assert (
+                    str(path) in message and "\n" not in message and message.isprintable() and 20 < len(message) < 1500
+                ), message
 
 
 @fuzzing.settings("NONSMOOTH_FUZZ_SECTIONS", 150)
@@ -144,5 +233,7 @@ def test_changed_values(changes):
 def test_changed_bytes(changes):
     raw = TEXT.encode()
     for kind, at, what in changes:
-        raw = raw[:at] if kind == "cut" else raw[:at] + what + raw[at:] if kind == "put" else raw[:at] + raw[at + what:]
+        raw = (
+            raw[:at] if kind == "cut" else raw[:at] + what + raw[at:] if kind == "put" else raw[:at] + raw[at + what :]
+        )
     check(raw)

@@ -5,7 +5,11 @@ import shutil
 import time
 from dataclasses import dataclass
 
-LAW = ("contacts", "bonds", "impacts")  # modules of checks that a mutant with checks runs: which notices which is a table of its own
+LAW = (
+    "contacts",
+    "bonds",
+    "impacts",
+)  # modules of checks that a mutant with checks runs: which notices which is a table of its own
 LIMIT = 300.0  # s, for the tests of one mutant
 
 CAUGHT, CRASHED, TIMEOUT, SURVIVED, BROKEN = "caught", "crashed", "timeout", "SURVIVED", "BROKEN"
@@ -41,7 +45,12 @@ def run(place, kinds, number, limit, *options):
     """Runs the tests of GoogleTest and of pytest, the quick kinds first: yields (kind, status, output); ``options``: of pytest."""
     if kinds["gtest"]:
         # ccache may have made the path of a test's source, by which it finds its data, one from the build folder on
-        yield "gtest", *place.run([place.tests, "--gtest_brief=1", f"--gtest_filter={':'.join(kinds['gtest'])}"], number, limit, place.tests.parent)
+        yield "gtest", *place.run(
+            [place.tests, "--gtest_brief=1", f"--gtest_filter={':'.join(kinds['gtest'])}"],
+            number,
+            limit,
+            place.tests.parent,
+        )
     if kinds["plain"]:
         yield "plain", *place.pytest(["--noconftest", *options, *kinds["plain"]], False, number, limit)
     if kinds["yade"]:
@@ -52,7 +61,21 @@ def verify(place, names, number=0):
     """Runs checks, by name or module; returns ({check: holds}, output). One that is missing did not come to its end."""
     out = place.folder / "verify"
     shutil.rmtree(out, ignore_errors=True)
-    status, said = place.run([place.source / "scripts" / "yade-nonsmooth", "scripts/verify.py", "--quick", "--threads", "1", "--out", out, "--only", *names], number, LIMIT)
+    status, said = place.run(
+        [
+            place.source / "scripts" / "yade-nonsmooth",
+            "scripts/verify.py",
+            "--quick",
+            "--threads",
+            "1",
+            "--out",
+            out,
+            "--only",
+            *names,
+        ],
+        number,
+        LIMIT,
+    )
     holds = {}
     for path in (out / "checks").glob("*/result.json"):
         result = json.loads(path.read_text())
@@ -68,7 +91,9 @@ def sound(place, tests, checks):
             wrong.append(f"{kind}: tests end with status {status} on the copy without a mutant:\n{said[-3000:]}")
     if checks:
         holds, said = verify(place, checks)
-        wrong += [f"the check {name} fails on the copy without a mutant" for name, good in holds.items() if not good] or ([] if holds else [said[-3000:]])
+        wrong += [
+            f"the check {name} fails on the copy without a mutant" for name, good in holds.items() if not good
+        ] or ([] if holds else [said[-3000:]])
     return wrong, holds
 
 
@@ -102,4 +127,8 @@ def _verdict(place, mutated, number, known):
     holds, said = verify(place, LAW, number)
     noticed = frozenset(name for name in known if not holds.get(name, False))
     missed = [name for name in kinds["check"] if name not in noticed]
-    return Verdict(SURVIVED, f"not noticed by {', '.join(missed)}", noticed=noticed) if missed else Verdict(CAUGHT, f"{len(noticed)} checks", noticed=noticed)
+    return (
+        Verdict(SURVIVED, f"not noticed by {', '.join(missed)}", noticed=noticed)
+        if missed
+        else Verdict(CAUGHT, f"{len(noticed)} checks", noticed=noticed)
+    )

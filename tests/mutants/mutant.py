@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SYMBOL = "nonsmooth_mutant"  # of C, so that Python can set it too
-HEADER = f"extern \"C\" int {SYMBOL};\n"
+HEADER = f'extern "C" int {SYMBOL};\n'
 SOURCE = f"""#include <cstdlib>
 extern "C" {{
 int {SYMBOL} = [] {{ const char* number = std::getenv("NONSMOOTH_MUTANT"); return number ? std::atoi(number) : 0; }}();
@@ -63,14 +63,19 @@ def place(root, mutated, file, old):
     path = Path(root) / file
     text = path.read_text() if path.exists() else ""
     if text.count(old) != 1:
-        raise TableError(f"mutant {mutated.name}: `{old}` occurs {text.count(old)} times in {file} and must occur once: adapt tests/mutants/mutants")
+        raise TableError(
+            f"mutant {mutated.name}: `{old}` occurs {text.count(old)} times in {file} and must occur once: adapt tests/mutants/mutants"
+        )
     return text, text.index(old)
 
 
 def switched(old, alternatives):
     """``old``, an expression or a statement of C++, or one of the ``alternatives`` {number: text} where that is chosen."""
     if old.endswith(";"):
-        return " ".join(f"if ({SYMBOL} == {number}) {{ {new} }} else" for number, new in alternatives.items()) + f" {{ {old} }}"
+        return (
+            " ".join(f"if ({SYMBOL} == {number}) {{ {new} }} else" for number, new in alternatives.items())
+            + f" {{ {old} }}"
+        )
     return "(" + " : ".join(f"{SYMBOL} == {number} ? ({new})" for number, new in alternatives.items()) + f" : ({old}))"
 
 
@@ -86,7 +91,7 @@ def switch_all(root, mutants):
         for (begin, old), alternatives in sorted(found.items(), reverse=True):
             if before is not None and begin + len(old) > before:
                 raise TableError(f"mutants {sorted(alternatives)} of {file} stand in what another one changes: `{old}`")
-            text, before = text[:begin] + switched(old, alternatives) + text[begin + len(old):], begin
+            text, before = text[:begin] + switched(old, alternatives) + text[begin + len(old) :], begin
         path.write_text(text)
     (Path(root) / "pkg" / "contact" / "mutant.hpp").write_text(HEADER)
     (Path(root) / "pkg" / "contact" / "mutant.cpp").write_text(SOURCE)

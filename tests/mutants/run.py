@@ -32,7 +32,14 @@ OUTCOMES = (judging.CAUGHT, judging.CRASHED, judging.TIMEOUT, judging.SURVIVED, 
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="run.py", description=__doc__.splitlines()[0])
-    parser.add_argument("build", nargs="?", default=ROOT / "build", type=Path, metavar="BUILD", help="build folder of the checkout (default: build)")
+    parser.add_argument(
+        "build",
+        nargs="?",
+        default=ROOT / "build",
+        type=Path,
+        metavar="BUILD",
+        help="build folder of the checkout (default: build)",
+    )
     parser.add_argument("--all", action="store_true", help="all mutants")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="these mutants")
     parser.add_argument("--base", metavar="COMMIT", help="the quick part looks at what has changed since")
@@ -59,7 +66,9 @@ def git(*words):
 def changed(base):
     """Files that have changed since ``base``, committed or not; none where there is no git."""
     if base is None:
-        here, left = git("rev-parse", "HEAD"), git("merge-base", "HEAD", "main") or git("merge-base", "HEAD", "origin/main")
+        here, left = git("rev-parse", "HEAD"), git("merge-base", "HEAD", "main") or git(
+            "merge-base", "HEAD", "origin/main"
+        )
         base = left[0] if left and left != here else "HEAD~1"
     return set(git("diff", "--name-only", base))
 
@@ -69,7 +78,11 @@ def quick(files):
     dice = random.Random(1)  # the same ones for the same change
     chosen = [m for m in MUTANTS if any(t.startswith("check:") for t in m.tests)]
     fast = [m for m in MUTANTS if not m.slow and m not in chosen]
-    near = [m for m in fast if m.files & files or any(f"tests/yade/{t.removeprefix('plain:').partition('::')[0]}" in files for t in m.tests)]
+    near = [
+        m
+        for m in fast
+        if m.files & files or any(f"tests/yade/{t.removeprefix('plain:').partition('::')[0]}" in files for t in m.tests)
+    ]
     chosen += near if len(near) <= COUNT - len(chosen) else dice.sample(near, COUNT - len(chosen))
     others = [m for m in fast if m not in chosen]
     wanted = max(0, COUNT - len(chosen))
@@ -83,7 +96,9 @@ def built(work, main_build, chosen):
         return main_build
     began = time.monotonic()
     mutated_sources(work / "source", MUTANTS)
-    targets = ["nonsmooth_gate", "nonsmooth_engines", "nonsmooth_contact_module"] + ["contact_tests"] * any(t.startswith("gtest:") for m in chosen for t in m.tests)
+    targets = ["nonsmooth_gate", "nonsmooth_engines", "nonsmooth_contact_module"] + ["contact_tests"] * any(
+        t.startswith("gtest:") for m in chosen for t in m.tests
+    )
     build(work / "source", work / "build", main_build, targets)
     print(f"built the copy with the mutants of the C++, {time.monotonic() - began:.0f} s", flush=True)
     return work / "build"
@@ -95,13 +110,17 @@ def sound(places, chosen):
     for m in chosen:
         for test in m.tests:
             if not test.startswith("check:"):
-                files.setdefault(test.partition("::")[0], set()).add(test)  # a file's tests in one place, for what they share
+                files.setdefault(test.partition("::")[0], set()).add(
+                    test
+                )  # a file's tests in one place, for what they share
     parts = [[] for _ in places]
     for k, tests in enumerate(sorted(files.values(), key=len, reverse=True)):
         parts[k % len(parts)] += sorted(tests)
     checks = judging.LAW if any(t.startswith("check:") for m in chosen for t in m.tests) else ()
     with ThreadPoolExecutor(len(places)) as pool:
-        found = list(pool.map(lambda k: judging.sound(places[k], parts[k], checks if k == 0 else ()), range(len(places))))
+        found = list(
+            pool.map(lambda k: judging.sound(places[k], parts[k], checks if k == 0 else ()), range(len(places)))
+        )
     wrong = [line for lines, _ in found for line in lines]
     if wrong:
         sys.exit("mutation: " + "\n".join(wrong))
@@ -120,7 +139,10 @@ def try_all(places, chosen, known):
             verdict = judging.judge(place, mutated, known)
         finally:
             free.put(place)
-        print(f"{verdict.outcome:9s} {verdict.seconds:5.1f} s  {mutated.name}: {mutated.broken}  [{verdict.by}]", flush=True)
+        print(
+            f"{verdict.outcome:9s} {verdict.seconds:5.1f} s  {mutated.name}: {mutated.broken}  [{verdict.by}]",
+            flush=True,
+        )
         return verdict
 
     with ThreadPoolExecutor(len(places)) as pool:
@@ -137,16 +159,33 @@ def show_checks(verdicts, known):
     width = max(map(len, known))
     print(f"\n{'check':{width}s}  " + "  ".join(m.name for m in law))
     for name in sorted(known):
-        print(f"{name:{width}s}  " + "  ".join(f"{'caught' if name in v.noticed else '.':{len(m.name)}s}" for m, v in law.items()))
+        print(
+            f"{name:{width}s}  "
+            + "  ".join(f"{'caught' if name in v.noticed else '.':{len(m.name)}s}" for m, v in law.items())
+        )
     whole = len(law) == sum(any(t.startswith("check:") for t in m.tests) for m in MUTANTS)
-    return [f"the check {name} notices no mutant" for name in sorted(known) if whole and not any(name in v.noticed for v in law.values())]
+    return [
+        f"the check {name} notices no mutant"
+        for name in sorted(known)
+        if whole and not any(name in v.noticed for v in law.values())
+    ]
 
 
 def write(path, verdicts, counts, seconds):
     """What became of the mutants as JSON, with the commit."""
-    found = {"commit": (git("rev-parse", "HEAD") or [None])[0], "changed_since": bool(git("status", "--porcelain", "--untracked-files=no")), "table": len(MUTANTS),
-             "tried": len(verdicts), "wall_s": seconds, **{name.lower(): count for name, count in counts.items()}, "known_to_survive": len(KNOWN),
-             "mutants": [{"name": m.name, "file": m.edits[0][0], "broken": m.broken, "outcome": v.outcome.lower(), "by": v.by} for m, v in verdicts.items()]}
+    found = {
+        "commit": (git("rev-parse", "HEAD") or [None])[0],
+        "changed_since": bool(git("status", "--porcelain", "--untracked-files=no")),
+        "table": len(MUTANTS),
+        "tried": len(verdicts),
+        "wall_s": seconds,
+        **{name.lower(): count for name, count in counts.items()},
+        "known_to_survive": len(KNOWN),
+        "mutants": [
+            {"name": m.name, "file": m.edits[0][0], "broken": m.broken, "outcome": v.outcome.lower(), "by": v.by}
+            for m, v in verdicts.items()
+        ],
+    }
     write_atomically(path, (json.dumps(found, indent=1) + "\n").encode())
 
 
@@ -160,7 +199,13 @@ def main():
         for m in MUTANTS:
             for file, old, _ in m.edits:
                 look_up(ROOT, m, file, old)
-        chosen = [m for m in MUTANTS if m.name in args.only] if args.only else list(MUTANTS) if args.all else quick(changed(args.base))
+        chosen = (
+            [m for m in MUTANTS if m.name in args.only]
+            if args.only
+            else list(MUTANTS)
+            if args.all
+            else quick(changed(args.base))
+        )
         main_build = args.build.resolve()
         work = main_build / "mutants"
         work.mkdir(exist_ok=True)
@@ -179,7 +224,9 @@ def main():
     problems = show_checks(verdicts, known)
     counts = {outcome: sum(v.outcome == outcome for v in verdicts.values()) for outcome in OUTCOMES}
     seconds = round(time.monotonic() - began)
-    print(f"\n{len(verdicts)} mutants of {len(MUTANTS)}: {', '.join(f'{count} {outcome}' for outcome, count in counts.items())}; {seconds} s")
+    print(
+        f"\n{len(verdicts)} mutants of {len(MUTANTS)}: {', '.join(f'{count} {outcome}' for outcome, count in counts.items())}; {seconds} s"
+    )
     write(work / "verdicts.json", verdicts, counts, seconds)
     for m, v in verdicts.items():
         if v.outcome in (judging.SURVIVED, judging.BROKEN):

@@ -47,15 +47,30 @@ def mutated_sources(target, mutants):
 
 def build(source, folder, main_build, targets):
     """Configures the copy as ``main_build`` is, and builds the targets. Raises BuildError."""
-    known = dict(line.split("=", 1) for line in (main_build / "CMakeCache.txt").read_text().splitlines() if "=" in line and line[0] not in "#/")
-    options = [f"-D{key}={value}" for key, value in known.items() if key.partition(":")[0] in ("YADE_PREFIX", "YADE_HEADERS", "CMAKE_CXX_COMPILER_LAUNCHER")]
+    known = dict(
+        line.split("=", 1)
+        for line in (main_build / "CMakeCache.txt").read_text().splitlines()
+        if "=" in line and line[0] not in "#/"
+    )
+    options = [
+        f"-D{key}={value}"
+        for key, value in known.items()
+        if key.partition(":")[0] in ("YADE_PREFIX", "YADE_HEADERS", "CMAKE_CXX_COMPILER_LAUNCHER")
+    ]
     if not any("LAUNCHER" in o for o in options) and shutil.which("ccache"):
         options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
     # -O1: fast enough for tests of seconds, and much of the time goes into YADE's headers
-    options += ["-DCMAKE_BUILD_TYPE=Mutation", "-DCMAKE_CXX_FLAGS_MUTATION=-O1 -DNDEBUG", f"-DCMAKE_CXX_FLAGS=-include {source}/pkg/contact/mutant.hpp",
-                "-DNONSMOOTH_BENCHMARKS=OFF", "-DNONSMOOTH_CHECKS=OFF"]
+    options += [
+        "-DCMAKE_BUILD_TYPE=Mutation",
+        "-DCMAKE_CXX_FLAGS_MUTATION=-O1 -DNDEBUG",
+        f"-DCMAKE_CXX_FLAGS=-include {source}/pkg/contact/mutant.hpp",
+        "-DNONSMOOTH_BENCHMARKS=OFF",
+        "-DNONSMOOTH_CHECKS=OFF",
+    ]
     for command in (["cmake", "-G", "Ninja", "-S", source, "-B", folder, *options], ["ninja", "-C", folder, *targets]):
-        done = subprocess.run([str(c) for c in command], env=TOOLS, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        done = subprocess.run(
+            [str(c) for c in command], env=TOOLS, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
         if done.returncode:
             raise BuildError(f"the copy could not be built:\n{done.stdout[-6000:]}")
 
@@ -65,7 +80,14 @@ class Place:
 
     def __init__(self, folder, built, main_build):
         """``built``: the build whose libraries are used; ``main_build``: that of the checkout, for what only it has."""
-        self.folder, self.source, self.build, self.main_build, self._changes, self._servers = folder, folder / "checkout", folder / "build", main_build, 0, {}
+        self.folder, self.source, self.build, self.main_build, self._changes, self._servers = (
+            folder,
+            folder / "checkout",
+            folder / "build",
+            main_build,
+            0,
+            {},
+        )
         shutil.rmtree(folder, ignore_errors=True)
         copy_sources(self.source)
         self._link_prefix(built / "prefix")
@@ -102,7 +124,7 @@ class Place:
         for file, old, new in mutated.edits:
             text, begin = place(self.source, mutated, file, old)
             kept.setdefault(file, text)
-            self._write(file, text[:begin] + new + text[begin + len(old):])
+            self._write(file, text[:begin] + new + text[begin + len(old) :])
         return lambda: [self._write(file, text) for file, text in kept.items()]
 
     def _write(self, file, text):
@@ -116,8 +138,17 @@ class Place:
         """Runs a command with the mutant of a number, in the checkout or another ``folder``; returns (status, output), the status None where it was stopped
         after ``limit`` seconds."""
         with self._environment(number) as environment:
-            process = subprocess.Popen([str(c) for c in command], env={**CLEAN, **environment}, cwd=folder or self.source, stdin=subprocess.DEVNULL,
-                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
+            process = subprocess.Popen(
+                [str(c) for c in command],
+                env={**CLEAN, **environment},
+                cwd=folder or self.source,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="replace",
+                start_new_session=True,
+            )
             try:
                 said, status = process.communicate(timeout=limit)[0], process.returncode
             except subprocess.TimeoutExpired:
@@ -133,8 +164,15 @@ class Place:
         with self._environment(number) as environment:
             output = Path(environment["TMPDIR"], "said")
             try:
-                status = self._servers[yade].ask({"arguments": ["-p", "no:cacheprovider", "-ra", "-q", *arguments], "environment": environment, "number": number,
-                                                  "output": str(output), "limit": limit})
+                status = self._servers[yade].ask(
+                    {
+                        "arguments": ["-p", "no:cacheprovider", "-ra", "-q", *arguments],
+                        "environment": environment,
+                        "number": number,
+                        "output": str(output),
+                        "limit": limit,
+                    }
+                )
             except OSError as error:
                 self._servers.pop(yade).close()
                 return 3, f"the process that runs pytest has ended ({error})"
@@ -144,7 +182,12 @@ class Place:
     def _environment(self, number):
         """What a mutant's tests find: a cache and temporary files of their own, since nothing that one mutant has made may be taken for another's."""
         with tempfile.TemporaryDirectory(dir=self.folder) as work:
-            yield {"NONSMOOTH_BUILD": str(self.build), "XDG_CACHE_HOME": f"{work}/cache", "TMPDIR": work, "NONSMOOTH_MUTANT": str(number)}
+            yield {
+                "NONSMOOTH_BUILD": str(self.build),
+                "XDG_CACHE_HOME": f"{work}/cache",
+                "TMPDIR": work,
+                "NONSMOOTH_MUTANT": str(number),
+            }
 
     def close(self):
         for server in self._servers.values():
@@ -156,12 +199,25 @@ class Server:
 
     def __init__(self, place, yade):
         asks, answers = os.pipe(), os.pipe()
-        program = [place.source / "scripts" / "yade-nonsmooth", "tests/mutants/server.py"] if yade else ["/usr/bin/python3", "tests/mutants/server.py"]
+        program = (
+            [place.source / "scripts" / "yade-nonsmooth", "tests/mutants/server.py"]
+            if yade
+            else ["/usr/bin/python3", "tests/mutants/server.py"]
+        )
         threads = ["--threads", "1"] if yade else []  # several work side by side
-        environment = {**CLEAN, "NONSMOOTH_BUILD": str(place.build)} | ({} if yade else {"PYTHONPATH": str(place.build / "python")})
+        environment = {**CLEAN, "NONSMOOTH_BUILD": str(place.build)} | (
+            {} if yade else {"PYTHONPATH": str(place.build / "python")}
+        )
         with open(place.folder / f"server-{'yade' if yade else 'plain'}.log", "w") as log:
-            self._process = subprocess.Popen([str(c) for c in (*program, asks[0], answers[1], *threads)], env=environment, cwd=place.source, stdin=subprocess.DEVNULL,
-                                             stdout=log, stderr=log, pass_fds=(asks[0], answers[1]))
+            self._process = subprocess.Popen(
+                [str(c) for c in (*program, asks[0], answers[1], *threads)],
+                env=environment,
+                cwd=place.source,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
+                pass_fds=(asks[0], answers[1]),
+            )
         os.close(asks[0])
         os.close(answers[1])
         self._asks, self._answers = os.fdopen(asks[1], "w"), os.fdopen(answers[0])

@@ -9,51 +9,55 @@
 using namespace nonsmooth::neighbours;
 
 namespace {
-	using Set = std::set<std::pair<int, int>>;
+using Set = std::set<std::pair<int, int>>;
 
-	std::vector<Disk> scattered(int count, double side, double smallest, double largest, unsigned seed, double largestMargin = 0)
-	{
-		std::mt19937                           random(seed);
-		std::uniform_real_distribution<double> place(-side / 2, side / 2), size(std::log(smallest), std::log(largest)), margin(0, 1);
-		std::vector<Disk>                      disks;
-		for (int k = 0; k < count; ++k)
-			disks.push_back({ place(random), place(random), std::exp(size(random)), largestMargin * margin(random) });
-		return disks;
-	}
+std::vector<Disk>
+scattered(int count, double side, double smallest, double largest, unsigned seed, double largestMargin = 0)
+{
+	std::mt19937                           random(seed);
+	std::uniform_real_distribution<double> place(-side / 2, side / 2), size(std::log(smallest), std::log(largest)),
+	        margin(0, 1);
+	std::vector<Disk> disks;
+	for (int k = 0; k < count; ++k)
+		disks.push_back(
+		        { place(random), place(random), std::exp(size(random)), largestMargin * margin(random) });
+	return disks;
+}
 
-	Set everyPair(const std::vector<Disk>& disks, double factor)
-	{
-		Set found;
-		for (int i = 0; i < (int)disks.size(); ++i)
-			for (int j = i + 1; j < (int)disks.size(); ++j) {
-				const Disk &a = disks[i], &b = disks[j];
-				if (a.r < 0 || b.r < 0) continue;
-				const double far = factor * (a.r + b.r) + std::min(a.margin, b.margin);
-				if ((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) < far * far) found.emplace(i, j);
-			}
-		return found;
-	}
+Set everyPair(const std::vector<Disk>& disks, double factor)
+{
+	Set found;
+	for (int i = 0; i < (int)disks.size(); ++i)
+		for (int j = i + 1; j < (int)disks.size(); ++j) {
+			const Disk &a = disks[i], &b = disks[j];
+			if (a.r < 0 || b.r < 0) continue;
+			const double far = factor * (a.r + b.r) + std::min(a.margin, b.margin);
+			if ((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) < far * far) found.emplace(i, j);
+		}
+	return found;
+}
 
-	Set asSet(const Pairs& pairs)
-	{
-		Set found;
-		for (int i = 0; i + 1 < (int)pairs.begin.size(); ++i)
-			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
-				EXPECT_GT(pairs.second[k], i);
-				EXPECT_TRUE(k == pairs.begin[i] || pairs.second[k] > pairs.second[k - 1]) << "in order, and each pair once";
-				found.emplace(i, pairs.second[k]);
-			}
-		return found;
-	}
+Set asSet(const Pairs& pairs)
+{
+	Set found;
+	for (int i = 0; i + 1 < (int)pairs.begin.size(); ++i)
+		for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
+			EXPECT_GT(pairs.second[k], i);
+			EXPECT_TRUE(k == pairs.begin[i] || pairs.second[k] > pairs.second[k - 1])
+			        << "in order, and each pair once";
+			found.emplace(i, pairs.second[k]);
+		}
+	return found;
+}
 
-	Set found(const std::vector<Disk>& disks, double factor, int threads = 1)
-	{
-		DiskGrid grid;
-		Pairs    pairs;
-		grid.build(disks, factor);
-		grid.pairs(threads, pairs);
-		return asSet(pairs);
-	}
+Set found(const std::vector<Disk>& disks, double factor, int threads = 1)
+{
+	DiskGrid grid;
+	Pairs    pairs;
+	grid.build(disks, factor);
+	grid.pairs(threads, pairs);
+	return asSet(pairs);
+}
 }
 
 TEST(DiskGrid, FindsThePairsOfDisksOfManySizes)
@@ -97,18 +101,21 @@ TEST(DiskGrid, DisksFarAwayAndDisksThatAreNotThereDoNoHarm)
 
 TEST(DiskGrid, FindsDisksNearABox)
 {
-	const auto  disks = scattered(800, 80, 0.5, 5, 9);
+	const auto   disks  = scattered(800, 80, 0.5, 5, 9);
 	const double factor = 1.5, margin = 0.3;
-	DiskGrid    grid;
+	DiskGrid     grid;
 	grid.build(disks, 1.2); // boxes may reach farther than disks
 	const double     all = std::numeric_limits<double>::infinity();
 	std::vector<int> near;
-	for (const Box box : { Box { -3, 2, 9, 4 }, Box { 5, 5, 5, 5 }, Box { -all, -1, all, 1 }, Box { 500, 500, 501, 501 } }) {
+	for (const Box box :
+	     { Box { -3, 2, 9, 4 }, Box { 5, 5, 5, 5 }, Box { -all, -1, all, 1 }, Box { 500, 500, 501, 501 } }) {
 		std::vector<int> expected;
 		for (int i = 0; i < (int)disks.size(); ++i) {
 			const Disk&  d   = disks[i];
 			const double out = factor * d.r + margin;
-			if (d.x >= box.xMin - out && d.x <= box.xMax + out && d.y >= box.yMin - out && d.y <= box.yMax + out) expected.push_back(i);
+			if (d.x >= box.xMin - out && d.x <= box.xMax + out && d.y >= box.yMin - out
+			    && d.y <= box.yMax + out)
+				expected.push_back(i);
 		}
 		grid.near(box, factor, margin, near);
 		EXPECT_EQ(near, expected);

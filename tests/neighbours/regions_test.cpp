@@ -8,42 +8,42 @@
 using namespace nonsmooth::neighbours;
 
 namespace {
-	constexpr double width = 3;
+constexpr double width = 3;
 
-	struct Swarm {
-		std::vector<Disk>   disks;
-		std::vector<Vector> velocities;
-	};
+struct Swarm {
+	std::vector<Disk>   disks;
+	std::vector<Vector> velocities;
+};
 
-	/// Disks that turn about the origin, so that those far from each other differ by more than neighbours do.
-	Swarm turning(int count, double side, unsigned seed)
-	{
-		std::mt19937                           random(seed);
-		std::uniform_real_distribution<double> place(-side / 2, side / 2), other(-0.5, 0.5);
-		Swarm                                  swarm;
-		for (int k = 0; k < count; ++k) {
-			const double x = place(random), y = place(random);
-			swarm.disks.push_back({ x, y, 0.3 });
-			swarm.velocities.push_back({ -y + other(random), x + other(random) });
-		}
-		return swarm;
+/// Disks that turn about the origin, so that those far from each other differ by more than neighbours do.
+Swarm turning(int count, double side, unsigned seed)
+{
+	std::mt19937                           random(seed);
+	std::uniform_real_distribution<double> place(-side / 2, side / 2), other(-0.5, 0.5);
+	Swarm                                  swarm;
+	for (int k = 0; k < count; ++k) {
+		const double x = place(random), y = place(random);
+		swarm.disks.push_back({ x, y, 0.3 });
+		swarm.velocities.push_back({ -y + other(random), x + other(random) });
 	}
+	return swarm;
+}
 
-	/// A disk in each of 25 squares, row by row.
-	Regions fiveByFive()
-	{
-		std::vector<Disk> disks;
-		for (int y = 0; y < 5; ++y)
-			for (int x = 0; x < 5; ++x)
-				disks.push_back({ width * (x + 0.5), width * (y + 0.5), 0.3 });
-		Regions regions;
-		regions.build(disks, width);
-		return regions;
-	}
+/// A disk in each of 25 squares, row by row.
+Regions fiveByFive()
+{
+	std::vector<Disk> disks;
+	for (int y = 0; y < 5; ++y)
+		for (int x = 0; x < 5; ++x)
+			disks.push_back({ width * (x + 0.5), width * (y + 0.5), 0.3 });
+	Regions regions;
+	regions.build(disks, width);
+	return regions;
+}
 
-	bool isAroundTheMiddle(int k) { return std::abs(k % 5 - 2) <= 1 && std::abs(k / 5 - 2) <= 1; }
+bool isAroundTheMiddle(int k) { return std::abs(k % 5 - 2) <= 1 && std::abs(k / 5 - 2) <= 1; }
 
-	double difference(const Vector& a, const Vector& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+double difference(const Vector& a, const Vector& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 }
 
 TEST(Regions, BoundTheDifferencesOfDisksNearEachOtherAndNotThoseOfAll)
@@ -59,9 +59,9 @@ TEST(Regions, BoundTheDifferencesOfDisksNearEachOtherAndNotThoseOfAll)
 	double largest = 0;
 	for (int i = 0; i < 600; ++i)
 		for (int j = i + 1; j < 600; ++j) {
-			const Disk &a = swarm.disks[i], &b = swarm.disks[j];
+			const Disk & a = swarm.disks[i], &b = swarm.disks[j];
 			const double d = difference(swarm.velocities[i], swarm.velocities[j]);
-			largest = std::max(largest, d);
+			largest        = std::max(largest, d);
 			if (std::abs(a.x - b.x) > width || std::abs(a.y - b.y) > width) continue;
 			EXPECT_GE(found[regions.of(i)], d);
 			EXPECT_GE(found[regions.of(j)], d);

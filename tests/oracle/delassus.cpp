@@ -18,8 +18,14 @@ namespace {
 	/// What the motion (v_x, v_y, ω) of one body adds to (U_n, U_t, w) of a contact.
 	using Rows = std::array<std::array<double, 3>, 3>;
 
-	Rows rowsOfI(const Contact& c) { return { { { -c.nx, -c.ny, -c.leverNi }, { c.ny, -c.nx, -c.leverTi }, { 0, 0, -1 } } }; }
-	Rows rowsOfJ(const Contact& c) { return { { { c.nx, c.ny, c.leverNj }, { -c.ny, c.nx, c.leverTj }, { 0, 0, 1 } } }; }
+	Rows rowsOfI(const Contact& c)
+	{
+		return { { { -c.nx, -c.ny, -c.leverNi }, { c.ny, -c.nx, -c.leverTi }, { 0, 0, -1 } } };
+	}
+	Rows rowsOfJ(const Contact& c)
+	{
+		return { { { c.nx, c.ny, c.leverNj }, { -c.ny, c.nx, c.leverTj }, { 0, 0, 1 } } };
+	}
 
 	std::array<double, 3> diagonal(const InverseMass& m) { return { m.x, m.y, m.w }; }
 
@@ -31,7 +37,9 @@ namespace {
 			const Contact& c = problem.contacts[k];
 			for (const std::int32_t body : { c.i, c.j })
 				if (body < 0 || std::size_t(body) >= problem.bodyCount())
-					throw std::invalid_argument("contact " + std::to_string(k) + " names body " + std::to_string(body) + ", which is not there");
+					throw std::invalid_argument(
+					        "contact " + std::to_string(k) + " names body " + std::to_string(body)
+					        + ", which is not there");
 			at[c.i].emplace_back(k, rowsOfI(c));
 			at[c.j].emplace_back(k, rowsOfJ(c));
 		}
@@ -48,14 +56,16 @@ namespace {
 		const auto       at = contactsAtBodies(problem);
 		for (std::size_t b = 0; b < at.size(); ++b) {
 			const auto inverse = diagonal(problem.inverseMass[b]);
-			if (problem.inverseMass[b].isFixed()) continue; // a wall couples nothing, however many contacts it has
+			if (problem.inverseMass[b].isFixed())
+				continue; // a wall couples nothing, however many contacts it has
 			for (const auto& [k, left] : at[b])
 				for (const auto& [l, right] : at[b]) {
 					Block& block = rows[k].emplace(l, Block {}).first->second;
 					for (int column = 0; column < size; ++column)
 						for (int row = 0; row < size; ++row)
 							for (int d = 0; d < 3; ++d)
-								block[column * size + row] += left[row][d] * inverse[d] * right[column][d];
+								block[column * size + row] += left[row][d] * inverse[d]
+								        * right[column][d];
 				}
 		}
 		return rows;
@@ -78,9 +88,9 @@ namespace {
 Delassus delassus(const Problem& problem, bool withRolling)
 {
 	Delassus          w;
-	const int         size  = w.size = withRolling ? 3 : 2;
-	const std::size_t count = problem.contactCount();
-	auto              rows  = product(problem, size);
+	const int         size = w.size = withRolling ? 3 : 2;
+	const std::size_t count         = problem.contactCount();
+	auto              rows          = product(problem, size);
 
 	// D; a row that no motion reaches gets the diagonal 1 and nothing to do, so that its impulse is 0
 	w.scale.resize(count * size);
@@ -88,7 +98,7 @@ Delassus delassus(const Problem& problem, bool withRolling)
 	for (std::size_t k = 0; k < count; ++k) {
 		Block& own = rows[k][k];
 		for (int row = 0; row < size; ++row) {
-			double& entry          = own[row * size + row];
+			double& entry           = own[row * size + row];
 			idle[k * size + row]    = !(entry > 0);
 			w.scale[k * size + row] = entry > 0 ? 1 / std::sqrt(entry) : 1;
 			if (!(entry > 0)) entry = 1;
@@ -104,10 +114,13 @@ Delassus delassus(const Problem& problem, bool withRolling)
 			w.q[k * size + row] = idle[k * size + row] ? 0 : w.scale[k * size + row] * u[row];
 		for (auto& [l, block] : rows[k]) {
 			for (int row = 0; row < size; ++row)
-				w.q[k * size + row] -= w.scale[k * size + row] * (idle[k * size + row] ? 0 : block[row]) * problem.contacts[l].adhesion;
+				w.q[k * size + row] -= w.scale[k * size + row] * (idle[k * size + row] ? 0 : block[row])
+				        * problem.contacts[l].adhesion;
 			for (int column = 0; column < size; ++column)
 				for (int row = 0; row < size; ++row)
-					w.blocks.push_back(block[column * size + row] * w.scale[k * size + row] * w.scale[l * size + column]);
+					w.blocks.push_back(
+					        block[column * size + row] * w.scale[k * size + row]
+					        * w.scale[l * size + column]);
 			w.column.push_back(l);
 		}
 		w.begin.push_back(w.column.size());
@@ -138,7 +151,8 @@ std::vector<double> Delassus::scaled(const Problem& problem, const std::vector<I
 {
 	std::vector<double> p(scale.size());
 	for (std::size_t k = 0; k < impulses.size(); ++k) {
-		const std::array<double, 3> rows { impulses[k].n + problem.contacts[k].adhesion, impulses[k].t, impulses[k].r };
+		const std::array<double, 3> rows { impulses[k].n + problem.contacts[k].adhesion, impulses[k].t,
+			                           impulses[k].r };
 		for (int row = 0; row < size; ++row)
 			p[k * size + row] = rows[row] / (scale[k * size + row] * speed);
 	}
@@ -152,14 +166,14 @@ std::vector<Twist> velocities(const Problem& problem, const std::vector<Impulse>
 		const Contact&              c = problem.contacts[k];
 		const std::array<double, 3> p { impulses[k].n, impulses[k].t, impulses[k].r };
 		const auto                  push = [&](std::int32_t body, const Rows& rows) {
-			const auto            inverse = diagonal(problem.inverseMass[body]);
-			std::array<double, 3> change {};
-			for (int d = 0; d < 3; ++d)
-			        for (int row = 0; row < 3; ++row)
-			                change[d] += inverse[d] * rows[row][d] * p[row];
-			v[body].x += change[0];
-			v[body].y += change[1];
-			v[body].w += change[2];
+                        const auto            inverse = diagonal(problem.inverseMass[body]);
+                        std::array<double, 3> change {};
+                        for (int d = 0; d < 3; ++d)
+                                for (int row = 0; row < 3; ++row)
+                                        change[d] += inverse[d] * rows[row][d] * p[row];
+                        v[body].x += change[0];
+                        v[body].y += change[1];
+                        v[body].w += change[2];
 		};
 		push(c.i, rowsOfI(c));
 		push(c.j, rowsOfJ(c));

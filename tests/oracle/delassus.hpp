@@ -17,7 +17,7 @@ namespace nonsmooth::oracle {
 /// Cohesion is shifted away: p stands for (N + h F_a, T, Γ) ≥ 0, and q holds what the shift takes, −W (h F_a, 0, 0).
 struct Delassus {
 	int                      size = 3;
-	std::vector<std::size_t> begin;  // of each contact's row of blocks, and the end of the last
+	std::vector<std::size_t> begin; // of each contact's row of blocks, and the end of the last
 	std::vector<std::size_t> column; // contact of each block, ascending within a row
 	std::vector<double>      blocks; // size² numbers each, column by column
 	std::vector<double>      q, friction, rolling; // size, 1 and 1 a contact; thresholds in scaled units
@@ -26,7 +26,8 @@ struct Delassus {
 	/// Impulses [N s, N s, N m s] that belong to scaled ones; without rolling rows that impulse is 0.
 	std::vector<contact::Impulse> impulses(const contact::Problem& problem, const std::vector<double>& p) const;
 	/// The other way round.
-	std::vector<double> scaled(const contact::Problem& problem, const std::vector<contact::Impulse>& impulses) const;
+	std::vector<double>
+	scaled(const contact::Problem& problem, const std::vector<contact::Impulse>& impulses) const;
 
 	std::vector<double> scale; // D, one a row
 	double              speed = 1; // v₀

@@ -55,15 +55,17 @@ struct Arguments {
 	bool        measure       = false;
 };
 
-const char* const usage = "usage: siconos_solve IN.h5 OUT.h5 --tolerance T --max-iterations N [--check-every K] [--without-rolling]\n"
-                          "       siconos_solve IN.h5 --measure [--without-rolling]";
+const char* const usage
+        = "usage: siconos_solve IN.h5 OUT.h5 --tolerance T --max-iterations N [--check-every K] [--without-rolling]\n"
+          "       siconos_solve IN.h5 --measure [--without-rolling]";
 
 double number(const char* option, const char* text)
 {
 	char*        end   = nullptr;
 	const double value = text ? std::strtod(text, &end) : 0;
 	if (!text || *end || !(value > 0) || !std::isfinite(value))
-		throw std::invalid_argument(std::string(option) + " wants a positive number, not '" + (text ? text : "") + "'");
+		throw std::invalid_argument(
+		        std::string(option) + " wants a positive number, not '" + (text ? text : "") + "'");
 	return value;
 }
 
@@ -79,8 +81,10 @@ Arguments parse(int argc, char** argv)
 			continue;
 		}
 		if (word == "--tolerance") a.tolerance = number("--tolerance", next);
-		else if (word == "--max-iterations") a.maxIterations = int(number("--max-iterations", next));
-		else if (word == "--check-every") a.checkEvery = int(number("--check-every", next));
+		else if (word == "--max-iterations")
+			a.maxIterations = int(number("--max-iterations", next));
+		else if (word == "--check-every")
+			a.checkEvery = int(number("--check-every", next));
 		else {
 			if (word.rfind("--", 0) == 0) throw std::invalid_argument(word + " is unknown; " + usage);
 			files.push_back(word);
@@ -114,7 +118,7 @@ public:
 		m.index1_data               = w.begin.data();
 		m.index2_data               = w.column.data();
 		const int rows              = int(count) * w.size;
-		matrix                      = NM_new_SBM(rows, rows, &m); // its few pointers are left to the end of the program
+		matrix = NM_new_SBM(rows, rows, &m); // its few pointers are left to the end of the program
 	}
 	NumericsMatrix* matrix;
 
@@ -142,25 +146,30 @@ Solved solve(oracle::Delassus& w, const Arguments& arguments)
 	const bool          rolling = w.size == 3;
 
 	const std::unique_ptr<SolverOptions, void (*)(SolverOptions*)> options(
-	        solver_options_create(rolling ? SICONOS_ROLLING_FRICTION_2D_NSGS : SICONOS_FRICTION_2D_NSGS), solver_options_delete);
-	options->iparam[SICONOS_IPARAM_MAX_ITER]                     = arguments.maxIterations;
-	options->dparam[SICONOS_DPARAM_TOL]                          = arguments.tolerance;
+	        solver_options_create(rolling ? SICONOS_ROLLING_FRICTION_2D_NSGS : SICONOS_FRICTION_2D_NSGS),
+	        solver_options_delete);
+	options->iparam[SICONOS_IPARAM_MAX_ITER] = arguments.maxIterations;
+	options->dparam[SICONOS_DPARAM_TOL]      = arguments.tolerance;
 	// fc2d has no other sensible choice (asked for the whole error at every sweep, it never measures one): the change of a sweep until that
 	// is below the tolerance, then the whole error, and a lower tolerance for the change until the error holds
-	options->iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION] = SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_LIGHT_WITH_FULL_FINAL;
+	options->iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION]
+	        = SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_LIGHT_WITH_FULL_FINAL;
 	if (rolling) {
-		options->iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION]           = SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_FULL;
+		options->iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION]
+		        = SICONOS_FRICTION_3D_NSGS_ERROR_EVALUATION_FULL;
 		options->iparam[SICONOS_FRICTION_3D_IPARAM_ERROR_EVALUATION_FREQUENCY] = arguments.checkEvery;
 		// one contact's own solution to a tenth of what all of them may miss, q being 1 in rms
-		SolverOptions& local               = *options->internalSolvers[0];
-		local.dparam[SICONOS_DPARAM_TOL]   = std::max(1e-14, 0.1 * arguments.tolerance);
+		SolverOptions& local                  = *options->internalSolvers[0];
+		local.dparam[SICONOS_DPARAM_TOL]      = std::max(1e-14, 0.1 * arguments.tolerance);
 		local.iparam[SICONOS_IPARAM_MAX_ITER] = 100;
 	}
 
 	const int  count = int(w.contactCount());
 	const auto began = std::chrono::steady_clock::now();
 	if (rolling) {
-		RollingFrictionContactProblem problem { 3, count, block.matrix, w.q.data(), w.friction.data(), w.rolling.data() };
+		RollingFrictionContactProblem problem {
+			3, count, block.matrix, w.q.data(), w.friction.data(), w.rolling.data()
+		};
 		solved.solver = "rolling_fc2d NSGS";
 		solved.info   = rolling_fc2d_driver(&problem, solved.p.data(), velocity.data(), options.get());
 	} else {
@@ -191,7 +200,9 @@ double errorOf(oracle::Delassus& w, std::vector<double> p)
 	const int           count = int(w.contactCount());
 	double              error = 0;
 	if (w.size == 3) {
-		RollingFrictionContactProblem problem { 3, count, block.matrix, w.q.data(), w.friction.data(), w.rolling.data() };
+		RollingFrictionContactProblem problem {
+			3, count, block.matrix, w.q.data(), w.friction.data(), w.rolling.data()
+		};
 		rolling_fc2d_compute_error(&problem, p.data(), velocity.data(), HUGE_VAL, nullptr, norm(w.q), &error);
 	} else {
 		FrictionContactProblem problem { 2, count, block.matrix, w.q.data(), w.friction.data() };
@@ -217,16 +228,19 @@ try {
 	oracle::Delassus         w         = oracle::delassus(problem, arguments.rolling && anyRolls(problem));
 	if (arguments.measure) {
 		const auto p = w.scaled(problem, problem.impulses);
-		std::printf("{\"siconos\": \"%s\", \"error\": %.6e, \"q_over_p\": %.6e}\n", NONSMOOTH_SICONOS_VERSION, errorOf(w, p), norm(w.q) / norm(p));
+		std::printf(
+		        "{\"siconos\": \"%s\", \"error\": %.6e, \"q_over_p\": %.6e}\n", NONSMOOTH_SICONOS_VERSION,
+		        errorOf(w, p), norm(w.q) / norm(p));
 		return 0;
 	}
 	const Solved solved = solve(w, arguments);
-	problem.impulses                   = w.impulses(problem, solved.p);
-	problem.velocities                 = oracle::velocities(problem, problem.impulses);
+	problem.impulses    = w.impulses(problem, solved.p);
+	problem.velocities  = oracle::velocities(problem, problem.impulses);
 	contact::write(arguments.out, recorded);
 	std::printf(
 	        "{\"siconos\": \"%s\", \"solver\": \"%s\", \"contacts\": %zu, \"iterations\": %d, \"error\": %.6e, \"info\": %d, \"seconds\": %.6f}\n",
-	        NONSMOOTH_SICONOS_VERSION, solved.solver, problem.contactCount(), solved.iterations, solved.error, solved.info, solved.seconds);
+	        NONSMOOTH_SICONOS_VERSION, solved.solver, problem.contactCount(), solved.iterations, solved.error,
+	        solved.info, solved.seconds);
 	return 0;
 } catch (const std::exception& error) {
 	std::fprintf(stderr, "siconos_solve: %s\n", error.what());

@@ -39,10 +39,12 @@ std::vector<unsigned long> made(const Case& c, int workers)
 	schedule.plan(begin, (c.strips + 1) / 2, workers);
 	std::vector<unsigned long> values(c.strips + 1, 1);
 	const auto                 work = [&](int worker) {
-		for (int p = 0; p < c.passes; ++p)
-			schedule.pass(worker, [&](std::size_t part) { visit(values, c.strips, part, p); });
-		for (const int count : { c.passes, 2, 2, c.passes, 2 }) // as solves begin and end
-			schedule.passes(worker, count, [&](std::size_t part, int p, const StripSchedule::Ahead&) { visit(values, c.strips, part, p); });
+                for (int p = 0; p < c.passes; ++p)
+                        schedule.pass(worker, [&](std::size_t part) { visit(values, c.strips, part, p); });
+                for (const int count : { c.passes, 2, 2, c.passes, 2 }) // as solves begin and end
+                        schedule.passes(worker, count, [&](std::size_t part, int p, const StripSchedule::Ahead&) {
+                                visit(values, c.strips, part, p);
+                        });
 	};
 	std::vector<std::thread> others;
 	for (int w = 1; w < workers; ++w)
@@ -58,10 +60,19 @@ std::vector<unsigned long> made(const Case& c, int workers)
 int main()
 {
 	int wrong = 0;
-	for (const Case& c : { Case { 1, 0, 3, 50 }, { 2, 0, 2, 50 }, { 7, 0, 3, 50 }, { 20, 0, 2, 50 }, { 20, 4, 3, 50 }, { 64, 0, 2, 30 },
-	                     { 200, 0, 2, 30 }, { 401, 0, 3, 30 }, { 401, 5, 3, 30 } })
+	for (const Case& c : { Case { 1, 0, 3, 50 },
+	                       { 2, 0, 2, 50 },
+	                       { 7, 0, 3, 50 },
+	                       { 20, 0, 2, 50 },
+	                       { 20, 4, 3, 50 },
+	                       { 64, 0, 2, 30 },
+	                       { 200, 0, 2, 30 },
+	                       { 401, 0, 3, 30 },
+	                       { 401, 5, 3, 30 } })
 		if (made(c, c.workers) != made(c, 1)) {
-			std::printf("%zu strips, %zu contacts left over, %d workers: not what one worker leaves\n", c.strips, c.leftOver, c.workers);
+			std::printf(
+			        "%zu strips, %zu contacts left over, %d workers: not what one worker leaves\n",
+			        c.strips, c.leftOver, c.workers);
 			++wrong;
 		}
 	return wrong;

@@ -14,7 +14,9 @@ class Known:
         self.steps, self.folder = whole.watch.steps, whole.folder
         self.last = np.searchsorted(self.steps.iter, self.series["step"])  # each row's last step
         self.first = np.r_[2, self.last[:-1] + 1]  # two steps without gravity come before the first row
-        self.before, self.after = (dict(zip(self.watch.BODY, np.moveaxis(part, 1, 0))) for part in (self.steps.before, self.steps.after))
+        self.before, self.after = (
+            dict(zip(self.watch.BODY, np.moveaxis(part, 1, 0))) for part in (self.steps.before, self.steps.after)
+        )
         self.settled = int(np.searchsorted(self.steps.time, self.state["settled"]))  # the last step of the settling
         self.table = {name: [rows[:, k] for rows in self.watch.rows] for k, name in enumerate(("i", "j", "normal"))}
         self.breaks = records.read_breaks(whole.folder / "breaks.csv")
@@ -25,10 +27,12 @@ class Known:
         return np.where(self.series["stage"] > 0, total[self.last] - total[self.settled], total[self.last])
 
     def mean(self, per_step):
-        return np.array([np.average(per_step[a:b + 1], weights=self.steps.dt[a:b + 1]) for a, b in zip(self.first, self.last)])
+        return np.array(
+            [np.average(per_step[a : b + 1], weights=self.steps.dt[a : b + 1]) for a, b in zip(self.first, self.last)]
+        )
 
     def peak(self, per_step):
-        return np.array([per_step[a:b + 1].max() for a, b in zip(self.first, self.last)])
+        return np.array([per_step[a : b + 1].max() for a, b in zip(self.first, self.last)])
 
     # time and stage
     def time_s(self):
@@ -46,7 +50,11 @@ class Known:
     def heights(self):
         """1.5 m/s from t0 on, at the begin of each step, until the slope moves."""
         begin = self.steps.time - self.steps.dt
-        return np.where(begin < self.state["moving"] - 1e-9, 1.5 * np.clip(begin - self.state["t0"], 0, None), self.state["water_hold"])
+        return np.where(
+            begin < self.state["moving"] - 1e-9,
+            1.5 * np.clip(begin - self.state["t0"], 0, None),
+            self.state["water_hold"],
+        )
 
     def water_m(self):
         return self.heights()[self.last]
@@ -55,7 +63,7 @@ class Known:
         x, y = self.before["x"], self.before["y"]
         down = np.array(self.section.downslope)
         way = (x - x[self.settled + 1]) * down[0] + (y - y[self.settled + 1]) * down[1]
-        way[:self.settled + 1] = 0
+        way[: self.settled + 1] = 0
         return np.maximum.accumulate(way > 3.0, axis=0)
 
     def wet(self):
@@ -139,7 +147,9 @@ class Known:
 
     def broken(self, mode):
         """A break is listed with the number of steps made before its own."""
-        return np.searchsorted(np.sort(self.breaks["step"][self.breaks["mode"] == mode]), self.series["step"], side="left")
+        return np.searchsorted(
+            np.sort(self.breaks["step"][self.breaks["mode"] == mode]), self.series["step"], side="left"
+        )
 
     def bonds_broken_tension(self):
         return self.broken("tension")
@@ -175,7 +185,7 @@ class Known:
 
     def slips(self):
         slip = np.cumsum(self.steps.slip, axis=0)
-        slip[self.settled + 1:] -= slip[self.settled]
+        slip[self.settled + 1 :] -= slip[self.settled]
         return slip[self.last]
 
     def slip_mean_dp_m(self):
@@ -257,7 +267,11 @@ class Known:
             problem = contact.load(path)
             sweeps = sweep_methods.Sweeps(problem)
             relative = sweeps.residual(problem.impulse, sweeps.velocities(problem.impulse))
-            force = relative * np.sqrt(((problem.impulse * sweeps.units) ** 2).sum() / len(problem.length)) / problem.time_step
+            force = (
+                relative
+                * np.sqrt(((problem.impulse * sweeps.units) ** 2).sum() / len(problem.length))
+                / problem.time_step
+            )
             found[row] = relative if figure is self.series["residual"] else force
         return found
 

@@ -57,9 +57,17 @@ def free_disk(x=0.0, y=0.0, velocity=(0, 0, 0), stuff=None, **more):
 def loose_heap(stuff, columns=8, rows=8, seed=5, radius=(0.3, 0.5)):
     """Disks on a wide lattice above a floor, radii and places at random; returns their ids."""
     dice = random.Random(seed)
-    return [O.bodies.append(scene.disk((0.75 + 1.1 * a + dice.uniform(-0.04, 0.04), 0.6 + 1.1 * b + dice.uniform(-0.04, 0.04)),
-                                       dice.uniform(*radius), stuff))
-            for b in range(rows) for a in range(columns)]
+    return [
+        O.bodies.append(
+            scene.disk(
+                (0.75 + 1.1 * a + dice.uniform(-0.04, 0.04), 0.6 + 1.1 * b + dice.uniform(-0.04, 0.04)),
+                dice.uniform(*radius),
+                stuff,
+            )
+        )
+        for b in range(rows)
+        for a in range(columns)
+    ]
 
 
 def refused(*words):
@@ -73,7 +81,14 @@ def refused(*words):
 def launch(script, *arguments):
     """Runs a script by the launcher in a process of its own."""
     # threads of a busy machine must not wait for each other in spin loops
-    return shell.run("yade-nonsmooth", script, *arguments, limit=300, PYTHONPATH=os.path.dirname(os.path.realpath(__file__)), OMP_WAIT_POLICY="passive")
+    return shell.run(
+        "yade-nonsmooth",
+        script,
+        *arguments,
+        limit=300,
+        PYTHONPATH=os.path.dirname(os.path.realpath(__file__)),
+        OMP_WAIT_POLICY="passive"
+    )
 
 
 def state(ids):

@@ -82,7 +82,9 @@ def text(owner, begin):
 def arrows(ax):
     """[(tail, head, colour, arrow style)] of the arrows without words, in the order drawn."""
     plain = [t for t in ax.texts if getattr(t, "arrowprops", None) and not t.get_text()]
-    return [(np.array(t.xyann), np.array(t.xy), to_hex(t.arrowprops["color"]), t.arrowprops["arrowstyle"]) for t in plain]
+    return [
+        (np.array(t.xyann), np.array(t.xy), to_hex(t.arrowprops["color"]), t.arrowprops["arrowstyle"]) for t in plain
+    ]
 
 
 def disks(ax):
@@ -115,9 +117,17 @@ def bands(ax):
 
 def uprights(ax):
     """{x: colour} of lines across axes from the bottom to the top (axvline)."""
-    return {one.get_xdata()[0]: colour(one) for one in ax.lines if np.array_equal(one.get_ydata(), [0, 1]) and np.ptp(one.get_xdata()) == 0}
+    return {
+        one.get_xdata()[0]: colour(one)
+        for one in ax.lines
+        if np.array_equal(one.get_ydata(), [0, 1]) and np.ptp(one.get_xdata()) == 0
+    }
 
 
 def levels(ax):
     """[(y, colour)] of lines across axes from the left to the right (axhline)."""
-    return [(one.get_ydata()[0], colour(one)) for one in ax.lines if np.array_equal(one.get_xdata(), [0, 1]) and np.ptp(one.get_ydata()) == 0]
+    return [
+        (one.get_ydata()[0], colour(one))
+        for one in ax.lines
+        if np.array_equal(one.get_xdata(), [0, 1]) and np.ptp(one.get_ydata()) == 0
+    ]

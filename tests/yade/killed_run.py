@@ -10,7 +10,13 @@ from pathlib import Path
 
 from yade.nonsmooth import commands, experiment, packing, section, slope
 
-source, disks, out, end, look = sys.argv[1], int(sys.argv[2]), Path(sys.argv[3]).resolve(), float(sys.argv[4]), int(sys.argv[5])
+source, disks, out, end, look = (
+    sys.argv[1],
+    int(sys.argv[2]),
+    Path(sys.argv[3]).resolve(),
+    float(sys.argv[4]),
+    int(sys.argv[5]),
+)
 LOOKS = ("open", "os.rename", "os.remove", "os.truncate", "os.mkdir", "os.listdir", "os.scandir")
 seen = 0
 

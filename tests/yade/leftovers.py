@@ -9,7 +9,7 @@ def plant(folder, *names):
         path = Path(folder, name)
         content = path.read_bytes() if path.is_file() else b"PK\x03\x04 what a file begins with, and goes on with"
         path.parent.mkdir(parents=True, exist_ok=True)
-        for token, part in (("0123abcd", content[:len(content) // 2]), ("89abcdef01234567", content)):
+        for token, part in (("0123abcd", content[: len(content) // 2]), ("89abcdef01234567", content)):
             path.with_name(f".part-{token}-{path.name}").write_bytes(part)
 
 

@@ -34,5 +34,7 @@ def siconos(config):
         if os.environ.get("NONSMOOTH_CI"):
             pytest.fail(f"in CI every oracle must be there: {missing}", pytrace=False)
         if not config.pluginmanager.has_plugin("not held: Siconos"):
-            config.pluginmanager.register(_LastLine(f"Siconos was not asked; its kept answers alone were. {missing}"), "not held: Siconos")
+            config.pluginmanager.register(
+                _LastLine(f"Siconos was not asked; its kept answers alone were. {missing}"), "not held: Siconos"
+            )
         pytest.skip(str(missing))

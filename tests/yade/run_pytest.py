@@ -11,7 +11,21 @@ import pytest
 
 
 # Files that take long, the longest first, so that those who share them end at about the same time.
-LONG = [f"test_{name}.py" for name in ("verification", "laboratory", "examples", "commands", "benchmark", "comparison", "packings", "columns", "soft_walls", "killed_runs")]
+LONG = [
+    f"test_{name}.py"
+    for name in (
+        "verification",
+        "laboratory",
+        "examples",
+        "commands",
+        "benchmark",
+        "comparison",
+        "packings",
+        "columns",
+        "soft_walls",
+        "killed_runs",
+    )
+]
 
 
 class Shared:
@@ -47,12 +61,14 @@ here = os.path.dirname(os.path.realpath(sys.argv[0]))
 arguments, plugins = sys.argv[1:], []
 if "--threads" in arguments:
     k = arguments.index("--threads")
-    del arguments[k:k + 2]
+    del arguments[k : k + 2]
 if "--share" in arguments:
     k = arguments.index("--share")
     plugins.append(Shared(arguments[k + 1]))
-    del arguments[k:k + 2]
+    del arguments[k : k + 2]
 if not any(os.path.exists(a.split("::")[0]) for a in arguments):
     arguments.append(here)
-status = pytest.main(["-ra", "--durations=20", "--durations-min=5", "--rootdir=" + here, "-p", "no:cacheprovider", *arguments], plugins)
+status = pytest.main(
+    ["-ra", "--durations=20", "--durations-min=5", "--rootdir=" + here, "-p", "no:cacheprovider", *arguments], plugins
+)
 sys.exit(int(status))

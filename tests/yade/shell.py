@@ -20,4 +20,11 @@ def run(program, *arguments, limit=600, cwd=None, **changes):
     Returns a subprocess.CompletedProcess with text."""
     if (SCRIPTS / program).exists():
         program = SCRIPTS / program
-    return subprocess.run([str(word) for word in (program, *arguments)], env=environment(**changes), cwd=cwd, text=True, capture_output=True, timeout=limit)
+    return subprocess.run(
+        [str(word) for word in (program, *arguments)],
+        env=environment(**changes),
+        cwd=cwd,
+        text=True,
+        capture_output=True,
+        timeout=limit,
+    )

@@ -6,8 +6,14 @@ import yaml
 
 SHIPPED = Path(__file__).resolve().parents[2] / "py" / "nonsmooth" / "sections" / "jiufengershan.yaml"
 SMALL = Path(__file__).resolve().parents[1] / "data" / "small_slope.yaml"
-QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 1.5",
-         "dry: 3.0": "dry: 0.5", "tolerance: 1e-6": "tolerance: 1e-4", "max_iterations: 300": "max_iterations: 60"}
+QUICK = {
+    "packing_fraction: 0.848": "packing_fraction: 0.82",
+    "ramp: 4.0": "ramp: 1.0",
+    "time_max: 30.0": "time_max: 1.5",
+    "dry: 3.0": "dry: 0.5",
+    "tolerance: 1e-6": "tolerance: 1e-4",
+    "max_iterations: 300": "max_iterations: 60",
+}
 
 # So few disks would not hold with the paper's strength; friction is that of the rock, of its copy, and of the plane.
 STRONG = {"friction: 0.3\n": "friction: 0.8\n", "tensile_strength: 100.0e3": "tensile_strength: 100.0e6"}

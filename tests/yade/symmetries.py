@@ -14,7 +14,13 @@ from contact_scenes import begin, engine, run
 
 SAMPLES = 6  # of a course, evenly over its steps
 # units of the attributes that have any
-STUFF = {"density": "density", "tensileStrength": "stress", "residualTensileStrength": "stress", "weakenedTensileStrength": "stress", "criticalSlip": "length"}
+STUFF = {
+    "density": "density",
+    "tensileStrength": "stress",
+    "residualTensileStrength": "stress",
+    "weakenedTensileStrength": "stress",
+    "criticalSlip": "length",
+}
 OPTIONS = {"correctionSpeed": "speed", "verlet": "length"}
 STEPPER = {"smallest": "time", "largest": "time"}
 WATER = {"unitWeight": "weight", "heights": "length", "times": "time", "releaseDistance": "length"}
@@ -40,16 +46,31 @@ class Frame:
     @property
     def matrix(self):
         quarters = self.turn / (0.5 * np.pi)
-        c, s = (round(np.cos(self.turn)), round(np.sin(self.turn))) if quarters == int(quarters) else (np.cos(self.turn), np.sin(self.turn))
+        c, s = (
+            (round(np.cos(self.turn)), round(np.sin(self.turn)))
+            if quarters == int(quarters)
+            else (np.cos(self.turn), np.sin(self.turn))
+        )
         return np.array([[c, -s], [s, c]]) @ np.diag([self.hand, 1])
 
     def unit(self, kind):
         """Factor of a quantity per metre of thickness, which no unit of length changes."""
         mass, speed = self.density * self.length**2, self.length / self.time
         force = mass * speed / self.time
-        return {"none": 1.0, "length": self.length, "time": self.time, "density": self.density, "mass": mass, "speed": speed, "spin": 1 / self.time,
-                "acceleration": speed / self.time, "force": force, "energy": force * self.length, "stress": force / self.length,
-                "weight": force / self.length**2}[kind]
+        return {
+            "none": 1.0,
+            "length": self.length,
+            "time": self.time,
+            "density": self.density,
+            "mass": mass,
+            "speed": speed,
+            "spin": 1 / self.time,
+            "acceleration": speed / self.time,
+            "force": force,
+            "energy": force * self.length,
+            "stress": force / self.length,
+            "weight": force / self.length**2,
+        }[kind]
 
     def out(self, vector, kind):
         return self.unit(kind) * (self.matrix @ np.asarray(vector, float))
@@ -65,7 +86,10 @@ class Frame:
 
     def scaled(self, values, kinds):
         """Attributes by name in this frame's units."""
-        return {name: (np.multiply(value, self.unit(kinds[name])).tolist() if name in kinds else value) for name, value in values.items()}
+        return {
+            name: (np.multiply(value, self.unit(kinds[name])).tolist() if name in kinds else value)
+            for name, value in values.items()
+        }
 
 
 HERE = Frame()
@@ -129,7 +153,14 @@ def _build(world, frame):
     def add_walls():
         for line in world.walls:
             piece = line.piece and line.piece * frame.length
-            bodies = O.bodies.append(scene.segments([frame.place(v) for v in line.vertices], stuffs[line.stuff], piece=piece, sense=frame.hand * line.sense))
+            bodies = O.bodies.append(
+                scene.segments(
+                    [frame.place(v) for v in line.vertices],
+                    stuffs[line.stuff],
+                    piece=piece,
+                    sense=frame.hand * line.sense,
+                )
+            )
             for k in bodies:
                 O.bodies[k].state.vel = (*frame.velocity(line.velocity), 0)
             pieces.append(bodies)
@@ -141,7 +172,11 @@ def _build(world, frame):
         ids[k] = O.bodies.append(scene.disk(frame.place((d.x, d.y)), d.r * frame.length, stuffs[d.stuff]))
         body = O.bodies[ids[k]]
         body.state.blockedDOFs, body.mask = d.blocked, d.mask
-        body.state.vel, body.state.angVel = (*frame.velocity(d.velocity), 0), (0, 0, frame.hand * d.spin * frame.unit("spin"))
+        body.state.vel, body.state.angVel = (*frame.velocity(d.velocity), 0), (
+            0,
+            0,
+            frame.hand * d.spin * frame.unit("spin"),
+        )
     if world.walls_last:
         add_walls()
     return [ids[k] for k in range(len(world.disks))], pieces
@@ -151,14 +186,24 @@ def _engines(world, frame):
     before = []
     if world.water is not None:
         w = dict(world.water)
-        plane = {"planePoint": (*frame.place(w.pop("planePoint", (0, 0))), 0), "planeNormal": (*frame.out(w.pop("planeNormal", (0, 1)), "none"), 0)}
+        plane = {
+            "planePoint": (*frame.place(w.pop("planePoint", (0, 0))), 0),
+            "planeNormal": (*frame.out(w.pop("planeNormal", (0, 1)), "none"), 0),
+        }
         if "gradient" in w:
             plane["gradient"] = (*frame.out(w.pop("gradient"), "weight"), 0)
         before = [PorePressureEngine(**frame.scaled(w, WATER), **plane)]
     options = {"verlet": 0.1, "correctionSpeed": 1.0, **world.options}
-    begin(gravity=(*frame.out(world.gravity, "acceleration"), 0), dt=world.dt * frame.time, before=before, **frame.scaled(options, OPTIONS))
+    begin(
+        gravity=(*frame.out(world.gravity, "acceleration"), 0),
+        dt=world.dt * frame.time,
+        before=before,
+        **frame.scaled(options, OPTIONS)
+    )
     if world.stepper is not None:
-        O.engines = [NonsmoothTimeStepper(**frame.scaled({"smallest": 1e-4, "largest": 1e-2, **world.stepper}, STEPPER))] + O.engines
+        O.engines = [
+            NonsmoothTimeStepper(**frame.scaled({"smallest": 1e-4, "largest": 1e-2, **world.stepper}, STEPPER))
+        ] + O.engines
 
 
 def of(kind):
@@ -185,15 +230,18 @@ def _sample(world, frame, ids, pieces):
             slips += [stuff.slipOf(k) for k in ids]
     shift = frame.place((0, 0), time)
     found = {
-        "time": time, "step": O.dt / frame.time,
+        "time": time,
+        "step": O.dt / frame.time,
         "place": frame.back([np.array(s.pos)[:2] - shift for s in states], "length"),
         "turned": frame.hand * np.array([2 * np.arctan2(s.ori[2], s.ori[3]) for s in states]),
         "velocity": frame.back([np.array(s.vel)[:2] - frame.velocity((0, 0)) for s in states], "speed"),
         "spin": frame.hand * np.array([s.angVel[2] for s in states]) / frame.unit("spin"),
         "force": frame.back([np.array(O.forces.f(k))[:2] for k in ids], "force"),
         "torque": frame.hand * np.array([O.forces.t(k)[2] for k in ids]) / frame.unit("energy"),
-        "wall force": frame.back(np.reshape(walls, (-1, 2)), "force"), "wall moment": frame.hand * np.array(moments) / frame.unit("energy"),
-        "losses": np.array([e.slidingLoss, e.rollingLoss, e.debondingLoss, e.impactLoss, e.correctionEnergy]) / frame.unit("energy"),
+        "wall force": frame.back(np.reshape(walls, (-1, 2)), "force"),
+        "wall moment": frame.hand * np.array(moments) / frame.unit("energy"),
+        "losses": np.array([e.slidingLoss, e.rollingLoss, e.debondingLoss, e.impactLoss, e.correctionEnergy])
+        / frame.unit("energy"),
         "overlap": np.array([e.overlapWorst, e.overlapMean]),
         "slip": slips / frame.unit("length"),
         "counts": np.array([e.bonds, e.brokenTension, e.brokenShear, e.brokenTorque, e.brokenMixed]),
@@ -227,7 +275,12 @@ def play(world, frame=HERE, prepared=lambda ids: None, halfway=lambda: None):
             halfway()
     course = Course({name: np.array([s[name] for s in samples]) for name in samples[0]})
     radii = np.array([d.r for d in world.disks])
-    course.length, course.mass, course.speed, course.step = 2 * radii.mean(), 2500 * np.pi * (radii**2).mean(), peak / frame.unit("speed"), world.dt
+    course.length, course.mass, course.speed, course.step = (
+        2 * radii.mean(),
+        2500 * np.pi * (radii**2).mean(),
+        peak / frame.unit("speed"),
+        world.dt,
+    )
     return course
 
 
@@ -235,17 +288,34 @@ def differences(found, expected):
     """{name: largest difference} of two courses, in the scales of ``expected``: ℓ, the greatest speed, what stops a disk in a step, a disk's energy; counts as they are. Overlaps
     are what a step left over: they agree a hundred times less than places do."""
     s = expected
-    scales = {"place": s.length, "slip": s.length, "velocity": s.speed, "spin": s.speed / s.length, "force": s.mass * s.speed / s.step,
-              "torque": s.mass * s.speed / s.step * s.length, "losses": s.mass * s.speed**2, "time": s.step, "step": s.step, "rates": s.speed / s.length, "overlap": 100.0}
+    scales = {
+        "place": s.length,
+        "slip": s.length,
+        "velocity": s.speed,
+        "spin": s.speed / s.length,
+        "force": s.mass * s.speed / s.step,
+        "torque": s.mass * s.speed / s.step * s.length,
+        "losses": s.mass * s.speed**2,
+        "time": s.step,
+        "step": s.step,
+        "rates": s.speed / s.length,
+        "overlap": 100.0,
+    }
     scales |= {"wall force": scales["force"], "wall moment": scales["torque"], "water": scales["force"]}
-    return {name: float(np.max(np.abs(found[name] - expected[name].astype(float)), initial=0) / scales.get(name, 1.0)) for name in expected}
+    return {
+        name: float(np.max(np.abs(found[name] - expected[name].astype(float)), initial=0) / scales.get(name, 1.0))
+        for name in expected
+    }
 
 
 def assert_same(found, expected, tolerance, **others):
     """Two courses agree to ``tolerance`` in the scales of `differences`; ``others``: other tolerances by name, with _ for a blank, None for what may differ."""
     others = {name.replace("_", " "): value for name, value in others.items()}
-    far = {name: value for name, value in differences(found, expected).items()
-           if others.get(name, tolerance) is not None and not value <= others.get(name, tolerance)}
+    far = {
+        name: value
+        for name, value in differences(found, expected).items()
+        if others.get(name, tolerance) is not None and not value <= others.get(name, tolerance)
+    }
     assert not far, far
 
 

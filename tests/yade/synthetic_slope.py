@@ -105,7 +105,15 @@ def _contacts(x, y, r, s, n, rng):
         i, j = np.r_[i, k], np.r_[j, np.full(len(k), -1 - wall)]
         cn = np.r_[cn, load * 2 * r[k] * rng.exponential(1.0, len(k))]
         cx, cy = np.r_[cx, x[k] + r[k] * direction[0]], np.r_[cy, y[k] + r[k] * direction[1]]
-    return {"ci": i, "cj": j, "cn": cn, "ct": 0.2 * cn * rng.uniform(-1, 1, len(cn)), "cbonded": j >= 0, "cx": cx, "cy": cy}
+    return {
+        "ci": i,
+        "cj": j,
+        "cn": cn,
+        "ct": 0.2 * cn * rng.uniform(-1, 1, len(cn)),
+        "cbonded": j >= 0,
+        "cx": cx,
+        "cy": cy,
+    }
 
 
 def snapshot_arrays(count=3000, time=0.0, contacts=True, seed=1):
@@ -116,7 +124,11 @@ def snapshot_arrays(count=3000, time=0.0, contacts=True, seed=1):
     moved = 1000 * share**1.6 * (1 - 0.35 * share) / 0.65
     water = float(np.clip((time - TIMES["t0"]) * 0.5, 0, 22.5 + 0.1 * (time > TIMES["t1"])))
     position = -s[:, None] * DOWN + n[:, None] * NORMAL
-    mobile = position[:, 1] > LEVEL * np.clip(1 + 0.1 * position[:, 0] / 100, 0.2, 1) - 5 if moved > 0 else np.zeros(len(s), bool)
+    mobile = (
+        position[:, 1] > LEVEL * np.clip(1 + 0.1 * position[:, 0] / 100, 0.2, 1) - 5
+        if moved > 0
+        else np.zeros(len(s), bool)
+    )
     # Mobile disks follow the bed: DP down to the level of SS, then SS; they thicken at first and spread at the front.
     reach = LEVEL / np.sin(DIP)
     q = -s - n * np.tan(DIP) * 0 + moved * (0.75 + 0.35 * (1 - s / LENGTH))
@@ -125,7 +137,12 @@ def snapshot_arrays(count=3000, time=0.0, contacts=True, seed=1):
     bed = np.where(flat, LEVEL - 0.02 * np.maximum(x, 0), -q * np.sin(DIP))
     swell = np.where(flat, 1 + 0.5 * np.exp(-((x - 100) ** 2) / 5e4), 1.0) * (1 - 0.25 * share * (q > 0))
     folded = 6 * share * np.sin(q / 45) * flat
-    moving = np.column_stack([x + np.where(flat, 0, n * np.sin(DIP)), bed + np.maximum(n * swell * np.where(flat, 1, np.cos(DIP)) + folded, r)])
+    moving = np.column_stack(
+        [
+            x + np.where(flat, 0, n * np.sin(DIP)),
+            bed + np.maximum(n * swell * np.where(flat, 1, np.cos(DIP)) + folded, r),
+        ]
+    )
     position = np.where(mobile[:, None], moving, position)
     speed = np.where(mobile, 60 * np.sin(np.pi * np.sqrt(share)), 0.0) if share < 1 else np.zeros(len(s))
     under = (n < water) & (water > 0)
@@ -146,12 +163,33 @@ def few(x, y, contacts=(), **changes):
     ``contacts``: (i, j, normal force [N/m]), or for wall number k (i, -1 - k, normal force, x, y of the point).
     """
     zero, no = np.zeros(len(x)), np.zeros(len(x), bool)
-    arrays = {"time_s": 0.0, "step": 0, "water_m": 0.0, "x": np.array(x, float), "y": np.array(y, float), "r": zero + 1.0, "angle": zero, "vx": zero, "vy": zero,
-              "layer": zero.astype(int), "wet": no, "released": no, **{name: np.asarray(value) for name, value in changes.items()}}
+    arrays = {
+        "time_s": 0.0,
+        "step": 0,
+        "water_m": 0.0,
+        "x": np.array(x, float),
+        "y": np.array(y, float),
+        "r": zero + 1.0,
+        "angle": zero,
+        "vx": zero,
+        "vy": zero,
+        "layer": zero.astype(int),
+        "wet": no,
+        "released": no,
+        **{name: np.asarray(value) for name, value in changes.items()},
+    }
     if contacts:
         points = [c[3:] or (0.5 * (x[c[0]] + x[c[1]]), 0.5 * (y[c[0]] + y[c[1]])) for c in contacts]
         ci, cj, cn = (np.array(part) for part in zip(*(c[:3] for c in contacts)))
-        arrays |= {"ci": ci, "cj": cj, "cn": cn.astype(float), "ct": 0.1 * cn, "cbonded": cj >= 0, "cx": np.array(points, float)[:, 0], "cy": np.array(points, float)[:, 1]}
+        arrays |= {
+            "ci": ci,
+            "cj": cj,
+            "cn": cn.astype(float),
+            "ct": 0.1 * cn,
+            "cbonded": cj >= 0,
+            "cx": np.array(points, float)[:, 0],
+            "cy": np.array(points, float)[:, 1],
+        }
     return load("records")._snapshot(arrays, "made up")
 
 
@@ -168,7 +206,9 @@ def series(columns, rows=4000, seed=2):
     pore = 13.7e6 * h * (1 - drop)
     total = 1540e6 * (1 + 0.03 * drop) * (1 - 0.75 * run) * noise(0.12)
     effective = total - pore
-    shear = np.where(t < t2, 0.3 * effective, 0.3 * (1540e6 - 13.7e6 * 23.5) * (1 - drop)) + 15e6 * (drop > 0.9) * noise(2)
+    shear = np.where(t < t2, 0.3 * effective, 0.3 * (1540e6 - 13.7e6 * 23.5) * (1 - drop)) + 15e6 * (
+        drop > 0.9
+    ) * noise(2)
     shear = np.where(t > t5, -25e6, shear)
     back = 591e6 - 0.3 * (1540e6 - 13.7e6 * np.minimum(h, 22.5))
     back = np.where(t > t2, back + (260e6 - back) * np.sqrt(run), back) * noise(0.3)

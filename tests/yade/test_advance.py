@@ -24,7 +24,13 @@ def heap(**options):
 
 def looking(command, **options):
     """An engine that runs Python in every step; ``test`` is this module there."""
-    return PyRunner(command=f"import sys; test = sys.modules['{__name__}']; {command}", iterPeriod=1, initRun=True, updateGlobals=False, **options)
+    return PyRunner(
+        command=f"import sys; test = sys.modules['{__name__}']; {command}",
+        iterPeriod=1,
+        initRun=True,
+        updateGlobals=False,
+        **options,
+    )
 
 
 def refusal(words, *arguments, kind=RuntimeError, **options):
@@ -37,6 +43,7 @@ def refusal(words, *arguments, kind=RuntimeError, **options):
 
 
 # ---- steps ----------------------------------------------------------------------------------------
+
 
 def test_steps_have_the_bits_of_single_steps():
     found = []
@@ -109,8 +116,10 @@ def test_engines_know_how_many_steps_are_left():
 
 def test_an_engine_may_advance_another_scene():
     other = O.addScene()
-    O.engines = [looking(f"O.switchToScene({other}); test.seen.append(ContactDynamicsEngine.advance(2)); O.switchToScene(0)"),
-                 looking("test.seen.append(ContactDynamicsEngine().stepsLeft)")]
+    O.engines = [
+        looking(f"O.switchToScene({other}); test.seen.append(ContactDynamicsEngine.advance(2)); O.switchToScene(0)"),
+        looking("test.seen.append(ContactDynamicsEngine().stepsLeft)"),
+    ]
     seen.clear()
     ContactDynamicsEngine.advance(2)
     assert seen == [2, 2, 2, 1] and O.iter == 2
@@ -132,7 +141,9 @@ def test_other_threads_go_on_meanwhile():
     watcher.start()
     try:
         begun = O.iter
-        for _ in range(50):  # until the other thread has had its turn within one of them; a lock that is kept never gives it one
+        for _ in range(
+            50
+        ):  # until the other thread has had its turn within one of them; a lock that is kept never gives it one
             ends = {begun, begun + 100}
             engine().advance(100)
             if any(begun < k < begun + 100 for k in set(iters) - ends):
@@ -146,6 +157,7 @@ def test_other_threads_go_on_meanwhile():
 
 
 # ---- signals --------------------------------------------------------------------------------------
+
 
 @pytest.fixture
 def interrupted(monkeypatch):
@@ -188,12 +200,15 @@ def test_a_signal_that_is_only_noted_ends_nothing(interrupted):
 
 # ---- what ends it otherwise -------------------------------------------------------------------------
 
+
 def test_what_an_engine_refuses_is_raised_with_its_words():
     e = heap()
     engine().advance(2)
     e.tolerance = -1
     for _ in range(2):
-        with pytest.raises(RuntimeError, match="^ContactDynamicsEngine: tolerance = -1: it must be positive and finite$"):
+        with pytest.raises(
+            RuntimeError, match="^ContactDynamicsEngine: tolerance = -1: it must be positive and finite$"
+        ):
             e.advance(5)
         assert O.iter == 2 and e.stepsLeft == 0
     e.tolerance = 1e-4
@@ -208,16 +223,29 @@ def test_it_is_refused_while_a_run_is_at_work():
     heap()
     O.run()
     try:
-        with pytest.raises(RuntimeError, match="^ContactDynamicsEngine.advance: O.run.. is making steps in the background: call O.pause.. or O.wait.. first$"):
+        with pytest.raises(
+            RuntimeError,
+            match="^ContactDynamicsEngine.advance: O.run.. is making steps in the background: call O.pause.. or O.wait.. first$",
+        ):
             engine().advance(1)
     finally:
         O.pause()
         O.run(1, wait=True)  # until the thread has ended
 
 
-@pytest.mark.parametrize("make, words", [
-    (O.step, "ContactDynamicsEngine.advance: step 0 has begun and is not over: call it between two steps and not from an engine"),
-    (lambda: ContactDynamicsEngine.advance(1), "ContactDynamicsEngine.advance: it is making steps of this scene already: call it between two steps, not from an engine")])
+@pytest.mark.parametrize(
+    "make, words",
+    [
+        (
+            O.step,
+            "ContactDynamicsEngine.advance: step 0 has begun and is not over: call it between two steps and not from an engine",
+        ),
+        (
+            lambda: ContactDynamicsEngine.advance(1),
+            "ContactDynamicsEngine.advance: it is making steps of this scene already: call it between two steps, not from an engine",
+        ),
+    ],
+)
 def test_it_is_refused_within_a_step_of_the_scene(make, words):
     O.engines = [ForceResetter(), looking("ContactDynamicsEngine.advance(1)")]
     with pytest.raises(RuntimeError, match=words):
@@ -245,7 +273,9 @@ def test_it_is_refused_while_another_thread_is_at_it():
     finally:
         over.set()
         other.join()
-    assert refusals == ["ContactDynamicsEngine.advance: it is making steps of this scene already: call it between two steps, not from an engine or another thread"]
+    assert refusals == [
+        "ContactDynamicsEngine.advance: it is making steps of this scene already: call it between two steps, not from an engine or another thread"
+    ]
     assert O.iter > 0 and O.iter % 200_000 == 0
 
 
@@ -270,17 +300,27 @@ def test_it_is_refused_where_a_step_is_more_than_a_call():
 
 def test_it_ends_where_an_engine_puts_another_scene_in_the_place_of_this_one():
     O.engines = [looking("O.switchScene()", firstIterRun=2)]
-    with pytest.raises(RuntimeError, match="^ContactDynamicsEngine.advance: after 3 steps an engine has put another scene in the place"):
+    with pytest.raises(
+        RuntimeError, match="^ContactDynamicsEngine.advance: after 3 steps an engine has put another scene in the place"
+    ):
         ContactDynamicsEngine.advance(10)
     assert O.iter == 0
     O.switchScene()
     assert O.iter == 3
 
 
-@pytest.mark.parametrize("arguments, kind, words", [
-    (((),), ValueError, "give steps, until [s], or both"), (((-1,),), ValueError, "steps = -1: give 0 or more"),
-    (((), ("until", math.nan)), ValueError, "until = nan: give a finite time"), (((), ("until", math.inf)), ValueError, "until = inf: give a finite time"),
-    (((2.5,),), TypeError, "float"), (((), ("until", "soon")), TypeError, "must be real number"), (((10**30,),), OverflowError, "too large")])
+@pytest.mark.parametrize(
+    "arguments, kind, words",
+    [
+        (((),), ValueError, "give steps, until [s], or both"),
+        (((-1,),), ValueError, "steps = -1: give 0 or more"),
+        (((), ("until", math.nan)), ValueError, "until = nan: give a finite time"),
+        (((), ("until", math.inf)), ValueError, "until = inf: give a finite time"),
+        (((2.5,),), TypeError, "float"),
+        (((), ("until", "soon")), TypeError, "must be real number"),
+        (((10**30,),), OverflowError, "too large"),
+    ],
+)
 def test_arguments_without_sense(arguments, kind, words):
     positional, *named = arguments
     refusal(words, *positional, kind=kind, **dict(named))

@@ -15,6 +15,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 def written(tmp_path, **changes):
     """The small slope with changed parts of its data, by their keys; lists are appended to."""
+
     def change(data):
         for key, value in changes.items():
             if isinstance(value, list):
@@ -34,7 +35,10 @@ def run(made, out, end=None):
 
 
 def joint(**more):
-    return dict(materials={"joint": {"bonded": False, "friction": 0.7, "rolling_friction": 0.1}}, interfaces=[{"between": ["L1", "L2"], "material": "joint", **more}])
+    return dict(
+        materials={"joint": {"bonded": False, "friction": 0.7, "rolling_friction": 0.1}},
+        interfaces=[{"between": ["L1", "L2"], "material": "joint", **more}],
+    )
 
 
 def heights(packed, line):
@@ -45,6 +49,7 @@ def heights(packed, line):
 
 
 # ---- packings -------------------------------------------------------------------------------------
+
 
 def test_disks_at_a_flat_interface_keep_to_their_sides(tmp_path):
     made = written(tmp_path, **joint())
@@ -65,13 +70,24 @@ def test_the_border_of_two_layers_is_found_also_where_vertices_differ():
     one = geometry.Polygon([(0, 0), (10, 0), (10, 1), (0, 1)])
     other = geometry.Polygon([(2, 1 + 1e-7), (10, 1), (10, 3), (2, 3)])
     found = geometry.border(one, other, 1e-6)
-    assert found[[0, -1]] == pytest.approx(np.array([[2, 1], [10, 1]]), abs=1e-5) and found[:, 1] == pytest.approx(1, abs=1e-5)
+    assert found[[0, -1]] == pytest.approx(np.array([[2, 1], [10, 1]]), abs=1e-5) and found[:, 1] == pytest.approx(
+        1, abs=1e-5
+    )
     assert geometry.border(one, geometry.Polygon([(0, 5), (1, 5), (1, 6)]), 1e-6).shape == (0, 2)
 
 
 def test_a_layer_has_disks_of_its_own(tmp_path):
-    made = written(tmp_path, layers=[{"name": "L3", "material": "rock", "disks": {"diameter": [0.3, 0.4], "packing_fraction": 0.78},
-                                      "vertices": [[10.0, 2.1322], [30.0, 2.8306], [30.0, 5.0], [10.0, 5.0]]}])
+    made = written(
+        tmp_path,
+        layers=[
+            {
+                "name": "L3",
+                "material": "rock",
+                "disks": {"diameter": [0.3, 0.4], "packing_fraction": 0.78},
+                "vertices": [[10.0, 2.1322], [30.0, 2.8306], [30.0, 5.0], [10.0, 5.0]],
+            }
+        ],
+    )
     packed = packing.pack(made)
     counts = np.bincount(packed.layer)
     assert tuple(counts) == made.disk_counts() and counts[:2].tolist() == list(section.load(str(SMALL)).disk_counts())
@@ -82,12 +98,15 @@ def test_a_layer_has_disks_of_its_own(tmp_path):
     assert covered == pytest.approx(0.78, abs=0.03)  # less along its borders
     fewer = made.with_disks(400)
     assert sum(fewer.disk_counts()) == pytest.approx(400, abs=3)
-    assert fewer.layers[2].disks.d_max / fewer.disks.d_max == pytest.approx(0.4) and fewer.smallest == pytest.approx(0.3 * fewer.scale)
+    assert fewer.layers[2].disks.d_max / fewer.disks.d_max == pytest.approx(0.4) and fewer.smallest == pytest.approx(
+        0.3 * fewer.scale
+    )
     half = similar.scaled(made, 0.25)
     assert half.smallest == pytest.approx(0.075) and half.disk_counts() == made.disk_counts()
 
 
 # ---- interfaces -----------------------------------------------------------------------------------
+
 
 def test_an_interface_bears_what_lies_on_it(tmp_path):
     """The upper layer touches the lower one alone: at rest the force across the interface is its weight."""
@@ -98,7 +117,9 @@ def test_an_interface_bears_what_lies_on_it(tmp_path):
     packed = packing.cached_pack(made)
     weight = 2500 * 9.81 * math.pi * np.sum(packed.r[packed.layer == 1] ** 2)
     beta = math.radians(made.dip)
-    assert walls["normal_N_per_m"][last] == pytest.approx(weight * math.cos(beta), rel=0.01)  # still creeping by 2 mm/s at most
+    assert walls["normal_N_per_m"][last] == pytest.approx(
+        weight * math.cos(beta), rel=0.01
+    )  # still creeping by 2 mm/s at most
     assert walls["shear_N_per_m"][last] == pytest.approx(weight * math.sin(beta), rel=0.02)
     assert np.isnan(walls["slip_mean_m"][last]).all() and course.slope.solver.bonds > 300
 
@@ -106,14 +127,21 @@ def test_an_interface_bears_what_lies_on_it(tmp_path):
 def test_an_interface_is_a_slip_surface_like_a_wall(tmp_path):
     """Of a weak joint the upper layer slides off: its slip, forces and times are those of the series; DP is ground."""
     data = joint(name="joint", role="slip")
-    data["materials"]["joint"] |= {"friction": 0.18, "slip_weakening": {"law": "linear", "critical_slip": 0.3, "friction": 0.0}}
+    data["materials"]["joint"] |= {
+        "friction": 0.18,
+        "slip_weakening": {"law": "linear", "critical_slip": 0.3, "friction": 0.0},
+    }
     made = written(tmp_path, **data)
-    made = dataclasses.replace(made, walls=tuple(dataclasses.replace(w, role="ground") if w.name == "DP" else w for w in made.walls))
+    made = dataclasses.replace(
+        made, walls=tuple(dataclasses.replace(w, role="ground") if w.name == "DP" else w for w in made.walls)
+    )
     assert [name for name, _ in made.slip_surfaces] == ["joint"] and made.dip == pytest.approx(25, abs=0.01)
     course, series, told = run(made, tmp_path / "out", 8.0)
     walls = records.read_walls(tmp_path / "out" / "walls.csv")
     mine = walls["wall"] == "joint"
-    assert np.array_equal(walls["normal_N_per_m"][mine], series["dp_normal_effective_N_per_m"]) and np.array_equal(walls["shear_N_per_m"][mine], series["dp_shear_N_per_m"])
+    assert np.array_equal(walls["normal_N_per_m"][mine], series["dp_normal_effective_N_per_m"]) and np.array_equal(
+        walls["shear_N_per_m"][mine], series["dp_shear_N_per_m"]
+    )
     assert np.array_equal(walls["slip_mean_m"][mine], series["slip_mean_dp_m"]) and series["weakened_disks"].max() > 10
     # it does not bear its own weight; slip begins anew when it has settled
     assert told["failed_dry_s"] is not None and told["times_s"]["t4"] is not None and told["front_travel_m"] > 3
@@ -125,9 +153,15 @@ def test_an_interface_is_a_slip_surface_like_a_wall(tmp_path):
     again.series.close()
 
 
-@pytest.mark.parametrize("changes, key, remedy", [
-    (dict(between=["L1", "L9"]), "interfaces[0].between: no layer is called 'L9'", "L1, L2"), (dict(between=["L1", "L1"]), "interfaces[0].between: both are L1", "two different"),
-    (dict(material="jointt"), "interfaces[0].material: 'jointt' is not defined", "joint"), (dict(name="DP"), "interfaces[DP].name: the name 'DP' is taken", "its own")])
+@pytest.mark.parametrize(
+    "changes, key, remedy",
+    [
+        (dict(between=["L1", "L9"]), "interfaces[0].between: no layer is called 'L9'", "L1, L2"),
+        (dict(between=["L1", "L1"]), "interfaces[0].between: both are L1", "two different"),
+        (dict(material="jointt"), "interfaces[0].material: 'jointt' is not defined", "joint"),
+        (dict(name="DP"), "interfaces[DP].name: the name 'DP' is taken", "its own"),
+    ],
+)
 def test_interfaces_that_are_none_are_refused(tmp_path, changes, key, remedy):
     data = joint()
     data["interfaces"][0].update(changes)
@@ -145,8 +179,20 @@ def test_two_laws_for_one_interface_are_refused(tmp_path):
 
 # ---- a bed and an obstacle ------------------------------------------------------------------------
 
-BED = {"name": "bed", "role": "bed", "material": "gravel", "disks": {"diameter": [0.4, 0.7], "packing_fraction": 0.72}, "vertices": [[2.0, 1.8528], [14.0, 2.2717], [14.0, 3.0], [2.0, 3.2]]}
-HOUSE = {"name": "house", "role": "obstacle", "material": "rock", "disks": {"diameter": [0.4, 0.6], "packing_fraction": 0.72}, "vertices": [[17.0, 2.3764], [20.0, 2.4812], [20.0, 6.0], [17.0, 6.0]]}
+BED = {
+    "name": "bed",
+    "role": "bed",
+    "material": "gravel",
+    "disks": {"diameter": [0.4, 0.7], "packing_fraction": 0.72},
+    "vertices": [[2.0, 1.8528], [14.0, 2.2717], [14.0, 3.0], [2.0, 3.2]],
+}
+HOUSE = {
+    "name": "house",
+    "role": "obstacle",
+    "material": "rock",
+    "disks": {"diameter": [0.4, 0.6], "packing_fraction": 0.72},
+    "vertices": [[17.0, 2.3764], [20.0, 2.4812], [20.0, 6.0], [17.0, 6.0]],
+}
 GRAVEL = {"gravel": {"bonded": False, "friction": 0.4, "rolling_friction": 0.1, "density": 2200.0}}
 
 
@@ -195,15 +241,25 @@ def test_the_mass_is_counted_apart_from_its_bed(eroded):
     assert series["centroid_x_m"][-1] == pytest.approx(np.average(end.x[mass], weights=end.r[mass] ** 2), rel=1e-9)
     weight = math.pi * end.r**2 * np.array([2500.0, 2500.0, 2200.0, 2500.0])[end.layer]
     moved = np.hypot(end.x - start.x, end.y - start.y) > 2 * math.sqrt(made.disks_of(made.layers[2]).mean_square)
-    assert told["bed_kg_per_m"] == pytest.approx(weight[end.layer == 2].sum()) and told["mass_kg_per_m"] == pytest.approx(weight[mass].sum())
-    assert told["entrained_kg_per_m"] == pytest.approx(weight[(end.layer == 2) & moved].sum()) and 0 < told["entrained_kg_per_m"] < told["bed_kg_per_m"]
-    assert told["deposited_kg_per_m"] == pytest.approx(weight[mass & (end.x > 0)].sum()) and 0 < told["deposited_kg_per_m"] < told["mass_kg_per_m"]
+    assert told["bed_kg_per_m"] == pytest.approx(weight[end.layer == 2].sum()) and told[
+        "mass_kg_per_m"
+    ] == pytest.approx(weight[mass].sum())
+    assert (
+        told["entrained_kg_per_m"] == pytest.approx(weight[(end.layer == 2) & moved].sum())
+        and 0 < told["entrained_kg_per_m"] < told["bed_kg_per_m"]
+    )
+    assert (
+        told["deposited_kg_per_m"] == pytest.approx(weight[mass & (end.x > 0)].sum())
+        and 0 < told["deposited_kg_per_m"] < told["mass_kg_per_m"]
+    )
 
 
 def test_forces_change_the_momentum_of_mass_bed_and_house(eroded):
     """Exact but for rounding in sums of 400 disks; and energy is kept as on any slope."""
     rate, weight, water, walls = eroded[-1]
-    assert rate == pytest.approx(weight + water + walls, abs=1e-9 * abs(weight[1])) and np.hypot(*walls) > 0.5 * abs(weight[1])
+    assert rate == pytest.approx(weight + water + walls, abs=1e-9 * abs(weight[1])) and np.hypot(*walls) > 0.5 * abs(
+        weight[1]
+    )
     assert eroded[3]["energy_error_rel"] < 0.01
 
 
@@ -217,15 +273,33 @@ def test_what_hits_an_obstacle_pushes_it(eroded):
 
 def test_disks_of_a_bed_that_cannot_move_erode_no_more(tmp_path, eroded):
     """The same bed of bonded rock, fixed to the ground: the mass runs over it."""
-    rigid = written(tmp_path, layers=[{**BED, "material": "fixed"}], materials={
-        "fixed": {"friction": 0.4, "rolling_friction": 0.1, "tensile_strength": 1e9, "bond_creation_distance": 0.05, "density": 2200.0},
-        "ss": {"bonded": True, "tensile_strength": 1e9, "friction": 0.3, "rolling_friction": 0.1, "bond_creation_distance": 0.05}})
+    rigid = written(
+        tmp_path,
+        layers=[{**BED, "material": "fixed"}],
+        materials={
+            "fixed": {
+                "friction": 0.4,
+                "rolling_friction": 0.1,
+                "tensile_strength": 1e9,
+                "bond_creation_distance": 0.05,
+                "density": 2200.0,
+            },
+            "ss": {
+                "bonded": True,
+                "tensile_strength": 1e9,
+                "friction": 0.3,
+                "rolling_friction": 0.1,
+                "bond_creation_distance": 0.05,
+            },
+        },
+    )
     _, _, told = run(rigid, tmp_path / "out")
     assert told["entrained_kg_per_m"] == 0 and told["front_travel_m"] > 1
 
 
 def test_the_example_compares_three_beds(tmp_path):
     """The shipped script on the small slope, each bed to its rest."""
+
     def change(data):
         data["materials"] |= {**GRAVEL, "base": data["materials"].pop("ss")}
         data["walls"][2]["material"] = "base"
@@ -233,8 +307,22 @@ def test_the_example_compares_three_beds(tmp_path):
 
     path = write_changed(tmp_path, change)
     (tmp_path / "bed.table").write_text(f"section disks folder\n'{path}' 0 '{tmp_path}/out'\n")
-    done = shell.run("yade-nonsmooth", shell.SCRIPTS / "examples" / "erodible_bed.py", limit=300, cwd=tmp_path, YADE_BATCH=f"{tmp_path}/bed.table:2")
+    done = shell.run(
+        "yade-nonsmooth",
+        shell.SCRIPTS / "examples" / "erodible_bed.py",
+        limit=300,
+        cwd=tmp_path,
+        YADE_BATCH=f"{tmp_path}/bed.table:2",
+    )
     assert done.returncode == 0, done.stderr
-    rows = {words[0]: (float(words[1]), float(words[6]), float(words[9])) for words in map(str.split, done.stdout.splitlines()) if words[:1] and words[0] in ("loose", "cemented", "rigid")}
-    assert len(rows) == 3 and rows["rigid"][2] == 0 < rows["loose"][2] <= 100 and all(front > 1 for _, front, _ in rows.values())
+    rows = {
+        words[0]: (float(words[1]), float(words[6]), float(words[9]))
+        for words in map(str.split, done.stdout.splitlines())
+        if words[:1] and words[0] in ("loose", "cemented", "rigid")
+    }
+    assert (
+        len(rows) == 3
+        and rows["rigid"][2] == 0 < rows["loose"][2] <= 100
+        and all(front > 1 for _, front, _ in rows.values())
+    )
     assert (tmp_path / "out" / "beds.png").stat().st_size > 1000

@@ -15,11 +15,26 @@ from yade.nonsmooth.benchmark import cold_start, report, states, sweeps
 ROOT = Path(__file__).resolve().parents[2]
 DISKS = 350
 # The shipped section, loose and soon settled; so few disks do not hold on a plane as smooth as its own, nor from every seed.
-QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 4.0", "seed: 1 ": "seed: 3 ",
-         "bonded: false\n    tensile_strength: 0.0\n    residual_tensile_strength: 0.0\n    friction: 0.3\n    residual_friction: 0.3":
-         "bonded: false\n    tensile_strength: 0.0\n    residual_tensile_strength: 0.0\n    friction: 0.9"}
-PROMISED = ("sweep_ns_per_contact", "sweep_speedup_over_scalar", "sweep_speedup_two_threads", "step_ms", "soft_step_ms", "step_over_soft_step",
-            "cold_sweeps_to_1e-4", "warm_sweeps_mean", "fraction_of_bandwidth_bound", "correction_over_step", "correction_over_step_moving")
+QUICK = {
+    "packing_fraction: 0.848": "packing_fraction: 0.82",
+    "ramp: 4.0": "ramp: 1.0",
+    "time_max: 30.0": "time_max: 4.0",
+    "seed: 1 ": "seed: 3 ",
+    "bonded: false\n    tensile_strength: 0.0\n    residual_tensile_strength: 0.0\n    friction: 0.3\n    residual_friction: 0.3": "bonded: false\n    tensile_strength: 0.0\n    residual_tensile_strength: 0.0\n    friction: 0.9",
+}
+PROMISED = (
+    "sweep_ns_per_contact",
+    "sweep_speedup_over_scalar",
+    "sweep_speedup_two_threads",
+    "step_ms",
+    "soft_step_ms",
+    "step_over_soft_step",
+    "cold_sweeps_to_1e-4",
+    "warm_sweeps_mean",
+    "fraction_of_bandwidth_bound",
+    "correction_over_step",
+    "correction_over_step_moving",
+)
 
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -40,8 +55,18 @@ def measured(tmp_path_factory):
     (home / "quick.yaml").write_text(text)
     found = []
     for threads in (2, 1):
-        done = run("--quick", "--section", home / "quick.yaml", "--disks", DISKS, "--threads", threads, "--out", home / f"out-{threads}",
-                   XDG_CACHE_HOME=str(home / "cache"))
+        done = run(
+            "--quick",
+            "--section",
+            home / "quick.yaml",
+            "--disks",
+            DISKS,
+            "--threads",
+            threads,
+            "--out",
+            home / f"out-{threads}",
+            XDG_CACHE_HOME=str(home / "cache"),
+        )
         assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
         found.append((json.loads((home / f"out-{threads}" / "benchmark.json").read_text()), done.stdout))
     return home, found
@@ -65,11 +90,24 @@ def test_all_that_is_promised_is_there_and_a_number(measured):
         assert math.isfinite(summary[name]) and summary[name] > 0, name
     for name, value in numbers(summary):
         assert math.isfinite(value), name
-    stages = {"reset", "collide", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrate", "other"}
+    stages = {
+        "reset",
+        "collide",
+        "interactions",
+        "pore_pressure",
+        "gather",
+        "solve",
+        "correct",
+        "scatter",
+        "integrate",
+        "other",
+    }
     assert set(summary["stage_ms"]) == {"rest", "moving"}
     for found in summary["stage_ms"].values():
         assert set(found) == stages and all(v >= 0 for v in found.values())
-    assert {(m["state"], m["threads"]) for m in summary["steps"]} == {(s, t) for s in ("rest", "moving", "soft") for t in (1, 2)}
+    assert {(m["state"], m["threads"]) for m in summary["steps"]} == {
+        (s, t) for s in ("rest", "moving", "soft") for t in (1, 2)
+    }
     assert {(m["state"], m["threads"]) for m in alone["steps"]} == {("rest", 1), ("moving", 1), ("soft", 1)}
     for name, (low, high) in summary["quartiles"].items():
         assert low <= summary[name] <= high, name
@@ -81,7 +119,9 @@ def test_all_that_is_promised_is_there_and_a_number(measured):
 
 def test_stages_add_up_to_the_step(measured):
     for m in measured[1][0][0]["steps"]:
-        assert sum(s["mean"] for s in m["stage_ms"].values()) == pytest.approx(m["step_ms"]["mean"], rel=1e-9)  # "other" is the rest: rounding
+        assert sum(s["mean"] for s in m["stage_ms"].values()) == pytest.approx(
+            m["step_ms"]["mean"], rel=1e-9
+        )  # "other" is the rest: rounding
         # engines' own clocks lie inside the step's
         assert 0 <= m["stage_ms"]["other"]["mean"] < 0.5 * m["step_ms"]["mean"]
 
@@ -92,8 +132,15 @@ def test_what_a_step_costs_outside_its_solve_stands_over_the_solve(measured):
     for state, ratio in summary["outside_solve_over_solve"].items():
         ms = summary["stage_ms"][state]
         solve = ms["solve"] + ms["correct"]
-        assert ratio == pytest.approx((sum(ms.values()) - solve) / solve, rel=1e-9)  # rounding: stages add up to the step
-        assert ms == {name: s["mean"] for name, s in next(m for m in summary["steps"] if (m["state"], m["threads"]) == (state, 2))["stage_ms"].items()}
+        assert ratio == pytest.approx(
+            (sum(ms.values()) - solve) / solve, rel=1e-9
+        )  # rounding: stages add up to the step
+        assert ms == {
+            name: s["mean"]
+            for name, s in next(m for m in summary["steps"] if (m["state"], m["threads"]) == (state, 2))[
+                "stage_ms"
+            ].items()
+        }
         assert f"{ratio:.4g}" in printed
 
 
@@ -114,7 +161,9 @@ def test_states_are_made_once(measured):
     assert first["states_made"] and not again["states_made"]
     assert len(list((home / "cache" / "yade-nonsmooth" / "benchmark").iterdir())) == 1
     # from the same bits: the same sweeps, on any number of threads
-    sweeps_of = lambda s: {m["state"]: m["sweeps_mean"] for m in s["steps"] if m["threads"] == 1 and m["state"] != "soft"}  # noqa: E731
+    sweeps_of = lambda s: {
+        m["state"]: m["sweeps_mean"] for m in s["steps"] if m["threads"] == 1 and m["state"] != "soft"
+    }  # noqa: E731
     assert sweeps_of(first) == sweeps_of(again)
     assert first["cold_sweeps_to_1e-4"] == again["cold_sweeps_to_1e-4"]
 
@@ -162,7 +211,18 @@ def test_a_section_without_the_walls_that_are_weakened_is_refused_at_once(tmp_pa
 def test_a_sweep_is_timed_only_where_every_sweep_is_made():
     problem = contact.load(ROOT / "tests" / "data" / "slope_t1.h5")
     assert all(math.isfinite(sweeps.sweep_seconds(problem, path, 1)) for path in ("reference", "best"))
-    contacts = ("body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length", "warm_start", "impulse")
+    contacts = (
+        "body",
+        "normal",
+        "lever",
+        "bias",
+        "adhesion",
+        "friction",
+        "rolling_arm",
+        "length",
+        "warm_start",
+        "impulse",
+    )
     nothing = {name: getattr(problem, name)[:0] for name in contacts}
     with pytest.raises(RuntimeError, match="cannot be timed"):
         sweeps.sweep_seconds(dataclasses.replace(problem, **nothing), "best", 1)
@@ -182,14 +242,20 @@ def test_cost_by_size_is_measured_and_drawn(measured, tmp_path):
     done = run("--scale", "500,350", "--section", measured[0] / "quick.yaml", "--threads", 1, "--out", tmp_path)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     found = json.loads((tmp_path / "scale.json").read_text())
-    assert [s["disks"] for s in found["sizes"]] == [pytest.approx(350, abs=4), pytest.approx(500, abs=4)]  # counts of layers are rounded
+    assert [s["disks"] for s in found["sizes"]] == [
+        pytest.approx(350, abs=4),
+        pytest.approx(500, abs=4),
+    ]  # counts of layers are rounded
     for s in found["sizes"]:
         assert all(math.isfinite(value) and value >= 0 for _, value in numbers(s))
         assert s["sweep_ns_per_contact"]["1"]["median"] > 0 and s["packing_s"] > 0 and s["step_ms"]["median"] > 0
         assert s["cold_start"]["sweeps"] > 10 and s["steps"] == 100
         assert 1 < s["candidates"] / s["disks"] < 6
         # soft disks have contacts inside their layers only, until the slope is loaded; some kB each, whatever the interpreter took before
-        assert 0.1 * s["candidates"] < s["soft_memory"]["contacts"] < s["candidates"] and 500 < s["soft_memory"]["bytes_per_disk"] < 50_000
+        assert (
+            0.1 * s["candidates"] < s["soft_memory"]["contacts"] < s["candidates"]
+            and 500 < s["soft_memory"]["bytes_per_disk"] < 50_000
+        )
     assert (tmp_path / "scale.png").stat().st_size > 1000
     bad = run("--scale", "500,x", "--out", tmp_path)
     assert bad.returncode != 0 and "give numbers of disks" in bad.stderr + bad.stdout
@@ -198,4 +264,8 @@ def test_cost_by_size_is_measured_and_drawn(measured, tmp_path):
 def test_spread_is_that_of_numpy():
     values = [5.0, 1.0, 2.0, 100.0, 3.0]
     found = statistics.spread(values)
-    assert found["median"] == 3.0 and found["quartiles"] == [2.0, 5.0] and found["mean"] == pytest.approx(np.mean(values), rel=1e-15)
+    assert (
+        found["median"] == 3.0
+        and found["quartiles"] == [2.0, 5.0]
+        and found["mean"] == pytest.approx(np.mean(values), rel=1e-15)
+    )

@@ -23,8 +23,14 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 def pair(gap=0.0, angle=0.0, bonded=1, layers=(0, 0), **more):
     """A fixed disk and a free one at `angle`, bonded; returns the free one's id."""
-    strengths = dict(tensileStrength=SIGMA, bondEllipseNormal=ZONE, bondEllipseTangential=ZONE, bondCreationDistance=0.01,
-                     mu=MU, rolling=ROLLING)
+    strengths = dict(
+        tensileStrength=SIGMA,
+        bondEllipseNormal=ZONE,
+        bondEllipseTangential=ZONE,
+        bondCreationDistance=0.01,
+        mu=MU,
+        rolling=ROLLING,
+    )
     a, b = (material(layer=layer, **{**strengths, **more}) for layer in layers)
     O.bodies.append(scene.disk((0, 0), RADIUS, a, fixed=True))
     distance = LENGTH + gap
@@ -249,7 +255,9 @@ def test_a_break_is_named_by_what_makes_more_than_60_per_cent_of_the_path(openin
 def test_walls_bond_only_where_they_say_so():
     for to_all, bonds in ((False, 0), (True, 1)):
         O.reset()
-        disk, wall = material(tensileStrength=SIGMA), material(tensileStrength=SIGMA, wall=True, bondsToAll=to_all)  # of one layer
+        disk, wall = material(tensileStrength=SIGMA), material(
+            tensileStrength=SIGMA, wall=True, bondsToAll=to_all
+        )  # of one layer
         O.bodies.append(scene.segments([(-5, 0), (5, 0)], wall))
         O.bodies.append(scene.disk((0, 0.5), 0.5, disk))
         begin(gravity=(0, 0, 0))

@@ -26,19 +26,35 @@ def test_all_combinations_are_planned_and_each_has_its_values():
     over = {"materials.rock.friction": [0.2, 0.4, 0.8], "water.table.rate": [0.5, 1], "seed": (3, 4)}
     plan = campaign.sweep(SHIPPED, over, end=7.0, figures=True)
     assert len(plan.runs) == 12 and len({one.name for one in plan.runs}) == 12 and plan.title == SHIPPED.name
-    assert [one.values["seed"] for one in plan.runs] == [3, 4] * 6 and plan.runs[-1].name == "friction=0.8_rate=1_seed=4"
+    assert [one.values["seed"] for one in plan.runs] == [3, 4] * 6 and plan.runs[
+        -1
+    ].name == "friction=0.8_rate=1_seed=4"
     for one in plan.runs:
         made = of(one)
         assert (made.materials["rock"].friction, made.water.rate, made.seed) == tuple(one.values.values())
         assert (one.arguments["end"], one.arguments["figures"]) == (7.0, True) and one.work == sum(made.disk_counts())
-        assert made.walls == SHIPPED.walls and made.layers == SHIPPED.layers and made.materials["joint"] == SHIPPED.materials["joint"]
+        assert (
+            made.walls == SHIPPED.walls
+            and made.layers == SHIPPED.layers
+            and made.materials["joint"] == SHIPPED.materials["joint"]
+        )
     assert campaign.sweep(SHIPPED, {}).runs[0].name == "run"
 
 
 def test_items_of_lists_go_by_their_names_and_lists_are_values_too():
-    plan = campaign.sweep(SHIPPED, {"interfaces.joint.material": ["joint", "rock"], "disks.diameter": [[1.0, 2.0], [1.5, 3.0]]})
-    assert [one.name for one in plan.runs] == ["material=joint_diameter=1.0x2.0", "material=joint_diameter=1.5x3.0", "material=rock_diameter=1.0x2.0", "material=rock_diameter=1.5x3.0"]
-    assert of(plan.runs[3]).interfaces[0].material == "rock" and (of(plan.runs[3]).disks.d_min, of(plan.runs[3]).disks.d_max) == (1.5, 3.0)
+    plan = campaign.sweep(
+        SHIPPED, {"interfaces.joint.material": ["joint", "rock"], "disks.diameter": [[1.0, 2.0], [1.5, 3.0]]}
+    )
+    assert [one.name for one in plan.runs] == [
+        "material=joint_diameter=1.0x2.0",
+        "material=joint_diameter=1.5x3.0",
+        "material=rock_diameter=1.0x2.0",
+        "material=rock_diameter=1.5x3.0",
+    ]
+    assert of(plan.runs[3]).interfaces[0].material == "rock" and (
+        of(plan.runs[3]).disks.d_min,
+        of(plan.runs[3]).disks.d_max,
+    ) == (1.5, 3.0)
     first = SHIPPED.walls[0]
     wall = of(campaign.sweep(SHIPPED, {f"walls.{first.name}.role": ["obstacle"]}).runs[0])
     assert [w.role for w in wall.walls] == ["obstacle", *(w.role for w in SHIPPED.walls[1:])] and len(wall.walls) > 1
@@ -48,20 +64,39 @@ def test_items_of_lists_go_by_their_names_and_lists_are_values_too():
     assert [one.name for one in long.runs] == ["0000", "0001"]
 
 
-@pytest.mark.parametrize("over, message", [
-    ({"materials.rok.friction": [0.1]}, "materials.rok.friction: there is no 'rok' in materials of the section; did you mean 'rock'?"),
-    ({"walls.none.material": ["rock"]}, "walls.none.material: there is no 'none' in walls of the section; there are "),
-    ({"seed.more": [1]}, "seed.more: there is no 'more' in seed of the section; nothing can be varied there"),
-    ({"seed": []}, "seed: no value to run with"), ({"seed": [1, 2, 1]}, "seed: 1, 2, 1: a value stands twice"),
-    ({"seed": range(101), "gravity": [1.0 + k for k in range(100)]}, "101 × 100 = 10100 runs; a plan has 10000 at most")])
+@pytest.mark.parametrize(
+    "over, message",
+    [
+        (
+            {"materials.rok.friction": [0.1]},
+            "materials.rok.friction: there is no 'rok' in materials of the section; did you mean 'rock'?",
+        ),
+        (
+            {"walls.none.material": ["rock"]},
+            "walls.none.material: there is no 'none' in walls of the section; there are ",
+        ),
+        ({"seed.more": [1]}, "seed.more: there is no 'more' in seed of the section; nothing can be varied there"),
+        ({"seed": []}, "seed: no value to run with"),
+        ({"seed": [1, 2, 1]}, "seed: 1, 2, 1: a value stands twice"),
+        (
+            {"seed": range(101), "gravity": [1.0 + k for k in range(100)]},
+            "101 × 100 = 10100 runs; a plan has 10000 at most",
+        ),
+    ],
+)
 def test_what_cannot_be_planned_is_told(over, message):
     with pytest.raises(campaign.PlanError) as refused:
         campaign.sweep(SHIPPED, over)
     assert str(refused.value).startswith(message)
 
 
-@pytest.mark.parametrize("over, message", [({"seeds": [1]}, "seeds=1: seeds: unknown key; did you mean 'seed'?"),
-                                           ({"materials.rock.friction": [0.1, -1]}, "friction=-1: materials.rock.friction: -1 is not allowed")])
+@pytest.mark.parametrize(
+    "over, message",
+    [
+        ({"seeds": [1]}, "seeds=1: seeds: unknown key; did you mean 'seed'?"),
+        ({"materials.rock.friction": [0.1, -1]}, "friction=-1: materials.rock.friction: -1 is not allowed"),
+    ],
+)
 def test_a_combination_that_is_no_section_is_named_before_anything_runs(over, message):
     with pytest.raises(section.SectionError) as refused:
         campaign.sweep(SHIPPED, over)
@@ -69,6 +104,7 @@ def test_a_combination_that_is_no_section_is_named_before_anything_runs(over, me
 
 
 # ---- its folder; the processes are made up ---------------------------------------------------------
+
 
 @pytest.fixture
 def called(monkeypatch):
@@ -81,7 +117,14 @@ def called(monkeypatch):
         made = section.of(arguments["data"])
         if made.materials["rock"].friction == 0.9:
             raise processes.RunError("it broke")
-        return {"rest": None, "twice": 2 * made.seed, "text": "left out", "list": [1], "worst": float("inf"), "times": {"t0": 0.5 * made.seed, "more": {"ok": True}}}
+        return {
+            "rest": None,
+            "twice": 2 * made.seed,
+            "text": "left out",
+            "list": [1],
+            "worst": float("inf"),
+            "times": {"t0": 0.5 * made.seed, "more": {"ok": True}},
+        }
 
     monkeypatch.setattr(processes, "call", call)
     return names
@@ -96,11 +139,23 @@ def test_the_table_has_values_and_numbers_of_each_run(tmp_path, called):
     assert sorted(called) == sorted(one.name for one in planned().runs)
     walls = table.pop("process_wall_s")
     assert all(0 <= w for w in walls)
-    assert table == {"run": [one.name for one in planned().runs], "materials.rock.friction": [0.3, 0.3, 0.6, 0.6], "seed": [1, 2, 1, 2], "rest": [None] * 4, "twice": [2, 4, 2, 4],
-                     "worst": [None] * 4, "times.t0": [0.5, 1.0, 0.5, 1.0], "times.more.ok": [True] * 4}
+    assert table == {
+        "run": [one.name for one in planned().runs],
+        "materials.rock.friction": [0.3, 0.3, 0.6, 0.6],
+        "seed": [1, 2, 1, 2],
+        "rest": [None] * 4,
+        "twice": [2, 4, 2, 4],
+        "worst": [None] * 4,
+        "times.t0": [0.5, 1.0, 0.5, 1.0],
+        "times.more.ok": [True] * 4,
+    }
     with open(tmp_path / "table.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert [row["times.t0"] for row in rows] == ["0.5", "1.0", "0.5", "1.0"] and rows[0]["rest"] == "" and list(rows[0])[:3] == ["run", "materials.rock.friction", "seed"]
+    assert (
+        [row["times.t0"] for row in rows] == ["0.5", "1.0", "0.5", "1.0"]
+        and rows[0]["rest"] == ""
+        and list(rows[0])[:3] == ["run", "materials.rock.friction", "seed"]
+    )
     again = campaign.read(tmp_path)
     assert again == planned() and campaign.collect(tmp_path)["twice"] == [2, 4, 2, 4]
 
@@ -115,12 +170,18 @@ def test_a_plan_that_grows_keeps_what_has_ended(tmp_path, called):
 def test_no_result_of_other_code_is_collected(tmp_path, called, monkeypatch):
     planned().run(tmp_path, 1)
     monkeypatch.setattr(keys, "code_key", lambda: "later")
-    with pytest.raises(campaign.PlanError, match=r"4 of 4 runs have no result of this input, these engines and this code: friction=0.3_seed=1, .* and 1 more; run them"):
+    with pytest.raises(
+        campaign.PlanError,
+        match=r"4 of 4 runs have no result of this input, these engines and this code: friction=0.3_seed=1, .* and 1 more; run them",
+    ):
         campaign.collect(tmp_path)
 
 
 def test_a_failure_is_told_and_the_others_are_kept(tmp_path, called):
-    with pytest.raises(campaign.PlanError, match=r"^friction=0.9_seed=1: it broke \(and 1 more\); what has ended is kept, go on with --resume$"):
+    with pytest.raises(
+        campaign.PlanError,
+        match=r"^friction=0.9_seed=1: it broke \(and 1 more\); what has ended is kept, go on with --resume$",
+    ):
         planned((0.3, 0.9)).run(tmp_path, 2)
     with pytest.raises(campaign.PlanError, match="2 of 4 runs have no result"):
         campaign.collect(tmp_path)
@@ -130,7 +191,11 @@ def test_a_failure_is_told_and_the_others_are_kept(tmp_path, called):
 
 def test_one_run_by_name_or_number_is_done_once(tmp_path, called):
     planned().write(tmp_path)
-    assert campaign.run_one(tmp_path, "friction=0.6_seed=1")["twice"] == 2 and campaign.run_one(tmp_path, 2)["twice"] == 2 and campaign.run_one(tmp_path, 0)["twice"] == 2
+    assert (
+        campaign.run_one(tmp_path, "friction=0.6_seed=1")["twice"] == 2
+        and campaign.run_one(tmp_path, 2)["twice"] == 2
+        and campaign.run_one(tmp_path, 0)["twice"] == 2
+    )
     assert called == ["friction=0.6_seed=1", "friction=0.3_seed=1"]
     for which, message in ((4, "no number 4: give one from 0 to 3"), ("seed=9", "no run is called 'seed=9'")):
         with pytest.raises(campaign.PlanError, match=message):
@@ -139,12 +204,21 @@ def test_one_run_by_name_or_number_is_done_once(tmp_path, called):
 
 def test_the_files_for_a_cluster_name_all_runs(tmp_path):
     planned().write(tmp_path)
-    assert "#SBATCH --array=0-3\n" in (tmp_path / "array.sh").read_text() and '--number "$SLURM_ARRAY_TASK_ID"' in (tmp_path / "array.sh").read_text()
+    assert (
+        "#SBATCH --array=0-3\n" in (tmp_path / "array.sh").read_text()
+        and '--number "$SLURM_ARRAY_TASK_ID"' in (tmp_path / "array.sh").read_text()
+    )
     script = (tmp_path / "Snakefile").read_text()
-    assert all(f'"{one.name}": "{keys.run_key(one.key)}"' in script for one in planned().runs) and script.count("sweep.py") == 2
+    assert (
+        all(f'"{one.name}": "{keys.run_key(one.key)}"' in script for one in planned().runs)
+        and script.count("sweep.py") == 2
+    )
 
 
-@pytest.mark.parametrize("text, message", [(None, "there is no plan"), ("{", "the plan cannot be read"), ('{"format": 0}', "another version")])
+@pytest.mark.parametrize(
+    "text, message",
+    [(None, "there is no plan"), ("{", "the plan cannot be read"), ('{"format": 0}', "another version")],
+)
 def test_a_folder_that_has_no_plan_is_told(tmp_path, text, message):
     if text is not None:
         (tmp_path / "plan.json").write_text(text)
@@ -153,6 +227,7 @@ def test_a_folder_that_has_no_plan_is_told(tmp_path, text, message):
 
 
 # ---- real runs --------------------------------------------------------------------------------------
+
 
 def told(folder):
     """What a run found, but for how long it took."""
@@ -164,7 +239,14 @@ def told(folder):
 def swept(tmp_path_factory):
     """The documentation's script, as it is printed, run by a plain Python in a folder of its own."""
     home = tmp_path_factory.mktemp("swept")
-    done = subprocess.run([PYTHON, str(EXAMPLE)], cwd=home, env=shell.environment(PYTHONPATH=str(ROOT / "py")), capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        [PYTHON, str(EXAMPLE)],
+        cwd=home,
+        env=shell.environment(PYTHONPATH=str(ROOT / "py")),
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
     assert done.returncode == 0, done.stderr
     return home / "out" / "sweep", done.stdout
 
@@ -173,7 +255,9 @@ def test_the_sweep_of_the_documentation(swept):
     out, said = swept
     table = campaign.collect(out)
     assert len(table["run"]) == 18 and set(table["finished"]) == {True}
-    assert all(len(set(table[name])) == count for name, count in ((list(table)[1], 3), (list(table)[2], 3), ("seed", 2)))
+    assert all(
+        len(set(table[name])) == count for name, count in ((list(table)[1], 3), (list(table)[2], 3), ("seed", 2))
+    )
     first = campaign.read(out).runs[0]
     assert section_data.plain(section.load(str(out / "runs" / first.name / "section.yaml"))) == first.arguments["data"]
     means = {tuple(line.split()[-4:-3]) for line in said.splitlines()[-9:]}
@@ -189,18 +273,38 @@ def test_snakemake_and_an_array_job_do_the_same_runs(swept, tmp_path):
     names = [one.name for one in campaign.read(out).runs]
     # the first six by Slurm's script; Snakemake, which takes them for done, does the others
     for number in range(6):
-        subprocess.run(["sh", "array.sh"], cwd=mine, env=shell.environment(SLURM_ARRAY_TASK_ID=str(number)), check=True, timeout=120)
+        subprocess.run(
+            ["sh", "array.sh"],
+            cwd=mine,
+            env=shell.environment(SLURM_ARRAY_TASK_ID=str(number)),
+            check=True,
+            timeout=120,
+        )
     assert [name for name in names if (mine / "runs" / name / "result.json").exists()] == names[:6]
     script = (mine / "Snakefile").read_text()
     assert all(f'"{keys.run_key(one.key)}"' in script for one in campaign.read(mine).runs)
     (mine / "Snakefile").write_text(script.replace(sys.executable, PYTHON))  # this process is YADE's
-    done = subprocess.run([program, "--cores", "2", "--nocolor"], cwd=mine, env=shell.environment(), capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        [program, "--cores", "2", "--nocolor"],
+        cwd=mine,
+        env=shell.environment(),
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
     assert done.returncode == 0, done.stderr[-3000:]
     assert all(told(mine / "runs" / name) == told(out / "runs" / name) for name in names)
     here, there = campaign.collect(out), campaign.collect(mine)
     assert {k: v for k, v in here.items() if "wall" not in k} == {k: v for k, v in there.items() if "wall" not in k}
     # nothing is left to do
-    done = subprocess.run([program, "--cores", "2", "--nocolor"], cwd=mine, env=shell.environment(), capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [program, "--cores", "2", "--nocolor"],
+        cwd=mine,
+        env=shell.environment(),
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
     assert "Nothing to be done" in done.stderr
 
 

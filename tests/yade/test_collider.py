@@ -5,7 +5,18 @@ import random
 import pytest
 from yade import O
 from yade.nonsmooth import scene
-from yade.wrapper import Box, Body, Bo1_Box_Aabb, Bo1_Sphere_Aabb, Collider, Ig2_Box_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, PlanarGridCollider, Sphere
+from yade.wrapper import (
+    Box,
+    Body,
+    Bo1_Box_Aabb,
+    Bo1_Sphere_Aabb,
+    Collider,
+    Ig2_Box_Sphere_ScGeom,
+    InsertionSortCollider,
+    InteractionLoop,
+    PlanarGridCollider,
+    Sphere,
+)
 
 from contact_scenes import begin, bits, box, engine, loose_heap, material, run
 
@@ -28,7 +39,10 @@ def gas(count=150, side=30.0, speed=40.0, seed=3, far=None):
     while len(ids) < count:
         r = 0.2 * 10 ** dice.uniform(0, 1) if len(ids) % 9 == 0 else 0.2 * dice.uniform(1, 2)
         x, y = dice.uniform(r, side - r), dice.uniform(r, side - r)
-        if all(math.hypot(x - O.bodies[i].state.pos[0], y - O.bodies[i].state.pos[1]) > r + O.bodies[i].shape.radius for i in ids):
+        if all(
+            math.hypot(x - O.bodies[i].state.pos[0], y - O.bodies[i].state.pos[1]) > r + O.bodies[i].shape.radius
+            for i in ids
+        ):
             ids.append(O.bodies.append(scene.disk((x, y), r, stuff)))
             turn = dice.uniform(0, 2 * math.pi)
             O.bodies[ids[-1]].state.vel = (speed * math.cos(turn), speed * math.sin(turn), 0)
@@ -39,27 +53,40 @@ def gas(count=150, side=30.0, speed=40.0, seed=3, far=None):
 def near(ids):
     """Pairs of disks within reach, by brute force."""
     rows = [(i, O.bodies[i].state.pos[0], O.bodies[i].state.pos[1], O.bodies[i].shape.radius) for i in ids]
-    return {(i, j) for k, (i, x, y, r) in enumerate(rows) for j, u, v, s in rows[k + 1:] if math.hypot(x - u, y - v) <= (1 + REACH) * (r + s)}
+    return {
+        (i, j)
+        for k, (i, x, y, r) in enumerate(rows)
+        for j, u, v, s in rows[k + 1 :]
+        if math.hypot(x - u, y - v) <= (1 + REACH) * (r + s)
+    }
 
 
 def near_or_fast(ids, far):
     """Pairs of disks within ``far`` that are within reach, or may be in two steps by the speed of one of them against a disk that it may meet so soon."""
-    rows = [(i, *tuple(O.bodies[i].state.pos)[:2], O.bodies[i].shape.radius, *tuple(O.bodies[i].state.vel)[:2]) for i in ids]
+    rows = [
+        (i, *tuple(O.bodies[i].state.pos)[:2], O.bodies[i].shape.radius, *tuple(O.bodies[i].state.vel)[:2]) for i in ids
+    ]
     fastest, gaps = dict.fromkeys(ids, 0.0), {}
     for k, (i, x, y, r, vx, vy) in enumerate(rows):
-        for j, u, v, s, wx, wy in rows[k + 1:]:
+        for j, u, v, s, wx, wy in rows[k + 1 :]:
             gap = math.hypot(x - u, y - v) - (r + s)
             if gap > far * (r + s):
                 continue
             gaps[i, j], speed = (gap, r + s), math.hypot(vx - wx, vy - wy)
             for one in (i, j) if gap <= REACH * (r + s) + 2 * O.dt * speed else ():
                 fastest[one] = max(fastest[one], speed)
-    return {(i, j) for (i, j), (gap, length) in gaps.items() if gap <= REACH * length + 2 * O.dt * max(fastest[i], fastest[j])}
+    return {
+        (i, j)
+        for (i, j), (gap, length) in gaps.items()
+        if gap <= REACH * length + 2 * O.dt * max(fastest[i], fastest[j])
+    }
 
 
 def disk_pairs(real=True):
     """Pairs of disks that have an interaction that is real, or potential."""
-    both = lambda i: isinstance(O.bodies[i.id1].shape, Sphere) and isinstance(O.bodies[i.id2].shape, Sphere)  # noqa: E731
+    both = lambda i: isinstance(O.bodies[i.id1].shape, Sphere) and isinstance(
+        O.bodies[i.id2].shape, Sphere
+    )  # noqa: E731
     return {(min(i.id1, i.id2), max(i.id1, i.id2)) for i in O.interactions.all() if i.isReal == real and both(i)}
 
 
@@ -77,7 +104,9 @@ def test_disks_have_the_contacts_that_brute_force_finds():
         expected = step(ids)
         assert disk_pairs() == expected
         seen |= expected
-    assert len(seen) > 300 and 20 < collider().searches < 151  # contacts came and went; and pairs were kept over some steps
+    assert (
+        len(seen) > 300 and 20 < collider().searches < 151
+    )  # contacts came and went; and pairs were kept over some steps
 
 
 def test_far_disks_have_contacts_while_they_are_fast():
@@ -186,7 +215,12 @@ def test_potential_interactions_with_walls_end_when_disks_have_left():
             low, high = ([sign * abs(along[k]) + wall.state.pos[k] for k in (0, 1)] for sign in (-1, 1))
             apart = math.hypot(*(max(low[k] - disk.state.pos[k], disk.state.pos[k] - high[k], 0) for k in (0, 1)))
             # within reach of the box and half a square's margin when pairs were looked up, and a quarter gone since, and the step that was made after the collider
-            assert apart <= (2 * (1 + REACH) - 1) * disk.shape.radius + 3 * (1 + REACH) * largest / 2 + O.dt * disk.state.vel.norm()
+            assert (
+                apart
+                <= (2 * (1 + REACH) - 1) * disk.shape.radius
+                + 3 * (1 + REACH) * largest / 2
+                + O.dt * disk.state.vel.norm()
+            )
             potential.add((wall.id, disk.id))
         left += len(before - potential)
         before = potential
@@ -259,7 +293,12 @@ def test_moving_bodies_of_other_shapes_keep_their_contacts():
     plate.state.vel = (5, 0, 0)  # passes over disks that rest
     ids = [O.bodies.append(scene.disk((3 + 1.2 * k, 0.99), 0.5, stuff)) for k in range(4)]
     begin(gravity=(0, 0, 0), dt=5e-3)
-    O.engines = [PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05) if isinstance(e, Collider) else e for e in O.engines]
+    O.engines = [
+        PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05)
+        if isinstance(e, Collider)
+        else e
+        for e in O.engines
+    ]
     loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
     loop.geomDispatcher.functors = list(loop.geomDispatcher.functors) + [Ig2_Box_Sphere_ScGeom()]
     met = set()
@@ -267,12 +306,19 @@ def test_moving_bodies_of_other_shapes_keep_their_contacts():
         O.step()
         for i in O.interactions:
             met |= {i.id1, i.id2} & set(ids)
-    assert met == set(ids) and len([i for i in O.interactions.all() if 0 in (i.id1, i.id2)]) < 4  # those behind the plate are forgotten
+    assert (
+        met == set(ids) and len([i for i in O.interactions.all() if 0 in (i.id1, i.id2)]) < 4
+    )  # those behind the plate are forgotten
 
 
-@pytest.mark.parametrize("spoil, words", [(lambda: setattr(O, "periodic", True), ("periodic", "InsertionSortCollider")),
-                                          (lambda: setattr(collider(), "verletDist", math.nan), ("verletDist", "nan")),
-                                          (lambda: setattr(collider(), "sureReach", -0.1), ("sureReach", "-0.1", "not negative"))])
+@pytest.mark.parametrize(
+    "spoil, words",
+    [
+        (lambda: setattr(O, "periodic", True), ("periodic", "InsertionSortCollider")),
+        (lambda: setattr(collider(), "verletDist", math.nan), ("verletDist", "nan")),
+        (lambda: setattr(collider(), "sureReach", -0.1), ("sureReach", "-0.1", "not negative")),
+    ],
+)
 def test_refuses_what_it_cannot_do(spoil, words):
     O.bodies.append(scene.disk((0, 0), 0.5, material()))
     begin(gravity=(0, 0, 0))

@@ -29,52 +29,109 @@ def hard(heap, tolerance=1e-3):
 
 # ---- rows and results -------------------------------------------------------------------------------
 
+
 def made_heap(gates, base="smooth"):
     """What a row and a result ask of a heap."""
-    return SimpleNamespace(density=2000.0, gravity=10.0, base=base, gates=lambda: gates, place=lambda: -3.0, packing=None, disks=4, plain=lambda: {})
+    return SimpleNamespace(
+        density=2000.0,
+        gravity=10.0,
+        base=base,
+        gates=lambda: gates,
+        place=lambda: -3.0,
+        packing=None,
+        disks=4,
+        plain=lambda: {},
+    )
 
 
 def test_a_row_measures_the_disks_that_are_there(monkeypatch):
     """Three disks that touch, the last one 0.02 m into the left wall at x = -3 m, and one in the air."""
     x = -1.52 + math.sqrt(2)  # of the large one, which leans on a small one
-    table = {"x": np.array([-2.52, -1.52, x, 7.0]), "y": np.array([0.5, 0.5, 1.0, 9.0]), "r": np.array([0.5, 0.5, 1.0, 0.5]),
-             "vx": np.array([3.0, 0.0, 0.0, 0.0]), "vy": np.array([4.0, 0.0, 0.0, 2.0]), "omega": np.array([2.0, 0.0, 3.0, 0.0])}
+    table = {
+        "x": np.array([-2.52, -1.52, x, 7.0]),
+        "y": np.array([0.5, 0.5, 1.0, 9.0]),
+        "r": np.array([0.5, 0.5, 1.0, 0.5]),
+        "vx": np.array([3.0, 0.0, 0.0, 0.0]),
+        "vy": np.array([4.0, 0.0, 0.0, 2.0]),
+        "omega": np.array([2.0, 0.0, 3.0, 0.0]),
+    }
     monkeypatch.setattr(preparation, "disk_table", lambda stand: table)
     scene = course.Scene(made_heap(("right",)), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
     row, joined = scene.measure()
     assert joined.tolist() == [True, True, True, False]
     small, large = 2000 * math.pi * 0.25, 2000 * math.pi
-    assert row["energy_kinetic_J"] == pytest.approx(0.5 * (small * (25 + 0.5 * (0.5 * 2) ** 2) + large * 0.5 * 3**2 + small * 4), rel=1e-12)
+    assert row["energy_kinetic_J"] == pytest.approx(
+        0.5 * (small * (25 + 0.5 * (0.5 * 2) ** 2) + large * 0.5 * 3**2 + small * 4), rel=1e-12
+    )
     assert row["energy_potential_J"] == pytest.approx(10 * (small * (0.5 + 0.5 + 9) + large), rel=1e-12)
-    assert row["centroid_x_m"] == pytest.approx((0.25 * (-2.52 - 1.52 + 7) + x) / 1.75, rel=1e-12) and row["centroid_y_m"] == pytest.approx((0.25 * 10 + 1) / 1.75, rel=1e-12)
-    assert (row["front_left_m"], row["front_m"], row["farthest_m"], row["connected_disks"]) == pytest.approx((-3.02, x + 1, 7.5, 3), rel=1e-12)
+    assert row["centroid_x_m"] == pytest.approx((0.25 * (-2.52 - 1.52 + 7) + x) / 1.75, rel=1e-12) and row[
+        "centroid_y_m"
+    ] == pytest.approx((0.25 * 10 + 1) / 1.75, rel=1e-12)
+    assert (row["front_left_m"], row["front_m"], row["farthest_m"], row["connected_disks"]) == pytest.approx(
+        (-3.02, x + 1, 7.5, 3), rel=1e-12
+    )
     assert row["overlap_worst_rel"] == pytest.approx(0.02, rel=1e-9)  # of the disk's diameter, 1 m
-    two_gates = course.Scene(made_heap(("left", "right"), "rough"), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
+    two_gates = course.Scene(
+        made_heap(("left", "right"), "rough"), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[])
+    )
     assert two_gates.measure()[0]["overlap_worst_rel"] < 1e-9  # the wall is gone, and so is the floor
-    assert course.Scene(made_heap(("left",)), None, SimpleNamespace(width=10.3), SimpleNamespace(base=[])).measure()[0]["overlap_worst_rel"] == pytest.approx(0.2, rel=1e-9)
+    assert course.Scene(made_heap(("left",)), None, SimpleNamespace(width=10.3), SimpleNamespace(base=[])).measure()[0][
+        "overlap_worst_rel"
+    ] == pytest.approx(0.2, rel=1e-9)
 
 
 def test_a_result_is_in_units_of_its_box():
     """L0 = 4 m, H0 = 10 m; from -3 m the front has come to 9 m, the left one to -7 m, and 6 m of height are left."""
     x, r = np.arange(-6.5, 8.6), np.full(16, 0.5)
-    series = {name: np.array([0.0, 1.0]) for name in course.COLUMNS} | {"front_m": np.array([1.0, 9.0]), "front_left_m": np.array([-3.0, -7.0]), "height_m": np.array([10.0, 6.0]),
-              "overlap_mean_rel": np.array([0.1, 0.3]), "overlap_worst_rel": np.array([0.6, 0.5]), "step": np.array([0, 70]), "wall_s": np.array([0.0, 2.5])}
-    found = {gates: course.Result(made_heap(gates), "hard", {}, 4.0, 10.0, series, x, r, r, np.ones(16, bool), True, 1e-3) for gates in (("right",), ("left", "right"))}
+    series = {name: np.array([0.0, 1.0]) for name in course.COLUMNS} | {
+        "front_m": np.array([1.0, 9.0]),
+        "front_left_m": np.array([-3.0, -7.0]),
+        "height_m": np.array([10.0, 6.0]),
+        "overlap_mean_rel": np.array([0.1, 0.3]),
+        "overlap_worst_rel": np.array([0.6, 0.5]),
+        "step": np.array([0, 70]),
+        "wall_s": np.array([0.0, 2.5]),
+    }
+    found = {
+        gates: course.Result(made_heap(gates), "hard", {}, 4.0, 10.0, series, x, r, r, np.ones(16, bool), True, 1e-3)
+        for gates in (("right",), ("left", "right"))
+    }
     column_, pile_ = (found[gates].summary() for gates in found)
-    assert (column_["runout_rel"], pile_["runout_rel"]) == pytest.approx((2.0, 1.0), rel=1e-12)  # (9 + 3)/4 − 1, and half of (9 + 7)/4 − 1
+    assert (column_["runout_rel"], pile_["runout_rel"]) == pytest.approx(
+        (2.0, 1.0), rel=1e-12
+    )  # (9 + 3)/4 − 1, and half of (9 + 7)/4 − 1
     for told in (column_, pile_):
-        assert (told["aspect"], told["final_height_rel"], told["fall_time_s"]) == pytest.approx((2.5, 1.5, 1.0), rel=1e-12)
-        assert (told["steps"], told["wall_s"], told["overlap_mean_rel"], told["overlap_worst_rel"]) == (70, 2.5, 0.2, 0.6)
+        assert (told["aspect"], told["final_height_rel"], told["fall_time_s"]) == pytest.approx(
+            (2.5, 1.5, 1.0), rel=1e-12
+        )
+        assert (told["steps"], told["wall_s"], told["overlap_mean_rel"], told["overlap_worst_rel"]) == (
+            70,
+            2.5,
+            0.2,
+            0.6,
+        )
     assert len(column_["repose_deg"]) == 1 and len(pile_["repose_deg"]) == 2
 
 
 # ---- parameters -------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("wrong, said", [
-    (dict(disks=0), "disks 0"), (dict(disks=2.5), "disks 2.5"), (dict(aspect=0), "aspect 0"), (dict(size_spread=0.5), "size_spread 0.5"),
-    (dict(base="bumpy"), "base 'bumpy': give one of smooth, rough"), (dict(restitution=1), "restitution 1"), (dict(friction=-1), "friction -1"),
-    (dict(base_friction=0.9), "base_friction 0.9"), (dict(wall_friction=0.9), "wall_friction 0.9"), (dict(seed=-1), "seed -1"), (dict(diameter=0), "diameter 0"),
-])
+
+@pytest.mark.parametrize(
+    "wrong, said",
+    [
+        (dict(disks=0), "disks 0"),
+        (dict(disks=2.5), "disks 2.5"),
+        (dict(aspect=0), "aspect 0"),
+        (dict(size_spread=0.5), "size_spread 0.5"),
+        (dict(base="bumpy"), "base 'bumpy': give one of smooth, rough"),
+        (dict(restitution=1), "restitution 1"),
+        (dict(friction=-1), "friction -1"),
+        (dict(base_friction=0.9), "base_friction 0.9"),
+        (dict(wall_friction=0.9), "wall_friction 0.9"),
+        (dict(seed=-1), "seed -1"),
+        (dict(diameter=0), "diameter 0"),
+    ],
+)
 def test_wrong_parameters_are_named(wrong, said):
     with pytest.raises(grains.HeapError, match=said):
         column.Column(**wrong)
@@ -101,7 +158,9 @@ def test_columns_of_the_study_have_the_2000_disks_that_are_asked_for(aspect):
 @pytest.mark.parametrize("model", ["friction", "jcfpm"])
 def test_rolling_friction_is_not_dropped_in_silence(model):
     c = column.Column(**SMALL, rolling_friction=0.1)
-    with pytest.raises(grains.HeapError, match=f"rolling_friction 0.1 with model '{model}': .* take model cohesion_moment"):
+    with pytest.raises(
+        grains.HeapError, match=f"rolling_friction 0.1 with model '{model}': .* take model cohesion_moment"
+    ):
         study.world_of(c, "soft", stiffness=1e9, model=model)
     with pytest.raises(grains.HeapError, match="rolling_friction 0.1"):
         column.build(c, worlds.Soft(stiffness=1e9, diameter=c.diameters(), model=model))
@@ -109,11 +168,16 @@ def test_rolling_friction_is_not_dropped_in_silence(model):
     assert study.world_of(column.Column(**SMALL), "soft", stiffness=1e9, model=model).model == model
 
 
-@pytest.mark.parametrize("world, said", [
-    (dict(name="soft", stiffness=1e9, step_share=1.5), "step_share 1.5"), (dict(name="soft", stiffness=1e9, damping=1), "damping 1"),
-    (dict(name="soft", stiffness=1e9, damping_moving=1), "damping_moving 1"), (dict(name="hard", damping_moving=0.02), "damping_moving 0.02: hard"),
-    (dict(name="soft", stiffness=1e9, model="mindlin"), "mindlin"),
-])
+@pytest.mark.parametrize(
+    "world, said",
+    [
+        (dict(name="soft", stiffness=1e9, step_share=1.5), "step_share 1.5"),
+        (dict(name="soft", stiffness=1e9, damping=1), "damping 1"),
+        (dict(name="soft", stiffness=1e9, damping_moving=1), "damping_moving 1"),
+        (dict(name="hard", damping_moving=0.02), "damping_moving 0.02: hard"),
+        (dict(name="soft", stiffness=1e9, model="mindlin"), "mindlin"),
+    ],
+)
 def test_wrong_numerics_are_named_before_anything_is_computed(world, said):
     with pytest.raises(errors.UserError, match=said):
         study.world_of(column.Column(**SMALL), **world)
@@ -133,24 +197,30 @@ def test_sizes():
     assert smallest <= 2 * radii.min() and 2 * radii.max() <= largest
     # mean of 2,000 draws with a standard deviation of 28 %: 3 standard errors are 1.9 %
     assert 2 * radii.mean() == pytest.approx(0.01, rel=0.02)
-    assert np.array_equal(grains.sizes_along(c, 1.0, "right"), radii[:len(grains.sizes_along(c, 1.0, "right"))])
+    assert np.array_equal(grains.sizes_along(c, 1.0, "right"), radii[: len(grains.sizes_along(c, 1.0, "right"))])
     assert not np.array_equal(grains.sizes_along(c, 20.0, "left")[:5], radii[:5])
 
 
 def test_a_step_takes_the_fastest_disk_over_its_path():
     c = column.Column(disks=2000, diameter=0.02, aspect=4.0, gravity=5.0)
     width, height = c.box()
-    assert height == pytest.approx(4.0 * width, rel=1e-12) and c.fall_time() == pytest.approx(math.sqrt(height / 5.0), rel=1e-12)
+    assert height == pytest.approx(4.0 * width, rel=1e-12) and c.fall_time() == pytest.approx(
+        math.sqrt(height / 5.0), rel=1e-12
+    )
     assert c.time_step(0.3) * math.sqrt(2 * 5.0 * height) == pytest.approx(0.3 * 0.02, rel=1e-12)
 
 
 # ---- runs -------------------------------------------------------------------------------------------
 
+
 @pytest.fixture(scope="module")
 def collapse():
     """A column in both worlds."""
     c = column.Column(**SMALL)
-    return c, {"hard": column.run(c, hard(c)), "soft": column.run(c, worlds.Soft(stiffness=2e8, diameter=c.diameters()), duration=6)}
+    return c, {
+        "hard": column.run(c, hard(c)),
+        "soft": column.run(c, worlds.Soft(stiffness=2e8, diameter=c.diameters()), duration=6),
+    }
 
 
 def test_prepared_column_is_at_rest_in_its_box():
@@ -170,7 +240,9 @@ def test_collapse(collapse, world):
     s = r.series
     assert np.array_equal(r.r, preparation.prepared(c).r)  # no disk is lost or changed
     assert s["front_m"][0] == pytest.approx(r.width, rel=0.02)  # the mass reaches the gate ...
-    assert s["centroid_y_m"][0] == pytest.approx(r.height / 2, rel=0.01)  # ... and stands as it was prepared; springs yield
+    assert s["centroid_y_m"][0] == pytest.approx(
+        r.height / 2, rel=0.01
+    )  # ... and stands as it was prepared; springs yield
     # 200 disks scatter about Lube's 1.8 and Staron and Hinch's 3.75 at a = 1.5; YADE's damping shortens the soft runout
     assert 0.8 < r.runout < 4.5
     assert s["centroid_x_m"][-1] > s["centroid_x_m"][0] and s["height_m"][-1] < s["height_m"][0]
@@ -207,9 +279,16 @@ def test_damping_on_the_move_is_its_own(collapse):
     c, usual = collapse[0], collapse[1]["soft"]
     seen = []
     world = worlds.Soft(stiffness=2e8, diameter=c.diameters())
-    moved = column.run(c, world, duration=1.5, damping_moving=0.02,
-                       progress=lambda share: seen.append(next(e for e in O.engines if isinstance(e, NewtonIntegrator)).damping))
-    assert seen[0] == world.damping == 0.2 and seen[-1] == 0.02  # at 1.5 T the speed is far above a tenth of its largest
+    moved = column.run(
+        c,
+        world,
+        duration=1.5,
+        damping_moving=0.02,
+        progress=lambda share: seen.append(next(e for e in O.engines if isinstance(e, NewtonIntegrator)).damping),
+    )
+    assert (
+        seen[0] == world.damping == 0.2 and seen[-1] == 0.02
+    )  # at 1.5 T the speed is far above a tenth of its largest
     assert moved.settings["damping_moving"] == 0.02 and "damping_moving" not in usual.settings
     last = len(moved.series["step"]) - 1
     assert moved.series["step"][last] == usual.series["step"][last]
@@ -232,7 +311,9 @@ def test_packing_from_a_file(tmp_path):
     assert c.diameters() == (1.0, 1.0) and c.box() == (3.0, 2.0) and c.plain()["packing"] != str(path)
     ready = preparation.prepared(c)
     # columns of two disks that stand already, moved to the wall and to the floor
-    assert ready.x == pytest.approx([0.5, 0.5, 1.5, 1.5, 2.5, 2.5], abs=1e-6) and ready.y == pytest.approx([0.5, 1.5] * 3, abs=1e-6)
+    assert ready.x == pytest.approx([0.5, 0.5, 1.5, 1.5, 2.5, 2.5], abs=1e-6) and ready.y == pytest.approx(
+        [0.5, 1.5] * 3, abs=1e-6
+    )
     with pytest.raises(packing.PackingError, match="there|cannot be read"):
         column.build(column.Column(packing=str(tmp_path / "none.txt")), worlds.Hard(time_step=1e-3))
 
@@ -241,7 +322,11 @@ def test_places_that_other_engines_have_found_are_not_taken(monkeypatch):
     """Their bits may differ, and a fall grows the difference."""
     c = column.Column(**SMALL)
     here = preparation.cache_path(c)
-    assert preparation.cache_path(dataclasses.replace(c, restitution=0.5)) == here != preparation.cache_path(dataclasses.replace(c, seed=2))
+    assert (
+        preparation.cache_path(dataclasses.replace(c, restitution=0.5))
+        == here
+        != preparation.cache_path(dataclasses.replace(c, seed=2))
+    )
     monkeypatch.setattr(preparation.keys, "engines_key", lambda: "others")
     assert preparation.cache_path(c) != here
 
@@ -253,7 +338,12 @@ def test_same_bits_twice_on_any_number_of_threads(tmp_path):
     for k, threads in enumerate((1, 1, 2)):
         folder = tmp_path / str(k)
         folder.mkdir()
-        processes.call(study.one, folder, dict(kind="column", heap=asdict(c), world=dict(name="hard", path=0.2), duration=1.0), threads=threads)
+        processes.call(
+            study.one,
+            folder,
+            dict(kind="column", heap=asdict(c), world=dict(name="hard", path=0.2), duration=1.0),
+            threads=threads,
+        )
         found.append((records.read_series(folder / "series.csv"), study.frames(folder)))
     (first, (times, places, r)), *others = found
     assert len(first["step"]) > 10 and len(times) == 4  # 0, 0.5 and 1 T, and the end
@@ -270,8 +360,16 @@ def test_study_keeps_what_has_ended(tmp_path):
     assert study.run(cases, tmp_path, resume=True, duration=0.5) == first
     assert (tmp_path / "runs" / "one" / "result.json").stat().st_mtime_ns == written
     soft = dict(name="soft", stiffness=1e9)
-    assert study.key_of(c, soft, 0.5) == study.key_of(c, soft | dict(damping_moving=None), 0.5) != study.key_of(c, soft | dict(damping_moving=0.02), 0.5)
-    assert study.key_of(*cases["one"], 0.5) != study.key_of(*cases["one"], 0.6) != study.key_of(column.Column(**SMALL, seed=2), *cases["one"][1:], 0.6)
+    assert (
+        study.key_of(c, soft, 0.5)
+        == study.key_of(c, soft | dict(damping_moving=None), 0.5)
+        != study.key_of(c, soft | dict(damping_moving=0.02), 0.5)
+    )
+    assert (
+        study.key_of(*cases["one"], 0.5)
+        != study.key_of(*cases["one"], 0.6)
+        != study.key_of(column.Column(**SMALL, seed=2), *cases["one"][1:], 0.6)
+    )
     with pytest.raises(grains.HeapError, match="stiffness None"):
         study.world_of(c, "soft")
     with pytest.raises(grains.HeapError, match="world 'liquid'"):
@@ -280,30 +378,59 @@ def test_study_keeps_what_has_ended(tmp_path):
 
 # ---- figures, report and command --------------------------------------------------------------------
 
+
 def made_run(a, factor=1.0, rested=True):
     """A run's summary as the published laws would have it."""
     law, height = scaling.RUNOUT[0], scaling.HEIGHT[1]
-    return {"aspect": a, "runout_rel": factor * float(law(a)), "final_height_rel": float(height(a)), "rested": rested, "disks": 10, "disks_asked": 10, "repose_deg": [None], "time_s": 1.0,
-            "fall_time_s": 0.5, "steps": 5, "wall_s": 0.1, "overlap_worst_rel": 0.0}
+    return {
+        "aspect": a,
+        "runout_rel": factor * float(law(a)),
+        "final_height_rel": float(height(a)),
+        "rested": rested,
+        "disks": 10,
+        "disks_asked": 10,
+        "repose_deg": [None],
+        "time_s": 1.0,
+        "fall_time_s": 0.5,
+        "steps": 5,
+        "wall_s": 0.1,
+        "overlap_worst_rel": 0.0,
+    }
 
 
 def test_report_compares_exponents_with_the_published_ones():
-    found = {f"a{a:g}": made_run(a, 2.0) for a in (0.5, 0.7, 1.0, 1.4, 2.8, 4.0, 8.0)} | {"moving": made_run(5.6, 9.0, rested=False)}
+    found = {f"a{a:g}": made_run(a, 2.0) for a in (0.5, 0.7, 1.0, 1.4, 2.8, 4.0, 8.0)} | {
+        "moving": made_run(5.6, 9.0, rested=False)
+    }
     summary = report.summarise(found)
     assert summary["at_rest"] == 7
     below, above = summary["fits"]["runout_below"], summary["fits"]["runout_above"]
-    assert below["exponent"] == pytest.approx(1.0) and above["exponent"] == pytest.approx(0.7) and above["factor"] == pytest.approx(6.5)  # exact laws
+    assert (
+        below["exponent"] == pytest.approx(1.0)
+        and above["exponent"] == pytest.approx(0.7)
+        and above["factor"] == pytest.approx(6.5)
+    )  # exact laws
     assert [p["off_rel"] for p in above["published"]] == pytest.approx([0.0, 0.7 / (2 / 3) - 1], abs=1e-9)
     assert above["points"] == 3  # the one that moves is left out
-    assert "did not come to rest" in report.table(found, summary) and "runout above a = 2: 6.50 a^(0.700" in report.table(found, summary)
+    assert "did not come to rest" in report.table(
+        found, summary
+    ) and "runout above a = 2: 6.50 a^(0.700" in report.table(found, summary)
     assert "fewer disks" not in report.table(found, summary) and report.counts(found) == "10 disks"
     found["a8"]["disks"] = 9
-    assert "a8 has 9 of 10" in report.table(found, summary) and report.counts(found) == "9 to 10 disks" and report.summarise(found)["disks_fewest"] == 9
+    assert (
+        "a8 has 9 of 10" in report.table(found, summary)
+        and report.counts(found) == "9 to 10 disks"
+        and report.summarise(found)["disks_fewest"] == 9
+    )
     left, right = figures.runout({"made up": report.group(found)}).axes
     for ax, name in ((left, "runout_rel"), (right, "final_height_rel")):
-        assert drawn.points(drawn.line(ax, "made up")).tolist() == [[run["aspect"], run[name]] for run in found.values() if run["rested"]]
+        assert drawn.points(drawn.line(ax, "made up")).tolist() == [
+            [run["aspect"], run[name]] for run in found.values() if run["rested"]
+        ]
     # twice the published law, on both sides of a = 2
-    assert drawn.points(drawn.line(left, "fit: $5.00\\,a^{1.00\\pm0.00}$")) == pytest.approx(np.array([[0.5, 2.5], [1.4, 7.0]]))
+    assert drawn.points(drawn.line(left, "fit: $5.00\\,a^{1.00\\pm0.00}$")) == pytest.approx(
+        np.array([[0.5, 2.5], [1.4, 7.0]])
+    )
     assert drawn.points(drawn.line(left, "fit: $6.50\\,a^{0.70\\pm0.00}$"))[:, 0].tolist() == [2.8, 8.0]
 
 
@@ -316,11 +443,19 @@ def test_other_fronts_have_exponents_of_their_own(monkeypatch):
         places[f"a{a:g}"] = ([0.0], [(x[:200], 0 * x[:200] + 0.5), (x, 0 * x + 0.5)], np.full(len(x), 0.5))
     monkeypatch.setattr(report.study, "frames", lambda folder: places[folder])
     found = {f"a{a:g}": {**made_run(a), "width_m": 200.0} for a in ratios} | {"moving": made_run(5.6, rested=False)}
-    fronts = {one["front"]: (one["below"], one["above"]) for one in report.by_front(found, {name: name for name in found})}
-    assert list(fronts) == [f"gaps below {g:g} % of a diameter" for g in (0.5, 1, 5, 20, 50)] + ["95 % of the mass", "99 % of the mass"]
+    fronts = {
+        one["front"]: (one["below"], one["above"]) for one in report.by_front(found, {name: name for name in found})
+    }
+    assert list(fronts) == [f"gaps below {g:g} % of a diameter" for g in (0.5, 1, 5, 20, 50)] + [
+        "95 % of the mass",
+        "99 % of the mass",
+    ]
     near, far = fronts["gaps below 5 % of a diameter"], fronts["gaps below 50 % of a diameter"]
     assert near == pytest.approx((1.0, 0.7), abs=0.01)  # a disk in 250
-    longer = [scaling.exponents(ratios, [float(law(a)) + 1.3 * round(20 * a) / 200 for a in ratios], 2.0)[k].exponent for k in (0, 1)]
+    longer = [
+        scaling.exponents(ratios, [float(law(a)) + 1.3 * round(20 * a) / 200 for a in ratios], 2.0)[k].exponent
+        for k in (0, 1)
+    ]
     assert far == pytest.approx(tuple(longer), abs=0.01) and abs(far[1] - near[1]) > 0.01
 
 
@@ -329,12 +464,29 @@ def command(*arguments):
 
 
 def test_command_writes_series_summary_and_figures(tmp_path):
-    done = command("--disks", 150, "--aspect", "0.8,1.6", "--path", 0.3, "--tolerance", 1e-3, "--duration", 2, "--out", tmp_path, "--threads", 1)
+    done = command(
+        "--disks",
+        150,
+        "--aspect",
+        "0.8,1.6",
+        "--path",
+        0.3,
+        "--tolerance",
+        1e-3,
+        "--duration",
+        2,
+        "--out",
+        tmp_path,
+        "--threads",
+        1,
+    )
     assert done.returncode == 0, done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert set(summary["runs"]) == {"a0.8-seed1", "a1.6-seed1"}
     for name, run in summary["runs"].items():
-        assert run["disks_asked"] == 150 and f" {run['disks']} " in next(line for line in done.stdout.splitlines() if line.startswith(name))
+        assert run["disks_asked"] == 150 and f" {run['disks']} " in next(
+            line for line in done.stdout.splitlines() if line.startswith(name)
+        )
         series = records.read_series(tmp_path / "runs" / name / "series.csv")
         assert series["front_m"][-1] == run["front_m"] and (np.diff(series["time_s"]) > 0).all()
         assert (tmp_path / "runs" / name / "collapse.png").stat().st_size > 10_000
@@ -344,11 +496,21 @@ def test_command_writes_series_summary_and_figures(tmp_path):
     assert not (tmp_path / "runout.png").exists()
 
 
-@pytest.mark.parametrize("arguments, said", [
-    (("--world", "soft"), "stiffness None"), (("--friction", "-1"), "friction -1"), (("--packing", "none.txt"), "none.txt"), (("--disks", 20, "--aspect", "9"), "ask for more disks"),
-    (("--world", "soft", "--stiffness", "1e9", "--model", "friction", "--rolling-friction", "0.1"), "rolling_friction 0.1 with model 'friction'"),
-    (("--world", "soft", "--stiffness", "1e9", "--step-share", "2"), "step_share 2"), (("--world", "soft", "--stiffness", "1e9", "--damping-moving", "1"), "damping_moving 1"),
-])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (("--world", "soft"), "stiffness None"),
+        (("--friction", "-1"), "friction -1"),
+        (("--packing", "none.txt"), "none.txt"),
+        (("--disks", 20, "--aspect", "9"), "ask for more disks"),
+        (
+            ("--world", "soft", "--stiffness", "1e9", "--model", "friction", "--rolling-friction", "0.1"),
+            "rolling_friction 0.1 with model 'friction'",
+        ),
+        (("--world", "soft", "--stiffness", "1e9", "--step-share", "2"), "step_share 2"),
+        (("--world", "soft", "--stiffness", "1e9", "--damping-moving", "1"), "damping_moving 1"),
+    ],
+)
 def test_command_names_what_is_wrong(tmp_path, arguments, said):
     done = command(*arguments, "--out", tmp_path / "out")
     assert done.returncode == 1 and "Traceback" not in done.stderr

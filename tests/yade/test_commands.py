@@ -16,7 +16,20 @@ import slope_scenes
 from contact_scenes import material
 from shell import SCRIPTS
 from yade import O
-from yade.nonsmooth import checkpoints, commands, errors, interrupts, output_folder, processes, records, results, scene, side_by_side, stepping, whole_files
+from yade.nonsmooth import (
+    checkpoints,
+    commands,
+    errors,
+    interrupts,
+    output_folder,
+    processes,
+    records,
+    results,
+    scene,
+    side_by_side,
+    stepping,
+    whole_files,
+)
 from yade.nonsmooth.laboratory import calibration, campaign, materials
 from yade.wrapper import NonsmoothTimeStepper
 
@@ -32,7 +45,14 @@ def start(name, *arguments, environment=ENVIRONMENT, limit=None):
         if limit:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
-    return subprocess.Popen([SCRIPTS / name, *map(str, arguments)], env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare)
+    return subprocess.Popen(
+        [SCRIPTS / name, *map(str, arguments)],
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=prepare,
+    )
 
 
 def ended(process):
@@ -56,11 +76,14 @@ def section(tmp_path_factory):
 
 # ---- steps ----------------------------------------------------------------------------------------
 
+
 def test_a_refused_step_ends_a_command_with_the_engines_words():
     O.reset()
     O.step()
     O.engines = [NonsmoothTimeStepper()]
-    with pytest.raises(stepping.StepError, match="^step 1: NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine"):
+    with pytest.raises(
+        stepping.StepError, match="^step 1: NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine"
+    ):
         stepping.advance(5)
     assert O.iter == 1 and issubclass(stepping.StepError, errors.UserError)
 
@@ -77,18 +100,27 @@ def test_a_scene_is_followed_until_it_is_calm_or_its_steps_are_used_up():
     made = []
     assert stepping.until(lambda: sum(made) >= 30, 100, 10, made.append) and made == [10, 10, 10]
     made.clear()
-    assert not stepping.until(lambda: False, 25, 10, made.append) and made == [10, 10, 10]  # the last chunk begins within the limit
+    assert not stepping.until(lambda: False, 25, 10, made.append) and made == [
+        10,
+        10,
+        10,
+    ]  # the last chunk begins within the limit
     made.clear()
     assert stepping.until(lambda: True, 5, make=made.append) and made == [1]
 
 
 def test_the_library_makes_no_steps_in_a_thread_that_swallows_refusals():
     package = Path(stepping.__file__).resolve().parent
-    found = [path.name for path in package.rglob("*.py") if re.search(r"^[^#\"]*\bO\.run\(", path.read_text(), re.M) and path.name != "stepping.py"]
+    found = [
+        path.name
+        for path in package.rglob("*.py")
+        if re.search(r"^[^#\"]*\bO\.run\(", path.read_text(), re.M) and path.name != "stepping.py"
+    ]
     assert found == []
 
 
 # ---- Ctrl-C ---------------------------------------------------------------------------------------
+
 
 def rows(path):
     return path.read_bytes().count(b"\n") - 1 if path.exists() else 0
@@ -99,13 +131,20 @@ def test_ctrl_c_writes_a_checkpoint_and_the_run_goes_on_with_the_same_bytes(sect
     assert ended(start("jiufengershan.py", *options, "--out", tmp_path / "whole"))[0] == 0
     out = tmp_path / "out"
     for number in range(2):
-        least = 2 + (rows(out / "series.csv") if number else 0)  # of 30 rows of 0.1 s; two new ones, so that it is on its way
+        least = 2 + (
+            rows(out / "series.csv") if number else 0
+        )  # of 30 rows of 0.1 s; two new ones, so that it is on its way
         process = start("jiufengershan.py", *options, "--out", out, *(["--resume"] if number else []))
         wait_for(lambda least=least: rows(out / "series.csv") >= least, process)
         process.send_signal(signal.SIGINT)
         status, _, lines = ended(process)
         assert status == 130
-        assert re.fullmatch(r"stopped: at \d\.\d s of simulated time; the checkpoint is written, go on with --resume", lines[-2]) and lines[-1] == ""
+        assert (
+            re.fullmatch(
+                r"stopped: at \d\.\d s of simulated time; the checkpoint is written, go on with --resume", lines[-2]
+            )
+            and lines[-1] == ""
+        )
         series = records.read_series(out / "series.csv")
         told = json.loads((out / "checkpoint" / "checkpoint.json").read_text())
         assert told["step"] == series["step"][-1]
@@ -114,18 +153,24 @@ def test_ctrl_c_writes_a_checkpoint_and_the_run_goes_on_with_the_same_bytes(sect
         assert (out / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
 
 
-@pytest.mark.parametrize("name, arguments", [
-    ("biaxial.py", ("--disks", 400, "--confining", "1", "--threads", 1)),
-    ("biaxial_effects.py", ("--seeds", 1, "--threads", 1, "--only", "step")),
-    ("wall_shear.py", ("--material", "dp", "--seeds", 1, "--threads", 1)),
-    ("column.py", ("--disks", 400, "--aspect", "1", "--threads", 1)),
-    ("compare_hard_soft.py", ("--scenario", "column", "--disks", 150, "--seeds", 1, "--threads", 1)),
-    ("wedge.py", ()),
-    ("verify.py", ("--quick", "--threads", 1)),
-    ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--threads", 1)),
-    ("benchmark.py", ("--quick", "--disks", 600, "--threads", 1)),
-    ("jiufengershan.py", ("--disks", 20000, "--seed", 987)),  # still packing: no packing of this seed is in the cache
-])
+@pytest.mark.parametrize(
+    "name, arguments",
+    [
+        ("biaxial.py", ("--disks", 400, "--confining", "1", "--threads", 1)),
+        ("biaxial_effects.py", ("--seeds", 1, "--threads", 1, "--only", "step")),
+        ("wall_shear.py", ("--material", "dp", "--seeds", 1, "--threads", 1)),
+        ("column.py", ("--disks", 400, "--aspect", "1", "--threads", 1)),
+        ("compare_hard_soft.py", ("--scenario", "column", "--disks", 150, "--seeds", 1, "--threads", 1)),
+        ("wedge.py", ()),
+        ("verify.py", ("--quick", "--threads", 1)),
+        ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--threads", 1)),
+        ("benchmark.py", ("--quick", "--disks", 600, "--threads", 1)),
+        (
+            "jiufengershan.py",
+            ("--disks", 20000, "--seed", 987),
+        ),  # still packing: no packing of this seed is in the cache
+    ],
+)
 def test_ctrl_c_ends_every_command_with_one_line_and_status_130(tmp_path, name, arguments):
     out = tmp_path / "material.yaml" if name == "calibrate.py" else tmp_path
     process = start(name, *arguments, "--out", out)
@@ -140,14 +185,32 @@ def test_ctrl_c_ends_every_command_with_one_line_and_status_130(tmp_path, name, 
 
 def test_ctrl_c_ends_runs_side_by_side_with_their_checkpoints(tmp_path):
     """A command that alone is told hands it on; the tests then go on where they were, with the bytes of undisturbed ones."""
-    options = ("--disks", 150, "--diameter", 1, 2, "--fraction", 0.82, "--confining", "0.5,4", "--strain", 0.03, "--sides", "rigid", "--threads", 1)
+    options = (
+        "--disks",
+        150,
+        "--diameter",
+        1,
+        2,
+        "--fraction",
+        0.82,
+        "--confining",
+        "0.5,4",
+        "--strain",
+        0.03,
+        "--sides",
+        "rigid",
+        "--threads",
+        1,
+    )
     assert ended(start("biaxial.py", *options, "--out", tmp_path / "whole"))[0] == 0
     out = tmp_path / "out"
     process = start("biaxial.py", *options, "--out", out)
     wait_for(lambda: any(rows(path) > 30 for path in out.glob("tests/*/series.csv")), process)
     process.send_signal(signal.SIGINT)
     status, _, lines = ended(process)
-    assert status == 130 and re.fullmatch(r"stopped: [01] of 2 runs have ended and are kept, others have their checkpoint; go on with --resume", lines[-2]), lines
+    assert status == 130 and re.fullmatch(
+        r"stopped: [01] of 2 runs have ended and are kept, others have their checkpoint; go on with --resume", lines[-2]
+    ), lines
     assert list(out.glob("tests/*/checkpoint/checkpoint.json")) and not (out / "summary.json").exists()
     assert ended(start("biaxial.py", *options, "--out", out, "--resume"))[0] == 0
     for path in (tmp_path / "whole").glob("tests/*/series.csv"):
@@ -194,7 +257,11 @@ def test_a_killed_command_leaves_no_run_behind(tmp_path):
         for path in Path("/proc").glob("[0-9]*/stat"):
             try:
                 fields = path.read_text().rsplit(")", 1)[1].split()
-                if fields[1] == str(process.pid) and fields[0] != "Z" and b"_process_worker" in path.with_name("cmdline").read_bytes():
+                if (
+                    fields[1] == str(process.pid)
+                    and fields[0] != "Z"
+                    and b"_process_worker" in path.with_name("cmdline").read_bytes()
+                ):
                     found.append(int(path.parent.name))
             except OSError:
                 pass
@@ -203,7 +270,7 @@ def test_a_killed_command_leaves_no_run_behind(tmp_path):
     log = tmp_path / "runs" / "a3-seed1" / "log.txt"
     wait_for(lambda: workers() and log.exists() and "Running script" in log.read_text(), process)
     time.sleep(1.0)  # until it has told the system what it wants; it does so first
-    worker, = workers()
+    (worker,) = workers()
     process.kill()
     process.wait()
     for _ in range(600):  # at most a minute, on a busy machine
@@ -218,10 +285,22 @@ def test_a_killed_command_leaves_no_run_behind(tmp_path):
 
 # ---- disks that are full, folders that cannot be written ------------------------------------------
 
+
 def test_a_limit_on_files_is_one_line_and_nothing_is_half_written(section, tmp_path, tmp_path_factory):
     """As a full disk: the first checkpoint is larger. The bar is shown by then; its line ends before the message."""
     history = {"IPYTHONDIR": str(tmp_path_factory.mktemp("history"))}  # of YADE's prompt, whose file may be larger too
-    process = start("jiufengershan.py", "--section", section, *SLOPE, "--end", "2.2", "--out", tmp_path, environment=ENVIRONMENT | history, limit=200_000)
+    process = start(
+        "jiufengershan.py",
+        "--section",
+        section,
+        *SLOPE,
+        "--end",
+        "2.2",
+        "--out",
+        tmp_path,
+        environment=ENVIRONMENT | history,
+        limit=200_000,
+    )
     status, _, lines = ended(process)
     assert status == 1 and lines[-1] == "" and lines[-2].startswith("error: ") and str(tmp_path) in lines[-2], lines
     assert sum("error: " in line for line in lines) == 1
@@ -232,7 +311,13 @@ def test_a_full_disk_is_one_line(section, tmp_path):
     command = f"mount -t tmpfs -o size=120k none {tmp_path} && {SCRIPTS}/jiufengershan.py --section {section} --out {tmp_path} {' '.join(SLOPE)} --end 2.2"
     if subprocess.run(["unshare", "-m", "mount", "-t", "tmpfs", "none", tmp_path], capture_output=True).returncode:
         pytest.skip("mounting wants a root user who may")
-    process = subprocess.Popen(["unshare", "-m", "sh", "-c", command], env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        ["unshare", "-m", "sh", "-c", command],
+        env=ENVIRONMENT,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
     status, _, lines = ended(process)
     assert status == 1 and lines[-2].startswith("error: ") and "No space left on device" in lines[-2], lines
 
@@ -252,7 +337,10 @@ def test_the_end_of_a_scene_that_is_cut_off_is_noticed(tmp_path, missing):
             checkpoints.write(tmp_path, "key", {"new": 1})
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
-    assert checkpoints.read(tmp_path, "key", errors.UserError) == {"old": 1} and len(list((tmp_path / "checkpoint").iterdir())) == 2
+    assert (
+        checkpoints.read(tmp_path, "key", errors.UserError) == {"old": 1}
+        and len(list((tmp_path / "checkpoint").iterdir())) == 2
+    )
 
 
 def test_nan_is_not_written_into_a_checkpoint(tmp_path):
@@ -277,9 +365,19 @@ def test_a_figure_is_whole_or_not_there(tmp_path):
     assert (tmp_path / "a.png").read_bytes() == b"old" and len(list(tmp_path.iterdir())) == 1
 
 
-@pytest.mark.parametrize("raised, status, said", [
-    (errors.UserError("no such rock"), 1, "error: no such rock\n"), (OSError(28, "No space left on device", "x.png"), 1, "error: x.png: cannot be used (No space left on device); "),
-    (KeyboardInterrupt(), 130, "stopped: parts are kept\n"), (interrupts.Interrupted("at 3 s"), 130, "stopped: at 3 s\n")])
+@pytest.mark.parametrize(
+    "raised, status, said",
+    [
+        (errors.UserError("no such rock"), 1, "error: no such rock\n"),
+        (
+            OSError(28, "No space left on device", "x.png"),
+            1,
+            "error: x.png: cannot be used (No space left on device); ",
+        ),
+        (KeyboardInterrupt(), 130, "stopped: parts are kept\n"),
+        (interrupts.Interrupted("at 3 s"), 130, "stopped: at 3 s\n"),
+    ],
+)
 def test_a_command_ends_with_its_status_and_one_line(capsys, raised, status, said):
     def main():
         raise raised
@@ -319,6 +417,7 @@ def test_a_message_begins_a_line_after_a_bar(capfd, leave):
 
 
 # ---- folders --------------------------------------------------------------------------------------
+
 
 def test_two_runs_do_not_write_into_one_folder(tmp_path):
     output_folder.claim(tmp_path, "jiufengershan.py")
@@ -363,14 +462,26 @@ def test_an_old_run_is_taken_away_with_its_result_first(tmp_path, monkeypatch):
 
 
 def test_a_fresh_run_takes_all_records_of_the_old_one_away_and_nothing_else(tmp_path):
-    old = (results.SUMMARY, results.BREAKS, results.BEGIN, results.END, *results.FIGURES, "snapshots/00000100.npz", "vtk/disks-00000100.vtu", "vtk/avalanche.pvd",
-           "snapshots/.part-01-00000150.npz", ".part-02-end.npz")
+    old = (
+        results.SUMMARY,
+        results.BREAKS,
+        results.BEGIN,
+        results.END,
+        *results.FIGURES,
+        "snapshots/00000100.npz",
+        "vtk/disks-00000100.vtu",
+        "vtk/avalanche.pvd",
+        "snapshots/.part-01-00000150.npz",
+        ".part-02-end.npz",
+    )
     own = ("notes.txt", "snapshots/notes.txt", "other.png", "vtk/view.pvsm")
     for name in (*old, *own):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("")
     results.forget(tmp_path)
-    assert sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()) == sorted(own)
+    assert sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()) == sorted(
+        own
+    )
 
 
 def test_half_written_files_are_no_snapshots(tmp_path):
@@ -383,20 +494,38 @@ def test_half_written_files_are_no_snapshots(tmp_path):
 def test_nothing_lists_files_but_asks_for_whole_ones():
     """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, folders of the benchmark's cache, the processor's caches, this package and the engines."""
     package = Path(whole_files.__file__).resolve().parent
-    lists = [path.name for path in sorted([*package.rglob("*.py"), *SCRIPTS.rglob("*.py")])
-             for _ in re.findall(r"\.r?glob\(|\.iterdir\(|listdir\(|scandir\(|os\.walk\(", path.read_text())]
-    assert sorted(lists) == ["installation.py", "keys.py", "machine.py", "section.py", "states.py", *["whole_files.py"] * 4]
+    lists = [
+        path.name
+        for path in sorted([*package.rglob("*.py"), *SCRIPTS.rglob("*.py")])
+        for _ in re.findall(r"\.r?glob\(|\.iterdir\(|listdir\(|scandir\(|os\.walk\(", path.read_text())
+    ]
+    assert sorted(lists) == [
+        "installation.py",
+        "keys.py",
+        "machine.py",
+        "section.py",
+        "states.py",
+        *["whole_files.py"] * 4,
+    ]
 
 
 def test_what_killed_processes_left_half_written_goes_with_the_claim(tmp_path):
-    names = [f"{home}{name}" for home in ("", "figures/", "runs/a/", "runs/a/snapshots/", "tests/b/vtk/") for name in ("summary.json", "00000100.npz")]
+    names = [
+        f"{home}{name}"
+        for home in ("", "figures/", "runs/a/", "runs/a/snapshots/", "tests/b/vtk/")
+        for name in ("summary.json", "00000100.npz")
+    ]
     others = ["runs/held/00000100.npz", "runs/held/snapshots/00000100.npz", ".cache/packings/a.npz"]
     leftovers.plant(tmp_path, *names, *others)
     for name in names:
         (tmp_path / name).write_text("whole")
-    (tmp_path / "runs" / "held" / output_folder.LOCK).write_text("column.py\n")  # another command's, which may be running
+    (tmp_path / "runs" / "held" / output_folder.LOCK).write_text(
+        "column.py\n"
+    )  # another command's, which may be running
     output_folder.claim(tmp_path, "compare_hard_soft.py", resume=True)
-    assert [Path(name).parent.as_posix() for name in leftovers.found(tmp_path)] == [Path(name).parent.as_posix() for name in sorted([*others, *others])]
+    assert [Path(name).parent.as_posix() for name in leftovers.found(tmp_path)] == [
+        Path(name).parent.as_posix() for name in sorted([*others, *others])
+    ]
     assert all((tmp_path / name).read_text() == "whole" for name in names)
     output_folder.claim(tmp_path / "runs" / "held", "column.py", resume=True)
     assert len(leftovers.found(tmp_path)) == 2  # those of the hidden folder
@@ -406,7 +535,9 @@ def test_a_folder_that_another_process_holds_keeps_what_it_is_writing(tmp_path):
     output_folder.claim(tmp_path, "jiufengershan.py")
     leftovers.plant(tmp_path, "summary.json")  # by this process
     status, _, lines = ended(start("column.py", "--aspect", 1, "--disks", 60, "--out", tmp_path))
-    assert status == 1 and "another run is writing into this folder" in lines[-2] and len(leftovers.found(tmp_path)) == 2
+    assert (
+        status == 1 and "another run is writing into this folder" in lines[-2] and len(leftovers.found(tmp_path)) == 2
+    )
 
 
 def test_a_series_without_rows_is_one_message(tmp_path, section):
@@ -417,7 +548,9 @@ def test_a_series_without_rows_is_one_message(tmp_path, section):
         results.summarise(tmp_path, sections.load(str(section)), {})
 
 
-@pytest.mark.parametrize("content", ["", "[", "{}x", "3", '[{"key": 1}]', '[{"key": "a", "found": ["x"]}]', "[" * 100_000])
+@pytest.mark.parametrize(
+    "content", ["", "[", "{}x", "3", '[{"key": 1}]', '[{"key": "a", "found": ["x"]}]', "[" * 100_000]
+)
 def test_damaged_trials_of_a_search_are_one_message(tmp_path, content):
     (tmp_path / "trials.json").write_text(content)
     with pytest.raises(campaign.CampaignError, match="trials.json.*remove the file"):

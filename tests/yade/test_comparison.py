@@ -15,15 +15,38 @@ import shell
 
 from yade.nonsmooth import output_folder, packing, section, slope, worlds
 from yade.nonsmooth.benchmark import machine
-from yade.nonsmooth.comparison import (answers, biaxial_report, biaxials, cases, collapses, cost, cost_report, course, deposits, figures, losses, options,
-                                       precision, report, runs, slopes, summary)
+from yade.nonsmooth.comparison import (
+    answers,
+    biaxial_report,
+    biaxials,
+    cases,
+    collapses,
+    cost,
+    cost_report,
+    course,
+    deposits,
+    figures,
+    losses,
+    options,
+    precision,
+    report,
+    runs,
+    slopes,
+    summary,
+)
 from yade.nonsmooth.comparison.outcomes import Cost, Outcome
 from yade.nonsmooth.figures import style
 
 SHIPPED = Path(slopes.section.__file__).parent / "sections" / "jiufengershan.yaml"
 # The shipped section with short stages and a looser solve, so that a run takes seconds.
-QUICK = {"packing_fraction: 0.848": "packing_fraction: 0.82", "ramp: 4.0": "ramp: 1.0", "time_max: 30.0": "time_max: 1.2",
-         "dry: 3.0": "dry: 0.3", "tolerance: 1e-6": "tolerance: 1e-3", "max_iterations: 300": "max_iterations: 40"}
+QUICK = {
+    "packing_fraction: 0.848": "packing_fraction: 0.82",
+    "ramp: 4.0": "ramp: 1.0",
+    "time_max: 30.0": "time_max: 1.2",
+    "dry: 3.0": "dry: 0.3",
+    "tolerance: 1e-6": "tolerance: 1e-3",
+    "max_iterations: 300": "max_iterations: 40",
+}
 
 
 # ---- deposits -------------------------------------------------------------------------------------
@@ -35,7 +58,10 @@ def test_overlap_of_deposits():
     assert deposits.overlap(one, one) == pytest.approx(1, abs=1e-12)
     assert deposits.overlap(one, shifted) == pytest.approx(0.5, abs=0.01)  # rounded corners of the outline
     assert deposits.overlap(one, away) == 0
-    assert deposits.common_area(one, shifted) == pytest.approx(2 / 3 * one.area, rel=0.01) and deposits.common_area(one, away) == 0
+    assert (
+        deposits.common_area(one, shifted) == pytest.approx(2 / 3 * one.area, rel=0.01)
+        and deposits.common_area(one, away) == 0
+    )
     # 60 by 6 with pores closed; dents between disks along the rim, and circles drawn with 16 corners, take some per cent
     assert one.area == pytest.approx(360, rel=0.05)
 
@@ -45,14 +71,25 @@ def outcome(front, seed=1, water=10.0, world="hard", wall=10.0, **case):
     """An Outcome whose front moves linearly to ``front`` in 10 s and whose deposit is a row of disks from 0 to ``front``."""
     t = np.linspace(0, 10, 101)
     x = np.arange(0, front + 0.1)
-    return Outcome(cases.Case(world, "made up", 10, seed, **case), {"water_at_failure_m": water, "front_travel_m": front},
-                   {"abscissa": t, "front": front * t / 10},
-                   {}, None, (x, np.zeros_like(x), np.full_like(x, 0.5)), {}, 0.0, 0.0, Cost(100, 0.1, wall, 10.0, wall / 10))
+    return Outcome(
+        cases.Case(world, "made up", 10, seed, **case),
+        {"water_at_failure_m": water, "front_travel_m": front},
+        {"abscissa": t, "front": front * t / 10},
+        {},
+        None,
+        (x, np.zeros_like(x), np.full_like(x, 0.5)),
+        {},
+        0.0,
+        0.0,
+        Cost(100, 0.1, wall, 10.0, wall / 10),
+    )
 
 
 def test_error_has_its_parts():
     found = precision.parts(outcome(110.0, water=12.0), outcome(100.0), ("water_at_failure_m",))
-    assert found["front"] == pytest.approx(0.1 / math.sqrt(3), rel=0.01)  # rms of a difference that grows from 0 to a tenth
+    assert found["front"] == pytest.approx(
+        0.1 / math.sqrt(3), rel=0.01
+    )  # rms of a difference that grows from 0 to a tenth
     assert found["water_at_failure_m"] == pytest.approx(0.2)
     assert found["deposit"] == pytest.approx(1 - 101 / 111, abs=0.005)  # 101 of 111 disks in common
     whole = precision.error(outcome(110.0, water=12.0), outcome(100.0), ("water_at_failure_m",))
@@ -64,7 +101,9 @@ def test_a_curve_that_has_ended_keeps_its_value():
     """Half of the time both are equal, then one has ended at 1 and the other goes on to 2."""
     one, other = np.linspace(0, 1, 11), np.linspace(0, 2, 21)
     found = precision.curve_difference(one, one, other, other)
-    assert found == pytest.approx(math.sqrt(1 / 6) / 2, rel=0.01)  # rms of 0 on the first half, of 0 to 1 on the second, over 2
+    assert found == pytest.approx(
+        math.sqrt(1 / 6) / 2, rel=0.01
+    )  # rms of 0 on the first half, of 0 to 1 on the second, over 2
 
 
 def test_scatter_is_the_median_of_all_pairs():
@@ -93,20 +132,37 @@ def test_a_run_with_other_bonds_is_shown_and_not_compared():
     assert [p["label"] for p in found["soft_aside"]] == ["soft, E = 100 MPa, fragile bonds"]
     assert found["soft_aside"][0]["error"] == pytest.approx(precision.error(fragile, hard[-1]))
     assert found["compared"]["soft"] == soft[0].case.name and len(found["soft"]) == 2 and len(found["hard"]) == 1
-    panels = [("made up", *([(p["wall_s"], p["error"], p["label"]) for p in found[world]] for world in ("hard", "soft", "soft_aside")))]
+    panels = [
+        (
+            "made up",
+            *(
+                [(p["wall_s"], p["error"], p["label"]) for p in found[world]]
+                for world in ("hard", "soft", "soft_aside")
+            ),
+        )
+    ]
     (ax,) = figures.work_precision(panels, None).axes
-    assert drawn.points(drawn.line(ax, "soft, other bonds")).tolist() == [[1.0, found["soft_aside"][0]["error"]]] and len(drawn.points(drawn.line(ax, "soft"))) == 2
+    assert (
+        drawn.points(drawn.line(ax, "soft, other bonds")).tolist() == [[1.0, found["soft_aside"][0]["error"]]]
+        and len(drawn.points(drawn.line(ax, "soft"))) == 2
+    )
 
 
 def test_the_stiffest_run_is_not_the_stiffest_that_can_be_told():
     assert summary.stiffest_within([0.5, 0.05], 0.1) is True and summary.stiffest_within([0.05, 0.5], 0.1) is False
-    assert summary.stiffest_within([0.5, 0.05, math.nan], 0.1) is None and summary.stiffest_within([0.5], math.nan) is None
+    assert (
+        summary.stiffest_within([0.5, 0.05, math.nan], 0.1) is None and summary.stiffest_within([0.5], math.nan) is None
+    )
 
 
 def test_rates_and_lines_between_logarithms():
     moduli = np.array([1e7, 1e8, 1e9, 1e10])
     fit = precision.power_law(moduli, 3e3 / moduli)
-    assert fit.power == pytest.approx(-1) and fit(1e8) == pytest.approx(3e-5) and fit.power_error == pytest.approx(0, abs=1e-9)
+    assert (
+        fit.power == pytest.approx(-1)
+        and fit(1e8) == pytest.approx(3e-5)
+        and fit.power_error == pytest.approx(0, abs=1e-9)
+    )
     assert precision.power_law([1e7], [1.0]) is None
     value, beyond = precision.loglog(1e11, moduli, np.sqrt(moduli))
     assert value == pytest.approx(math.sqrt(1e11)) and beyond
@@ -127,44 +183,90 @@ def test_difference_and_scatter_over_seeds():
     found = summary.estimate([10.0, 11.0, 12.0], [10.5, 11.6, 12.4])
     assert found["hard"]["mean"] == pytest.approx(11) and found["hard"]["sd"] == pytest.approx(1)
     assert found["difference"] == pytest.approx(0.5)
-    assert found["difference_95"] == pytest.approx(4.303 * 0.1 / math.sqrt(3), rel=1e-3)  # Student's t for two degrees of freedom
+    assert found["difference_95"] == pytest.approx(
+        4.303 * 0.1 / math.sqrt(3), rel=1e-3
+    )  # Student's t for two degrees of freedom
     assert found["agree"] is True
     assert summary.estimate([10.0, 10.1], [12.0, 12.1])["agree"] is False
     assert summary.estimate([10.0], [12.0])["agree"] is None
     # by hand: 0.7 ± 12.706 · 0.2 spans the scatter and zero; 0.2 ± 0.041 leaves zero out and is small beside the scatter of 1.0
     assert summary.estimate([10.0, 11.0], [10.5, 11.9])["agree"] is None
     assert summary.estimate([10.0, 11.0, 12.0], [10.2, 11.2, 12.2 + 1e-9])["agree"] is True
-    assert summary.estimate([None, 10.0], [12.0, 11.0])["difference"] == pytest.approx(1.0)  # the seed without a failure is left out
+    assert summary.estimate([None, 10.0], [12.0, 11.0])["difference"] == pytest.approx(
+        1.0
+    )  # the seed without a failure is left out
 
 
 def test_cost_at_equal_overlap():
     """Overlaps as 1/E and costs as √E: a hundredth of the softest's overlap takes a hundred times E, so ten times its cost."""
-    soft = [{"stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "overlap_worst_rel": 1e7 / e, "rate": 2e-4 * math.sqrt(e), "time_step_s": 10 / math.sqrt(e),
-             "wall_s_per_step": 2e-3} for e in (1e8, 1e9, 1e10)]
+    soft = [
+        {
+            "stiffness_Pa": e,
+            "overlap_mean_rel": 1e6 / e,
+            "overlap_worst_rel": 1e7 / e,
+            "rate": 2e-4 * math.sqrt(e),
+            "time_step_s": 10 / math.sqrt(e),
+            "wall_s_per_step": 2e-3,
+        }
+        for e in (1e8, 1e9, 1e10)
+    ]
     hard = {"overlap_mean_rel": 1e-4, "overlap_worst_rel": 1e-2, "rate": 4.0}
-    found = cost.summarise({"hard": {"moving": hard, "rest": {**hard, "overlap_mean_rel": 1e-6}}, "soft": {"moving": soft, "rest": soft}})
-    assert found["soft_over_hard_wall_equal_overlap"] == pytest.approx(2e-4 * 1e5 / 4) and found["equal_overlap_extrapolated"] is False
+    found = cost.summarise(
+        {"hard": {"moving": hard, "rest": {**hard, "overlap_mean_rel": 1e-6}}, "soft": {"moving": soft, "rest": soft}}
+    )
+    assert (
+        found["soft_over_hard_wall_equal_overlap"] == pytest.approx(2e-4 * 1e5 / 4)
+        and found["equal_overlap_extrapolated"] is False
+    )
     assert found["soft_over_hard_wall_rock_stiffness"] == pytest.approx(2e-4 * 1e5 / 4)
     assert found["states"]["moving"]["equal_worst_overlap"] == pytest.approx(2e-4 * math.sqrt(1e9) / 4, rel=1e-6)
-    assert found["states"]["rest"]["equal_overlap"] == pytest.approx(2e-4 * 1e6 / 4) and found["states"]["rest"]["equal_overlap_extrapolated"] is True
+    assert (
+        found["states"]["rest"]["equal_overlap"] == pytest.approx(2e-4 * 1e6 / 4)
+        and found["states"]["rest"]["equal_overlap_extrapolated"] is True
+    )
 
 
 def test_the_report_of_cost_names_bonds_and_losses(tmp_path):
-    one = {"time_step_s": 1e-3, "wall_s_per_step": 1e-3, "overlap_mean_rel": 1e-3, "overlap_worst_rel": 1e-2, "rate": 1.0, "contacts": 10,
-           "mean_speed_m_per_s": 0.1}
+    one = {
+        "time_step_s": 1e-3,
+        "wall_s_per_step": 1e-3,
+        "overlap_mean_rel": 1e-3,
+        "overlap_worst_rel": 1e-2,
+        "rate": 1.0,
+        "contacts": 10,
+        "mean_speed_m_per_s": 0.1,
+    }
     soft = [{**one, "stiffness_Pa": e, "overlap_mean_rel": 1e6 / e, "overlap_worst_rel": 1e7 / e} for e in (1e8, 1e9)]
     told = cost.summarise({"hard": {"moving": one, "rest": one}, "soft": {"moving": soft, "rest": soft}})
-    told |= summary.clean({"disks": 10, "threads": 1, "steps_timed": 5, "relax_s": 1.0, "model": "friction", "bonds": "no bonds", "step_share": 0.8,
-                           "model_lacks": ["moments: none"], "damping": 0.2, "damping_moving": 0.02, "machine": machine.describe()})
+    told |= summary.clean(
+        {
+            "disks": 10,
+            "threads": 1,
+            "steps_timed": 5,
+            "relax_s": 1.0,
+            "model": "friction",
+            "bonds": "no bonds",
+            "step_share": 0.8,
+            "model_lacks": ["moments: none"],
+            "damping": 0.2,
+            "damping_moving": 0.02,
+            "machine": machine.describe(),
+        }
+    )
     cost_report.write(tmp_path, told)
     page = (tmp_path / "report.html").read_text()
-    assert "friction, no bonds, 0.8 of the stable" in page and "Lost with friction, beside what cohesion_moment loses: moments: none." in page
+    assert (
+        "friction, no bonds, 0.8 of the stable" in page
+        and "Lost with friction, beside what cohesion_moment loses: moments: none." in page
+    )
 
 
 def test_cost_of_a_stiffness_that_was_not_run():
     """Steps as 1/√E exactly; a step takes 2 ms with the softest and 4 ms with the stiffest, and no more beyond."""
     found = [precision.soft_rate(e, [1e9, 1e7], [1e-4, 1e-3], [4e-3, 2e-3]) for e in (1e8, 1e11, 1e6)]
-    assert [f[0] for f in found] == pytest.approx([math.sqrt(8e-6) / (1e-3 / math.sqrt(10)), 4e-3 / 1e-5, 2e-3 / (1e-3 * math.sqrt(10))])
+    assert [f[0] for f in found] == pytest.approx(
+        [math.sqrt(8e-6) / (1e-3 / math.sqrt(10)), 4e-3 / 1e-5, 2e-3 / (1e-3 * math.sqrt(10))]
+    )
     assert [f[1] for f in found] == [False, True, True]
     assert math.isnan(precision.soft_rate(math.nan, [1e9], [1e-4], [1e-3])[0])
 
@@ -174,22 +276,47 @@ def test_plan_has_every_run_once():
     made = cases.plan("slope", 300, [1, 2, 3], [1e8, 1e7, 1e9])
     assert len(made.ensemble) == 3 and made.ensemble[0][1].stiffness == 1e8  # the middle one
     assert [c.stiffness for c in made.sweep] == [1e7, 1e8, 1e9]
-    assert made.numerics[-1].step < 1 and made.damping.damping_moving == made.damping.damping and made.damping.stiffness == 1e8
-    assert len(made.cases) == len({c.name for c in made.cases}) == 3 + 3 + 2 + 4 + 1  # hard, soft of the middle, other stiffnesses, numerics, damping
+    assert (
+        made.numerics[-1].step < 1
+        and made.damping.damping_moving == made.damping.damping
+        and made.damping.stiffness == 1e8
+    )
+    assert (
+        len(made.cases) == len({c.name for c in made.cases}) == 3 + 3 + 2 + 4 + 1
+    )  # hard, soft of the middle, other stiffnesses, numerics, damping
 
 
-@pytest.mark.parametrize("change, wanted", [({"stiffnesses": [1e8]}, "--stiffness"), ({"stiffnesses": [-1, 1e8]}, "--stiffness"),
-                                            ({"stiffnesses": [math.nan, 1e8]}, "--stiffness"), ({"stiffnesses": [1e8, math.inf]}, "--stiffness"),
-                                            ({"seeds": [1, 1]}, "--seeds"), ({"seeds": [-1]}, "--seeds -1"),
-                                            ({"seeds": []}, "--seeds"), ({"damping": 1.0}, "--damping"), ({"damping_moving": -0.1}, "--damping-moving"),
-                                            ({"step_share": 1.5}, "--step-share 1.5"), ({"ensemble": -1e9}, "--ensemble-stiffness")])
+@pytest.mark.parametrize(
+    "change, wanted",
+    [
+        ({"stiffnesses": [1e8]}, "--stiffness"),
+        ({"stiffnesses": [-1, 1e8]}, "--stiffness"),
+        ({"stiffnesses": [math.nan, 1e8]}, "--stiffness"),
+        ({"stiffnesses": [1e8, math.inf]}, "--stiffness"),
+        ({"seeds": [1, 1]}, "--seeds"),
+        ({"seeds": [-1]}, "--seeds -1"),
+        ({"seeds": []}, "--seeds"),
+        ({"damping": 1.0}, "--damping"),
+        ({"damping_moving": -0.1}, "--damping-moving"),
+        ({"step_share": 1.5}, "--step-share 1.5"),
+        ({"ensemble": -1e9}, "--ensemble-stiffness"),
+    ],
+)
 def test_lists_that_cannot_be_used(change, wanted):
     with pytest.raises(cases.ComparisonError, match=wanted):
         cases.plan(**{"source": "slope", "disks": 300, "seeds": [1, 2], "stiffnesses": [1e8, 1e9], **change})
 
 
-@pytest.mark.parametrize("change, wanted", [({"stiffnesses": [-1e8]}, "--stiffness -1e\\+08"), ({"disks": 0}, "--disks 0"), ({"steps": 0}, "--steps 0"),
-                                            ({"damping": 2.0}, "--damping 2"), ({"step_share": 0.0}, "--step-share 0")])
+@pytest.mark.parametrize(
+    "change, wanted",
+    [
+        ({"stiffnesses": [-1e8]}, "--stiffness -1e\\+08"),
+        ({"disks": 0}, "--disks 0"),
+        ({"steps": 0}, "--steps 0"),
+        ({"damping": 2.0}, "--damping 2"),
+        ({"step_share": 0.0}, "--step-share 0"),
+    ],
+)
 def test_cost_refuses_before_it_measures(tmp_path, change, wanted):
     with pytest.raises(cases.ComparisonError, match=wanted):
         cost.run(tmp_path, **{"source": "jiufengershan", "disks": 300, "threads": 1, "stiffnesses": [1e8], **change})
@@ -197,29 +324,61 @@ def test_cost_refuses_before_it_measures(tmp_path, change, wanted):
 
 
 def test_options_and_their_defaults():
-    slope_, biaxial, measured = (options.read("", words) for words in ([], ["--scenario", "biaxial", "--confining", "2"], ["--cost"]))
-    assert (slope_.seeds, slope_.model, slope_.bonds, slope_.damping, slope_.damping_moving) == ([1, 2, 3, 4, 5], "cohesion_moment", "ductile", 0.2, 0.02)
-    assert (slope_.step_share, slope_.without, slope_.disks, slope_.stiffness, slope_.steps) == (0.8, [], None, None, None)
+    slope_, biaxial, measured = (
+        options.read("", words) for words in ([], ["--scenario", "biaxial", "--confining", "2"], ["--cost"])
+    )
+    assert (slope_.seeds, slope_.model, slope_.bonds, slope_.damping, slope_.damping_moving) == (
+        [1, 2, 3, 4, 5],
+        "cohesion_moment",
+        "ductile",
+        0.2,
+        0.02,
+    )
+    assert (slope_.step_share, slope_.without, slope_.disks, slope_.stiffness, slope_.steps) == (
+        0.8,
+        [],
+        None,
+        None,
+        None,
+    )
     assert biaxial.damping_moving is None and options.scenario_options(biaxial) == {"confining": 2e6}
     assert measured.steps == 300 and measured.damping_moving == 0.02 and measured.seeds is None
 
 
-@pytest.mark.parametrize("words, wanted", [
-    ("--cost --bonds fragile --seeds 1 2", "--seeds 1 2, --bonds fragile with --cost"), ("--cost --without damping", "--without damping"),
-    ("--cost --end 3", "--end 3"), ("--cost --aspect 2", "--aspect 2"), ("--cost --confining 2", "--confining 2"),
-    ("--cost --ensemble-stiffness 1e9", "--ensemble-stiffness 1e\\+09"), ("--cost --scenario pile", "--cost with --scenario pile"),
-    ("--scenario column --source wwr", "--source wwr with --scenario column"), ("--scenario pile --bonds ductile", "--bonds ductile"),
-    ("--scenario biaxial --damping-moving 0.1", "--damping-moving 0.1 with --scenario biaxial"), ("--steps 30", "--steps 30 with --scenario slope"),
-    ("--scenario slope --sides rigid", "--sides rigid"), ("--cost --disks 0", "--disks 0"), ("--disks -5", "--disks -5"), ("--threads 0", "--threads 0"),
-    ("--cost --steps 4", "--steps 4: give 5"), ("--stiffness 1e8,nan", "--stiffness 1e\\+08,nan"), ("--end inf", "--end inf"),
-    ("--model jcfpm --bonds fragile", "--bonds fragile with --model jcfpm"), ("--model friction --bonds ductile", "has no bonds")])
+@pytest.mark.parametrize(
+    "words, wanted",
+    [
+        ("--cost --bonds fragile --seeds 1 2", "--seeds 1 2, --bonds fragile with --cost"),
+        ("--cost --without damping", "--without damping"),
+        ("--cost --end 3", "--end 3"),
+        ("--cost --aspect 2", "--aspect 2"),
+        ("--cost --confining 2", "--confining 2"),
+        ("--cost --ensemble-stiffness 1e9", "--ensemble-stiffness 1e\\+09"),
+        ("--cost --scenario pile", "--cost with --scenario pile"),
+        ("--scenario column --source wwr", "--source wwr with --scenario column"),
+        ("--scenario pile --bonds ductile", "--bonds ductile"),
+        ("--scenario biaxial --damping-moving 0.1", "--damping-moving 0.1 with --scenario biaxial"),
+        ("--steps 30", "--steps 30 with --scenario slope"),
+        ("--scenario slope --sides rigid", "--sides rigid"),
+        ("--cost --disks 0", "--disks 0"),
+        ("--disks -5", "--disks -5"),
+        ("--threads 0", "--threads 0"),
+        ("--cost --steps 4", "--steps 4: give 5"),
+        ("--stiffness 1e8,nan", "--stiffness 1e\\+08,nan"),
+        ("--end inf", "--end inf"),
+        ("--model jcfpm --bonds fragile", "--bonds fragile with --model jcfpm"),
+        ("--model friction --bonds ductile", "has no bonds"),
+    ],
+)
 def test_options_that_do_not_apply(words, wanted):
     with pytest.raises(cases.ComparisonError, match=wanted):
         options.read("", words.split())
 
 
 def soft_case(model="cohesion_moment", source="", disks=300, **more):
-    return cases.Case("soft", source, disks, 1, 0.8, stiffness=1e9, damping=0.2, damping_moving=0.02, model=model, **more)
+    return cases.Case(
+        "soft", source, disks, 1, 0.8, stiffness=1e9, damping=0.2, damping_moving=0.02, model=model, **more
+    )
 
 
 @pytest.mark.parametrize("experiment, source", [(slopes, "jiufengershan"), (biaxials, "wwr-sparse")])
@@ -241,7 +400,9 @@ def test_columns_have_no_bonds_to_lose():
 
 def test_springs_too_weak_for_a_tall_column_are_refused_at_once():
     def sweep(aspect):
-        return cases.plan("", collapses.COLUMN.DISKS, [1], collapses.COLUMN.DEFAULT_STIFFNESSES, options={"aspect": aspect}).sweep
+        return cases.plan(
+            "", collapses.COLUMN.DISKS, [1], collapses.COLUMN.DEFAULT_STIFFNESSES, options={"aspect": aspect}
+        ).sweep
 
     course.check_stiffnesses(collapses.COLUMN, sweep(2.0))
     with pytest.raises(cases.ComparisonError, match="--stiffness 1e\\+08: .* as --stiffness 1e\\+09,1e\\+10,1e\\+11"):
@@ -259,7 +420,11 @@ def test_a_biaxial_test_needs_the_wall_time_of_its_steps_and_a_plateau(tmp_path)
 
 def test_every_experiment_says_what_its_overlap_is():
     for experiment, _ in course.SCENARIOS.values():
-        assert experiment.OVERLAP.startswith("Mean overlap of") and len(experiment.OVERLAP_WHEN) == 2 and experiment.COST_WHEN
+        assert (
+            experiment.OVERLAP.startswith("Mean overlap of")
+            and len(experiment.OVERLAP_WHEN) == 2
+            and experiment.COST_WHEN
+        )
     assert "1 %" in collapses.COLUMN.OVERLAP
 
 
@@ -271,25 +436,52 @@ def test_the_report_of_a_biaxial_test(tmp_path, monkeypatch):
     for k, case in enumerate(made.cases):
         series = {"strain": strain, "bonds_alive": np.linspace(100, 40, 50), "speed_mean_m_per_s": np.full(50, 1e-3)}
         series |= {f"bonds_broken_{mode}": np.linspace(0, 15, 50) for mode in ("tension", "shear", "torque", "mixed")}
-        outcomes[case] = Outcome(case, {"sigma1_peak_Pa": 4e6 + 1e4 * k}, {"abscissa": strain, "stress": 4 + 0.1 * k + strain, "volume": strain}, series, None,
-                                 None, {(0, 1): 1.0, (1, 2): 2.0 + k, (2, 3): 1.5}, 1e-3, 2e-3, Cost(100, 1e-3, 10.0 + k, 0.1, 100.0))
+        outcomes[case] = Outcome(
+            case,
+            {"sigma1_peak_Pa": 4e6 + 1e4 * k},
+            {"abscissa": strain, "stress": 4 + 0.1 * k + strain, "volume": strain},
+            series,
+            None,
+            None,
+            {(0, 1): 1.0, (1, 2): 2.0 + k, (2, 3): 1.5},
+            1e-3,
+            2e-3,
+            Cost(100, 1e-3, 10.0 + k, 0.1, 100.0),
+        )
     told = summary.summarise(biaxials, made, outcomes)
-    assert told["deposit_overlap_m2"] is None and told["convergence"]["rows"]["overlap"]["means"] == "mean overlap, before the test"
+    assert (
+        told["deposit_overlap_m2"] is None
+        and told["convergence"]["rows"]["overlap"]["means"] == "mean overlap, before the test"
+    )
     assert [p["run"] for p in told["work_precision"]["against_own"]["soft_aside"]] == [made.fragile.name]
     (tmp_path / "figures").mkdir()
     drawn.keep(monkeypatch, style)
-    sections = [*biaxial_report.sections(tmp_path, biaxials, made, outcomes, told), *report.common_sections(tmp_path, biaxials, made, outcomes, told)]
+    sections = [
+        *biaxial_report.sections(tmp_path, biaxials, made, outcomes, told),
+        *report.common_sections(tmp_path, biaxials, made, outcomes, told),
+    ]
     by_title = {s.title: s for s in sections}
-    assert "no kinetic energy" in by_title["Motion"].text[0] and by_title["Overlaps and cost"].plots[0][1].startswith(biaxials.OVERLAP)
-    assert "of the test" in by_title["Overlaps and cost"].plots[1][1] and "The open mark" in by_title["Work and precision"].text[0]
+    assert "no kinetic energy" in by_title["Motion"].text[0] and by_title["Overlaps and cost"].plots[0][1].startswith(
+        biaxials.OVERLAP
+    )
+    assert (
+        "of the test" in by_title["Overlaps and cost"].plots[1][1]
+        and "The open mark" in by_title["Work and precision"].text[0]
+    )
     assert by_title["All runs"].tables[0][1][-2] == "mean overlap, at its end"
 
 
 def test_numbers_for_readers():
-    assert answers.number(2.034e8, "N/m") == "203 MN/m" and answers.number(None, "m") == "not known" and answers.number(0.5, "1") == "0.5"
+    assert (
+        answers.number(2.034e8, "N/m") == "203 MN/m"
+        and answers.number(None, "m") == "not known"
+        and answers.number(0.5, "1") == "0.5"
+    )
     assert answers.number(12345.0, "m") == "12345 m"
     # one unit for both, that of the mean
-    assert answers.spread(4.58e6, 3.59e5, "Pa") == "4.58 ± 0.36 MPa" and answers.spread(15.94, 6.1, "m") == "15.9 ± 6.1 m"
+    assert (
+        answers.spread(4.58e6, 3.59e5, "Pa") == "4.58 ± 0.36 MPa" and answers.spread(15.94, 6.1, "m") == "15.9 ± 6.1 m"
+    )
     assert answers.spread(None, None, "m") == "not known" and answers.spread(2.0, None, "1") == "2"
 
 
@@ -316,7 +508,11 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
         layers = slope.layers_of(built)
         table = built.solver.disks if world else None
         O.step()
-        found[bool(world)] = (built.solver.bond(), layers.tolist(), [O.bodies[built.first_disk + k].shape.radius for k in range(built.count)])
+        found[bool(world)] = (
+            built.solver.bond(),
+            layers.tolist(),
+            [O.bodies[built.first_disk + k].shape.radius for k in range(built.count)],
+        )
         assert world is None or table["mass"].sum() == pytest.approx(2500 * math.pi * np.sum(made.r**2))
     # the same gaps are bonded; at the backstop a few of some hundred may be the hard world's alone
     assert found[False][1:] == found[True][1:] and 0.9 * found[False][0] <= found[True][0] <= found[False][0]
@@ -326,21 +522,41 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
 def compared(source, tmp_path_factory):
     """Two seeds, two stiffnesses, a few seconds of simulation each."""
     out = tmp_path_factory.mktemp("compared")
-    told, questions = course.compare("slope", out, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=2, without=course.PARTS,
-                                     options={"end": 1.0})
+    told, questions = course.compare(
+        "slope",
+        out,
+        [1, 2],
+        disks=300,
+        source=str(source),
+        stiffnesses=[1e7, 1e8],
+        threads=2,
+        without=course.PARTS,
+        options={"end": 1.0},
+    )
     return out, told, questions
 
 
 def test_summary_and_report(compared):
     out, told, questions = compared
     assert json.loads((out / "summary.json").read_text()) == told
-    for key in ("water_at_failure_hard_m", "water_at_failure_soft_m", "front_travel_hard_m", "front_travel_soft_m", "deposit_overlap_fraction",
-                "soft_over_hard_wall_equal_overlap", "soft_over_hard_wall_rock_stiffness"):
+    for key in (
+        "water_at_failure_hard_m",
+        "water_at_failure_soft_m",
+        "front_travel_hard_m",
+        "front_travel_soft_m",
+        "deposit_overlap_fraction",
+        "soft_over_hard_wall_equal_overlap",
+        "soft_over_hard_wall_rock_stiffness",
+    ):
         assert key in told
     # the same packing, which has hardly moved
     assert 0.7 < told["deposit_overlap_fraction"] <= 1
     areas = list(told["deposit_overlap_m2_by_seed"].values())
-    assert list(told["deposit_overlap_m2_by_seed"]) == ["1", "2"] and min(areas) > 0 and told["deposit_overlap_m2"] == pytest.approx(np.mean(areas))
+    assert (
+        list(told["deposit_overlap_m2_by_seed"]) == ["1", "2"]
+        and min(areas) > 0
+        and told["deposit_overlap_m2"] == pytest.approx(np.mean(areas))
+    )
     assert told["bonds"] == "ductile bonds" and told["model_lacks"] == []
     # processes take longer than their steps
     assert told["runs_wall_s"] > sum(run["cost"]["wall_s"] for run in told["runs"])
@@ -351,16 +567,28 @@ def test_summary_and_report(compared):
     # and the stable step goes with 1/√E: √10 times as many steps, rounded to rows
     assert soft["cost"]["steps"] / softer["cost"]["steps"] == pytest.approx(math.sqrt(10), rel=0.1)
     page = (out / "report.html").read_text()
-    assert "ductile bonds; time step" in page and "this sitting took" in page and slopes.OVERLAP.split("(")[0] in page.replace("&#39;", "'")
-    assert page.index("Do both models fail") < page.index("<h2>") and "://" not in page.replace("http://www.w3.org",
-        "") and page.count("data:image/png") >= 10
-    assert [q[0] for q in questions] == ["Do both models fail at the same water table and run out as far, within the scatter over seeds?",
-                                         course.COST_QUESTION]
+    assert (
+        "ductile bonds; time step" in page
+        and "this sitting took" in page
+        and slopes.OVERLAP.split("(")[0] in page.replace("&#39;", "'")
+    )
+    assert (
+        page.index("Do both models fail") < page.index("<h2>")
+        and "://" not in page.replace("http://www.w3.org", "")
+        and page.count("data:image/png") >= 10
+    )
+    assert [q[0] for q in questions] == [
+        "Do both models fail at the same water table and run out as far, within the scatter over seeds?",
+        course.COST_QUESTION,
+    ]
 
 
 def test_series_of_both_worlds_have_the_same_columns(compared):
     out, _, _ = compared
-    heads = {folder.name.split("-")[0]: (folder / "series.csv").read_text().splitlines()[0].split(",") for folder in sorted((out / "runs").iterdir())}
+    heads = {
+        folder.name.split("-")[0]: (folder / "series.csv").read_text().splitlines()[0].split(",")
+        for folder in sorted((out / "runs").iterdir())
+    }
     from yade.nonsmooth import experiment
 
     assert heads["hard"] == list(experiment.COLUMNS)
@@ -374,15 +602,36 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     gone = copy / "runs" / "soft-1e07Pa-seed1" / "result.json"
     gone.unlink()
     before = {path: path.stat().st_mtime_ns for path in copy.glob("runs/*/result.json")}
-    leftovers.plant(copy, "summary.json", "report.html", "figures/deposits.png", *(f"runs/{run}/{name}" for run in ("hard-step1-tolerance1-seed1", "soft-1e07Pa-seed1")
-                                                                                      for name in ("result.json", "t0.npz", "snapshots/00000050.npz", "checkpoint/checkpoint.json")))
+    leftovers.plant(
+        copy,
+        "summary.json",
+        "report.html",
+        "figures/deposits.png",
+        *(
+            f"runs/{run}/{name}"
+            for run in ("hard-step1-tolerance1-seed1", "soft-1e07Pa-seed1")
+            for name in ("result.json", "t0.npz", "snapshots/00000050.npz", "checkpoint/checkpoint.json")
+        ),
+    )
     output_folder.claim(copy, "compare_hard_soft.py", resume=True)  # as the command does
     assert leftovers.found(copy) == []
-    again, _ = course.compare("slope", copy, [1, 2], disks=300, source=str(source), stiffnesses=[1e7, 1e8], threads=1, without=course.PARTS,
-                              options={"end": 1.0}, resume=True)
+    again, _ = course.compare(
+        "slope",
+        copy,
+        [1, 2],
+        disks=300,
+        source=str(source),
+        stiffnesses=[1e7, 1e8],
+        threads=1,
+        without=course.PARTS,
+        options={"end": 1.0},
+        resume=True,
+    )
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()
     values = {run["name"]: run["values"] for run in told["runs"]}
-    assert {run["name"]: run["values"] for run in again["runs"]} == values  # soft runs give the same bits on one thread too
+    assert {
+        run["name"]: run["values"] for run in again["runs"]
+    } == values  # soft runs give the same bits on one thread too
     # kept runs count with what they took
     noted = [json.loads(path.read_text())["found"]["process_wall_s"] for path in copy.glob("runs/*/result.json")]
     assert len(noted) > 1 and again["runs_wall_s"] == pytest.approx(sum(noted))
@@ -398,11 +647,26 @@ def test_a_run_that_fails_says_so_and_keeps_the_others(tmp_path):
 def test_a_column_in_both_worlds(tmp_path):
     options = {"aspect": 1.0}
     found = {}
-    for case in (cases.Case("hard", "", 100, 1, options=options), cases.Case("soft", "", 100, 1, 0.5, stiffness=3e7, damping=0.2, damping_moving=0.02,
-                                                                            model="cohesion_moment", options=options)):
+    for case in (
+        cases.Case("hard", "", 100, 1, options=options),
+        cases.Case(
+            "soft",
+            "",
+            100,
+            1,
+            0.5,
+            stiffness=3e7,
+            damping=0.2,
+            damping_moving=0.02,
+            model="cohesion_moment",
+            options=options,
+        ),
+    ):
         folder = tmp_path / case.name
         folder.mkdir()
-        found[case.world] = collapses.COLUMN.measure(case, folder, collapses.run_column(folder, **dataclasses.asdict(case)))
+        found[case.world] = collapses.COLUMN.measure(
+            case, folder, collapses.run_column(folder, **dataclasses.asdict(case))
+        )
     # so few grains scatter by more than half; a column that does not spread, or flies apart, is out by far more than a factor of three
     assert 1 / 3 < found["hard"].values["front_travel_m"] / found["soft"].values["front_travel_m"] < 3
     assert found["soft"].overlap > 1e-4 > found["hard"].overlap
@@ -411,23 +675,69 @@ def test_a_column_in_both_worlds(tmp_path):
 
 def test_a_collapse_is_measured_from_its_records(tmp_path):
     """The front goes 3 m, the centre of mass 3 m and 4 m; it moves while its energy is above a hundredth of the largest."""
-    series = {"time_s": [0.0, 1.0, 2.0, 3.0], "front_m": [2.0, 3.0, 4.0, 5.0], "centroid_x_m": [1.0, 2.0, 4.0, 4.0], "centroid_y_m": [5.0, 4.0, 1.0, 1.0],
-              "energy_kinetic_J": [0.0, 100.0, 2.0, 0.5], "overlap_mean_rel": [0.01, 0.02, 0.04, 0.5]}
+    series = {
+        "time_s": [0.0, 1.0, 2.0, 3.0],
+        "front_m": [2.0, 3.0, 4.0, 5.0],
+        "centroid_x_m": [1.0, 2.0, 4.0, 4.0],
+        "centroid_y_m": [5.0, 4.0, 1.0, 1.0],
+        "energy_kinetic_J": [0.0, 100.0, 2.0, 0.5],
+        "overlap_mean_rel": [0.01, 0.02, 0.04, 0.5],
+    }
     places = {f"{when}_{name}": np.arange(2.0) + k + 1 for k, when in enumerate(("begin", "end")) for name in "xyr"}
-    np.savez(tmp_path / "record.npz", **{f"series_{name}": values for name, values in series.items()}, **places, pairs=np.array([[0, 1], [1, 5]]), forces=np.array([3.0, 4.0]))
-    told = {"repose_deg": [20.0, -24.0, None], "runout_rel": 1.5, "final_height_rel": 0.7, "time_s": 3.0, "rested": True, "steps": 300, "time_step_s": 0.01, "wall_s": 6.0}
+    np.savez(
+        tmp_path / "record.npz",
+        **{f"series_{name}": values for name, values in series.items()},
+        **places,
+        pairs=np.array([[0, 1], [1, 5]]),
+        forces=np.array([3.0, 4.0]),
+    )
+    told = {
+        "repose_deg": [20.0, -24.0, None],
+        "runout_rel": 1.5,
+        "final_height_rel": 0.7,
+        "time_s": 3.0,
+        "rested": True,
+        "steps": 300,
+        "time_step_s": 0.01,
+        "wall_s": 6.0,
+    }
     found = collapses.PILE.measure(cases.Case("hard", "", 100, 1), tmp_path, told)
-    assert found.values == {"runout_rel": 1.5, "final_height_rel": 0.7, "front_travel_m": 3.0, "repose_deg": 22.0, "rest_s": 3.0} and found.notes == []
-    assert found.curves["front"].tolist() == [0, 1, 2, 3] and found.curves["centroid"].tolist() == pytest.approx([0, math.sqrt(2), 5, 5])
-    assert (found.overlap, found.overlap_rest) == (pytest.approx(0.03), 0.01) and found.forces == {(0, 1): 3.0, (1, 5): 4.0}
-    assert (found.cost.wall_s, found.cost.simulated_s, found.cost.rate) == pytest.approx((6.0, 3.0, 2.0)) and found.begin[0].tolist() == [1, 2] and found.end[2].tolist() == [2, 3]
-    restless = collapses.PILE.measure(cases.Case("hard", "", 100, 1), tmp_path, {**told, "rested": False, "repose_deg": [None]})
-    assert restless.values["rest_s"] is None and restless.values["repose_deg"] is None and restless.notes == ["stopped before it was at rest"]
+    assert (
+        found.values
+        == {"runout_rel": 1.5, "final_height_rel": 0.7, "front_travel_m": 3.0, "repose_deg": 22.0, "rest_s": 3.0}
+        and found.notes == []
+    )
+    assert found.curves["front"].tolist() == [0, 1, 2, 3] and found.curves["centroid"].tolist() == pytest.approx(
+        [0, math.sqrt(2), 5, 5]
+    )
+    assert (found.overlap, found.overlap_rest) == (pytest.approx(0.03), 0.01) and found.forces == {
+        (0, 1): 3.0,
+        (1, 5): 4.0,
+    }
+    assert (
+        (found.cost.wall_s, found.cost.simulated_s, found.cost.rate) == pytest.approx((6.0, 3.0, 2.0))
+        and found.begin[0].tolist() == [1, 2]
+        and found.end[2].tolist() == [2, 3]
+    )
+    restless = collapses.PILE.measure(
+        cases.Case("hard", "", 100, 1), tmp_path, {**told, "rested": False, "repose_deg": [None]}
+    )
+    assert (
+        restless.values["rest_s"] is None
+        and restless.values["repose_deg"] is None
+        and restless.notes == ["stopped before it was at rest"]
+    )
 
 
 def test_the_overlap_of_a_snapshot_is_of_pairs_of_disks():
     """Overlaps of 2 % of the mean diameter and none; what touches a wall does not count."""
-    made = SimpleNamespace(x=np.array([0.0, 1.47, 4.0]), y=np.zeros(3), r=np.array([0.5, 1.0, 0.5]), ci=np.array([0, 1, 2]), cj=np.array([1, 2, -1]))
+    made = SimpleNamespace(
+        x=np.array([0.0, 1.47, 4.0]),
+        y=np.zeros(3),
+        r=np.array([0.5, 1.0, 0.5]),
+        ci=np.array([0, 1, 2]),
+        cj=np.array([1, 2, -1]),
+    )
     assert biaxials._overlap(made) == pytest.approx(0.01, rel=1e-9)
 
 
@@ -436,16 +746,20 @@ def test_the_limit_of_stiffness_is_that_of_the_heap():
     from yade.nonsmooth.heaps import column, grains
     from yade.nonsmooth.heaps import course as heap_course
 
-    heap, least = column.Column(disks=100, aspect=1.0), collapses.COLUMN.least_stiffness(soft_case(disks=100, options={"aspect": 1.0}))
+    heap, least = column.Column(disks=100, aspect=1.0), collapses.COLUMN.least_stiffness(
+        soft_case(disks=100, options={"aspect": 1.0})
+    )
     heap_course.build(heap, worlds.Soft(least, heap.diameters()))
     with pytest.raises(grains.HeapError, match="overlap"):
         heap_course.build(heap, worlds.Soft(0.8 * least, heap.diameters()))
 
 
 def test_the_script_refuses_in_one_line(tmp_path):
-    for words, wanted in ((("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
-                          (("--cost", "--scenario", "pile"), "--cost"),
-                          (("--scenario", "column", "--aspect", "6"), "--stiffness 1e+08"),
-                          (("--scenario", "biaxial", "--source", "no-such-rock"), "no-such-rock")):
+    for words, wanted in (
+        (("--scenario", "biaxial", "--aspect", "2"), "--aspect"),
+        (("--cost", "--scenario", "pile"), "--cost"),
+        (("--scenario", "column", "--aspect", "6"), "--stiffness 1e+08"),
+        (("--scenario", "biaxial", "--source", "no-such-rock"), "no-such-rock"),
+    ):
         done = shell.run("compare_hard_soft.py", *words, "--out", tmp_path)
         assert done.returncode != 0 and wanted in done.stderr and "Traceback" not in done.stderr

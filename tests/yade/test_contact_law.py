@@ -116,7 +116,10 @@ def test_a_wall_made_backwards_is_the_mirrored_wall():
         found = []
         for _ in range(40):
             run(25)
-            found += [(side * b.state.pos[0], b.state.pos[1], side * b.state.vel[0], b.state.vel[1], side * b.state.angVel[2]) for b in O.bodies]
+            found += [
+                (side * b.state.pos[0], b.state.pos[1], side * b.state.vel[0], b.state.vel[1], side * b.state.angVel[2])
+                for b in O.bodies
+            ]
         owned = [side * i.geom.normal[0] for i in contacts() if i.id1 < len(walls)]
         return found, [(i.id1, i.id2) for i in contacts()], owned, len(walls)
 
@@ -133,18 +136,24 @@ def test_a_one_sided_wall_holds_on_its_side_alone(sense, side):
     stuff = material(0.3)
     O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff, sense=sense))
     speed, rate, slack = 0.2, 0.25, 1e-3
-    touching, deep, leaving, beyond = (O.bodies.append(scene.disk((x, side * y), 0.5, stuff)) for x, y in ((-3, 0.5), (-1, 0.3), (1, 0.3), (3, 0.501)))
+    touching, deep, leaving, beyond = (
+        O.bodies.append(scene.disk((x, side * y), 0.5, stuff)) for x, y in ((-3, 0.5), (-1, 0.3), (1, 0.3), (3, 0.501))
+    )
     for k in (touching, deep, leaving, beyond):
         O.bodies[k].state.vel = (0, side * speed * (1 if k == leaving else -1), 0)
     begin(gravity=(0, 0, 0), relaxationRate=rate, correctionSpeed=1e6, correctionSlack=slack)
     run(1)
-    away = {k: (side * O.bodies[k].state.vel[1], side * O.bodies[k].state.pos[1]) for k in (touching, deep, leaving, beyond)}
+    away = {
+        k: (side * O.bodies[k].state.vel[1], side * O.bodies[k].state.pos[1]) for k in (touching, deep, leaving, beyond)
+    }
     front = side == sense
     # in front overlaps are 0.2 m, behind the wall 0.8 m, less the slack that stays; 1e-12 of the solver
     out = rate * (0.2 - slack) if front else -rate * (0.8 - slack)
     assert away[deep] == pytest.approx((0 if front else -speed, 0.3 + out), abs=1e-11)
     assert away[leaving] == pytest.approx((speed if front else 0, 0.3 + out), abs=1e-11)
-    assert away[beyond] == pytest.approx((-speed, 0.501 - speed * O.dt), abs=1e-11)  # in front 1 mm is more than a step's path
+    assert away[beyond] == pytest.approx(
+        (-speed, 0.501 - speed * O.dt), abs=1e-11
+    )  # in front 1 mm is more than a step's path
     if front:
         assert away[touching] == pytest.approx((0, 0.5), abs=1e-11)
 
@@ -159,6 +168,7 @@ def test_a_two_sided_wall_holds_on_the_side_where_the_centre_is():
 
 
 # ---- slip along a wall ----------------------------------------------------------------------------
+
 
 def weak_wall(**more):
     return material(0.3, kind=SlipWeakeningMat, **more)
@@ -204,11 +214,27 @@ def test_step_weakening_drops_friction_at_the_critical_slip():
     assert wall.slipOf(disk) == 0
 
 
-@pytest.mark.parametrize("law, left", [("step", lambda share: 1.0 if share < 1 else 0.0), ("linear", lambda share: max(0.0, 1 - share)), ("exponential", lambda share: math.exp(-share))])
+@pytest.mark.parametrize(
+    "law, left",
+    [
+        ("step", lambda share: 1.0 if share < 1 else 0.0),
+        ("linear", lambda share: max(0.0, 1 - share)),
+        ("exponential", lambda share: math.exp(-share)),
+    ],
+)
 def test_friction_and_cohesion_fall_by_the_law_of_their_wall(law, left):
     """Two disks that do not turn are drawn along a wall at their own speeds; a step works with the slip before it, disk by disk."""
     strong, weak, cohesion, rest, critical, h = 0.5, 0.2, 3e3, 1e3, 0.2, 2e-3
-    wall = material(strong, 0.1, kind=SlipWeakeningMat, residualTensileStrength=cohesion, criticalSlip=critical, weakening=law, weakenedFrictionAngle=math.atan(weak), weakenedTensileStrength=rest)
+    wall = material(
+        strong,
+        0.1,
+        kind=SlipWeakeningMat,
+        residualTensileStrength=cohesion,
+        criticalSlip=critical,
+        weakening=law,
+        weakenedFrictionAngle=math.atan(weak),
+        weakenedTensileStrength=rest,
+    )
     O.bodies.append(scene.segments([(-5, 0), (9, 0)], wall, piece=0.7))
     fast, slow = disks = [O.bodies.append(scene.disk((x, 0.5), 0.5, wall)) for x in (0, 3)]
     speeds = {fast: 1.5, slow: -0.4}
@@ -226,17 +252,29 @@ def test_friction_and_cohesion_fall_by_the_law_of_their_wall(law, left):
             seen.add(share)
             assert (i.phys.tangensOfFrictionAngle, i.phys.adhesion) == pytest.approx((mu, adhesion), rel=1e-12)
             assert i.phys.normal == pytest.approx(weight, rel=1e-9)
-            assert i.phys.tangential == pytest.approx(math.copysign(mu * (weight + adhesion), speeds[i.id2]), rel=1e-9)  # along −x, n turned by +90°
+            assert i.phys.tangential == pytest.approx(
+                math.copysign(mu * (weight + adhesion), speeds[i.id2]), rel=1e-9
+            )  # along −x, n turned by +90°
             assert i.phys.currentRollingArm == pytest.approx(0.1, rel=1e-12)  # which does not weaken
         for k in disks:
             assert wall.slipOf(k) == pytest.approx(abs(speeds[k]) * h * step, rel=1e-12)
         slips = [wall.slipOf(k) for k in disks]
-        assert wall.weakenedCount() == sum(slip >= critical for slip in slips) and wall.meanSlip() == pytest.approx(sum(slips) / 2, rel=1e-12)
+        assert wall.weakenedCount() == sum(slip >= critical for slip in slips) and wall.meanSlip() == pytest.approx(
+            sum(slips) / 2, rel=1e-12
+        )
     assert wall.weakenedCount() == 1 and len(seen) > (1 if law == "step" else 200)
 
 
 def test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_none():
-    wall = material(0.2, kind=SlipWeakeningMat, residualTensileStrength=1e3, criticalSlip=0.01, weakening="linear", weakenedFrictionAngle=math.atan(0.6), weakenedTensileStrength=5e3)
+    wall = material(
+        0.2,
+        kind=SlipWeakeningMat,
+        residualTensileStrength=1e3,
+        criticalSlip=0.01,
+        weakening="linear",
+        weakenedFrictionAngle=math.atan(0.6),
+        weakenedTensileStrength=5e3,
+    )
     bare = material(0.3, kind=SlipWeakeningMat, criticalSlip=0.01)
     for y, stuff in ((0, wall), (10, bare)):
         O.bodies.append(scene.segments([(-5, y), (5, y)], stuff))
@@ -248,7 +286,9 @@ def test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_
     phys = next(i.phys for i in contacts() if i.id2 == pressed)
     assert wall.slipOf(pressed) == pytest.approx(0.03, rel=1e-12)  # held by its cohesion alone
     assert phys.tangensOfFrictionAngle == pytest.approx(0.2, rel=1e-12) and phys.adhesion == 1e3
-    assert bare.slipOf(touching) == 0 and bare.meanSlip() == 0 and bare.weakenedCount() == 0  # nothing presses, nothing holds
+    assert (
+        bare.slipOf(touching) == 0 and bare.meanSlip() == 0 and bare.weakenedCount() == 0
+    )  # nothing presses, nothing holds
 
 
 def test_linear_weakening_follows_the_slip():

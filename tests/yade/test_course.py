@@ -14,8 +14,8 @@ import synthetic_slope as synthetic  # noqa: E402
 
 course, scales, section = (synthetic.load(name) for name in ("course", "scales", "section"))
 SHIPPED = section.load("jiufengershan")
-STEP = 1e-2       # s
-ROUNDING = 1e-9   # of sums of some hundred times and heights
+STEP = 1e-2  # s
+ROUNDING = 1e-9  # of sums of some hundred times and heights
 
 
 def slope(hold="motion", rate=1.0, points=((0.0, 0.0),), rest_hold=5.0, end=80.0, water=True):
@@ -46,7 +46,9 @@ def play(s, speed, start=None):
     while state.stage != "done":
         row = course.next_row(time, STEP, at.row_seconds)
         time = row * at.row_seconds
-        height = None if s.water is None else float(np.interp(time, *table)) if table else 0.0  # as the engine has it in the step that ends the row
+        height = (
+            None if s.water is None else float(np.interp(time, *table)) if table else 0.0
+        )  # as the engine has it in the step that ends the row
         seen = course.Seen(time, STEP, speed(time), height)
         given = dataclasses.astuple(state)
         new = course.noted(state, seen, at)
@@ -63,9 +65,11 @@ def play(s, speed, start=None):
 
 def steps(*pairs, rest=1e-3):
     """A speed that is v from a time on, for each pair (time, v); ``rest`` before."""
+
     def speed(time):
         found = [v for since, v in pairs if time >= since - ROUNDING]
         return found[-1] if found else rest
+
     return speed
 
 
@@ -79,17 +83,30 @@ def close(value):
 
 
 def test_the_module_needs_no_yade():
-    imported = {alias.name for node in ast.walk(ast.parse(Path(course.__file__).read_text())) if isinstance(node, ast.Import) for alias in node.names}
-    imported |= {node.module for node in ast.walk(ast.parse(Path(course.__file__).read_text())) if isinstance(node, ast.ImportFrom)}
+    imported = {
+        alias.name
+        for node in ast.walk(ast.parse(Path(course.__file__).read_text()))
+        if isinstance(node, ast.Import)
+        for alias in node.names
+    }
+    imported |= {
+        node.module
+        for node in ast.walk(ast.parse(Path(course.__file__).read_text()))
+        if isinstance(node, ast.ImportFrom)
+    }
     assert imported == {"__future__", "math", "dataclasses"}
 
 
 # ---- settling and dry rest --------------------------------------------------------------------------
-@pytest.mark.parametrize("speed, settled", [
-    (steps(), 1.0),                          # at rest all the time: once gravity acts, and not before
-    (steps((0.0, 0.1), (1.75, 4e-3)), 1.8),  # comes to rest
-    (steps((0.0, 5e-3)), 1.0),               # at the speed that counts as rest
-    (steps((0.0, 5.1e-3)), 3.0)])            # never: after the longest time
+@pytest.mark.parametrize(
+    "speed, settled",
+    [
+        (steps(), 1.0),  # at rest all the time: once gravity acts, and not before
+        (steps((0.0, 0.1), (1.75, 4e-3)), 1.8),  # comes to rest
+        (steps((0.0, 5e-3)), 1.0),  # at the speed that counts as rest
+        (steps((0.0, 5.1e-3)), 3.0),
+    ],
+)  # never: after the longest time
 def test_settled(speed, settled):
     rows = play(slope(), speed)
     state = rows[-1].state
@@ -101,9 +118,19 @@ def test_settled(speed, settled):
 @pytest.mark.parametrize("early, passed", [(0.49, True), (0.51, False)])
 def test_times_are_met_to_half_a_step(early, passed):
     s, at = slope(), scales.of(slope())
-    for state, time, stage in ((course.State(), 3.0, "dry"), (course.State("dry", settled=2.0), 2.5, "water"), (course.State("water", settled=2.0, t0=2.5), 82.0, "done"),
-                               (course.State("water", settled=2.0, t0=2.5, moving=3.0, stood=True, speed_max=9.0, resting_since=10.0), 15.0, "done")):
-        assert (course.after(state, course.Seen(time - early * STEP, STEP, 0.01, 0.0), s, at).stage == stage) == passed, state
+    for state, time, stage in (
+        (course.State(), 3.0, "dry"),
+        (course.State("dry", settled=2.0), 2.5, "water"),
+        (course.State("water", settled=2.0, t0=2.5), 82.0, "done"),
+        (
+            course.State("water", settled=2.0, t0=2.5, moving=3.0, stood=True, speed_max=9.0, resting_since=10.0),
+            15.0,
+            "done",
+        ),
+    ):
+        assert (
+            course.after(state, course.Seen(time - early * STEP, STEP, 0.01, 0.0), s, at).stage == stage
+        ) == passed, state
 
 
 def test_gravity_grows_in_proportion():
@@ -141,7 +168,13 @@ def test_where_the_table_stays(hold, level):
 
 def test_a_slope_without_water_has_no_table():
     last = play(slope(water=False), steps((10.0, 3.0), (30.0, 0.0)))[-1].state
-    assert last.moving == close(10.0) and last.water_hold is None and last.table == 0 and last.failed_dry is None and last.resting_since == close(30.0)
+    assert (
+        last.moving == close(10.0)
+        and last.water_hold is None
+        and last.table == 0
+        and last.failed_dry is None
+        and last.resting_since == close(30.0)
+    )
 
 
 # ---- moving, and stopping again ---------------------------------------------------------------------
@@ -152,14 +185,23 @@ def test_below_its_speed_nothing_moves():
 
 def test_a_slope_that_stops_again_goes_on_rising_with_its_delay():
     """It stirs at 5 s for 2 s, and at 11 s for 3 s; half the way it is slow, but has not stopped."""
-    rows = play(slope(end=40.0), steps((5.0, 0.3), (6.0, 0.021), (7.0, 0.019), (11.0, 0.5), (14.0, 0.0), (20.0, 0.4), (22.0, 3.0)))
+    rows = play(
+        slope(end=40.0),
+        steps((5.0, 0.3), (6.0, 0.021), (7.0, 0.019), (11.0, 0.5), (14.0, 0.0), (20.0, 0.4), (22.0, 3.0)),
+    )
     heights = lambda *times: [at(rows, t).height for t in times]  # noqa: E731
     assert at(rows, 6.9).state.moving == close(5.0) and at(rows, 7.0).state.moving is None
-    assert heights(5.0, 6.0, 7.0) == [close(3.5)] * 3                                   # held
-    assert heights(7.1, 10.0, 11.0, 12.0, 14.0) == [close(h) for h in (3.6, 6.5, 7.5, 7.5, 7.5)]  # goes on from there, and is held again
+    assert heights(5.0, 6.0, 7.0) == [close(3.5)] * 3  # held
+    assert heights(7.1, 10.0, 11.0, 12.0, 14.0) == [
+        close(h) for h in (3.6, 6.5, 7.5, 7.5, 7.5)
+    ]  # goes on from there, and is held again
     assert [at(rows, t).state.water_delay for t in (6.9, 7.0, 13.9, 14.0)] == [close(d) for d in (0.0, 2.0, 2.0, 5.0)]
     last = rows[-1].state
-    assert heights(15.0, 20.0, 30.0) == [close(h) for h in (8.5, 13.5, 13.5)] and last.moving == close(20.0) and last.failed_dry is None
+    assert (
+        heights(15.0, 20.0, 30.0) == [close(h) for h in (8.5, 13.5, 13.5)]
+        and last.moving == close(20.0)
+        and last.failed_dry is None
+    )
     assert np.diff([row.height for row in rows]).max() < 0.1 + ROUNDING  # no jump anywhere: 1 m/s, ten rows a second
 
 
@@ -183,26 +225,41 @@ def test_the_largest_speed_counts_from_the_water_on():
 
 
 # ---- failed dry -------------------------------------------------------------------------------------
-@pytest.mark.parametrize("speed, failed, settled, table", [
-    (steps((0.4, 2.0), (0.6, 1.0), (6.0, 0.0)), 0.4, 1.0, 0.0),        # while gravity grows: not waited for once it acts
-    (steps((0.0, 0.1), (2.0, 2.0), (6.0, 0.0)), 2.0, 2.0, 0.0),        # at once where it acts
-    (steps((1.2, 2.5), (6.0, 0.0)), 1.2, 1.0, 0.0),                    # in the dry rest
-    (steps((1.45, 0.2), (6.0, 0.0)), 1.5, 1.0, 0.0),                   # on the move at t0
-    (steps((1.45, 0.15), (3.5, 0.2), (6.0, 0.0)), 3.5, 1.0, 2.0)])     # never stood since
+@pytest.mark.parametrize(
+    "speed, failed, settled, table",
+    [
+        (steps((0.4, 2.0), (0.6, 1.0), (6.0, 0.0)), 0.4, 1.0, 0.0),  # while gravity grows: not waited for once it acts
+        (steps((0.0, 0.1), (2.0, 2.0), (6.0, 0.0)), 2.0, 2.0, 0.0),  # at once where it acts
+        (steps((1.2, 2.5), (6.0, 0.0)), 1.2, 1.0, 0.0),  # in the dry rest
+        (steps((1.45, 0.2), (6.0, 0.0)), 1.5, 1.0, 0.0),  # on the move at t0
+        (steps((1.45, 0.15), (3.5, 0.2), (6.0, 0.0)), 3.5, 1.0, 2.0),
+    ],
+)  # never stood since
 def test_a_slope_fails_dry(speed, failed, settled, table):
     rows = play(slope(), speed)
     last = rows[-1].state
     assert last.failed_dry == close(failed) and last.settled == close(settled) and last.t0 == close(settled + 0.5)
-    assert last.moving == close(failed) and last.water_hold == close(table) and max(row.height for row in rows) == close(table)
+    assert (
+        last.moving == close(failed)
+        and last.water_hold == close(table)
+        and max(row.height for row in rows) == close(table)
+    )
     assert last.speed_max == max(row.speed for row in rows if row.time >= min(failed, last.t0) - ROUNDING)
     # followed until it rests, and no longer
     assert last.resting_since == close(6.0) and rows[-1].time == close(11.0) and rows[-1].state.water_delay == 0
 
 
-@pytest.mark.parametrize("speed, moving", [
-    (steps((0.4, 1.99), (0.6, 1e-3), (5.0, 0.3), (5.5, 9.0)), 5.0),          # did not get going, and stood
-    (steps((1.45, 0.19), (1.95, 0.0199), (2.05, 0.1), (5.0, 0.2), (5.5, 9.0)), 5.0),  # stood after t0, if only for a moment
-    (steps((1.45, 0.0199), (1.55, 0.1), (5.0, 0.2), (5.5, 9.0)), 5.0)])      # at t0 itself
+@pytest.mark.parametrize(
+    "speed, moving",
+    [
+        (steps((0.4, 1.99), (0.6, 1e-3), (5.0, 0.3), (5.5, 9.0)), 5.0),  # did not get going, and stood
+        (
+            steps((1.45, 0.19), (1.95, 0.0199), (2.05, 0.1), (5.0, 0.2), (5.5, 9.0)),
+            5.0,
+        ),  # stood after t0, if only for a moment
+        (steps((1.45, 0.0199), (1.55, 0.1), (5.0, 0.2), (5.5, 9.0)), 5.0),
+    ],
+)  # at t0 itself
 def test_a_slope_that_has_stood_fails_by_water(speed, moving):
     last = play(slope(end=12.0), speed)[-1].state
     assert last.failed_dry is None and last.moving == close(moving) and last.stood and last.water_hold == close(3.5)
@@ -211,28 +268,49 @@ def test_a_slope_that_has_stood_fails_by_water(speed, moving):
 def test_one_that_failed_dry_waits_for_no_water():
     """It stops, has never got going, and is the same failure still."""
     rows = play(slope(rest_hold=1e9, end=20.0), steps((1.45, 0.3), (4.0, 0.0), (8.0, 0.3), (9.0, 0.0)))
-    assert {(row.state.moving, row.state.water_hold) for row in rows if row.time > 1.6} == {(rows[-1].state.failed_dry, 0.0)} and rows[-1].height == 0
+    assert {(row.state.moving, row.state.water_hold) for row in rows if row.time > 1.6} == {
+        (rows[-1].state.failed_dry, 0.0)
+    } and rows[-1].height == 0
 
 
 # ---- how exactly contacts are computed ----------------------------------------------------------------
 def test_still_is_five_seconds_at_one_height():
     dry = play(slope(rate=0.0, end=20.0), steps())
-    assert [row.still for row in dry if row.still is not None] == [row.time - 1.0 >= 5.0 - ROUNDING for row in dry if row.time > 1.5 + ROUNDING]
+    assert [row.still for row in dry if row.still is not None] == [
+        row.time - 1.0 >= 5.0 - ROUNDING for row in dry if row.time > 1.5 + ROUNDING
+    ]
     assert not any(row.still for row in play(slope(), steps()))  # the table rises
     held = play(slope(3.0, end=20.0), steps())
     arrived = next(row.time for row in held if row.state.water_hold is not None)
     assert arrived == close(4.5) and [row.time for row in held if row.still][0] == close(arrived + 5.0)
-    late = play(slope(points=((0.0, 0.0), (7.95, 0.0), (8.05, 1.0)), rate=0.0, end=20.0), steps())  # from 9.45 s to 9.55 s
-    assert [row.still for row in late if row.time > 6.05] == [not 9.45 < row.time < 14.55 for row in late if row.time > 6.05]
+    late = play(
+        slope(points=((0.0, 0.0), (7.95, 0.0), (8.05, 1.0)), rate=0.0, end=20.0), steps()
+    )  # from 9.45 s to 9.55 s
+    assert [row.still for row in late if row.time > 6.05] == [
+        not 9.45 < row.time < 14.55 for row in late if row.time > 6.05
+    ]
     moving = play(slope(3.0, end=20.0), steps((9.0, 0.3), (15.0, 0.0)))
-    assert {row.still for row in moving if 9.0 - ROUNDING < row.time < 14.95} == {False} and at(moving, 15.0).still and at(moving, 16.0).still
+    assert (
+        {row.still for row in moving if 9.0 - ROUNDING < row.time < 14.95} == {False}
+        and at(moving, 15.0).still
+        and at(moving, 16.0).still
+    )
 
 
 def test_the_tolerance_by_state_and_speed():
     numerics = dataclasses.replace(SHIPPED.numerics, tolerance=1e-6, tolerance_moving=2e-4)
-    for flowing, still, wanted in ((0.0, False, 1e-6), (0.0, True, 0.25e-6), (1.0, False, 2e-4), (0.5, False, 1e-4), (1e-3, False, 1e-6), (0.01, False, 2e-6)):
+    for flowing, still, wanted in (
+        (0.0, False, 1e-6),
+        (0.0, True, 0.25e-6),
+        (1.0, False, 2e-4),
+        (0.5, False, 1e-4),
+        (1e-3, False, 1e-6),
+        (0.01, False, 2e-6),
+    ):
         assert course.tolerance(flowing, still, numerics) == pytest.approx(wanted, rel=1e-12)  # rounding
-    assert [course.damping(flowing, 0.2, 0.04) for flowing in (0.0, 0.25, 1.0)] == pytest.approx([0.2, 0.16, 0.04], rel=1e-12)
+    assert [course.damping(flowing, 0.2, 0.04) for flowing in (0.0, 0.25, 1.0)] == pytest.approx(
+        [0.2, 0.16, 0.04], rel=1e-12
+    )
 
 
 def test_care_grows_as_the_slope_slows_down():
@@ -246,7 +324,9 @@ def test_care_grows_as_the_slope_slows_down():
 def test_it_ends_when_it_has_rested():
     """Below 2 % of 40 m/s; a stir in between begins the rest anew, and one at that speed is no rest."""
     rows = play(slope(), steps((5.0, 40.0), (10.0, 0.79), (14.0, 0.8), (14.1, 0.5), (19.1, 0.3)))
-    assert rows[-1].time == close(19.1) and rows[-1].state.stage == "done" and rows[-1].state.resting_since == close(14.1)
+    assert (
+        rows[-1].time == close(19.1) and rows[-1].state.stage == "done" and rows[-1].state.resting_since == close(14.1)
+    )
     assert at(rows, 13.9).state.resting_since == close(10.0) and at(rows, 14.0).state.resting_since is None
     assert play(slope(rest_hold=2.0), steps((5.0, 40.0), (10.0, 0.79)))[-1].time == close(12.0)
 
@@ -264,7 +344,9 @@ def test_rows_are_multiples_of_their_distance():
     whole = play(slope(), steps((5.0, 0.3), (7.0, 0.0), (9.0, 9.0), (20.0, 0.0)))
     for k in (5, 12, 45, 60, 75, 120):  # gone on with from any state, it is the same
         resumed = play(slope(), steps((5.0, 0.3), (7.0, 0.0), (9.0, 9.0), (20.0, 0.0)), (whole[k].state, whole[k].time))
-        assert [dataclasses.astuple(row.state) for row in resumed] == [dataclasses.astuple(row.state) for row in whole[k + 1:]]
+        assert [dataclasses.astuple(row.state) for row in resumed] == [
+            dataclasses.astuple(row.state) for row in whole[k + 1 :]
+        ]
 
 
 def test_snapshots_are_every_fifth_row_once_it_counts():
@@ -279,36 +361,76 @@ def test_the_shipped_section_has_the_scales_that_it_had():
         assert dataclasses.astuple(scales.of(s)) == (0.1, 1.0, 5.0, 0.2, 0.02, 2.0, 60.0)  # to the last bit
 
 
-@pytest.mark.parametrize("size, gravity, row, mean", [(2e-3, 1.0, 5e-3, 0.05), (1e-6, 1.0, 1e-4, 1e-3), (1.0, 100.0, 0.01, 0.1),
-                                                      (12.0, 1.0, 0.5, 5.0), (8.0, 1.0, 0.2, 2.0), (0.4, 1.0, 0.05, 0.5)])
+@pytest.mark.parametrize(
+    "size, gravity, row, mean",
+    [
+        (2e-3, 1.0, 5e-3, 0.05),
+        (1e-6, 1.0, 1e-4, 1e-3),
+        (1.0, 100.0, 0.01, 0.1),
+        (12.0, 1.0, 0.5, 5.0),
+        (8.0, 1.0, 0.2, 2.0),
+        (0.4, 1.0, 0.05, 0.5),
+    ],
+)
 def test_scales_of_other_slopes(size, gravity, row, mean):
     """Rows and means are the nearest of 1, 2 and 5 times a power of ten, by ratio: √12 = 3.46 is 1.45 times less than 5 and 1.73 times more than 2."""
     other, speed, time = scaled(slope(), size, gravity)
     found = scales.of(dataclasses.replace(other, numerics=dataclasses.replace(SHIPPED.numerics, time_step=1e-5)))
-    assert (found.moving_speed, found.stopped_speed, found.going_speed, found.approach_speed) == pytest.approx((0.2 * speed, 0.02 * speed, 2 * speed, 60 * speed), rel=1e-12)
-    assert found.still_seconds == pytest.approx(5 * time, rel=1e-12) and (found.row_seconds, found.mean_seconds) == (row, mean)
+    assert (found.moving_speed, found.stopped_speed, found.going_speed, found.approach_speed) == pytest.approx(
+        (0.2 * speed, 0.02 * speed, 2 * speed, 60 * speed), rel=1e-12
+    )
+    assert found.still_seconds == pytest.approx(5 * time, rel=1e-12) and (found.row_seconds, found.mean_seconds) == (
+        row,
+        mean,
+    )
 
 
 def test_rows_are_no_closer_than_steps():
     coarse = scales.of(dataclasses.replace(SHIPPED, numerics=dataclasses.replace(SHIPPED.numerics, time_step=0.25)))
     slow = scales.of(dataclasses.replace(SHIPPED, numerics=dataclasses.replace(SHIPPED.numerics, time_step=2.5)))
-    assert (coarse.row_seconds, coarse.mean_seconds) == (0.25, 1.0) and (slow.row_seconds, slow.mean_seconds) == (2.5, 2.5)
+    assert (coarse.row_seconds, coarse.mean_seconds) == (0.25, 1.0) and (slow.row_seconds, slow.mean_seconds) == (
+        2.5,
+        2.5,
+    )
 
 
 def scaled(s, size, gravity):
     """A section ``size`` times as large in a ``gravity`` times as strong one, with its stages and its water in proportion; and its units of speed and time."""
     speed, time = math.sqrt(size * gravity), math.sqrt(size / gravity)
-    layers = tuple(dataclasses.replace(layer, vertices=tuple((size * x, size * y) for x, y in layer.vertices)) for layer in s.layers)
+    layers = tuple(
+        dataclasses.replace(layer, vertices=tuple((size * x, size * y) for x, y in layer.vertices))
+        for layer in s.layers
+    )
     settle, end, hold = s.stages.settle, s.stages.end, s.stages.water_hold
-    stages = section.Stages(section.Settle(time * settle.ramp, time * settle.time_max, speed * settle.speed_rest), time * s.stages.dry,
-                            hold if isinstance(hold, str) else size * hold, section.End(time * end.time, end.rest_fraction, time * end.rest_hold))
-    water = dataclasses.replace(s.water, table=tuple((time * t, size * h) for t, h in s.water.table), rate=speed * s.water.rate)
+    stages = section.Stages(
+        section.Settle(time * settle.ramp, time * settle.time_max, speed * settle.speed_rest),
+        time * s.stages.dry,
+        hold if isinstance(hold, str) else size * hold,
+        section.End(time * end.time, end.rest_fraction, time * end.rest_hold),
+    )
+    water = dataclasses.replace(
+        s.water, table=tuple((time * t, size * h) for t, h in s.water.table), rate=speed * s.water.rate
+    )
     return dataclasses.replace(s, layers=layers, gravity=gravity * s.gravity, stages=stages, water=water), speed, time
 
 
-HISTORIES = {"water": steps((5.0, 0.3), (6.0, 0.021), (7.0, 0.019), (11.0, 0.5), (14.0, 0.0), (20.0, 0.4), (22.0, 30.0), (30.0, 1.0), (35.0, 0.0)),
-             "dry": steps((1.45, 0.21), (6.0, 0.0)), "dry early": steps((0.4, 2.1), (6.0, 0.0)), "never stood": steps((1.45, 0.15), (3.5, 0.21), (6.0, 0.0)),
-             "still": steps()}
+HISTORIES = {
+    "water": steps(
+        (5.0, 0.3),
+        (6.0, 0.021),
+        (7.0, 0.019),
+        (11.0, 0.5),
+        (14.0, 0.0),
+        (20.0, 0.4),
+        (22.0, 30.0),
+        (30.0, 1.0),
+        (35.0, 0.0),
+    ),
+    "dry": steps((1.45, 0.21), (6.0, 0.0)),
+    "dry early": steps((0.4, 2.1), (6.0, 0.0)),
+    "never stood": steps((1.45, 0.15), (3.5, 0.21), (6.0, 0.0)),
+    "still": steps(),
+}
 
 
 @pytest.mark.parametrize("name", HISTORIES)
@@ -322,7 +444,9 @@ def test_slopes_of_other_sizes_do_the_same_in_their_units(name, size, gravity, h
     reference, found = play(small, history), play(other, lambda t: speed * history(t / time))
     assert len(found) == len(reference)
     units = {"speed_max": speed, "table": size, "water_hold": size}
-    units |= {name: time for name in ("settled", "t0", "moving", "failed_dry", "table_since", "water_delay", "resting_since")}
+    units |= {
+        name: time for name in ("settled", "t0", "moving", "failed_dry", "table_since", "water_delay", "resting_since")
+    }
     for a, b in zip(reference, found):
         for field in dataclasses.fields(a.state):
             value, scaled_value = getattr(a.state, field.name), getattr(b.state, field.name)
@@ -343,5 +467,8 @@ def test_the_end_is_foreseen():
     assert course.foreseen(course.State("water", settled=1.0, t0=1.5, moving=99.0), 100.0, s) == 151.0
     assert course.foreseen(course.State("water", settled=1.0, t0=1.5, moving=9.0), 70.0, s) == 70.0
     assert course.foreseen(course.State("dry", settled=1.0), 1.2, s) == 1.0 + 0.5 + 50.0 + 55.0
-    assert course.foreseen(course.State(), 2.0, s) == 8.0 + 0.5 + 50.0 + 55.0 and course.foreseen(course.State(), 10.0, s) == 115.5
+    assert (
+        course.foreseen(course.State(), 2.0, s) == 8.0 + 0.5 + 50.0 + 55.0
+        and course.foreseen(course.State(), 10.0, s) == 115.5
+    )
     assert course.foreseen(course.State("dry", settled=1.0), 1.2, slope("never", end=150.0)) == 151.0

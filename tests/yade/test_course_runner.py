@@ -18,7 +18,9 @@ RECORDS = ("series.csv", "walls.csv", "breaks.csv", "t0.npz", "end.npz")
 
 
 def bytes_of(folder):
-    return {name: (folder / name).read_bytes() for name in RECORDS} | {p.name: p.read_bytes() for p in (folder / "snapshots").iterdir()}
+    return {name: (folder / name).read_bytes() for name in RECORDS} | {
+        p.name: p.read_bytes() for p in (folder / "snapshots").iterdir()
+    }
 
 
 def run_to_the_end(run, limit=50):
@@ -79,6 +81,7 @@ def test_a_run_by_engine_is_resumed_by_either(whole, tmp_path):
 
 def test_a_command_sees_the_scene_between_two_steps():
     """Bodies as after the step before, also where nobody else looks: those that O.step() shows."""
+
     def scene_of():
         O.reset()
         stuff = material(0.4)
@@ -88,7 +91,14 @@ def test_a_command_sees_the_scene_between_two_steps():
 
     seen = sys.modules["__main__"].__dict__["seen"] = []
     scene_of()
-    O.engines = [CourseRunner(label="looker", command="seen.append((O.iter, O.time, O.bodies[1].state.pos[1])); looker.nextTime += 0.01", nextTime=0.1), *O.engines]
+    O.engines = [
+        CourseRunner(
+            label="looker",
+            command="seen.append((O.iter, O.time, O.bodies[1].state.pos[1])); looker.nextTime += 0.01",
+            nextTime=0.1,
+        ),
+        *O.engines,
+    ]
     advance(200)
     scene_of()
     known = {}
@@ -147,7 +157,13 @@ def test_yade_batch_drives_a_slope(whole, tmp_path):
     script.write_text(BATCH.format(source=str(SMALL), out=str(tmp_path / "out-")))
     table.write_text("seed\n3\n")
     environment = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_BATCH")}
-    done = subprocess.run([shell.PREFIX / "bin" / "yade-batch", "-j1", "--log", "slope.@.log", str(table), str(script)], cwd=tmp_path, env=environment, text=True,
-                          capture_output=True, timeout=300)
+    done = subprocess.run(
+        [shell.PREFIX / "bin" / "yade-batch", "-j1", "--log", "slope.@.log", str(table), str(script)],
+        cwd=tmp_path,
+        env=environment,
+        text=True,
+        capture_output=True,
+        timeout=300,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     assert bytes_of(tmp_path / "out-3") == bytes_of(whole.folder)

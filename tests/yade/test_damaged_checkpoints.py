@@ -23,7 +23,18 @@ DISKS = 200
 
 
 def make(source, out, end):
-    done = shell.run("yade-nonsmooth", Path(__file__).with_name("killed_run.py"), source, DISKS, out, end, 0, "--threads", 1, limit=300)
+    done = shell.run(
+        "yade-nonsmooth",
+        Path(__file__).with_name("killed_run.py"),
+        source,
+        DISKS,
+        out,
+        end,
+        0,
+        "--threads",
+        1,
+        limit=300,
+    )
     assert done.returncode == 0, done.stderr
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in sorted(out.rglob("*")) if path.is_file()}
 
@@ -52,7 +63,26 @@ def saved(tmp_path_factory):
     return Saved(tmp_path_factory.mktemp("saved"))
 
 
-VALUES = [None, True, -1, 0, 2, 10**30, 1e308, math.nan, math.inf, "", "x", "../../series.csv", "scene-00000000-00000000.yade", [], [0], {}, {"a": 1}, "9" * 5000]
+VALUES = [
+    None,
+    True,
+    -1,
+    0,
+    2,
+    10**30,
+    1e308,
+    math.nan,
+    math.inf,
+    "",
+    "x",
+    "../../series.csv",
+    "scene-00000000-00000000.yade",
+    [],
+    [0],
+    {},
+    {"a": 1},
+    "9" * 5000,
+]
 
 
 def flip(draw, files, saved):
@@ -66,14 +96,14 @@ def flip(draw, files, saved):
 
 def cut(draw, files, saved):
     name = draw(st.sampled_from(saved.read))
-    files[name] = files[name][:draw(st.integers(0, max(0, len(files[name]) - 1)))]
+    files[name] = files[name][: draw(st.integers(0, max(0, len(files[name]) - 1)))]
 
 
 def splice(draw, files, saved):
     """Other bytes in the place of some."""
     name = draw(st.sampled_from(saved.read))
     place = draw(st.integers(0, len(files[name])))
-    files[name] = files[name][:place] + draw(st.binary(max_size=40)) + files[name][place + draw(st.integers(0, 40)):]
+    files[name] = files[name][:place] + draw(st.binary(max_size=40)) + files[name][place + draw(st.integers(0, 40)) :]
 
 
 def lose(draw, files, saved):
@@ -83,14 +113,20 @@ def lose(draw, files, saved):
 def swap(draw, files, saved):
     """A file of an earlier checkpoint, or of another run."""
     source, name = draw(st.sampled_from([saved.earlier, saved.other])), draw(st.sampled_from(saved.read))
-    files[name] = next(content for path, content in source.items() if path == name or name == saved.scene and path.startswith("checkpoint/scene-"))
+    files[name] = next(
+        content
+        for path, content in source.items()
+        if path == name or name == saved.scene and path.startswith("checkpoint/scene-")
+    )
 
 
 def move(draw, files, saved):
     """The whole checkpoint of an earlier time, or of another run, beside this series."""
     for name in [n for n in files if n.startswith("checkpoint/")]:
         del files[name]
-    files |= {n: c for n, c in draw(st.sampled_from([saved.earlier, saved.other])).items() if n.startswith("checkpoint/")}
+    files |= {
+        n: c for n, c in draw(st.sampled_from([saved.earlier, saved.other])).items() if n.startswith("checkpoint/")
+    }
 
 
 def edit(draw, files, saved):
@@ -111,14 +147,38 @@ def edit(draw, files, saved):
 
 
 def rewrite(draw, files, saved):
-    files["checkpoint/checkpoint.json"] = draw(st.sampled_from([
-        b"", b"null", b"[]", b"1", b'"x"', b"{}", b"NaN", b"[" * 100_000, b"\xff\xfe", b'{"format": 2}', b'{"format": 1e999}', b'{"format": true, "scene": 1}',
-        b'{"format": 1, "scene": "scene-00000200.yade", "size": 5, "step": 200, "key": "x"}', b'{"format": ' + b"9" * 10_000 + b"}"]))
+    files["checkpoint/checkpoint.json"] = draw(
+        st.sampled_from(
+            [
+                b"",
+                b"null",
+                b"[]",
+                b"1",
+                b'"x"',
+                b"{}",
+                b"NaN",
+                b"[" * 100_000,
+                b"\xff\xfe",
+                b'{"format": 2}',
+                b'{"format": 1e999}',
+                b'{"format": true, "scene": 1}',
+                b'{"format": 1, "scene": "scene-00000200.yade", "size": 5, "step": 200, "key": "x"}',
+                b'{"format": ' + b"9" * 10_000 + b"}",
+            ]
+        )
+    )
 
 
 def leave(draw, files, saved):
     """What a killed process leaves: half-written files beside whole ones."""
-    for name in draw(st.lists(st.sampled_from(["series.csv", "t0.npz", "snapshots/00000250.npz", "checkpoint/checkpoint.json", saved.scene]), min_size=1)):
+    for name in draw(
+        st.lists(
+            st.sampled_from(
+                ["series.csv", "t0.npz", "snapshots/00000250.npz", "checkpoint/checkpoint.json", saved.scene]
+            ),
+            min_size=1,
+        )
+    ):
         path = Path(name)
         files[str(path.with_name(f".part-0123abcd-{path.name}"))] = b"half"
 
@@ -126,7 +186,9 @@ def leave(draw, files, saved):
 DAMAGES = (flip, cut, splice, lose, swap, move, edit, rewrite, leave)
 
 
-@settings(max_examples=EXAMPLES, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(
+    max_examples=EXAMPLES, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck)
+)
 @given(damages=st.lists(st.sampled_from(DAMAGES), min_size=1, max_size=2), data=st.data())
 def test_a_damaged_folder_is_one_message_or_goes_on_from_what_was_saved(saved, tmp_path_factory, damages, data):
     files = dict(saved.files)
@@ -155,7 +217,7 @@ def check(saved, files, folder):
     # an earlier checkpoint of the same run, with a series that holds its rows, is as good: the rows after it are computed again
     told = next(t for t in (saved.told, json.loads(saved.earlier["checkpoint/checkpoint.json"])) if t["step"] == O.iter)
     assert asdict(run.state) == told["state"] and run.slope.walls == told["walls"] and run.slope.count == told["count"]
-    assert (folder / "series.csv").read_bytes() == saved.series[:told["series"]["bytes"]]
+    assert (folder / "series.csv").read_bytes() == saved.series[: told["series"]["bytes"]]
     assert not list(folder.rglob(".part-*"))
     return ""
 
@@ -171,13 +233,15 @@ def test_every_byte_of_the_checkpoint_file_counts(saved, tmp_path):
     content = saved.files["checkpoint/checkpoint.json"]
     refused = 0
     for place in range(len(content)):
-        path.write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1:])
+        path.write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :])
         try:
             found = checkpoints._told(path, "again", "anew", errors.UserError)
         except errors.UserError:
             refused += 1
         else:  # another format is another version's, and refused for that
-            assert found["format"] != saved.told["format"] or found == {k: v for k, v in saved.told.items() if k != "sum"}
+            assert found["format"] != saved.told["format"] or found == {
+                k: v for k, v in saved.told.items() if k != "sum"
+            }
     assert refused > 0.6 * len(content)  # white space may change
 
 
@@ -185,18 +249,30 @@ def test_a_scene_with_one_flipped_bit_is_not_loaded(saved, tmp_path):
     for place in (0, 100, len(saved.files[saved.scene]) // 2, len(saved.files[saved.scene]) - 1):
         content = bytearray(saved.files[saved.scene])
         content[place] ^= 1
-        assert "does not match its checksum" in check(saved, {**saved.files, saved.scene: bytes(content)}, tmp_path / "out")
+        assert "does not match its checksum" in check(
+            saved, {**saved.files, saved.scene: bytes(content)}, tmp_path / "out"
+        )
 
 
 def test_leftovers_of_a_killed_process_end_no_resume(saved, tmp_path):
-    parts = {name: b"half" for name in (".part-01-t0.npz", "snapshots/.part-01-00000250.npz", "checkpoint/.part-01-checkpoint.json", f"checkpoint/.part-02-{saved.told['scene']}")}
+    parts = {
+        name: b"half"
+        for name in (
+            ".part-01-t0.npz",
+            "snapshots/.part-01-00000250.npz",
+            "checkpoint/.part-01-checkpoint.json",
+            f"checkpoint/.part-02-{saved.told['scene']}",
+        )
+    }
     assert check(saved, {**saved.files, **parts}, tmp_path / "out") == ""
 
 
 def test_records_beyond_the_checkpoint_go_at_a_resume(saved, tmp_path):
     """They are of times that the run has not reached yet; a stop before them would show them as its own."""
     files = {n: c for n, c in saved.files.items() if not n.startswith("checkpoint/")}
-    files |= {n: c for n, c in saved.earlier.items() if n.startswith("checkpoint/")}  # at 1.9 s: the water rises from 2.0 s
+    files |= {
+        n: c for n, c in saved.earlier.items() if n.startswith("checkpoint/")
+    }  # at 1.9 s: the water rises from 2.0 s
     assert "t0.npz" in files and "snapshots/00000200.npz" in files
     check(saved, files, tmp_path / "out")
     assert not (tmp_path / "out" / "t0.npz").exists() and not (tmp_path / "out" / "snapshots" / "00000200.npz").exists()
@@ -209,7 +285,11 @@ def test_a_fresh_run_takes_the_checkpoint_away_first(saved, tmp_path, monkeypatc
     forgotten = []
     monkeypatch.setattr(experiment.results, "forget", lambda f: forgotten.append(checkpoints.exists(f)) or 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        experiment.Experiment(experiment.slope.find(saved.section, saved.told["walls"], saved.told["first_disk"], saved.told["count"]), folder, layers=[])
+        experiment.Experiment(
+            experiment.slope.find(saved.section, saved.told["walls"], saved.told["first_disk"], saved.told["count"]),
+            folder,
+            layers=[],
+        )
     assert forgotten == [False] and (folder / "series.csv").read_bytes() != b""
 
 

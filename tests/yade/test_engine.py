@@ -11,15 +11,43 @@ from yade import O
 from yade.minieigenHP import Quaternion
 from yade.nonsmooth import contact, scene
 from yade.wrapper import (
-    Collider, ContactDynamicsEngine, ForceEngine, ForceResetter, FrictMat, GlobalStiffnessTimeStepper, Ig2_Sphere_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, PyRunner, TorqueEngine)
+    Collider,
+    ContactDynamicsEngine,
+    ForceEngine,
+    ForceResetter,
+    FrictMat,
+    GlobalStiffnessTimeStepper,
+    Ig2_Sphere_Sphere_ScGeom,
+    InteractionLoop,
+    Ip2_FrictMat_FrictMat_FrictPhys,
+    Law2_ScGeom_FrictPhys_CundallStrack,
+    NewtonIntegrator,
+    PyRunner,
+    TorqueEngine,
+)
 
-from contact_scenes import G, begin, bits, box, contacts, engine, floor, free_disk, launch, loose_heap, material, momenta, refused, run
+from contact_scenes import (
+    G,
+    begin,
+    bits,
+    box,
+    contacts,
+    engine,
+    floor,
+    free_disk,
+    launch,
+    loose_heap,
+    material,
+    momenta,
+    refused,
+    run,
+)
 
 pytestmark = pytest.mark.usefixtures("empty")
 
 
 # ---- balance of forces and momentum ---------------------------------------------------------------
+
 
 def test_loosely_solved_stack_does_not_creep():
     stuff = material(0.3, 0.1)
@@ -34,7 +62,9 @@ def test_loosely_solved_stack_does_not_creep():
         heights.append(top.pos[1])
     # each of 50 contacts may overlap by 1e-4 of a diameter; it creeps into that, and not beyond
     assert 49.5 - 1.1 * 50 * 1e-4 < min(heights) and max(heights) < 49.5 + 1e-4
-    assert sum(heights[-300:]) / 300 == pytest.approx(sum(heights[:300]) / 300, abs=1.5e-3)  # m, in 3.5 s; observed 8e-4
+    assert sum(heights[-300:]) / 300 == pytest.approx(
+        sum(heights[:300]) / 300, abs=1.5e-3
+    )  # m, in 3.5 s; observed 8e-4
     # a residual of 1e-4 leaves long waves of ± 4 % in a chain of 50 (its condition number is 4e3), but no bias
     assert sum(loads) / len(loads) == pytest.approx(1, abs=1e-3)
     assert 0.85 < min(loads) and max(loads) < 1.15
@@ -43,8 +73,16 @@ def test_loosely_solved_stack_does_not_creep():
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-10])
 def test_momentum_is_conserved_without_external_forces(tolerance):
-    stuff = material(0.3, 0.1, tensileStrength=2e4, residualTensileStrength=5e3, bondCreationDistance=0.3, restitution=0.3,
-                     bondEllipseNormal=0.1, bondEllipseTangential=0.1)
+    stuff = material(
+        0.3,
+        0.1,
+        tensileStrength=2e4,
+        residualTensileStrength=5e3,
+        bondCreationDistance=0.3,
+        restitution=0.3,
+        bondEllipseNormal=0.1,
+        bondEllipseTangential=0.1,
+    )
     disks = loose_heap(stuff)
     dice = random.Random(2)
     for d in disks:
@@ -90,6 +128,7 @@ def test_gaps_that_stay_open_are_left_out():
 
 
 # ---- walls that move, blocked directions, other engines -------------------------------------------
+
 
 def test_driven_wall_pushes_and_works():
     stuff = material(0.3)
@@ -147,7 +186,11 @@ def test_turning_wall_drags_a_disk():
 def test_forces_of_other_engines_are_respected():
     stuff = material(0.3)
     floor(stuff)
-    flying, pushed, turned = free_disk(-5, 3, stuff=stuff), free_disk(5, 0.5, stuff=stuff), free_disk(-8, 9, stuff=stuff)
+    flying, pushed, turned = (
+        free_disk(-5, 3, stuff=stuff),
+        free_disk(5, 0.5, stuff=stuff),
+        free_disk(-8, 9, stuff=stuff),
+    )
     O.bodies[pushed].state.blockedDOFs = "zXYZ"
     mass = O.bodies[flying].state.mass
     begin(before=[ForceEngine(force=(2 * mass, 5 * mass, 0), ids=[flying, pushed])])
@@ -176,6 +219,7 @@ def test_blocked_directions_are_infinite_masses():
 
 
 # ---- energy ---------------------------------------------------------------------------------------
+
 
 def test_energy_of_a_block_that_slides_to_rest():
     stuff = material(0.3)
@@ -214,8 +258,11 @@ def test_energy_of_a_collapse_closes():
 
 # ---- saving, timing, threads ----------------------------------------------------------------------
 
+
 def cohesive_heap():
-    stuff = material(0.3, 0.1, tensileStrength=2e3, residualTensileStrength=1e3, residualFrictionAngle=0.2, bondCreationDistance=0.02)
+    stuff = material(
+        0.3, 0.1, tensileStrength=2e3, residualTensileStrength=1e3, residualFrictionAngle=0.2, bondCreationDistance=0.02
+    )
     box(stuff, 9.5, 12)
     loose_heap(stuff)
     begin(dt=2e-3, tolerance=1e-4, maxIterations=300)
@@ -236,8 +283,7 @@ def test_save_and_load_continue_with_the_same_bits(tmp_path):
     assert type(O.bodies[0].material).__name__ == "NscdMat" and engine().bonds == 0  # not yet counted
     run(200)
     e = engine()
-    assert (bits(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError,
-            e.steps) == unbroken
+    assert (bits(), e.slidingLoss, e.brokenTension + e.brokenShear + e.brokenMixed, e.energyError, e.steps) == unbroken
     assert e.bonds > 0
 
 
@@ -258,9 +304,28 @@ def test_own_loop_and_integrator_have_the_bits_of_yades():
         bonds = engine().bond()
         integrator().gravity = (6, -G, 0)
         run(400)
-        geometry = sorted((i.id1, i.id2, tuple(i.geom.normal), tuple(i.geom.contactPoint), i.geom.penetrationDepth, i.geom.refR1, i.geom.refR2, i.phys.bonded,
-                           i.phys.brokenMode, i.iterMadeReal) for i in contacts())
-        return bonds, bits(), [tuple(b.state.ori) for b in O.bodies], geometry, engine().brokenTension + engine().brokenShear + engine().brokenMixed
+        geometry = sorted(
+            (
+                i.id1,
+                i.id2,
+                tuple(i.geom.normal),
+                tuple(i.geom.contactPoint),
+                i.geom.penetrationDepth,
+                i.geom.refR1,
+                i.geom.refR2,
+                i.phys.bonded,
+                i.phys.brokenMode,
+                i.iterMadeReal,
+            )
+            for i in contacts()
+        )
+        return (
+            bonds,
+            bits(),
+            [tuple(b.state.ori) for b in O.bodies],
+            geometry,
+            engine().brokenTension + engine().brokenShear + engine().brokenMixed,
+        )
 
     ours, theirs = course(lambda e: e), course(plain)
     assert ours[0] > 20 and ours[4] > 0 and len(ours[3]) > 50
@@ -281,8 +346,12 @@ def test_own_integrator_has_the_bits_of_yades_out_of_the_plane_too(blocked):
             if k != 1:
                 state.ori = Quaternion((1, 0, 2), 0.7)
         begin()
-        O.engines = [ForceResetter(), ForceEngine(ids=[0, 1, 2], force=(10, 20, -5)), TorqueEngine(ids=[0, 1, 2], moment=(1, -2, 3)),
-                     engines_of(integrator())]
+        O.engines = [
+            ForceResetter(),
+            ForceEngine(ids=[0, 1, 2], force=(10, 20, -5)),
+            TorqueEngine(ids=[0, 1, 2], moment=(1, -2, 3)),
+            engines_of(integrator()),
+        ]
         O.engines[-1].gravity = (0.5, -G, 0.25)
         run(50)
         return [tuple(b.state.pos) + tuple(b.state.vel) + tuple(b.state.angVel) + tuple(b.state.ori) for b in O.bodies]
@@ -336,7 +405,8 @@ def test_own_integrator_leaves_clumps_to_yades():
 
 def test_one_and_two_threads_give_the_same_bits(tmp_path):
     script = tmp_path / "threads.py"
-    script.write_text("""
+    script.write_text(
+        """
 import hashlib
 from yade import nonsmooth
 from contact_scenes import *
@@ -349,10 +419,14 @@ print("bonds", engine().bond())
 run(50)
 print("contacts", engine().candidates)
 print("bits", [hashlib.sha256(table).hexdigest() for table in bits()], engine().slidingLoss.hex(), engine().energyError.hex())
-""")
+"""
+    )
     first, second = (launch(script, "--threads", threads) for threads in ("1", "2"))
     assert first.returncode == 0, first.stderr
-    lines = [[line for line in r.stdout.splitlines() if line.startswith(("bonds", "contacts", "bits"))] for r in (first, second)]
+    lines = [
+        [line for line in r.stdout.splitlines() if line.startswith(("bonds", "contacts", "bits"))]
+        for r in (first, second)
+    ]
     assert len(lines[0]) == 3 and lines[0] == lines[1]
     assert int(lines[0][1].split()[1]) >= 2048  # four strips: the solver's own limit for more than one thread
 
@@ -363,11 +437,19 @@ def test_timing_counts_the_engine():
     run(20)
     e, spent = engine(), engine().stageSeconds
     assert e.execCount == 20 and e.execTime > 0
-    assert list(spent) == ["collide", "interactions", "gather", "solve", "correct", "scatter", "integrate"] and all(s > 0 for s in spent.values())
+    assert list(spent) == ["collide", "interactions", "gather", "solve", "correct", "scatter", "integrate"] and all(
+        s > 0 for s in spent.values()
+    )
     # YADE's own timers stand around the same work
-    for kind, stages in ((Collider, ("collide",)), (InteractionLoop, ("interactions",)), (ContactDynamicsEngine, ("gather", "solve", "correct", "scatter")),
-                         (NewtonIntegrator, ("integrate",))):
-        assert sum(spent[name] for name in stages) <= 1e-9 * next(x for x in O.engines if isinstance(x, kind)).execTime, kind
+    for kind, stages in (
+        (Collider, ("collide",)),
+        (InteractionLoop, ("interactions",)),
+        (ContactDynamicsEngine, ("gather", "solve", "correct", "scatter")),
+        (NewtonIntegrator, ("integrate",)),
+    ):
+        assert (
+            sum(spent[name] for name in stages) <= 1e-9 * next(x for x in O.engines if isinstance(x, kind)).execTime
+        ), kind
 
 
 def test_stages_of_yades_own_engines_are_left_to_yades_own_timers():
@@ -378,6 +460,7 @@ def test_stages_of_yades_own_engines_are_left_to_yades_own_timers():
 
 
 # ---- refusals -------------------------------------------------------------------------------------
+
 
 def simple_scene(**more):
     stuff = material(0.3, label="rock")
@@ -411,7 +494,7 @@ def test_refuses_a_wrong_order_and_a_missing_integrator():
     at = [type(e).__name__ for e in engines].index("ContactDynamicsEngine")
     O.engines = engines[:at] + [engines[at + 1], engines[at]]
     refused("NewtonIntegrator", "before")
-    O.engines = engines[:at + 1]
+    O.engines = engines[: at + 1]
     refused("NewtonIntegrator", "add")
 
 
@@ -435,8 +518,14 @@ def test_refuses_contacts_of_other_materials():
         O.bodies.append(scene.disk((x, 0), 0.5, soft))
     begin()
     # a scene that was turned to Contact Dynamics by halves
-    O.engines = [e if not isinstance(e, InteractionLoop) else InteractionLoop(
-        [Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]) for e in O.engines]
+    O.engines = [
+        e
+        if not isinstance(e, InteractionLoop)
+        else InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]
+        )
+        for e in O.engines
+    ]
     refused("#0", "#1", "FrictPhys", "NscdMat")
 
 
@@ -444,7 +533,8 @@ def test_refuses_contacts_of_other_materials():
 def test_refuses_materials_without_sense(name, value, tmp_path):
     # in a process of its own: YADE makes contacts inside a parallel loop, where an exception ends the program
     script = tmp_path / "material.py"
-    script.write_text(f"""
+    script.write_text(
+        f"""
 from yade import nonsmooth
 from yade.nonsmooth import scene
 O.materials.append(NscdMat(density=2500, label='rock', {name}={value}))
@@ -453,15 +543,18 @@ for x in (0, 0.9):
 O.engines = scene.engines()
 O.dt = 1e-3
 O.step()
-""")
+"""
+    )
     result = launch(script)
     assert result.returncode != 0
     for word in ("rock", name, "must be"):
         assert word in result.stderr
 
 
-@pytest.mark.parametrize("name, value", [
-    ("tolerance", 0.0), ("maxIterations", 0), ("relaxationRate", 2.0), ("method", "jacobi"), ("checkEvery", 0)])
+@pytest.mark.parametrize(
+    "name, value",
+    [("tolerance", 0.0), ("maxIterations", 0), ("relaxationRate", 2.0), ("method", "jacobi"), ("checkEvery", 0)],
+)
 def test_refuses_wrong_settings(name, value):
     simple_scene(**{name: value})
     refused(name)

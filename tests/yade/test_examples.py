@@ -80,7 +80,9 @@ def launched(name, folder, line):
 def output(name, folder, **parameters):
     """What an example prints with these parameters, given as yade-batch gives them: a line of a table."""
     table = folder / "one.table"
-    table.write_text("{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(str, parameters.values())])))
+    table.write_text(
+        "{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(str, parameters.values())]))
+    )
     return launched(name, folder, f"{table}:2")
 
 
@@ -91,7 +93,7 @@ def number(text, key):
 def rows(text, first):
     """Rows of numbers that follow the line that begins with ``first``."""
     found = []
-    for line in text[text.index(first):].splitlines()[1:]:
+    for line in text[text.index(first) :].splitlines()[1:]:
         try:
             found.append([float(word) for word in line.split()])
         except ValueError:
@@ -102,13 +104,19 @@ def rows(text, first):
 def test_a_line_of_a_shipped_table_rules_a_run(tmp_path):
     """doc/lessons.rst: YADE_BATCH=incline.table:4 is the slope of 25°, YADE_BATCH=incline.table:5 that of 35°."""
     for line, degrees in ((4, 25), (5, 35)):
-        blocks = rows(launched("hard_incline.py", tmp_path, f"{os.path.join(EXAMPLES, 'incline.table')}:{line}"), "friction/tan")
-        assert blocks[0][4] == pytest.approx(9.81 * math.sin(math.radians(degrees)), abs=1e-4)  # four digits are printed
+        blocks = rows(
+            launched("hard_incline.py", tmp_path, f"{os.path.join(EXAMPLES, 'incline.table')}:{line}"), "friction/tan"
+        )
+        assert blocks[0][4] == pytest.approx(
+            9.81 * math.sin(math.radians(degrees)), abs=1e-4
+        )  # four digits are printed
 
 
 def test_numerics_of_the_pile_come_from_a_table(tmp_path):
-    steps = {(world, dt): number(output(f"{world}_pile.py", tmp_path, seconds=0.1, dt=dt, **more), "steps")
-             for world, dt, more in (("hard", 4e-3, dict(tolerance=1e-3)), ("soft", 1e-4, dict(young=1e8, damping=0.1)))}
+    steps = {
+        (world, dt): number(output(f"{world}_pile.py", tmp_path, seconds=0.1, dt=dt, **more), "steps")
+        for world, dt, more in (("hard", 4e-3, dict(tolerance=1e-3)), ("soft", 1e-4, dict(young=1e8, damping=0.1)))
+    }
     assert steps == {("hard", 4e-3): 25, ("soft", 1e-4): 1000}
 
 
@@ -122,8 +130,14 @@ def test_yade_batch_runs_the_lines_of_a_table(tmp_path):
     table.write_text("description slope seconds\ngentle 15 0.1\nsteep 35 0.1\n")
     environment = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_BATCH")}
     batch = os.path.join(PREFIX, "bin", "yade-batch")
-    done = subprocess.run([batch, "-j1", "--log", "short.@.log", str(table), os.path.join(EXAMPLES, "hard_incline.py")], cwd=tmp_path, env=environment, text=True,
-                          capture_output=True, timeout=300)
+    done = subprocess.run(
+        [batch, "-j1", "--log", "short.@.log", str(table), os.path.join(EXAMPLES, "hard_incline.py")],
+        cwd=tmp_path,
+        env=environment,
+        text=True,
+        capture_output=True,
+        timeout=300,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     logs = [path.read_text(errors="replace") for path in sorted(tmp_path.glob("short.*.log"))]
     assert len(logs) == 2
@@ -132,8 +146,10 @@ def test_yade_batch_runs_the_lines_of_a_table(tmp_path):
 
 
 def test_twins_make_the_same_pile(tmp_path):
-    soft, hard = ({key: number(text, key) for key in ("steps", "pile height [m]", "kinetic energy [J]", "lowest disk [m]")}
-                  for text in (output(f"{world}_pile.py", tmp_path, seconds=2.5) for world in ("soft", "hard")))
+    soft, hard = (
+        {key: number(text, key) for key in ("steps", "pile height [m]", "kinetic energy [J]", "lowest disk [m]")}
+        for text in (output(f"{world}_pile.py", tmp_path, seconds=2.5) for world in ("soft", "hard"))
+    )
     # Two random packings of 204 disks: between loose (0.80) and dense (0.84) lie 5 %, seeds differ by about 1 %, and the soft
     # disks overlap by some 0.3 % of a diameter
     assert hard["pile height [m]"] == pytest.approx(soft["pile height [m]"], rel=0.03)
@@ -157,7 +173,10 @@ def test_hard_blocks_slide_as_coulomb_says_and_stand_below_the_friction_angle(tm
 
 
 def test_soft_blocks_slide_slower_by_the_damping(tmp_path):
-    damped, free = (rows(output("soft_incline.py", tmp_path, slope=25, seconds=2, damping=damping), "friction/tan") for damping in (0.2, 0))
+    damped, free = (
+        rows(output("soft_incline.py", tmp_path, slope=25, seconds=2, damping=damping), "friction/tan")
+        for damping in (0.2, 0)
+    )
     # Without damping the contact swings for ever and the friction follows it, after a start without any: 1 % of g sin θ. With it a smooth
     # block, whose contact swings too, loses λ of each component of the force and more: between 1 − λ and 1 − 2 λ of Coulomb's value.
     for ratio, _, _, acceleration, coulomb in free:
@@ -173,7 +192,9 @@ def test_hard_wedge_stands_still_for_a_minute_dry_and_in_changing_water(tmp_path
         text = output("hard_wedge.py", tmp_path, friction=friction, water=water, seconds=60)
         path = rows(text, "time [s]")
         assert path[-1][0] == pytest.approx(60)
-        assert max(abs(way) for _, *ways in path for way in ways) < 0.01  # mm; 1 mm is asked for, a tolerance of 1e-6 leaves 4e-4
+        assert (
+            max(abs(way) for _, *ways in path for way in ways) < 0.01
+        )  # mm; 1 mm is asked for, a tolerance of 1e-6 leaves 4e-4
         assert number(text, "steps") == 12000
 
 
@@ -187,7 +208,7 @@ def test_hard_wedge_slides_where_statics_says(tmp_path):
 def test_soft_wedge_slides_when_its_weight_comes_and_creeps_as_the_water_changes(tmp_path):
     text = output("soft_wedge.py", tmp_path, young=1e8, dt=1e-3, friction=0.65, water=0.5, seconds=12)
     path = {time: way for time, way, _ in rows(text, "time [s]")}
-    assert 10 < path[1] < 40       # mm: springs that are loaded at once swing through twice their load, and the joint slips
+    assert 10 < path[1] < 40  # mm: springs that are loaded at once swing through twice their load, and the joint slips
     assert 0.2 < path[10] - path[5] < 0.6  # mm: 3.5 mm a minute in 60 s
 
 
@@ -197,17 +218,25 @@ def test_beams_break_at_the_root_at_the_load_of_statics(tmp_path):
         text = output(f"{world}_beam.py", tmp_path, seconds=seconds)
         assert 0.99 < number(text, "broken at the load [of that of statics]") < most
         assert number(text, "broken bonds, counted from the root") == 1
-        assert number(text, "gravity at which statics breaks the row [m/s2]") == pytest.approx(2 * 0.125 * 2.5e6 * 0.5 / (64 * 2500 * math.pi * 0.25**2), abs=1e-4)
+        assert number(text, "gravity at which statics breaks the row [m/s2]") == pytest.approx(
+            2 * 0.125 * 2.5e6 * 0.5 / (64 * 2500 * math.pi * 0.25**2), abs=1e-4
+        )
         assert "the row holds" in output(f"{world}_beam.py", tmp_path, seconds=seconds, load=0.97)
 
 
 def test_columns_run_out_alike_and_farther_the_higher_they_are(tmp_path):
-    runs = {(world, aspect): number(output(f"{world}_column.py", tmp_path, aspect=aspect, seconds=1.8), "run-out, by the column's width")
-            for world, aspect in (("hard", 0.7), ("hard", 2.0), ("soft", 0.7))}
+    runs = {
+        (world, aspect): number(
+            output(f"{world}_column.py", tmp_path, aspect=aspect, seconds=1.8), "run-out, by the column's width"
+        )
+        for world, aspect in (("hard", 0.7), ("hard", 2.0), ("soft", 0.7))
+    }
     # the published lines for (L_f − L_0)/L_0 in two dimensions: 1.2 a (Lube) to 2.5 a (Staron and Hinch)
     assert 1.0 * 0.7 < runs["hard", 0.7] < 2.5 * 0.7
     assert 1.2 * 2.0 < runs["hard", 2.0] < 2.5 * 2.0
-    assert runs["soft", 0.7] == pytest.approx(runs["hard", 0.7], rel=0.35)  # some 100 disks: seeds scatter by 10 %, and springs run out by 15 % more
+    assert runs["soft", 0.7] == pytest.approx(
+        runs["hard", 0.7], rel=0.35
+    )  # some 100 disks: seeds scatter by 10 %, and springs run out by 15 % more
 
 
 def test_hard_slope_fails_at_the_water_of_statics_and_stands_where_it_is_rough(tmp_path):
@@ -233,9 +262,15 @@ def test_a_floor_bears_the_lid_and_the_disks(tmp_path):
     """Exactly, since the sides have no friction: the solver's tolerance, the springs' last swing."""
     for world in ("hard", "soft"):
         said = output(f"{world}_press.py", tmp_path, seconds=1)
-        floor, lid, weight = (number(said, name) for name in ("floor [N]", "load on the lid [N]", "weight of the disks [N]"))
-        assert lid == pytest.approx(2e5 * 1.5 + 9.81 * 200, abs=0.1) and floor == pytest.approx(lid + weight, rel=5e-4), world
-        assert 1.1 < number(said, "height under the lid [m]") < 1.4  # 192 disks of 0.1 m in a box 1.5 m wide fill 1.0 m; pores are a sixth, and more where friction holds them open
+        floor, lid, weight = (
+            number(said, name) for name in ("floor [N]", "load on the lid [N]", "weight of the disks [N]")
+        )
+        assert lid == pytest.approx(2e5 * 1.5 + 9.81 * 200, abs=0.1) and floor == pytest.approx(
+            lid + weight, rel=5e-4
+        ), world
+        assert (
+            1.1 < number(said, "height under the lid [m]") < 1.4
+        )  # 192 disks of 0.1 m in a box 1.5 m wide fill 1.0 m; pores are a sixth, and more where friction holds them open
 
 
 def test_a_shear_box_resists_alike_in_both_worlds(tmp_path):
@@ -248,7 +283,11 @@ def test_a_drum_carries_its_disks_up_alike_in_both_worlds(tmp_path):
     """The centre of mass hangs at an angle near that of repose. With 136 disks avalanches move it by ± 8°, and means of the hard and the soft run differ by 2°."""
     said = {world: output(f"{world}_drum.py", tmp_path) for world in ("hard", "soft")}
     angles = [number(text, "mean angle [degrees]") for text in said.values()]
-    assert all("disks 136, in the drum 136" in text for text in said.values()) and all(18 < a < 33 for a in angles) and abs(angles[0] - angles[1]) < 5
+    assert (
+        all("disks 136, in the drum 136" in text for text in said.values())
+        and all(18 < a < 33 for a in angles)
+        and abs(angles[0] - angles[1]) < 5
+    )
 
 
 def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):
@@ -256,22 +295,40 @@ def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):
     header, line = "# t centroid largest", "{:.1f} {:.3f} {:.3f}"
     curves = {}
     for case, joint in (("dry", "0.6 0"), ("water", "0.65 0.5")):
-        for k, (model, names, numbers) in enumerate((("hard", "", ""), ("soft", "", ""), ("soft_100MPa", " young dt", " 100000000.0 0.001"), ("soft_damping_0.02", " damping", " 0.02"))):
+        for k, (model, names, numbers) in enumerate(
+            (
+                ("hard", "", ""),
+                ("soft", "", ""),
+                ("soft_100MPa", " young dt", " 100000000.0 0.001"),
+                ("soft_damping_0.02", " damping", " 0.02"),
+            )
+        ):
             key = f"{case}_{model}"
             if key == "dry_hard":
                 continue
             curves[key] = rate = 0.5 * (k + 1) + 4 * (case == "water")  # mm/s
             table = f"seconds friction water{names} save\n2.0 {joint}{numbers} '{key}.part'\n"
-            (tmp_path / f"{key}.key").write_text(keys.run_key([table, (SCRIPTS / "examples" / f"{'hard' if model == 'hard' else 'soft'}_wedge.py").read_text()]))
-            (tmp_path / f"{key}.txt").write_text("\n".join([header, *(line.format(0.1 * n, 0.1 * n * rate, 0.2 * n * rate) for n in range(1, 21))]) + "\n")
+            (tmp_path / f"{key}.key").write_text(
+                keys.run_key(
+                    [table, (SCRIPTS / "examples" / f"{'hard' if model == 'hard' else 'soft'}_wedge.py").read_text()]
+                )
+            )
+            (tmp_path / f"{key}.txt").write_text(
+                "\n".join([header, *(line.format(0.1 * n, 0.1 * n * rate, 0.2 * n * rate) for n in range(1, 21))])
+                + "\n"
+            )
     (tmp_path / ".run").write_text("wedge.py\n")
     done = in_process("wedge.py", "--seconds", 2, "--resume", "--out", tmp_path)
     assert done.status == 0, done.err
     runs = {f"{r['case']}_{r['model']}": r for r in json.loads((tmp_path / "summary.json").read_text())["runs"]}
-    assert list(runs) == [f"{case}_{model}" for case in ("dry", "water") for model in ("hard", "soft", "soft_100MPa", "soft_damping_0.02")]
+    assert list(runs) == [
+        f"{case}_{model}" for case in ("dry", "water") for model in ("hard", "soft", "soft_100MPa", "soft_damping_0.02")
+    ]
     for key, rate in curves.items():
         found = [runs[key][name] for name in ("displacement_mm", "largest_mm", "creep_mm_per_min")]
-        assert found == pytest.approx([2 * rate, 4 * rate, 60 * rate], abs=0.06)  # three digits in the file, a line through ten of its points
+        assert found == pytest.approx(
+            [2 * rate, 4 * rate, 60 * rate], abs=0.06
+        )  # three digits in the file, a line through ten of its points
     assert abs(runs["dry_hard"]["displacement_mm"]) < 0.01 and (tmp_path / "dry_hard.txt").exists()  # it stands
     assert (tmp_path / "wedge.png").stat().st_size > 10_000 and "dry     hard" in done.out
 

@@ -14,7 +14,9 @@ SLOPE = "jiufengershan.py"
 
 
 def bytes_of(folder):
-    return {name: (folder / name).read_bytes() for name in RECORDS} | {p.name: p.read_bytes() for p in (folder / "snapshots").iterdir()}
+    return {name: (folder / name).read_bytes() for name in RECORDS} | {
+        p.name: p.read_bytes() for p in (folder / "snapshots").iterdir()
+    }
 
 
 def test_another_number_of_threads_gives_the_same_bits(whole, tmp_path):
@@ -25,17 +27,32 @@ def test_another_number_of_threads_gives_the_same_bits(whole, tmp_path):
     assert bytes_of(tmp_path) == bytes_of(whole.folder)
     told = json.loads((tmp_path / "summary.json").read_text())
     clocks = ("wall_s", "wall_packing_s", "threads")
-    assert {k: v for k, v in told.items() if k not in clocks} == {k: v for k, v in whole.summary.items() if k not in clocks} and told["threads"] == threads
+    assert {k: v for k, v in told.items() if k not in clocks} == {
+        k: v for k, v in whole.summary.items() if k not in clocks
+    } and told["threads"] == threads
     for name in ("water_at_failure_m", "front_travel_m"):
         assert f"{name:28s} {told[name]:.4g}\n" in done.stdout
-    assert f"finished at {records.read_series(tmp_path / 'series.csv')['time_s'][-1]:.1f} s of simulated time" in done.stdout
-    assert f"reached at {told['water_passive_m']:.1f} m of water" in done.stdout and f"failed at {told['water_at_failure_over_passive']:.2f} of that height" in done.stdout
+    assert (
+        f"finished at {records.read_series(tmp_path / 'series.csv')['time_s'][-1]:.1f} s of simulated time"
+        in done.stdout
+    )
+    assert (
+        f"reached at {told['water_passive_m']:.1f} m of water" in done.stdout
+        and f"failed at {told['water_at_failure_over_passive']:.2f} of that height" in done.stdout
+    )
     assert not list(tmp_path.glob("*.png")) and not (tmp_path / "vtk").exists()
 
 
 def test_figures_are_drawn_from_the_records(whole, tmp_path):
     made, notes = run_figures.draw(shutil.copytree(whole.folder, tmp_path / "out"), whole.section, whole.summary)
-    assert {p.name for p in made} >= {"force_chains.png", "forces.png", "snapshots.png", "deposit.png", "energy.png", "solver.png"}
+    assert {p.name for p in made} >= {
+        "force_chains.png",
+        "forces.png",
+        "snapshots.png",
+        "deposit.png",
+        "energy.png",
+        "solver.png",
+    }
     assert all(p.stat().st_size > 1000 for p in made) and all("video" in note or "ffmpeg" in note for note in notes)
 
 
@@ -44,7 +61,13 @@ def test_an_early_end_and_a_resume_give_the_same_bits(whole, in_process, tmp_pat
     s, state = whole.series, whole.state
     weakens = s["time_s"][(s["weakened_disks"] > 5) & (s["weakened_disks"] < 0.9 * s["weakened_disks"].max())][0]
     released = s["time_s"][s["released_disks"] > 0.5 * s["released_disks"].max()][0]
-    stops = {"settles": 0.1, "wet": 0.5 * (state["t0"] + state["moving"]), "weakens": weakens, "released": released, "rests": state["resting_since"] + 0.1}
+    stops = {
+        "settles": 0.1,
+        "wet": 0.5 * (state["t0"] + state["moving"]),
+        "weakens": weakens,
+        "released": released,
+        "rests": state["resting_since"] + 0.1,
+    }
     assert list(stops.values()) == sorted(stops.values())
     words = ("--section", SMALL, "--out", tmp_path, "--no-figures")
     for k, (name, end) in enumerate(stops.items()):
@@ -52,7 +75,11 @@ def test_an_early_end_and_a_resume_give_the_same_bits(whole, in_process, tmp_pat
         assert done.status == 0 and "--resume" in done.out, done.err
         told = json.loads((tmp_path / "checkpoint" / "checkpoint.json").read_text())["state"]
         if name != "settles":
-            assert told["stage"] == "water" and (told["water_hold"] is not None) == (name != "wet") and (told["resting_since"] is not None) == (name == "rests"), name
+            assert (
+                told["stage"] == "water"
+                and (told["water_hold"] is not None) == (name != "wet")
+                and (told["resting_since"] is not None) == (name == "rests")
+            ), name
     assert s["wet_disks"][s["time_s"] < stops["wet"]][-1] > 20
     assert in_process(SLOPE, *words, "--resume").status == 0
     assert bytes_of(tmp_path) == bytes_of(whole.folder)
@@ -66,13 +93,17 @@ def test_a_slope_that_stands_still_is_solved_more_tightly(in_process, tmp_path):
     assert done.status == 0, done.err
     s = records.read_series(tmp_path / "series.csv")
     settled = s["time_s"][s["stage"] == 0][-1]
-    late, early = s["time_s"] > settled + 1.06 + 0.04, s["time_s"] < settled + 1.06 - 0.02  # looked at once a row, 0.02 s
+    late, early = (
+        s["time_s"] > settled + 1.06 + 0.04,
+        s["time_s"] < settled + 1.06 - 0.02,
+    )  # looked at once a row, 0.02 s
     assert (s["speed_mean_m_per_s"][s["stage"] == 2] < 0.04).all() and late.sum() > 10  # else it would count as moving
     assert set(s["tolerance"][late]) == {0.25e-4} and set(s["tolerance"][early]) == {1e-4}
     assert (s["water_m"] == 0).all() and (s["wet_disks"] == 0).all()
 
 
 # ---- what is refused ------------------------------------------------------------------------------
+
 
 @pytest.fixture
 def refused(in_process):

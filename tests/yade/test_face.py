@@ -22,13 +22,25 @@ def data_of(s, *left_out):
     return {k: v for k, v in section_data.plain(s).items() if k not in left_out}
 
 
-@pytest.mark.parametrize("made", [*(section.load(name) for name in section.shipped()), section.load(str(SMALL)), similar.mirrored(SHIPPED), section.load("interface").with_disks(1500)],
-                         ids=lambda s: f"{s.name} {s.side:g}")
+@pytest.mark.parametrize(
+    "made",
+    [
+        *(section.load(name) for name in section.shipped()),
+        section.load(str(SMALL)),
+        similar.mirrored(SHIPPED),
+        section.load("interface").with_disks(1500),
+    ],
+    ids=lambda s: f"{s.name} {s.side:g}",
+)
 def test_a_section_and_its_data_are_the_same(made, tmp_path):
     section_data.write(made, tmp_path / "section.yaml")
     for again in (section.of(section_data.plain(made)), section.load(str(tmp_path / "section.yaml"))):
-        assert all(getattr(again, name) == getattr(made, name) for name in FIELDS), [name for name in FIELDS if getattr(again, name) != getattr(made, name)]
-        assert dict(again.materials) == dict(made.materials) and again.disks == dataclasses.replace(made.disks, count=None)
+        assert all(getattr(again, name) == getattr(made, name) for name in FIELDS), [
+            name for name in FIELDS if getattr(again, name) != getattr(made, name)
+        ]
+        assert dict(again.materials) == dict(made.materials) and again.disks == dataclasses.replace(
+            made.disks, count=None
+        )
         assert again.key("settled") == made.key("settled")
 
 
@@ -37,26 +49,51 @@ def test_what_is_left_out_is_the_papers_in_proportion():
     bare["disks"] = {"diameter": [1.0, 4.0]}
     bare["water"] = {"plane": "DP", "table": {"rate": 1.0}}
     made = section.of(bare)
-    assert made.stages == SHIPPED.stages and made.numerics == SHIPPED.numerics and (made.gravity, made.seed) == (9.81, 1)  # area is that of scales, to the last bit
-    assert made.water == dataclasses.replace(SHIPPED.water, unit_weight=made.water.unit_weight, gradient=made.water.gradient) and made.water.unit_weight == pytest.approx(9810)
-    assert made.water.gradient == pytest.approx(SHIPPED.water.gradient) and made.disks == dataclasses.replace(SHIPPED.disks, packing_fraction=0.84)
+    assert (
+        made.stages == SHIPPED.stages and made.numerics == SHIPPED.numerics and (made.gravity, made.seed) == (9.81, 1)
+    )  # area is that of scales, to the last bit
+    assert made.water == dataclasses.replace(
+        SHIPPED.water, unit_weight=made.water.unit_weight, gradient=made.water.gradient
+    ) and made.water.unit_weight == pytest.approx(9810)
+    assert made.water.gradient == pytest.approx(SHIPPED.water.gradient) and made.disks == dataclasses.replace(
+        SHIPPED.disks, packing_fraction=0.84
+    )
     # a quarter of the size: times and speeds go as its root
     quarter = similar.scaled(SHIPPED, 0.25)
     small = {k: v for k, v in data_of(quarter, "gravity", "seed", "stages", "numerics").items()}
     small["water"] = {"plane": "DP", "table": {"rate": 1.0}}
     small = section.of(small)
-    ask = lambda s: (s.stages.dry, s.stages.end.time, s.stages.settle.speed_rest, s.numerics.time_step, s.water.release_distance, s.stages.end.rest_fraction)  # noqa: E731
+    ask = lambda s: (
+        s.stages.dry,
+        s.stages.end.time,
+        s.stages.settle.speed_rest,
+        s.numerics.time_step,
+        s.water.release_distance,
+        s.stages.end.rest_fraction,
+    )  # noqa: E731
     assert ask(small) == pytest.approx(ask(quarter), rel=1e-9)
     # on the Moon all goes slower
     moon = section.of(bare, gravity=9.81 / 4)
-    assert moon.stages.dry == pytest.approx(2 * SHIPPED.stages.dry) and moon.numerics.time_step == pytest.approx(2 * SHIPPED.numerics.time_step)
-    assert moon.stages.settle.speed_rest == pytest.approx(SHIPPED.stages.settle.speed_rest / 2) and moon.water.unit_weight == pytest.approx(9810 / 4)
+    assert moon.stages.dry == pytest.approx(2 * SHIPPED.stages.dry) and moon.numerics.time_step == pytest.approx(
+        2 * SHIPPED.numerics.time_step
+    )
+    assert moon.stages.settle.speed_rest == pytest.approx(
+        SHIPPED.stages.settle.speed_rest / 2
+    ) and moon.water.unit_weight == pytest.approx(9810 / 4)
 
 
 def test_a_part_that_is_given_stands():
-    made = section.of(data_of(SHIPPED, "stages", "numerics"), stages={"settle": {"ramp": 7.0}, "end": {"time": 33.0}}, numerics={"tolerance": 1e-5})
+    made = section.of(
+        data_of(SHIPPED, "stages", "numerics"),
+        stages={"settle": {"ramp": 7.0}, "end": {"time": 33.0}},
+        numerics={"tolerance": 1e-5},
+    )
     assert (made.stages.settle.ramp, made.stages.end.time, made.numerics.tolerance) == (7.0, 33.0, 1e-5)
-    assert made.stages.settle.time_max == SHIPPED.stages.settle.time_max and made.numerics.max_iterations == 300 and made.numerics.path is None  # as a file without it
+    assert (
+        made.stages.settle.time_max == SHIPPED.stages.settle.time_max
+        and made.numerics.max_iterations == 300
+        and made.numerics.path is None
+    )  # as a file without it
 
 
 def test_tuples_and_arrays_are_points():
@@ -68,10 +105,16 @@ def test_tuples_and_arrays_are_points():
     assert section.of(data).walls == SHIPPED.walls
 
 
-@pytest.mark.parametrize("change, message", [
-    (dict(gravitation=9.81), "hill: gravitation: unknown key; did you mean 'gravity'?"), (dict(gravity="9,81"), "hill: gravity: '9,81' is text; needed: acceleration"),
-    (dict(walls=[]), "hill: walls: has 0 entries; needed: a list of walls"), (dict(disks={"diameter": [2.0, 1.0]}), "hill: disks.diameter: the smallest, 2 m, exceeds"),
-    (dict(seed=float("nan")), "hill: seed: nan is no finite number")])
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (dict(gravitation=9.81), "hill: gravitation: unknown key; did you mean 'gravity'?"),
+        (dict(gravity="9,81"), "hill: gravity: '9,81' is text; needed: acceleration"),
+        (dict(walls=[]), "hill: walls: has 0 entries; needed: a list of walls"),
+        (dict(disks={"diameter": [2.0, 1.0]}), "hill: disks.diameter: the smallest, 2 m, exceeds"),
+        (dict(seed=float("nan")), "hill: seed: nan is no finite number"),
+    ],
+)
 def test_what_is_wrong_is_told_as_of_a_file_but_for_the_line(change, message):
     with pytest.raises(section.SectionError) as refused:
         section.of(data_of(SHIPPED), "hill", **change)
@@ -80,11 +123,18 @@ def test_what_is_wrong_is_told_as_of_a_file_but_for_the_line(change, message):
 
 # ---- runs -----------------------------------------------------------------------------------------
 
+
 def test_a_run_is_opened_from_its_folder(whole):
     run = runs.open_run(whole.folder)
-    assert run.summary == json.loads((whole.folder / "summary.json").read_text()) and run.section.key("settled") == whole.section.key("settled")
-    assert all(np.array_equal(run.series[name], values) for name, values in whole.series.items()) and set(run.walls["wall"]) == {"DP", "FB", "SS"}
-    assert len(run.breaks["step"]) > 5 and run.snapshot("end").step == records.read_snapshot(whole.folder / "end.npz").step
+    assert run.summary == json.loads((whole.folder / "summary.json").read_text()) and run.section.key(
+        "settled"
+    ) == whole.section.key("settled")
+    assert all(np.array_equal(run.series[name], values) for name, values in whole.series.items()) and set(
+        run.walls["wall"]
+    ) == {"DP", "FB", "SS"}
+    assert (
+        len(run.breaks["step"]) > 5 and run.snapshot("end").step == records.read_snapshot(whole.folder / "end.npz").step
+    )
     near = run.snapshot(3.0)
     assert abs(near.time_s - 3.0) <= 2.5 * scales.of(run.section).row_seconds * 1.001  # every fifth row
     for name in runs.FIGURES:
@@ -128,16 +178,23 @@ assert not any(name == "yade" or name.startswith("yade.") for name in sys.module
 
 def test_a_plain_python_opens_runs_makes_sections_and_packs(whole):
     """As a notebook's kernel does: no YADE is there."""
-    done = subprocess.run(["/usr/bin/python3", "-c", PLAIN.format(py=str(ROOT / "py"), folder=str(whole.folder))], capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        ["/usr/bin/python3", "-c", PLAIN.format(py=str(ROOT / "py"), folder=str(whole.folder))],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
     assert done.returncode == 0, done.stderr
     travel, axes, side, disks = done.stdout.split()
     assert float(travel) == whole.summary["front_travel_m"] and (axes, side, disks) == ("1", "-1.0", "315")
 
 
-PURE = ("section section_data section_defaults section_checks section_reader roles similar scales geometry packing packing_files packing_checks course records runs results toe run_figures "
-        "measure measure.ground measure.fronts measure.surface figures figures.runouts figures.biaxial figures.columns video paraview whole_files kept_runs tables errors scene_arrays figures.scene "
-        "statistics report report.page keys installation checkpoints processes side_by_side output_folder section_arguments campaign campaign.plan campaign.sweep campaign.cluster laboratory.biaxial_test "
-        "laboratory.campaign laboratory.strength laboratory.bands laboratory.report laboratory.effects laboratory.calibration laboratory.wall_shear laboratory.table1 laboratory.pressing")
+PURE = (
+    "section section_data section_defaults section_checks section_reader roles similar scales geometry packing packing_files packing_checks course records runs results toe run_figures "
+    "measure measure.ground measure.fronts measure.surface figures figures.runouts figures.biaxial figures.columns video paraview whole_files kept_runs tables errors scene_arrays figures.scene "
+    "statistics report report.page keys installation checkpoints processes side_by_side output_folder section_arguments campaign campaign.plan campaign.sweep campaign.cluster laboratory.biaxial_test "
+    "laboratory.campaign laboratory.strength laboratory.bands laboratory.report laboratory.effects laboratory.calibration laboratory.wall_shear laboratory.table1 laboratory.pressing"
+)
 
 
 @pytest.mark.parametrize("module", PURE.split())
@@ -160,10 +217,12 @@ def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
                 if node.level == 0:
                     assert node.module.split(".")[0] != "yade", f"{name}, by {module}"
                     continue
-                base = at[:len(at) - node.level + 1] + (node.module.split(".") if node.module else [])
+                base = at[: len(at) - node.level + 1] + (node.module.split(".") if node.module else [])
                 for one in node.names:
                     inner = [*base, one.name]
-                    is_module = (package / "/".join(inner)).with_suffix(".py").exists() or (package / "/".join(inner) / "__init__.py").exists()
+                    is_module = (package / "/".join(inner)).with_suffix(".py").exists() or (
+                        package / "/".join(inner) / "__init__.py"
+                    ).exists()
                     waiting.append(".".join(inner if is_module else base))
     assert module in seen
 
@@ -176,4 +235,9 @@ def test_a_slope_of_ones_own_in_some_lines(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "m of water; figures: force_chains.png forces.png" in done.stdout
     run = runs.open_run(tmp_path / "out" / "hill")
-    assert run.section.name == "My hill" and run.summary["finished"] and run.summary["water_at_failure_m"] > 0.5 and run.summary["front_travel_m"] > 5
+    assert (
+        run.section.name == "My hill"
+        and run.summary["finished"]
+        and run.summary["water_at_failure_m"] > 0.5
+        and run.summary["front_travel_m"] > 5
+    )

@@ -13,7 +13,11 @@ import synthetic_slope as synthetic
 
 records, figures = (synthetic.load(name) for name in ("records", "figures"))
 style = synthetic.load("figures.style")
-ground_of, UserError, RecordsError = synthetic.load("measure.ground").ground_of, synthetic.load("errors").UserError, records.RecordsError
+ground_of, UserError, RecordsError = (
+    synthetic.load("measure.ground").ground_of,
+    synthetic.load("errors").UserError,
+    records.RecordsError,
+)
 SECTION = synthetic.Section()
 
 
@@ -25,11 +29,17 @@ def series():
 def test_a_figure_is_returned_or_written(tmp_path, series):
     fig = figures.energy(series)
     path = figures.energy(series, tmp_path / "e.png", pdf=True)
-    assert path == tmp_path / "e.png" and sorted(p.name for p in tmp_path.iterdir()) == ["e.pdf", "e.png"] and (tmp_path / "e.pdf").read_bytes().startswith(b"%PDF")
+    assert (
+        path == tmp_path / "e.png"
+        and sorted(p.name for p in tmp_path.iterdir()) == ["e.pdf", "e.png"]
+        and (tmp_path / "e.pdf").read_bytes().startswith(b"%PDF")
+    )
     # 170 dots an inch, and the picture of the figure that is returned
     assert imread(path).shape[:2] == (round(170 * 6.6), 1700)
     style.save(fig, tmp_path / "again.png")
-    assert np.mean(imread(path) != imread(tmp_path / "again.png")) < 0.01  # written outside the project's settings, where text may differ
+    assert (
+        np.mean(imread(path) != imread(tmp_path / "again.png")) < 0.01
+    )  # written outside the project's settings, where text may differ
     (tmp_path / "file").write_text("")
     with pytest.raises(RecordsError, match="cannot be written"):
         figures.energy(series, tmp_path / "file" / "f.png")
@@ -51,7 +61,11 @@ def test_colours_stand_on_the_picture_where_the_disks_are():
     """One pixel at the centre of each disk, of a figure with other things in it: what is read from artists is what is seen."""
     x, y = np.array([-60.0, -40.0, -20.0]), np.array([60.0, 45.0, 30.0])
     s = synthetic.few(x, y, r=np.full(3, 4.0), wet=[False, True, True], released=[False, False, True])
-    fig = figures.snapshots([("t0", s)], [("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"), ("SS", [[0.0, 0.0], [60.0, 0.0]], "ground")], close_up=False)
+    fig = figures.snapshots(
+        [("t0", s)],
+        [("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"), ("SS", [[0.0, 0.0], [60.0, 0.0]], "ground")],
+        close_up=False,
+    )
     fig.canvas.draw()
     picture = np.asarray(fig.canvas.buffer_rgba())
     across, up = np.rint(fig.axes[0].transData.transform(np.column_stack([x, y]))).astype(int).T
@@ -61,7 +75,9 @@ def test_colours_stand_on_the_picture_where_the_disks_are():
 
 def test_many_disks_are_few_artists():
     """One collection, not one patch a disk: 20,000 disks would take minutes."""
-    count = lambda n: len(figures.snapshots([("t3", synthetic.few(-np.arange(n), np.arange(n)))], SECTION).findobj())  # noqa: E731
+    count = lambda n: len(
+        figures.snapshots([("t3", synthetic.few(-np.arange(n), np.arange(n)))], SECTION).findobj()
+    )  # noqa: E731
     assert count(2000) < count(20) + 10  # a name of a wall more or less in sight
 
 
@@ -73,15 +89,30 @@ def test_walls_in_all_their_forms():
     assert name == "DP" and vertices.tolist() == [[0, 1], [1, 0]] and role is None and not buried
     assert ground_of([("DP", vertices)]).walls[0].role is None
     told = ground_of(SECTION)
-    assert [wall.name for wall in told.walls] == ["DP", "FB", "SS"] and told.name("backstop") == "FB" and told.name("obstacle") == ""
+    assert (
+        [wall.name for wall in told.walls] == ["DP", "FB", "SS"]
+        and told.name("backstop") == "FB"
+        and told.name("obstacle") == ""
+    )
     assert np.array_equal(ground_of(SECTION.walls).walls[2].vertices, SECTION.walls[2][1]) and ground_of(told) is told
-    assert told.foot.tolist() == [0, 0] and ground_of([("plane", [[3.0, 1.0], [1.0, 2.0]], "slip")]).foot.tolist() == [3, 1]
+    assert told.foot.tolist() == [0, 0] and ground_of([("plane", [[3.0, 1.0], [1.0, 2.0]], "slip")]).foot.tolist() == [
+        3,
+        1,
+    ]
     with pytest.raises(UserError, match="FB.*two points"):
         ground_of([("FB", [[0.0, 0.0]], "backstop")])
 
 
-@pytest.mark.parametrize("surfaces, side", [([[[0, 1], [5, 0]]], 1), ([[[0, 0], [5, 1]]], -1), ([[[0, 0], [5, 0]]], 1), ([[[0, 9], [3, 5]], [[3, 5], [5, 5.5]]], 1),
-                                            ([[[0, 5.5], [2, 5]], [[2, 5], [5, 9]]], -1)])
+@pytest.mark.parametrize(
+    "surfaces, side",
+    [
+        ([[[0, 1], [5, 0]]], 1),
+        ([[[0, 0], [5, 1]]], -1),
+        ([[[0, 0], [5, 0]]], 1),
+        ([[[0, 9], [3, 5]], [[3, 5], [5, 5.5]]], 1),
+        ([[[0, 5.5], [2, 5]], [[2, 5], [5, 9]]], -1),
+    ],
+)
 def test_a_slope_falls_along_its_slip_surfaces(surfaces, side):
     assert ground_of([(str(k), np.array(points, float), "slip") for k, points in enumerate(surfaces)]).side == side
 
@@ -93,17 +124,35 @@ def test_names_are_no_formulae():
     fig.canvas.draw()  # raises where a formula cannot be read
 
 
-@pytest.mark.parametrize("value, extent, digits, told", [(1234.4, 3000, 0, "1,234 m"), (0.3456, 6, 0, "0.35 m"), (0.35, 1, 1, "35.0 cm"), (0.0123, 0.1, 1, "12.3 mm"), (2.0, 20, 1, "2.0 m")])
+@pytest.mark.parametrize(
+    "value, extent, digits, told",
+    [
+        (1234.4, 3000, 0, "1,234 m"),
+        (0.3456, 6, 0, "0.35 m"),
+        (0.35, 1, 1, "35.0 cm"),
+        (0.0123, 0.1, 1, "12.3 mm"),
+        (2.0, 20, 1, "2.0 m"),
+    ],
+)
 def test_lengths_have_the_unit_of_the_picture(value, extent, digits, told):
     assert style.length(value, extent, digits) == told
 
 
 def test_times_and_forces_have_units_that_fit():
     assert [style.seconds(1.23456, longest) for longest in (100, 5, 1)] == ["1.2 s", "1.23 s", "1.235 s"]
-    assert [style.force_unit(f) for f in (2e8, 1e6, 9e5, 1e3, 20.0, 0.0)] == [(1e6, "MN/m"), (1e6, "MN/m"), (1e3, "kN/m"), (1e3, "kN/m"), (1.0, "N/m"), (1.0, "N/m")]
+    assert [style.force_unit(f) for f in (2e8, 1e6, 9e5, 1e3, 20.0, 0.0)] == [
+        (1e6, "MN/m"),
+        (1e6, "MN/m"),
+        (1e3, "kN/m"),
+        (1e3, "kN/m"),
+        (1.0, "N/m"),
+        (1.0, "N/m"),
+    ]
 
 
-@pytest.mark.parametrize("value, expected", [(1.0, 1), (1.99, 1), (2.0, 2), (4.9, 2), (7.0, 5), (0.03, 0.02), (999.0, 500), (3.98e6, 2e6)])
+@pytest.mark.parametrize(
+    "value, expected", [(1.0, 1), (1.99, 1), (2.0, 2), (4.9, 2), (7.0, 5), (0.03, 0.02), (999.0, 500), (3.98e6, 2e6)]
+)
 def test_nice_numbers(value, expected):
     assert style.nice(value) == pytest.approx(expected)
 

@@ -6,14 +6,21 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-records, figures, forces, style = (synthetic.load(name) for name in ("records", "figures", "figures.forces", "figures.style"))
+records, figures, forces, style = (
+    synthetic.load(name) for name in ("records", "figures", "figures.forces", "figures.style")
+)
 RecordsError = records.RecordsError
-WALLS = [("DP", [[-100.0, 50.0], [0.0, 0.0]], "slip"), ("FB", [[0.0, 0.0], [4.0, 8.0]], "backstop"), ("SS", [[4.0, 8.0], [60.0, 8.0]], "ground")]
+WALLS = [
+    ("DP", [[-100.0, 50.0], [0.0, 0.0]], "slip"),
+    ("FB", [[0.0, 0.0], [4.0, 8.0]], "backstop"),
+    ("SS", [[4.0, 8.0], [60.0, 8.0]], "ground"),
+]
 BLUE, RED = "#1f5fa8", "#d62728"  # compression, tension
 exact = dict(rel=1e-12)  # rounding
 
 
 # ---- chains ---------------------------------------------------------------------------------------
+
 
 @pytest.fixture(scope="module")
 def slope():
@@ -29,27 +36,45 @@ def chains(slope):
 
 
 def test_compression_is_blue_and_tension_red_from_centre_to_centre(slope, chains):
-    assert {k: v for k, v in drawn.legend(chains).items() if k in ("compression", "tension")} == {"compression": BLUE, "tension": RED}
+    assert {k: v for k, v in drawn.legend(chains).items() if k in ("compression", "tension")} == {
+        "compression": BLUE,
+        "tension": RED,
+    }
     for window in chains.axes[1:]:
         bars = drawn.bars(window)
         begin, end = (lambda b: (b[:, 0] + b[:, 3]) / 2), (lambda b: (b[:, 1] + b[:, 2]) / 2)
         centre = np.column_stack([slope.x, slope.y])
-        assert begin(bars[BLUE]) == pytest.approx(centre[[0, 2, 0]], **exact) and end(bars[BLUE]) == pytest.approx(np.array([centre[1], centre[4], [-3.5, 1.75]]), **exact)
-        assert begin(bars[RED]) == pytest.approx(centre[[1, 4]], **exact) and end(bars[RED]) == pytest.approx(np.array([centre[3], [2.0, 4.0]]), **exact)
+        assert begin(bars[BLUE]) == pytest.approx(centre[[0, 2, 0]], **exact) and end(bars[BLUE]) == pytest.approx(
+            np.array([centre[1], centre[4], [-3.5, 1.75]]), **exact
+        )
+        assert begin(bars[RED]) == pytest.approx(centre[[1, 4]], **exact) and end(bars[RED]) == pytest.approx(
+            np.array([centre[3], [2.0, 4.0]]), **exact
+        )
 
 
 def test_bars_are_as_wide_as_the_scale_says(chains):
     """A force in MN/m beside its bar in the scale, and a contact's bar: the same width for each newton."""
-    widths = {sign: [np.hypot(*(bar[0] - bar[3])) for bar in drawn.bars(chains.axes[2])[fill]] for sign, fill in ((1, BLUE), (-1, RED))}
+    widths = {
+        sign: [np.hypot(*(bar[0] - bar[3])) for bar in drawn.bars(chains.axes[2])[fill]]
+        for sign, fill in ((1, BLUE), (-1, RED))
+    }
     per_force = np.r_[widths[1], widths[-1]] / np.array([4e6, 2e6, 3e6, 1e6, 0.5e6])
     # the strongest but 0.5 % is 0.6 of a median diameter, of 2 m, wide
     assert per_force == pytest.approx(0.6 * 2 / np.quantile([4e6, 2e6, 3e6, 1e6, 0.5e6], 0.995), rel=1e-9)
     window = chains.axes[2]
     steps = [patch for patch in window.patches if drawn.colour(patch) == BLUE]
-    told = [(t.get_position()[1], float(t.get_text().removesuffix(" MN/m"))) for t in window.texts if t.get_text().endswith(" MN/m")]
-    assert [f for _, f in told] == [2.0, 1.0, 0.5] and len(steps) == 3  # the largest round force that is not above the largest drawn, and two below
+    told = [
+        (t.get_position()[1], float(t.get_text().removesuffix(" MN/m")))
+        for t in window.texts
+        if t.get_text().endswith(" MN/m")
+    ]
+    assert [f for _, f in told] == [2.0, 1.0, 0.5] and len(
+        steps
+    ) == 3  # the largest round force that is not above the largest drawn, and two below
     for bar, (y, force) in zip(steps, told):
-        assert bar.get_height() / (1e6 * force) == pytest.approx(per_force[0], rel=1e-9) and bar.get_y() + bar.get_height() / 2 == pytest.approx(y, **exact)
+        assert bar.get_height() / (1e6 * force) == pytest.approx(
+            per_force[0], rel=1e-9
+        ) and bar.get_y() + bar.get_height() / 2 == pytest.approx(y, **exact)
 
 
 def test_the_whole_slope_is_drawn_by_layers(slope, chains):
@@ -57,8 +82,10 @@ def test_the_whole_slope_is_drawn_by_layers(slope, chains):
     centres, radii, fills = drawn.disks(top)
     assert np.array_equal(centres, np.column_stack([slope.x, slope.y])) and np.array_equal(radii, slope.r)
     told = drawn.legend(top)
-    assert list(told) == ["3 (top)", "2", "1"] and fills == [told[name] for name in ("1", "1", "2", "3 (top)", "3 (top)", "2")]
-    light = lambda c: sum(int(c[k:k + 2], 16) for k in (1, 3, 5))  # noqa: E731
+    assert list(told) == ["3 (top)", "2", "1"] and fills == [
+        told[name] for name in ("1", "1", "2", "3 (top)", "3 (top)", "2")
+    ]
+    light = lambda c: sum(int(c[k : k + 2], 16) for k in (1, 3, 5))  # noqa: E731
     assert light(told["1"]) < light(told["2"]) < light(told["3 (top)"])
     assert drawn.texts(chains) == ["Initial state: 6 disks, 5 contacts, 2 of them in tension"]
 
@@ -70,9 +97,14 @@ def test_windows_are_where_their_frames_are(chains):
         box = (*window.get_xlim(), *window.get_ylim())
         x, y = frame.get_xy()
         assert (x, x + frame.get_width(), y, y + frame.get_height()) == pytest.approx(box, **exact)
-        assert letter in drawn.texts(window) and drawn.text(top, letter).get_position() == pytest.approx((x, y), **exact)
+        assert letter in drawn.texts(window) and drawn.text(top, letter).get_position() == pytest.approx(
+            (x, y), **exact
+        )
         assert box[0] < 0 < box[1] and box[2] < 0 < box[3]  # the foot is at the origin
-    assert windows[0].get_position().x1 < windows[1].get_position().x0 and windows[0].get_position().y1 < top.get_position().y0  # a on the left, both below
+    assert (
+        windows[0].get_position().x1 < windows[1].get_position().x0
+        and windows[0].get_position().y1 < top.get_position().y0
+    )  # a on the left, both below
 
 
 def test_bars_of_many_disks_join_centres_and_are_as_wide_as_the_force():
@@ -82,7 +114,9 @@ def test_bars_of_many_disks_join_centres_and_are_as_wide_as_the_force():
     assert np.hypot(*(bars[:, 0] - bars[:, 3]).T) == pytest.approx(3.0 * np.abs(s.cn[pairs]) / 2e6)
     assert (bars[:, 0] + bars[:, 3]) / 2 == pytest.approx(np.column_stack([s.x[s.ci[pairs]], s.y[s.ci[pairs]]]))
     assert (bars[:, 1] + bars[:, 2]) / 2 == pytest.approx(np.column_stack([s.x[s.cj[pairs]], s.y[s.cj[pairs]]]))
-    assert forces.force_bars(s, wall, 2e6, 3.0)[:, 1:3].mean(axis=1) == pytest.approx(np.column_stack([s.cx[wall], s.cy[wall]]))
+    assert forces.force_bars(s, wall, 2e6, 3.0)[:, 1:3].mean(axis=1) == pytest.approx(
+        np.column_stack([s.cx[wall], s.cy[wall]])
+    )
 
 
 def test_windows_look_at_the_lowest_disk_where_none_is_near_the_foot():
@@ -104,13 +138,23 @@ TOTAL, EFFECTIVE, PORE = "$N_{DP}$  total", "$N'_{DP}$  effective", "$U_{DP}$  w
 SHEAR, BACK = "$T_{DP}$  shear on DP", "$N'_{FB}$  normal on FB"
 SHEAR_CHANGE, BACK_CHANGE = "$\\Delta T_{DP}$  since $t_0$", "$\\Delta N'_{FB}$  since $t_0$"
 # the columns in MN/m, each a straight line, which a running mean leaves as it is
-STRAIGHT = {"dp_normal_total_N_per_m": (1000, 2), "dp_normal_effective_N_per_m": (700, 1), "dp_water_N_per_m": (300, 1), "dp_shear_N_per_m": (250, -3),
-            "fb_normal_N_per_m": (100, 4)}
+STRAIGHT = {
+    "dp_normal_total_N_per_m": (1000, 2),
+    "dp_normal_effective_N_per_m": (700, 1),
+    "dp_water_N_per_m": (300, 1),
+    "dp_shear_N_per_m": (250, -3),
+    "fb_normal_N_per_m": (100, 4),
+}
 
 
 def straight(**changes):
     t = np.linspace(0, 100, 1001)
-    return {"time_s": t, "water_m": 0.2 * t, **{name: 1e6 * (a + b * t) for name, (a, b) in STRAIGHT.items()}, **changes}
+    return {
+        "time_s": t,
+        "water_m": 0.2 * t,
+        **{name: 1e6 * (a + b * t) for name, (a, b) in STRAIGHT.items()},
+        **changes,
+    }
 
 
 @pytest.fixture(scope="module")
@@ -130,13 +174,24 @@ def test_each_force_is_its_column_in_meganewtons(courses):
     whole, close, water = panels(courses)
     at = lambda a, b: a + b * straight()["time_s"]  # noqa: E731
     for upper, lower in (whole, close):
-        for ax, label, values in ((upper, TOTAL, at(1000, 2)), (upper, EFFECTIVE, at(700, 1)), (upper, PORE, at(300, 1)), (lower, SHEAR, at(250, -3)),
-                                  (lower, BACK, at(100, 4)), (lower, SHEAR_CHANGE, at(30, -3)), (lower, BACK_CHANGE, at(-40, 4))):  # 0 at t0, 10 s
+        for ax, label, values in (
+            (upper, TOTAL, at(1000, 2)),
+            (upper, EFFECTIVE, at(700, 1)),
+            (upper, PORE, at(300, 1)),
+            (lower, SHEAR, at(250, -3)),
+            (lower, BACK, at(100, 4)),
+            (lower, SHEAR_CHANGE, at(30, -3)),
+            (lower, BACK_CHANGE, at(-40, 4)),
+        ):  # 0 at t0, 10 s
             got = drawn.points(drawn.line(ax, label))
-            assert got[:, 0] == pytest.approx(straight()["time_s"]) and got[:, 1] == pytest.approx(values, abs=1e-6), label  # sums over 1000 rows of 1e9 N/m
+            assert got[:, 0] == pytest.approx(straight()["time_s"]) and got[:, 1] == pytest.approx(
+                values, abs=1e-6
+            ), label  # sums over 1000 rows of 1e9 N/m
     assert len(water) == 2
     for ax in water:
-        assert drawn.points(drawn.line(ax, "$h_w$  water table (right axis)"))[:, 1] == pytest.approx(0.2 * straight()["time_s"])
+        assert drawn.points(drawn.line(ax, "$h_w$  water table (right axis)"))[:, 1] == pytest.approx(
+            0.2 * straight()["time_s"]
+        )
     assert water[1].get_ylabel() == "water table above DP [m]" and water[1].yaxis.get_label_position() == "right"
     assert [ax.get_xlabel() for ax in (whole[1], close[1])] == ["time [s]", "time [s], failure and triggering enlarged"]
 
@@ -149,7 +204,12 @@ def test_legends_have_the_colours_of_their_lines_and_of_the_sketch(courses):
     assert len({told[name] for name in (TOTAL, EFFECTIVE, PORE)}) == 3 and told[SHEAR] != told[BACK]
     # changes have the colour of what changes, and are dashed
     assert told[SHEAR] == told[SHEAR_CHANGE] and told[BACK] == told[BACK_CHANGE]
-    assert [drawn.line(whole[1], name).get_linestyle() for name in (SHEAR, SHEAR_CHANGE, BACK, BACK_CHANGE)] == ["-", "--", "-", "--"]
+    assert [drawn.line(whole[1], name).get_linestyle() for name in (SHEAR, SHEAR_CHANGE, BACK, BACK_CHANGE)] == [
+        "-",
+        "--",
+        "-",
+        "--",
+    ]
     sketch = courses.axes[0]
     by_name = {t.get_text(): t.get_color() for t in sketch.texts if t.get_text()}
     for name, label in (("$N_{DP}$", TOTAL), ("$T_{DP}$", SHEAR), ("$N'_{FB}$", BACK)):
@@ -168,7 +228,9 @@ def test_the_sketch_shows_what_the_walls_exert_on_the_mass(courses):
     blue, orange, green = (style.LINES[name].lower() for name in ("blue", "orange", "green"))
     # the sketch rounds the directions to three digits
     assert ways[blue] @ normal == pytest.approx(1, abs=1e-3) and ways[orange] @ -down == pytest.approx(1, abs=1e-3)
-    assert ways[green] @ -down == pytest.approx(1, abs=1e-2)  # the backstop leans back, its normal a little steeper than the slope
+    assert ways[green] @ -down == pytest.approx(
+        1, abs=1e-2
+    )  # the backstop leans back, its normal a little steeper than the slope
     tips = {fill: head for _, head, fill, _ in found}
     assert tips[blue] @ normal == pytest.approx(0, abs=0.01)  # on the plane
 
@@ -183,7 +245,9 @@ def test_times_stand_at_their_places(courses):
         assert places == pytest.approx({f"$t_{{{name[1]}}}$": at for name, at in TIMES.items() if x0 <= at <= x1})
     assert not drawn.texts(whole[1])
     # 0.45 of the 20 s between t1 and t3 on both sides
-    assert [ax.get_xlim() for ax in whole] == [(0, 100)] * 2 and [ax.get_xlim() for ax in close] == [pytest.approx((31, 69))] * 2
+    assert [ax.get_xlim() for ax in whole] == [(0, 100)] * 2 and [ax.get_xlim() for ax in close] == [
+        pytest.approx((31, 69))
+    ] * 2
 
 
 def test_phases_are_coloured_and_named(courses):
@@ -192,11 +256,24 @@ def test_phases_are_coloured_and_named(courses):
     for ax in whole:
         assert drawn.bands(ax) == expected
     for ax in close:  # cut off at its limits
-        assert drawn.bands(ax) == [(pytest.approx(31), 40, "#dcebf7"), *expected[1:3], (60, pytest.approx(69), "#efe3ee")]
-    strips = [{t.get_text(): t.get_position()[0] for t in ax.texts} for ax in courses.axes if not ax.axison and ax is not courses.axes[0]]
+        assert drawn.bands(ax) == [
+            (pytest.approx(31), 40, "#dcebf7"),
+            *expected[1:3],
+            (60, pytest.approx(69), "#efe3ee"),
+        ]
+    strips = [
+        {t.get_text(): t.get_position()[0] for t in ax.texts}
+        for ax in courses.axes
+        if not ax.axison and ax is not courses.axes[0]
+    ]
     # names stand in the middle of their phases, where there is room
-    assert strips == [pytest.approx({"water table rises": 25, "failure": 45, "avalanche motion": 75} | ({"triggering": 55} if "triggering" in strips[0] else {})),
-                      pytest.approx({"failure": 45, "triggering": 55})]
+    assert strips == [
+        pytest.approx(
+            {"water table rises": 25, "failure": 45, "avalanche motion": 75}
+            | ({"triggering": 55} if "triggering" in strips[0] else {})
+        ),
+        pytest.approx({"failure": 45, "triggering": 55}),
+    ]
 
 
 def test_zero_of_the_water_table_is_that_of_the_forces_and_all_means_are_in_sight(courses):
@@ -222,24 +299,42 @@ def test_means_begin_when_the_avalanche_moves():
     assert len(pale) == 2 and all(one.get_xdata()[0] > 60 for one in pale)
     (jump,) = (one for one in pale if drawn.colour(one) == style.LINES["green"].lower())
     assert dict(drawn.points(jump).tolist())[75.0] == pytest.approx(42)
-    assert any(said.startswith("per metre of width. From $t_3$ on: lines are means over 2 s") for said in drawn.texts(fig))
+    assert any(
+        said.startswith("per metre of width. From $t_3$ on: lines are means over 2 s") for said in drawn.texts(fig)
+    )
 
 
-@pytest.mark.parametrize("times, columns, said", [
-    ({}, 1, "Every value is shown."), (None, 1, "Every value is shown."), ({"t0": 10.0, "t1": None}, 1, "Every value is shown."),
-    ({**TIMES, "t3": float("nan")}, 1, "Every value is shown."), (type("Section", (), {"times": TIMES}), 2, "means over 1 s")])
+@pytest.mark.parametrize(
+    "times, columns, said",
+    [
+        ({}, 1, "Every value is shown."),
+        (None, 1, "Every value is shown."),
+        ({"t0": 10.0, "t1": None}, 1, "Every value is shown."),
+        ({**TIMES, "t3": float("nan")}, 1, "Every value is shown."),
+        (type("Section", (), {"times": TIMES}), 2, "means over 1 s"),
+    ],
+)
 def test_times_that_are_not_known_are_left_out(times, columns, said):
     fig = figures.forces_against_time(straight(), times)
     whole, close, water = panels(fig)
-    assert len(whole) == 2 and len(close) == 2 * (columns - 1) and len(water) == columns and any(said in words for words in drawn.texts(fig))
+    assert (
+        len(whole) == 2
+        and len(close) == 2 * (columns - 1)
+        and len(water) == columns
+        and any(said in words for words in drawn.texts(fig))
+    )
     change = drawn.points(drawn.line(whole[1], SHEAR_CHANGE))[:, 1]
-    assert change == pytest.approx((30 if times else 0) - 3 * straight()["time_s"], abs=1e-6)  # without t0 since the first row
+    assert change == pytest.approx(
+        (30 if times else 0) - 3 * straight()["time_s"], abs=1e-6
+    )  # without t0 since the first row
 
 
 def test_a_single_row_and_none():
     one = {name: values[500:501] for name, values in straight().items()}
     whole, _, _ = panels(figures.forces_against_time(one, {}))
-    assert drawn.points(drawn.line(whole[1], BACK)).tolist() == [[50.0, 300.0]] and whole[1].get_xlim() == pytest.approx((50, 50))
+    assert drawn.points(drawn.line(whole[1], BACK)).tolist() == [[50.0, 300.0]] and whole[
+        1
+    ].get_xlim() == pytest.approx((50, 50))
     with pytest.raises(RecordsError, match="no column.*dp_shear"):
         figures.forces_against_time({k: v for k, v in one.items() if "dp_shear" not in k}, {})
     with pytest.raises(RecordsError, match="no rows"):
@@ -250,5 +345,7 @@ def test_labels_of_close_times_stand_apart_in_their_order():
     fig = figures.forces_against_time(straight(), {"t0": 10.0, "t1": 50.0, "t2": 50.2, "t3": 50.4, "t5": 90.0})
     ax = panels(fig)[0][0]
     at = {t.get_text(): t.get_position()[0] for t in ax.texts}
-    assert list(at) == [f"$t_{{{k}}}$" for k in (0, 1, 2, 3, 5)] and np.diff(list(at.values())).min() > 0.0219  # the gap of 0.022, nearly reached by pushing
+    assert (
+        list(at) == [f"$t_{{{k}}}$" for k in (0, 1, 2, 3, 5)] and np.diff(list(at.values())).min() > 0.0219
+    )  # the gap of 0.022, nearly reached by pushing
     assert at["$t_{2}$"] == pytest.approx(0.502, abs=1e-3) and at["$t_{0}$"] == pytest.approx(0.1)

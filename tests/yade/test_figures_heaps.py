@@ -8,7 +8,9 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-columns, scaling, style, records = (synthetic.load(name) for name in ("figures.columns", "heaps.scaling", "figures.style", "records"))
+columns, scaling, style, records = (
+    synthetic.load(name) for name in ("figures.columns", "heaps.scaling", "figures.style", "records")
+)
 
 
 def block(left, wide, high):
@@ -30,14 +32,24 @@ def test_a_collapse_is_drawn_from_above_down_to_one_scale(fallen, width, unit):
     fig = columns.collapse(times, places, r, 1.25, width=width, gate=[5.0])
     upper, lower = fig.axes
     scale = width or 1.0
-    assert drawn.texts(upper) == ["t = 0.4 T (0.50 s)"] and drawn.texts(lower) == ["at rest (2.50 s)"]  # the last is the end
+    assert drawn.texts(upper) == ["t = 0.4 T (0.50 s)"] and drawn.texts(lower) == [
+        "at rest (2.50 s)"
+    ]  # the last is the end
     assert upper.get_ylabel() == lower.get_ylabel() == ("$y/L_0$" if width else "$y$ [m]")
-    assert lower.get_xlabel() == ("$x/L_0$" if width else "$x$ [m]") + "          $T=\\sqrt{H_0/g}=1.25$ s" and upper.get_xlabel() == ""
+    assert (
+        lower.get_xlabel() == ("$x/L_0$" if width else "$x$ [m]") + "          $T=\\sqrt{H_0/g}=1.25$ s"
+        and upper.get_xlabel() == ""
+    )
     assert upper.get_position().y0 > lower.get_position().y1 and upper.get_xlim() == lower.get_xlim()
     # from 0 to 10 m, and 6 % more on the right, of which a hundredth stands on the left; the disk ahead is out of sight
     assert upper.get_xlim() == pytest.approx((-0.01 * 10.6 / scale, 0.99 * 10.6 / scale))
-    size = [(np.ptp(ax.get_xlim()) / (ax.get_position().width * fig.get_figwidth()),
-             np.ptp(ax.get_ylim()) / (ax.get_position().height * fig.get_figheight())) for ax in fig.axes]
+    size = [
+        (
+            np.ptp(ax.get_xlim()) / (ax.get_position().width * fig.get_figwidth()),
+            np.ptp(ax.get_ylim()) / (ax.get_position().height * fig.get_figheight()),
+        )
+        for ax in fig.axes
+    ]
     assert size[0] == pytest.approx([size[0][0]] * 2) and size[1] == pytest.approx(size[0])
     for ax, (x, y) in zip(fig.axes, places):
         centres, radii, _ = drawn.disks(ax)
@@ -56,7 +68,7 @@ def test_disks_keep_the_colour_of_where_they_began(fallen):
     began, ended = (drawn.disks(ax)[2] for ax in fig.axes)
     assert began == ended
     # five stripes from the left, each an eighth of 40
-    assert [began[8 * k:8 * k + 8] for k in range(5)] == [[fill] * 8 for fill in style.LAYERS]
+    assert [began[8 * k : 8 * k + 8] for k in range(5)] == [[fill] * 8 for fill in style.LAYERS]
     with pytest.raises(records.RecordsError, match="no places"):
         columns.collapse([], [], r, 1.0)
 
@@ -64,9 +76,19 @@ def test_disks_keep_the_colour_of_where_they_began(fallen):
 def test_runout_and_height_with_fits_and_published_laws():
     a = np.array([0.5, 0.7, 1.0, 1.4, 2.8, 4.0, 8.0])
     runout, height = 2 * scaling.RUNOUT[0](a), 0.5 * a**0.25
-    group = {"aspect": a, "runout": runout, "height": height, "fits": {"runout": (scaling.fit(a[:4], runout[:4]), None), "height": (None, scaling.fit(a[1:], height[1:]))},
-             "changes": {"runout": 2.0, "height": 0.7}}
-    fig = columns.runout({"ours": group, "theirs": group | {"runout": runout / 2, "fits": {"runout": (None, None), "height": (None, None)}}})
+    group = {
+        "aspect": a,
+        "runout": runout,
+        "height": height,
+        "fits": {"runout": (scaling.fit(a[:4], runout[:4]), None), "height": (None, scaling.fit(a[1:], height[1:]))},
+        "changes": {"runout": 2.0, "height": 0.7},
+    }
+    fig = columns.runout(
+        {
+            "ours": group,
+            "theirs": group | {"runout": runout / 2, "fits": {"runout": (None, None), "height": (None, None)}},
+        }
+    )
     fig.draw_without_rendering()  # formulae that cannot be read show here
     left, right = fig.axes
     assert (left.get_title(loc="left"), left.get_ylabel()) == ("Runout", "$(L_f-L_0)/L_0$")
@@ -74,7 +96,9 @@ def test_runout_and_height_with_fits_and_published_laws():
     for ax, values, name in ((left, runout, "runout"), (right, height, "height")):
         assert ax.get_xlabel() == "aspect ratio $a=H_0/L_0$" and ax.get_xscale() == ax.get_yscale() == "log"
         ours, theirs = drawn.line(ax, "ours"), drawn.line(ax, "theirs")
-        assert drawn.points(ours) == pytest.approx(np.column_stack([a, values])) and drawn.points(theirs)[:, 1] == pytest.approx(values / (2 if name == "runout" else 1))
+        assert drawn.points(ours) == pytest.approx(np.column_stack([a, values])) and drawn.points(theirs)[
+            :, 1
+        ] == pytest.approx(values / (2 if name == "runout" else 1))
         assert drawn.legend(ax)["ours"] == drawn.colour(ours) != drawn.colour(theirs)
         for law in scaling.RUNOUT if name == "runout" else scaling.HEIGHT:
             fill = drawn.colour(drawn.line(ax, law.source))
@@ -84,7 +108,10 @@ def test_runout_and_height_with_fits_and_published_laws():
                 assert part[:, 1] == pytest.approx(factor * part[:, 0] ** power)
             assert (parts[0][0, 0], parts[1][1, 0]) == pytest.approx((0.85 * 0.5, 1.15 * 8))
     fit = drawn.line(left, "fit: $5.00\\,a^{1.00\\pm0.00}$")
-    assert drawn.points(fit) == pytest.approx(np.array([[0.5, 2.5], [1.4, 7.0]])) and drawn.colour(fit) == drawn.legend(left)["ours"]
+    assert (
+        drawn.points(fit) == pytest.approx(np.array([[0.5, 2.5], [1.4, 7.0]]))
+        and drawn.colour(fit) == drawn.legend(left)["ours"]
+    )
     fit = drawn.line(right, "fit: $0.50\\,a^{0.25\\pm0.00}$")
     assert drawn.points(fit) == pytest.approx(np.array([[0.7, 0.5 * 0.7**0.25], [8.0, 0.5 * 8**0.25]]))
     assert [f"{t:g}" for t in left.get_xticks()] == ["0.5", "1", "2", "5"]

@@ -8,38 +8,72 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-figures, style, scale, convergence = (synthetic.load(name) for name in ("figures", "figures.style", "figures.scale", "verification.convergence"))
+figures, style, scale, convergence = (
+    synthetic.load(name) for name in ("figures", "figures.style", "figures.scale", "verification.convergence")
+)
 TIMES = {"t0": 10.0, "t1": 40.0, "t2": 50.0, "t3": 60.0, "t4": 70.0, "t5": 90.0}
 TIME = np.linspace(0, 100, 101)
 # what each column is called and how it grows [J/m a second]; each begins at a value of its own, which is taken off
-ENERGIES = {"energy_potential_J": ("potential", -5e9), "energy_sliding_J": ("lost by sliding", 2e9), "energy_rolling_J": ("lost by rolling", 1e9),
-            "energy_impact_J": ("lost in impacts", 0.7e9), "energy_kinetic_J": ("kinetic", 0.6e9), "energy_water_J": ("work of pore water", -0.2e9),
-            "energy_bonds_J": ("lost on bonds", 0.3e9), "energy_correction_J": ("overlap correction", 0.1e9)}
+ENERGIES = {
+    "energy_potential_J": ("potential", -5e9),
+    "energy_sliding_J": ("lost by sliding", 2e9),
+    "energy_rolling_J": ("lost by rolling", 1e9),
+    "energy_impact_J": ("lost in impacts", 0.7e9),
+    "energy_kinetic_J": ("kinetic", 0.6e9),
+    "energy_water_J": ("work of pore water", -0.2e9),
+    "energy_bonds_J": ("lost on bonds", 0.3e9),
+    "energy_correction_J": ("overlap correction", 0.1e9),
+}
 
 
 def balance(factor=1.0, error=1e-4 * TIME):
-    return {"time_s": TIME, "energy_error_rel": error} | {name: factor * (1e9 * k + rate * TIME) for k, (name, (_, rate)) in enumerate(ENERGIES.items())}
+    return {"time_s": TIME, "energy_error_rel": error} | {
+        name: factor * (1e9 * k + rate * TIME) for k, (name, (_, rate)) in enumerate(ENERGIES.items())
+    }
 
 
-@pytest.mark.parametrize("factor, unit, shown", [(1.0, "GJ", 1e9), (1e-3, "MJ", 1e6), (1e-6, "kJ", 1e3), (1e-9, "J", 1.0)])
+@pytest.mark.parametrize(
+    "factor, unit, shown", [(1.0, "GJ", 1e9), (1e-3, "MJ", 1e6), (1e-6, "kJ", 1e3), (1e-9, "J", 1.0)]
+)
 def test_energies_are_changes_of_their_columns_in_a_fitting_unit(factor, unit, shown):
     above, _ = figures.energy(balance(factor)).axes
     assert above.get_ylabel() == f"energy [{unit}/m]"
     for name, rate in ENERGIES.values():
         got = drawn.points(drawn.line(above, name))
-        assert got[:, 0].tolist() == TIME.tolist() and got[:, 1] == pytest.approx(factor * rate * TIME / shown, abs=1e-9), name
+        assert got[:, 0].tolist() == TIME.tolist() and got[:, 1] == pytest.approx(
+            factor * rate * TIME / shown, abs=1e-9
+        ), name
 
 
 def test_energies_are_told_apart_and_named():
     above, below = figures.energy(balance(), times=TIMES).axes
     lines = [one for one in above.lines if not one.get_label().startswith("_")]
     assert drawn.legend(above) == {one.get_label(): drawn.colour(one) for one in lines}
-    assert len({(drawn.colour(one), str(one._unscaled_dash_pattern if hasattr(one, "_unscaled_dash_pattern") else one._us_dashes)) for one in lines}) == 8
+    assert (
+        len(
+            {
+                (
+                    drawn.colour(one),
+                    str(one._unscaled_dash_pattern if hasattr(one, "_unscaled_dash_pattern") else one._us_dashes),
+                )
+                for one in lines
+            }
+        )
+        == 8
+    )
     same = lambda *names: len({drawn.colour(drawn.line(above, name)) for name in names}) == 1  # noqa: E731
     assert same("lost by sliding", "lost by rolling", "lost in impacts") and not same("kinetic", "potential")
-    assert [ax.get_title(loc="left") for ax in (above, below)] == ["Energy since the start", "Error of the energy balance"]
-    assert set(drawn.uprights(above)) == set(drawn.uprights(below)) == set(TIMES.values()) and above.get_xlim() == (0, 100)
-    assert {t.get_text(): 100 * t.get_position()[0] for t in above.texts} == pytest.approx({f"$t_{{{name[1]}}}$": at for name, at in TIMES.items()})
+    assert [ax.get_title(loc="left") for ax in (above, below)] == [
+        "Energy since the start",
+        "Error of the energy balance",
+    ]
+    assert set(drawn.uprights(above)) == set(drawn.uprights(below)) == set(TIMES.values()) and above.get_xlim() == (
+        0,
+        100,
+    )
+    assert {t.get_text(): 100 * t.get_position()[0] for t in above.texts} == pytest.approx(
+        {f"$t_{{{name[1]}}}$": at for name, at in TIMES.items()}
+    )
     assert below.get_xlabel() == "time [s]" and (0, "#555555") in drawn.levels(above)
 
 
@@ -58,25 +92,43 @@ def test_the_error_is_in_per_cent_with_its_limit(error, limit, limits):
 def solved(**changes):
     """Sweeps that rise, residuals within the tolerance in three of four rows, overlaps in a millionth a second."""
     residual = np.where(np.arange(101) % 4 == 3, 3e-6, 0.5e-6)
-    return {"time_s": TIME, "iterations": 50 + TIME, "residual": residual, "tolerance": np.where(TIME < 60, 1e-6, 2e-6), "overlap_worst_rel": 2e-4 * TIME,
-            "overlap_mean_rel": 1e-5 * TIME, **changes}
+    return {
+        "time_s": TIME,
+        "iterations": 50 + TIME,
+        "residual": residual,
+        "tolerance": np.where(TIME < 60, 1e-6, 2e-6),
+        "overlap_worst_rel": 2e-4 * TIME,
+        "overlap_mean_rel": 1e-5 * TIME,
+        **changes,
+    }
 
 
 def test_sweeps_residual_and_overlap_are_their_columns():
     fig = figures.solver(solved(), times=TIMES)
     sweeps, residual, overlap = fig.axes
     assert [(ax.get_title(loc="left"), ax.get_ylabel(), ax.get_yscale()) for ax in fig.axes] == [
-        ("Sweeps per step", "sweeps", "linear"), ("Residual at the end of the step", "residual [-]", "log"), ("Overlap of the contacts", "overlap [% of $\\ell$]", "log")]
+        ("Sweeps per step", "sweeps", "linear"),
+        ("Residual at the end of the step", "residual [-]", "log"),
+        ("Overlap of the contacts", "overlap [% of $\\ell$]", "log"),
+    ]
     dots, mean = (drawn.points(one) for one in sweeps.lines if len(one.get_xdata()) == 101)
-    assert dots[:, 1].tolist() == (50 + TIME).tolist() and mean[:, 1] == pytest.approx(50 + TIME) and list(drawn.legend(sweeps)) == ["mean 100"]
+    assert (
+        dots[:, 1].tolist() == (50 + TIME).tolist()
+        and mean[:, 1] == pytest.approx(50 + TIME)
+        and list(drawn.legend(sweeps)) == ["mean 100"]
+    )
     assert sweeps.get_ylim() == pytest.approx((0, 165))
     tolerance = drawn.line(residual, "tolerance, kept by\n75 % of the steps")  # 76 of 101
     assert drawn.points(tolerance)[:, 1].tolist() == solved()["tolerance"].tolist()
     (dots,) = (one for one in residual.lines if one.get_marker() == ".")
-    assert drawn.points(dots)[:, 1].tolist() == solved()["residual"].tolist() and drawn.colour(dots) != drawn.colour(tolerance)
+    assert drawn.points(dots)[:, 1].tolist() == solved()["residual"].tolist() and drawn.colour(dots) != drawn.colour(
+        tolerance
+    )
     for name, rate, limit in (("worst", 2e-2, 2.0), ("mean", 1e-3, 0.1)):
         one, level = drawn.line(overlap, name), drawn.line(overlap, f"limit {limit:g} %")
-        assert drawn.points(one)[1:, 1] == pytest.approx(rate * TIME[1:]) and np.isnan(one.get_ydata()[0])  # a logarithm has no 0
+        assert drawn.points(one)[1:, 1] == pytest.approx(rate * TIME[1:]) and np.isnan(
+            one.get_ydata()[0]
+        )  # a logarithm has no 0
         assert level.get_ydata()[0] == limit and drawn.colour(level) == drawn.colour(one) == drawn.legend(overlap)[name]
     assert drawn.legend(overlap)["worst"] != drawn.legend(overlap)["mean"]
     assert all(set(drawn.uprights(ax)) == set(TIMES.values()) for ax in fig.axes)
@@ -99,47 +151,99 @@ def test_nothing_that_moves_can_be_drawn():
 
 # ---- cost and convergence -------------------------------------------------------------------------
 
+
 def test_cost_by_size():
-    sizes = [{"disks": n, "sweep_ns_per_contact": {"1": {"median": 40.0 + k}, "12": {"median": 9.0 + k}, "2": {"median": 22.0 + k}}, "step_ms": {"median": 2e-3 * n},
-              "bytes_per_contact": 2100 + k, "bytes_per_contact_scene": 1500 + k, "packing_s": 0.01 * n} for k, n in enumerate((100, 1000))]
+    sizes = [
+        {
+            "disks": n,
+            "sweep_ns_per_contact": {"1": {"median": 40.0 + k}, "12": {"median": 9.0 + k}, "2": {"median": 22.0 + k}},
+            "step_ms": {"median": 2e-3 * n},
+            "bytes_per_contact": 2100 + k,
+            "bytes_per_contact_scene": 1500 + k,
+            "packing_s": 0.01 * n,
+        }
+        for k, n in enumerate((100, 1000))
+    ]
     fig = scale.cost_by_size(sizes)
     fig.draw_without_rendering()  # formulae that cannot be read show here
     step, sweep, memory, packing = fig.axes
     assert [(ax.get_title(loc="left"), ax.get_ylabel()) for ax in fig.axes] == [
-        ("A step", "time [ms]"), ("A sweep, for each contact", "time [ns]"), ("Memory, for each contact", "memory [kB]"), ("Packing", "time [s]")]
-    assert [ax.get_xlabel() for ax in fig.axes] == ["", "", "disks", "disks"] and all(ax.get_xscale() == "log" for ax in fig.axes)
+        ("A step", "time [ms]"),
+        ("A sweep, for each contact", "time [ns]"),
+        ("Memory, for each contact", "memory [kB]"),
+        ("Packing", "time [s]"),
+    ]
+    assert [ax.get_xlabel() for ax in fig.axes] == ["", "", "disks", "disks"] and all(
+        ax.get_xscale() == "log" for ax in fig.axes
+    )
     for ax, values in ((step, (0.2, 2.0)), (packing, (1.0, 10.0))):
         measured, proportional = (drawn.points(one) for one in ax.lines)
-        assert measured == pytest.approx(np.column_stack([(100, 1000), values])) and proportional == pytest.approx(measured) and ax.get_yscale() == "log"
-    assert drawn.points(drawn.line(sweep, "1 thread"))[:, 1].tolist() == [40, 41] and drawn.points(drawn.line(sweep, "2 threads"))[:, 1].tolist() == [22, 23]
-    whole, scene = (drawn.line(memory, name) for name in ("all", "bodies, interactions and collider, without the solver"))
-    assert drawn.points(whole)[:, 1] == pytest.approx([2.1, 2.101]) and drawn.points(scene)[:, 1] == pytest.approx([1.5, 1.501])
-    assert drawn.legend(memory) == {one.get_label(): drawn.colour(one) for one in (whole, scene)} and memory.get_ylim() == pytest.approx((0, 1.25 * 2.101))
+        assert (
+            measured == pytest.approx(np.column_stack([(100, 1000), values]))
+            and proportional == pytest.approx(measured)
+            and ax.get_yscale() == "log"
+        )
+    assert drawn.points(drawn.line(sweep, "1 thread"))[:, 1].tolist() == [40, 41] and drawn.points(
+        drawn.line(sweep, "2 threads")
+    )[:, 1].tolist() == [22, 23]
+    whole, scene = (
+        drawn.line(memory, name) for name in ("all", "bodies, interactions and collider, without the solver")
+    )
+    assert drawn.points(whole)[:, 1] == pytest.approx([2.1, 2.101]) and drawn.points(scene)[:, 1] == pytest.approx(
+        [1.5, 1.501]
+    )
+    assert drawn.legend(memory) == {
+        one.get_label(): drawn.colour(one) for one in (whole, scene)
+    } and memory.get_ylim() == pytest.approx((0, 1.25 * 2.101))
 
 
 def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):
-    swept = convergence.Sweep("time step", "s", 0.01, {0.005: {1: 100.0, 2: 200.0}, 0.01: {1: 110.0, 2: 210.0}, 0.02: {1: 130.0, 2: 240.0}})
-    fig = convergence.sheet(types.SimpleNamespace(folder=tmp_path), "s.png", "Strength", [(swept, 1e-3, "strength [kPa]")])
+    swept = convergence.Sweep(
+        "time step", "s", 0.01, {0.005: {1: 100.0, 2: 200.0}, 0.01: {1: 110.0, 2: 210.0}, 0.02: {1: 130.0, 2: 240.0}}
+    )
+    fig = convergence.sheet(
+        types.SimpleNamespace(folder=tmp_path), "s.png", "Strength", [(swept, 1e-3, "strength [kPa]")]
+    )
     assert (tmp_path / "s.png").stat().st_size > 0 and fig._suptitle.get_text() == "Strength"
     (ax,) = fig.axes
-    assert ax.get_ylabel() == "strength [kPa]" and ax.get_xlabel() == "time step [s]" and list(drawn.uprights(ax)) == [0.01]
+    assert (
+        ax.get_ylabel() == "strength [kPa]"
+        and ax.get_xlabel() == "time step [s]"
+        and list(drawn.uprights(ax)) == [0.01]
+    )
     assert [t.get_text() for t in ax.get_xticklabels()] == ["0.005", "0.01", "0.02"]
     thin = [drawn.points(one) for one in ax.lines if one.get_alpha() == 0.5]
-    assert thin[0] == pytest.approx(np.array([[0.005, 0.1], [0.01, 0.11], [0.02, 0.13]])) and thin[1][:, 1] == pytest.approx([0.2, 0.21, 0.24])
+    assert thin[0] == pytest.approx(np.array([[0.005, 0.1], [0.01, 0.11], [0.02, 0.13]])) and thin[1][
+        :, 1
+    ] == pytest.approx([0.2, 0.21, 0.24])
     (mean, _, (whiskers,)) = ax.containers[0]
     assert drawn.points(mean)[:, 1] == pytest.approx([0.15, 0.16, 0.185])
     # the standard error of two values is half their difference
-    assert [np.ptp(s[:, 1]) / 2 for s in whiskers.get_segments()] == pytest.approx([0.05, 0.05, 0.055]) and ax.get_ylim() == pytest.approx((0, 1.2 * 0.24))
-    relative = convergence.sheet(types.SimpleNamespace(folder=tmp_path), "s.png", "Strength", [(swept, 1e-3, "change [%]")] * 2, relative=True)
+    assert [np.ptp(s[:, 1]) / 2 for s in whiskers.get_segments()] == pytest.approx(
+        [0.05, 0.05, 0.055]
+    ) and ax.get_ylim() == pytest.approx((0, 1.2 * 0.24))
+    relative = convergence.sheet(
+        types.SimpleNamespace(folder=tmp_path), "s.png", "Strength", [(swept, 1e-3, "change [%]")] * 2, relative=True
+    )
     for ax in relative.axes:
-        assert [drawn.points(one)[:, 1] for one in ax.lines if one.get_alpha() == 0.5] == [pytest.approx([0, 10, 30]), pytest.approx([0, 5, 20])]
-        assert drawn.points(ax.containers[0][0])[:, 1] == pytest.approx([0, 7.5, 25]) and ax.get_ylim() == pytest.approx((-36, 36))
+        assert [drawn.points(one)[:, 1] for one in ax.lines if one.get_alpha() == 0.5] == [
+            pytest.approx([0, 10, 30]),
+            pytest.approx([0, 5, 20]),
+        ]
+        assert drawn.points(ax.containers[0][0])[:, 1] == pytest.approx(
+            [0, 7.5, 25]
+        ) and ax.get_ylim() == pytest.approx((-36, 36))
 
 
 def test_time_is_that_of_the_series():
     """A series that begins at 20 s, as one since the dry rest does."""
-    late = lambda series: {name: values + 20 if name == "time_s" else values for name, values in series.items()}  # noqa: E731
-    for fig in (figures.energy(late(balance()), times={"t1": 60.0}), figures.solver(late(solved()), times={"t1": 60.0})):
+    late = lambda series: {
+        name: values + 20 if name == "time_s" else values for name, values in series.items()
+    }  # noqa: E731
+    for fig in (
+        figures.energy(late(balance()), times={"t1": 60.0}),
+        figures.solver(late(solved()), times={"t1": 60.0}),
+    ):
         for ax in fig.axes:
             assert ax.get_xlim() == (20, 120) and list(drawn.uprights(ax)) == [60]
             assert all(one.get_xdata().tolist() == (TIME + 20).tolist() for one in ax.lines if len(one.get_xdata()) > 2)

@@ -10,8 +10,18 @@ from matplotlib.collections import EllipseCollection, LineCollection, PolyCollec
 from yade import O, utils
 from yade.nonsmooth import figures, paraview, records, scene, scene_arrays
 from yade.nonsmooth.figures import scene as scenes, style
-from yade.wrapper import (Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop,
-                          Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, NscdMat)
+from yade.wrapper import (
+    Bo1_Sphere_Aabb,
+    CohFrictMat,
+    ForceResetter,
+    FrictMat,
+    Ig2_Sphere_Sphere_ScGeom6D,
+    InsertionSortCollider,
+    InteractionLoop,
+    Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    NscdMat,
+)
 
 from contact_scenes import begin, material
 
@@ -41,14 +51,32 @@ def held():
 def test_disks_walls_bonds_and_forces_are_where_they_are():
     ids = held()
     found = scene_arrays.read(O)
-    assert found.fixed.tolist() == [False] * 3 + [True] + [False] * 3 and len(set(found.material)) == 1 and found.r.tolist() == [0.5] * 7
-    assert np.array(sorted(w.ravel().tolist() for w in found.walls)) == pytest.approx(np.array([(4.0, 0.0, -4.0, 0.0), (4.0, 6.0, 4.0, 0.0)]), abs=1e-12)
+    assert (
+        found.fixed.tolist() == [False] * 3 + [True] + [False] * 3
+        and len(set(found.material)) == 1
+        and found.r.tolist() == [0.5] * 7
+    )
+    assert np.array(sorted(w.ravel().tolist() for w in found.walls)) == pytest.approx(
+        np.array([(4.0, 0.0, -4.0, 0.0), (4.0, 6.0, 4.0, 0.0)]), abs=1e-12
+    )
     weight = 2500 * math.pi / 4 * 9.81
     forces = {(int(i), int(j)): f for i, j, f in zip(found.ci, found.cj, found.cn)}
     # contacts of the stack bear one to four disks; of those that hang the upper bond bears two, the lower one, in tension. The solver's tolerance
-    wanted = {(0, -1): 4 * weight, (0, 1): 3 * weight, (1, 2): 2 * weight, (2, 6): weight, (3, 4): -2 * weight, (4, 5): -weight}
+    wanted = {
+        (0, -1): 4 * weight,
+        (0, 1): 3 * weight,
+        (1, 2): 2 * weight,
+        (2, 6): weight,
+        (3, 4): -2 * weight,
+        (4, 5): -weight,
+    }
     assert set(forces) == set(wanted) and [forces[k] for k in wanted] == pytest.approx(list(wanted.values()), rel=1e-3)
-    assert {(int(i), int(j)) for i, j in zip(found.ci[found.bonded], found.cj[found.bonded])} == {(0, 1), (1, 2), (3, 4), (4, 5)}
+    assert {(int(i), int(j)) for i, j in zip(found.ci[found.bonded], found.cj[found.bonded])} == {
+        (0, 1),
+        (1, 2),
+        (3, 4),
+        (4, 5),
+    }
 
     ax = figures.draw(O).axes[0]
     centres, radii, colours = drawn.disks(ax)
@@ -58,7 +86,9 @@ def test_disks_walls_bonds_and_forces_are_where_they_are():
     assert len(walls.get_segments()) == 2 and len(bonds.get_segments()) == 4
     pressed, pulled = of(ax, PolyCollection)
     assert (len(pressed.get_paths()), len(pulled.get_paths())) == (4, 2)
-    assert drawn.hexes(pressed.get_facecolor()) == [style.COMPRESSION.lower()] and drawn.hexes(pulled.get_facecolor()) == [style.TENSION.lower()]
+    assert drawn.hexes(pressed.get_facecolor()) == [style.COMPRESSION.lower()] and drawn.hexes(
+        pulled.get_facecolor()
+    ) == [style.TENSION.lower()]
     wide = [np.hypot(*(path.vertices[3] - path.vertices[0])) for path in pressed.get_paths()]
     assert sorted(np.array(wide) / min(wide)) == pytest.approx([1, 2, 3, 4], rel=1e-3)  # as wide as the force is large
     assert not of(figures.draw(O, forces=False).axes[0], PolyCollection)
@@ -67,12 +97,21 @@ def test_disks_walls_bonds_and_forces_are_where_they_are():
 def test_soft_scenes_and_yades_own_walls_are_drawn():
     stuff = CohFrictMat(young=1e7, poisson=0.3, density=2500, frictionAngle=0.5, normalCohesion=1e6, shearCohesion=1e6)
     O.bodies.append([utils.sphere((0, 0.999 * k, 0), 0.5, material=stuff) for k in range(2)])
-    O.bodies.append(utils.box((0, -1.0, 0), (2, 0.5, 1), orientation=utils.Quaternion((0, 0, 1), math.pi / 2), material=stuff))
+    O.bodies.append(
+        utils.box((0, -1.0, 0), (2, 0.5, 1), orientation=utils.Quaternion((0, 0, 1), math.pi / 2), material=stuff)
+    )
     O.bodies.append(utils.wall((3, 0, 0), axis=0, material=stuff))
     O.bodies.append(utils.wall((0, 0, -1), axis=2, material=stuff))  # not seen along z
     O.bodies.append(utils.facet([(-3, 0, -1), (-3, 2, -1), (-3, 1, 1)], material=stuff))
-    O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb()], verletDist=0), InteractionLoop(
-        [Ig2_Sphere_Sphere_ScGeom6D()], [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)], [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()])]
+    O.engines = [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Sphere_Aabb()], verletDist=0),
+        InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom6D()],
+            [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True)],
+            [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()],
+        ),
+    ]
     O.dt = 1e-6
     O.step()
     found = scene_arrays.read(O)
@@ -81,7 +120,11 @@ def test_soft_scenes_and_yades_own_walls_are_drawn():
     ends = np.concatenate(found.walls)
     assert len(found.walls) == 4 + 3 and ends[:, 0].min() == -3
     boxed = np.concatenate(found.walls[:4])  # a quarter turn makes it 1 m wide and 4 m high
-    assert np.ptp(boxed[:, 0]) == pytest.approx(1.0) and np.ptp(boxed[:, 1]) == pytest.approx(4.0) and boxed[:, 1].mean() == pytest.approx(-1.0)
+    assert (
+        np.ptp(boxed[:, 0]) == pytest.approx(1.0)
+        and np.ptp(boxed[:, 1]) == pytest.approx(4.0)
+        and boxed[:, 1].mean() == pytest.approx(-1.0)
+    )
     assert len(figures.draw(O).axes) == 1
 
 
@@ -94,14 +137,21 @@ def test_walls_of_a_scene_are_written_for_paraview(tmp_path):
     lines = found.points[found.cells[0].data][:, :, :2]
     assert lines[:2] == pytest.approx(np.array(scene_arrays.read(O).walls))
     # a wall along an axis has no ends: it is drawn across all disks and walls, and a tenth beyond
-    assert lines[2, :, 1].tolist() == [-1, -1] and sorted(lines[2, :, 0]) == pytest.approx([-4 - 0.1 * 8, 4 + 0.1 * 8]) and len(lines) == 3
+    assert (
+        lines[2, :, 1].tolist() == [-1, -1]
+        and sorted(lines[2, :, 0]) == pytest.approx([-4 - 0.1 * 8, 4 + 0.1 * 8])
+        and len(lines) == 3
+    )
 
 
 def test_an_empty_scene_is_refused_and_axes_of_ones_own_are_taken(tmp_path):
     with pytest.raises(records.RecordsError, match="no disk in the scene"):
         figures.draw(O)
     O.bodies.append(scene.disk((0, 0), 1.0, FrictMat()))
-    assert figures.draw(O, tmp_path / "scene.png") == tmp_path / "scene.png" and (tmp_path / "scene.png").stat().st_size > 1000
+    assert (
+        figures.draw(O, tmp_path / "scene.png") == tmp_path / "scene.png"
+        and (tmp_path / "scene.png").stat().st_size > 1000
+    )
     mine = style.figure(4, 2)
     left, right = mine.subplots(1, 2)
     assert figures.draw(O, ax=right) is mine and of(right, EllipseCollection) and not left.collections
@@ -109,6 +159,10 @@ def test_an_empty_scene_is_refused_and_axes_of_ones_own_are_taken(tmp_path):
 
 
 def test_the_script_of_the_documentation_draws_a_lesson(tmp_path):
-    done = shell.run("yade-nonsmooth", shell.ROOT / "doc" / "examples" / "pictures.py", tmp_path, "beam", "--threads", 1)
+    done = shell.run(
+        "yade-nonsmooth", shell.ROOT / "doc" / "examples" / "pictures.py", tmp_path, "beam", "--threads", 1
+    )
     assert done.returncode == 0, done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["lesson_beam.png"] and (tmp_path / "lesson_beam.png").stat().st_size > 10_000
+    assert [path.name for path in tmp_path.iterdir()] == ["lesson_beam.png"] and (
+        tmp_path / "lesson_beam.png"
+    ).stat().st_size > 10_000

@@ -6,10 +6,21 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-records, figures, style, ground, fronts, measured = (synthetic.load(name) for name in ("records", "figures", "figures.style", "measure.ground", "measure.fronts", "measure.surface"))
+records, figures, style, ground, fronts, measured = (
+    synthetic.load(name)
+    for name in ("records", "figures", "figures.style", "measure.ground", "measure.fronts", "measure.surface")
+)
 SECTION = synthetic.Section()
-WALLS = [("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"), ("FB", [[0.0, 0.0], [3.0, 4.0]], "backstop"), ("SS", [[3.0, 4.0], [100.0, 4.0]], "ground")]  # 3 : 4 : 5
-OCHRE, BLUE, PINK = ("#b89b6a", "#ddc99d"), ("#1f5fa8", "#4a90d0"), ("#e06aa6", "#f5a9cd")  # dry, wet, released, of even and odd layers
+WALLS = [
+    ("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"),
+    ("FB", [[0.0, 0.0], [3.0, 4.0]], "backstop"),
+    ("SS", [[3.0, 4.0], [100.0, 4.0]], "ground"),
+]  # 3 : 4 : 5
+OCHRE, BLUE, PINK = (
+    ("#b89b6a", "#ddc99d"),
+    ("#1f5fa8", "#4a90d0"),
+    ("#e06aa6", "#f5a9cd"),
+)  # dry, wet, released, of even and odd layers
 
 
 # ---- at the characteristic times ------------------------------------------------------------------
@@ -32,9 +43,19 @@ def two():
 def test_wet_disks_are_blue_and_released_pink_in_shades_that_alternate_with_the_layers(two):
     for ax in two.axes:
         centres, radii, fills = drawn.disks(ax)
-        assert np.array_equal(centres, np.column_stack([state().x, state().y])) and np.array_equal(radii, state().r) and fills == FILLS
+        assert (
+            np.array_equal(centres, np.column_stack([state().x, state().y]))
+            and np.array_equal(radii, state().r)
+            and fills == FILLS
+        )
     assert drawn.legend_patches(two.legends[0]) == [*OCHRE, *BLUE, *PINK]
-    assert [t.get_text() for t in two.legends[0].get_texts()] == ["dry", "under pore pressure", "pore pressure released", "water table", "walls: DP, FB, SS"]
+    assert [t.get_text() for t in two.legends[0].get_texts()] == [
+        "dry",
+        "under pore pressure",
+        "pore pressure released",
+        "water table",
+        "walls: DP, FB, SS",
+    ]
 
 
 def test_panels_follow_in_time_from_the_top_with_one_scale(two):
@@ -43,11 +64,18 @@ def test_panels_follow_in_time_from_the_top_with_one_scale(two):
     assert (upper.get_xlim(), upper.get_ylim()) == (lower.get_xlim(), lower.get_ylim())
     # wet is who is not released: 2 of 8
     assert drawn.texts(upper)[-2:] == ["$t_{0}$ = 5.0 s", "water begins to rise\nno water\nwet 25 %, released 25 %"]
-    assert "on the way: 61.3 s" in drawn.texts(lower) and "water table 12.0 m\nwet 25 %, released 25 %" in drawn.texts(lower)
+    assert "on the way: 61.3 s" in drawn.texts(lower) and "water table 12.0 m\nwet 25 %, released 25 %" in drawn.texts(
+        lower
+    )
 
 
 def test_the_water_table_stands_at_its_height_above_the_plane(two):
-    for owner, count in ((two.axes[0], 0), (two.axes[1], 1), (two.axes[0].child_axes[0], 0), (two.axes[1].child_axes[0], 1)):
+    for owner, count in (
+        (two.axes[0], 0),
+        (two.axes[1], 1),
+        (two.axes[0].child_axes[0], 0),
+        (two.axes[1].child_axes[0], 1),
+    ):
         tables = [one for one in owner.lines if drawn.colour(one) == style.WATER]
         assert len(tables) == count
         for table in tables:  # 12 m along the normal (0.6, 0.8)
@@ -57,15 +85,26 @@ def test_the_water_table_stands_at_its_height_above_the_plane(two):
 
 def test_walls_are_drawn_and_named_with_the_ground_below_them(two):
     for ax in two.axes:
-        lines = [drawn.points(one).tolist() for one in ax.lines if drawn.colour(one) == style.WALL and len(one.get_xdata()) == 2 and one.get_transform() == ax.transData]
+        lines = [
+            drawn.points(one).tolist()
+            for one in ax.lines
+            if drawn.colour(one) == style.WALL and len(one.get_xdata()) == 2 and one.get_transform() == ax.transData
+        ]
         assert [w for _, w, _ in WALLS] == [one for one in lines if one in [w for _, w, _ in WALLS]]
         below = [c for c in ax.collections if drawn.hexes(c.get_facecolor()) == [style.GROUND]]
         assert len(below) == 3
         for filled, (_, wall, _) in zip(below, WALLS):  # from the wall to below the picture
             corners = filled.get_paths()[0].vertices
-            assert all(any(np.allclose(corner, point) for corner in corners) for point in wall) and corners[:, 1].min() < ax.get_ylim()[0]
+            assert (
+                all(any(np.allclose(corner, point) for corner in corners) for point in wall)
+                and corners[:, 1].min() < ax.get_ylim()[0]
+            )
     (inset,) = two.axes[0].child_axes
-    assert {"DP", "SS"} <= set(drawn.texts(two.axes[0])) and "FB" not in drawn.texts(two.axes[0]) and "FB" in drawn.texts(inset)
+    assert (
+        {"DP", "SS"} <= set(drawn.texts(two.axes[0]))
+        and "FB" not in drawn.texts(two.axes[0])
+        and "FB" in drawn.texts(inset)
+    )
 
 
 def test_the_close_up_shows_the_foot_from_where_its_frame_is():
@@ -73,10 +112,18 @@ def test_the_close_up_shows_the_foot_from_where_its_frame_is():
     (ax,), ((inset,),) = fig.axes, [fig.axes[0].child_axes]
     (frame,) = (patch for patch in ax.patches if not patch.get_fill())
     (x, y), (x0, x1), (y0, y1) = frame.get_xy(), inset.get_xlim(), inset.get_ylim()
-    assert (x, x + frame.get_width(), y, y + frame.get_height()) == pytest.approx((x0, x1, y0, y1), rel=1e-12) and x0 < 0 < x1 and y0 < 0 < y1
+    assert (
+        (x, x + frame.get_width(), y, y + frame.get_height()) == pytest.approx((x0, x1, y0, y1), rel=1e-12)
+        and x0 < 0 < x1
+        and y0 < 0 < y1
+    )
     # disks that could be seen, with their own colours
     centres, _, fills = drawn.disks(inset)
-    assert 0 < len(centres) < 8 and fills == [dict(zip(state().x, FILLS))[x] for x, _ in centres] and (np.abs(centres[:, 0] - (x0 + x1) / 2) < 0.6 * (x1 - x0)).all()
+    assert (
+        0 < len(centres) < 8
+        and fills == [dict(zip(state().x, FILLS))[x] for x, _ in centres]
+        and (np.abs(centres[:, 0] - (x0 + x1) / 2) < 0.6 * (x1 - x0)).all()
+    )
     plain = figures.snapshots([("t0", state())], WALLS, close_up=False)
     assert not plain.axes[0].child_axes and "FB" in drawn.texts(plain.axes[0])
 
@@ -88,12 +135,20 @@ def test_no_snapshot_is_an_error():
 
 # ---- deposit --------------------------------------------------------------------------------------
 
-LEVEL = [("DP", [[-100.0, 20.0], [0.0, 20.0]], "slip"), ("SS", [[0.0, 20.0], [300.0, 20.0]], "ground")]  # a floor at 20 m
+LEVEL = [
+    ("DP", [[-100.0, 20.0], [0.0, 20.0]], "slip"),
+    ("SS", [[0.0, 20.0], [300.0, 20.0]], "ground"),
+]  # a floor at 20 m
 
 
 def steps(*blocks, **changes):
     """Disks of half a metre on the floor: blocks of (x from, x to, height [m])."""
-    x, y = (np.concatenate(part) for part in zip(*([g.ravel() for g in np.meshgrid(np.arange(a + 0.5, b), np.arange(20.5, 20 + h))] for a, b, h in blocks)))
+    x, y = (
+        np.concatenate(part)
+        for part in zip(
+            *([g.ravel() for g in np.meshgrid(np.arange(a + 0.5, b), np.arange(20.5, 20 + h))] for a, b, h in blocks)
+        )
+    )
     return synthetic.few(x, y, r=np.full(len(x), 0.5), **changes)
 
 
@@ -112,10 +167,17 @@ def test_the_deposit_lies_over_the_initial_surface(slid):
     centres, radii, fills = drawn.disks(ax)
     assert np.array_equal(centres, np.column_stack([after.x, after.y])) and np.array_equal(radii, after.r)
     told = drawn.legend(fig)
-    assert list(told)[:3] == ["layer 3 (top)", "layer 2", "layer 1"] and fills == [told[("layer 1", "layer 2", "layer 3 (top)")[k]] for k in after.layer]
+    assert list(told)[:3] == ["layer 3 (top)", "layer 2", "layer 1"] and fills == [
+        told[("layer 1", "layer 2", "layer 3 (top)")[k]] for k in after.layer
+    ]
     (initial,) = (one for one in ax.lines if one.get_linestyle() == "--" and len(one.get_xdata()) > 2)
     x, top = drawn.points(initial).T
-    assert top[x < -61.5] == pytest.approx(32) and top[x > -58.5] == pytest.approx(26) and -90 < x[0] < -87 and -33 < x[-1] < -30  # bins of 3 m
+    assert (
+        top[x < -61.5] == pytest.approx(32)
+        and top[x > -58.5] == pytest.approx(26)
+        and -90 < x[0] < -87
+        and -33 < x[-1] < -30
+    )  # bins of 3 m
     assert told["initial surface"] == drawn.colour(initial)
 
 
@@ -134,13 +196,18 @@ def test_ways_are_those_of_front_centre_and_thickness(slid):
     assert drawn.points(open_mark)[0] == pytest.approx(tail) and drawn.points(full)[0] == pytest.approx(head)
     assert open_mark.get_markerfacecolor() == "white" and full.get_markerfacecolor() == style.INK
     told = drawn.handles(fig)
-    assert (told["centre of mass before"].get_markerfacecolor(), told["and after"].get_markerfacecolor()) == ("white", style.INK)
+    assert (told["centre of mass before"].get_markerfacecolor(), told["and after"].get_markerfacecolor()) == (
+        "white",
+        style.INK,
+    )
 
 
 def test_the_centre_of_mass_weighs_disks_by_their_area():
     before, after = (synthetic.few([x, x + 10.0], [22.0, 32.0], r=[1.0, 3.0]) for x in (-80.0, 40.0))
     tail, head, _, _ = drawn.arrows(figures.deposit(after, before, LEVEL).axes[0])[2]
-    assert tail == pytest.approx([-71, 31]) and head == pytest.approx([49, 31])  # nine tenths on the way to the large one
+    assert tail == pytest.approx([-71, 31]) and head == pytest.approx(
+        [49, 31]
+    )  # nine tenths on the way to the large one
 
 
 def test_deposit_profile_measures_thickness_and_front():
@@ -148,7 +215,9 @@ def test_deposit_profile_measures_thickness_and_front():
     gx, gy = np.meshgrid(np.arange(0.5, 200), np.arange(0.5, 20))
     x = np.r_[gx.ravel(), 900.0]
     s = synthetic.few(x, np.r_[gy.ravel(), 80.0], r=np.full(len(x), 0.5))
-    at, base, surface = measured.deposit_profile(s, [("DP", [[-100.0, 0.0], [0.0, 0.0]], "slip"), ("SS", [[0.0, 0.0], [1000.0, 0.0]], "ground")])
+    at, base, surface = measured.deposit_profile(
+        s, [("DP", [[-100.0, 0.0], [0.0, 0.0]], "slip"), ("SS", [[0.0, 0.0], [1000.0, 0.0]], "ground")]
+    )
     there = np.isfinite(surface)
     assert surface[there] - base[there] == pytest.approx(20.0)
     assert 197 < at[there].max() < 203 and at[there].min() < 3  # bins of 3 m
@@ -157,7 +226,15 @@ def test_deposit_profile_measures_thickness_and_front():
 
 def test_thickness_is_above_the_lowest_wall():
     s = synthetic.few(np.arange(0.5, 30), np.full(30, 12.0), r=np.full(30, 0.5))
-    at, base, surface = measured.deposit_profile(s, [("DP", [[0.0, 9.0], [30.0, 6.0]], "slip"), ("SS", [[0.0, 3.0], [15.0, 4.5]], "ground"), ("upright", [[5.0, 0.0], [5.0, 30.0]], "backstop")], bin_m=3)
+    at, base, surface = measured.deposit_profile(
+        s,
+        [
+            ("DP", [[0.0, 9.0], [30.0, 6.0]], "slip"),
+            ("SS", [[0.0, 3.0], [15.0, 4.5]], "ground"),
+            ("upright", [[5.0, 0.0], [5.0, 30.0]], "backstop"),
+        ],
+        bin_m=3,
+    )
     assert surface == pytest.approx(12.5) and at == pytest.approx(np.arange(1.5, 30, 3))
     assert base == pytest.approx(np.where(at <= 15, 3 + 0.1 * at, 9 - 0.1 * at))
 
@@ -168,9 +245,13 @@ def mirror(walls):
 
 
 def test_a_mirrored_slope_gives_the_mirrored_profile_and_front():
-    s = steps((-90, -60, 12), (-60, -31, 6))  # no whole number of bins of 3.1 m: they begin at the crown's end on both sides
+    s = steps(
+        (-90, -60, 12), (-60, -31, 6)
+    )  # no whole number of bins of 3.1 m: they begin at the crown's end on both sides
     walls = [("DP", [[-100.0, 8.0], [-50.0, 3.0]], "slip"), ("SS", [[-50.0, 3.0], [0.0, 4.0]], "ground")]
-    here, there = measured.deposit_profile(s, walls, bin_m=3.1), measured.deposit_profile(synthetic.few(-s.x, s.y, r=s.r), mirror(walls), bin_m=3.1)
+    here, there = measured.deposit_profile(s, walls, bin_m=3.1), measured.deposit_profile(
+        synthetic.few(-s.x, s.y, r=s.r), mirror(walls), bin_m=3.1
+    )
     for (one, other), sign in zip(zip(here, there), (-1, 1, 1)):
         assert np.array_equal(sign * other, one, equal_nan=True)  # to the last bit
     assert here[2][0] > here[2][15]
@@ -185,11 +266,14 @@ def test_an_obstacle_is_no_base():
 
 # ---- the plane and the view -----------------------------------------------------------------------
 
+
 def test_water_table_is_parallel_to_the_plane_at_its_height():
     plane = SECTION.walls[0][1]
     moved = ground.ground_of(SECTION).water_points(22.5) - plane
     assert moved == pytest.approx(22.5 * np.array([synthetic.NORMAL, synthetic.NORMAL]))
-    assert ground.ground_of([("DP", plane[::-1], "slip")]).water_points(22.5) - plane[::-1] == pytest.approx(moved)  # up, whichever end comes first
+    assert ground.ground_of([("DP", plane[::-1], "slip")]).water_points(22.5) - plane[::-1] == pytest.approx(
+        moved
+    )  # up, whichever end comes first
     assert ground.ground_of([("SS", plane, "ground")]).water_points(1.0) is None
 
 
@@ -199,7 +283,9 @@ def test_a_table_over_a_plane_of_its_own_dips_with_it():
     made = synthetic.load("section").load("jiufengershan")
     made = dataclasses.replace(made, water=dataclasses.replace(made.water, wall=None, point=(-100.0, 50.0), dip=10.0))
     (x0, y0), (x1, y1) = ground.ground_of(made).water_points(0.0)
-    assert (x0, x1) == pytest.approx((-1400.371, 23.294)) and (y0, y1) == pytest.approx([50 - np.tan(np.radians(10)) * (x + 100) for x in (x0, x1)])
+    assert (x0, x1) == pytest.approx((-1400.371, 23.294)) and (y0, y1) == pytest.approx(
+        [50 - np.tan(np.radians(10)) * (x + 100) for x in (x0, x1)]
+    )
     up = ground.ground_of(made).water_points(7.0) - [[x0, y0], [x1, y1]]
     assert up == pytest.approx(7 * np.array([[np.sin(np.radians(10)), np.cos(np.radians(10))]] * 2))
     assert ground.ground_of(dataclasses.replace(made, water=None)).water_points(1.0) is None
@@ -210,14 +296,21 @@ def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
     x0, x1, y0, y1 = style.view([left, right], ground.ground_of(WALLS))
     # 1.2 % of 170 m on the left, 3 % on the right; 9 % of 35 m below, 3 % above
     assert (x0, x1, y0, y1) == pytest.approx((-50 - 2.04, 120 + 5.1, 5 - 3.15, 40 + 1.05))
-    assert style.view([left], ground.ground_of(WALLS))[1] == pytest.approx(6 + 0.03 * 56)  # 12 % of the 50 m before the foot behind it
+    assert style.view([left], ground.ground_of(WALLS))[1] == pytest.approx(
+        6 + 0.03 * 56
+    )  # 12 % of the 50 m before the foot behind it
 
 
 def test_the_view_of_a_mirrored_slope_is_the_mirrored_view():
     left, right = synthetic.few([-50.0, -10.0], [10.0, 40.0]), synthetic.few([-40.0, 120.0], [5.0, 30.0])
     for cases in ([left], [left, right]):
         x0, x1, y0, y1 = style.view(cases, ground.ground_of(WALLS))
-        assert style.view([synthetic.few(-s.x, s.y) for s in cases], ground.ground_of(mirror(WALLS))) == (-x1, -x0, y0, y1)
+        assert style.view([synthetic.few(-s.x, s.y) for s in cases], ground.ground_of(mirror(WALLS))) == (
+            -x1,
+            -x0,
+            y0,
+            y1,
+        )
 
 
 @pytest.mark.parametrize("wide, length", [(37.0, 5), (100.0, 20), (250.0, 50), (1600.0, 200)])
@@ -227,18 +320,29 @@ def test_scale_bar_is_as_long_as_it_says(wide, length):
     style.frame(ax, -wide / 4, 3 * wide / 4, 0, wide / 2)
     style.scale_bar(ax, x=0.9, share=0.2)
     (bar,) = ax.lines
-    assert drawn.texts(ax) == [f"{length} m"] and np.ptp(bar.get_xdata()) * wide == pytest.approx(length) and max(bar.get_xdata()) == 0.9
+    assert (
+        drawn.texts(ax) == [f"{length} m"]
+        and np.ptp(bar.get_xdata()) * wide == pytest.approx(length)
+        and max(bar.get_xdata()) == 0.9
+    )
     assert bar.get_transform() == ax.transAxes
 
 
 # ---- runouts --------------------------------------------------------------------------------------
 
+
 def test_runouts_are_drawn_with_the_way_of_their_fronts():
     before, near, far = steps((-60, -30, 6)), steps((0, 40, 4)), steps((20, 90, 3))
     fig = figures.runouts([("loose", before, near), ("rigid", before, far)], LEVEL)
-    for ax, last, words, ends in zip(fig.axes, (near, far), ("loose: front 70 m", "rigid: front 120 m"), ((-30, 40), (-30, 90))):
+    for ax, last, words, ends in zip(
+        fig.axes, (near, far), ("loose: front 70 m", "rigid: front 120 m"), ((-30, 40), (-30, 90))
+    ):
         centres, _, fills = drawn.disks(ax)
-        assert np.array_equal(centres, np.column_stack([last.x, last.y])) and set(fills) == {style.LAYERS[0]} and words in drawn.texts(ax)
+        assert (
+            np.array_equal(centres, np.column_stack([last.x, last.y]))
+            and set(fills) == {style.LAYERS[0]}
+            and words in drawn.texts(ax)
+        )
         ((start, end, _, way),) = drawn.arrows(ax)
         assert way == "-|>" and (start[0], end[0]) == pytest.approx(ends, abs=1e-9)
     upper, lower = fig.axes

@@ -81,9 +81,16 @@ def test_all_engines_see_in_a_step_what_is_due_in_it(resumed, tmp_path):
     assert found[0] == found[1] and 0 < found[0][2] < 64  # some are released, by the direction of gravity
 
 
-@pytest.mark.parametrize("name, value, words", [
-    ("gravityRamp", -1.0, ("gravityRamp = -1", "0 or more")), ("gravityRamp", math.nan, ("gravityRamp = nan",)), ("gravityRamp", math.inf, ("gravityRamp = inf",)),
-    ("gravityBegin", math.nan, ("gravityBegin = nan", "finite [s]")), ("finalGravity", (0, math.inf, 0), ("finalGravity = 0, inf, 0", "finite [m/s²]"))])
+@pytest.mark.parametrize(
+    "name, value, words",
+    [
+        ("gravityRamp", -1.0, ("gravityRamp = -1", "0 or more")),
+        ("gravityRamp", math.nan, ("gravityRamp = nan",)),
+        ("gravityRamp", math.inf, ("gravityRamp = inf",)),
+        ("gravityBegin", math.nan, ("gravityBegin = nan", "finite [s]")),
+        ("finalGravity", (0, math.inf, 0), ("finalGravity = 0, inf, 0", "finite [m/s²]")),
+    ],
+)
 def test_ramps_without_sense(name, value, words):
     free_disk()
     e = begin(gravity=(0, 0, 0))

@@ -15,6 +15,7 @@ grains, measures, scaling = (synthetic.load(f"heaps.{name}") for name in ("grain
 
 # ---- measures ---------------------------------------------------------------------------------------
 
+
 def row(count, first=0.5, radius=0.5):
     """``count`` disks side by side on y = 0, the first at x = ``first``."""
     return first + 2 * radius * np.arange(count), np.full(count, radius), np.full(count, radius)
@@ -44,7 +45,12 @@ def test_gaps_lists_each_pair_once():
 def test_surface_and_repose_of_a_triangle():
     """A heap of disks in rows under two lines of 20°: the tops of disks make the surface a little bumpy."""
     slope, d = math.tan(math.radians(20)), 1.0
-    places = [(x, 0.5 + k * d) for k in range(40) for x in np.arange(-100, 100.5, d) if 0.5 + k * d + 0.5 <= slope * (100 - abs(x)) + 0.5]
+    places = [
+        (x, 0.5 + k * d)
+        for k in range(40)
+        for x in np.arange(-100, 100.5, d)
+        if 0.5 + k * d + 0.5 <= slope * (100 - abs(x)) + 0.5
+    ]
     x, y = np.array(places).T
     r = np.full(len(x), 0.5)
     at, height = measures.surface(x, y, r, np.ones(len(x), bool))
@@ -64,7 +70,9 @@ def test_overlap_of_pairs_walls_and_glued_disks():
 
 def test_fronts_are_edges_of_either_side():
     x, r = np.array([0.0, 3.0, 5.0, 9.0]), np.array([2.0, 0.5, 1.5, 0.25])
-    assert measures.fronts(x, r, np.array([True, True, True, False])) == (-2.0, 6.5) and measures.fronts(x, r, np.array([False, True, True, True])) == (2.5, 9.25)
+    assert measures.fronts(x, r, np.array([True, True, True, False])) == (-2.0, 6.5) and measures.fronts(
+        x, r, np.array([False, True, True, True])
+    ) == (2.5, 9.25)
 
 
 def test_the_surface_is_a_mean_of_tops():
@@ -73,8 +81,14 @@ def test_the_surface_is_a_mean_of_tops():
     at, height = measures.surface(x, y, r, np.ones(40, bool))
     assert len(at) == 20 and at[0] == pytest.approx(1.0) and at[-1] == pytest.approx(39.0)  # windows of two diameters
     assert height == pytest.approx(np.full(20, 0.5 + 0.5 * math.pi / 4), rel=0.01)  # twenty points to a window
-    assert measures.surface(np.append(x, 20.0), np.append(y, 5.0), np.append(r, 0.5), np.append(np.ones(40, bool), False))[1] == pytest.approx(height)  # one in the air
-    holes = measures.surface(np.append(x[:10], x[30:]), np.append(y[:10], y[30:]), np.append(r[:10], r[30:]), np.ones(20, bool))[1]
+    assert measures.surface(
+        np.append(x, 20.0), np.append(y, 5.0), np.append(r, 0.5), np.append(np.ones(40, bool), False)
+    )[1] == pytest.approx(
+        height
+    )  # one in the air
+    holes = measures.surface(
+        np.append(x[:10], x[30:]), np.append(y[:10], y[30:]), np.append(r[:10], r[30:]), np.ones(20, bool)
+    )[1]
     assert (holes[5:15] == 0).all() and holes[[0, 4, 15, 19]].min() > 0.8
 
 
@@ -85,29 +99,43 @@ def test_repose_is_of_the_middle_of_each_flank():
     height = np.minimum(10 + left * np.minimum(x, 0), 10 - right * np.maximum(x, 0))
     height = np.where(height < 1.9, 1.0, np.where(height > 8.1, 9.0 + 1e-3 * (x == 0), height))
     scale = height.max() / 10
-    assert measures.repose(x, height) == pytest.approx((25.0, 15.0), abs=1e-6) and 0.2 * height.max() > 1.0 and scale < 1
+    assert (
+        measures.repose(x, height) == pytest.approx((25.0, 15.0), abs=1e-6) and 0.2 * height.max() > 1.0 and scale < 1
+    )
     assert measures.repose(-x[::-1], height[::-1]) == pytest.approx((15.0, 25.0), abs=1e-6)
-    assert all(math.isnan(angle) for angle in measures.repose(np.arange(5.0), np.array([0.0, 5.0, 10.0, 5.0, 0.0])))  # one point to a flank
+    assert all(
+        math.isnan(angle) for angle in measures.repose(np.arange(5.0), np.array([0.0, 5.0, 10.0, 5.0, 0.0]))
+    )  # one point to a flank
 
 
 def test_the_mean_overlap_counts_pairs_that_nearly_touch():
     """Gaps of 0.9 % of a diameter count as 0, of 1.1 % not at all; a wall 1 % away from a disk's edge counts no more."""
     x, r = np.array([0.0, 0.98, 1.989, 3.0]), np.full(4, 0.5)
     mean, worst = measures.overlap(x, np.zeros(4), r, [])
-    assert (mean, worst) == pytest.approx((0.02 / 2, 0.02), rel=1e-9)  # 0.02, 0 (a gap of 0.009), and one of 0.011 left out
-    assert measures.overlap(x, np.zeros(4), r, [np.array([0.46, 0.509, 0.511, 9.0])]) == pytest.approx(((0.02 + 0.04) / 4, 0.04), rel=1e-9)
+    assert (mean, worst) == pytest.approx(
+        (0.02 / 2, 0.02), rel=1e-9
+    )  # 0.02, 0 (a gap of 0.009), and one of 0.011 left out
+    assert measures.overlap(x, np.zeros(4), r, [np.array([0.46, 0.509, 0.511, 9.0])]) == pytest.approx(
+        ((0.02 + 0.04) / 4, 0.04), rel=1e-9
+    )
     assert measures.overlap(np.array([0.0, 5.0]), np.zeros(2), np.full(2, 0.5), []) == (0.0, 0.0)
     unequal = measures.overlap(np.array([0.0, 1.44]), np.zeros(2), np.array([0.5, 1.0]), [np.array([9.0, 0.9])])
-    assert unequal == pytest.approx(((0.06 / 1.5 + 0.1 / 2) / 2, 0.05), rel=1e-9)  # of the pair's mean diameter, and of the disk's
+    assert unequal == pytest.approx(
+        ((0.06 / 1.5 + 0.1 / 2) / 2, 0.05), rel=1e-9
+    )  # of the pair's mean diameter, and of the disk's
 
 
 # ---- fits -------------------------------------------------------------------------------------------
+
 
 def test_exponents_of_made_up_laws():
     law = scaling.RUNOUT[0]
     a = np.array([0.5, 0.7, 1.0, 1.4, 2.8, 4, 5.6, 8])
     low, high = scaling.exponents(a, law(a), law.change)
-    assert (low.factor, low.exponent) == pytest.approx((2.5, 1.0), rel=1e-9) and (high.factor, high.exponent) == pytest.approx((3.25, 0.7), rel=1e-9)
+    assert (low.factor, low.exponent) == pytest.approx((2.5, 1.0), rel=1e-9) and (
+        high.factor,
+        high.exponent,
+    ) == pytest.approx((3.25, 0.7), rel=1e-9)
     assert low.exponent_95 < 1e-6 and low.points == 4
     # noise of 5 %: the interval holds the truth in about 95 of 100 draws; below 88 or without a miss in 200 something is wrong (4 standard deviations)
     rng = np.random.default_rng(1)

@@ -11,9 +11,11 @@ from yade.wrapper import NscdMat, SlipWeakeningMat
 pytestmark = pytest.mark.usefixtures("empty")
 
 BASE, BLOCK = 1000.0, 0.5  # radii [m]: the base is flat to a part in a thousand over what a block slides here
-LENGTH = BASE + BLOCK      # ℓ
+LENGTH = BASE + BLOCK  # ℓ
 WEIGHT = 2500 * math.pi * BLOCK**2 * G
-STRONG = dict(mu=1.5, tensileStrength=1e3, residualTensileStrength=1e3)  # of the rock on both sides, which must not count
+STRONG = dict(
+    mu=1.5, tensileStrength=1e3, residualTensileStrength=1e3
+)  # of the rock on both sides, which must not count
 
 
 def block(law, swapped=False, both=False):
@@ -42,15 +44,30 @@ def onset(friction, adhesion=0.0):
     low, high = 0.0, 50.0
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if sine(middle) < friction * (1 / math.sqrt(1 + middle**2) + adhesion) else (low, middle)
+        low, high = (
+            (middle, high) if sine(middle) < friction * (1 / math.sqrt(1 + middle**2) + adhesion) else (low, middle)
+        )
     return low
 
 
 LAWS = {
     "weak": (lambda: NscdMat(frictionAngle=math.atan(0.2)), onset(0.2)),
-    "bonded": (lambda: NscdMat(frictionAngle=math.atan(0.4), residualFrictionAngle=math.atan(0.1), tensileStrength=0.7 * WEIGHT / LENGTH, bondsToAll=True,
-                               bondEllipseNormal=1e-5, bondEllipseTangential=1e-5, bondCreationDistance=1e-3), onset(0.4, 0.7)),
-    "weakening": (lambda: SlipWeakeningMat(frictionAngle=math.atan(0.6), criticalSlip=0.05, weakenedFrictionAngle=math.atan(0.3)), onset(0.6)),
+    "bonded": (
+        lambda: NscdMat(
+            frictionAngle=math.atan(0.4),
+            residualFrictionAngle=math.atan(0.1),
+            tensileStrength=0.7 * WEIGHT / LENGTH,
+            bondsToAll=True,
+            bondEllipseNormal=1e-5,
+            bondEllipseTangential=1e-5,
+            bondCreationDistance=1e-3,
+        ),
+        onset(0.4, 0.7),
+    ),
+    "weakening": (
+        lambda: SlipWeakeningMat(frictionAngle=math.atan(0.6), criticalSlip=0.05, weakenedFrictionAngle=math.atan(0.3)),
+        onset(0.6),
+    ),
 }
 
 
@@ -108,7 +125,12 @@ def test_a_contact_is_as_weak_as_its_weaker_disk():
 
 def test_a_disk_with_several_contacts_slips_once_in_a_step():
     """A plank of three bonded disks that cannot turn: one that lies on two base disks slips as far as on one of them, not as on both."""
-    law = SlipWeakeningMat(frictionAngle=math.atan(0.1), criticalSlip=1.0, weakenedFrictionAngle=math.atan(0.05), residualTensileStrength=1.0)  # so that they touch
+    law = SlipWeakeningMat(
+        frictionAngle=math.atan(0.1),
+        criticalSlip=1.0,
+        weakenedFrictionAngle=math.atan(0.05),
+        residualTensileStrength=1.0,
+    )  # so that they touch
     base, rock = material(1.0, layer=0, interfaceLayers=[1], interfaceLaws=[law]), material(1.0, layer=1)
     for x in (-0.6, 0.6):
         O.bodies.append(scene.disk((x, 0), 0.5, base, fixed=True))
@@ -121,18 +143,26 @@ def test_a_disk_with_several_contacts_slips_once_in_a_step():
     # it turns on both, and sinks between them: with normals (±0.6, 0.8) it slides by 1 ∓ 0.06 m/s on them
     body.state.blockedDOFs, body.state.vel, body.state.angVel = "xyzXYZ", (0, -0.1, 0), (0, 0, -2.0)
     advance()
-    assert law.slippedCount() == 3 and 3 * law.meanSlip() == pytest.approx((0.94 + 1.06 + 1.06) * O.dt, rel=1e-9)  # the farther of both is its own
+    assert law.slippedCount() == 3 and 3 * law.meanSlip() == pytest.approx(
+        (0.94 + 1.06 + 1.06) * O.dt, rel=1e-9
+    )  # the farther of both is its own
     told = [i.phys for i in contacts()]
     assert {p.body for p in told} == {0, 1} and {p.other for p in told} == {top}
 
 
 def test_layers_without_an_interface_are_as_before():
-    base, rock = material(0.5, layer=0, interfaceLayers=[7], interfaceLaws=[NscdMat(frictionAngle=0.1)]), material(0.3, layer=1, residualTensileStrength=10.0)
+    base, rock = material(0.5, layer=0, interfaceLayers=[7], interfaceLaws=[NscdMat(frictionAngle=0.1)]), material(
+        0.3, layer=1, residualTensileStrength=10.0
+    )
     O.bodies.append([scene.disk((0, 0), 0.5, base, fixed=True), scene.disk((0, 1), 0.5, rock)])
     begin()
     advance()
     (contact,) = contacts()
-    assert contact.phys.friction == pytest.approx(0.3) and contact.phys.residualTensileForce == 0 and not contact.phys.bondable
+    assert (
+        contact.phys.friction == pytest.approx(0.3)
+        and contact.phys.residualTensileForce == 0
+        and not contact.phys.bondable
+    )
 
 
 def test_saved_and_loaded_an_interface_goes_on(tmp_path):
@@ -149,7 +179,14 @@ def test_saved_and_loaded_an_interface_goes_on(tmp_path):
     assert (O.bodies[1].state.pos[0], O.bodies[0].material.interfaceLaws[0].meanSlip()) == there and there[1] > 0.05
 
 
-@pytest.mark.parametrize("laws, message", [([], "that of interfaceLayers"), ([NscdMat(frictionAngle=2.0)], "frictionAngle"), ([SlipWeakeningMat(criticalSlip=-1.0)], "criticalSlip")])
+@pytest.mark.parametrize(
+    "laws, message",
+    [
+        ([], "that of interfaceLayers"),
+        ([NscdMat(frictionAngle=2.0)], "frictionAngle"),
+        ([SlipWeakeningMat(criticalSlip=-1.0)], "criticalSlip"),
+    ],
+)
 def test_an_interface_that_is_none_is_refused(laws, message):
     base, rock = material(0.5, layer=0, interfaceLayers=[1], interfaceLaws=laws), material(0.3, layer=1)
     O.bodies.append([scene.disk((0, 0), 0.5, base, fixed=True), scene.disk((0, 1), 0.5, rock)])

@@ -18,11 +18,27 @@ from shell import SCRIPTS
 
 KILLS = int(os.environ.get("NONSMOOTH_KILLS", "4"))
 DISKS, END = "600", "2.5"  # s: settled at 1.5, rows, bonds that break, the water's rise from 2.0
-BEGINNING = 40  # accesses to files in which a run over an old folder removes the old records and writes its first checkpoints
+BEGINNING = (
+    40  # accesses to files in which a run over an old folder removes the old records and writes its first checkpoints
+)
 
 
 def command(section, out, look, *options):
-    return [str(word) for word in (SCRIPTS / "yade-nonsmooth", Path(__file__).with_name("killed_run.py"), section, DISKS, out, END, look, "--threads", 1, *options)]
+    return [
+        str(word)
+        for word in (
+            SCRIPTS / "yade-nonsmooth",
+            Path(__file__).with_name("killed_run.py"),
+            section,
+            DISKS,
+            out,
+            END,
+            look,
+            "--threads",
+            1,
+            *options,
+        )
+    ]
 
 
 def run(*arguments):
@@ -40,7 +56,10 @@ def whole(section, tmp_path_factory):
     out, began = tmp_path_factory.mktemp("whole") / "out", time.monotonic()
     done = run(section, out, 0)
     assert done.returncode == 0, done.stderr
-    assert len((out / "breaks.csv").read_text().splitlines()) > 5 and len((out / "series.csv").read_text().splitlines()) > 5  # something to compare
+    assert (
+        len((out / "breaks.csv").read_text().splitlines()) > 5
+        and len((out / "series.csv").read_text().splitlines()) > 5
+    )  # something to compare
     return out, int(out.with_suffix(".looks").read_text()), time.monotonic() - began
 
 
@@ -64,7 +83,9 @@ def test_a_killed_run_goes_on_with_the_same_bytes(section, whole, other, tmp_pat
     if number % 4 == 0:  # over the folder of an earlier run: the same one, or another
         shutil.copytree(unbroken if number % 8 == 0 else other, out)
     if number % 4 == 3:
-        process = subprocess.Popen(command(section, out, 0), env=shell.environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            command(section, out, 0), env=shell.environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
         time.sleep(chance.uniform(0.3, 1.0) * seconds)
         process.kill()
         process.wait()
@@ -75,7 +96,9 @@ def test_a_killed_run_goes_on_with_the_same_bytes(section, whole, other, tmp_pat
     if again.returncode:  # killed before its first checkpoint, or before the old records were gone: one line says so
         assert "Traceback" not in again.stderr
         last = again.stderr.splitlines()[-1]
-        assert last.startswith("error: ") and ("there is no checkpoint" in last or number % 8 == 4 and "other settings" in last), again.stderr
+        assert last.startswith("error: ") and (
+            "there is no checkpoint" in last or number % 8 == 4 and "other settings" in last
+        ), again.stderr
         again = run(section, out, 0)
     assert again.returncode == 0, again.stderr
     assert records_of(out) == records_of(unbroken)

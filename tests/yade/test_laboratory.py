@@ -14,13 +14,24 @@ import drawn
 from yade import O
 from yade.nonsmooth import errors, processes, records, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
-from yade.nonsmooth.laboratory import biaxial, calibration, campaign, effects, materials, membrane, pressing, sample, wall_shear
+from yade.nonsmooth.laboratory import (
+    biaxial,
+    calibration,
+    campaign,
+    effects,
+    materials,
+    membrane,
+    pressing,
+    sample,
+    wall_shear,
+)
 
 
 pytestmark = pytest.mark.usefixtures("empty")
 
 
 # ---- the membrane ---------------------------------------------------------------------------------
+
 
 def test_membrane_balances_and_presses_on_the_outermost_disks():
     columns, rows = 12, 30
@@ -32,7 +43,9 @@ def test_membrane_balances_and_presses_on_the_outermost_disks():
     force, area = membrane.forces(x, y, r, bottom, top, p)
     assert force.sum(axis=0)[0] == pytest.approx(0, abs=1e-9)  # rounding
     left = force[:, 0] > 0
-    assert force[left, 0].sum() == pytest.approx(p * (top - bottom), rel=1e-9)  # the horizontal sum does not depend on the line's shape
+    assert force[left, 0].sum() == pytest.approx(
+        p * (top - bottom), rel=1e-9
+    )  # the horizontal sum does not depend on the line's shape
     pressed = np.any(force != 0, axis=1)
     assert set(np.round(x[pressed])) <= {0.0, columns - 1.0} and pressed.sum() == 2 * rows
     assert area == pytest.approx((top - bottom) * columns, rel=0.01)  # the noise moves a side by 0.05/√rows
@@ -48,6 +61,7 @@ def test_a_disk_that_has_come_off_is_not_part_of_the_outline():
 
 # ---- materials ------------------------------------------------------------------------------------
 
+
 def test_a_material_survives_its_file(tmp_path):
     m = materials.load("wwr")
     assert (m.friction, m.tensile_strength, m.residual_tensile_strength) == (0.3, 100e3, 25e3)
@@ -55,12 +69,15 @@ def test_a_material_survives_its_file(tmp_path):
     assert materials.load(tmp_path / "wwr.yaml") == m
 
 
-@pytest.mark.parametrize("text, message", [
-    ("friction: 0.3\n", "'rolling_friction' is missing"),
-    ("friction: 0.3\nrolling_friction: -1\ndensity: 2500\n", "rolling_friction: -1 is not allowed"),
-    ("friction: 0.3\nrolling_friction: 0.1\n", "'density' is missing"),
-    ("friction: 0.3\nrolling_friction: 0.1\ndensity: 2500\nstrength: 1\n", "unknown key"),
-])
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("friction: 0.3\n", "'rolling_friction' is missing"),
+        ("friction: 0.3\nrolling_friction: -1\ndensity: 2500\n", "rolling_friction: -1 is not allowed"),
+        ("friction: 0.3\nrolling_friction: 0.1\n", "'density' is missing"),
+        ("friction: 0.3\nrolling_friction: 0.1\ndensity: 2500\nstrength: 1\n", "unknown key"),
+    ],
+)
 def test_a_bad_material_is_one_message(tmp_path, text, message):
     path = tmp_path / "bad.yaml"
     path.write_text(text)
@@ -80,15 +97,20 @@ def test_samples_that_other_engines_have_pressed_are_not_taken(monkeypatch):
 
 # ---- walls ----------------------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("name, peak, residual", [("fb", 0.7, 0.5), ("ss", 0.2, 0.2)])
 def test_a_wall_has_the_strength_of_its_contacts(name, peak, residual):
     m = materials.load(name)
     tests = [wall_shear.Test(m, p) for p in (0.5e6, 2e6)]
     found = wall_shear.strength_of(tests, [wall_shear.slide(t) for t in tests])
     # all contacts slip at once, so the sum obeys eq. 4 to the solver's tolerance of 1e-4
-    assert found["friction_peak"] == pytest.approx(peak, rel=1e-3) and found["friction_residual"] == pytest.approx(residual, rel=1e-3)
+    assert found["friction_peak"] == pytest.approx(peak, rel=1e-3) and found["friction_residual"] == pytest.approx(
+        residual, rel=1e-3
+    )
     cohesion = 1e-3 * peak * m.tensile_strength * found["coverage"] if m.bonded else 0.0
-    assert found["cohesion_peak_kPa"] == pytest.approx(cohesion, abs=0.5) and found["cohesion_residual_kPa"] == pytest.approx(0, abs=0.5)
+    assert found["cohesion_peak_kPa"] == pytest.approx(cohesion, abs=0.5) and found[
+        "cohesion_residual_kPa"
+    ] == pytest.approx(0, abs=0.5)
     if m.bonded:
         assert 0.75 < found["coverage"] < 1.0  # disks cover most of a line, but not all
 
@@ -103,11 +125,15 @@ def test_slides_run_side_by_side_and_are_kept(tmp_path):
     assert {path: path.stat().st_mtime_ns for path in before} == before
     series = [records.read_series(tmp_path / "tests" / t.name / "series.csv") for t in tests]
     late = series[0]["slip_m"] > 0.16
-    assert series[0]["shear_Pa"][late].mean() == pytest.approx(found[0].shear_residual, rel=1e-9)  # sums in another order
+    assert series[0]["shear_Pa"][late].mean() == pytest.approx(
+        found[0].shear_residual, rel=1e-9
+    )  # sums in another order
     curves, strength = wall_shear_figure.slides([(wall_shear.strength_of(tests, found), series)]).axes
     for name, rows in zip(("0.5 MPa", "2 MPa"), series):
         way, share = drawn.points(drawn.line(curves, name)).T
-        assert way.max() == 100 * rows["slip_m"].max() and share[way > 16].mean() == pytest.approx((rows["shear_Pa"] / rows["normal_Pa"])[rows["slip_m"] > 0.16].mean(), rel=1e-9)
+        assert way.max() == 100 * rows["slip_m"].max() and share[way > 16].mean() == pytest.approx(
+            (rows["shear_Pa"] / rows["normal_Pa"])[rows["slip_m"] > 0.16].mean(), rel=1e-9
+        )
     (peaks,) = (drawn.points(one) for one in strength.lines if one.get_marker() == "o")
     assert peaks == pytest.approx(1e-6 * np.array([[s.normal_peak, s.shear_peak] for s in found]))
     with pytest.raises(wall_shear.SlideError, match="dp-0.5MPa-seed1: two runs of one name; give each seed once"):
@@ -116,14 +142,19 @@ def test_slides_run_side_by_side_and_are_kept(tmp_path):
 
 # ---- calibration ----------------------------------------------------------------------------------
 
+
 class MadeUpRock(calibration.Calibration):
     """A rock whose strengths are known functions of its contacts, a little stronger in coarse samples."""
 
     def test(self, material, disks, seeds):
         m, coarse = material, 1.03 if disks < 1000 else 1.0
         share = m.residual_tensile_strength / m.tensile_strength
-        return [coarse * 0.9 * m.tensile_strength * m.friction**0.2, coarse * (45 + 7 * math.log(m.friction) + 3 * math.log(10 * m.rolling_friction)),
-                0.5 * share * m.tensile_strength, 30 + 3 * math.log(m.friction) + 6 * math.log(10 * m.rolling_friction)]
+        return [
+            coarse * 0.9 * m.tensile_strength * m.friction**0.2,
+            coarse * (45 + 7 * math.log(m.friction) + 3 * math.log(10 * m.rolling_friction)),
+            0.5 * share * m.tensile_strength,
+            30 + 3 * math.log(m.friction) + 6 * math.log(10 * m.rolling_friction),
+        ]
 
 
 def test_last_bits_do_not_make_another_rock(tmp_path):
@@ -143,12 +174,18 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
     # the search may stop where no misfit exceeds 2 % or 0.7°
     assert report["found"][0] == pytest.approx(60e3, rel=0.021) and report["found"][1] == pytest.approx(34.0, abs=0.71)
     if wanted.with_residual:
-        assert report["found"][2] == pytest.approx(6e3, abs=1.3e3) and report["found"][3] == pytest.approx(25.0, abs=0.71)
+        assert report["found"][2] == pytest.approx(6e3, abs=1.3e3) and report["found"][3] == pytest.approx(
+            25.0, abs=0.71
+        )
     assert len(search.trials) <= 20 + len(search.names)
-    assert report["reached"] and len({trial["key"] for trial in report["trials"]}) == len(search.trials)  # none is made twice
+    assert report["reached"] and len({trial["key"] for trial in report["trials"]}) == len(
+        search.trials
+    )  # none is made twice
     # d ln c = d ln σ_ext + 0.2 d ln μ_s, dφ = 1.03 · 7° d ln μ_s in coarse samples, in units of 2 % and 0.7°; the logarithms are exact at any step
     tells = np.array(report["sensitivity"])
-    assert tells[0, :2] == pytest.approx([50, 10], rel=1e-6) and tells[1, :2] == pytest.approx([0, 1.03 * 10], rel=1e-6, abs=1e-9)
+    assert tells[0, :2] == pytest.approx([50, 10], rel=1e-6) and tells[1, :2] == pytest.approx(
+        [0, 1.03 * 10], rel=1e-6, abs=1e-9
+    )
 
     class Refuses(MadeUpRock):
         def test(self, *what):
@@ -183,7 +220,15 @@ def test_a_resumed_search_for_other_strengths_computes_its_own_trials(tmp_path):
 
 # ---- a small test, whole --------------------------------------------------------------------------
 
-SMALL = biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82, friction=0.0), strain=0.03, sides="rigid", tolerance=1e-4, step=0.2)
+SMALL = biaxial.Test(
+    materials.load("wwr"),
+    1e6,
+    pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82, friction=0.0),
+    strain=0.03,
+    sides="rigid",
+    tolerance=1e-4,
+    step=0.2,
+)
 
 
 def test_a_sample_that_is_too_small_is_refused():
@@ -193,7 +238,11 @@ def test_a_sample_that_is_too_small_is_refused():
 
 def test_what_cannot_be_tested_is_refused_before_anything_runs(tmp_path):
     small = dataclasses.replace(SMALL, shape=pressing.Shape(count=40, seed=1))
-    for tests, message in (([small], "ask for more disks"), ([dataclasses.replace(SMALL, strain=0.003)], "--strain 0.003: too short"), ([SMALL, SMALL], "two runs of one name; give each confining pressure and seed once")):
+    for tests, message in (
+        ([small], "ask for more disks"),
+        ([dataclasses.replace(SMALL, strain=0.003)], "--strain 0.003: too short"),
+        ([SMALL, SMALL], "two runs of one name; give each confining pressure and seed once"),
+    ):
         with pytest.raises(errors.UserError, match=message):
             campaign.run(tests, tmp_path, 1)
     assert not list(tmp_path.rglob("log.txt"))
@@ -211,33 +260,82 @@ def test_a_refusal_in_another_process_is_one_message(tmp_path):
 def test_a_rock_without_bonds_is_tested_without_bonds(tmp_path):
     loose = dataclasses.replace(SMALL.material, bonded=False)
     pressing.prepare(SMALL.shape, tmp_path / "pressing")
-    course = sample.Sample.build(SMALL.shape, loose, dataclasses.replace(SMALL, material=loose).platen, 1e6, tolerance=1e-4, maxIterations=1000)
+    course = sample.Sample.build(
+        SMALL.shape, loose, dataclasses.replace(SMALL, material=loose).platen, 1e6, tolerance=1e-4, maxIterations=1000
+    )
     assert course.bonds == 0 and course.engine.bonds == 0 and course.engine.contacts > 100
 
 
 def test_without_a_plateau_there_is_no_residual_envelope():
-    measured = [{"seed": 1, "confining_Pa": p, "sigma3_peak_Pa": p, "sigma1_peak_Pa": 4 * p + 4e5, "sigma3_residual_Pa": p, "sigma1_residual_Pa": 3 * p,
-                 "residual_between_strains": (0.5 * end, end)} for p, end in ((1e6, 0.1), (2e6, 0.1))]
+    measured = [
+        {
+            "seed": 1,
+            "confining_Pa": p,
+            "sigma3_peak_Pa": p,
+            "sigma1_peak_Pa": 4 * p + 4e5,
+            "sigma3_residual_Pa": p,
+            "sigma1_residual_Pa": 3 * p,
+            "residual_between_strains": (0.5 * end, end),
+        }
+        for p, end in ((1e6, 0.1), (2e6, 0.1))
+    ]
     whole = campaign.summarise(SMALL.material, measured, 1.0, 1)
-    assert whole["friction_residual_deg"] == pytest.approx(30.0) and whole["fit_confining_Pa"] == [1e6, 2e6]  # sin φ = (3 − 1)/(3 + 1)
-    short = campaign.summarise(SMALL.material, [{**m, "residual_between_strains": (0.015, 0.03)} for m in measured], 1.0, 1)
+    assert whole["friction_residual_deg"] == pytest.approx(30.0) and whole["fit_confining_Pa"] == [
+        1e6,
+        2e6,
+    ]  # sin φ = (3 − 1)/(3 + 1)
+    short = campaign.summarise(
+        SMALL.material, [{**m, "residual_between_strains": (0.015, 0.03)} for m in measured], 1.0, 1
+    )
     assert short["friction_peak_deg"] == whole["friction_peak_deg"]
-    assert short["friction_residual_deg"] is None and short["cohesion_residual_kPa"] is None and "no residual envelope" in short["note"]
+    assert (
+        short["friction_residual_deg"] is None
+        and short["cohesion_residual_kPa"] is None
+        and "no residual envelope" in short["note"]
+    )
 
 
 def test_a_campaign_sums_up_its_seeds():
     """σ₁ = 4 σ₃ + 2 c √4: sin φ = 3/5. Cohesions of 100 and 120 kPa: 110 ± 12.706 · 10 kPa by Student's t; the residual of one seed more is 3 σ₃ and 5 σ₃."""
-    measured = [{"seed": seed, "confining_Pa": p, "sigma3_peak_Pa": 1.1 * p, "sigma1_peak_Pa": 4.4 * p + 4 * c, "sigma3_residual_Pa": 0.9 * p, "sigma1_residual_Pa": 0.9 * n * p,
-                 "residual_between_strains": (0.05, 0.1)} for seed, c, n in ((7, 100e3, 3), (3, 120e3, 5)) for p in (1e6, 4e6, 2e6)]
+    measured = [
+        {
+            "seed": seed,
+            "confining_Pa": p,
+            "sigma3_peak_Pa": 1.1 * p,
+            "sigma1_peak_Pa": 4.4 * p + 4 * c,
+            "sigma3_residual_Pa": 0.9 * p,
+            "sigma1_residual_Pa": 0.9 * n * p,
+            "residual_between_strains": (0.05, 0.1),
+        }
+        for seed, c, n in ((7, 100e3, 3), (3, 120e3, 5))
+        for p in (1e6, 4e6, 2e6)
+    ]
     told = campaign.summarise(SMALL.material, measured, 5.0, 2)
     angles = [math.degrees(math.asin(0.5)), math.degrees(math.asin(4 / 6))]
-    expected = {"cohesion_peak_kPa": 110.0, "cohesion_peak_95_kPa": 12.7062 * 10, "friction_peak_deg": math.degrees(math.asin(0.6)), "friction_peak_95_deg": 0.0,
-                "cohesion_residual_kPa": 0.0, "cohesion_residual_95_kPa": 0.0, "friction_residual_deg": sum(angles) / 2, "friction_residual_95_deg": 12.7062 * (angles[1] - angles[0]) / 2}
+    expected = {
+        "cohesion_peak_kPa": 110.0,
+        "cohesion_peak_95_kPa": 12.7062 * 10,
+        "friction_peak_deg": math.degrees(math.asin(0.6)),
+        "friction_peak_95_deg": 0.0,
+        "cohesion_residual_kPa": 0.0,
+        "cohesion_residual_95_kPa": 0.0,
+        "friction_residual_deg": sum(angles) / 2,
+        "friction_residual_95_deg": 12.7062 * (angles[1] - angles[0]) / 2,
+    }
     assert {name: told[name] for name in expected} == pytest.approx(expected, rel=1e-5, abs=1e-6)  # t has six digits
-    assert told["seeds"] == [3, 7] and told["fit_confining_Pa"] == [1e6, 4e6, 2e6] and told["tests"] is measured and (told["wall_s"], told["threads"]) == (5.0, 2)
+    assert (
+        told["seeds"] == [3, 7]
+        and told["fit_confining_Pa"] == [1e6, 4e6, 2e6]
+        and told["tests"] is measured
+        and (told["wall_s"], told["threads"]) == (5.0, 2)
+    )
     assert told["misses_peak_rel"] == pytest.approx([0.0] * 3, abs=1e-9)
     alone = campaign.summarise(SMALL.material, measured[:3], 5.0, 2)
-    assert alone["cohesion_peak_kPa"] == pytest.approx(100.0) and alone["cohesion_peak_95_kPa"] is None and alone["friction_residual_deg"] == pytest.approx(30.0)
+    assert (
+        alone["cohesion_peak_kPa"] == pytest.approx(100.0)
+        and alone["cohesion_peak_95_kPa"] is None
+        and alone["friction_residual_deg"] == pytest.approx(30.0)
+    )
     assert "one confining pressure" in campaign.summarise(SMALL.material, measured[:1], 5.0, 2)["note"]
 
 
@@ -245,27 +343,84 @@ def test_a_test_is_measured_from_its_records(tmp_path):
     """A made-up folder: the peak at 0.6 % of strain, the plateau over the second half, bands of what has turned since the begin."""
     test, strain = dataclasses.replace(SMALL, strain=0.06), np.arange(1, 601) * 1e-4
     axial = np.select([np.abs(strain - 0.00605) < 0.00101, strain < 0.0301], [9e6, 6e6], 5e6)
-    known = {"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": axial, "sigma1_bottom_Pa": axial, "sigma3_left_Pa": 1.1e6 + 0 * strain, "sigma3_right_Pa": 0.9e6 + 0 * strain}
+    known = {
+        "strain": strain,
+        "volumetric_strain": 0.5 * strain,
+        "sigma1_top_Pa": axial,
+        "sigma1_bottom_Pa": axial,
+        "sigma3_left_Pa": 1.1e6 + 0 * strain,
+        "sigma3_right_Pa": 0.9e6 + 0 * strain,
+    }
     with records.SeriesWriter(tmp_path / "series.csv", biaxial.COLUMNS) as series:
         for k in range(600):
-            series.write({name: float(known[name][k]) if name in known else k + 1 if name == "step" else 0 for name in biaxial.COLUMNS})
-    noted = ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s", "wall_steps_s", "sweeps_mean", "unconverged",
-             "overlap_worst_rel", "disks", "bonds", "packing_fraction")
-    (tmp_path / "result.json").write_text(json.dumps({"key": "k", "found": {name: float(k) for k, name in enumerate(noted)}}))
+            series.write(
+                {
+                    name: float(known[name][k]) if name in known else k + 1 if name == "step" else 0
+                    for name in biaxial.COLUMNS
+                }
+            )
+    noted = (
+        "inertial_number",
+        "rate_per_s",
+        "time_step_s",
+        "steps",
+        "simulated_s",
+        "height_m",
+        "width_m",
+        "wall_making_s",
+        "wall_s",
+        "wall_steps_s",
+        "sweeps_mean",
+        "unconverged",
+        "overlap_worst_rel",
+        "disks",
+        "bonds",
+        "packing_fraction",
+    )
+    (tmp_path / "result.json").write_text(
+        json.dumps({"key": "k", "found": {name: float(k) for k, name in enumerate(noted)}})
+    )
     rng = np.random.default_rng(2)
     x, y, before = rng.uniform(0, 100, 4000), rng.uniform(0, 200, 4000), rng.uniform(-3, 3, 4000)
     band = np.abs(-math.sin(math.radians(60)) * (x - 45) + math.cos(math.radians(60)) * (y - 90)) < 6
     zero = np.zeros(4000)
     for name, angle in (("begin", before), ("1", before + 0.1 * band), ("end", before - 0.3 * band)):
-        records.write_snapshot(tmp_path / "snapshots" / f"{name}.npz", time_s=0.0, step=0, water_m=0.0, x=x, y=y, r=zero + 1, angle=angle, vx=zero, vy=zero, layer=zero, wet=zero > 0, released=zero > 0)
+        records.write_snapshot(
+            tmp_path / "snapshots" / f"{name}.npz",
+            time_s=0.0,
+            step=0,
+            water_m=0.0,
+            x=x,
+            y=y,
+            r=zero + 1,
+            angle=angle,
+            vx=zero,
+            vy=zero,
+            layer=zero,
+            wet=zero > 0,
+            released=zero > 0,
+        )
     told = campaign.measure(test, tmp_path)
     assert {name: told[name] for name in noted} == {name: float(k) for k, name in enumerate(noted)}
     assert (told["confining_Pa"], told["seed"], told["residual_between_strains"]) == (1e6, 3, (0.03, 0.06))
-    assert (told["sigma1_peak_Pa"], told["strain_peak"], told["sigma3_peak_Pa"]) == pytest.approx((9e6, 0.006, 1e6), abs=1e-4)
-    assert told["sigma1_residual_Pa"] == pytest.approx(5e6 + 1e6 / 301, rel=1e-9) and told["sigma3_residual_Pa"] == pytest.approx(1e6)  # its first row is the last of the fall
-    assert told["dilatancy_deg"] == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9) and told["volumetric_strain_end"] == pytest.approx(0.03)
+    assert (told["sigma1_peak_Pa"], told["strain_peak"], told["sigma3_peak_Pa"]) == pytest.approx(
+        (9e6, 0.006, 1e6), abs=1e-4
+    )
+    assert told["sigma1_residual_Pa"] == pytest.approx(5e6 + 1e6 / 301, rel=1e-9) and told[
+        "sigma3_residual_Pa"
+    ] == pytest.approx(
+        1e6
+    )  # its first row is the last of the fall
+    assert told["dilatancy_deg"] == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9) and told[
+        "volumetric_strain_end"
+    ] == pytest.approx(0.03)
     (rising, none), (late, falling) = told["bands"], told["bands_late"]  # there is none of 4 %, so the end's
-    assert none is None and late is None and rising["rotation_rad"] == pytest.approx(0.1, rel=0.1) and rising["angle_deg"] == pytest.approx(60, abs=3)
+    assert (
+        none is None
+        and late is None
+        and rising["rotation_rad"] == pytest.approx(0.1, rel=0.1)
+        and rising["angle_deg"] == pytest.approx(60, abs=3)
+    )
     assert falling["rotation_rad"] == pytest.approx(-0.3, rel=0.1) and falling["angle_deg"] == pytest.approx(60, abs=3)
 
 
@@ -273,14 +428,49 @@ def test_a_test_is_measured_from_its_records(tmp_path):
 def test_a_row_of_a_test_by_hand(sides):
     """A sample of 12 m² that had 10, 4 m high and so 3 m wide."""
     rows = []
-    engine = SimpleNamespace(bonds=5, brokenTension=1, brokenShear=2, brokenTorque=3, brokenMixed=4, contacts=9, meanSpeed=0.1, overlapWorst=1e-4)
-    course = SimpleNamespace(sample=SimpleNamespace(engine=engine, walls=SimpleNamespace(height=lambda: 4.0)), columns=biaxial.COLUMNS, series=SimpleNamespace(write=rows.append),
-                             test=dataclasses.replace(SMALL, sides=sides), state={"begin_time": O.time - 7, "strain": 0.02, "area": 10.0, "rate": 3.0, "unit_s": 0.5})
+    engine = SimpleNamespace(
+        bonds=5,
+        brokenTension=1,
+        brokenShear=2,
+        brokenTorque=3,
+        brokenMixed=4,
+        contacts=9,
+        meanSpeed=0.1,
+        overlapWorst=1e-4,
+    )
+    course = SimpleNamespace(
+        sample=SimpleNamespace(engine=engine, walls=SimpleNamespace(height=lambda: 4.0)),
+        columns=biaxial.COLUMNS,
+        series=SimpleNamespace(write=rows.append),
+        test=dataclasses.replace(SMALL, sides=sides),
+        state={"begin_time": O.time - 7, "strain": 0.02, "area": 10.0, "rate": 3.0, "unit_s": 0.5},
+    )
     biaxial.Course._row(course, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, 12.0, 25.0, 1e-3, 6)
-    left, right = (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)  # a membrane's pressure is given
-    known = {"step": O.iter, "time_s": 7.0, "strain": 0.02, "volumetric_strain": 0.2, "sigma1_top_Pa": 20.0, "sigma1_bottom_Pa": 22.0, "sigma3_left_Pa": left, "sigma3_right_Pa": right,
-             "inertial_number": 1.5, "bonds_alive": 5, "bonds_broken_tension": 1, "bonds_broken_shear": 2, "bonds_broken_torque": 3, "bonds_broken_mixed": 4, "contacts": 9,
-             "speed_mean_m_per_s": 0.1, "iterations_mean": 25.0, "residual_worst": 1e-3, "unconverged": 6, "overlap_worst_rel": 1e-4}
+    left, right = (
+        (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)
+    )  # a membrane's pressure is given
+    known = {
+        "step": O.iter,
+        "time_s": 7.0,
+        "strain": 0.02,
+        "volumetric_strain": 0.2,
+        "sigma1_top_Pa": 20.0,
+        "sigma1_bottom_Pa": 22.0,
+        "sigma3_left_Pa": left,
+        "sigma3_right_Pa": right,
+        "inertial_number": 1.5,
+        "bonds_alive": 5,
+        "bonds_broken_tension": 1,
+        "bonds_broken_shear": 2,
+        "bonds_broken_torque": 3,
+        "bonds_broken_mixed": 4,
+        "contacts": 9,
+        "speed_mean_m_per_s": 0.1,
+        "iterations_mean": 25.0,
+        "residual_worst": 1e-3,
+        "unconverged": 6,
+        "overlap_worst_rel": 1e-4,
+    }
     assert rows == [pytest.approx(known, rel=1e-12)]  # division and subtraction round
 
 
@@ -315,17 +505,48 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         course.run(stop)
     course.checkpoint()
     O.reset()
-    leftovers.plant(broken, "result.json", "snapshots/begin.npz", "snapshots/2.npz", "checkpoint/checkpoint.json", "checkpoint/scene-00000900.yade")
+    leftovers.plant(
+        broken,
+        "result.json",
+        "snapshots/begin.npz",
+        "snapshots/2.npz",
+        "checkpoint/checkpoint.json",
+        "checkpoint/scene-00000900.yade",
+    )
     biaxial.run(broken, **asdict(test))
     assert (broken / "series.csv").read_bytes() == (whole / "series.csv").read_bytes()
-    names = [sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz")) for folder in (whole, broken)]
+    names = [
+        sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz")) for folder in (whole, broken)
+    ]
     assert names[0] == names[1] and leftovers.found(broken) == []
     with pytest.raises(biaxial.TestError, match="other settings"):
         biaxial.Course.resume(dataclasses.replace(test, inertia=2e-4), broken)
 
 
 def test_the_script_writes_a_summary_and_figures(tmp_path):
-    options = ["--disks", "150", "--diameter", "1", "2", "--fraction", "0.82", "--confining", "0.5,4", "--strain", "0.03", "--sides", "rigid", "--step", "0.2", "--tolerance", "1e-4", "--threads", "2", "--out", str(tmp_path)]
+    options = [
+        "--disks",
+        "150",
+        "--diameter",
+        "1",
+        "2",
+        "--fraction",
+        "0.82",
+        "--confining",
+        "0.5,4",
+        "--strain",
+        "0.03",
+        "--sides",
+        "rigid",
+        "--step",
+        "0.2",
+        "--tolerance",
+        "1e-4",
+        "--threads",
+        "2",
+        "--out",
+        str(tmp_path),
+    ]
     done = shell.run("biaxial.py", *options)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     summary = json.loads((tmp_path / "summary.json").read_text())
@@ -334,11 +555,29 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
         assert (tmp_path / name).stat().st_size > 300
     assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.5MPa-seed1", "4MPa-seed1"]
-    leftovers.plant(tmp_path, "summary.json", "mohr.png", *(f"tests/4MPa-seed1/{name}" for name in ("result.json", "progress", "snapshots/begin.npz", "snapshots/4.npz", "vtk/disks-1.vtu")))
+    leftovers.plant(
+        tmp_path,
+        "summary.json",
+        "mohr.png",
+        *(
+            f"tests/4MPa-seed1/{name}"
+            for name in ("result.json", "progress", "snapshots/begin.npz", "snapshots/4.npz", "vtk/disks-1.vtu")
+        ),
+    )
     again = shell.run("biaxial.py", *options, "--resume")
-    assert again.returncode == 0 and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"] and leftovers.found(tmp_path) == []
-    assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout  # the strain of 3 % ends before the plateau
-    for options, message in ((["--diameter", "4", "1"], "give the smallest first"), (["--pressing-friction", "0.1"], "add --sample pressed"), (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed")):
+    assert (
+        again.returncode == 0
+        and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
+        and leftovers.found(tmp_path) == []
+    )
+    assert (
+        summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout
+    )  # the strain of 3 % ends before the plateau
+    for options, message in (
+        (["--diameter", "4", "1"], "give the smallest first"),
+        (["--pressing-friction", "0.1"], "add --sample pressed"),
+        (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed"),
+    ):
         refused = shell.run("biaxial.py", *options, limit=100)
         assert refused.returncode != 0 and message in refused.stderr + refused.stdout
     bad = shell.run("biaxial.py", "--confining", "4,x", limit=100)
@@ -347,6 +586,7 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
 
 # ---- effects --------------------------------------------------------------------------------------
 
+
 def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path, monkeypatch):
     """A made-up rock whose strength grows with the rate, by the same share in both samples, and depends on nothing else."""
     runs = []
@@ -354,7 +594,17 @@ def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path
     def made_up(tests, out, threads, resume, progress):
         runs.append(out)
         strong = lambda t: 30e6 * (1 + 0.1 * t.shape.seed) * (1.02 if t.inertia > 1.5e-4 else 1.0)  # noqa: E731
-        return [{"seed": t.shape.seed, "wall_s": 1.0, "sigma3_peak_Pa": 8e6, "sigma1_peak_Pa": strong(t), "sigma3_residual_Pa": 8e6, "sigma1_residual_Pa": 24e6} for t in tests]
+        return [
+            {
+                "seed": t.shape.seed,
+                "wall_s": 1.0,
+                "sigma3_peak_Pa": 8e6,
+                "sigma1_peak_Pa": strong(t),
+                "sigma3_residual_Pa": 8e6,
+                "sigma1_residual_Pa": 24e6,
+            }
+            for t in tests
+        ]
 
     monkeypatch.setattr(effects.campaign, "run", made_up)
     rows = effects.run(effects.effects(materials.load("wwr"), [1, 2]), tmp_path, 1)
@@ -362,5 +612,8 @@ def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path
     assert sum(row["usual"] for row in rows) == 4
     for row in rows:
         fast = row["effect"] == "inertia" and row["value"] > 1.5e-4
-        assert row["peak_change_rel"] == pytest.approx(0.02 if fast else 0.0, abs=1e-12) and row["residual_change_rel"] == 0.0
+        assert (
+            row["peak_change_rel"] == pytest.approx(0.02 if fast else 0.0, abs=1e-12)
+            and row["residual_change_rel"] == 0.0
+        )
         assert row["residual_mean_deg"] == pytest.approx(30.0)  # sin φ = (24 − 8)/(24 + 8)

@@ -10,8 +10,12 @@ from yade.nonsmooth.laboratory import calibration, effects, materials
 def made_up(material, disks, with_residual):
     """c [Pa], φ [°] (and residual ones) of a rock whose strengths are known functions of its contacts, a little stronger in coarse samples."""
     m, coarse = material, 1.03 if disks < 1000 else 1.0
-    found = [coarse * 0.9 * m.tensile_strength * m.friction**0.2, coarse * (45 + 7 * math.log(m.friction) + 3 * math.log(10 * m.rolling_friction)),
-             0.5 * m.residual_tensile_strength, 30 + 3 * math.log(m.friction) + 6 * math.log(10 * m.rolling_friction)]
+    found = [
+        coarse * 0.9 * m.tensile_strength * m.friction**0.2,
+        coarse * (45 + 7 * math.log(m.friction) + 3 * math.log(10 * m.rolling_friction)),
+        0.5 * m.residual_tensile_strength,
+        30 + 3 * math.log(m.friction) + 6 * math.log(10 * m.rolling_friction),
+    ]
     return found if with_residual else found[:2]
 
 
@@ -31,19 +35,41 @@ def trials(monkeypatch):
 @pytest.mark.parametrize("residual", [(), ("--residual-cohesion", 6, "--residual-friction", 25)])
 def test_calibrate_writes_a_material_that_has_the_strengths(in_process, trials, tmp_path, residual):
     out = tmp_path / "granite.yaml"
-    words = ("--cohesion", 60, "--friction", 34, *residual, "--coarse", 600, "--fine", 2500, "--seeds", 1, 2, "--threads", 1, "--out", out)
+    words = (
+        "--cohesion",
+        60,
+        "--friction",
+        34,
+        *residual,
+        "--coarse",
+        600,
+        "--fine",
+        2500,
+        "--seeds",
+        1,
+        2,
+        "--threads",
+        1,
+        "--out",
+        out,
+    )
     done = in_process("calibrate.py", *words)
     assert done.status == 0, done.err
     found = materials.load(out)
     strengths = made_up(found, 2500, bool(residual))
-    assert strengths[0] == pytest.approx(60e3, rel=0.021) and strengths[1] == pytest.approx(34, abs=0.71)  # the search ends within 2 % and 0.7°
+    assert strengths[0] == pytest.approx(60e3, rel=0.021) and strengths[1] == pytest.approx(
+        34, abs=0.71
+    )  # the search ends within 2 % and 0.7°
     assert (found.envelope.cohesion, found.envelope.friction_deg) == pytest.approx(strengths[:2], rel=1e-9)
     if residual:
         assert strengths[2] == pytest.approx(6e3, abs=0.02 * 60e3) and strengths[3] == pytest.approx(25, abs=0.71)
     assert {disks for _, disks, _ in trials} == {600, 2500} and all(seeds == [1, 2] for *_, seeds in trials)
     report = json.loads((tmp_path / "granite-calibration" / "report.json").read_text())
     assert report["reached"] is True and report["wall_s"] >= 0 and len(report["trials"]) == len(trials)
-    assert f"{out}: c = {1e-3 * strengths[0]:.1f} kPa (wanted 60), φ = {strengths[1]:.2f}° (wanted 34)" in done.out and "NOT REACHED" not in done.err
+    assert (
+        f"{out}: c = {1e-3 * strengths[0]:.1f} kPa (wanted 60), φ = {strengths[1]:.2f}° (wanted 34)" in done.out
+        and "NOT REACHED" not in done.err
+    )
     assert "# Calibrated by scripts/calibrate.py for c = 60 kPa, φ = 34°." in out.read_text()
     count = len(trials)
     again = in_process("calibrate.py", *words, "--resume")
@@ -51,22 +77,58 @@ def test_calibrate_writes_a_material_that_has_the_strengths(in_process, trials, 
 
 
 def test_calibrate_says_what_it_has_not_reached(in_process, trials, tmp_path):
-    done = in_process("calibrate.py", "--cohesion", 60, "--friction", 59, "--coarse", 600, "--fine", 2500, "--out", tmp_path / "m.yaml", "--threads", 1)
-    assert done.status == 0 and done.last.startswith("NOT REACHED: the best trial misses the wanted strengths by up to ")  # 45° + 7° ln 2 with the most friction
+    done = in_process(
+        "calibrate.py",
+        "--cohesion",
+        60,
+        "--friction",
+        59,
+        "--coarse",
+        600,
+        "--fine",
+        2500,
+        "--out",
+        tmp_path / "m.yaml",
+        "--threads",
+        1,
+    )
+    assert done.status == 0 and done.last.startswith(
+        "NOT REACHED: the best trial misses the wanted strengths by up to "
+    )  # 45° + 7° ln 2 with the most friction
 
 
 def test_wall_shear_measures_what_the_wall_has(in_process, tmp_path):
     """Two slides on SS, bonded as nobody ships it: eq. 4 says friction 0.2 and a cohesion of 0.2 times the strength on the part that is covered."""
-    words = ("--material", "ss", "--bonded", "--tensile-strength", 200, "--pressures", "0.5,2", "--seeds", 1, "--threads", 2, "--out", tmp_path)
+    words = (
+        "--material",
+        "ss",
+        "--bonded",
+        "--tensile-strength",
+        200,
+        "--pressures",
+        "0.5,2",
+        "--seeds",
+        1,
+        "--threads",
+        2,
+        "--out",
+        tmp_path,
+    )
     done = in_process("wall_shear.py", *words)
     assert done.status == 0, done.err
-    told, = json.loads((tmp_path / "summary.json").read_text())["tests"]
+    (told,) = json.loads((tmp_path / "summary.json").read_text())["tests"]
     assert (told["material"], told["seed"], told["pressures_Pa"]) == ("ss", 1, [0.5e6, 2e6])
-    assert told["friction_peak"] == pytest.approx(0.2, rel=1e-3) and told["friction_residual"] == pytest.approx(0.2, rel=1e-3)  # the solver's tolerance is 1e-4
-    assert told["cohesion_peak_kPa"] == pytest.approx(0.2 * 200 * told["coverage"], abs=0.5) and told["cohesion_residual_kPa"] == pytest.approx(0, abs=0.5)
+    assert told["friction_peak"] == pytest.approx(0.2, rel=1e-3) and told["friction_residual"] == pytest.approx(
+        0.2, rel=1e-3
+    )  # the solver's tolerance is 1e-4
+    assert told["cohesion_peak_kPa"] == pytest.approx(0.2 * 200 * told["coverage"], abs=0.5) and told[
+        "cohesion_residual_kPa"
+    ] == pytest.approx(0, abs=0.5)
     assert f"{'ss':10s} {1:4d} {0.2:16.3f} {math.degrees(math.atan(told['friction_peak'])):6.1f}" in done.out
     series = records.read_series(tmp_path / "tests" / "ss-2MPa-seed1" / "series.csv")
-    assert series["normal_Pa"].mean() == pytest.approx(2e6, rel=0.01) and series["slip_m"][-1] == pytest.approx(0.32, abs=1e-3)  # 0.08 of the largest disk
+    assert series["normal_Pa"].mean() == pytest.approx(2e6, rel=0.01) and series["slip_m"][-1] == pytest.approx(
+        0.32, abs=1e-3
+    )  # 0.08 of the largest disk
     assert (tmp_path / "wall_shear.png").stat().st_size > 10_000
     before = (tmp_path / "tests" / "ss-2MPa-seed1" / "series.csv").stat().st_mtime_ns
     assert in_process("wall_shear.py", *words, "--resume").status == 0
@@ -77,11 +139,33 @@ def test_biaxial_effects_runs_and_tells_each_value(in_process, tmp_path, monkeyp
     """Real tests of a tiny sample: three time steps, one of them the usual one."""
     asked = effects.effects
     monkeypatch.setattr(effects, "effects", lambda *words: asked(*words, strain=0.012, sides="rigid", tolerance=1e-3))
-    done = in_process("biaxial_effects.py", "--disks", 200, "--seeds", 1, "--only", "step", "--confining", 1, "--threads", 2, "--out", tmp_path)
+    done = in_process(
+        "biaxial_effects.py",
+        "--disks",
+        200,
+        "--seeds",
+        1,
+        "--only",
+        "step",
+        "--confining",
+        1,
+        "--threads",
+        2,
+        "--out",
+        tmp_path,
+    )
     assert done.status == 0, done.err
     told = json.loads((tmp_path / "summary.json").read_text())
-    assert told["confining_Pa"] == 1e6 and [(row["value"], row["usual"]) for row in told["rows"]] == [(0.2, False), (0.1, True), (0.05, False)]
+    assert told["confining_Pa"] == 1e6 and [(row["value"], row["usual"]) for row in told["rows"]] == [
+        (0.2, False),
+        (0.1, True),
+        (0.05, False),
+    ]
     assert all(10 < row["peak_mean_deg"] < 70 for row in told["rows"]) and told["rows"][1]["peak_change_rel"] == 0
-    assert (tmp_path / "effects.png").stat().st_size > 10_000 and done.out.count("time step [t_i]") == 3 and done.out.count("usual") == 1
+    assert (
+        (tmp_path / "effects.png").stat().st_size > 10_000
+        and done.out.count("time step [t_i]") == 3
+        and done.out.count("usual") == 1
+    )
     steps = [len(records.read_series(p)["step"]) for p in tmp_path.glob("step-*/tests/*/series.csv")]
     assert len(steps) == 3

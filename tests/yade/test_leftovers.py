@@ -8,8 +8,21 @@ import slope_scenes
 from yade import O
 from yade.nonsmooth import experiment, packing, results, run_figures, section, slope
 
-FILES = ("summary.json", "breaks.csv", "t0.npz", "end.npz", "forces.png", "avalanche.mp4", "snapshots/00000100.npz", "snapshots/00000200.npz", "snapshots/00000250.npz",
-         "checkpoint/checkpoint.json", "checkpoint/scene-00000190-01234567.yade", "vtk/disks-00000100.vtu", "vtk/avalanche.pvd")
+FILES = (
+    "summary.json",
+    "breaks.csv",
+    "t0.npz",
+    "end.npz",
+    "forces.png",
+    "avalanche.mp4",
+    "snapshots/00000100.npz",
+    "snapshots/00000200.npz",
+    "snapshots/00000250.npz",
+    "checkpoint/checkpoint.json",
+    "checkpoint/scene-00000190-01234567.yade",
+    "vtk/disks-00000100.vtu",
+    "vtk/avalanche.pvd",
+)
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +41,11 @@ def run(s, folder, end):
 
 def content(folder):
     """What a run has computed: its records, by name."""
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for pattern in ("*.csv", "*.npz", "snapshots/*") for path in sorted(folder.glob(pattern))}
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for pattern in ("*.csv", "*.npz", "snapshots/*")
+        for path in sorted(folder.glob(pattern))
+    }
 
 
 def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
@@ -48,10 +65,14 @@ def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
     # killed while the figures were made: they are made again, of whole snapshots alone
     leftovers.plant(broken, *FILES)
     shown = []
-    monkeypatch.setattr(run_figures.video, "write_mp4", lambda files, *_, **__: (shown.extend(files), (None, "no video"))[1])
+    monkeypatch.setattr(
+        run_figures.video, "write_mp4", lambda files, *_, **__: (shown.extend(files), (None, "no video"))[1]
+    )
     summary = results.summarise(broken, small, dataclasses.asdict(resumed.state))
     made, notes = run_figures.draw(broken, small, summary)
-    assert [path.name for path in shown] == [name.split("/")[1] for name in sorted(wanted) if name.startswith("snapshots/")] and notes == ["no video"]
+    assert [path.name for path in shown] == [
+        name.split("/")[1] for name in sorted(wanted) if name.startswith("snapshots/")
+    ] and notes == ["no video"]
     assert {"forces.png", "snapshots.png", "avalanche.pvd"} <= {path.name for path in made}
     O.reset()
     experiment.resume(small, broken).series.close()
@@ -59,5 +80,16 @@ def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
     # and a fresh run takes them away too
     leftovers.plant(broken, *FILES)
     run(small, broken, 0.2)
-    assert leftovers.found(broken) == [] and sorted(path.name for path in broken.rglob("*") if path.is_file()) == sorted(
-        ["breaks.csv", "checkpoint.json", "section.yaml", "series.csv", "walls.csv", *(path.name for path in broken.glob("checkpoint/scene-*")), *(path.name for path in broken.glob("vtk/*"))])
+    assert leftovers.found(broken) == [] and sorted(
+        path.name for path in broken.rglob("*") if path.is_file()
+    ) == sorted(
+        [
+            "breaks.csv",
+            "checkpoint.json",
+            "section.yaml",
+            "series.csv",
+            "walls.csv",
+            *(path.name for path in broken.glob("checkpoint/scene-*")),
+            *(path.name for path in broken.glob("vtk/*")),
+        ]
+    )

@@ -15,7 +15,8 @@ from contact_scenes import launch
 
 
 # What a process listens on, from the kernel: local addresses of its own sockets that are in state LISTEN.
-LISTENING = textwrap.dedent("""
+LISTENING = textwrap.dedent(
+    """
     import os
 
     def look(pid):
@@ -40,7 +41,8 @@ LISTENING = textwrap.dedent("""
         while before != now:
             before, now = now, look(pid)
         return now
-    """)
+    """
+)
 LOOPBACK = "0100007F"  # 127.0.0.1 as /proc/net/tcp writes it
 
 
@@ -54,13 +56,25 @@ def script(tmp_path):
         path = tmp_path / "script.py"
         path.write_text(LISTENING + textwrap.dedent(text))
         return path
+
     return write
 
 
 def test_the_probe_sees_a_socket_that_listens():
     # else the other tests would pass by looking away
-    probe = LISTENING + "import socket\ns = socket.create_server(('', 0))\nprint(listening() == [('00000000', s.getsockname()[1])])\n"
-    assert subprocess.run([sys.executable if "python" in sys.executable else "/usr/bin/python3", "-c", probe], text=True, capture_output=True, timeout=60).stdout == "True\n"
+    probe = (
+        LISTENING
+        + "import socket\ns = socket.create_server(('', 0))\nprint(listening() == [('00000000', s.getsockname()[1])])\n"
+    )
+    assert (
+        subprocess.run(
+            [sys.executable if "python" in sys.executable else "/usr/bin/python3", "-c", probe],
+            text=True,
+            capture_output=True,
+            timeout=60,
+        ).stdout
+        == "True\n"
+    )
 
 
 def test_a_script_of_the_launcher_listens_to_nobody(script):
@@ -73,7 +87,8 @@ def test_the_programs_of_the_build_folder_listen_to_nobody_else(script, tmp_path
     done = run_program("yade", "-n", "-x", script("print('listening', listening())"))
     assert done.returncode == 0 and "listening []" in done.stdout, done.stdout + done.stderr
     # a job of yade-batch, and yade-batch itself, whose page stays on this machine
-    job = script("""
+    job = script(
+        """
         import json
         pid, chain = os.getpid(), {}
         while pid > 1:
@@ -81,8 +96,15 @@ def test_the_programs_of_the_build_folder_listen_to_nobody_else(script, tmp_path
             chain[open("/proc/%d/cmdline" % pid).read().replace("\\0", " ")] = listening(pid)
             pid = int(status.split("PPid:")[1].split()[0])
         json.dump(chain, open("listening.json", "w"))
-        """)
-    done = subprocess.run([os.path.join(PREFIX, "bin", "yade-batch"), "--job-threads=1", "-j1", job.name], cwd=tmp_path, text=True, capture_output=True, timeout=120)
+        """
+    )
+    done = subprocess.run(
+        [os.path.join(PREFIX, "bin", "yade-batch"), "--job-threads=1", "-j1", job.name],
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        timeout=120,
+    )
     assert (tmp_path / "listening.json").exists(), done.stdout + done.stderr
     chain = json.loads((tmp_path / "listening.json").read_text())
     ours = {command: ports for command, ports in chain.items() if "bin/yade" in command and "run_pytest" not in command}
@@ -104,7 +126,8 @@ def test_what_plain_yade_opens_can_be_shut(script):
     """YADE's own program, without this project's: its two servers run, and one call ends them."""
     with open(os.path.join(PREFIX, "bin", "yade")) as ours:
         program = re.search(r'open\("(.*)", "rb"\)', ours.read()).group(1)
-    path = script(f"""
+    path = script(
+        f"""
         import importlib.util, socketserver
         open_before = listening()
         mine = socketserver.TCPServer(("127.0.0.1", 0), socketserver.BaseRequestHandler)
@@ -114,8 +137,11 @@ def test_what_plain_yade_opens_can_be_shut(script):
         shut = servers.close()
         print("shut", shut == [port for _, port in open_before], len(shut), [address for address, _ in open_before])
         print("left", listening() == [("0100007F", mine.server_address[1])], servers.close())
-        """)
+        """
+    )
     environment = {k: v for k, v in os.environ.items() if k not in ("OMP_NUM_THREADS", "YADE_PREFIX")}
-    done = subprocess.run([program, "-n", "-x", str(path)], env=environment, text=True, capture_output=True, timeout=120)
+    done = subprocess.run(
+        [program, "-n", "-x", str(path)], env=environment, text=True, capture_output=True, timeout=120
+    )
     assert "shut True 2 ['00000000', '00000000']" in done.stdout, done.stdout + done.stderr
     assert "left True []" in done.stdout, done.stdout

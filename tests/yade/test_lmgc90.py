@@ -14,8 +14,16 @@ from contact_scenes import begin, box, engine, loose_heap, material, run
 pytestmark = pytest.mark.usefixtures("empty")
 
 
-@pytest.mark.parametrize("check", [lmgc90.lmgc90_step_in_our_arrays, lmgc90.lmgc90_step_by_us, lmgc90.lmgc90_packing_stays_at_rest,
-                                   solver.stopping_tests_by_name], ids=lambda f: f.__name__)
+@pytest.mark.parametrize(
+    "check",
+    [
+        lmgc90.lmgc90_step_in_our_arrays,
+        lmgc90.lmgc90_step_by_us,
+        lmgc90.lmgc90_packing_stays_at_rest,
+        solver.stopping_tests_by_name,
+    ],
+    ids=lambda f: f.__name__,
+)
 def test_check_holds(check, tmp_path):
     outcome = check(Bench(folder=tmp_path, quick=True))
     assert outcome.claims
@@ -50,7 +58,9 @@ def test_solver_without_yade_stops_by_name_alike(tmp_path):
     again = contact.solve(problem, tolerance=e.tolerance, max_iterations=e.maxIterations, stopping="QM/16")
     assert again.iterations == e.iterations and np.array_equal(again.impulse, problem.impulse)
     assert contact.velocity_changes(problem).qm16 <= e.tolerance * (1 + 1e-6)
-    assert again.relative == pytest.approx(contact.residual(problem).relative, rel=1e-9)  # the independent residual all the same
+    assert again.relative == pytest.approx(
+        contact.residual(problem).relative, rel=1e-9
+    )  # the independent residual all the same
     with pytest.raises(ValueError, match="stopping = 'quad': it must be 'naturalMap', 'Quad', 'Maxm' or 'QM/16'"):
         contact.solve(problem, stopping="quad")
 

@@ -30,20 +30,29 @@ def script(tmp_path):
         path = tmp_path / name
         path.write_text(textwrap.dedent(text))
         return path
+
     return write
 
 
 # ---- loading --------------------------------------------------------------------------------------
 
+
 def test_plugin_loads_and_registers_its_classes(script):
-    result = run([LAUNCHER, script("""
+    result = run(
+        [
+            LAUNCHER,
+            script(
+                """
         from yade import nonsmooth
         import yade.system
         print("engines:", ContactDynamicsEngine().getClassName() if hasattr(ContactDynamicsEngine, "getClassName")
               else type(ContactDynamicsEngine()).__name__)
         print("material:", type(NscdMat()).__name__)
         print("base:", "FrictMat" in [c.__name__ for c in NscdMat.__mro__])
-        """)])
+        """
+            ),
+        ]
+    )
     assert result.returncode == 0, result.stderr
     assert "material: NscdMat" in result.stdout
     assert "base: True" in result.stdout
@@ -112,8 +121,10 @@ def test_other_features_and_missing_engines_are_refused(script, tmp_path):
     config = os.path.join(library_dir, "py", "yade", "config.py")
     with open(config) as source:
         text = source.read()
-    for change, expected in (("features=features+['OTHER']", "and this one has"),
-                             ("version='1999.01'", "and this is YADE 1999.01")):
+    for change, expected in (
+        ("features=features+['OTHER']", "and this one has"),
+        ("version='1999.01'", "and this is YADE 1999.01"),
+    ):
         os.remove(config)
         with open(config, "w") as changed:
             changed.write(text + "\n" + change + "\n")
@@ -123,14 +134,40 @@ def test_other_features_and_missing_engines_are_refused(script, tmp_path):
 
 # What the layout check looks at for each of YADE's headers that the engines include: names as in check("NAME", …), make<…>("NAME") or misplaced("NAME…").
 LOOKED_AT = {
-    "core/Aabb": ["Aabb"], "core/Body": ["Body"], "core/Dispatching": ["BoundDispatcher", "IGeomDispatcher"], "core/GlobalEngine": ["GlobalEngine"],
+    "core/Aabb": ["Aabb"],
+    "core/Body": ["Body"],
+    "core/Dispatching": ["BoundDispatcher", "IGeomDispatcher"],
+    "core/GlobalEngine": ["GlobalEngine"],
     "core/InteractionLoop": ["InteractionLoop"],
-    "core/Scene": ["Scene", "State", "Interaction", "InteractionContainer", "ForceContainer", "BodyContainer", "Cell", "EnergyTracker"],
-    "core/Shape": ["Sphere"], "core/TimeStepper": ["GlobalStiffnessTimeStepper"], "pkg/common/Bo1_Aabb": ["Bo1_Sphere_Aabb"],
-    "pkg/common/Collider": ["InsertionSortCollider"], "pkg/common/ElastMat": ["FrictMat"], "pkg/common/PeriodicEngines": ["PeriodicEngine"],
-    "pkg/common/Sphere": ["Sphere"], "pkg/dem/CohesiveFrictionalContactLaw": ["CohFrictMat", "CohFrictPhys"], "pkg/dem/FrictPhys": ["FrictPhys"],
-    "pkg/dem/Ig2_Sphere_Sphere_ScGeom": ["Ig2_Sphere_Sphere_ScGeom"], "pkg/dem/NewtonIntegrator": ["NewtonIntegrator"], "pkg/dem/ScGeom": ["ScGeom"],
-    "core/Omega": [], "core/Engine": [], "pkg/common/ForceResetter": [], "pkg/common/PyRunner": [], "pkg/common/Recorder": [], "lib/high-precision/Constants": [], "lib/pyutil/gil": [],  # functions, a class that is only recognised, and numbers
+    "core/Scene": [
+        "Scene",
+        "State",
+        "Interaction",
+        "InteractionContainer",
+        "ForceContainer",
+        "BodyContainer",
+        "Cell",
+        "EnergyTracker",
+    ],
+    "core/Shape": ["Sphere"],
+    "core/TimeStepper": ["GlobalStiffnessTimeStepper"],
+    "pkg/common/Bo1_Aabb": ["Bo1_Sphere_Aabb"],
+    "pkg/common/Collider": ["InsertionSortCollider"],
+    "pkg/common/ElastMat": ["FrictMat"],
+    "pkg/common/PeriodicEngines": ["PeriodicEngine"],
+    "pkg/common/Sphere": ["Sphere"],
+    "pkg/dem/CohesiveFrictionalContactLaw": ["CohFrictMat", "CohFrictPhys"],
+    "pkg/dem/FrictPhys": ["FrictPhys"],
+    "pkg/dem/Ig2_Sphere_Sphere_ScGeom": ["Ig2_Sphere_Sphere_ScGeom"],
+    "pkg/dem/NewtonIntegrator": ["NewtonIntegrator"],
+    "pkg/dem/ScGeom": ["ScGeom"],
+    "core/Omega": [],
+    "core/Engine": [],
+    "pkg/common/ForceResetter": [],
+    "pkg/common/PyRunner": [],
+    "pkg/common/Recorder": [],
+    "lib/high-precision/Constants": [],
+    "lib/pyutil/gil": [],  # functions, a class that is only recognised, and numbers
 }
 
 
@@ -140,7 +177,9 @@ def test_the_layout_check_knows_every_class_that_the_engines_include():
     for path in Path(folder).rglob("*.?pp"):
         texts[path.name] = path.read_text()
     gate = texts.pop("LayoutCheck.cpp")
-    included = {header for text in texts.values() for header in re.findall(r"#include <((?:core|pkg|lib)/[^>]+)\.hpp>", text)}
+    included = {
+        header for text in texts.values() for header in re.findall(r"#include <((?:core|pkg|lib)/[^>]+)\.hpp>", text)
+    }
     assert included == set(LOOKED_AT)  # a new header: check what the engines touch of its classes, and add it here
     for header, names in LOOKED_AT.items():
         for name in names:
@@ -149,12 +188,15 @@ def test_the_layout_check_knows_every_class_that_the_engines_include():
 
 # ---- the launcher ---------------------------------------------------------------------------------
 
+
 def test_launcher_passes_arguments_and_exit_status(script):
-    path = script("""
+    path = script(
+        """
         import os, sys
         print("arguments", sys.argv[1:], "threads", os.environ["OMP_NUM_THREADS"])
         sys.exit(int(sys.argv[1]))
-        """)
+        """
+    )
     result = run([LAUNCHER, path, "3", "--threads", "1", "--help"])
     assert result.returncode == 3
     assert "arguments ['3', '--threads', '1', '--help'] threads 1" in result.stdout
@@ -164,12 +206,15 @@ def test_launcher_passes_arguments_and_exit_status(script):
     assert "threads %d" % len(os.sched_getaffinity(0)) in result.stdout
 
 
-@pytest.mark.parametrize("text, status, message", [
-    ("raise ValueError('a mistake')", 1, "ValueError: a mistake"),
-    ("import sys; sys.exit('a reason')", 1, "a reason"),
-    ("x = (", 1, "SyntaxError"),
-    ("O.bodies.append(sphere((0,0,0), 1)); O.step()", 0, ""),
-])
+@pytest.mark.parametrize(
+    "text, status, message",
+    [
+        ("raise ValueError('a mistake')", 1, "ValueError: a mistake"),
+        ("import sys; sys.exit('a reason')", 1, "a reason"),
+        ("x = (", 1, "SyntaxError"),
+        ("O.bodies.append(sphere((0,0,0), 1)); O.step()", 0, ""),
+    ],
+)
 def test_launcher_exit_status(script, text, status, message):
     result = run([LAUNCHER, script(text)])
     assert result.returncode == status
@@ -178,13 +223,17 @@ def test_launcher_exit_status(script, text, status, message):
 
 def test_launcher_refuses_bad_calls(script, tmp_path):
     for arguments, message in (
-            ([], "SCRIPT [ARGS]"),
-            ([tmp_path / "missing.py"], "cannot be read"),
-            ([script("", "notes.txt")], "must be a Python file"),
-            ([script(""), "--threads", "none"], "--threads wants a positive number"),
-            ([script(""), "--threads", "08"], "--threads wants a positive number"),
-            ([script(""), "--threads", "100000"], "--threads 100000 is more than this machine has a use for"),  # YADE crashed
-            ([script(""), "--threads", "9" * 30], "give at most")):
+        ([], "SCRIPT [ARGS]"),
+        ([tmp_path / "missing.py"], "cannot be read"),
+        ([script("", "notes.txt")], "must be a Python file"),
+        ([script(""), "--threads", "none"], "--threads wants a positive number"),
+        ([script(""), "--threads", "08"], "--threads wants a positive number"),
+        (
+            [script(""), "--threads", "100000"],
+            "--threads 100000 is more than this machine has a use for",
+        ),  # YADE crashed
+        ([script(""), "--threads", "9" * 30], "give at most"),
+    ):
         result = run([LAUNCHER, *arguments])
         assert result.returncode == 2 and message in result.stderr
     result = run([LAUNCHER, script("")], NONSMOOTH_BUILD=str(tmp_path / "nowhere"))
@@ -196,7 +245,7 @@ def test_script_started_as_it_is_finds_the_launcher(tmp_path, script):
     with open(LAUNCHER) as source:
         lines = [line[4:] for line in source.read().splitlines() if line.startswith("#   ")]
     start = lines.index("#!/usr/bin/env python3")
-    prelude = lines[start:start + 5]
+    prelude = lines[start : start + 5]
     assert prelude[-1].lstrip().startswith("os.execv")
     os.symlink(LAUNCHER, tmp_path / "yade-nonsmooth")
     path = script("\n".join(prelude) + "\nprint('iteration', O.iter, sys.argv[1:])\n")
@@ -209,14 +258,17 @@ def test_script_started_as_it_is_finds_the_launcher(tmp_path, script):
 
 # ---- the set-up -----------------------------------------------------------------------------------
 
+
 def test_wrong_tarball_is_refused(tmp_path):
     wrong = tmp_path / "yade.tar.bz2"
     wrong.write_bytes(b"not YADE")
     steps = " ".join('. "$0/%s.sh";' % step for step in ("common", "packages", "yade"))
     for tarball, message in ((wrong, "SHA-256"), (tmp_path / "missing", "cannot be read")):
-        result = run(["bash", "-c", "set -euo pipefail; %s yade_sources" % steps,
-                      os.path.join(ROOT, "scripts", "setup")],
-                     YADE_TARBALL=str(tarball), XDG_CACHE_HOME=str(tmp_path / "cache"))
+        result = run(
+            ["bash", "-c", "set -euo pipefail; %s yade_sources" % steps, os.path.join(ROOT, "scripts", "setup")],
+            YADE_TARBALL=str(tarball),
+            XDG_CACHE_HOME=str(tmp_path / "cache"),
+        )
         assert result.returncode != 0
         assert message in result.stderr and str(tarball) in result.stderr
 
@@ -229,23 +281,28 @@ def test_headers_of_another_version_stop_the_configuration(tmp_path):
     real_prefix = os.path.dirname(os.path.dirname(os.path.realpath(os.path.join(yade.config.libDir, "libyade.so"))))
     while not os.path.exists(os.path.join(real_prefix, "bin", "yade")):
         real_prefix = os.path.dirname(real_prefix)
-    result = run(["cmake", "-S", ROOT, "-B", tmp_path / "build", "-DYADE_PREFIX=" + real_prefix,
-                  "-DYADE_HEADERS=%s" % headers], PATH="/usr/bin:/bin")
+    result = run(
+        ["cmake", "-S", ROOT, "-B", tmp_path / "build", "-DYADE_PREFIX=" + real_prefix, "-DYADE_HEADERS=%s" % headers],
+        PATH="/usr/bin:/bin",
+    )
     assert result.returncode != 0
     message = " ".join(result.stderr.split())
     assert "holds the headers of 1999.01" in message and yade.config.version in message
 
 
-@pytest.mark.parametrize("command, status, message", [
-    (["setup.sh", "--help"], 0, "YADE_TARBALL"),
-    (["demo.sh", "--help"], 0, "--full"),
-    (["test.sh", "--help"], 0, "every test"),
-    (["setup.sh", "now"], 1, "takes no arguments"),
-    (["demo.sh", "--disks"], 2, "--disks needs a value"),
-    (["demo.sh", "--disks", "many"], 2, "not 'many'"),
-    (["demo.sh", "--speed", "3"], 2, "unknown argument '--speed'"),
-    (["demo.sh", "--out", "/proc/results"], 2, "cannot be written"),
-])
+@pytest.mark.parametrize(
+    "command, status, message",
+    [
+        (["setup.sh", "--help"], 0, "YADE_TARBALL"),
+        (["demo.sh", "--help"], 0, "--full"),
+        (["test.sh", "--help"], 0, "every test"),
+        (["setup.sh", "now"], 1, "takes no arguments"),
+        (["demo.sh", "--disks"], 2, "--disks needs a value"),
+        (["demo.sh", "--disks", "many"], 2, "not 'many'"),
+        (["demo.sh", "--speed", "3"], 2, "unknown argument '--speed'"),
+        (["demo.sh", "--out", "/proc/results"], 2, "cannot be written"),
+    ],
+)
 def test_commands_answer_before_they_set_anything_up(command, status, message, tmp_path):
     result = run([os.path.join(ROOT, "scripts", command[0]), *command[1:]], XDG_CACHE_HOME=str(tmp_path))
     assert result.returncode == status
@@ -255,9 +312,21 @@ def test_commands_answer_before_they_set_anything_up(command, status, message, t
 
 def test_every_imported_module_comes_from_a_package_that_is_installed():
     """What a fresh machine lacks, this one may have by chance: every import must be listed in packages.sh."""
-    listed = run(["bash", "-c", '. "$0"; printf "%s\\n" "${PACKAGES_PROJECT[@]}"',
-                  os.path.join(ROOT, "scripts", "setup", "packages.sh")]).stdout.split()
-    imported, own = {}, {"yade", "nonsmooth", "_nonsmooth_contact", "__main__", "coverage"}  # tests/coverage/run.sh asks for coverage itself
+    listed = run(
+        [
+            "bash",
+            "-c",
+            '. "$0"; printf "%s\\n" "${PACKAGES_PROJECT[@]}"',
+            os.path.join(ROOT, "scripts", "setup", "packages.sh"),
+        ]
+    ).stdout.split()
+    imported, own = {}, {
+        "yade",
+        "nonsmooth",
+        "_nonsmooth_contact",
+        "__main__",
+        "coverage",
+    }  # tests/coverage/run.sh asks for coverage itself
     for folder in ("py", "scripts", "tests", "doc", "cmake"):
         for root, _, files in os.walk(os.path.join(ROOT, folder)):
             if "__init__.py" in files:

@@ -5,8 +5,21 @@ import pytest
 from yade import O
 from yade.nonsmooth import scene
 from yade.wrapper import (
-    BondEllipseEngine, Collider, ContactDynamicsEngine, ForceResetter, InsertionSortCollider, InteractionLoop, Ip2_NscdMat_NscdMat_NscdPhys, NewtonIntegrator,
-    NonsmoothTimeStepper, NscdInteractionLoop, NscdMat, PlanarNewtonIntegrator, PorePressureEngine, SlipWeakeningMat)
+    BondEllipseEngine,
+    Collider,
+    ContactDynamicsEngine,
+    ForceResetter,
+    InsertionSortCollider,
+    InteractionLoop,
+    Ip2_NscdMat_NscdMat_NscdPhys,
+    NewtonIntegrator,
+    NonsmoothTimeStepper,
+    NscdInteractionLoop,
+    NscdMat,
+    PlanarNewtonIntegrator,
+    PorePressureEngine,
+    SlipWeakeningMat,
+)
 
 from contact_scenes import G, begin, contacts, engine, free_disk, material, refused, run
 
@@ -27,17 +40,36 @@ def swapped(kind, other):
 
 
 def plain_loop(e, physics=None, laws=None):
-    return InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors if physics is None else physics, e.lawDispatcher.functors if laws is None else laws)
+    return InteractionLoop(
+        e.geomDispatcher.functors,
+        e.physDispatcher.functors if physics is None else physics,
+        e.lawDispatcher.functors if laws is None else laws,
+    )
 
 
 # ---- settings -------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("name, good, bad, words", [
-    ("tolerance", (1e-300, 10.0), (0.0, -1e-9, math.inf, math.nan), "positive and finite"),
-    ("maxIterations", (1,), (0, -1), "at least 1"), ("checkEvery", (1,), (0, -1), "at least 1"), ("correctionSweeps", (0, 1), (-1,), "0 or more"),
-    ("relaxationRate", (0.0, 1.0), (-1e-9, 1 + 1e-9, math.nan), "from 0 to 1"), ("correctionSpeed", (0.0, 1e9), (-1e-9, math.nan), "0 or more"),
-    ("correctionSlack", (0.0, 1 - 1e-9), (-1e-9, 1.0, math.nan), "from 0 to less than 1"), ("openGap", (0.0, 10.0), (-1e-9, math.nan), "0 or more"), ("method", ("accelerated", "gaussSeidel"), ("GaussSeidel", ""), "'accelerated' or 'gaussSeidel'"),
-    ("stoppingTest", ("naturalMap", "Quad", "Maxm", "QM/16"), ("", "quad"), "'naturalMap', 'Quad', 'Maxm' or 'QM/16'")])
+
+@pytest.mark.parametrize(
+    "name, good, bad, words",
+    [
+        ("tolerance", (1e-300, 10.0), (0.0, -1e-9, math.inf, math.nan), "positive and finite"),
+        ("maxIterations", (1,), (0, -1), "at least 1"),
+        ("checkEvery", (1,), (0, -1), "at least 1"),
+        ("correctionSweeps", (0, 1), (-1,), "0 or more"),
+        ("relaxationRate", (0.0, 1.0), (-1e-9, 1 + 1e-9, math.nan), "from 0 to 1"),
+        ("correctionSpeed", (0.0, 1e9), (-1e-9, math.nan), "0 or more"),
+        ("correctionSlack", (0.0, 1 - 1e-9), (-1e-9, 1.0, math.nan), "from 0 to less than 1"),
+        ("openGap", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
+        ("method", ("accelerated", "gaussSeidel"), ("GaussSeidel", ""), "'accelerated' or 'gaussSeidel'"),
+        (
+            "stoppingTest",
+            ("naturalMap", "Quad", "Maxm", "QM/16"),
+            ("", "quad"),
+            "'naturalMap', 'Quad', 'Maxm' or 'QM/16'",
+        ),
+    ],
+)
 def test_settings_of_the_solver(name, good, bad, words):
     rests(maxIterations=5)
     for value in good:
@@ -48,10 +80,16 @@ def test_settings_of_the_solver(name, good, bad, words):
         refused("ContactDynamicsEngine", name, "must be", words)
 
 
-@pytest.mark.parametrize("name, good, bad, words", [
-    ("smallest", (1e-9, 1e-2), (0.0, -1.0, math.nan, math.inf), "positive"), ("path", (1e-9, 1e9), (0.0, -1.0, math.nan, math.inf), "positive"),
-    ("bondPath", (1e-9, 1e9), (0.0, -1.0, math.nan, math.inf), "positive"), ("growth", (1.0, 1e9), (1 - 1e-9, math.nan), "at least 1"),
-    ("largest", (1e-4, 1.0), (1e-4 - 1e-9, math.nan, math.inf), "not be below smallest = 0.0001")])
+@pytest.mark.parametrize(
+    "name, good, bad, words",
+    [
+        ("smallest", (1e-9, 1e-2), (0.0, -1.0, math.nan, math.inf), "positive"),
+        ("path", (1e-9, 1e9), (0.0, -1.0, math.nan, math.inf), "positive"),
+        ("bondPath", (1e-9, 1e9), (0.0, -1.0, math.nan, math.inf), "positive"),
+        ("growth", (1.0, 1e9), (1 - 1e-9, math.nan), "at least 1"),
+        ("largest", (1e-4, 1.0), (1e-4 - 1e-9, math.nan, math.inf), "not be below smallest = 0.0001"),
+    ],
+)
 def test_settings_of_the_time_stepper(name, good, bad, words):
     rests()
     O.engines = [NonsmoothTimeStepper()] + O.engines
@@ -65,17 +103,31 @@ def test_settings_of_the_time_stepper(name, good, bad, words):
 
 BELOW = math.pi / 2 - 1e-9
 STRENGTHS = [
-    ("density", (1e-9, 1e9), (0.0, -1.0, math.nan), "positive"), ("tensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"),
-    ("residualTensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"), ("frictionAngle", (0.0, BELOW), (-1e-9, math.pi / 2, 30.0, math.nan), "below π/2"),
-    ("residualFrictionAngle", (-1.0, 0.0, BELOW), (math.pi / 2, math.nan), "below π/2"), ("rollingFriction", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
-    ("residualRollingFriction", (-1.0, 0.0, 10.0), (math.nan,), "negative for the peak"), ("bondEllipseNormal", (1e-9, 10.0), (0.0, -1.0, math.nan), "positive"),
-    ("bondEllipseTangential", (1e-9, 10.0), (0.0, -1.0, math.nan), "positive"), ("bondCreationDistance", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
-    ("restitution", (0.0, 1.0), (-1e-9, 1 + 1e-9, math.nan), "from 0 to 1")]
-WEAK = [("weakenedFrictionAngle", (0.0, BELOW), (-1e-9, math.pi / 2, math.nan), "below π/2"), ("weakenedTensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"),
-        ("criticalSlip", (1e-9, 1e9, math.inf), (0.0, -1.0, math.nan), "positive"), ("weakening", ("step", "linear", "exponential"), ("Step", ""), "'step', 'linear' or 'exponential'")]
+    ("density", (1e-9, 1e9), (0.0, -1.0, math.nan), "positive"),
+    ("tensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"),
+    ("residualTensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"),
+    ("frictionAngle", (0.0, BELOW), (-1e-9, math.pi / 2, 30.0, math.nan), "below π/2"),
+    ("residualFrictionAngle", (-1.0, 0.0, BELOW), (math.pi / 2, math.nan), "below π/2"),
+    ("rollingFriction", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
+    ("residualRollingFriction", (-1.0, 0.0, 10.0), (math.nan,), "negative for the peak"),
+    ("bondEllipseNormal", (1e-9, 10.0), (0.0, -1.0, math.nan), "positive"),
+    ("bondEllipseTangential", (1e-9, 10.0), (0.0, -1.0, math.nan), "positive"),
+    ("bondCreationDistance", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
+    ("restitution", (0.0, 1.0), (-1e-9, 1 + 1e-9, math.nan), "from 0 to 1"),
+]
+WEAK = [
+    ("weakenedFrictionAngle", (0.0, BELOW), (-1e-9, math.pi / 2, math.nan), "below π/2"),
+    ("weakenedTensileStrength", (0.0, 1e12), (-1e-9, math.nan), "0 or more"),
+    ("criticalSlip", (1e-9, 1e9, math.inf), (0.0, -1.0, math.nan), "positive"),
+    ("weakening", ("step", "linear", "exponential"), ("Step", ""), "'step', 'linear' or 'exponential'"),
+]
 
 
-@pytest.mark.parametrize("kind, name, good, bad, words", [(NscdMat, *row) for row in STRENGTHS] + [(SlipWeakeningMat, *row) for row in STRENGTHS[:1] + STRENGTHS[-1:] + WEAK])
+@pytest.mark.parametrize(
+    "kind, name, good, bad, words",
+    [(NscdMat, *row) for row in STRENGTHS]
+    + [(SlipWeakeningMat, *row) for row in STRENGTHS[:1] + STRENGTHS[-1:] + WEAK],
+)
 def test_strengths_of_a_material_that_no_contact_has(kind, name, good, bad, words):
     rests()
     other = material(0.2, kind=kind, label="other")
@@ -92,7 +144,15 @@ def test_strengths_of_a_material_that_no_contact_has(kind, name, good, bad, word
 
 
 @pytest.mark.parametrize("loop", [None, plain_loop])
-@pytest.mark.parametrize("name, value", [("weakening", "Step"), ("criticalSlip", 0.0), ("residualTensileStrength", -1.0), ("bondCreationDistance", math.nan)])
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("weakening", "Step"),
+        ("criticalSlip", 0.0),
+        ("residualTensileStrength", -1.0),
+        ("bondCreationDistance", math.nan),
+    ],
+)
 def test_a_wall_without_sense_that_is_met(name, value, loop):
     rests()
     O.bodies[0].material = SlipWeakeningMat(density=2500.0, **{name: value})
@@ -102,6 +162,7 @@ def test_a_wall_without_sense_that_is_met(name, value, loop):
 
 
 # ---- scenes ---------------------------------------------------------------------------------------
+
 
 def test_a_step_of_no_length():
     rests()
@@ -142,10 +203,14 @@ def test_forces_that_are_no_numbers():
     refused(f"body #{disk}", "force that is not finite", "engines that add forces")
 
 
-@pytest.mark.parametrize("name, value", [("pos", (math.inf, 0, 0)), ("vel", (0, math.nan, 0)), ("angVel", (0, 0, math.inf))])
+@pytest.mark.parametrize(
+    "name, value", [("pos", (math.inf, 0, 0)), ("vel", (0, math.nan, 0)), ("angVel", (0, 0, math.inf))]
+)
 def test_states_that_are_no_numbers(name, value):
     disk = rests()
-    swapped(Collider, lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=0.1) if name == "pos" else e)
+    swapped(
+        Collider, lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=0.1) if name == "pos" else e
+    )
     setattr(O.bodies[disk].state, name, value)
     refused(f"body #{disk}", "position or velocity that is not finite")
 
@@ -161,19 +226,32 @@ def test_bodies_that_may_leave_the_plane(blocked):
 
 # ---- lists of engines and functors ----------------------------------------------------------------
 
+
 def test_a_collider_behind_the_solver():
     rests()
-    collider, = (e for e in O.engines if isinstance(e, Collider))
+    (collider,) = (e for e in O.engines if isinstance(e, Collider))
     rest = [e for e in O.engines if e is not collider and not isinstance(e, Collider)]
-    O.engines = [e for engine_ in rest for e in ([engine_, collider] if isinstance(engine_, ContactDynamicsEngine) else [engine_])]
+    O.engines = [
+        e
+        for engine_ in rest
+        for e in ([engine_, collider] if isinstance(engine_, ContactDynamicsEngine) else [engine_])
+    ]
     refused("PlanarGridCollider stands after it", "before")
 
 
-@pytest.mark.parametrize("without, words", [("physics", ("functor Ip2", "NscdMat")), ("laws", ("functor Law2", "SegmentGeom", "NscdPhys"))])
+@pytest.mark.parametrize(
+    "without, words", [("physics", ("functor Ip2", "NscdMat")), ("laws", ("functor Law2", "SegmentGeom", "NscdPhys"))]
+)
 def test_a_loop_without_a_functor(without, words):
     rests()
-    swapped(InteractionLoop, lambda e: NscdInteractionLoop(
-        e.geomDispatcher.functors, [] if without == "physics" else [Ip2_NscdMat_NscdMat_NscdPhys()], [] if without == "laws" else e.lawDispatcher.functors))
+    swapped(
+        InteractionLoop,
+        lambda e: NscdInteractionLoop(
+            e.geomDispatcher.functors,
+            [] if without == "physics" else [Ip2_NscdMat_NscdMat_NscdPhys()],
+            [] if without == "laws" else e.lawDispatcher.functors,
+        ),
+    )
     refused("NscdInteractionLoop", "#0", "#1", "add one to the list", *words)
 
 
@@ -201,6 +279,7 @@ def test_bonds_that_a_bond_ellipse_engine_cannot_follow():
 
 # ---- the Python side of a scene -------------------------------------------------------------------
 
+
 def test_walls_without_length_and_scenes_without_a_solver():
     stuff = material(0.3)
     with pytest.raises(ValueError, match="two vertices or more, not 1"):
@@ -217,6 +296,7 @@ def test_walls_without_length_and_scenes_without_a_solver():
 
 
 # ---- what is told, not refused --------------------------------------------------------------------
+
 
 def test_forces_that_nobody_resets_are_told_of_by_the_integrator(capfd):
     free_disk()

@@ -17,7 +17,14 @@ def cells(path):
 
 def said(path):
     """What each cell of code has printed or returned, without pictures; and how many pictures each has."""
-    texts = [["".join(out.get("text") or out["data"].get("text/plain", "")) for out in cell["outputs"] if "image/png" not in out.get("data", {})] for cell in cells(path)]
+    texts = [
+        [
+            "".join(out.get("text") or out["data"].get("text/plain", ""))
+            for out in cell["outputs"]
+            if "image/png" not in out.get("data", {})
+        ]
+        for cell in cells(path)
+    ]
     return texts, [sum("image/png" in out.get("data", {}) for out in cell["outputs"]) for cell in cells(path)]
 
 
@@ -30,11 +37,25 @@ def test_a_notebook_says_what_stands_in_the_documentation(tmp_path, name, pictur
         if cell["cell_type"] == "code":
             cell["outputs"] = []
     (tmp_path / f"{name}.ipynb").write_text(json.dumps(content))
-    done = shell.run(PYTHON, "-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", mine, cwd=tmp_path, PYTHONPATH=str(ROOT / "py"))
+    done = shell.run(
+        PYTHON,
+        "-m",
+        "nbconvert",
+        "--to",
+        "notebook",
+        "--execute",
+        "--inplace",
+        mine,
+        cwd=tmp_path,
+        PYTHONPATH=str(ROOT / "py"),
+    )
     assert done.returncode == 0, done.stderr[-3000:]
     before, now = said(NOTEBOOKS / f"{name}.ipynb"), said(tmp_path / f"{name}.ipynb")
     assert now == before and sum(now[1]) == pictures
-    assert not any(cell["outputs"] and any(out.get("name") == "stderr" for out in cell["outputs"]) for cell in cells(tmp_path / f"{name}.ipynb"))
+    assert not any(
+        cell["outputs"] and any(out.get("name") == "stderr" for out in cell["outputs"])
+        for cell in cells(tmp_path / f"{name}.ipynb")
+    )
 
 
 def test_the_documentation_has_all_of_them():

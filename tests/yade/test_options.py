@@ -54,20 +54,48 @@ def files(tmp_path_factory):
     (home / "small.yaml").write_text(SMALL.read_text())
     made = packing.cached_pack(section.load(str(SMALL)), 5)
     packing.write_text(made, home / "slope.txt")
-    packing.write_text(packing.Packing([3, 4, 5, 3, 4, 5], [7.5, 7.5, 7.5, 8.5, 8.5, 8.5], [0.5] * 6, [0] * 6), home / "heap.txt")
+    packing.write_text(
+        packing.Packing([3, 4, 5, 3, 4, 5], [7.5, 7.5, 7.5, 8.5, 8.5, 8.5], [0.5] * 6, [0] * 6), home / "heap.txt"
+    )
     return home
 
 
-FIRST = {"slope.py": ("--section", "jiufengershan"), "wall_shear.py": ("--material", "ss"), "calibrate.py": ("--cohesion", 60, "--friction", 35), "column.py": ("--aspect", "1"), "sweep.py": ("--section", "jiufengershan", "--over", "seed=1,2"), "soak.py": ("--steps", 500)}
+FIRST = {
+    "slope.py": ("--section", "jiufengershan"),
+    "wall_shear.py": ("--material", "ss"),
+    "calibrate.py": ("--cohesion", 60, "--friction", 35),
+    "column.py": ("--aspect", "1"),
+    "sweep.py": ("--section", "jiufengershan", "--over", "seed=1,2"),
+    "soak.py": ("--steps", 500),
+}
 SOFT = ("--world", "soft", "--stiffness", "1e9")
 HOLDER = {  # what a command asks: a module or class, and its function
-    "jiufengershan.py": (slope, "build"), "slope.py": (slope, "build"), "biaxial.py": (campaign, "run"), "wall_shear.py": (wall_shear, "run"), "biaxial_effects.py": (effects, "run"),
-    "calibrate.py": (calibration, "Calibration"), "column.py": (study, "run"), "compare_hard_soft.py": (course, "compare"), "benchmark.py": (suite, "run"),
-    "soak.py": (soak, "run"), "sweep.py": (campaigns, "sweep"), "table1.py": (table1, "run"), "verify.py": (runner, "run_checks"), "wedge.py": (subprocess, "run")}
-OTHERS = {("compare_hard_soft.py", "--cost"): (cost, "run"), ("benchmark.py", "--scale"): (scale, "run"), ("jiufengershan.py", "--resume"): (experiment, "resume"),
-          ("slope.py", "--resume"): (experiment, "resume"), **{("sweep.py", word): (campaigns.Plan, "run") for word in ("--resume", "--threads")},
-          ("sweep.py", "--plan"): (campaigns.Plan, "write"), ("sweep.py", "--run"): (campaigns, "run_one"), ("sweep.py", "--number"): (campaigns, "run_one"),
-          ("sweep.py", "--collect"): (campaigns, "collect")}
+    "jiufengershan.py": (slope, "build"),
+    "slope.py": (slope, "build"),
+    "biaxial.py": (campaign, "run"),
+    "wall_shear.py": (wall_shear, "run"),
+    "biaxial_effects.py": (effects, "run"),
+    "calibrate.py": (calibration, "Calibration"),
+    "column.py": (study, "run"),
+    "compare_hard_soft.py": (course, "compare"),
+    "benchmark.py": (suite, "run"),
+    "soak.py": (soak, "run"),
+    "sweep.py": (campaigns, "sweep"),
+    "table1.py": (table1, "run"),
+    "verify.py": (runner, "run_checks"),
+    "wedge.py": (subprocess, "run"),
+}
+OTHERS = {
+    ("compare_hard_soft.py", "--cost"): (cost, "run"),
+    ("benchmark.py", "--scale"): (scale, "run"),
+    ("jiufengershan.py", "--resume"): (experiment, "resume"),
+    ("slope.py", "--resume"): (experiment, "resume"),
+    **{("sweep.py", word): (campaigns.Plan, "run") for word in ("--resume", "--threads")},
+    ("sweep.py", "--plan"): (campaigns.Plan, "write"),
+    ("sweep.py", "--run"): (campaigns, "run_one"),
+    ("sweep.py", "--number"): (campaigns, "run_one"),
+    ("sweep.py", "--collect"): (campaigns, "collect"),
+}
 
 
 def ran_by(a):
@@ -101,17 +129,45 @@ def effect(a):
 # of the two commands that run a slope
 SLOPE = {
     "--section": (("--section", "{files}/small.yaml"), lambda a: a.words[0].name, "small slope"),
-    "--packing": (("--section", "{files}/small.yaml", "--packing", "{files}/slope.txt"), lambda a: (len(a.words[1]), float(a.words[1].x[7])), lambda files: (
-        315, float(packing.read_text(files / "slope.txt").x[7]))),
+    "--packing": (
+        ("--section", "{files}/small.yaml", "--packing", "{files}/slope.txt"),
+        lambda a: (len(a.words[1]), float(a.words[1].x[7])),
+        lambda files: (315, float(packing.read_text(files / "slope.txt").x[7])),
+    ),
     "--rock": (("--section", "{files}/small.yaml", "--rock", "{files}/stone.yaml"), made_of, {0.35}),
-    "--disks": (("--section", "{files}/small.yaml", "--disks", 150), lambda a: len(a.words[1]), pytest.approx(150, abs=2)),
-    "--seed": (("--section", "{files}/small.yaml", "--seed", 5), lambda a: (a.words[0].seed, float(a.words[1].x[7])), lambda files: (
-        5, float(packing.read_text(files / "slope.txt").x[7]))),
-    "--water": (("--section", "{files}/small.yaml", "--water", 0.25), lambda a: (a.words[0].water.rate, a.words[0].water.table), (0.25, ((0.0, 0.0),))),
-    "--resume": (("--section", "{files}/small.yaml", "--resume"), lambda a: (a.words[0].name, a.words[1].name), ("small slope", "out")),
-    "--mirror": (("--section", "{files}/small.yaml", "--mirror"), lambda a: (a.words[0].side, a.words[1].x.mean() > 0), (-1.0, True)),
-    "--size": (("--section", "{files}/small.yaml", "--size", 0.01), lambda a: (a.words[0].area, a.words[1].x.mean()), lambda files: (
-        pytest.approx(1e-4 * section.load(str(SMALL)).area), pytest.approx(0.01 * packing.cached_pack(section.load(str(SMALL))).x.mean()))),
+    "--disks": (
+        ("--section", "{files}/small.yaml", "--disks", 150),
+        lambda a: len(a.words[1]),
+        pytest.approx(150, abs=2),
+    ),
+    "--seed": (
+        ("--section", "{files}/small.yaml", "--seed", 5),
+        lambda a: (a.words[0].seed, float(a.words[1].x[7])),
+        lambda files: (5, float(packing.read_text(files / "slope.txt").x[7])),
+    ),
+    "--water": (
+        ("--section", "{files}/small.yaml", "--water", 0.25),
+        lambda a: (a.words[0].water.rate, a.words[0].water.table),
+        (0.25, ((0.0, 0.0),)),
+    ),
+    "--resume": (
+        ("--section", "{files}/small.yaml", "--resume"),
+        lambda a: (a.words[0].name, a.words[1].name),
+        ("small slope", "out"),
+    ),
+    "--mirror": (
+        ("--section", "{files}/small.yaml", "--mirror"),
+        lambda a: (a.words[0].side, a.words[1].x.mean() > 0),
+        (-1.0, True),
+    ),
+    "--size": (
+        ("--section", "{files}/small.yaml", "--size", 0.01),
+        lambda a: (a.words[0].area, a.words[1].x.mean()),
+        lambda files: (
+            pytest.approx(1e-4 * section.load(str(SMALL)).area),
+            pytest.approx(0.01 * packing.cached_pack(section.load(str(SMALL))).x.mean()),
+        ),
+    ),
     "--out": (("--section", "{files}/small.yaml", "--resume"), lambda a: str(a.words[1]), "{out}"),
 }
 #: command: option: its words, where its value is found, and the value.
@@ -119,7 +175,11 @@ WHERE = {
     "jiufengershan.py": SLOPE,
     "slope.py": SLOPE,
     "biaxial.py": {
-        "--material": (("--material", "{files}/stone.yaml"), lambda a: (first(a).material.friction, first(a).material.name), (0.35, "stone")),
+        "--material": (
+            ("--material", "{files}/stone.yaml"),
+            lambda a: (first(a).material.friction, first(a).material.name),
+            (0.35, "stone"),
+        ),
         "--confining": (("--confining", "0.5,4"), lambda a: [t.confining for t in ran_by(a)], [0.5e6, 4e6]),
         "--disks": (("--disks", 77), lambda a: first(a).shape.count, 77),
         "--diameter": (("--diameter", 1.5, 2.5), lambda a: (first(a).shape.d_min, first(a).shape.d_max), (1.5, 2.5)),
@@ -133,17 +193,29 @@ WHERE = {
         "--step": (("--step", 0.2), lambda a: first(a).step, 0.2),
         "--tolerance": (("--tolerance", 1e-3), lambda a: first(a).tolerance, 1e-3),
         "--sample": (("--sample", "pressed"), lambda a: first(a).shape.friction, 0.0),
-        "--pressing-friction": (("--sample", "pressed", "--pressing-friction", 0.4), lambda a: first(a).shape.friction, 0.4),
+        "--pressing-friction": (
+            ("--sample", "pressed", "--pressing-friction", 0.4),
+            lambda a: first(a).shape.friction,
+            0.4,
+        ),
         "--bond-distance": (("--bond-distance", 0.013), lambda a: first(a).material.bond_creation_distance, 0.013),
-        "--out": ((), lambda a: str(a.words[1]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[2], 7), "--resume": (("--resume",), lambda a: a.words[3], True),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[2], 7),
+        "--resume": (("--resume",), lambda a: a.words[3], True),
     },
     "wall_shear.py": {
-        "--material": (("--material", "ss", "{files}/stone.yaml"), lambda a: sorted({t.material.friction for t in ran_by(a)}), [0.2, 0.35]),
+        "--material": (
+            ("--material", "ss", "{files}/stone.yaml"),
+            lambda a: sorted({t.material.friction for t in ran_by(a)}),
+            [0.2, 0.35],
+        ),
         "--bonded": (("--bonded", "--tensile-strength", 5), lambda a: first(a).material.bonded, True),
         "--tensile-strength": (("--tensile-strength", 5), lambda a: first(a).material.tensile_strength, 5e3),
         "--pressures": (("--pressures", "0.5,3"), lambda a: sorted({t.pressure for t in ran_by(a)}), [0.5e6, 3e6]),
         "--seeds": (("--seeds", 8, 9), lambda a: sorted({t.seed for t in ran_by(a)}), [8, 9]),
-        "--out": ((), lambda a: str(a.words[1]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[2], 7), "--resume": (("--resume",), lambda a: a.words[3], True),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[2], 7),
+        "--resume": (("--resume",), lambda a: a.words[3], True),
     },
     "biaxial_effects.py": {
         "--material": (("--material", "{files}/stone.yaml"), lambda a: effect(a).material.friction, 0.35),
@@ -151,18 +223,29 @@ WHERE = {
         "--confining": (("--confining", 2), lambda a: effect(a).confining, 2e6),
         "--seeds": (("--seeds", 6, 7), lambda a: [t.shape.seed for t in a.words[0][0].tests[2000]], [6, 7]),
         "--only": (("--only", "step", "inertia"), lambda a: [e.name for e in a.words[0]], ["inertia", "step"]),
-        "--out": ((), lambda a: str(a.words[1]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[2], 7), "--resume": (("--resume",), lambda a: a.words[3], True),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[2], 7),
+        "--resume": (("--resume",), lambda a: a.words[3], True),
     },
     "calibrate.py": {
         "--cohesion": (("--cohesion", 80), lambda a: a.words[0].cohesion, 80e3),
         "--friction": (("--friction", 31), lambda a: a.words[0].friction_deg, 31.0),
-        "--residual-cohesion": (("--residual-cohesion", 9, "--residual-friction", 25), lambda a: a.words[0].residual_cohesion, 9e3),
-        "--residual-friction": (("--residual-cohesion", 9, "--residual-friction", 25), lambda a: a.words[0].residual_friction_deg, 25.0),
+        "--residual-cohesion": (
+            ("--residual-cohesion", 9, "--residual-friction", 25),
+            lambda a: a.words[0].residual_cohesion,
+            9e3,
+        ),
+        "--residual-friction": (
+            ("--residual-cohesion", 9, "--residual-friction", 25),
+            lambda a: a.words[0].residual_friction_deg,
+            25.0,
+        ),
         "--start": (("--start", "{files}/stone.yaml"), lambda a: a.words[1].rolling_friction, 0.11),
         "--coarse": (("--coarse", 301), lambda a: a.run.words[0][0], 301),
         "--fine": (("--fine", 302), lambda a: a.run.words[1][0], 302),
         "--seeds": (("--seeds", 4, 5, 6), lambda a: [kind[1] for kind in a.run.words], [[4, 5, 6]] * 2),
-        "--out": ((), lambda a: str(a.words[2]), "{out}-calibration"), "--threads": (("--threads", 7), lambda a: a.words[3], 7),
+        "--out": ((), lambda a: str(a.words[2]), "{out}-calibration"),
+        "--threads": (("--threads", 7), lambda a: a.words[3], 7),
         "--resume": (("--resume",), lambda a: a.words[5], True),
     },
     "column.py": {
@@ -178,7 +261,11 @@ WHERE = {
         "--base": (("--base", "smooth"), lambda a: heap(a).base, "smooth"),
         "--base-friction": (("--base-friction", 0.25), lambda a: heap(a).base_friction, 0.25),
         "--wall-friction": (("--wall-friction", 0.15), lambda a: heap(a).wall_friction, 0.15),
-        "--packing": (("--packing", "{files}/heap.txt"), lambda a: (heap(a).box(), list(a.words[0])), ((3.0, 2.0), ["heap"])),
+        "--packing": (
+            ("--packing", "{files}/heap.txt"),
+            lambda a: (heap(a).box(), list(a.words[0])),
+            ((3.0, 2.0), ["heap"]),
+        ),
         "--world": (SOFT, lambda a: world(a)["name"], "soft"),
         "--path": (("--path", 0.3), lambda a: world(a)["path"], 0.3),
         "--tolerance": (("--tolerance", 1e-3), lambda a: world(a)["tolerance"], 1e-3),
@@ -188,7 +275,9 @@ WHERE = {
         "--step-share": ((*SOFT, "--step-share", 0.4), lambda a: world(a)["step_share"], 0.4),
         "--model": ((*SOFT, "--model", "friction"), lambda a: world(a)["model"], "friction"),
         "--duration": (("--duration", 3), lambda a: a.words[4], 3.0),
-        "--out": ((), lambda a: str(a.words[1]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[2], 7), "--resume": (("--resume",), lambda a: a.words[3], True),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[2], 7),
+        "--resume": (("--resume",), lambda a: a.words[3], True),
     },
     "compare_hard_soft.py": {
         "--scenario": (("--scenario", "pile"), lambda a: a.words[0], "pile"),
@@ -209,57 +298,101 @@ WHERE = {
         "--confining": (("--scenario", "biaxial", "--confining", 2), lambda a: a.named["options"]["confining"], 2e6),
         "--strain": (("--scenario", "biaxial", "--strain", 0.05), lambda a: a.named["options"]["strain"], 0.05),
         "--sides": (("--scenario", "biaxial", "--sides", "rigid"), lambda a: a.named["options"]["sides"], "rigid"),
-        "--platens": (("--scenario", "biaxial", "--platens", "smooth"), lambda a: a.named["options"]["platens"], "smooth"),
+        "--platens": (
+            ("--scenario", "biaxial", "--platens", "smooth"),
+            lambda a: a.named["options"]["platens"],
+            "smooth",
+        ),
         "--aspect": (("--scenario", "column", "--aspect", 1.3), lambda a: a.named["options"]["aspect"], 1.3),
         "--friction": (("--scenario", "column", "--friction", 0.6), lambda a: a.named["options"]["friction"], 0.6),
         "--base": (("--scenario", "column", "--base", "smooth"), lambda a: a.named["options"]["base"], "smooth"),
-        "--out": ((), lambda a: str(a.words[1]), "{out}"), "--threads": (("--threads", 7), lambda a: a.named["threads"], 7), "--resume": (("--resume",), lambda a: a.named["resume"], True),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.named["threads"], 7),
+        "--resume": (("--resume",), lambda a: a.named["resume"], True),
     },
     "benchmark.py": {
-        "--out": ((), lambda a: str(a.words[0]), "{out}"), "--section": (("--section", "{files}/small.yaml"), lambda a: Path(a.words[1]).name, "small.yaml"),
-        "--disks": (("--disks", 2222), lambda a: a.words[2], 2222), "--threads": (("--threads", 7), lambda a: a.words[3], 7),
-        "--quick": (("--quick",), lambda a: a.words[4], suite.QUICK), "--scale": (("--scale", "2000,3000"), lambda a: a.words[2], [2000, 3000]),
+        "--out": ((), lambda a: str(a.words[0]), "{out}"),
+        "--section": (("--section", "{files}/small.yaml"), lambda a: Path(a.words[1]).name, "small.yaml"),
+        "--disks": (("--disks", 2222), lambda a: a.words[2], 2222),
+        "--threads": (("--threads", 7), lambda a: a.words[3], 7),
+        "--quick": (("--quick",), lambda a: a.words[4], suite.QUICK),
+        "--scale": (("--scale", "2000,3000"), lambda a: a.words[2], [2000, 3000]),
     },
     "soak.py": {
-        "--disks": (("--disks", 61), lambda a: a.words[0], 61), "--steps": (("--steps", 1234), lambda a: a.words[1], 1234), "--seed": (("--seed", 9), lambda a: a.words[2], 9),
+        "--disks": (("--disks", 61), lambda a: a.words[0], 61),
+        "--steps": (("--steps", 1234), lambda a: a.words[1], 1234),
+        "--seed": (("--seed", 9), lambda a: a.words[2], 9),
         "--way": (("--way", "step"), lambda a: a.words[4], "step"),
     },
     "sweep.py": {
         "--section": (("--section", "{files}/small.yaml"), lambda a: a.words[0].name, "small slope"),
-        "--over": (("--over", "materials.rock.friction=0.3,1e-1", "--over", "walls.DP.material=dp,ss"), lambda a: a.words[1],
-                   {"seed": [1, 2], "materials.rock.friction": [0.3, 0.1], "walls.DP.material": ["dp", "ss"]}),
-        "--rock": (("--rock", "{files}/stone.yaml"), made_of, {0.35}), "--disks": (("--disks", 150), lambda a: sum(a.words[0].disk_counts()), pytest.approx(150, abs=2)),
-        "--seed": (("--seed", 5), lambda a: a.words[0].seed, 5), "--water": (("--water", 0.25), lambda a: a.words[0].water.rate, 0.25),
-        "--mirror": (("--mirror",), lambda a: a.words[0].side, -1.0), "--size": (("--size", 0.01), lambda a: a.words[0].disks.d_max, pytest.approx(0.04)),
-        "--end": (("--end", 3), lambda a: a.named["end"], 3.0), "--figures": (("--figures",), lambda a: a.named["figures"], True),
-        "--out": (("--plan",), lambda a: str(a.words[0]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[1], 7), "--resume": (("--threads", 7, "--resume"), lambda a: a.words[2], True),
-        "--plan": (("--plan",), lambda a: len(a.words), 1), "--run": (("--run", "seed=2"), lambda a: a.words[1], "seed=2"),
-        "--number": (("--number", 1), lambda a: a.words[1], 1), "--collect": (("--collect",), lambda a: str(a.words[0]), "{out}"),
+        "--over": (
+            ("--over", "materials.rock.friction=0.3,1e-1", "--over", "walls.DP.material=dp,ss"),
+            lambda a: a.words[1],
+            {"seed": [1, 2], "materials.rock.friction": [0.3, 0.1], "walls.DP.material": ["dp", "ss"]},
+        ),
+        "--rock": (("--rock", "{files}/stone.yaml"), made_of, {0.35}),
+        "--disks": (("--disks", 150), lambda a: sum(a.words[0].disk_counts()), pytest.approx(150, abs=2)),
+        "--seed": (("--seed", 5), lambda a: a.words[0].seed, 5),
+        "--water": (("--water", 0.25), lambda a: a.words[0].water.rate, 0.25),
+        "--mirror": (("--mirror",), lambda a: a.words[0].side, -1.0),
+        "--size": (("--size", 0.01), lambda a: a.words[0].disks.d_max, pytest.approx(0.04)),
+        "--end": (("--end", 3), lambda a: a.named["end"], 3.0),
+        "--figures": (("--figures",), lambda a: a.named["figures"], True),
+        "--out": (("--plan",), lambda a: str(a.words[0]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[1], 7),
+        "--resume": (("--threads", 7, "--resume"), lambda a: a.words[2], True),
+        "--plan": (("--plan",), lambda a: len(a.words), 1),
+        "--run": (("--run", "seed=2"), lambda a: a.words[1], "seed=2"),
+        "--number": (("--number", 1), lambda a: a.words[1], 1),
+        "--collect": (("--collect",), lambda a: str(a.words[0]), "{out}"),
     },
     "table1.py": {
-        "--material": (("--material", "{files}/stone.yaml"), lambda a: Path(a.words[7]).name, "stone.yaml"), "--disks": (("--disks", 88), lambda a: a.words[1], 88),
-        "--seeds": (("--seeds", 7, 8), lambda a: a.words[2], [7, 8]), "--confining": (("--confining", "0.5,4"), lambda a: a.words[3], [0.5e6, 4e6]),
-        "--slide-seeds": (("--slide-seeds", 9), lambda a: a.words[4], [9]), "--slide-pressures": (("--slide-pressures", "0.25,3"), lambda a: a.words[5], [0.25e6, 3e6]),
-        "--strain": (("--strain", 0.03), lambda a: a.words[6], 0.03), "--out": ((), lambda a: str(a.words[0]), "{out}"), "--threads": (("--threads", 7), lambda a: a.words[8], 7),
+        "--material": (("--material", "{files}/stone.yaml"), lambda a: Path(a.words[7]).name, "stone.yaml"),
+        "--disks": (("--disks", 88), lambda a: a.words[1], 88),
+        "--seeds": (("--seeds", 7, 8), lambda a: a.words[2], [7, 8]),
+        "--confining": (("--confining", "0.5,4"), lambda a: a.words[3], [0.5e6, 4e6]),
+        "--slide-seeds": (("--slide-seeds", 9), lambda a: a.words[4], [9]),
+        "--slide-pressures": (("--slide-pressures", "0.25,3"), lambda a: a.words[5], [0.25e6, 3e6]),
+        "--strain": (("--strain", 0.03), lambda a: a.words[6], 0.03),
+        "--out": ((), lambda a: str(a.words[0]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[8], 7),
         "--resume": (("--resume",), lambda a: a.words[9], True),
     },
     "verify.py": {
-        "--only": (("--only", "bonds", "cradle"), lambda a: sorted({c.run.__module__.split(".")[-1] for c in a.words[0]}), ["bonds", "impacts"]),
-        "--quick": (("--quick",), lambda a: a.named["quick"], True), "--threads": (("--threads", 7), lambda a: a.named["threads"], 7),
-        "--resume": (("--resume",), lambda a: a.named["resume"], True), "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--only": (
+            ("--only", "bonds", "cradle"),
+            lambda a: sorted({c.run.__module__.split(".")[-1] for c in a.words[0]}),
+            ["bonds", "impacts"],
+        ),
+        "--quick": (("--quick",), lambda a: a.named["quick"], True),
+        "--threads": (("--threads", 7), lambda a: a.named["threads"], 7),
+        "--resume": (("--resume",), lambda a: a.named["resume"], True),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
     },
     "wedge.py": {
-        "--seconds": (("--seconds", 3), lambda a: (Path(a.named["cwd"]) / "dry_hard.table").read_text().splitlines()[1].split()[0], "3.0"),
+        "--seconds": (
+            ("--seconds", 3),
+            lambda a: (Path(a.named["cwd"]) / "dry_hard.table").read_text().splitlines()[1].split()[0],
+            "3.0",
+        ),
         "--out": ((), lambda a: str(a.named["cwd"]), "{out}"),
     },
 }
 
 #: command: option: the file and the test that run it to its end.
 RUN = {
-    "jiufengershan.py": {"--threads": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits", "--end": "test_experiment.py::test_an_early_end_and_a_resume_give_the_same_bits",
-                         "--no-figures": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits"},
-    "slope.py": {"--threads": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits", "--end": "test_any_slope.py::test_every_shipped_section_begins",
-                 "--no-figures": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits", "--list": "test_any_slope.py::test_shipped_sections_are_listed"},
+    "jiufengershan.py": {
+        "--threads": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits",
+        "--end": "test_experiment.py::test_an_early_end_and_a_resume_give_the_same_bits",
+        "--no-figures": "test_experiment.py::test_another_number_of_threads_gives_the_same_bits",
+    },
+    "slope.py": {
+        "--threads": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits",
+        "--end": "test_any_slope.py::test_every_shipped_section_begins",
+        "--no-figures": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits",
+        "--list": "test_any_slope.py::test_shipped_sections_are_listed",
+    },
     "soak.py": {"--out": "test_soak.py::test_a_short_soak", "--threads": "test_soak.py::test_a_short_soak"},
     "verify.py": {"--list": "test_options.py::test_checks_are_listed"},
     "wedge.py": {"--resume": "test_examples.py::test_the_wedge_runs_what_is_not_there_and_draws_all"},
@@ -284,7 +417,10 @@ def parser_of(name, monkeypatch):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_option_of_a_command_has_its_place(name, monkeypatch):
-    options = {word for action in parser_of(name, monkeypatch)._actions for word in action.option_strings} - {"-h", "--help"}
+    options = {word for action in parser_of(name, monkeypatch)._actions for word in action.option_strings} - {
+        "-h",
+        "--help",
+    }
     assert options == set(WHERE.get(name, ())) | set(RUN.get(name, ())), name
     assert not set(WHERE.get(name, ())) & set(RUN.get(name, ()))
 
@@ -320,7 +456,9 @@ def test_an_option_acts(asked, name, option, files, tmp_path):
     if isinstance(expected, str):
         expected = expected.format(out=tmp_path / "out")
     assert found(asked(name, words)) == expected
-    if option in words:  # without it something else is asked, or nothing: no option passes because its value is the default
+    if (
+        option in words
+    ):  # without it something else is asked, or nothing: no option passes because its value is the default
         with contextlib.suppress(AttributeError, KeyError, TypeError):
             assert found(asked(name, without(words, option))) != expected
 
@@ -329,7 +467,7 @@ def without(words, option):
     """The words without an option and its values."""
     at = words.index(option)
     following = [k for k in range(at + 1, len(words)) if str(words[k]).startswith("--")]
-    return (*words[:at], *words[(following or [len(words)])[0]:])
+    return (*words[:at], *words[(following or [len(words)])[0] :])
 
 
 def test_checks_are_listed(in_process):
@@ -339,25 +477,41 @@ def test_checks_are_listed(in_process):
 
 # ---- what is refused ------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("name, words, said", [
-    ("calibrate.py", ("--cohesion", 0, "--friction", 30), "--cohesion 0: it must be positive"),
-    ("calibrate.py", ("--cohesion", 50, "--friction", 5), "--friction 5: granular samples reach 6°"),
-    ("calibrate.py", ("--cohesion", 50, "--friction", 61), "--friction 61"),
-    ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--residual-friction", 20), "give both"),
-    ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--residual-friction", 31, "--residual-cohesion", 1), "--residual-friction 31"),
-    ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--residual-friction", 20, "--residual-cohesion", 51), "--residual-cohesion 51"),
-    ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--start", "granite"), "granite: neither a file nor one of"),
-    ("wall_shear.py", ("--material", "dp", "--bonded"), "--bonded with dp: its tensile strength is 0"),
-    ("wall_shear.py", ("--pressures", "1"), "give 2 or more positive pressures"),
-    ("wall_shear.py", ("--pressures", "1,1"), "each once"),
-    ("biaxial_effects.py", ("--confining", -1), "it must be positive"),
-    ("biaxial_effects.py", ("--only", "colour"), "colour"),
-    ("wedge.py", ("--seconds", 0.5), "--seconds: 0.5 is too short"),
-    ("benchmark.py", ("--threads", 0), "--threads 0"),
-    ("benchmark.py", ("--scale", "10,10"), "each once"),
-    ("column.py", ("--aspect", "1,1"), "give each number once"),
-    ("verify.py", ("--only", "perpetual-motion"), "--list names them"),
-])
+
+@pytest.mark.parametrize(
+    "name, words, said",
+    [
+        ("calibrate.py", ("--cohesion", 0, "--friction", 30), "--cohesion 0: it must be positive"),
+        ("calibrate.py", ("--cohesion", 50, "--friction", 5), "--friction 5: granular samples reach 6°"),
+        ("calibrate.py", ("--cohesion", 50, "--friction", 61), "--friction 61"),
+        ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--residual-friction", 20), "give both"),
+        (
+            "calibrate.py",
+            ("--cohesion", 50, "--friction", 30, "--residual-friction", 31, "--residual-cohesion", 1),
+            "--residual-friction 31",
+        ),
+        (
+            "calibrate.py",
+            ("--cohesion", 50, "--friction", 30, "--residual-friction", 20, "--residual-cohesion", 51),
+            "--residual-cohesion 51",
+        ),
+        (
+            "calibrate.py",
+            ("--cohesion", 50, "--friction", 30, "--start", "granite"),
+            "granite: neither a file nor one of",
+        ),
+        ("wall_shear.py", ("--material", "dp", "--bonded"), "--bonded with dp: its tensile strength is 0"),
+        ("wall_shear.py", ("--pressures", "1"), "give 2 or more positive pressures"),
+        ("wall_shear.py", ("--pressures", "1,1"), "each once"),
+        ("biaxial_effects.py", ("--confining", -1), "it must be positive"),
+        ("biaxial_effects.py", ("--only", "colour"), "colour"),
+        ("wedge.py", ("--seconds", 0.5), "--seconds: 0.5 is too short"),
+        ("benchmark.py", ("--threads", 0), "--threads 0"),
+        ("benchmark.py", ("--scale", "10,10"), "each once"),
+        ("column.py", ("--aspect", "1,1"), "give each number once"),
+        ("verify.py", ("--only", "perpetual-motion"), "--list names them"),
+    ],
+)
 def test_a_command_refuses_in_one_line(in_process, tmp_path, name, words, said):
     out = tmp_path / ("out.yaml" if name == "calibrate.py" else "out")
     done = in_process(name, *words, "--out", out)

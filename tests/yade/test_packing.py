@@ -53,8 +53,9 @@ def test_disks_are_inside_and_near_their_layer(section, packed):
     for start, normal in zip(table.start, table.normal):  # the outline is convex
         depth = np.minimum(depth, (packed.x - start[0]) * normal[0] + (packed.y - start[1]) * normal[1])
     assert np.all(depth >= packed.r * (1 - 1e-3))
-    away = [section.layers[k].polygon.distance(geometry.Point(x, y))
-            for x, y, k in zip(packed.x, packed.y, packed.layer)]
+    away = [
+        section.layers[k].polygon.distance(geometry.Point(x, y)) for x, y, k in zip(packed.x, packed.y, packed.layer)
+    ]
     assert np.mean(np.array(away) > 2 * packed.r.mean()) < 0.02
     assert np.max(away) < section.disks.d_max
 
@@ -81,8 +82,10 @@ def small():
     del data["water"]
     data["disks"] |= {"diameter": [0.5, 1.5], "packing_fraction": 0.8}
     data["walls"] = [{"name": "floor", "material": "ss", "vertices": [[-30, 20], [0, 0], [30, 5]]}]
-    data["layers"] = [{"name": "a", "material": "rock", "vertices": [[-24, 16], [0, 0], [0, 10], [-20, 30]]},
-                      {"name": "b", "material": "rock", "vertices": [[0, 0], [24, 4], [24, 16], [0, 10]]}]
+    data["layers"] = [
+        {"name": "a", "material": "rock", "vertices": [[-24, 16], [0, 0], [0, 10], [-20, 30]]},
+        {"name": "b", "material": "rock", "vertices": [[0, 0], [24, 4], [24, 16], [0, 10]]},
+    ]
     return data
 
 
@@ -141,7 +144,9 @@ def test_npz(three, tmp_path):
             packing.load(path)
     with pytest.raises(PackingError, match="no such packing"):
         packing.load(tmp_path / "none.npz")
-    np.savez(path, x=three.x + 1, y=three.y, r=three.r, layer=three.layer, format=packing.FORMAT, checksum=three.checksum)
+    np.savez(
+        path, x=three.x + 1, y=three.y, r=three.r, layer=three.layer, format=packing.FORMAT, checksum=three.checksum
+    )
     with pytest.raises(PackingError, match="does not match its checksum.*delete the file"):
         packing.load(path)
     np.savez(path, x=three.x, y=three.y, r=three.r, layer=three.layer, format=99, checksum=three.checksum)
@@ -171,13 +176,25 @@ def test_text(three, tmp_path):
     assert read.r.tolist() == [0.5, 0.25] and read.layer.tolist() == [0, 0]
 
 
-@pytest.mark.parametrize("text, what", [
-    ("0 0 1 0\n1 1\n", r"line 2: 2 values"), ("0 0 1 0\n1 1 1\n", r"line 2: 3 values after lines of 4.*truncated"),
-    ("0 0 -1\n", r"line 1: the radius is -1"), ("0 nan 1\n", r"line 1: y is nan"), ("0 0 one\n", r"line 1: .*'one'"),
-    ("0 0 1 0.5\n", r"line 1: .*whole"), ("0 0 1 -1\n", r"line 1: the layer is -1"), ("# nothing\n", "holds no disk"),
-    ("# disks: 3\n0 0 1 0\n", "holds 1 disks of the 3.*truncated"), ("1e308 0 1\n", r"line 1: x is 1e\+308; give m, at most 1e\+07"),
-    ("0 0 5e-324\n", "line 1: the radius is"), ("0 0 1 " + "9" * 30 + "\n", "line 1: the layer is 9999"), ("0 0 1 " + "9" * 5000 + "\n", "line 1: .*whole one"),
-    ("0 0 " + "x" * 5000 + "\n", "line 1: .{0,90}; give numbers")])
+@pytest.mark.parametrize(
+    "text, what",
+    [
+        ("0 0 1 0\n1 1\n", r"line 2: 2 values"),
+        ("0 0 1 0\n1 1 1\n", r"line 2: 3 values after lines of 4.*truncated"),
+        ("0 0 -1\n", r"line 1: the radius is -1"),
+        ("0 nan 1\n", r"line 1: y is nan"),
+        ("0 0 one\n", r"line 1: .*'one'"),
+        ("0 0 1 0.5\n", r"line 1: .*whole"),
+        ("0 0 1 -1\n", r"line 1: the layer is -1"),
+        ("# nothing\n", "holds no disk"),
+        ("# disks: 3\n0 0 1 0\n", "holds 1 disks of the 3.*truncated"),
+        ("1e308 0 1\n", r"line 1: x is 1e\+308; give m, at most 1e\+07"),
+        ("0 0 5e-324\n", "line 1: the radius is"),
+        ("0 0 1 " + "9" * 30 + "\n", "line 1: the layer is 9999"),
+        ("0 0 1 " + "9" * 5000 + "\n", "line 1: .*whole one"),
+        ("0 0 " + "x" * 5000 + "\n", "line 1: .{0,90}; give numbers"),
+    ],
+)
 def test_bad_text(text, what, tmp_path):
     path = tmp_path / "p.txt"
     path.write_text(text)
@@ -213,23 +230,47 @@ def first_to(packing, x, y):
 # What the shipped section with 3,000 disks (2.6 to 10.6 m) says of a file that is none of its packings.
 FOREIGN = {
     "all radii times 1.3": (lambda p: moved(p, r=1.3 * p.r), "has a radius of .* and the section's disks have"),
-    "nearly all radii times 1.3": (lambda p: moved(p, r=np.minimum(1.3 * p.r, p.r.max())), "lies in the wall|overlap by up to"),
-    "loose": (lambda p: moved(p, r=np.maximum(0.8 * p.r, p.r.min())), r"disks fill 0\.\d+ of the layers, and the section's fill 0\.8.*disks.packing_fraction"),
+    "nearly all radii times 1.3": (
+        lambda p: moved(p, r=np.minimum(1.3 * p.r, p.r.max())),
+        "lies in the wall|overlap by up to",
+    ),
+    "loose": (
+        lambda p: moved(p, r=np.maximum(0.8 * p.r, p.r.min())),
+        r"disks fill 0\.\d+ of the layers, and the section's fill 0\.8.*disks.packing_fraction",
+    ),
     "half of them": (lambda p: Packing(p.x[::2], p.y[::2], p.r[::2], p.layer[::2]), r"disks fill 0\.\d+ of the layers"),
-    "another number of disks": (lambda p: packing.pack(load("jiufengershan").with_disks(800), 1), "has a radius of .* or --disks with its number"),
-    "without layers": (lambda p: moved(p, layer=0 * p.layer), r"belongs to layer 0 \(L1\) and lies .* m outside it; give lines of x y r layer"),
-    "layers from 1": (lambda p: moved(p, layer=p.layer + 1), r"belongs to layer 5, and the section has 5; give 0 \(L1\) to 4 \(L5\)"),
+    "another number of disks": (
+        lambda p: packing.pack(load("jiufengershan").with_disks(800), 1),
+        "has a radius of .* or --disks with its number",
+    ),
+    "without layers": (
+        lambda p: moved(p, layer=0 * p.layer),
+        r"belongs to layer 0 \(L1\) and lies .* m outside it; give lines of x y r layer",
+    ),
+    "layers from 1": (
+        lambda p: moved(p, layer=p.layer + 1),
+        r"belongs to layer 5, and the section has 5; give 0 \(L1\) to 4 \(L5\)",
+    ),
     "layers turned round": (lambda p: moved(p, layer=4 - p.layer), r"belongs to layer 0 \(L1\) and lies"),
-    "a layer left out": (lambda p: moved(p, layer=np.maximum(p.layer, 1)), "no disk belongs to layer 0|belongs to layer 1"),
+    "a layer left out": (
+        lambda p: moved(p, layer=np.maximum(p.layer, 1)),
+        "no disk belongs to layer 0|belongs to layer 1",
+    ),
     "all moved up": (lambda p: moved(p, y=p.y + 300), "outside the layers"),
     "all sunk by a metre": (lambda p: moved(p, y=p.y - 1), "in the wall DP|beyond the wall DP"),
     "one below the slope": (lambda p: first_to(p, -700.0, 255.0), "beyond the wall DP"),
-    "one far below the slope": (lambda p: first_to(p, -700.0, 0.0), "disk 0 at .* lies .* the wall DP|disk 0 at .* outside the layers"),
+    "one far below the slope": (
+        lambda p: first_to(p, -700.0, 0.0),
+        "disk 0 at .* lies .* the wall DP|disk 0 at .* outside the layers",
+    ),
     "one in the valley": (lambda p: first_to(p, 1000.0, 40.0), "disk 0 at .* outside the layers"),
     "one far away": (lambda p: first_to(p, 1e7, -1e7), "disk 0 at .* outside the layers"),
     "one above the slope": (lambda p: first_to(p, -700.0, 500.0), "disk 0 at .* lies .* m outside the layers"),
     "one twice": (lambda p: first_to(p, p.x[inner(p)], p.y[inner(p)]), "overlap by more than a tenth|belongs to layer"),
-    "all at one place": (lambda p: moved(p, x=0 * p.x + p.x[inner(p)], y=0 * p.y + p.y[inner(p)], layer=p.layer), "overlap by more than a tenth|belongs to layer"),
+    "all at one place": (
+        lambda p: moved(p, x=0 * p.x + p.x[inner(p)], y=0 * p.y + p.y[inner(p)], layer=p.layer),
+        "overlap by more than a tenth|belongs to layer",
+    ),
 }
 
 

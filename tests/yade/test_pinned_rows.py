@@ -26,7 +26,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 def first_rows(path):
     """SHA-256 of the header and the first rows of a series, and how many rows these are; ``wall_s`` is left out."""
-    header, *rows = (line.split(",") for line in path.read_text().splitlines()[:1 + ROWS])
+    header, *rows = (line.split(",") for line in path.read_text().splitlines()[: 1 + ROWS])
     kept = [k for k, name in enumerate(header) if name != "wall_s"]
     text = "\n".join(",".join(row[k] for k in kept) for row in [header, *rows])
     return hashlib.sha256(text.encode()).hexdigest(), len(rows)
@@ -41,7 +41,15 @@ def slope_series(folder):
 
 def biaxial_series(folder):
     shape = pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82, friction=0.0)
-    test = biaxial.Test(materials.load("wwr"), 1e6, shape, strain=biaxial.ROW_STRAIN * (ROWS + 2), sides="rigid", tolerance=1e-4, step=0.2)
+    test = biaxial.Test(
+        materials.load("wwr"),
+        1e6,
+        shape,
+        strain=biaxial.ROW_STRAIN * (ROWS + 2),
+        sides="rigid",
+        tolerance=1e-4,
+        step=0.2,
+    )
     pressing.prepare(shape, folder / "pressing")
     biaxial.run(folder, **asdict(test))
     return folder / "series.csv"
@@ -53,7 +61,9 @@ def column_series(folder):
     return folder / "series.csv"
 
 
-@pytest.mark.parametrize("name, series", [("slope", slope_series), ("biaxial", biaxial_series), ("column", column_series)])
+@pytest.mark.parametrize(
+    "name, series", [("slope", slope_series), ("biaxial", biaxial_series), ("column", column_series)]
+)
 def test_the_first_rows_have_their_bits(name, series, tmp_path):
     found, rows = first_rows(series(tmp_path))
     assert rows >= 0.5 * ROWS  # a column may rest before

@@ -20,13 +20,18 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 
 def water(heights=(10,), times=(0,), normal=NORMAL, **more):
-    return PorePressureEngine(unitWeight=WATER, planeNormal=normal, heights=list(heights), times=list(times), label="water", **more)
+    return PorePressureEngine(
+        unitWeight=WATER, planeNormal=normal, heights=list(heights), times=list(times), label="water", **more
+    )
 
 
 def disks_above_plane(places, radius=0.5, gravity=(0, -G, 0), apart=3.0, **more):
     """Disks whose centres stand at these heights above the dipping plane through the origin, far from each other, and water."""
     stuff = material(0.3)
-    ids = [O.bodies.append(scene.disk(tuple(h * NORMAL - apart * k * DOWN)[:2], radius, stuff)) for k, h in enumerate(places)]
+    ids = [
+        O.bodies.append(scene.disk(tuple(h * NORMAL - apart * k * DOWN)[:2], radius, stuff))
+        for k, h in enumerate(places)
+    ]
     begin(gravity=gravity, before=[water(**more)])
     return ids
 
@@ -151,7 +156,11 @@ def test_saved_and_loaded(tmp_path):
     saved = str(tmp_path / "water.yade.gz")
     O.save(saved)
     run(200)
-    unbroken = [(O.bodies[i].state.pos, O.bodies[i].state.vel) for i in ids], O.engines[3].releasedCount, O.engines[3].height
+    unbroken = (
+        [(O.bodies[i].state.pos, O.bodies[i].state.vel) for i in ids],
+        O.engines[3].releasedCount,
+        O.engines[3].height,
+    )
     O.reset()
     O.load(saved)
     w = O.engines[3]

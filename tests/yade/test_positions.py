@@ -17,7 +17,11 @@ pytestmark = pytest.mark.usefixtures("empty")
 def hexagonal_block(overlap, side=20, stuff=None):
     """Ids of side × side disks of 1 m in a hexagonal block whose neighbours overlap by that share of a diameter."""
     stuff = stuff or material(0.3)
-    return [free_disk((i + 0.5 * (j % 2)) * (1 - overlap), j * math.sqrt(0.75) * (1 - overlap), stuff=stuff) for j in range(side) for i in range(side)]
+    return [
+        free_disk((i + 0.5 * (j % 2)) * (1 - overlap), j * math.sqrt(0.75) * (1 - overlap), stuff=stuff)
+        for j in range(side)
+        for i in range(side)
+    ]
 
 
 def relative_energy(disks):
@@ -25,7 +29,10 @@ def relative_energy(disks):
     states = [O.bodies[d].state for d in disks]
     mass = sum(s.mass for s in states)
     mean = sum((s.mass * s.vel for s in states), states[0].vel * 0) / mass
-    return sum(0.5 * s.mass * (s.vel - mean).squaredNorm() + 0.5 * s.inertia[2] * s.angVel[2] ** 2 for s in states), mass
+    return (
+        sum(0.5 * s.mass * (s.vel - mean).squaredNorm() + 0.5 * s.inertia[2] * s.angVel[2] ** 2 for s in states),
+        mass,
+    )
 
 
 def test_a_dense_block_in_free_fall_is_not_blown_apart():
@@ -66,7 +73,9 @@ def test_a_bond_finds_its_length_from_both_sides(moved, slack):
     O.bodies[b].state.pos += (moved, 0, 0)
     run(60)
     # 0.8^60 = 1.5e-6 of the 4 mm is left
-    assert O.bodies[b].state.pos[0] - O.bodies[a].state.pos[0] == pytest.approx(1.01 + math.copysign(slack, moved), abs=1e-5 * abs(moved))
+    assert O.bodies[b].state.pos[0] - O.bodies[a].state.pos[0] == pytest.approx(
+        1.01 + math.copysign(slack, moved), abs=1e-5 * abs(moved)
+    )
     assert engine().bonds == 1 and O.bodies[b].state.vel.norm() == 0
     assert engine().energies()["debonding"] == 0
 
@@ -155,7 +164,9 @@ def test_a_disk_that_slides_out_of_a_wall_keeps_its_speed():
     s = O.bodies[free_disk(0, 0.48, (3, 0, 0), stuff)].state
     e = begin(gravity=(0, 0, 0), relaxationRate=0.5, correctionSpeed=1e3)
     run(20)
-    assert s.pos[1] == pytest.approx(0.5 - SLIGHT, abs=1e-7) and tuple(s.vel) == (3, 0, 0) and e.correctionEnergy == 0  # 0.5^20
+    assert (
+        s.pos[1] == pytest.approx(0.5 - SLIGHT, abs=1e-7) and tuple(s.vel) == (3, 0, 0) and e.correctionEnergy == 0
+    )  # 0.5^20
 
 
 def test_a_bond_that_is_made_in_an_overlap_has_no_length():
@@ -179,7 +190,9 @@ def test_forces_of_other_engines_do_no_work_on_displacements():
     O.step()
     lifted = KAPPA * (0.02 - SLIGHT)
     assert s.pos[1] == pytest.approx(0.48 + lifted, abs=1e-12) and s.vel.norm() < 1e-14
-    assert e.correctionEnergy == pytest.approx(s.mass * 9.81 * lifted, rel=1e-10) and abs(e.externalWork) < 1e-10 * s.mass
+    assert (
+        e.correctionEnergy == pytest.approx(s.mass * 9.81 * lifted, rel=1e-10) and abs(e.externalWork) < 1e-10 * s.mass
+    )
     O.step()
     assert abs(e.energyError) < 1e-9 * s.mass  # J; rounding of m g y
 
@@ -245,7 +258,9 @@ def test_a_spinning_pair_keeps_its_angular_momentum_and_its_length():
     run(2000)  # 10 s, three turns
     after, turned = momenta(pair)
     # equal and opposite at every step; rounding of 2000 steps
-    assert abs(turned - angular) < 1e-11 * abs(angular) and (after - linear).norm() < 1e-11 * O.bodies[pair[0]].state.mass
+    assert (
+        abs(turned - angular) < 1e-11 * abs(angular) and (after - linear).norm() < 1e-11 * O.bodies[pair[0]].state.mass
+    )
     # every step overshoots by ω² h²/2 = 5e-5 of the length, of which four of five parts are left at κ = 0.2
     assert (O.bodies[pair[1]].state.pos - O.bodies[pair[0]].state.pos).norm() == pytest.approx(1, abs=5e-4)
     assert O.bodies[pair[0]].state.angVel[2] == pytest.approx(2, rel=0.02)

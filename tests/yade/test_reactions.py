@@ -14,6 +14,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 # ---- directions -----------------------------------------------------------------------------------
 
+
 def held_by(kind, free_first, angle=2.4):
     """A disk that rests on a disk, or on a wall, in the direction ``angle`` from it; ids of what holds it and of the disk."""
     stuff = material(0.6, 0.1)
@@ -45,9 +46,11 @@ def test_forces_are_told_as_they_act_on_the_second_body(kind, free_first, swappe
         utils.createInteraction(b, a)
     pressing, shearing, twisting = 2000.0, 700.0, 90.0
     O.forces.setPermF(disk, -pressing * n + shearing * t)
-    O.forces.setPermT(disk, (0, 0, twisting - 0.5 * shearing))  # takes back the moment about the contact point that the shear has
+    O.forces.setPermT(
+        disk, (0, 0, twisting - 0.5 * shearing)
+    )  # takes back the moment about the contact point that the shear has
     run(2)
-    i, = contacts()
+    (i,) = contacts()
     on_disk = pressing * n - shearing * t  # rest: what acts from outside is taken; by 1e-12 of the solver, and rounding
     sign = 1 if i.id2 == disk else -1
     assert (i.phys.normalForce - sign * pressing * n).norm() < 1e-9 * pressing
@@ -56,13 +59,16 @@ def test_forces_are_told_as_they_act_on_the_second_body(kind, free_first, swappe
     # as numbers: on the body of higher id, or on the disk of a wall, along its normal turned by +90° from the other
     direct = 1 if kind == "wall" or body < disk else -1
     assert i.phys.normal == pytest.approx(pressing, rel=1e-9)
-    assert i.phys.tangential == pytest.approx(-shearing, rel=1e-9)  # both the normal and the body that it acts on turn round
+    assert i.phys.tangential == pytest.approx(
+        -shearing, rel=1e-9
+    )  # both the normal and the body that it acts on turn round
     assert i.phys.torque == pytest.approx(-direct * twisting, rel=1e-8)
     # and as forces on bodies; O.forces of the disk holds the push as well
     assert (O.forces.f(body) + on_disk).norm() < 1e-9 * pressing and O.forces.f(disk).norm() < 1e-9 * pressing
 
 
 # ---- moments --------------------------------------------------------------------------------------
+
 
 @pytest.mark.parametrize("sense", [0, 1])
 def test_a_wall_feels_the_moment_of_what_lies_on_it(sense):
@@ -96,7 +102,9 @@ def test_a_plank_on_a_hinge_turns_under_a_disk():
     impulse = G * h / (1 / s.mass + 2.0**2 / 900.0)
     assert s.vel[1] == pytest.approx(-G * h + impulse / s.mass, rel=1e-12)
     assert p.angVel[2] == pytest.approx(-2.0 * impulse / 900.0, rel=1e-12)
-    assert O.forces.t(plank)[2] == pytest.approx(-2.0 * impulse / h, rel=1e-12) and O.forces.f(plank)[1] == pytest.approx(-impulse / h, rel=1e-12)
+    assert O.forces.t(plank)[2] == pytest.approx(-2.0 * impulse / h, rel=1e-12) and O.forces.f(plank)[
+        1
+    ] == pytest.approx(-impulse / h, rel=1e-12)
 
 
 def test_contacts_give_no_moment_in_all():
@@ -110,14 +118,20 @@ def test_contacts_give_no_moment_in_all():
     after, turned = momenta(pair)
     assert engine().impactLoss > 0 and engine().slidingLoss > 0
     scale = O.bodies[pair[0]].state.mass * 3
-    assert (after - linear).norm() < 1e-12 * scale and turned == pytest.approx(angular, abs=1e-12 * 4 * scale)  # rounding, arms of 4 m
+    assert (after - linear).norm() < 1e-12 * scale and turned == pytest.approx(
+        angular, abs=1e-12 * 4 * scale
+    )  # rounding, arms of 4 m
 
 
 @pytest.mark.parametrize("driver_first", [True, False])
 def test_a_wheel_drives_another_by_the_ratio_of_their_radii(driver_first):
     stuff, driver, driven = material(0.5), 0.75, 0.25
-    ids = [O.bodies.append(scene.disk((0, 0 if drives else driver + driven), driver if drives else driven, stuff, fixed=drives))
-           for drives in ((True, False) if driver_first else (False, True))]
+    ids = [
+        O.bodies.append(
+            scene.disk((0, 0 if drives else driver + driven), driver if drives else driven, stuff, fixed=drives)
+        )
+        for drives in ((True, False) if driver_first else (False, True))
+    ]
     big, small = ids if driver_first else ids[::-1]
     O.bodies[big].state.angVel = (0, 0, 2)
     O.bodies[small].state.blockedDOFs = "xzXY"
@@ -128,6 +142,7 @@ def test_a_wheel_drives_another_by_the_ratio_of_their_radii(driver_first):
 
 
 # ---- impacts --------------------------------------------------------------------------------------
+
 
 def bounces(e, mass, y, v, h, steps):
     """Height, speed and lost energy of a disk of 1 m that falls on a floor, step by step, by the rules of doc/theory/stepping.rst."""
@@ -153,7 +168,9 @@ def test_a_disk_bounces_step_by_step_as_the_rules_say(e):
     hits, before = [], -1.0
     for y, v, lost in bounces(e, s.mass, 0.9, -1.0, h, 900):
         O.step()
-        assert s.vel[1] == pytest.approx(v, abs=1e-10) and s.pos[1] == pytest.approx(y, abs=1e-11)  # m/s, m: rounding, the solver's 1e-12
+        assert s.vel[1] == pytest.approx(v, abs=1e-10) and s.pos[1] == pytest.approx(
+            y, abs=1e-11
+        )  # m/s, m: rounding, the solver's 1e-12
         assert engine().impactLoss == pytest.approx(lost, abs=1e-9 * s.mass)
         if v - before > 1.5 * G * h:
             hits.append((before, v))
@@ -171,7 +188,9 @@ def test_a_disk_bounces_step_by_step_as_the_rules_say(e):
 
 def test_an_impact_takes_place_where_bodies_touch():
     """The gap closes within a step and not more; the next step begins in touch, with the common speed."""
-    light, heavy = O.bodies.append(scene.disk((0, 0), 0.5, material(0.0))), O.bodies.append(scene.disk((1.83, 0), 0.8, O.materials[0]))
+    light, heavy = O.bodies.append(scene.disk((0, 0), 0.5, material(0.0))), O.bodies.append(
+        scene.disk((1.83, 0), 0.8, O.materials[0])
+    )
     a, b, h = O.bodies[light].state, O.bodies[heavy].state, 1e-2
     a.vel, b.vel = (9.0, 0, 0), (-4.0, 0, 0)  # 13 m/s against a gap of 0.53 m: 4.08 steps
     begin(gravity=(0, 0, 0), dt=h, reach=0.2)
@@ -181,7 +200,9 @@ def test_an_impact_takes_place_where_bodies_touch():
     # what is left of the gap in this step, at the speed of the common centre
     common, gap = (9 * a.mass - 4 * b.mass) / (a.mass + b.mass), 0.53 - 4 * 0.13
     share = b.mass / (a.mass + b.mass)
-    assert a.vel[0] == pytest.approx(common + share * gap / h, rel=1e-10) and b.vel[0] == pytest.approx(common - (1 - share) * gap / h, rel=1e-10)
+    assert a.vel[0] == pytest.approx(common + share * gap / h, rel=1e-10) and b.vel[0] == pytest.approx(
+        common - (1 - share) * gap / h, rel=1e-10
+    )
     assert b.pos[0] - a.pos[0] == pytest.approx(1.3, abs=1e-12)
     run(1)
     assert (a.vel[0], b.vel[0]) == pytest.approx((common, common), rel=1e-10)
@@ -199,6 +220,7 @@ def test_the_larger_of_two_coefficients_of_restitution_holds(of_floor, of_disk):
 
 # ---- residual adhesion ----------------------------------------------------------------------------
 
+
 @pytest.mark.parametrize("gap, adhesive", [(-0.004, True), (0.9e-3, True), (1.1e-3, False), (0.03, False)])
 @pytest.mark.parametrize("share", [-3.0, 0.0, 0.9, 1.1])
 def test_residual_adhesion_acts_while_bodies_touch(gap, adhesive, share):
@@ -212,7 +234,7 @@ def test_residual_adhesion_acts_while_bodies_touch(gap, adhesive, share):
     O.forces.setPermF(disk, (share * strength, 0, 0))
     begin(gravity=(0, 0, 0), dt=h, relaxationRate=0)
     run(1)
-    i, = contacts()
+    (i,) = contacts()
     free = h * share * strength / s.mass
     adhesion = strength if adhesive else 0.0
     closing = -max(gap, 0) / h  # the fastest approach that the gap allows
@@ -224,6 +246,7 @@ def test_residual_adhesion_acts_while_bodies_touch(gap, adhesive, share):
 
 # ---- what a step sums up --------------------------------------------------------------------------
 
+
 def test_forces_and_torques_of_other_engines_work():
     """From rest: ½ m v² and ½ I ω², step by step exact, since the mean of the velocities before and after counts."""
     a, b = (O.bodies[free_disk(x, 0)].state for x in (0, 5))
@@ -232,7 +255,9 @@ def test_forces_and_torques_of_other_engines_work():
     e = begin(gravity=(0, 0, 0))
     run(50)
     assert a.vel.norm() > 0 and b.angVel[2] > 0
-    assert e.externalWork == pytest.approx(0.5 * a.mass * a.vel.squaredNorm() + 0.5 * b.inertia[2] * b.angVel[2] ** 2, rel=1e-12)
+    assert e.externalWork == pytest.approx(
+        0.5 * a.mass * a.vel.squaredNorm() + 0.5 * b.inertia[2] * b.angVel[2] ** 2, rel=1e-12
+    )
     run(1)
     assert abs(e.energyError) < 1e-11 * e.externalWork and e.kineticEnergy > 0
 
@@ -254,5 +279,9 @@ def test_figures_of_a_step_by_hand():
     assert (e.meanSpeed, e.maxSpeed) == pytest.approx((7 / 3, 4), rel=1e-12)
     assert tuple(e.momentum)[:2] == pytest.approx((masses[0] * 3, masses[2] * 4), rel=1e-12)
     # two touch the floor, one of them by 0.01 of its diameter of 0.8 m
-    assert (e.contacts, e.candidates) == (2, 2) and (e.overlapWorst, e.overlapMean) == pytest.approx((0.01, 0.005), rel=1e-9)
-    assert e.kineticEnergy == pytest.approx(0.5 * (masses[0] * 9 + masses[2] * 16 + 0.5 * masses[2] * 25), rel=1e-12)  # I = ½ m r²
+    assert (e.contacts, e.candidates) == (2, 2) and (e.overlapWorst, e.overlapMean) == pytest.approx(
+        (0.01, 0.005), rel=1e-9
+    )
+    assert e.kineticEnergy == pytest.approx(
+        0.5 * (masses[0] * 9 + masses[2] * 16 + 0.5 * masses[2] * 25), rel=1e-12
+    )  # I = ½ m r²

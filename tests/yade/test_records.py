@@ -168,7 +168,11 @@ def test_a_row_that_does_not_fit_is_refused_whole(tmp_path):
     """As on a full disk; with room again the run goes on."""
     with records.SeriesWriter(tmp_path / "s.csv", COLUMNS) as writer:
         writer.write(row(0))
-        before, mark, limits = (tmp_path / "s.csv").read_bytes(), writer.mark(), resource.getrlimit(resource.RLIMIT_FSIZE)
+        before, mark, limits = (
+            (tmp_path / "s.csv").read_bytes(),
+            writer.mark(),
+            resource.getrlimit(resource.RLIMIT_FSIZE),
+        )
         resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 5, limits[1]))
         try:
             with pytest.raises(RecordsError, match="a row could not be written.*free some space"):
@@ -201,14 +205,23 @@ def test_messages_name_the_file_and_the_remedy(tmp_path):
 
 def test_rows_since_settled_are_those_after_stage_0():
     series = {"step": np.arange(6), "stage": np.array([0, 0, 0, 1, 2, 2]), "x": np.arange(6.0)}
-    assert records.since_settled(series)["step"].tolist() == [3, 4, 5] and records.since_settled(series)["x"].tolist() == [3.0, 4.0, 5.0]
-    for whole in ({**series, "stage": np.zeros(6, int)}, {"step": np.arange(6)}):  # still settling; of a version without stages
+    assert records.since_settled(series)["step"].tolist() == [3, 4, 5] and records.since_settled(series)[
+        "x"
+    ].tolist() == [3.0, 4.0, 5.0]
+    for whole in (
+        {**series, "stage": np.zeros(6, int)},
+        {"step": np.arange(6)},
+    ):  # still settling; of a version without stages
         assert records.since_settled(whole) is whole
 
 
 def test_all_losses_are_columns():
     """Kinetic and potential energy, what water and walls do, and the correction are none."""
-    assert set(records.LOSSES) == {f"energy_{name}_J" for name in ("sliding", "rolling", "impact", "bonds")} <= set(records.COLUMNS)
+    assert (
+        set(records.LOSSES)
+        == {f"energy_{name}_J" for name in ("sliding", "rolling", "impact", "bonds")}
+        <= set(records.COLUMNS)
+    )
 
 
 def test_every_known_column_is_documented():

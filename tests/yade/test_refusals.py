@@ -6,10 +6,34 @@ from yade import O, utils
 from yade.minieigenHP import Quaternion, Vector3
 from yade.nonsmooth import scene
 from yade.wrapper import (
-    Bo1_Box_Aabb, Bo1_Facet_Aabb, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, Bo1_Wall_Aabb, Body, Box, Collider, ContactDynamicsEngine, ForceEngine, ForceResetter,
-    FrictMat, GlobalStiffnessTimeStepper, Ig2_Box_Sphere_ScGeom, Ig2_Facet_Sphere_ScGeom, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Wall_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, NewtonIntegrator,
-    NscdInteractionLoop, NscdMat, PlanarGridCollider, PyRunner, Segment, SlipWeakeningMat)
+    Bo1_Box_Aabb,
+    Bo1_Facet_Aabb,
+    Bo1_Segment_Aabb,
+    Bo1_Sphere_Aabb,
+    Bo1_Wall_Aabb,
+    Body,
+    Box,
+    Collider,
+    ContactDynamicsEngine,
+    ForceEngine,
+    ForceResetter,
+    FrictMat,
+    GlobalStiffnessTimeStepper,
+    Ig2_Box_Sphere_ScGeom,
+    Ig2_Facet_Sphere_ScGeom,
+    Ig2_Segment_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Wall_Sphere_ScGeom,
+    InsertionSortCollider,
+    InteractionLoop,
+    NewtonIntegrator,
+    NscdInteractionLoop,
+    NscdMat,
+    PlanarGridCollider,
+    PyRunner,
+    Segment,
+    SlipWeakeningMat,
+)
 
 from contact_scenes import G, begin, contacts, engine, launch, material, refused, run
 
@@ -48,6 +72,7 @@ def inserted(kind, other):
 
 # ---- the list of engines ---------------------------------------------------------------------------
 
+
 def kill(kind):
     of(kind).dead = True
 
@@ -58,23 +83,43 @@ def scale_densities():
     of(NewtonIntegrator).densityScaling = True
 
 
-@pytest.mark.parametrize("spoil, words", [
-    (lambda: setattr(of(NewtonIntegrator), "mask", 2), ("NewtonIntegrator.mask = 2", "mask=-1")),
-    (scale_densities, ("densityScaling", "False")),
-    (lambda: kill(NewtonIntegrator), ("PlanarNewtonIntegrator is dead", "dead = False")),
-    (lambda: setattr(O, "engines", O.engines + [NewtonIntegrator(damping=0)]), ("second integrator", "NewtonIntegrator", "take one out")),
-    (lambda: setattr(O, "engines", inserted(ContactDynamicsEngine, ContactDynamicsEngine())), ("two of them", "take one out")),
-    (lambda: setattr(O, "engines", replaced(ContactDynamicsEngine)), ("no ContactDynamicsEngine", "add one before NewtonIntegrator")),
-    (lambda: kill(ContactDynamicsEngine), ("ContactDynamicsEngine 'contactDynamics'", "dead = False")),
-    (lambda: kill(InteractionLoop), ("NscdInteractionLoop is dead", "dead = False")),
-    (lambda: setattr(O, "engines", replaced(InteractionLoop)), ("no InteractionLoop", "NscdInteractionLoop(...)")),
-    (lambda: kill(Collider), ("PlanarGridCollider is dead", "dead = False")),
-    (lambda: setattr(O, "engines", replaced(Collider)), ("no collider", "PlanarGridCollider(...)")),
-    (lambda: kill(ForceResetter), ("ForceResetter is dead", "dead = False")),
-    (lambda: setattr(O, "engines", replaced(ForceResetter)), ("last reset in step", "ForceResetter() first")),
-    (lambda: setattr(O, "engines", inserted(NewtonIntegrator, ForceEngine(force=(1, 0, 0), ids=[1], label="push"))), ("ForceEngine 'push' stands between", "before")),
-    (lambda: setattr(O, "engines", inserted(NewtonIntegrator, PyRunner(command="pass", iterPeriod=1))), ("PyRunner stands between", "after the integrator")),
-])
+@pytest.mark.parametrize(
+    "spoil, words",
+    [
+        (lambda: setattr(of(NewtonIntegrator), "mask", 2), ("NewtonIntegrator.mask = 2", "mask=-1")),
+        (scale_densities, ("densityScaling", "False")),
+        (lambda: kill(NewtonIntegrator), ("PlanarNewtonIntegrator is dead", "dead = False")),
+        (
+            lambda: setattr(O, "engines", O.engines + [NewtonIntegrator(damping=0)]),
+            ("second integrator", "NewtonIntegrator", "take one out"),
+        ),
+        (
+            lambda: setattr(O, "engines", inserted(ContactDynamicsEngine, ContactDynamicsEngine())),
+            ("two of them", "take one out"),
+        ),
+        (
+            lambda: setattr(O, "engines", replaced(ContactDynamicsEngine)),
+            ("no ContactDynamicsEngine", "add one before NewtonIntegrator"),
+        ),
+        (lambda: kill(ContactDynamicsEngine), ("ContactDynamicsEngine 'contactDynamics'", "dead = False")),
+        (lambda: kill(InteractionLoop), ("NscdInteractionLoop is dead", "dead = False")),
+        (lambda: setattr(O, "engines", replaced(InteractionLoop)), ("no InteractionLoop", "NscdInteractionLoop(...)")),
+        (lambda: kill(Collider), ("PlanarGridCollider is dead", "dead = False")),
+        (lambda: setattr(O, "engines", replaced(Collider)), ("no collider", "PlanarGridCollider(...)")),
+        (lambda: kill(ForceResetter), ("ForceResetter is dead", "dead = False")),
+        (lambda: setattr(O, "engines", replaced(ForceResetter)), ("last reset in step", "ForceResetter() first")),
+        (
+            lambda: setattr(
+                O, "engines", inserted(NewtonIntegrator, ForceEngine(force=(1, 0, 0), ids=[1], label="push"))
+            ),
+            ("ForceEngine 'push' stands between", "before"),
+        ),
+        (
+            lambda: setattr(O, "engines", inserted(NewtonIntegrator, PyRunner(command="pass", iterPeriod=1))),
+            ("PyRunner stands between", "after the integrator"),
+        ),
+    ],
+)
 def test_lists_of_engines_that_would_go_wrong(spoil, words):
     rests_on_a_floor()
     run(1)
@@ -87,21 +132,28 @@ def test_a_loop_behind_the_solver_is_refused():
     loop = of(InteractionLoop)
     engines = replaced(InteractionLoop)
     at = engines.index(next(e for e in engines if isinstance(e, ContactDynamicsEngine)))
-    O.engines = engines[:at + 1] + [loop] + engines[at + 1:]
+    O.engines = engines[: at + 1] + [loop] + engines[at + 1 :]
     refused("NscdInteractionLoop stands after it", "before")
 
 
 def test_dead_engines_that_nobody_needs_are_let_be():
     disk = rests_on_a_floor()
-    spare = [NewtonIntegrator(damping=0.2, dead=True), ContactDynamicsEngine(dead=True), ForceEngine(force=(1e9, 0, 0), ids=[1], dead=True)]
-    O.engines = [e for engine_ in O.engines for e in ([*spare, engine_] if isinstance(engine_, NewtonIntegrator) else [engine_])]
+    spare = [
+        NewtonIntegrator(damping=0.2, dead=True),
+        ContactDynamicsEngine(dead=True),
+        ForceEngine(force=(1e9, 0, 0), ids=[1], dead=True),
+    ]
+    O.engines = [
+        e for engine_ in O.engines for e in ([*spare, engine_] if isinstance(engine_, NewtonIntegrator) else [engine_])
+    ]
     run(3)
     assert abs(O.bodies[disk].state.vel[1]) < 1e-12 and O.bodies[disk].state.vel[0] == 0
 
 
 def test_a_solver_forgotten_behind_yades_own_loop_is_told_of(tmp_path):
     script = tmp_path / "forgotten.py"
-    script.write_text("""
+    script.write_text(
+        """
 from yade import nonsmooth
 from contact_scenes import *
 stuff = material(0.3)
@@ -111,22 +163,36 @@ begin()
 engines = [e for e in O.engines if not isinstance(e, ContactDynamicsEngine)]
 O.engines = [InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors) if isinstance(e, InteractionLoop) else e for e in engines]
 run(12)
-""")
+"""
+    )
     done = launch(script)
     told = [line for line in done.stderr.splitlines() if "no ContactDynamicsEngine" in line]
     assert done.returncode == 0 and len(told) == 2, done.stderr  # the 1st and the 10th step
     assert "add one before NewtonIntegrator" in told[0]
 
 
-@pytest.mark.parametrize("name, value", [
-    ("tolerance", math.inf), ("tolerance", math.nan), ("relaxationRate", math.nan), ("correctionSpeed", -1.0), ("correctionSlack", -0.1), ("correctionSlack", 1.0), ("correctionSlack", math.nan), ("correctionSpeed", math.nan), ("openGap", -0.1),
-    ("openGap", math.nan)])
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("tolerance", math.inf),
+        ("tolerance", math.nan),
+        ("relaxationRate", math.nan),
+        ("correctionSpeed", -1.0),
+        ("correctionSlack", -0.1),
+        ("correctionSlack", 1.0),
+        ("correctionSlack", math.nan),
+        ("correctionSpeed", math.nan),
+        ("openGap", -0.1),
+        ("openGap", math.nan),
+    ],
+)
 def test_settings_without_sense(name, value):
     rests_on_a_floor(**{name: value})
     refused(f"{name} = {value:g}", "it must be")
 
 
 # ---- forces that come late --------------------------------------------------------------------------
+
 
 def late_push(disk):
     """The engine after the integrator adds to O.forces once the step is over."""
@@ -135,7 +201,9 @@ def late_push(disk):
     O.engines = O.engines[:-1]
 
 
-@pytest.mark.parametrize("push", [late_push, lambda disk: O.forces.addF(disk, (0, 2 * G * O.bodies[disk].state.mass, 0))])
+@pytest.mark.parametrize(
+    "push", [late_push, lambda disk: O.forces.addF(disk, (0, 2 * G * O.bodies[disk].state.mass, 0))]
+)
 def test_a_force_added_after_a_step_is_answered_in_the_next(push):
     # twice its weight lifts a disk: with a reaction that knew nothing of it, as it was, it would rise by 2 g h instead of g h
     disk = rests_on_a_floor()
@@ -147,6 +215,7 @@ def test_a_force_added_after_a_step_is_answered_in_the_next(push):
 
 
 # ---- bodies -------------------------------------------------------------------------------------------
+
 
 def test_disks_at_different_z():
     free_disk(0, 0), free_disk(0.8, 0)
@@ -170,13 +239,23 @@ def test_a_wall_that_leans_out_of_the_plane():
     plate.state.ori = Quaternion((1, 0, 0), 0.5)
     free_disk(0, 0.55)
     begin()
-    O.engines = replaced(Collider, PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05))
+    O.engines = replaced(
+        Collider, PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05)
+    )
     loop = of(InteractionLoop)
     loop.geomDispatcher.functors = list(loop.geomDispatcher.functors) + [Ig2_Box_Sphere_ScGeom()]
     refused("#0+#1", "leaves the x-y plane", "z component")
 
 
-@pytest.mark.parametrize("attribute, value, word", [("mass", -1.0, "mass = -1"), ("mass", math.nan, "mass = nan"), ("inertia", (1, 1, -2.0), "inertia = -2"), ("inertia", (1, 1, 0), "inertia = 0")])
+@pytest.mark.parametrize(
+    "attribute, value, word",
+    [
+        ("mass", -1.0, "mass = -1"),
+        ("mass", math.nan, "mass = nan"),
+        ("inertia", (1, 1, -2.0), "inertia = -2"),
+        ("inertia", (1, 1, 0), "inertia = 0"),
+    ],
+)
 def test_masses_without_sense(attribute, value, word):
     disk = rests_on_a_floor()
     setattr(O.bodies[disk].state, attribute, value)
@@ -207,7 +286,11 @@ def box_body(stuff):
 
 
 SHAPES = {
-    "Facet": (lambda stuff: utils.facet([(-5, 0, -5), (5, 0, -5), (0, 0, 5)], material=stuff), Bo1_Facet_Aabb, Ig2_Facet_Sphere_ScGeom),
+    "Facet": (
+        lambda stuff: utils.facet([(-5, 0, -5), (5, 0, -5), (0, 0, 5)], material=stuff),
+        Bo1_Facet_Aabb,
+        Ig2_Facet_Sphere_ScGeom,
+    ),
     "Box": (box_body, Bo1_Box_Aabb, Ig2_Box_Sphere_ScGeom),
     "Wall": (lambda stuff: utils.wall(0, axis=1, material=stuff), Bo1_Wall_Aabb, Ig2_Wall_Sphere_ScGeom),
 }
@@ -245,24 +328,39 @@ def test_disks_that_a_loop_does_not_know():
 
 # ---- materials and strengths ------------------------------------------------------------------------
 
-BAD = [({"frictionAngle": 30.0}, "frictionAngle = 30"), ({"restitution": 2.0}, "restitution = 2"), ({"tensileStrength": -1.0}, "tensileStrength = -1"),
-       ({"density": -1.0}, "density = -1"), ({"residualRollingFriction": math.nan}, "residualRollingFriction = nan")]
-BAD_WALLS = [({"weakenedFrictionAngle": 2.0}, "weakenedFrictionAngle = 2"), ({"weakenedFrictionAngle": -0.1}, "weakenedFrictionAngle = -0.1"),
-             ({"weakenedTensileStrength": -5.0}, "weakenedTensileStrength = -5")]
+BAD = [
+    ({"frictionAngle": 30.0}, "frictionAngle = 30"),
+    ({"restitution": 2.0}, "restitution = 2"),
+    ({"tensileStrength": -1.0}, "tensileStrength = -1"),
+    ({"density": -1.0}, "density = -1"),
+    ({"residualRollingFriction": math.nan}, "residualRollingFriction = nan"),
+]
+BAD_WALLS = [
+    ({"weakenedFrictionAngle": 2.0}, "weakenedFrictionAngle = 2"),
+    ({"weakenedFrictionAngle": -0.1}, "weakenedFrictionAngle = -0.1"),
+    ({"weakenedTensileStrength": -5.0}, "weakenedTensileStrength = -5"),
+]
 
 
 def plain_loop():
     """YADE's own loop with the same functors: no exception may leave its threads."""
     loop = of(InteractionLoop)
-    O.engines = replaced(InteractionLoop, InteractionLoop(loop.geomDispatcher.functors, loop.physDispatcher.functors, loop.lawDispatcher.functors))
+    O.engines = replaced(
+        InteractionLoop,
+        InteractionLoop(loop.geomDispatcher.functors, loop.physDispatcher.functors, loop.lawDispatcher.functors),
+    )
 
 
 @pytest.mark.parametrize("loop", [lambda: None, plain_loop])
-@pytest.mark.parametrize("kind, values, words", [(NscdMat, v, w) for v, w in BAD] + [(SlipWeakeningMat, v, w) for v, w in BAD_WALLS])
+@pytest.mark.parametrize(
+    "kind, values, words", [(NscdMat, v, w) for v, w in BAD] + [(SlipWeakeningMat, v, w) for v, w in BAD_WALLS]
+)
 def test_a_material_given_straight_to_a_body(kind, values, words, loop):
     disk = rests_on_a_floor()
     body = 0 if kind is SlipWeakeningMat else disk
-    O.bodies[body].material = kind(**{"density": 2500.0, "frictionAngle": 0.3, **values})  # not one of O.materials, which are looked at in every step
+    O.bodies[body].material = kind(
+        **{"density": 2500.0, "frictionAngle": 0.3, **values}
+    )  # not one of O.materials, which are looked at in every step
     loop()
     refused(f"body #{body}", words, "must be")
     O.bodies[body].material = O.materials[0]
@@ -272,8 +370,15 @@ def test_a_material_given_straight_to_a_body(kind, values, words, loop):
     assert abs(O.bodies[disk].state.vel[1]) < 1e-12
 
 
-@pytest.mark.parametrize("name, value, word", [("residualFriction", -0.1, "friction -0.1"), ("residualRollingArm", math.nan, "rolling arm nan"),
-                                               ("restitution", 1.5, "restitution 1.5"), ("residualFriction", math.inf, "friction inf")])
+@pytest.mark.parametrize(
+    "name, value, word",
+    [
+        ("residualFriction", -0.1, "friction -0.1"),
+        ("residualRollingArm", math.nan, "rolling arm nan"),
+        ("restitution", 1.5, "restitution 1.5"),
+        ("residualFriction", math.inf, "friction inf"),
+    ],
+)
 def test_strengths_set_by_hand(name, value, word):
     rests_on_a_floor()
     run(1)
@@ -283,7 +388,9 @@ def test_strengths_set_by_hand(name, value, word):
     O.step()
 
 
-@pytest.mark.parametrize("stuff, word", [(FrictMat(), "FrictMat"), (NscdMat(restitution=3.0), "restitution = 3"), (None, "no material")])
+@pytest.mark.parametrize(
+    "stuff, word", [(FrictMat(), "FrictMat"), (NscdMat(restitution=3.0), "restitution = 3"), (None, "no material")]
+)
 def test_update_strengths_from_materials_that_have_none(stuff, word):
     disk = rests_on_a_floor()
     run(1)
@@ -304,11 +411,14 @@ def test_a_body_without_material_that_is_met():
 
 # ---- bodies that are held -----------------------------------------------------------------------------
 
+
 def test_no_reaction_stays_between_bodies_that_are_held():
     disk = rests_on_a_floor()
     run(3)
     weight = O.bodies[disk].state.mass * G
-    assert contacts()[0].phys.normal == pytest.approx(weight, rel=1e-9) and O.forces.f(0)[1] == pytest.approx(-weight, rel=1e-9)
+    assert contacts()[0].phys.normal == pytest.approx(weight, rel=1e-9) and O.forces.f(0)[1] == pytest.approx(
+        -weight, rel=1e-9
+    )
     O.bodies[disk].state.blockedDOFs = "xyzXYZ"
     run(1)
     phys = contacts()[0].phys
@@ -321,6 +431,7 @@ def test_no_reaction_stays_between_bodies_that_are_held():
 
 # ---- overlaps -----------------------------------------------------------------------------------------
 
+
 def test_the_worst_overlap_is_named():
     stuff = material(0.3)
     for k, apart in enumerate((0.97, 0.9, 0.9, 1.2)):  # of two diameters of 1 m
@@ -332,14 +443,17 @@ def test_the_worst_overlap_is_named():
     run(1)
     e = engine()
     assert e.overlapWorst == pytest.approx(0.1, abs=1e-12)
-    assert tuple(e.overlapWorstPair) == (2, 3) and e.overlappedSteps == 1  # the first of two that are alike, in the order of ids
+    assert (
+        tuple(e.overlapWorstPair) == (2, 3) and e.overlappedSteps == 1
+    )  # the first of two that are alike, in the order of ids
     run(400)
     assert e.overlappedSteps < 401 and e.overlapWorst < 0.05 and e.overlapWorstEver == pytest.approx(0.1, abs=1e-12)
 
 
 def test_a_deep_overlap_is_told_loudly_and_seldom(tmp_path):
     script = tmp_path / "press.py"
-    script.write_text("""
+    script.write_text(
+        """
 from yade import nonsmooth
 from contact_scenes import *
 stuff = material(0.3)
@@ -350,15 +464,19 @@ O.bodies[lid].state.vel = (0, -1, 0)
 begin(tolerance=1e-4, maxIterations=50)
 run(400)
 print("steps", engine().overlappedSteps)
-""")
+"""
+    )
     done = launch(script)
     steps = int(done.stdout.split("steps")[1])
     told = [line for line in done.stderr.splitlines() if "in each other" in line]
-    assert done.returncode == 0 and 100 <= steps < 400 and len(told) == 3, done.stderr  # the 1st, the 10th and the 100th
+    assert (
+        done.returncode == 0 and 100 <= steps < 400 and len(told) == 3
+    ), done.stderr  # the 1st, the 10th and the 100th
     assert "bodies #" in told[0] and "#1" in told[0] and "lower O.dt" in told[0]
 
 
 # ---- O.resetTime ----------------------------------------------------------------------------------------
+
 
 def test_a_bond_that_broke_is_counted_once():
     stuff = material(0.3, tensileStrength=10.0, bondCreationDistance=0.02)
@@ -390,6 +508,7 @@ def test_what_was_read_before_time_began_anew_is_not_read_again():
 
 # ---- shapes that are replaced -----------------------------------------------------------------------
 
+
 def test_a_wall_whose_shape_is_replaced():
     disk = rests_on_a_floor()
     run(3)
@@ -400,7 +519,9 @@ def test_a_wall_whose_shape_is_replaced():
     refused("body #0", "a Box", "Ig2")
     loop = of(InteractionLoop)
     loop.geomDispatcher.functors = list(loop.geomDispatcher.functors) + [Ig2_Box_Sphere_ScGeom()]
-    O.engines = replaced(Collider, PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05))
+    O.engines = replaced(
+        Collider, PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Box_Aabb()], verletDist=0.05)
+    )
     O.bodies[0].state.pos = (0, -1, 0)
     run(5)
     assert abs(O.bodies[disk].state.vel[1]) < 1e-12 and contacts()[0].phys.normal > 0
@@ -422,10 +543,12 @@ def test_a_disk_that_becomes_a_wall():
 
 # ---- warnings -------------------------------------------------------------------------------------------
 
+
 def test_warnings_where_it_matters(tmp_path):
     """Impacts without weight and forces next to nothing are counted; what lasts is told."""
     script = tmp_path / "warnings.py"
-    script.write_text("""
+    script.write_text(
+        """
 import sys
 from yade import nonsmooth
 from contact_scenes import *
@@ -442,8 +565,13 @@ else:
     begin(dt=5e-3, tolerance=1e-8, maxIterations=3)
     run(400)
 print("counted", engine().unconverged, engine().unsolved)
-""")
+"""
+    )
     impacts, heap = launch(script, "impacts"), launch(script, "heap")
     counts = [[int(word) for word in done.stdout.split("counted")[1].split()] for done in (impacts, heap)]
-    assert counts[0][0] > 0 and counts[0][1] == 0 and "not solved" not in impacts.stderr, impacts.stdout + impacts.stderr
-    assert counts[1][0] > 100 and counts[1][1] > 0 and "not solved" in heap.stderr and "Raise maxIterations" in heap.stderr, heap.stdout + heap.stderr
+    assert counts[0][0] > 0 and counts[0][1] == 0 and "not solved" not in impacts.stderr, (
+        impacts.stdout + impacts.stderr
+    )
+    assert (
+        counts[1][0] > 100 and counts[1][1] > 0 and "not solved" in heap.stderr and "Raise maxIterations" in heap.stderr
+    ), (heap.stdout + heap.stderr)

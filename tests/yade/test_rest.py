@@ -26,8 +26,10 @@ def test_heap_rests_for_twenty_thousand_steps(tolerance):
     correction = e.correctionEnergy - given
     # what all disks would gain by falling freely through each of these steps: the scale of an error of one step
     scale = 20000 * weight * 9.81 * O.dt**2
-    print(f"\ntolerance {tolerance:g}: worst overlap {max(worst):.2e} l, moved {moved:.2e} m, correctionEnergy {given:.3g} J while falling "
-          f"({given / fallen:.2e} of what was dissipated), {correction:.3g} J at rest ({correction / scale:.2e} of free fall)")
+    print(
+        f"\ntolerance {tolerance:g}: worst overlap {max(worst):.2e} l, moved {moved:.2e} m, correctionEnergy {given:.3g} J while falling "
+        f"({given / fallen:.2e} of what was dissipated), {correction:.3g} J at rest ({correction / scale:.2e} of free fall)"
+    )
     assert max(worst) < 1e-4 + 1e-4  # ℓ, what is left as it is, and as much again
     # and it does not grow, beyond what is left as it is
     assert max(worst[-5000:]) <= max(2 * max(worst[:5000]), 1.1e-4)

@@ -39,14 +39,21 @@ def until(end):
 def test_a_mean_is_over_the_seconds_up_to_a_time():
     t = np.arange(1, 101) / 10
     series = {"time_s": t, "x": t**2}
-    assert results.mean_of(series, "x", 5.0, 1.0) == pytest.approx(np.mean(np.arange(41, 51) ** 2) / 100, rel=SAME)  # ten rows, 4.1 to 5.0 s
-    assert results.mean_of(series, "x", 5.0, 0.0) == pytest.approx(25.0) and results.mean_of(series, "x", 5.04, 0.1) == pytest.approx(25.0)
+    assert results.mean_of(series, "x", 5.0, 1.0) == pytest.approx(
+        np.mean(np.arange(41, 51) ** 2) / 100, rel=SAME
+    )  # ten rows, 4.1 to 5.0 s
+    assert results.mean_of(series, "x", 5.0, 0.0) == pytest.approx(25.0) and results.mean_of(
+        series, "x", 5.04, 0.1
+    ) == pytest.approx(25.0)
     assert math.isnan(results.mean_of(series, "x", 0.05, 0.01))
     # rows end up to half a step before or after their tenths, and are ten a second all the same
     for early, late in ((0.005, 0.0), (0.0, 0.005)):
         uneven = {"time_s": t - np.where(np.arange(100) % 2 == 0, early, late), "x": np.arange(100.0)}
         for k in (49, 50):
-            assert results.mean_of(uneven, "x", uneven["time_s"][k], 1.0) == k - 4.5 and results.mean_of(uneven, "x", uneven["time_s"][k], 0.0) == k
+            assert (
+                results.mean_of(uneven, "x", uneven["time_s"][k], 1.0) == k - 4.5
+                and results.mean_of(uneven, "x", uneven["time_s"][k], 0.0) == k
+            )
 
 
 # ---- characteristic times ---------------------------------------------------------------------------
@@ -56,40 +63,68 @@ def test_times_of_a_whole_run():
 
 
 def test_t1_is_of_the_largest_force_before_t2_and_of_the_water_alone():
-    higher = times_of(changed(fb_normal_N_per_m=lambda t: known_slope.series()["fb_normal_N_per_m"] + 900e6 * ((t > 6) & (t < 10.05))))
+    higher = times_of(
+        changed(fb_normal_N_per_m=lambda t: known_slope.series()["fb_normal_N_per_m"] + 900e6 * ((t > 6) & (t < 10.05)))
+    )
     assert higher["t1"] == TIMES["t1"]  # a second that begins before t0 is none
     no_weakening = times_of(changed(weakened_disks=lambda t: np.full(len(t), 7)))
-    assert no_weakening == {"t0": 10.0, "t1": 41.0, "t2": None, "t3": None, "t4": None, "t5": None}  # the largest force of all, 300 MN/m from 40.1 s on
+    assert no_weakening == {
+        "t0": 10.0,
+        "t1": 41.0,
+        "t2": None,
+        "t3": None,
+        "t4": None,
+        "t5": None,
+    }  # the largest force of all, 300 MN/m from 40.1 s on
 
 
-@pytest.mark.parametrize("diameters, before, after, found", [
-    ((1.0, 4.0), 7, 8, 35.0),    # 1530 m hold 765 disks of √(1 · 4) m: 7.65 are a hundredth
-    ((1.2, 4.0), 7, 8, 32.0),    # 6.98
-    ((1.0, 3.6), 7, 8, None),    # 8.06
-    ((90.0, 90.0), 1, 1, 32.0),  # one at least
-    ((90.0, 90.0), 0, 0, None)])
+@pytest.mark.parametrize(
+    "diameters, before, after, found",
+    [
+        ((1.0, 4.0), 7, 8, 35.0),  # 1530 m hold 765 disks of √(1 · 4) m: 7.65 are a hundredth
+        ((1.2, 4.0), 7, 8, 32.0),  # 6.98
+        ((1.0, 3.6), 7, 8, None),  # 8.06
+        ((90.0, 90.0), 1, 1, 32.0),  # one at least
+        ((90.0, 90.0), 0, 0, None),
+    ],
+)
 def test_t2_wants_a_hundredth_of_the_disks_along_the_plane(diameters, before, after, found):
-    section = dataclasses.replace(SHIPPED, disks=dataclasses.replace(SHIPPED.disks, d_min=diameters[0], d_max=diameters[1]))
-    series = results.chosen_rows(changed(weakened_disks=lambda t: np.select([t < 32 - 1e-9, t < 35 - 1e-9], [0, before], after)), STATE)
+    section = dataclasses.replace(
+        SHIPPED, disks=dataclasses.replace(SHIPPED.disks, d_min=diameters[0], d_max=diameters[1])
+    )
+    series = results.chosen_rows(
+        changed(weakened_disks=lambda t: np.select([t < 32 - 1e-9, t < 35 - 1e-9], [0, before], after)), STATE
+    )
     assert results.characteristic_times(series, section, STATE)["t2"] == found
 
 
 def test_t3_is_a_tenth_of_the_mean_shear():
     """It falls from 365 MN/m by a quarter a second; with a rest of 9 or of 11 % of the mean at t2, it comes to a tenth, or does not."""
     for rest, comes in ((0.09, True), (0.11, False)):
-        series = changed(dp_shear_N_per_m=lambda t: np.where(t <= 35, 365e6, np.maximum(365e6 * (1 - (t - 35) / 4), rest * 365e6)))
+        series = changed(
+            dp_shear_N_per_m=lambda t: np.where(t <= 35, 365e6, np.maximum(365e6 * (1 - (t - 35) / 4), rest * 365e6))
+        )
         assert (times_of(series)["t3"] is not None) == comes
-    once = times_of(changed(dp_shear_N_per_m=lambda t: np.where(np.abs(t - 20) < 2, 0.0, known_slope.series()["dp_shear_N_per_m"])))
+    once = times_of(
+        changed(dp_shear_N_per_m=lambda t: np.where(np.abs(t - 20) < 2, 0.0, known_slope.series()["dp_shear_N_per_m"]))
+    )
     assert once == pytest.approx(TIMES, abs=1e-9)  # what was before t2 does not count
 
 
 def test_t4_and_t5_are_the_top_and_the_last_fall():
-    stirred = times_of(changed(speed_mean_m_per_s=lambda t: known_slope.series()["speed_mean_m_per_s"] + (np.abs(t - 95) < 0.05)))
+    stirred = times_of(
+        changed(speed_mean_m_per_s=lambda t: known_slope.series()["speed_mean_m_per_s"] + (np.abs(t - 95) < 0.05))
+    )
     assert stirred["t4"] == 55.0 and stirred["t5"] == pytest.approx(95.1, abs=1e-9)
     assert times_of(until(84.4))["t5"] is None and times_of(until(84.5))["t5"] == pytest.approx(84.5, abs=1e-9)
-    late = dataclasses.replace(SHIPPED, stages=dataclasses.replace(SHIPPED.stages, end=dataclasses.replace(SHIPPED.stages.end, rest_fraction=0.1)))
+    late = dataclasses.replace(
+        SHIPPED,
+        stages=dataclasses.replace(SHIPPED.stages, end=dataclasses.replace(SHIPPED.stages.end, rest_fraction=0.1)),
+    )
     # 85.03 − 0.1 · 28.03 s
-    assert results.characteristic_times(results.chosen_rows(known_slope.series(), STATE), late, STATE)["t5"] == pytest.approx(82.3, abs=1e-9)
+    assert results.characteristic_times(results.chosen_rows(known_slope.series(), STATE), late, STATE)[
+        "t5"
+    ] == pytest.approx(82.3, abs=1e-9)
 
 
 def test_a_slope_that_does_not_move_has_no_failure():
@@ -104,37 +139,94 @@ def test_without_backstop_failure_is_motion():
 
 
 def test_stopped_before_weakening():
-    assert times_of(until(34.0)) == {"t0": 10.0, "t1": pytest.approx(TIMES["t1"]), "t2": None, "t3": None, "t4": None, "t5": None}
+    assert times_of(until(34.0)) == {
+        "t0": 10.0,
+        "t1": pytest.approx(TIMES["t1"]),
+        "t2": None,
+        "t3": None,
+        "t4": None,
+        "t5": None,
+    }
 
 
 def test_a_slope_that_failed_dry_has_the_times_of_its_motion():
     """Of all rows: kinetic energy is largest while it settles, at once, and 2 % of 45 m/s are passed at 85.03 − 0.03 · 28.03 s."""
-    assert times_of(known_slope.series(), failed_dry=3.0) == {"t0": None, "t1": None, "t2": None, "t3": None, "t4": 0.1, "t5": pytest.approx(84.2)}
+    assert times_of(known_slope.series(), failed_dry=3.0) == {
+        "t0": None,
+        "t1": None,
+        "t2": None,
+        "t3": None,
+        "t4": 0.1,
+        "t5": pytest.approx(84.2),
+    }
 
 
 # ---- the summary ------------------------------------------------------------------------------------
 PASSIVE = toe.passive(SHIPPED, 99.8e3, 39.8, 0.84)
-WATER, BACK, SHEAR = 0.5 * 19.2, 140e6 + 3e6 * (19.2 - 0.45), 440e6 - 3e6 * (19.2 - 0.45)  # at t1; means over a second are values half a second before
+WATER, BACK, SHEAR = (
+    0.5 * 19.2,
+    140e6 + 3e6 * (19.2 - 0.45),
+    440e6 - 3e6 * (19.2 - 0.45),
+)  # at t1; means over a second are values half a second before
 DRY_BACK, DRY_SHEAR = 140e6 - 0.45e6, 440e6 + 0.9e6
 LOST = 9.5e9
 
 #: Each key of summary.json: its answer, and the powers of length, time and mass of 1 m³ of rock by which it grows with a slope's size.
 KNOWN = {
-    "section": ("Jiufengershan", None), "finished": (True, None), "disks": (550, None), "contacts_initial": (43000, None), "bonds_initial": (41000, None),
-    "packing_fraction": (0.84, None), "time_step_s": (1e-2, None), "path_rel": (0.1, None), "steps": (49999, None), "simulated_s": (95.0, "time"), "wall_s": (321.0, None),
-    "wall_packing_s": (12.5, None), "threads": (3, None), "iterations_mean": ((525 * 10 + 425 * 30) / 950, None), "tolerance": (1e-6, None), "tolerance_moving": (2e-4, None),
-    "residual_p95": (1e-8 * 902.55, None), "residual_N_per_m_p95": (3 * 902.55, None),  # of 1 to 950
-    "residual_p95_over_tolerance": (0.01 * 427.55, None),  # half of the rows have a tolerance 200 times as large, so these and four others are the smallest
-    "overlap_worst_rel": (0.03, None), "overlap_mean_rel": (0.004, None), "failed_dry_s": (None, None), "times_s": (TIMES, "time"), "water_at_failure_m": (WATER, "length"),
-    "fb_force_dry_N_per_m": (DRY_BACK, "force"), "fb_force_at_failure_N_per_m": (BACK, "force"), "fb_force_final_N_per_m": (90e6 + 2e6 * 0.95, "force"),  # 98.1 to 100 s
-    "dp_shear_dry_N_per_m": (DRY_SHEAR, "force"), "dp_shear_at_failure_N_per_m": (SHEAR, "force"), "dp_shear_final_N_per_m": (-20e6 - 1e6 * 9.05, "force"),
-    "triggering_s": (4.1, "time"), "motion_s": (45.4, "time"), "front_travel_m": (1000.5, "length"), "centroid_travel_m": (250.0, "length"),
-    "speed_max_m_per_s": (61.5, "speed"), "speed_mean_max_m_per_s": (30.0, "speed"), "deposit_thickness_max_m": (36.0, "length"), "bulking_factor": (14472 / 12000, None),
-    "energy_dissipated_J_per_m": (LOST, "energy"), "energy_losses_J_per_m": ({"sliding": 6e9, "rolling": 1e9, "impact": 2e9, "bonds": 0.5e9}, "energy"),
-    "energy_correction_rel": (1.9e8 / LOST, None), "energy_error_rel": (0.01 * (LOST * 40 / 55 + 2e9 + 3e9) / LOST, None),  # at 70 s: losses, kinetic energy and |water|
-    "fb_rise_over_dp_drop": ((BACK - DRY_BACK) / (DRY_SHEAR - SHEAR), None), "water_passive_m": (PASSIVE.water_m, "length"),
-    "water_at_failure_over_passive": (WATER / PASSIVE.water_m, None), "passive_resistance_dry_N_per_m": (PASSIVE.resistance_dry, "force"),
-    "passive_force_N_per_m": (PASSIVE.push_N_per_m, "force"), "fb_force_at_failure_over_passive": (BACK / PASSIVE.push_N_per_m, None),
+    "section": ("Jiufengershan", None),
+    "finished": (True, None),
+    "disks": (550, None),
+    "contacts_initial": (43000, None),
+    "bonds_initial": (41000, None),
+    "packing_fraction": (0.84, None),
+    "time_step_s": (1e-2, None),
+    "path_rel": (0.1, None),
+    "steps": (49999, None),
+    "simulated_s": (95.0, "time"),
+    "wall_s": (321.0, None),
+    "wall_packing_s": (12.5, None),
+    "threads": (3, None),
+    "iterations_mean": ((525 * 10 + 425 * 30) / 950, None),
+    "tolerance": (1e-6, None),
+    "tolerance_moving": (2e-4, None),
+    "residual_p95": (1e-8 * 902.55, None),
+    "residual_N_per_m_p95": (3 * 902.55, None),  # of 1 to 950
+    "residual_p95_over_tolerance": (
+        0.01 * 427.55,
+        None,
+    ),  # half of the rows have a tolerance 200 times as large, so these and four others are the smallest
+    "overlap_worst_rel": (0.03, None),
+    "overlap_mean_rel": (0.004, None),
+    "failed_dry_s": (None, None),
+    "times_s": (TIMES, "time"),
+    "water_at_failure_m": (WATER, "length"),
+    "fb_force_dry_N_per_m": (DRY_BACK, "force"),
+    "fb_force_at_failure_N_per_m": (BACK, "force"),
+    "fb_force_final_N_per_m": (90e6 + 2e6 * 0.95, "force"),  # 98.1 to 100 s
+    "dp_shear_dry_N_per_m": (DRY_SHEAR, "force"),
+    "dp_shear_at_failure_N_per_m": (SHEAR, "force"),
+    "dp_shear_final_N_per_m": (-20e6 - 1e6 * 9.05, "force"),
+    "triggering_s": (4.1, "time"),
+    "motion_s": (45.4, "time"),
+    "front_travel_m": (1000.5, "length"),
+    "centroid_travel_m": (250.0, "length"),
+    "speed_max_m_per_s": (61.5, "speed"),
+    "speed_mean_max_m_per_s": (30.0, "speed"),
+    "deposit_thickness_max_m": (36.0, "length"),
+    "bulking_factor": (14472 / 12000, None),
+    "energy_dissipated_J_per_m": (LOST, "energy"),
+    "energy_losses_J_per_m": ({"sliding": 6e9, "rolling": 1e9, "impact": 2e9, "bonds": 0.5e9}, "energy"),
+    "energy_correction_rel": (1.9e8 / LOST, None),
+    "energy_error_rel": (
+        0.01 * (LOST * 40 / 55 + 2e9 + 3e9) / LOST,
+        None,
+    ),  # at 70 s: losses, kinetic energy and |water|
+    "fb_rise_over_dp_drop": ((BACK - DRY_BACK) / (DRY_SHEAR - SHEAR), None),
+    "water_passive_m": (PASSIVE.water_m, "length"),
+    "water_at_failure_over_passive": (WATER / PASSIVE.water_m, None),
+    "passive_resistance_dry_N_per_m": (PASSIVE.resistance_dry, "force"),
+    "passive_force_N_per_m": (PASSIVE.push_N_per_m, "force"),
+    "fb_force_at_failure_over_passive": (BACK / PASSIVE.push_N_per_m, None),
 }
 
 
@@ -165,42 +257,103 @@ def test_each_key_of_a_summary(tmp_path):
 
 
 def test_the_worst_overlap_is_that_of_all_steps(tmp_path):
-    assert_known(summary_of(known_slope.write(tmp_path), overlap_worst_ever=0.015), overlap_worst_rel=0.02)  # rows saw a larger one
+    assert_known(
+        summary_of(known_slope.write(tmp_path), overlap_worst_ever=0.015), overlap_worst_rel=0.02
+    )  # rows saw a larger one
 
 
-NOT_AT_REST = {"finished": False} | dict.fromkeys(("fb_force_final_N_per_m", "dp_shear_final_N_per_m", "deposit_thickness_max_m", "bulking_factor", "centroid_travel_m"))
+NOT_AT_REST = {"finished": False} | dict.fromkeys(
+    (
+        "fb_force_final_N_per_m",
+        "dp_shear_final_N_per_m",
+        "deposit_thickness_max_m",
+        "bulking_factor",
+        "centroid_travel_m",
+    )
+)
 
 
 def test_a_run_that_goes_on_has_no_end(tmp_path):
     known_slope.write(tmp_path, until(70.0), stop=None)
     share = 40 / 55
-    assert_known(summary_of(tmp_path, stage="water"), **NOT_AT_REST, times_s=TIMES | {"t5": None}, motion_s=None, steps=34999, simulated_s=65.0,
-                 iterations_mean=(525 * 10 + 125 * 30) / 650, residual_p95=1e-8 * 617.55, residual_N_per_m_p95=3 * 617.55, residual_p95_over_tolerance=0.01 * 442.55,
-                 front_travel_m=1200 - 99.5 * 10 / 25 - 100, energy_dissipated_J_per_m=share * LOST, energy_correction_rel=1.9e8 / LOST,
-                 energy_losses_J_per_m={name: share * value for name, value in KNOWN["energy_losses_J_per_m"][0].items()},
-                 energy_error_rel=0.01 * (LOST * share + 2e9 + 3e9) / (LOST * share))
+    assert_known(
+        summary_of(tmp_path, stage="water"),
+        **NOT_AT_REST,
+        times_s=TIMES | {"t5": None},
+        motion_s=None,
+        steps=34999,
+        simulated_s=65.0,
+        iterations_mean=(525 * 10 + 125 * 30) / 650,
+        residual_p95=1e-8 * 617.55,
+        residual_N_per_m_p95=3 * 617.55,
+        residual_p95_over_tolerance=0.01 * 442.55,
+        front_travel_m=1200 - 99.5 * 10 / 25 - 100,
+        energy_dissipated_J_per_m=share * LOST,
+        energy_correction_rel=1.9e8 / LOST,
+        energy_losses_J_per_m={name: share * value for name, value in KNOWN["energy_losses_J_per_m"][0].items()},
+        energy_error_rel=0.01 * (LOST * share + 2e9 + 3e9) / (LOST * share)
+    )
 
 
 def test_a_run_that_waits_for_the_water_has_no_failure(tmp_path):
     known_slope.write(tmp_path, until(9.0), start=None, stop=None)
     found = summary_of(tmp_path, stage="dry", t0=None, moving=None, front0=None)
     assert found["times_s"] == dict.fromkeys(TIMES) and "fb_rise_over_dp_drop" not in found
-    for name in ("disks", "water_at_failure_m", "fb_force_dry_N_per_m", "dp_shear_dry_N_per_m", "front_travel_m", "triggering_s", "motion_s", *NOT_AT_REST,
-                 "water_at_failure_over_passive", "fb_force_at_failure_over_passive"):
+    for name in (
+        "disks",
+        "water_at_failure_m",
+        "fb_force_dry_N_per_m",
+        "dp_shear_dry_N_per_m",
+        "front_travel_m",
+        "triggering_s",
+        "motion_s",
+        *NOT_AT_REST,
+        "water_at_failure_over_passive",
+        "fb_force_at_failure_over_passive",
+    ):
         assert not found[name], name
-    assert found["energy_correction_rel"] == found["energy_error_rel"] == found["energy_dissipated_J_per_m"] == 0  # nothing has been turned
+    assert (
+        found["energy_correction_rel"] == found["energy_error_rel"] == found["energy_dissipated_J_per_m"] == 0
+    )  # nothing has been turned
     assert found["water_passive_m"] == near(PASSIVE.water_m)  # of the rock, not of the run
 
 
 def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
     known_slope.write(tmp_path)
-    gone = dict.fromkeys(("water_at_failure_m", "fb_force_dry_N_per_m", "fb_force_at_failure_N_per_m", "dp_shear_dry_N_per_m", "dp_shear_at_failure_N_per_m", "triggering_s",
-                          "motion_s", "bulking_factor", "water_at_failure_over_passive", "fb_force_at_failure_over_passive"))
-    between = lambda low, high: low + 0.05 * (high - low)  # noqa: E731  the percentile of a thousand rows, between the 950 since it settled and the 50 before
-    assert_known(summary_of(tmp_path, failed_dry=3.0), without=["fb_rise_over_dp_drop"], **gone, failed_dry_s=3.0,
-                 times_s=dict.fromkeys(("t0", "t1", "t2", "t3")) | {"t4": 0.1, "t5": 84.2}, front_travel_m=1050.5, centroid_travel_m=math.hypot(210, 180),
-                 iterations_mean=(50 * 5000 + 525 * 10 + 425 * 30) / 1000, speed_max_m_per_s=999.0, speed_mean_max_m_per_s=45.0, overlap_worst_rel=0.5, overlap_mean_rel=0.4,
-                 residual_p95=between(950e-8, 1.0), residual_N_per_m_p95=between(2850.0, 1e9), residual_p95_over_tolerance=between(4.75, 1e6))
+    gone = dict.fromkeys(
+        (
+            "water_at_failure_m",
+            "fb_force_dry_N_per_m",
+            "fb_force_at_failure_N_per_m",
+            "dp_shear_dry_N_per_m",
+            "dp_shear_at_failure_N_per_m",
+            "triggering_s",
+            "motion_s",
+            "bulking_factor",
+            "water_at_failure_over_passive",
+            "fb_force_at_failure_over_passive",
+        )
+    )
+    between = lambda low, high: low + 0.05 * (
+        high - low
+    )  # noqa: E731  the percentile of a thousand rows, between the 950 since it settled and the 50 before
+    assert_known(
+        summary_of(tmp_path, failed_dry=3.0),
+        without=["fb_rise_over_dp_drop"],
+        **gone,
+        failed_dry_s=3.0,
+        times_s=dict.fromkeys(("t0", "t1", "t2", "t3")) | {"t4": 0.1, "t5": 84.2},
+        front_travel_m=1050.5,
+        centroid_travel_m=math.hypot(210, 180),
+        iterations_mean=(50 * 5000 + 525 * 10 + 425 * 30) / 1000,
+        speed_max_m_per_s=999.0,
+        speed_mean_max_m_per_s=45.0,
+        overlap_worst_rel=0.5,
+        overlap_mean_rel=0.4,
+        residual_p95=between(950e-8, 1.0),
+        residual_N_per_m_p95=between(2850.0, 1e9),
+        residual_p95_over_tolerance=between(4.75, 1e6)
+    )
     # energies are those since it settled, when they begin anew
 
 
@@ -213,13 +366,21 @@ def test_without_losses_energies_are_of_the_motion(tmp_path):
 
 @pytest.mark.filterwarnings("ignore:divide by zero", "ignore:invalid value")
 def test_what_is_no_number_is_null(tmp_path):
-    found = summary_of(known_slope.write(tmp_path, changed(tolerance=lambda t: 0 * t, dp_shear_N_per_m=lambda t: 0 * t)))
-    assert found["residual_p95_over_tolerance"] is None and found["fb_rise_over_dp_drop"] is None and found["residual_p95"] == near(KNOWN["residual_p95"][0])
+    found = summary_of(
+        known_slope.write(tmp_path, changed(tolerance=lambda t: 0 * t, dp_shear_N_per_m=lambda t: 0 * t))
+    )
+    assert (
+        found["residual_p95_over_tolerance"] is None
+        and found["fb_rise_over_dp_drop"] is None
+        and found["residual_p95"] == near(KNOWN["residual_p95"][0])
+    )
 
 
 def test_a_rock_without_envelope_is_not_set_beside_its_toe(tmp_path):
     known_slope.write(tmp_path)
-    bare = dataclasses.replace(SHIPPED, materials={**SHIPPED.materials, "rock": dataclasses.replace(SHIPPED.materials["rock"], envelope=None)})
+    bare = dataclasses.replace(
+        SHIPPED, materials={**SHIPPED.materials, "rock": dataclasses.replace(SHIPPED.materials["rock"], envelope=None)}
+    )
     dry = dataclasses.replace(SHIPPED, water=None)
     for section in (bare, dry):
         assert set(summary_of(tmp_path, section)) == {name for name in KNOWN if "passive" not in name}
@@ -230,15 +391,27 @@ def test_a_slope_of_another_size_has_the_same_summary_in_its_units(tmp_path, siz
     """Lengths, times, speeds, forces per metre and energies per metre grow as L, √L, √L, L² and L³ (Froude); all else is the same."""
     section, time = known_slope.scaled(size)
     units = {"length": size, "time": time, "speed": time, "force": size**2, "energy": size**3, None: 1.0}
-    of_columns = {"time_s": "time", **{name: "length" for name in ("water_m", "front_m", "centroid_x_m", "centroid_y_m")},
-                  **{name: "speed" for name in ("speed_mean_m_per_s", "speed_max_m_per_s")},
-                  **{name: "energy" for name in records.COLUMNS if name.startswith("energy") and name.endswith("_J")},
-                  **{name: "force" for name in records.COLUMNS if name.endswith("N_per_m") and not name.startswith("residual")}}
-    stretch = lambda made: lambda: {name: size * values if name in "xyr" else values for name, values in made().items()}  # noqa: E731
+    of_columns = {
+        "time_s": "time",
+        **{name: "length" for name in ("water_m", "front_m", "centroid_x_m", "centroid_y_m")},
+        **{name: "speed" for name in ("speed_mean_m_per_s", "speed_max_m_per_s")},
+        **{name: "energy" for name in records.COLUMNS if name.startswith("energy") and name.endswith("_J")},
+        **{name: "force" for name in records.COLUMNS if name.endswith("N_per_m") and not name.startswith("residual")},
+    }
+    stretch = lambda made: lambda: {
+        name: size * values if name in "xyr" else values for name, values in made().items()
+    }  # noqa: E731
     series = {name: units[of_columns.get(name)] * values for name, values in known_slope.series().items()}
     known_slope.write(tmp_path, series, stretch(known_slope.begin), stretch(known_slope.end))
-    found = summary_of(tmp_path, section, **{name: time * STATE[name] for name in ("settled", "t0", "moving")}, front0=size * STATE["front0"])
+    found = summary_of(
+        tmp_path,
+        section,
+        **{name: time * STATE[name] for name in ("settled", "t0", "moving")},
+        front0=size * STATE["front0"]
+    )
     assert set(found) == set(KNOWN)
     for name, (value, unit) in KNOWN.items():
         # the toe's height is where two curves cross, found to 2e-12 of a metre
-        assert found[name] == (pytest.approx(units[unit] * value, rel=1e-7) if "passive" in name else near(value, units[unit])), name
+        assert found[name] == (
+            pytest.approx(units[unit] * value, rel=1e-7) if "passive" in name else near(value, units[unit])
+        ), name

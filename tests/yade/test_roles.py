@@ -9,7 +9,9 @@ import pytest
 import synthetic_slope as synthetic
 from slope_scenes import SHIPPED, write_changed
 
-packing, roles, scales, section, similar = (synthetic.load(name) for name in ("packing", "roles", "scales", "section", "similar"))
+packing, roles, scales, section, similar = (
+    synthetic.load(name) for name in ("packing", "roles", "scales", "section", "similar")
+)
 JIUFENGERSHAN = section.load("jiufengershan")
 
 
@@ -64,17 +66,28 @@ def test_a_wall_that_nothing_leans_against_is_no_backstop(tmp_path):
         data["walls"][1]["vertices"] = [[100.0, 0.0], [123.294, 60.683]]
         data["walls"].insert(1, {"name": "gap", "material": "ss", "vertices": [[0.0, 0.0], [100.0, 0.0]]})
         data["walls"][3]["vertices"][0] = [123.294, 60.683]
-        data["layers"] = [data["layers"][0] | {"vertices": [[0.0, 0.0], [-100.0, 80.0], [-1346.109, 561.711], [-1400.371, 537.552]]}]
+        data["layers"] = [
+            data["layers"][0] | {"vertices": [[0.0, 0.0], [-100.0, 80.0], [-1346.109, 561.711], [-1400.371, 537.552]]}
+        ]
 
     assert [w.role for w in written(tmp_path, away).walls] == ["slip", "ground", "ground", "ground"]
 
 
 def test_what_a_bed_leans_against_is_no_backstop(tmp_path):
     """A layer in the valley lies on the wall's part that rises: a backstop of the mass that does, but not of a bed."""
+
     def filled(role):
         def change(data):
             nameless(data)
-            data["layers"].append({"name": "fill", "material": "rock", "role": role, "vertices": [[1000.0, 21.313], [1200.0, 74.9027], [1000.0, 74.9027]]})
+            data["layers"].append(
+                {
+                    "name": "fill",
+                    "material": "rock",
+                    "role": role,
+                    "vertices": [[1000.0, 21.313], [1200.0, 74.9027], [1000.0, 74.9027]],
+                }
+            )
+
         return change
 
     assert [w.role for w in written(tmp_path, filled("mass")).walls] == ["slip", "backstop", "backstop"]
@@ -87,15 +100,25 @@ def test_a_slope_falls_along_the_chords_of_its_slip_surfaces(tmp_path):
     assert (back.name, seat.name, chair.side) == ("back", "seat", 1.0) and chair.dip == pytest.approx(dip, rel=1e-12)
     circle = section.load("circle")
     assert circle.side == -1.0 and circle.dip == pytest.approx(-math.degrees(math.atan2(40, 90)), rel=1e-12)
-    assert circle.downslope == pytest.approx((-90 / math.hypot(90, 40), -40 / math.hypot(90, 40))) and circle.normal[1] > 0 > circle.normal[0]
+    assert (
+        circle.downslope == pytest.approx((-90 / math.hypot(90, 40), -40 / math.hypot(90, 40)))
+        and circle.normal[1] > 0 > circle.normal[0]
+    )
 
 
 @pytest.mark.parametrize("name", section.shipped())
 def test_mirrored_twice_a_section_is_as_it_was(name):
     here = section.load(name)
     there = similar.mirrored(here)
-    assert there.side == -here.side and there.dip == -here.dip and there.disk_counts() == here.disk_counts() and there.area == here.area
-    assert {w.name: w.role for w in there.walls} == {w.name: w.role for w in here.walls} == {w.name: w.role for w in roles.assigned(unsaid(there))} or name == "chair"
+    assert (
+        there.side == -here.side
+        and there.dip == -here.dip
+        and there.disk_counts() == here.disk_counts()
+        and there.area == here.area
+    )
+    assert {w.name: w.role for w in there.walls} == {w.name: w.role for w in here.walls} == {
+        w.name: w.role for w in roles.assigned(unsaid(there))
+    } or name == "chair"
     again = similar.mirrored(there)
     assert (again.walls, again.layers, again.water) == (here.walls, here.layers, here.water)
 
@@ -113,30 +136,69 @@ def test_a_mirrored_section_is_checked_like_any_other(tmp_path):
     read = written(tmp_path, flip)
     assert (read.walls, read.layers) == (similar.mirrored(JIUFENGERSHAN).walls, similar.mirrored(JIUFENGERSHAN).layers)
     there = similar.mirrored(JIUFENGERSHAN).water
-    assert (there.point, there.dip, there.gradient, there.wall) == (read.water.point, read.water.dip, read.water.gradient, "DP")
+    assert (there.point, there.dip, there.gradient, there.wall) == (
+        read.water.point,
+        read.water.dip,
+        read.water.gradient,
+        "DP",
+    )
     assert (read.water.point, read.water.dip, read.side) == ((0.0, 0.0), -JIUFENGERSHAN.water.dip, -1.0)
-    assert read.water.gradient == pytest.approx((-JIUFENGERSHAN.water.gradient[0], JIUFENGERSHAN.water.gradient[1]), rel=1e-15)
+    assert read.water.gradient == pytest.approx(
+        (-JIUFENGERSHAN.water.gradient[0], JIUFENGERSHAN.water.gradient[1]), rel=1e-15
+    )
 
 
 def test_a_mirrored_section_has_the_mirrored_packing():
     here = JIUFENGERSHAN.with_disks(600)
     one, other = packing.pack(here), packing.pack(similar.mirrored(here))
-    assert np.array_equal(one.x, -other.x) and all(np.array_equal(getattr(one, name), getattr(other, name)) for name in ("y", "r", "layer")) and one.x.min() < -1000
+    assert (
+        np.array_equal(one.x, -other.x)
+        and all(np.array_equal(getattr(one, name), getattr(other, name)) for name in ("y", "r", "layer"))
+        and one.x.min() < -1000
+    )
 
 
 def test_a_slope_of_another_size_has_the_scales_that_go_with_it():
     """Froude: times and speeds as the root of lengths, stresses as lengths."""
     big, small = JIUFENGERSHAN, similar.scaled(JIUFENGERSHAN, 0.01)
-    assert small.area == pytest.approx(1e-4 * big.area) and small.disk_counts() == big.disk_counts() and small.dip == pytest.approx(big.dip)
+    assert (
+        small.area == pytest.approx(1e-4 * big.area)
+        and small.disk_counts() == big.disk_counts()
+        and small.dip == pytest.approx(big.dip)
+    )
     assert small.wall("DP").points == pytest.approx(0.01 * big.wall("DP").points)
-    assert (small.numerics.time_step, small.stages.dry, small.stages.end.time, small.stages.settle.ramp) == pytest.approx((1e-3, 0.3, 15.0, 0.4))
-    assert (small.stages.settle.speed_rest, small.water.rate, small.water.release_distance) == pytest.approx((5e-4, 0.1, 0.05))
+    assert (
+        small.numerics.time_step,
+        small.stages.dry,
+        small.stages.end.time,
+        small.stages.settle.ramp,
+    ) == pytest.approx((1e-3, 0.3, 15.0, 0.4))
+    assert (small.stages.settle.speed_rest, small.water.rate, small.water.release_distance) == pytest.approx(
+        (5e-4, 0.1, 0.05)
+    )
     rock, dp = small.materials["rock"], small.materials["dp"]
-    assert (rock.tensile_strength, rock.residual_tensile_strength, rock.envelope.cohesion, dp.slip_weakening.critical_slip) == pytest.approx((1e3, 250.0, 998.0, 0.05))
-    assert (rock.friction, rock.density, rock.bond_ellipse, rock.bond_creation_distance, small.gravity) == (0.3, 2500.0, (0.02, 0.02), 0.05, 9.81)
-    assert (small.water.unit_weight, small.water.gradient, small.numerics.path) == (big.water.unit_weight, big.water.gradient, big.numerics.path)
+    assert (
+        rock.tensile_strength,
+        rock.residual_tensile_strength,
+        rock.envelope.cohesion,
+        dp.slip_weakening.critical_slip,
+    ) == pytest.approx((1e3, 250.0, 998.0, 0.05))
+    assert (rock.friction, rock.density, rock.bond_ellipse, rock.bond_creation_distance, small.gravity) == (
+        0.3,
+        2500.0,
+        (0.02, 0.02),
+        0.05,
+        9.81,
+    )
+    assert (small.water.unit_weight, small.water.gradient, small.numerics.path) == (
+        big.water.unit_weight,
+        big.water.gradient,
+        big.numerics.path,
+    )
     of, to = scales.of(big), scales.of(small)
-    assert (to.moving_speed, to.going_speed, to.still_seconds, to.row_seconds) == pytest.approx((0.1 * of.moving_speed, 0.1 * of.going_speed, 0.1 * of.still_seconds, 0.01))
+    assert (to.moving_speed, to.going_speed, to.still_seconds, to.row_seconds) == pytest.approx(
+        (0.1 * of.moving_speed, 0.1 * of.going_speed, 0.1 * of.still_seconds, 0.01)
+    )
 
 
 def test_heights_and_times_of_a_table_and_of_its_hold_scale_too(tmp_path):

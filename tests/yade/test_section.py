@@ -25,6 +25,7 @@ def section():
 @pytest.fixture
 def refused(tmp_path):
     """Write a section and return the message it is refused with, which names file and line."""
+
     def run(text):
         path = tmp_path / "slope.yaml"
         path.write_text(text, encoding="utf-8")
@@ -34,6 +35,7 @@ def refused(tmp_path):
         assert message.startswith(f"{path}: ")
         assert "\n" not in message
         return message
+
     return run
 
 
@@ -78,7 +80,9 @@ def test_vectors_and_water(section):
 
 def test_the_water_rises_by_its_table_and_then_at_its_rate(section):
     water = dataclasses.replace(section.water, table=((0.0, 2.0), (10.0, 4.0), (20.0, 3.0)), rate=0.5)
-    assert water.height(np.array([-5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 24.0])) == pytest.approx([2, 2, 3, 4, 3.5, 3, 5])  # exact but for rounding
+    assert water.height(np.array([-5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 24.0])) == pytest.approx(
+        [2, 2, 3, 4, 3.5, 3, 5]
+    )  # exact but for rounding
 
 
 @pytest.mark.parametrize("distribution, median", [("uniform_by_volume", 8 / 5), ("uniform_by_number", 5 / 2)])
@@ -87,7 +91,9 @@ def test_sizes_by_quantile(distribution, median):
     disks = Disks(1.0, 4.0, distribution, 0.84)
     assert disks.diameters([0.0, 0.5, 1.0]) == pytest.approx([1, median, 4])
     quantiles = (np.arange(10_000) + 0.5) / 10_000
-    assert disks.mean_square == pytest.approx(np.mean(disks.diameters(quantiles) ** 2), rel=1e-6)  # by the rule of midpoints
+    assert disks.mean_square == pytest.approx(
+        np.mean(disks.diameters(quantiles) ** 2), rel=1e-6
+    )  # by the rule of midpoints
 
 
 def test_table_1(section):
@@ -124,7 +130,9 @@ def test_with_rock_changes_the_layers_alone(section):
     other = section.with_rock(wwr)
     assert other.materials["rock"] == dataclasses.replace(wwr, name="rock")
     assert all(other.materials[k] == m for k, m in section.materials.items() if k != "rock")
-    assert other.key() == section.key() and other.key("settled") != section.key("settled")  # the same packing, another slope
+    assert other.key() == section.key() and other.key("settled") != section.key(
+        "settled"
+    )  # the same packing, another slope
     with pytest.raises(SectionError, match="no density"):
         section.with_rock(section.materials["ss"])
 
@@ -160,13 +168,20 @@ def test_key_is_of_what_matters(section, tmp_path):
 
 def test_numbers_as_in_yaml_1_2_and_water_variants(tmp_path):
     path = tmp_path / "s.yaml"
-    path.write_text(TEXT.replace("100.0e3          # Pa", "1e5")
-                    .replace("plane: DP  ", "plane: {point: [1, 2], dip: 10}")
-                    .replace("gradient: buoyant", "gradient: [0, 5]").replace("{rate: 1.0}", "{points: [[0, 1], [10, 6]]}"))
+    path.write_text(
+        TEXT.replace("100.0e3          # Pa", "1e5")
+        .replace("plane: DP  ", "plane: {point: [1, 2], dip: 10}")
+        .replace("gradient: buoyant", "gradient: [0, 5]")
+        .replace("{rate: 1.0}", "{points: [[0, 1], [10, 6]]}")
+    )
     s = load(path)
     assert s.materials["rock"].tensile_strength == 1e5
     assert s.water.gradient == (0.0, 5.0) and s.water.wall is None and s.water.dip == 10
-    assert s.water.normal == pytest.approx((math.sin(math.radians(10)), math.cos(math.radians(10)))) and s.dip == pytest.approx(21, abs=1e-4)  # that of the slope
+    assert s.water.normal == pytest.approx(
+        (math.sin(math.radians(10)), math.cos(math.radians(10)))
+    ) and s.dip == pytest.approx(
+        21, abs=1e-4
+    )  # that of the slope
     assert s.water.height(np.array([-1.0, 5.0, 99.0])).tolist() == [1.0, 3.5, 6.0]
 
 
@@ -190,24 +205,58 @@ BAD = {
     "negative size": (dict(disks__diameter=[-1.0, 4.0]), "disks.diameter[0]: -1.0", "1e-6 or more"),
     "sizes turned round": (dict(disks__diameter=[4.0, 1.0]), "disks.diameter", "smaller one first"),
     "NaN": (dict(gravity=math.nan), "gravity: nan", "finite"),
-    "infinite vertex": (dict(walls__0__vertices=[[-1428.378, math.inf], [0.0, 0.0]]), "walls[DP].vertices[0][1]: inf", "finite"),
+    "infinite vertex": (
+        dict(walls__0__vertices=[[-1428.378, math.inf], [0.0, 0.0]]),
+        "walls[DP].vertices[0][1]: inf",
+        "finite",
+    ),
     "text for a number": (dict(gravity="fast"), "gravity: 'fast' is text", "m/s²"),
     "true for a number": (dict(gravity=True), "gravity: True is true or false", "m/s²"),
     "count": (dict(disks__count=2.5), "disks.count: 2.5 is no whole number", "1 to 10000000"),
-    "unknown material": (dict(walls__1__material="steel"), "walls[FB].material: 'steel' is not defined", "rock, wwr-sparse, dp, fb, ss"),
+    "unknown material": (
+        dict(walls__1__material="steel"),
+        "walls[FB].material: 'steel' is not defined",
+        "rock, wwr-sparse, dp, fb, ss",
+    ),
     "name taken": (dict(layers__2__name="L1"), "layers[L1].name: 'L1' is taken", "own name"),
     "no density": (dict(materials__rock__density=None), "no density", "kg/m³"),
     "no strength": (dict(materials__fb__tensile_strength=None), "without tensile_strength", "bonded: false"),
-    "weakening rock": (dict(materials__rock__slip_weakening={"law": "step", "critical_slip": 1.0}), "slip_weakening", "walls only"),
-    "hole between walls": (dict(walls__1__vertices=[[0.5, 0.0], [23.294, 60.683]]), "a hole of 0.5 m", "the same point"),
+    "weakening rock": (
+        dict(materials__rock__slip_weakening={"law": "step", "critical_slip": 1.0}),
+        "slip_weakening",
+        "walls only",
+    ),
+    "hole between walls": (
+        dict(walls__1__vertices=[[0.5, 0.0], [23.294, 60.683]]),
+        "a hole of 0.5 m",
+        "the same point",
+    ),
     "hole below": (dict(walls__0__vertices=[[-1000.0, 383.86], [0.0, 0.0]]), "disks could fall out", "extend a wall"),
-    "self-crossing wall": (dict(walls__2__vertices=[[23.294, 60.683], [473, 21], [473, 50], [100, 0]]), "crosses itself", "order"),
-    "vertex twice": (dict(walls__0__vertices=[[-1428.378, 548.303], [0.0, 0.0], [0.0, 0.0]]), "two vertices in a row", "remove one"),
-    "overlap": (dict(layers__1__vertices=[[4.0, 10.0], [9.318, 24.273], [-1378.666, 547.215], [-1389.518, 542.384]]),
-                "overlaps layer L1", "touch at most"),
-    "bow tie": (dict(layers__0__vertices=[[0.0, 0.0], [-1389.518, 542.384], [4.659, 12.137], [-1400.371, 537.552]]),
-                "Self-intersection", "in order around"),
-    "flat layer": (dict(layers__0__vertices=[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), "layers[L1].vertices", "in order around"),
+    "self-crossing wall": (
+        dict(walls__2__vertices=[[23.294, 60.683], [473, 21], [473, 50], [100, 0]]),
+        "crosses itself",
+        "order",
+    ),
+    "vertex twice": (
+        dict(walls__0__vertices=[[-1428.378, 548.303], [0.0, 0.0], [0.0, 0.0]]),
+        "two vertices in a row",
+        "remove one",
+    ),
+    "overlap": (
+        dict(layers__1__vertices=[[4.0, 10.0], [9.318, 24.273], [-1378.666, 547.215], [-1389.518, 542.384]]),
+        "overlaps layer L1",
+        "touch at most",
+    ),
+    "bow tie": (
+        dict(layers__0__vertices=[[0.0, 0.0], [-1389.518, 542.384], [4.659, 12.137], [-1400.371, 537.552]]),
+        "Self-intersection",
+        "in order around",
+    ),
+    "flat layer": (
+        dict(layers__0__vertices=[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]),
+        "layers[L1].vertices",
+        "in order around",
+    ),
     "two vertices": (dict(layers__0__vertices=[[0.0, 0.0], [1.0, 0.0]]), "has 2 entries", "three or more"),
     "thin layers": (dict(disks__diameter=[1.0, 200.0]), "no room", "smaller diameters"),
     "unknown plane": (dict(water__plane="XX"), "no wall is called 'XX'", "DP, FB, SS"),
@@ -225,21 +274,61 @@ BAD = {
     "gravity in the sea of numbers": (dict(gravity=9.81e6), "gravity: 9810000.0", "9.81 on Earth"),
     "density in g/cm³": (dict(materials__rock__density=2.5), "materials.rock.density: 2.5", "rock has some 2500"),
     "density in mg/m³": (dict(materials__rock__density=2.5e9), "materials.rock.density: 2500000000.0", "100 to 30000"),
-    "long step": (dict(numerics__time_step=0.3), "numerics.time_step: in 0.3 s the smallest disk, 1 m, would fall past its own diameter", "less than 0.23 s"),
+    "long step": (
+        dict(numerics__time_step=0.3),
+        "numerics.time_step: in 0.3 s the smallest disk, 1 m, would fall past its own diameter",
+        "less than 0.23 s",
+    ),
     "step of nothing": (dict(numerics__time_step=1e-300), "numerics.time_step: 1e-300", "1e-9 or more"),
     "upright water": (dict(water__plane={"point": [0, 0], "dip": -90}), "water.plane.dip: -90", "above -90"),
     "no such role": (dict(walls__1__role="wall"), "walls[FB].role: 'wall'", "slip (a slip surface)"),
-    "nothing slides": (dict(walls__0__role="ground", walls__1__role="ground"), "walls: none of them has the role slip", "role: slip"),
-    "reversed floor": (dict(walls__0__vertices=[[0.0, 0.0], [-1428.378, 548.303]]), "walls[DP].vertices: from (0, 0) to (-1428.378, 548.303) the layers lie "
-                       "to the right", "the other way round"),
-    "reversed valley": (dict(walls__2__vertices=[[2100.0, 601.633], [1000.0, 21.313], [23.294, 60.683]]), "both FB and SS end at (23.294, 60.683)",
-                        "the other way round"),
-    "crossing walls": (dict(walls__2__vertices=[[23.294, 60.683], [473.0, 21.0], [473.0, 300.0], [-20.0, 300.0], [-20.0, -50.0], [50.0, -50.0]]),
-                       "walls[SS].vertices: the wall crosses or covers DP", "meet at vertices only"),
-    "wall twice": (dict(walls__1__vertices=[[-1428.378, 548.303], [0.0, 0.0]]), "walls[FB].vertices: the wall crosses or covers DP", "meet at vertices only"),
-    "sliver": (dict(layers__0__vertices=[[0.0, 0.0], [-1400.371, 537.5521], [-1400.371, 537.552]]), "layers[L1].vertices: the layer is thinner", "thickness"),
-    "all at one place": (dict(walls=[{"name": "a", "material": "ss", "vertices": [[1, 1], [1, 1]]}],
-                              layers=[{"name": "a", "material": "rock", "vertices": [[1, 1], [1, 1], [1, 1]]}]), "no extent", "1e-5 m apart"),
+    "nothing slides": (
+        dict(walls__0__role="ground", walls__1__role="ground"),
+        "walls: none of them has the role slip",
+        "role: slip",
+    ),
+    "reversed floor": (
+        dict(walls__0__vertices=[[0.0, 0.0], [-1428.378, 548.303]]),
+        "walls[DP].vertices: from (0, 0) to (-1428.378, 548.303) the layers lie " "to the right",
+        "the other way round",
+    ),
+    "reversed valley": (
+        dict(walls__2__vertices=[[2100.0, 601.633], [1000.0, 21.313], [23.294, 60.683]]),
+        "both FB and SS end at (23.294, 60.683)",
+        "the other way round",
+    ),
+    "crossing walls": (
+        dict(
+            walls__2__vertices=[
+                [23.294, 60.683],
+                [473.0, 21.0],
+                [473.0, 300.0],
+                [-20.0, 300.0],
+                [-20.0, -50.0],
+                [50.0, -50.0],
+            ]
+        ),
+        "walls[SS].vertices: the wall crosses or covers DP",
+        "meet at vertices only",
+    ),
+    "wall twice": (
+        dict(walls__1__vertices=[[-1428.378, 548.303], [0.0, 0.0]]),
+        "walls[FB].vertices: the wall crosses or covers DP",
+        "meet at vertices only",
+    ),
+    "sliver": (
+        dict(layers__0__vertices=[[0.0, 0.0], [-1400.371, 537.5521], [-1400.371, 537.552]]),
+        "layers[L1].vertices: the layer is thinner",
+        "thickness",
+    ),
+    "all at one place": (
+        dict(
+            walls=[{"name": "a", "material": "ss", "vertices": [[1, 1], [1, 1]]}],
+            layers=[{"name": "a", "material": "rock", "vertices": [[1, 1], [1, 1], [1, 1]]}],
+        ),
+        "no extent",
+        "1e-5 m apart",
+    ),
     "a date": (dict(seed=datetime.date(2020, 1, 2)), "seed: '2020-01-02' is text", "whole number"),
     "unprintable": (dict(layers__0__name="a\x1b[2J"), "layers", "can be printed"),
     "hold": (dict(stages__water={"hold": "maybe"}), "stages.water.hold: 'maybe'", "motion, never"),
@@ -256,7 +345,10 @@ def test_bad_values(case, refused):
 
 def test_line_of_a_number_that_replaces_a_borrowed_one(refused):
     text = TEXT.replace("bond_creation_distance: 0.015", "bond_creation_distance: much")
-    assert f"line {1 + text[:text.index('distance: much')].count(chr(10))}: materials.wwr-sparse.bond_creation_distance" in refused(text)
+    assert (
+        f"line {1 + text[:text.index('distance: much')].count(chr(10))}: materials.wwr-sparse.bond_creation_distance"
+        in refused(text)
+    )
 
 
 def test_line_number(refused):
@@ -264,30 +356,51 @@ def test_line_number(refused):
     assert f"line {1 + text[:text.index('distribution: even')].count(chr(10))}: disks.distribution" in refused(text)
 
 
-@pytest.mark.parametrize("text, what", [
-    ("", "nothing"), ("- 1\n", "a list"), ("name: [1\n", "line 2"), ("name: a\nname: b\n", "given twice"),
-    ("1: 2\n", "is no text"), ("name: !!python/object:os.system x\n", "could not determine a constructor"),
-    ("name: x\n", "(and 3 more to correct)")])
+@pytest.mark.parametrize(
+    "text, what",
+    [
+        ("", "nothing"),
+        ("- 1\n", "a list"),
+        ("name: [1\n", "line 2"),
+        ("name: a\nname: b\n", "given twice"),
+        ("1: 2\n", "is no text"),
+        ("name: !!python/object:os.system x\n", "could not determine a constructor"),
+        ("name: x\n", "(and 3 more to correct)"),
+    ],
+)
 def test_bad_files(text, what, refused):
     assert what in refused(text)
 
 
 HOSTILE = {
     "list as a key": ("? [a]\n: b\n", "a list or a map stands where a key is needed"),
-    "no int": ("name: !!int x\n", "no valid YAML"), "empty int": ("name: !!int ''\n", "no valid YAML"),
-    "no bool": ("name: !!bool x\n", "no valid YAML"), "no time": ("name: !!timestamp x\n", "no valid YAML"),
+    "no int": ("name: !!int x\n", "no valid YAML"),
+    "empty int": ("name: !!int ''\n", "no valid YAML"),
+    "no bool": ("name: !!bool x\n", "no valid YAML"),
+    "no time": ("name: !!timestamp x\n", "no valid YAML"),
     "alias of itself": ("name: &a [*a]\n", "line 1: an alias stands for a list or a map that holds it"),
     "alias of what is around it": ("name: &a {b: {c: *a}}\n", "an alias stands for"),
-    "aliases multiply": ("a: &a0 [1, 1]\n" + "".join(f"a{k}: &a{k} [*a{k - 1}, *a{k - 1}]\n" for k in range(1, 40)), "more than 50000 values"),
-    "merges multiply": ("a: &a0 {x: 1}\n" + "".join(f"a{k}: &a{k} {{<<: [*a{k - 1}, *a{k - 1}]}}\n" for k in range(1, 40)), "more than 50000 values"),
+    "aliases multiply": (
+        "a: &a0 [1, 1]\n" + "".join(f"a{k}: &a{k} [*a{k - 1}, *a{k - 1}]\n" for k in range(1, 40)),
+        "more than 50000 values",
+    ),
+    "merges multiply": (
+        "a: &a0 {x: 1}\n" + "".join(f"a{k}: &a{k} {{<<: [*a{k - 1}, *a{k - 1}]}}\n" for k in range(1, 40)),
+        "more than 50000 values",
+    ),
     "deep": ("name: " + 60 * "[" + 60 * "]", "inside each other more than 50 times"),
     "very deep": ("name: " + 9000 * "[", "inside each other more than 50 times"),
     "large": ("name: |\n" + 60_000 * "  ten chars\n", "more than 500000 bytes"),
     "base 60": (TEXT.replace("gravity: 9.81", "gravity: 1:30"), "gravity: '1:30' is text"),
     "base 8": (TEXT.replace("seed: 1 ", "seed: 010 "), "seed: '010' is text"),
     "long words": ("? " + 100_000 * "x" + "\n: " + 100_000 * "y" + "\n" + TEXT, "unknown key"),
-    "many materials": ("materials:\n" + "".join(f"  m{k}: 1\n" for k in range(20_000)) + TEXT[:TEXT.index("materials:")] + TEXT[TEXT.index("\ndisks:"):],
-                       "(and 199 more to correct)"),
+    "many materials": (
+        "materials:\n"
+        + "".join(f"  m{k}: 1\n" for k in range(20_000))
+        + TEXT[: TEXT.index("materials:")]
+        + TEXT[TEXT.index("\ndisks:") :],
+        "(and 199 more to correct)",
+    ),
 }
 
 
@@ -302,15 +415,25 @@ def test_a_count_may_be_written_with_a_point(tmp_path):
     path = tmp_path / "s.yaml"
     path.write_text(changed(seed=3.0, numerics__max_iterations=3e2, disks__count=2000.0))
     made = load(path)
-    assert [(type(v), v) for v in (made.seed, made.numerics.max_iterations, made.disks.count)] == [(int, 3), (int, 300), (int, 2000)]
+    assert [(type(v), v) for v in (made.seed, made.numerics.max_iterations, made.disks.count)] == [
+        (int, 3),
+        (int, 300),
+        (int, 2000),
+    ]
 
 
 def test_a_barrier_may_begin_where_two_walls_meet(tmp_path):
     path = tmp_path / "s.yaml"
     data = yaml.safe_load(TEXT)
     del data["water"]
-    data["walls"] = [{"name": n, "material": "ss", "vertices": v} for n, v in (
-        ("floor", [[0, 0], [100, 0]]), ("floor 2", [[100, 0], [200, 0]]), ("barrier", [[100, 0], [100, 20]]))]
+    data["walls"] = [
+        {"name": n, "material": "ss", "vertices": v}
+        for n, v in (
+            ("floor", [[0, 0], [100, 0]]),
+            ("floor 2", [[100, 0], [200, 0]]),
+            ("barrier", [[100, 0], [100, 20]]),
+        )
+    ]
     data["layers"] = [{"name": "column", "material": "rock", "vertices": [[0, 0], [20, 0], [20, 40], [0, 40]]}]
     path.write_text(yaml.safe_dump(data))
     assert len(load(path).walls) == 3
@@ -329,9 +452,15 @@ def test_a_file_without_end_is_refused():
 
 def test_unreadable_files(tmp_path):
     (tmp_path / "b.yaml").write_bytes(b"\xff\xfe\x00")
-    for name, what in ((tmp_path / "none.yaml", "no such file"), (tmp_path, "cannot be read"),
-                       (tmp_path / "b.yaml", "UTF-8"), ("no-such-section", "jiufengershan"),
-                       ("x" * 5000, "no path.*jiufengershan"), ("x" * 5000 + ".yaml", "cannot be read"), ("a\0b", "no path|no such|neither")):
+    for name, what in (
+        (tmp_path / "none.yaml", "no such file"),
+        (tmp_path, "cannot be read"),
+        (tmp_path / "b.yaml", "UTF-8"),
+        ("no-such-section", "jiufengershan"),
+        ("x" * 5000, "no path.*jiufengershan"),
+        ("x" * 5000 + ".yaml", "cannot be read"),
+        ("a\0b", "no path|no such|neither"),
+    ):
         with pytest.raises(SectionError, match=what):
             load(name)
 
@@ -367,7 +496,8 @@ def test_column_with_free_cliff_and_wall_through_a_layer(tmp_path):
 def test_geometry():
     square = geometry.Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     assert geometry.area_inside([1, 0, 0, 5], [1, 1, 0, 5], [0.5] * 4, square) == pytest.approx(
-        math.pi / 4 * (1 + 1 / 2 + 1 / 4), rel=1e-4)
+        math.pi / 4 * (1 + 1 / 2 + 1 / 4), rel=1e-4
+    )
     bent = geometry.edges(geometry.Polygon([(0, 0), (2, 0), (2, 2), (1, 1), (0, 2)]))
     assert bent.convex_start.sum() == 4 and bent.convex_end.sum() == 4
     inside = geometry.contains(square, np.array([1.0, 3.0, 1.9]), np.array([1.0, 1.0, -0.1]))

@@ -16,10 +16,21 @@ SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
 
 # A block of seven bonded disks on the plane, which the water pushes down it, as hard as makes 3 m/s², for half a metre; friction then brings it to rest within two seconds.
 CHANGED = {
-    ("water", "gradient"): [9500.0, -4430.0], ("water", "table"): {"rate": 1000.0}, ("water", "release_distance"): 0.5, ("water", "volume"): "disk",
-    ("materials", "dp", "friction"): 0.6, ("materials", "dp", "tensile_strength"): 0.0,
-    ("materials", "dp", "slip_weakening"): {"law": "step", "critical_slip": 50.0, "friction": 0.05, "tensile_strength": 0.0},
-    ("stages", "settle"): {"ramp": 0.1, "time_max": 0.5, "speed_rest": 1e-2, "bond": "before"}, ("stages", "dry"): 0.1, ("disks", "diameter"): [1.0, 2.0],
+    ("water", "gradient"): [9500.0, -4430.0],
+    ("water", "table"): {"rate": 1000.0},
+    ("water", "release_distance"): 0.5,
+    ("water", "volume"): "disk",
+    ("materials", "dp", "friction"): 0.6,
+    ("materials", "dp", "tensile_strength"): 0.0,
+    ("materials", "dp", "slip_weakening"): {
+        "law": "step",
+        "critical_slip": 50.0,
+        "friction": 0.05,
+        "tensile_strength": 0.0,
+    },
+    ("stages", "settle"): {"ramp": 0.1, "time_max": 0.5, "speed_rest": 1e-2, "bond": "before"},
+    ("stages", "dry"): 0.1,
+    ("disks", "diameter"): [1.0, 2.0],
 }
 
 
@@ -63,7 +74,10 @@ def read(folder, changes=()):
 
 def block():
     """Four disks on the plane, 10 m up from the foot, and three of the upper layer between them."""
-    down, normal = (math.cos(math.radians(25)), -math.sin(math.radians(25))), (math.sin(math.radians(25)), math.cos(math.radians(25)))
+    down, normal = (math.cos(math.radians(25)), -math.sin(math.radians(25))), (
+        math.sin(math.radians(25)),
+        math.cos(math.radians(25)),
+    )
     places = [(10 + k, 0.5, 0) for k in range(4)] + [(10.5 + k, 0.5 + 0.5 * math.sqrt(3), 1) for k in range(3)]
     x, y = np.transpose([(-s * down[0] + h * normal[0], -s * down[1] + h * normal[1]) for s, h, _ in places])
     return packing.Packing(x, y, np.full(7, 0.5), np.array([layer for *_, layer in places]))
@@ -98,8 +112,20 @@ def make(tmp_path):
         built, rows = slope.build(chosen, block()), []
         run = None
         if end != 0.0:
-            run = experiment.Experiment(built, tmp_path, progress=lambda stage, now, _: rows.append(
-                (now, stage, next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity[1], built.solver.tolerance, built.water.height, built.solver.bonds)))
+            run = experiment.Experiment(
+                built,
+                tmp_path,
+                progress=lambda stage, now, _: rows.append(
+                    (
+                        now,
+                        stage,
+                        next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity[1],
+                        built.solver.tolerance,
+                        built.water.height,
+                        built.solver.bonds,
+                    )
+                ),
+            )
             run.run(end)
         return Made(chosen, built, run, rows)
 
@@ -108,6 +134,7 @@ def make(tmp_path):
 
 
 # ---- where values act -----------------------------------------------------------------------------
+
 
 def radii(m):
     return packing.pack(m.section, 1).r
@@ -137,7 +164,10 @@ def walls_of(m):
     found = {}
     for name, ids in m.built.walls.items():
         first, last = O.bodies[ids[0]], O.bodies[ids[-1]]
-        ends = [b.state.pos + sign * b.shape.halfLength * (b.state.ori * Vector3(1, 0, 0)) for b, sign in ((first, -1), (last, 1))]
+        ends = [
+            b.state.pos + sign * b.shape.halfLength * (b.state.ori * Vector3(1, 0, 0))
+            for b, sign in ((first, -1), (last, 1))
+        ]
         found[name] = [tuple(round(float(c), 6) for c in tuple(e)[:2]) for e in ends]
     return found
 
@@ -158,119 +188,362 @@ BASE = data()
 #: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes several kinds of values.
 #: The last item, where there is one, is how far the slope is run [s], None: to its end.
 WHERE = {
-    ("name",): ({("name",): "another"}, lambda m: m.section.name, "another"),  # and in summary.json, see test_whole_slope
+    ("name",): (
+        {("name",): "another"},
+        lambda m: m.section.name,
+        "another",
+    ),  # and in summary.json, see test_whole_slope
     ("description",): ({("description",): "free text"}, lambda m: m.section.description, "free text"),
     ("gravity",): ({("gravity",): 3.7}, lambda m: tuple(m.of(NewtonIntegrator).gravity), (0, -3.7, 0)),
-    ("seed",): ({("seed",): 77, ("disks", "packing_fraction"): 0.7}, lambda m: packing.pack(m.section).x.tolist(), lambda m: packing.pack(m.section, 77).x.tolist()),
+    ("seed",): (
+        {("seed",): 77, ("disks", "packing_fraction"): 0.7},
+        lambda m: packing.pack(m.section).x.tolist(),
+        lambda m: packing.pack(m.section, 77).x.tolist(),
+    ),
     ("walls", "*", "name"): ({("walls", 2, "name"): "floor"}, lambda m: list(m.built.walls), ["DP", "FB", "floor"]),
     ("walls", "*", "material"): ({("walls", 2, "material"): "fb"}, lambda m: m.wall("SS").frictionAngle, angle(0.6)),
-    ("walls", "*", "vertices"): ({("walls", 2, "vertices"): [[0.845, 1.8125], [50.0, 3.0]]}, lambda m: walls_of(m)["SS"], [(0.845, 1.8125), (50.0, 3.0)]),
-    ("walls", "*", "role"): ({("walls", 1, "role"): "obstacle"}, lambda m: [wall.role for wall in m.section.walls], ["slip", "obstacle", "ground"]),
-    ("walls", "*", "apart"): ({("walls",): BASE["walls"] + FAR}, lambda m: (m.section.wall("far").apart, walls_of(m)["far"]), (True, [(70.0, 30.0), (72.0, 30.0)])),
+    ("walls", "*", "vertices"): (
+        {("walls", 2, "vertices"): [[0.845, 1.8125], [50.0, 3.0]]},
+        lambda m: walls_of(m)["SS"],
+        [(0.845, 1.8125), (50.0, 3.0)],
+    ),
+    ("walls", "*", "role"): (
+        {("walls", 1, "role"): "obstacle"},
+        lambda m: [wall.role for wall in m.section.walls],
+        ["slip", "obstacle", "ground"],
+    ),
+    ("walls", "*", "apart"): (
+        {("walls",): BASE["walls"] + FAR},
+        lambda m: (m.section.wall("far").apart, walls_of(m)["far"]),
+        (True, [(70.0, 30.0), (72.0, 30.0)]),
+    ),
     ("layers", "*", "name"): ({("layers", 0, "name"): "lowest"}, lambda m: m.section.layers[0].name, "lowest"),
-    ("layers", "*", "material"): ({("materials", "other"): LIKE_ROCK, ("layers", 1, "material"): "other"},
-                                  lambda m: [m.disk(k).material.density for k in range(7)].count(2000.0), 3),
+    ("layers", "*", "material"): (
+        {("materials", "other"): LIKE_ROCK, ("layers", 1, "material"): "other"},
+        lambda m: [m.disk(k).material.density for k in range(7)].count(2000.0),
+        3,
+    ),
     ("layers", "*", "role"): [
-        ({("layers", 1, "role"): "bed"}, lambda m: (m.run.mass.tolist(), m.run.layers.tolist().count(1)), lambda m: ((m.run.layers == 0).tolist(), 3), 0.02),
-        ({("layers", 1, "role"): "obstacle"}, lambda m: sorted(set(records.read_walls(m.run.folder / "walls.csv")["wall"])), ["DP", "FB", "L2", "SS"], 0.02)],
-    ("layers", "*", "disks", "diameter"): ({("layers", 1, "disks"): OWN}, lambda m: (m.section.smallest, m.section.disks_of(m.section.layers[1]).d_max), (0.3, 0.4)),
-    ("layers", "*", "disks", "distribution"): ({("layers", 1, "disks"): OWN}, lambda m: (m.section.disks_of(m.section.layers[1]).mean_square, m.section.mixed), (
-        pytest.approx((0.09 + 0.12 + 0.16) / 3), True)),
-    ("layers", "*", "disks", "packing_fraction"): ({("layers", 1, "disks"): OWN}, lambda m: m.section.disk_areas()[1] / m.section.layers[1].area, pytest.approx(0.69, abs=0.01)),
-    ("interfaces", "*", "name"): ({**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "name": "joint 7"}]}, lambda m: m.section.interfaces[0].name, "joint 7"),
-    ("interfaces", "*", "between"): (BETWEEN, lambda m: (list(m.disk(0).material.interfaceLayers), m.section.interfaces[0].name), ([1], "L1-L2")),
-    ("interfaces", "*", "material"): (BETWEEN, lambda m: m.disk(0).material.interfaceLaws[0].frictionAngle, angle(0.15)),
-    ("interfaces", "*", "role"): ({**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "role": "slip"}]}, lambda m: [name for name, _ in m.section.slip_surfaces], ["DP", "L1-L2"]),
-    ("interfaces", "*", "flat"): ({**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "flat": False}]}, lambda m: len(packing._borders(m.section, np.zeros(2))), 1),
-    ("layers", "*", "vertices"): ({("layers", 1, "vertices"): [[0.845, 1.8125], [-0.092, 3.35275], [-34.7325, 19.50585], [-35.155, 18.5995]]},
-                                  lambda m: m.section.disk_counts()[1] / m.section.disk_counts()[0], pytest.approx(0.44, abs=0.03)),  # half of it, less the strip at the surface
+        (
+            {("layers", 1, "role"): "bed"},
+            lambda m: (m.run.mass.tolist(), m.run.layers.tolist().count(1)),
+            lambda m: ((m.run.layers == 0).tolist(), 3),
+            0.02,
+        ),
+        (
+            {("layers", 1, "role"): "obstacle"},
+            lambda m: sorted(set(records.read_walls(m.run.folder / "walls.csv")["wall"])),
+            ["DP", "FB", "L2", "SS"],
+            0.02,
+        ),
+    ],
+    ("layers", "*", "disks", "diameter"): (
+        {("layers", 1, "disks"): OWN},
+        lambda m: (m.section.smallest, m.section.disks_of(m.section.layers[1]).d_max),
+        (0.3, 0.4),
+    ),
+    ("layers", "*", "disks", "distribution"): (
+        {("layers", 1, "disks"): OWN},
+        lambda m: (m.section.disks_of(m.section.layers[1]).mean_square, m.section.mixed),
+        (pytest.approx((0.09 + 0.12 + 0.16) / 3), True),
+    ),
+    ("layers", "*", "disks", "packing_fraction"): (
+        {("layers", 1, "disks"): OWN},
+        lambda m: m.section.disk_areas()[1] / m.section.layers[1].area,
+        pytest.approx(0.69, abs=0.01),
+    ),
+    ("interfaces", "*", "name"): (
+        {**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "name": "joint 7"}]},
+        lambda m: m.section.interfaces[0].name,
+        "joint 7",
+    ),
+    ("interfaces", "*", "between"): (
+        BETWEEN,
+        lambda m: (list(m.disk(0).material.interfaceLayers), m.section.interfaces[0].name),
+        ([1], "L1-L2"),
+    ),
+    ("interfaces", "*", "material"): (
+        BETWEEN,
+        lambda m: m.disk(0).material.interfaceLaws[0].frictionAngle,
+        angle(0.15),
+    ),
+    ("interfaces", "*", "role"): (
+        {**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "role": "slip"}]},
+        lambda m: [name for name, _ in m.section.slip_surfaces],
+        ["DP", "L1-L2"],
+    ),
+    ("interfaces", "*", "flat"): (
+        {**BETWEEN, ("interfaces",): [{**BETWEEN[("interfaces",)][0], "flat": False}]},
+        lambda m: len(packing._borders(m.section, np.zeros(2))),
+        1,
+    ),
+    ("layers", "*", "vertices"): (
+        {("layers", 1, "vertices"): [[0.845, 1.8125], [-0.092, 3.35275], [-34.7325, 19.50585], [-35.155, 18.5995]]},
+        lambda m: m.section.disk_counts()[1] / m.section.disk_counts()[0],
+        pytest.approx(0.44, abs=0.03),
+    ),  # half of it, less the strip at the surface
     ("materials", "*", "bonded"): [
         ({(*ROCK, "bonded"): False}, lambda m: m.built.solver.bonds, 0, 0.02),
         ({}, lambda m: m.run.state.bonds_initial, 5, 0.02),  # three pairs below, two above; nothing across the layers
-        ({(*DP, "bonded"): True, (*DP, "tensile_strength"): 1e3}, lambda m: (m.wall("DP").bondsToAll, m.run.state.bonds_initial), (True, 9), 0.02)],
+        (
+            {(*DP, "bonded"): True, (*DP, "tensile_strength"): 1e3},
+            lambda m: (m.wall("DP").bondsToAll, m.run.state.bonds_initial),
+            (True, 9),
+            0.02,
+        ),
+    ],
     ("materials", "*", "tensile_strength"): [
         ({(*ROCK, "tensile_strength"): 7e3}, lambda m: m.disk(0).material.tensileStrength, 7e3),
-        ({(*DP, "tensile_strength"): 3e3}, lambda m: m.wall("DP").tensileStrength, 3e3)],
+        ({(*DP, "tensile_strength"): 3e3}, lambda m: m.wall("DP").tensileStrength, 3e3),
+    ],
     ("materials", "*", "residual_tensile_strength"): [
         ({(*ROCK, "residual_tensile_strength"): 70.0}, lambda m: m.disk(0).material.residualTensileStrength, 70.0),
-        ({(*DP, "residual_tensile_strength"): 30.0}, lambda m: m.wall("DP").residualTensileStrength, 30.0)],
+        ({(*DP, "residual_tensile_strength"): 30.0}, lambda m: m.wall("DP").residualTensileStrength, 30.0),
+    ],
     ("materials", "*", "friction"): [
-        ({(*ROCK, "friction"): 0.9}, lambda m: m.disk(0).material.frictionAngle, angle(0.9)), ({(*DP, "friction"): 0.7}, lambda m: m.wall("DP").frictionAngle, angle(0.7)),
-        ({(*DP, "friction"): 0.7}, lambda m: m.wall("DP").residualFrictionAngle, angle(0.7))],  # where no other is given
+        ({(*ROCK, "friction"): 0.9}, lambda m: m.disk(0).material.frictionAngle, angle(0.9)),
+        ({(*DP, "friction"): 0.7}, lambda m: m.wall("DP").frictionAngle, angle(0.7)),
+        ({(*DP, "friction"): 0.7}, lambda m: m.wall("DP").residualFrictionAngle, angle(0.7)),
+    ],  # where no other is given
     ("materials", "*", "residual_friction"): [
         ({(*ROCK, "residual_friction"): 0.15}, lambda m: m.disk(0).material.residualFrictionAngle, angle(0.15)),
-        ({(*DP, "residual_friction"): 0.25}, lambda m: m.wall("DP").residualFrictionAngle, angle(0.25))],
+        ({(*DP, "residual_friction"): 0.25}, lambda m: m.wall("DP").residualFrictionAngle, angle(0.25)),
+    ],
     ("materials", "*", "rolling_friction"): [
         ({(*ROCK, "rolling_friction"): 0.21}, lambda m: m.disk(0).material.rollingFriction, 0.21),
-        ({(*DP, "rolling_friction"): 0.31}, lambda m: (m.wall("DP").rollingFriction, m.wall("DP").residualRollingFriction), (0.31, 0.31))],
+        (
+            {(*DP, "rolling_friction"): 0.31},
+            lambda m: (m.wall("DP").rollingFriction, m.wall("DP").residualRollingFriction),
+            (0.31, 0.31),
+        ),
+    ],
     ("materials", "*", "residual_rolling_friction"): [
         ({(*ROCK, "residual_rolling_friction"): 0.03}, lambda m: m.disk(0).material.residualRollingFriction, 0.03),
-        ({(*DP, "residual_rolling_friction"): 0.04}, lambda m: m.wall("DP").residualRollingFriction, 0.04)],
+        ({(*DP, "residual_rolling_friction"): 0.04}, lambda m: m.wall("DP").residualRollingFriction, 0.04),
+    ],
     ("materials", "*", "bond_ellipse"): [
-        ({(*ROCK, "bond_ellipse"): [0.011, 0.033]}, lambda m: (m.disk(0).material.bondEllipseNormal, m.disk(0).material.bondEllipseTangential), (0.011, 0.033)),
-        ({(*DP, "bond_ellipse"): [0.012, 0.034]}, lambda m: (m.wall("DP").bondEllipseNormal, m.wall("DP").bondEllipseTangential), (0.012, 0.034))],
+        (
+            {(*ROCK, "bond_ellipse"): [0.011, 0.033]},
+            lambda m: (m.disk(0).material.bondEllipseNormal, m.disk(0).material.bondEllipseTangential),
+            (0.011, 0.033),
+        ),
+        (
+            {(*DP, "bond_ellipse"): [0.012, 0.034]},
+            lambda m: (m.wall("DP").bondEllipseNormal, m.wall("DP").bondEllipseTangential),
+            (0.012, 0.034),
+        ),
+    ],
     ("materials", "*", "bond_creation_distance"): [
         ({(*ROCK, "bond_creation_distance"): 0.2}, lambda m: m.disk(0).material.bondCreationDistance, 0.2),
         # the collider knows contacts as far as they are bonded
-        ({(*DP, "bond_creation_distance"): 0.3}, lambda m: (m.wall("DP").bondCreationDistance, slope.hard(m.section).reach), (0.3, pytest.approx(0.31)))],
+        (
+            {(*DP, "bond_creation_distance"): 0.3},
+            lambda m: (m.wall("DP").bondCreationDistance, slope.hard(m.section).reach),
+            (0.3, pytest.approx(0.31)),
+        ),
+    ],
     ("materials", "*", "restitution"): [
-        ({(*ROCK, "restitution"): 0.4}, lambda m: m.disk(0).material.restitution, 0.4), ({(*DP, "restitution"): 0.3}, lambda m: m.wall("DP").restitution, 0.3)],
-    ("materials", "*", "density"): ({(*ROCK, "density"): 1900.0}, lambda m: m.disk(0).state.mass, pytest.approx(1900 * math.pi / 4, rel=1e-12)),
-    ("materials", "*", "slip_weakening", "law"): ({(*DP, "slip_weakening", "law"): "exponential"}, lambda m: m.wall("DP").weakening, "exponential"),
-    ("materials", "*", "slip_weakening", "critical_slip"): ({(*DP, "slip_weakening", "critical_slip"): 0.7}, lambda m: m.wall("DP").criticalSlip, 0.7),
-    ("materials", "*", "slip_weakening", "friction"): ({(*DP, "slip_weakening", "friction"): 0.11}, lambda m: m.wall("DP").weakenedFrictionAngle, angle(0.11)),
-    ("materials", "*", "slip_weakening", "tensile_strength"): ({(*DP, "slip_weakening", "tensile_strength"): 9.0}, lambda m: m.wall("DP").weakenedTensileStrength, 9.0),
+        ({(*ROCK, "restitution"): 0.4}, lambda m: m.disk(0).material.restitution, 0.4),
+        ({(*DP, "restitution"): 0.3}, lambda m: m.wall("DP").restitution, 0.3),
+    ],
+    ("materials", "*", "density"): (
+        {(*ROCK, "density"): 1900.0},
+        lambda m: m.disk(0).state.mass,
+        pytest.approx(1900 * math.pi / 4, rel=1e-12),
+    ),
+    ("materials", "*", "slip_weakening", "law"): (
+        {(*DP, "slip_weakening", "law"): "exponential"},
+        lambda m: m.wall("DP").weakening,
+        "exponential",
+    ),
+    ("materials", "*", "slip_weakening", "critical_slip"): (
+        {(*DP, "slip_weakening", "critical_slip"): 0.7},
+        lambda m: m.wall("DP").criticalSlip,
+        0.7,
+    ),
+    ("materials", "*", "slip_weakening", "friction"): (
+        {(*DP, "slip_weakening", "friction"): 0.11},
+        lambda m: m.wall("DP").weakenedFrictionAngle,
+        angle(0.11),
+    ),
+    ("materials", "*", "slip_weakening", "tensile_strength"): (
+        {(*DP, "slip_weakening", "tensile_strength"): 9.0},
+        lambda m: m.wall("DP").weakenedTensileStrength,
+        9.0,
+    ),
     ("materials", "*", "envelope", "cohesion"): ({(*ROCK, "envelope", "cohesion"): 4e3}, passive, (4e3, 35.0)),
-    ("materials", "*", "envelope", "friction_deg"): ({(*ROCK, "envelope", "friction_deg"): 30.0}, passive, (10e3, 30.0)),
-    ("disks", "diameter"): ({("disks", "diameter"): [1.2, 1.8], ("disks", "packing_fraction"): 0.7}, lambda m: (1.2 <= 2 * radii(m).min() < 1.22, 1.78 < 2 * radii(m).max() <= 1.8),
-                             (True, True)),
+    ("materials", "*", "envelope", "friction_deg"): (
+        {(*ROCK, "envelope", "friction_deg"): 30.0},
+        passive,
+        (10e3, 30.0),
+    ),
+    ("disks", "diameter"): (
+        {("disks", "diameter"): [1.2, 1.8], ("disks", "packing_fraction"): 0.7},
+        lambda m: (1.2 <= 2 * radii(m).min() < 1.22, 1.78 < 2 * radii(m).max() <= 1.8),
+        (True, True),
+    ),
     # by volume the median is 2 a b/(a + b) = 1.33 m, by number 1.5 m; the median of some 80 disks at even quantiles is within 2 % of it
-    ("disks", "distribution"): [({("disks", "distribution"): kind}, lambda m: 2 * np.median(radii(m)), pytest.approx(median, rel=0.02))
-                                for kind, median in (("uniform_by_number", 1.5), ("uniform_by_volume", 4 / 3))],
+    ("disks", "distribution"): [
+        ({("disks", "distribution"): kind}, lambda m: 2 * np.median(radii(m)), pytest.approx(median, rel=0.02))
+        for kind, median in (("uniform_by_number", 1.5), ("uniform_by_volume", 4 / 3))
+    ],
     ("disks", "packing_fraction"): [
-        ({("disks", "packing_fraction"): 0.41}, lambda m: sum(m.section.disk_counts()), lambda m: pytest.approx(0.5 * sum(section_of(BASE).disk_counts()), abs=1)),
-        ({("disks", "packing_fraction"): 0.5, ("water", "volume"): "bulk"}, lambda m: m.built.water.volumeFactor, 2.0)],
-    ("disks", "count"): ({("disks", "count"): 120, ("disks", "packing_fraction"): 0.75}, lambda m: (sum(m.section.disk_counts()), len(radii(m))), (pytest.approx(120, abs=1), pytest.approx(120, abs=1))),
-    ("water", "unit_weight"): [({("water", "unit_weight"): 5000.0}, lambda m: m.built.water.unitWeight, 5000.0),
-                               ({("water", "unit_weight"): 5000.0, ("water", "gradient"): "buoyant"}, lambda m: m.built.water.gradient.norm(),
-                                pytest.approx(5000 * math.cos(math.radians(25)), rel=1e-4))],
-    ("water", "plane"): [({("walls",): BASE["walls"] + SEAT, ("water", "plane"): "seat"}, lambda m: tuple(m.built.water.planePoint), (80.0, 38.0, 0)),
-                         ({}, lambda m: tuple(m.built.water.planeNormal), lambda m: pytest.approx((math.sin(math.radians(25)), math.cos(math.radians(25)), 0), abs=1e-4))],
-    ("water", "plane", "point"): ({("water", "plane"): {"point": [-3.0, 2.0], "dip": 10.0}}, lambda m: tuple(m.built.water.planePoint), (-3.0, 2.0, 0.0)),
-    ("water", "plane", "dip"): ({("water", "plane"): {"point": [-3.0, 2.0], "dip": 10.0}}, lambda m: tuple(m.built.water.planeNormal),
-                                pytest.approx((math.sin(math.radians(10)), math.cos(math.radians(10)), 0), rel=1e-12)),
-    ("water", "gradient"): [({("water", "gradient"): [1.0, 2.0]}, lambda m: tuple(m.built.water.gradient), (1, 2, 0)),
-                            ({("water", "gradient"): "buoyant"}, lambda m: tuple(m.built.water.gradient), lambda m: pytest.approx(tuple(
-                                9810 * math.cos(math.radians(m.section.dip)) * c for c in (*m.section.normal, 0)), rel=1e-12))],
-    ("water", "volume"): [({("water", "volume"): "bulk"}, lambda m: m.built.water.volumeFactor, pytest.approx(1 / 0.82)), ({}, lambda m: m.built.water.volumeFactor, 1.0)],
+        (
+            {("disks", "packing_fraction"): 0.41},
+            lambda m: sum(m.section.disk_counts()),
+            lambda m: pytest.approx(0.5 * sum(section_of(BASE).disk_counts()), abs=1),
+        ),
+        ({("disks", "packing_fraction"): 0.5, ("water", "volume"): "bulk"}, lambda m: m.built.water.volumeFactor, 2.0),
+    ],
+    ("disks", "count"): (
+        {("disks", "count"): 120, ("disks", "packing_fraction"): 0.75},
+        lambda m: (sum(m.section.disk_counts()), len(radii(m))),
+        (pytest.approx(120, abs=1), pytest.approx(120, abs=1)),
+    ),
+    ("water", "unit_weight"): [
+        ({("water", "unit_weight"): 5000.0}, lambda m: m.built.water.unitWeight, 5000.0),
+        (
+            {("water", "unit_weight"): 5000.0, ("water", "gradient"): "buoyant"},
+            lambda m: m.built.water.gradient.norm(),
+            pytest.approx(5000 * math.cos(math.radians(25)), rel=1e-4),
+        ),
+    ],
+    ("water", "plane"): [
+        (
+            {("walls",): BASE["walls"] + SEAT, ("water", "plane"): "seat"},
+            lambda m: tuple(m.built.water.planePoint),
+            (80.0, 38.0, 0),
+        ),
+        (
+            {},
+            lambda m: tuple(m.built.water.planeNormal),
+            lambda m: pytest.approx((math.sin(math.radians(25)), math.cos(math.radians(25)), 0), abs=1e-4),
+        ),
+    ],
+    ("water", "plane", "point"): (
+        {("water", "plane"): {"point": [-3.0, 2.0], "dip": 10.0}},
+        lambda m: tuple(m.built.water.planePoint),
+        (-3.0, 2.0, 0.0),
+    ),
+    ("water", "plane", "dip"): (
+        {("water", "plane"): {"point": [-3.0, 2.0], "dip": 10.0}},
+        lambda m: tuple(m.built.water.planeNormal),
+        pytest.approx((math.sin(math.radians(10)), math.cos(math.radians(10)), 0), rel=1e-12),
+    ),
+    ("water", "gradient"): [
+        ({("water", "gradient"): [1.0, 2.0]}, lambda m: tuple(m.built.water.gradient), (1, 2, 0)),
+        (
+            {("water", "gradient"): "buoyant"},
+            lambda m: tuple(m.built.water.gradient),
+            lambda m: pytest.approx(
+                tuple(9810 * math.cos(math.radians(m.section.dip)) * c for c in (*m.section.normal, 0)), rel=1e-12
+            ),
+        ),
+    ],
+    ("water", "volume"): [
+        ({("water", "volume"): "bulk"}, lambda m: m.built.water.volumeFactor, pytest.approx(1 / 0.82)),
+        ({}, lambda m: m.built.water.volumeFactor, 1.0),
+    ],
     # it rises from t0, a quarter of a second after the begin, at the begin of each step
-    ("water", "table", "rate"): ({("water", "table"): {"rate": 0.25}, ("water", "gradient"): [0.0, 1e-6]}, lambda m: m.built.water.height,
-                                 lambda m: pytest.approx(0.25 * (O.time - O.dt - m.run.state.t0), abs=1e-9), 1.0),
-    ("water", "table", "points"): ({("water", "table"): {"points": [[0, 0.5], [0.5, 1.5], [1.0, 1.0]]}, ("water", "gradient"): [0.0, 1e-6]},
-                                   lambda m: ([t - m.run.state.t0 for t in m.built.water.times], list(m.built.water.heights)),
-                                   (pytest.approx([0, 0.5, 1.0], abs=1e-9), [0.5, 1.5, 1.0]), 0.5),
-    ("water", "release_distance"): ({("water", "release_distance"): 0.25}, lambda m: m.built.water.releaseDistance, 0.25),
-    ("stages", "settle", "ramp"): ({("stages", "settle", "ramp"): 0.4}, lambda m: [row[2] for row in m.rows],
-                                   # of the begin of a row's last step; whole once it is settled
-                                   lambda m: pytest.approx([-9.81 * (min(1, (now - O.dt) / 0.4) if now < 0.4 - 1e-6 else 1) for now, *_ in m.rows], rel=1e-6), 0.6),
-    ("stages", "settle", "time_max"): ({("stages", "settle"): {"ramp": 0.1, "time_max": 0.3, "speed_rest": 1e-12}}, settled, seconds(0.3), 0.5),
-    ("stages", "settle", "speed_rest"): [({("stages", "settle"): {"ramp": 0.1, "time_max": 0.3, "speed_rest": v}}, settled, seconds(t), 0.5) for v, t in ((10.0, 0.1), (1e-12, 0.3))],
-    ("stages", "settle", "bond"): [({("stages", "settle", "bond"): kind}, lambda m: (m.rows[0][5], m.rows[-1][5] > 0), (found, True), 0.7) for kind, found in (("before", 5), ("after", 0))],
+    ("water", "table", "rate"): (
+        {("water", "table"): {"rate": 0.25}, ("water", "gradient"): [0.0, 1e-6]},
+        lambda m: m.built.water.height,
+        lambda m: pytest.approx(0.25 * (O.time - O.dt - m.run.state.t0), abs=1e-9),
+        1.0,
+    ),
+    ("water", "table", "points"): (
+        {("water", "table"): {"points": [[0, 0.5], [0.5, 1.5], [1.0, 1.0]]}, ("water", "gradient"): [0.0, 1e-6]},
+        lambda m: ([t - m.run.state.t0 for t in m.built.water.times], list(m.built.water.heights)),
+        (pytest.approx([0, 0.5, 1.0], abs=1e-9), [0.5, 1.5, 1.0]),
+        0.5,
+    ),
+    ("water", "release_distance"): (
+        {("water", "release_distance"): 0.25},
+        lambda m: m.built.water.releaseDistance,
+        0.25,
+    ),
+    ("stages", "settle", "ramp"): (
+        {("stages", "settle", "ramp"): 0.4},
+        lambda m: [row[2] for row in m.rows],
+        # of the begin of a row's last step; whole once it is settled
+        lambda m: pytest.approx(
+            [-9.81 * (min(1, (now - O.dt) / 0.4) if now < 0.4 - 1e-6 else 1) for now, *_ in m.rows], rel=1e-6
+        ),
+        0.6,
+    ),
+    ("stages", "settle", "time_max"): (
+        {("stages", "settle"): {"ramp": 0.1, "time_max": 0.3, "speed_rest": 1e-12}},
+        settled,
+        seconds(0.3),
+        0.5,
+    ),
+    ("stages", "settle", "speed_rest"): [
+        ({("stages", "settle"): {"ramp": 0.1, "time_max": 0.3, "speed_rest": v}}, settled, seconds(t), 0.5)
+        for v, t in ((10.0, 0.1), (1e-12, 0.3))
+    ],
+    ("stages", "settle", "bond"): [
+        ({("stages", "settle", "bond"): kind}, lambda m: (m.rows[0][5], m.rows[-1][5] > 0), (found, True), 0.7)
+        for kind, found in (("before", 5), ("after", 0))
+    ],
     ("stages", "dry"): ({("stages", "dry"): 0.3}, lambda m: m.run.state.t0 - m.run.state.settled, seconds(0.3), 1.0),
     ("stages", "water", "hold"): [
-        ({("stages", "water", "hold"): "motion"}, lambda m: 0 < m.run.state.water_hold == m.rows[-1][4] < 100, True, 1.0),
-        ({("stages", "water", "hold"): "never"}, lambda m: (m.run.state.water_hold, m.rows[-1][4] > 400, m.run.state.moving is not None), (None, True, True), 1.0),
-        ({("stages", "water", "hold"): 5.0}, lambda m: (m.run.state.water_hold, m.rows[-1][4]), (5.0, 5.0), 1.0)],
-    ("stages", "end", "time"): ({("stages", "end", "time"): 0.4}, lambda m: (m.run.state.stage, O.time - m.run.state.settled), ("done", seconds(0.4)), None),
-    ("stages", "end", "rest_fraction"): [({("stages", "end", "rest_fraction"): share}, lambda m: (m.run.state.stage, at_rest(m)), lambda m, share=share: ("done", pytest.approx(
-        share, abs=0.02)), None) for share in (0.1, 0.5)],  # it loses 1.2 m/s a second of 1.7 m/s, so 0.014 of it in a row
-    ("stages", "end", "rest_hold"): ({("stages", "end", "rest_hold"): 0.5}, lambda m: O.time - m.run.state.resting_since, seconds(0.5), None),
-    ("numerics", "time_step"): ({("numerics", "time_step"): 2e-3}, lambda m: (O.dt, m.of(NonsmoothTimeStepper).largest, m.of(NonsmoothTimeStepper).smallest), (2e-3, 2e-3, 2e-4)),
-    ("numerics", "path"): [({("numerics", "path"): 0.3}, lambda m: m.of(NonsmoothTimeStepper).path, 0.3), ({("numerics", "path"): None}, lambda m: m.of(NonsmoothTimeStepper), None)],
+        (
+            {("stages", "water", "hold"): "motion"},
+            lambda m: 0 < m.run.state.water_hold == m.rows[-1][4] < 100,
+            True,
+            1.0,
+        ),
+        (
+            {("stages", "water", "hold"): "never"},
+            lambda m: (m.run.state.water_hold, m.rows[-1][4] > 400, m.run.state.moving is not None),
+            (None, True, True),
+            1.0,
+        ),
+        ({("stages", "water", "hold"): 5.0}, lambda m: (m.run.state.water_hold, m.rows[-1][4]), (5.0, 5.0), 1.0),
+    ],
+    ("stages", "end", "time"): (
+        {("stages", "end", "time"): 0.4},
+        lambda m: (m.run.state.stage, O.time - m.run.state.settled),
+        ("done", seconds(0.4)),
+        None,
+    ),
+    ("stages", "end", "rest_fraction"): [
+        (
+            {("stages", "end", "rest_fraction"): share},
+            lambda m: (m.run.state.stage, at_rest(m)),
+            lambda m, share=share: ("done", pytest.approx(share, abs=0.02)),
+            None,
+        )
+        for share in (0.1, 0.5)
+    ],  # it loses 1.2 m/s a second of 1.7 m/s, so 0.014 of it in a row
+    ("stages", "end", "rest_hold"): (
+        {("stages", "end", "rest_hold"): 0.5},
+        lambda m: O.time - m.run.state.resting_since,
+        seconds(0.5),
+        None,
+    ),
+    ("numerics", "time_step"): (
+        {("numerics", "time_step"): 2e-3},
+        lambda m: (O.dt, m.of(NonsmoothTimeStepper).largest, m.of(NonsmoothTimeStepper).smallest),
+        (2e-3, 2e-3, 2e-4),
+    ),
+    ("numerics", "path"): [
+        ({("numerics", "path"): 0.3}, lambda m: m.of(NonsmoothTimeStepper).path, 0.3),
+        ({("numerics", "path"): None}, lambda m: m.of(NonsmoothTimeStepper), None),
+    ],
     ("numerics", "tolerance"): ({("numerics", "tolerance"): 3e-5}, lambda m: m.built.solver.tolerance, 3e-5),
-    ("numerics", "tolerance_moving"): ({("numerics", "tolerance_moving"): 7e-3}, lambda m: max(row[3] for row in m.rows), 7e-3, 1.0),
+    ("numerics", "tolerance_moving"): (
+        {("numerics", "tolerance_moving"): 7e-3},
+        lambda m: max(row[3] for row in m.rows),
+        7e-3,
+        1.0,
+    ),
     ("numerics", "max_iterations"): ({("numerics", "max_iterations"): 55}, lambda m: m.built.solver.maxIterations, 55),
-    ("numerics", "verlet_distance"): ({("numerics", "verlet_distance"): 0.35}, lambda m: m.of(PlanarGridCollider).verletDist, -0.35),
+    ("numerics", "verlet_distance"): (
+        {("numerics", "verlet_distance"): 0.35},
+        lambda m: m.of(PlanarGridCollider).verletDist,
+        -0.35,
+    ),
 }
 CASES = [(key, *case) for key, cases in WHERE.items() for case in (cases if isinstance(cases, list) else [cases])]
 
@@ -298,15 +571,26 @@ def test_every_key_of_the_schema_has_its_place():
     assert set(keys()) == set(WHERE)
 
 
-@pytest.mark.parametrize("key, changes, found, expected, end", [(*case, 0.0)[:5] for case in CASES], ids=["-".join(case[0]) for case in CASES])
+@pytest.mark.parametrize(
+    "key, changes, found, expected, end",
+    [(*case, 0.0)[:5] for case in CASES],
+    ids=["-".join(case[0]) for case in CASES],
+)
 def test_a_key_acts(make, key, changes, found, expected, end):
     there = found(made := make(changes, end))
     assert there == (expected(made) if callable(expected) else expected)
 
 
 #: Keys whose values leave a run what it is, bit for bit: a checkpoint of the old value may be resumed with the new one.
-IDLE = {("name",), ("description",), ("walls", "*", "name"), ("walls", "*", "apart"), ("layers", "*", "name"), ("materials", "*", "envelope", "cohesion"),
-        ("materials", "*", "envelope", "friction_deg")}
+IDLE = {
+    ("name",),
+    ("description",),
+    ("walls", "*", "name"),
+    ("walls", "*", "apart"),
+    ("layers", "*", "name"),
+    ("materials", "*", "envelope", "cohesion"),
+    ("materials", "*", "envelope", "friction_deg"),
+}
 
 
 @pytest.mark.parametrize("key", [key for key in WHERE if key not in IDLE], ids="-".join)
@@ -314,4 +598,6 @@ def test_a_checkpoint_belongs_to_a_value(tmp_path, key):
     """A run is not resumed with another value of any key that it depends on."""
     base = experiment.run_key(read(tmp_path))
     assert base == experiment.run_key(read(tmp_path))
-    assert any(experiment.run_key(read(tmp_path, changes)) != base for k, changes, *_ in CASES if k == key)  # some have the block's own value
+    assert any(
+        experiment.run_key(read(tmp_path, changes)) != base for k, changes, *_ in CASES if k == key
+    )  # some have the block's own value

@@ -24,9 +24,21 @@ def one_contact(adhesion=0.0):
     """A body of mass and inertia 1 on the ground, pushed so that W = 1 and q = (−1, 0.5, 0.2); μ_s = 0.3, μ_r ℓ = 0.1 m."""
     three, free = np.zeros((1, 3)), np.array([[0.0, 0.0, 0.0], [-0.5, -1.0, 0.2]])
     return contact.ContactProblem(
-        time_step=1.0, inverse_mass=np.array([[0.0] * 3, [1.0] * 3]), free_velocity=free, velocity=free, body=np.array([[0, 1]], np.int32),
-        normal=np.array([[0.0, 1.0]]), lever=np.zeros((1, 4)), bias=three, adhesion=np.array([adhesion]), friction=np.array([0.3]),
-        rolling_arm=np.array([0.1]), length=np.array([1.0]), warm_start=three, impulse=three)
+        time_step=1.0,
+        inverse_mass=np.array([[0.0] * 3, [1.0] * 3]),
+        free_velocity=free,
+        velocity=free,
+        body=np.array([[0, 1]], np.int32),
+        normal=np.array([[0.0, 1.0]]),
+        lever=np.zeros((1, 4)),
+        bias=three,
+        adhesion=np.array([adhesion]),
+        friction=np.array([0.3]),
+        rolling_arm=np.array([0.1]),
+        length=np.array([1.0]),
+        warm_start=three,
+        impulse=three,
+    )
 
 
 @pytest.mark.parametrize("adhesion", [0.0, 0.5])
@@ -52,7 +64,21 @@ def test_contacts_without_work_carry_nothing(tmp_path):
 
 def test_no_contacts(tmp_path):
     problem = one_contact()
-    none = {name: getattr(problem, name)[:0] for name in ("body", "normal", "lever", "bias", "adhesion", "friction", "rolling_arm", "length", "warm_start", "impulse")}
+    none = {
+        name: getattr(problem, name)[:0]
+        for name in (
+            "body",
+            "normal",
+            "lever",
+            "bias",
+            "adhesion",
+            "friction",
+            "rolling_arm",
+            "length",
+            "warm_start",
+            "impulse",
+        )
+    }
     found = siconos_solve.solve_with_siconos(contact.ContactProblem(**{**vars(problem), **none}), tmp_path, 1e-6, 10)
     assert found.velocity[1] == pytest.approx([-0.5, -1, 0.2]) and found.sweeps == 0
 
@@ -60,7 +86,9 @@ def test_no_contacts(tmp_path):
 @pytest.mark.parametrize("check", [siconos.siconos_random_friction, siconos.siconos_random_rolling_cohesion])
 def test_random_problems_agree(tmp_path, check):
     outcome = check(Bench(tmp_path))
-    assert outcome.passed, "\n".join(f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed)
+    assert outcome.passed, "\n".join(
+        f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed
+    )
 
 
 def kept_cluster(number):
@@ -69,9 +97,14 @@ def kept_cluster(number):
     ends = np.concatenate([[0], np.flatnonzero(~kept.inverse_mass.any(axis=1)) + 1])
     bodies = slice(ends[number], ends[number + 1])
     contacts = (kept.body[:, 0] >= bodies.start) & (kept.body[:, 0] < bodies.stop)
-    chosen = {name: value[bodies if name in ("inverse_mass", "free_velocity", "velocity", "position") else contacts]
-              for name, value in vars(kept).items() if name != "time_step"}
-    return contact.ContactProblem(**{**chosen, "time_step": kept.time_step, "body": chosen["body"] - np.int32(bodies.start)})
+    chosen = {
+        name: value[bodies if name in ("inverse_mass", "free_velocity", "velocity", "position") else contacts]
+        for name, value in vars(kept).items()
+        if name != "time_step"
+    }
+    return contact.ContactProblem(
+        **{**chosen, "time_step": kept.time_step, "body": chosen["body"] - np.int32(bodies.start)}
+    )
 
 
 @pytest.mark.parametrize("number", [0, 9, 18, 19])
@@ -84,24 +117,39 @@ def test_kept_answers_are_what_siconos_says_today(tmp_path, number):
 
 def test_a_step_of_a_packing_agrees_in_the_quick_form(tmp_path):
     outcome = siconos.siconos_packing(Bench(tmp_path, quick=True))
-    assert outcome.passed, "\n".join(f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed)
+    assert outcome.passed, "\n".join(
+        f"{c.what}: {c.measured:g}, allowed {c.low:g} to {c.high:g}" for c in outcome.claims if not c.passed
+    )
 
 
 @pytest.mark.parametrize("what", ["friction", "rolling_arm", "adhesion", "bias", "lever"])
 def test_a_law_that_is_off_by_a_thousandth_would_show(tmp_path, what):
     problem = disk_problems.random_cluster(15, 18, rolling=True, cohesion=True)
     wrong = replace(problem, **{what: 1.001 * getattr(problem, what)})
-    theirs, ours = siconos_solve.solve_with_siconos(problem, tmp_path, 1e-10, 100000), siconos_solve.solve_with_ours(wrong, 1e-10, 100000)
+    theirs, ours = siconos_solve.solve_with_siconos(problem, tmp_path, 1e-10, 100000), siconos_solve.solve_with_ours(
+        wrong, 1e-10, 100000
+    )
     assert np.abs(theirs.velocity - ours.velocity).max() > 100 * 1e-7  # the limit of the checks
 
 
-@pytest.mark.parametrize("check", [c for c in verification.load_checks() if c.run.__module__ == siconos.__name__], ids=lambda c: c.name)
+@pytest.mark.parametrize(
+    "check", [c for c in verification.load_checks() if c.run.__module__ == siconos.__name__], ids=lambda c: c.name
+)
 def test_derivation_is_sound_markup(check):
-    docutils.core.publish_parts(check.derivation, writer_name="html5", settings_overrides={"halt_level": 2, "report_level": 2})
+    docutils.core.publish_parts(
+        check.derivation, writer_name="html5", settings_overrides={"halt_level": 2, "report_level": 2}
+    )
 
 
-@pytest.mark.parametrize("arguments, said", [
-    ([], "usage"), (["nowhere.h5", "out.h5"], "nowhere.h5"), (["a", "b", "--tolerance", "-1"], "--tolerance"), (["a", "b", "--speed"], "--speed")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        ([], "usage"),
+        (["nowhere.h5", "out.h5"], "nowhere.h5"),
+        (["a", "b", "--tolerance", "-1"], "--tolerance"),
+        (["a", "b", "--speed"], "--speed"),
+    ],
+)
 def test_refuses_bad_input(program, tmp_path, arguments, said):
     done = subprocess.run([program, *arguments], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 2 and said in done.stderr

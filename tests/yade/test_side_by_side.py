@@ -27,7 +27,10 @@ def called(monkeypatch):
 
 
 def made(home, *names, key="k", work=None):
-    return [side_by_side.Run(name, home / name, print, {"value": k}, key, (work or {}).get(name, 1.0)) for k, name in enumerate(names)]
+    return [
+        side_by_side.Run(name, home / name, print, {"value": k}, key, (work or {}).get(name, 1.0))
+        for k, name in enumerate(names)
+    ]
 
 
 def test_the_costly_ones_run_first_and_results_keep_their_order(tmp_path, called):
@@ -41,7 +44,12 @@ def test_a_resume_keeps_what_has_ended_with_the_same_key(tmp_path, called):
     side_by_side.run(made(tmp_path, "a", "b"), 2)
     shares = []
     kept_runs.Progress(tmp_path / "b")(0.5)
-    side_by_side.run([*made(tmp_path, "a"), *made(tmp_path, "b", key="other")], 1, resume=True, progress=lambda share, ended: shares.append((share, ended)))
+    side_by_side.run(
+        [*made(tmp_path, "a"), *made(tmp_path, "b", key="other")],
+        1,
+        resume=True,
+        progress=lambda share, ended: shares.append((share, ended)),
+    )
     assert sorted(called[:2]) == ["a", "b"] and called[2:] == ["b"] and shares[-1] == (1.0, 2)
     assert kept_runs.kept(tmp_path / "b", "other") is not None and kept_runs.kept(tmp_path / "b", "k") is None
     side_by_side.run(made(tmp_path, "a"), 1)

@@ -32,9 +32,19 @@ def written(path, **keys):
 def failed(tmp_path_factory):
     """A run on a plane without friction, of rock without strength, which slides as soon as gravity has grown: its folder and what the command said."""
     folder = tmp_path_factory.mktemp("dry")
-    source = written(folder / "weak.yaml", materials__dp__friction=0.0, materials__dp__residual_friction=0.0, materials__rock__tensile_strength=1.0,
-                     materials__rock__residual_tensile_strength=0.0, materials__fb__tensile_strength=1.0, stages__settle__ramp=1.0, stages__dry=0.5,
-                     stages__end__time=8.0, numerics__tolerance=1e-4, numerics__max_iterations=30)
+    source = written(
+        folder / "weak.yaml",
+        materials__dp__friction=0.0,
+        materials__dp__residual_friction=0.0,
+        materials__rock__tensile_strength=1.0,
+        materials__rock__residual_tensile_strength=0.0,
+        materials__fb__tensile_strength=1.0,
+        stages__settle__ramp=1.0,
+        stages__dry=0.5,
+        stages__end__time=8.0,
+        numerics__tolerance=1e-4,
+        numerics__max_iterations=30,
+    )
     done = shell.run("jiufengershan.py", "--section", source, "--disks", 300, "--out", folder / "out", "--threads", 1)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder / "out", done.stdout
@@ -45,13 +55,23 @@ def test_a_slope_that_fails_dry_is_no_failure_by_water(failed):
     summary = json.loads((out / "summary.json").read_text())
     assert "THE SLOPE FAILED DRY, at " in said
     assert 1.0 < summary["failed_dry_s"] < 8.0  # gravity needs 1 s to grow; then g sin 21° is 3.5 m/s²
-    for name in ("water_at_failure_m", "fb_force_dry_N_per_m", "fb_force_at_failure_N_per_m", "dp_shear_dry_N_per_m", "dp_shear_at_failure_N_per_m",
-                 "triggering_s", "motion_s", "bulking_factor"):
+    for name in (
+        "water_at_failure_m",
+        "fb_force_dry_N_per_m",
+        "fb_force_at_failure_N_per_m",
+        "dp_shear_dry_N_per_m",
+        "dp_shear_at_failure_N_per_m",
+        "triggering_s",
+        "motion_s",
+        "bulking_factor",
+    ):
         assert summary[name] is None, name
     assert [name for name, t in summary["times_s"].items() if t is None and name != "t5"] == ["t0", "t1", "t2", "t3"]
     assert summary["times_s"]["t4"] > summary["failed_dry_s"]
     series = records.read_series(out / "series.csv")
-    assert summary["front_travel_m"] == pytest.approx(series["front_m"][-1] - series["front_m"][0])  # from the beginning
+    assert summary["front_travel_m"] == pytest.approx(
+        series["front_m"][-1] - series["front_m"][0]
+    )  # from the beginning
     assert summary["centroid_travel_m"] > 5  # some seconds at some m/s
     assert summary["energy_error_rel"] < 0.02  # of the rows since gravity has grown; before, the balance means nothing
     assert not (out / "deposit.png").exists() and (out / "energy.png").stat().st_size > 1000
@@ -59,7 +79,9 @@ def test_a_slope_that_fails_dry_is_no_failure_by_water(failed):
 
 def test_rows_begin_with_the_run_and_name_their_stage(failed):
     series = records.read_series(failed[0] / "series.csv")
-    assert series["time_s"][0] == pytest.approx(0.1, abs=1e-9) and np.allclose(np.diff(series["time_s"]), 0.1, atol=0.006)
+    assert series["time_s"][0] == pytest.approx(0.1, abs=1e-9) and np.allclose(
+        np.diff(series["time_s"]), 0.1, atol=0.006
+    )
     assert (np.diff(series["stage"]) >= 0).all() and set(series["stage"]) == {0, 1, 2}
     assert (series["water_m"] == 0).all() and (series["wet_disks"] == 0).all()
     assert (series["energy_error_rel"][series["stage"] == 0] == 0).all()
@@ -73,8 +95,13 @@ def test_the_failure_is_found_also_where_it_comes_at_rest_or_late():
     """The rules alone, on states that a run has gone through."""
     slope_of = section.load("jiufengershan")
     t = 0.1 * np.arange(1, 301)
-    series = {"time_s": t, "energy_kinetic_J": np.interp(t, [5, 10, 20], [0, 1, 0]), "speed_mean_m_per_s": np.interp(t, [5, 10, 20], [0, 9, 0]),
-              "weakened_disks": np.where(t > 6, 10**6, 0), "stage": np.where(t < 7, 0, 2)}
+    series = {
+        "time_s": t,
+        "energy_kinetic_J": np.interp(t, [5, 10, 20], [0, 1, 0]),
+        "speed_mean_m_per_s": np.interp(t, [5, 10, 20], [0, 9, 0]),
+        "weakened_disks": np.where(t > 6, 10**6, 0),
+        "stage": np.where(t < 7, 0, 2),
+    }
     times = results.characteristic_times(series, slope_of, {"t0": 7.0, "moving": 6.0, "failed_dry": 6.0})
     assert [times[name] for name in ("t0", "t1", "t2", "t3")] == [None] * 4
     assert times["t4"] == pytest.approx(10) and times["t5"] == pytest.approx(20 - 0.02 * 10, abs=0.11)
@@ -110,20 +137,43 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
     monkeypatch.setattr(run, "snapshot", lambda path, contacts=False: saved.append((path.name, contacts)))
     monkeypatch.setattr(run, "checkpoint", lambda: saved.append(run.state.stage))
     monkeypatch.setattr(run, "_fraction", lambda: 0.83)
-    monkeypatch.setattr(run, "section", dataclasses.replace(run.section, stages=dataclasses.replace(run.section.stages, settle=dataclasses.replace(
-        run.section.stages.settle, bond="after"))))
+    monkeypatch.setattr(
+        run,
+        "section",
+        dataclasses.replace(
+            run.section,
+            stages=dataclasses.replace(
+                run.section.stages, settle=dataclasses.replace(run.section.stages.settle, bond="after")
+            ),
+        ),
+    )
 
     def decide(time, speed, height):
         run._decide(course.Seen(time, 1e-2, speed, height))
 
     run.state = course.State()
     decide(3.0, 1e-3, 0.0)  # gravity grows until 4 s
-    assert saved == solver.done == water.done == [] and run._gravity(3.0)[1] == pytest.approx(-0.75 * 9.81) and run._gravity(5.0)[1] == -9.81
+    assert (
+        saved == solver.done == water.done == []
+        and run._gravity(3.0)[1] == pytest.approx(-0.75 * 9.81)
+        and run._gravity(5.0)[1] == -9.81
+    )
     decide(5.0, 1e-3, 0.0)
-    assert saved == ["dry"] and solver.done == ["bond", "forgetEnergies"] and water.done == ["forgetReleases"] and material.done == ["forgetSlip"] * 3
-    assert (run.state.packing_fraction, run.state.bonds_initial, run.state.contacts_initial) == (0.83, 800, 900) and water.times == []
+    assert (
+        saved == ["dry"]
+        and solver.done == ["bond", "forgetEnergies"]
+        and water.done == ["forgetReleases"]
+        and material.done == ["forgetSlip"] * 3
+    )
+    assert (run.state.packing_fraction, run.state.bonds_initial, run.state.contacts_initial) == (
+        0.83,
+        800,
+        900,
+    ) and water.times == []
     decide(8.0, 1e-3, 0.0)
-    assert saved[1:] == [("t0.npz", True), "water"] and run.state.front0 == pytest.approx(np.max(table["x"] + table["r"]), abs=20)  # but for a thousandth of the area
+    assert saved[1:] == [("t0.npz", True), "water"] and run.state.front0 == pytest.approx(
+        np.max(table["x"] + table["r"]), abs=20
+    )  # but for a thousandth of the area
     assert (water.times, water.heights, solver.tolerance) == ([8.0, 158.0], [0.0, 150.0], 0.0)
     numerics = run.section.numerics
     decide(20.0, 0.1, 12.0)
@@ -132,7 +182,10 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
     decide(20.1, 0.3, 12.1)
     assert solver.tolerance == numerics.tolerance_moving and water.heights == [12.1]
     decide(22.1, 0.01, 12.1)
-    assert solver.tolerance == numerics.tolerance and (water.times, water.heights) == ([10.0, 160.0], [0.0, 150.0])  # two seconds later than before
+    assert solver.tolerance == numerics.tolerance and (water.times, water.heights) == (
+        [10.0, 160.0],
+        [0.0, 150.0],
+    )  # two seconds later than before
     run.hard, run.damping = False, (0.2, 0.04)
     run.state = course.noted(run.state, course.Seen(40.0, 1e-2, 20.0, 30.0), run.scales)
     decide(40.0, 20.0, 30.0)
@@ -181,12 +234,18 @@ def test_forces_between_rows_are_counted(loaded):
         assert found[name] == pytest.approx(wanted, rel=1e-9, abs=1e-3)  # N/m: rounding of sums of some 1e7
     assert found["DP"][2] > 1.02 * found["DP"][0] > 0  # packed just short of touching: the disks hit the plane
     O.step()
-    assert forces.take()["DP"] == pytest.approx((*by_hand(loaded, "DP"), by_hand(loaded, "DP")[0]), rel=1e-9)  # what was before is forgotten
+    assert forces.take()["DP"] == pytest.approx(
+        (*by_hand(loaded, "DP"), by_hand(loaded, "DP")[0]), rel=1e-9
+    )  # what was before is forgotten
 
 
 def test_rows_hold_means_and_peaks(loaded, tmp_path, monkeypatch):
     run, normal, advance = experiment.Experiment(loaded, tmp_path), [], experiment.advance
-    assert O.iter == 2 and [e.seconds for e in O.engines if isinstance(e, WallForceEngine)] == [0, 0, 0]  # steps without weight belong to no row
+    assert O.iter == 2 and [e.seconds for e in O.engines if isinstance(e, WallForceEngine)] == [
+        0,
+        0,
+        0,
+    ]  # steps without weight belong to no row
 
     def step_by_step(until):
         while O.time < until - 0.5 * O.dt:
@@ -201,16 +260,35 @@ def test_rows_hold_means_and_peaks(loaded, tmp_path, monkeypatch):
     assert len(series["step"]) == 5
     for k, (first, last) in enumerate(zip((2, *series["step"]), series["step"])):
         row = (step > first) & (step <= last)
-        assert series["dp_normal_effective_N_per_m"][k] == pytest.approx((force * seconds)[row].sum() / seconds[row].sum(), rel=1e-9)
+        assert series["dp_normal_effective_N_per_m"][k] == pytest.approx(
+            (force * seconds)[row].sum() / seconds[row].sum(), rel=1e-9
+        )
         assert series["dp_normal_peak_N_per_m"][k] == pytest.approx(force[row].max(), rel=1e-9)
     assert (series["dp_normal_peak_N_per_m"] >= series["dp_normal_effective_N_per_m"]).all()
 
 
 # ---- options --------------------------------------------------------------------------------------
-@pytest.mark.parametrize("option, value", [("--water", "nan"), ("--water", "-1"), ("--water", "inf"), ("--end", "-1"), ("--end", "nan"), ("--end", "0"),
-                                           ("--disks", "0"), ("--disks", "1000000000000"), ("--disks", "300.5"), ("--seed", "-1"), ("--seed", "9" * 99), ("--threads", "5000")])
+@pytest.mark.parametrize(
+    "option, value",
+    [
+        ("--water", "nan"),
+        ("--water", "-1"),
+        ("--water", "inf"),
+        ("--end", "-1"),
+        ("--end", "nan"),
+        ("--end", "0"),
+        ("--disks", "0"),
+        ("--disks", "1000000000000"),
+        ("--disks", "300.5"),
+        ("--seed", "-1"),
+        ("--seed", "9" * 99),
+        ("--threads", "5000"),
+    ],
+)
 def test_options_without_sense(option, value, in_process, tmp_path):
-    done = in_process("jiufengershan.py", f"{option}={value}", "--out", tmp_path / "out")  # one word, so that -1 is no option
+    done = in_process(
+        "jiufengershan.py", f"{option}={value}", "--out", tmp_path / "out"
+    )  # one word, so that -1 is no option
     assert done.status == 2 and "Traceback" not in done.err and option in done.last
     assert not (tmp_path / "out").exists()
 
@@ -226,5 +304,15 @@ def test_water_on_a_section_without(in_process, tmp_path):
 def test_a_packing_of_another_slope(in_process, loose, tmp_path):
     made = packing.pack(loose, 1)
     packing.write_text(dataclasses.replace(made, layer=0 * made.layer), tmp_path / "p.txt")
-    done = in_process("jiufengershan.py", "--section", loose.source, "--disks", 300, "--packing", tmp_path / "p.txt", "--out", tmp_path / "out")
+    done = in_process(
+        "jiufengershan.py",
+        "--section",
+        loose.source,
+        "--disks",
+        300,
+        "--packing",
+        tmp_path / "p.txt",
+        "--out",
+        tmp_path / "out",
+    )
     assert done.status == 1 and "p.txt: no disk belongs to layer 1 (L2)" in done.last

@@ -19,11 +19,14 @@ def cross(places, vectors):
 
 # ---- rigid disks ----------------------------------------------------------------------------------
 
+
 def test_forces_of_walls_water_and_weight_are_the_change_of_momentum(whole):
     w, s = whole.watch, whole.watch.steps
     gained = np.einsum("d,kad->ka", w.mass, s.after[:, 3:5] - s.before[:, 3:5])
     given = s.dt[:, None] * (w.mass.sum() * s.gravity + s.water - s.walls[:, :, :2].sum(axis=1))
-    assert np.abs(gained - given).max() < 1e-9 * w.mass.sum() * 9.81 * 5e-3  # rounding; the solver's tolerance does not come into it
+    assert (
+        np.abs(gained - given).max() < 1e-9 * w.mass.sum() * 9.81 * 5e-3
+    )  # rounding; the solver's tolerance does not come into it
     assert np.abs(s.water).max() > 0.05 * w.mass.sum() * 9.81  # the water was there
 
 
@@ -42,7 +45,10 @@ def test_rows_of_the_series_and_snapshots_balance_by_themselves(whole):
         for name in ("DP", "FB", "SS"):
             (x0, y0), (x1, y1) = whole.section.wall(name).vertices
             along = np.array([x1 - x0, y1 - y0]) / math.hypot(x1 - x0, y1 - y0)
-            column = {k: series[f"{name.lower()}_{k}_N_per_m"] for k in ("normal_effective" if name == "DP" else "normal", "shear")}
+            column = {
+                k: series[f"{name.lower()}_{k}_N_per_m"]
+                for k in ("normal_effective" if name == "DP" else "normal", "shear")
+            }
             push, drag = ((values[rows] * seconds).sum() for values in column.values())
             given -= push * np.array([along[1], -along[0]]) + drag * along
         gained = np.array([(mass * (getattr(other, v) - getattr(one, v))).sum() for v in ("vx", "vy")])
@@ -60,7 +66,9 @@ def steps():
     chosen = section.load(str(SMALL))
     O.reset()
     world = hard(chosen)
-    built = slope.build(chosen, packing.cached_pack(chosen), replace(world, options={**world.options, "relaxationRate": 0.0}))
+    built = slope.build(
+        chosen, packing.cached_pack(chosen), replace(world, options={**world.options, "relaxationRate": 0.0})
+    )
     solver, first = built.solver, built.first_disk
     experiment.advance()
     solver.bond()
@@ -79,9 +87,32 @@ def steps():
         experiment.advance()
         on_walls = np.array([(*tuple(O.forces.f(i))[:2], O.forces.t(i)[2]) for i in pieces])
         wet, _ = tables.water(built.water, first, built.count)
-        lift = wet[:, None] * math.pi * (t["r"] ** 2)[:, None] / 0.82 * 9810 * math.cos(math.radians(chosen.dip)) * np.array(chosen.normal)
-        counters = np.array([getattr(solver, name) for name in ("slidingLoss", "rollingLoss", "debondingLoss", "impactLoss", "externalWork", "wallWork", "correctionEnergy")])
-        found.append((before, bodies(), on_walls, lift, counters, np.frombuffer(solver.contactTable()).reshape(-1, 12).copy()))
+        lift = (
+            wet[:, None]
+            * math.pi
+            * (t["r"] ** 2)[:, None]
+            / 0.82
+            * 9810
+            * math.cos(math.radians(chosen.dip))
+            * np.array(chosen.normal)
+        )
+        counters = np.array(
+            [
+                getattr(solver, name)
+                for name in (
+                    "slidingLoss",
+                    "rollingLoss",
+                    "debondingLoss",
+                    "impactLoss",
+                    "externalWork",
+                    "wallWork",
+                    "correctionEnergy",
+                )
+            ]
+        )
+        found.append(
+            (before, bodies(), on_walls, lift, counters, np.frombuffer(solver.contactTable()).reshape(-1, 12).copy())
+        )
     O.reset()
     return found, mass, inertia, places, t["r"]
 
@@ -97,7 +128,11 @@ def test_moments_about_a_point_are_the_change_of_angular_momentum(steps):
         for before, after, on_walls, lift, _, _ in found:
             x, change = before[:2].T - about, (after - before)[2:4].T
             gained = (mass * cross(x, change)).sum() + (inertia * (after - before)[4]).sum()
-            given = h * (cross(x, mass[:, None] * GRAVITY + lift).sum() - cross(walls - about, on_walls[:, :2]).sum() - on_walls[:, 2].sum())
+            given = h * (
+                cross(x, mass[:, None] * GRAVITY + lift).sum()
+                - cross(walls - about, on_walls[:, :2]).sum()
+                - on_walls[:, 2].sum()
+            )
             size = h * 9.81 * (mass * np.abs(x).sum(axis=1)).sum()
             assert abs(gained - given) < 1e-9 * size  # rounding: the moments of the weights cancel
             turned = max(turned, abs(gained) / size)
@@ -134,15 +169,26 @@ def test_each_loss_is_the_work_of_its_own_impulses(steps):
         for x, y, vx, vy, w in (before, after):
             fixed = lambda values: np.where(wall, 0, values[i])  # noqa: E731
             dx, dy = vx[j] - fixed(vx), vy[j] - fixed(vy)
-            u.append(np.array([dx * nx + dy * ny, dy * nx - dx * ny - w[j] * (r[j] + 0.5 * gap) - fixed(w) * (fixed(r) + 0.5 * gap), w[j] - fixed(w)]))
+            u.append(
+                np.array(
+                    [
+                        dx * nx + dy * ny,
+                        dy * nx - dx * ny - w[j] * (r[j] + 0.5 * gap) - fixed(w) * (fixed(r) + 0.5 * gap),
+                        w[j] - fixed(w),
+                    ]
+                )
+            )
         normal, sliding, rolling = -0.5 * 5e-3 * np.array([n, t, torque]) * (u[0] + u[1])
         wanted = np.array([sliding.sum(), rolling.sum(), normal[n < 0].sum(), normal[n >= 0].sum()])
         scale = np.abs(normal).sum() + np.abs(sliding).sum() + np.abs(rolling).sum()
-        assert np.abs((counters - last)[:4] - wanted).max() < 1e-8 * scale  # rounding, of forces from impulses and of sums
+        assert (
+            np.abs((counters - last)[:4] - wanted).max() < 1e-8 * scale
+        )  # rounding, of forces from impulses and of sums
         last = counters
 
 
 # ---- bonds ----------------------------------------------------------------------------------------
+
 
 def bonds_add_up(series, breaks, made, begun):
     """Bonds that hold and broken ones are the bonds made at every row, and the list of breaks has those of each mode; ``begun``: steps of a break's number that are
@@ -157,7 +203,9 @@ def bonds_add_up(series, breaks, made, begun):
 
 
 def test_bonds_that_hold_and_broken_ones_are_those_made(whole):
-    bonds_add_up(whole.series, records.read_breaks(whole.folder / "breaks.csv"), whole.summary["bonds_initial"], 0)  # rigid disks: the number of steps before the one in which it broke
+    bonds_add_up(
+        whole.series, records.read_breaks(whole.folder / "breaks.csv"), whole.summary["bonds_initial"], 0
+    )  # rigid disks: the number of steps before the one in which it broke
 
 
 def test_breaks_are_where_and_when_bonds_were_lost(whole):
@@ -172,7 +220,9 @@ def test_breaks_are_where_and_when_bonds_were_lost(whole):
     at = np.searchsorted(watch.steps.iter, breaks["step"] + 1)
     two = breaks["disk2"]
     x, y = watch.steps.before[at, 0, two], watch.steps.before[at, 1, two]
-    assert (np.hypot(breaks["x_m"] - x, breaks["y_m"] - y) < 1.2 * watch.r[two]).all()  # at the rim of the second disk, but for a gap
+    assert (
+        np.hypot(breaks["x_m"] - x, breaks["y_m"] - y) < 1.2 * watch.r[two]
+    ).all()  # at the rim of the second disk, but for a gap
     assert np.allclose(breaks["time_s"], (watch.steps.time - watch.steps.dt)[at], atol=1e-9)  # the step's begin
 
 
@@ -215,13 +265,24 @@ def test_soft_forces_cancel_and_move_the_disks(damping):
         before = tables.bodies(built.solver)
         experiment.advance()
         after = tables.bodies(built.solver)
-        f, on_walls = (np.array([(*tuple(O.forces.f(int(i)))[:2], O.forces.t(int(i))[2]) for i in which]) for which in (ids, pieces))
+        f, on_walls = (
+            np.array([(*tuple(O.forces.f(int(i)))[:2], O.forces.t(int(i))[2]) for i in which])
+            for which in (ids, pieces)
+        )
         wet, _ = tables.water(built.water, built.first_disk, built.count)
         lift = wet[:, None] * math.pi * (r**2)[:, None] / 0.82 * 9810 * math.cos(math.radians(chosen.dip)) * n
         size = np.abs(f[:, :2]).sum()
-        assert np.abs(f[:, :2].sum(0) + on_walls[:, :2].sum(0) - lift.sum(0)).max() < 1e-9 * size  # actio est reactio, to rounding
+        assert (
+            np.abs(f[:, :2].sum(0) + on_walls[:, :2].sum(0) - lift.sum(0)).max() < 1e-9 * size
+        )  # actio est reactio, to rounding
         places, walls = np.c_[before["x"], before["y"]], np.array([tuple(O.bodies[i].state.pos)[:2] for i in pieces])
-        moment = cross(places, f[:, :2]).sum() + f[:, 2].sum() + cross(walls, on_walls[:, :2]).sum() + on_walls[:, 2].sum() - cross(places, lift).sum()
+        moment = (
+            cross(places, f[:, :2]).sum()
+            + f[:, 2].sum()
+            + cross(walls, on_walls[:, :2]).sum()
+            + on_walls[:, 2].sum()
+            - cross(places, lift).sum()
+        )
         assert abs(moment) < 1e-9 * size * 40  # the same, at places of some 40 m
         v0, v1 = (np.c_[t["vx"], t["vy"]] for t in (before, after))
         a = f[:, :2] / mass[:, None] + GRAVITY

@@ -32,7 +32,10 @@ def test_a_short_soak(tmp_path):
     O.reset()
 
 
-@pytest.mark.parametrize("arguments, words", [(("--steps", 399), ("--steps 399", "400 or more")), (("--disks", 59), ("--disks 59", "60 or more"))])
+@pytest.mark.parametrize(
+    "arguments, words",
+    [(("--steps", 399), ("--steps 399", "400 or more")), (("--disks", 59), ("--disks 59", "60 or more"))],
+)
 def test_a_soak_that_says_nothing_is_refused(arguments, words):
     done = command(*arguments)
     assert done.returncode == 2 and all(word in done.stderr for word in words), done.stderr
@@ -40,14 +43,32 @@ def test_a_soak_that_says_nothing_is_refused(arguments, words):
 
 def rows_with(**growing):
     """Forty rows of a drum in which nothing grows, but for columns that grow to a multiple."""
-    flat = dict(turns=10.0, overlap_worst_rel=5e-3, overlap_mean_rel=1e-4, kinetic_J=1e5, sweeps_mean=50.0, memory_MB=200.0, energy_error_rel=1e-3, inside=500)
-    return [{name: value * (1 + (growing.get(name, 1) - 1) * k / 39) for name, value in flat.items()} for k in range(40)]
+    flat = dict(
+        turns=10.0,
+        overlap_worst_rel=5e-3,
+        overlap_mean_rel=1e-4,
+        kinetic_J=1e5,
+        sweeps_mean=50.0,
+        memory_MB=200.0,
+        energy_error_rel=1e-3,
+        inside=500,
+    )
+    return [
+        {name: value * (1 + (growing.get(name, 1) - 1) * k / 39) for name, value in flat.items()} for k in range(40)
+    ]
 
 
 def test_what_grows_is_noticed():
     assert soak.judge(rows_with())["grew"] == []
     assert soak.judge(rows_with(kinetic_J=1.2))["grew"] == []  # as uneven as a flow is
-    for name, times in (("overlap_worst_rel", 20), ("overlap_mean_rel", 2), ("kinetic_J", 2), ("sweeps_mean", 2), ("memory_MB", 1.1), ("energy_error_rel", 3)):
+    for name, times in (
+        ("overlap_worst_rel", 20),
+        ("overlap_mean_rel", 2),
+        ("kinetic_J", 2),
+        ("sweeps_mean", 2),
+        ("memory_MB", 1.1),
+        ("energy_error_rel", 3),
+    ):
         grew = soak.judge(rows_with(**{name: times}))["grew"]
         assert len(grew) == 1 and grew[0].startswith(name), grew
     assert "disks left the drum: 500.0 were in it, and 499" in soak.judge(rows_with(inside=0.998))["grew"][0]

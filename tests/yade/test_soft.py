@@ -12,8 +12,15 @@ from yade.wrapper import CohFrictMat, FrictMat, JCFpmMat, NewtonIntegrator
 
 from contact_scenes import begin, contacts, engine, run
 
-ROCK = section.Material("rock", friction=FRICTION, residual_friction=0.2, rolling_friction=ROLLING, residual_rolling_friction=0.05,
-                        tensile_strength=SIGMA, density=2500.0)
+ROCK = section.Material(
+    "rock",
+    friction=FRICTION,
+    residual_friction=0.2,
+    rolling_friction=ROLLING,
+    residual_rolling_friction=0.05,
+    tensile_strength=SIGMA,
+    density=2500.0,
+)
 E = 1e9  # Pa
 # A ramp of 8,000 steps overshoots by rate/ω, 7e-4 of a threshold; contacts that yield by 1e-3 ℓ turn the load by 1e-3.
 RAMP = 5e-3
@@ -69,8 +76,11 @@ def yields(contact):
     """Whether a bond bears one of its thresholds: −F_a, μ_s (F_a + N) or μ_r ℓ (F_a + N)."""
     p = contact.phys
     held = p.normalAdhesion + p.normalForce.dot(contact.geom.normal)
-    return (held <= 1e-9 * p.normalAdhesion or p.shearForce.norm() >= p.tangensOfFrictionAngle * held * (1 - 1e-9)
-            or p.moment_bending.norm() >= p.maxRollPl * held * (1 - 1e-9))
+    return (
+        held <= 1e-9 * p.normalAdhesion
+        or p.shearForce.norm() >= p.tangensOfFrictionAngle * held * (1 - 1e-9)
+        or p.moment_bending.norm() >= p.maxRollPl * held * (1 - 1e-9)
+    )
 
 
 #: Loads of verification.bonds: each mode alone, shear and torque under compression and under tension, and shear with torque.
@@ -100,7 +110,7 @@ def test_a_ductile_bond_yields_where_the_hard_one_does_and_holds(name):
     begin = O.bodies[pair.free].state.pos
     for _ in range(20):
         O.step()
-        p, = (i.phys for i in contacts())
+        (p,) = (i.phys for i in contacts())
         held = p.normalAdhesion + p.normalForce.dot(contacts()[0].geom.normal)
         assert not broken(contacts()[0]) and held >= -1e-9 * F_A
         held += 1e-9 * F_A  # rounding
@@ -150,7 +160,9 @@ def test_a_bond_over_a_gap_is_born_without_force_and_breaks_at_the_same_load():
     for model in ("cohesion_moment", "jcfpm"):
         pair = SoftPair(parameters(model), gap=0.015)
         run(100)
-        assert O.bodies[pair.free].state.pos[0] == pytest.approx(LENGTH + 0.015, abs=1e-12)  # rounding of R₁ + R₂ − distance
+        assert O.bodies[pair.free].state.pos[0] == pytest.approx(
+            LENGTH + 0.015, abs=1e-12
+        )  # rounding of R₁ + R₂ − distance
         assert pair.threshold(loads, broken) == pytest.approx(1, rel=RAMP)
 
 
@@ -195,7 +207,11 @@ def test_bonds_are_those_of_the_hard_law_with_its_thresholds_at_each_contact():
     begin(gravity=(0, 0, 0), reach=0.05)
     run(1)
     count = engine().bond()
-    hard = {frozenset((i.id1, i.id2)): (i.phys.tensileForce, i.phys.friction, i.phys.rollingArm) for i in contacts() if i.phys.bonded}
+    hard = {
+        frozenset((i.id1, i.id2)): (i.phys.tensileForce, i.phys.friction, i.phys.rollingArm)
+        for i in contacts()
+        if i.phys.bonded
+    }
     for model in ("cohesion_moment", "jcfpm"):
         O.reset()
         e = parameters(model, rock, diameter=(0.9, 1.0))
@@ -209,9 +225,13 @@ def test_bonds_are_those_of_the_hard_law_with_its_thresholds_at_each_contact():
             tension, friction, arm = hard[frozenset((i.id1, i.id2))]
             p, same = i.phys, dict(rel=1e-12)  # products in another order
             if model == "jcfpm":
-                assert (p.FnMax, p.FsMax, p.tanFrictionAngle) == pytest.approx((tension, friction * tension, friction), **same)
+                assert (p.FnMax, p.FsMax, p.tanFrictionAngle) == pytest.approx(
+                    (tension, friction * tension, friction), **same
+                )
             else:
-                assert (p.normalAdhesion, p.shearAdhesion, p.rollingAdhesion) == pytest.approx((tension, friction * tension, arm * tension), **same)
+                assert (p.normalAdhesion, p.shearAdhesion, p.rollingAdhesion) == pytest.approx(
+                    (tension, friction * tension, arm * tension), **same
+                )
                 assert (p.tangensOfFrictionAngle, p.maxRollPl) == pytest.approx((friction, arm), **same)
             r1, r2 = (O.bodies[k].shape.radius for k in (i.id1, i.id2))
             assert (p.kn, p.ks) == pytest.approx(e.stiffnesses(r1, r2)[:2], **same)
@@ -270,7 +290,9 @@ def test_damping_gives_the_restitution_that_is_stated():
         body.state.vel = (-0.1, 0, 0)
         O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0)), 0.01 * e.step_limit
         run(3000)
-        assert body.state.vel[0] == pytest.approx(0.1 * e.restitution, rel=0.01)  # the spring's half period is some 300 steps
+        assert body.state.vel[0] == pytest.approx(
+            0.1 * e.restitution, rel=0.01
+        )  # the spring's half period is some 300 steps
 
 
 def test_damping_slows_a_fall_as_stated():
@@ -288,7 +310,7 @@ def growth(e, factor, places):
     O.materials.append(soft.material(e))
     for k, place in enumerate(places):
         body = O.bodies[O.bodies.append(scene.disk(place, RADIUS, O.materials[0]))]
-        body.state.vel = (1e-6 * (-1)**k, 0.3e-6 * (-1)**(k // 2), 0)
+        body.state.vel = (1e-6 * (-1) ** k, 0.3e-6 * (-1) ** (k // 2), 0)
     O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0)), factor * e.step_limit
     soft.bond(e)
     run(2000)
@@ -299,12 +321,12 @@ def test_the_step_limit_is_where_a_pair_becomes_unstable_and_safe_for_a_patch():
     strong = dataclasses.replace(ROCK, tensile_strength=1e30)
     pair = [(0, 0), (LENGTH, 0)]
     e = parameters(rock=strong, contacts=1, damping=0)
-    assert growth(e, 0.99, pair) < 20       # below the limit steps of 2/ω amplify by 1/√(1 − 0.99²) = 7
-    assert growth(e, 1.01, pair) > 1e6      # above it by exp(2 arcosh 1.01) = 1.3 a step
+    assert growth(e, 0.99, pair) < 20  # below the limit steps of 2/ω amplify by 1/√(1 − 0.99²) = 7
+    assert growth(e, 1.01, pair) > 1e6  # above it by exp(2 arcosh 1.01) = 1.3 a step
     patch = [(LENGTH * (a + 0.5 * b), LENGTH * b * math.sqrt(0.75)) for a in range(5) for b in range(5)]
     e = parameters(rock=strong, damping=0)
     assert growth(e, 0.99, patch) < 20
-    assert growth(e, 3.0, patch) > 1e6      # and the bound is no worse than a factor of three
+    assert growth(e, 3.0, patch) > 1e6  # and the bound is no worse than a factor of three
 
 
 def test_the_way_back():
@@ -314,35 +336,47 @@ def test_the_way_back():
     pair.load(normal=-2 * F_A)
     run(200)
     assert not contacts()
-    rock = dataclasses.replace(ROCK, rolling_friction=0.125, residual_rolling_friction=0.125, residual_friction=FRICTION)
+    rock = dataclasses.replace(
+        ROCK, rolling_friction=0.125, residual_rolling_friction=0.125, residual_friction=FRICTION
+    )
     for model, lost in (("cohesion_moment", {}), ("jcfpm", dict(rolling_friction=0.0, residual_rolling_friction=0.0))):
         back = soft.material_of(soft.material(parameters(model, rock)), LENGTH, name="rock")
-        assert dataclasses.asdict(back) == pytest.approx(dataclasses.asdict(dataclasses.replace(rock, **lost)), rel=1e-12)
+        assert dataclasses.asdict(back) == pytest.approx(
+            dataclasses.asdict(dataclasses.replace(rock, **lost)), rel=1e-12
+        )
     assert soft.material_of(FrictMat(frictionAngle=math.atan(0.4)), 1.0).friction == pytest.approx(0.4)
 
 
-COHESIVE = dict(normalCohesion=4e5, shearCohesion=1.2e5, frictionAngle=math.atan(0.3), momentRotationLaw=True, etaRoll=0.25)
+COHESIVE = dict(
+    normalCohesion=4e5, shearCohesion=1.2e5, frictionAngle=math.atan(0.3), momentRotationLaw=True, etaRoll=0.25
+)
 
 
-@pytest.mark.parametrize("make, word", [
-    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "shearCohesion": 2e5}), 1.0), "shearCohesion"),
-    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "etaRoll": 0.5}), 1.0), "etaRoll"),
-    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "etaRoll": -1}), 1.0), "elastic"),
-    (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "normalCohesion": -1}), 1.0), "normalCohesion -1"),
-    (lambda: soft.material_of(JCFpmMat(tensileStrength=1e5, cohesion=1e5, frictionAngle=0.3), 1.0), "cohesion"),
-    (lambda: soft.material_of(CohFrictMat(**COHESIVE)), "diameter None"),
-    (lambda: soft.material_of(3.0, 1.0), "float"),
-    (lambda: parameters("mindlin"), "mindlin"),
-    (lambda: parameters(diameter=(2, 1)), "diameter"),
-    (lambda: soft.equivalent(ROCK, 0, diameter=1), "stiffness 0"),
-    (lambda: parameters(shear_ratio=0), "shear_ratio"),
-    (lambda: parameters(rolling_ratio=0), "rolling_ratio"),
-    (lambda: parameters(damping=1), "damping"),
-    (lambda: parameters(rock=dataclasses.replace(ROCK, density=None)), "density"),
-    (lambda: parameters(rock=dataclasses.replace(ROCK, slip_weakening=section.SlipWeakening("step", 5.0))), "slip_weakening"),
-    (lambda: soft.bond(parameters("friction")), "no bonds"),
-    (lambda: soft.bond(parameters()), "O.engines"),
-])
+@pytest.mark.parametrize(
+    "make, word",
+    [
+        (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "shearCohesion": 2e5}), 1.0), "shearCohesion"),
+        (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "etaRoll": 0.5}), 1.0), "etaRoll"),
+        (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "etaRoll": -1}), 1.0), "elastic"),
+        (lambda: soft.material_of(CohFrictMat(**{**COHESIVE, "normalCohesion": -1}), 1.0), "normalCohesion -1"),
+        (lambda: soft.material_of(JCFpmMat(tensileStrength=1e5, cohesion=1e5, frictionAngle=0.3), 1.0), "cohesion"),
+        (lambda: soft.material_of(CohFrictMat(**COHESIVE)), "diameter None"),
+        (lambda: soft.material_of(3.0, 1.0), "float"),
+        (lambda: parameters("mindlin"), "mindlin"),
+        (lambda: parameters(diameter=(2, 1)), "diameter"),
+        (lambda: soft.equivalent(ROCK, 0, diameter=1), "stiffness 0"),
+        (lambda: parameters(shear_ratio=0), "shear_ratio"),
+        (lambda: parameters(rolling_ratio=0), "rolling_ratio"),
+        (lambda: parameters(damping=1), "damping"),
+        (lambda: parameters(rock=dataclasses.replace(ROCK, density=None)), "density"),
+        (
+            lambda: parameters(rock=dataclasses.replace(ROCK, slip_weakening=section.SlipWeakening("step", 5.0))),
+            "slip_weakening",
+        ),
+        (lambda: soft.bond(parameters("friction")), "no bonds"),
+        (lambda: soft.bond(parameters()), "O.engines"),
+    ],
+)
 def test_what_has_no_counterpart_is_refused_by_name(make, word):
     with pytest.raises(soft.SoftError, match=word):
         make()
@@ -357,11 +391,24 @@ def test_disks_of_another_material_are_refused():
         soft.bond(e)
 
 
-@pytest.mark.parametrize("model, words", [
-    ("cohesion_moment", ("150000 N", "45000 N", "22500 N m", "elliptic zone", "residual tensile strength", "0.197396 rad (atan 0.2)")),
-    ("jcfpm", ("150000 N", "45000 N", "moments:", "0.291457 rad (atan 0.3)", "0.197396 rad (atan 0.2)")),
-    ("friction", ("bonds:", "moments:", "cohesion_moment without bonds", "0.197396 rad (atan 0.2)")),
-])
+@pytest.mark.parametrize(
+    "model, words",
+    [
+        (
+            "cohesion_moment",
+            (
+                "150000 N",
+                "45000 N",
+                "22500 N m",
+                "elliptic zone",
+                "residual tensile strength",
+                "0.197396 rad (atan 0.2)",
+            ),
+        ),
+        ("jcfpm", ("150000 N", "45000 N", "moments:", "0.291457 rad (atan 0.3)", "0.197396 rad (atan 0.2)")),
+        ("friction", ("bonds:", "moments:", "cohesion_moment without bonds", "0.197396 rad (atan 0.2)")),
+    ],
+)
 def test_the_description_has_thresholds_and_losses(model, words):
     text = str(soft.describe(parameters(model, diameter=(1, 2))))
     for word in words:
@@ -379,7 +426,11 @@ def test_the_description_has_every_attribute_that_the_material_sets(model):
     for name, value in e.attributes().items():
         assert getattr(made, name) == value
         shown = told[f"{kind}.{name}"]
-        assert shown == str(value) if isinstance(value, bool) else float(shown.split()[0]) == pytest.approx(value, rel=1e-5)  # six digits
+        assert (
+            shown == str(value)
+            if isinstance(value, bool)
+            else float(shown.split()[0]) == pytest.approx(value, rel=1e-5)
+        )  # six digits
 
 
 #: Ways to move the free disk about the fixed one, by their progress x: (gap, angle of the centre, turn of the disk) [m, rad, rad] at x = 1, a
@@ -438,7 +489,9 @@ def test_a_ductile_bond_yields_and_breaks_where_the_hard_one_does(way):
             break
         borne = p.normalForce.norm(), p.shearForce.norm(), p.moment_bending.norm()
         O.step()
-    assert (k - 1) / steps - 1e-9 <= edge <= k / steps + 1e-9  # both sides: to the one step in which it leaves the ellipse
+    assert (
+        (k - 1) / steps - 1e-9 <= edge <= k / steps + 1e-9
+    )  # both sides: to the one step in which it leaves the ellipse
     # yield is exact in YADE's law; what is not loaded is rounding of the places, 1e-16 m times 5e8 N/m, or what is left of T and Γ when tension yields
     wanted = tension * F_A, shear * FRICTION * F_A, torque * ROLLING * LENGTH * F_A
     assert borne == pytest.approx(wanted, rel=1e-6, abs=1e-4 * F_A)

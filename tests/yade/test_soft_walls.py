@@ -11,9 +11,28 @@ from yade.wrapper import BondEllipseEngine, WallPhys
 RADIUS, LENGTH, E = 0.5, 1.0, 1e9
 SIGMA = 1e5
 F_A = SIGMA * LENGTH
-ROCK = section.Material("rock", friction=0.9, residual_friction=0.9, rolling_friction=0.3, residual_rolling_friction=0.3, density=2500.0, bonded=False)
-WALL = section.Material("wall", friction=0.5, residual_friction=0.3, rolling_friction=0.2, residual_rolling_friction=0.1, tensile_strength=SIGMA)
-WEAK = dataclasses.replace(WALL, bonded=False, slip_weakening=section.SlipWeakening("step", critical_slip=0.05, friction=0.1, tensile_strength=0.0))
+ROCK = section.Material(
+    "rock",
+    friction=0.9,
+    residual_friction=0.9,
+    rolling_friction=0.3,
+    residual_rolling_friction=0.3,
+    density=2500.0,
+    bonded=False,
+)
+WALL = section.Material(
+    "wall",
+    friction=0.5,
+    residual_friction=0.3,
+    rolling_friction=0.2,
+    residual_rolling_friction=0.1,
+    tensile_strength=SIGMA,
+)
+WEAK = dataclasses.replace(
+    WALL,
+    bonded=False,
+    slip_weakening=section.SlipWeakening("step", critical_slip=0.05, friction=0.1, tensile_strength=0.0),
+)
 # as in test_soft.py: a ramp overshoots by less than a thousandth, springs turn the load by as much
 RAMP = 5e-3
 
@@ -108,7 +127,7 @@ def test_a_wall_weakens_after_the_same_slip_in_both_worlds():
         time, slip, speed = rows.T
         weak = int(np.argmax(slip > 0.05))
         before = np.polyfit(time[2:weak], speed[2:weak], 1)[0]
-        after = np.polyfit(time[weak + 2:], speed[weak + 2:], 1)[0]
+        after = np.polyfit(time[weak + 2 :], speed[weak + 2 :], 1)[0]
         # friction 0.3 until the slip is D_c, 0.1 from then on; an undamped soft contact swings, and loses up to 2 % at joints
         assert before == pytest.approx(4.0 - 0.3 * 9.81, rel=0.05)
         assert after == pytest.approx(4.0 - 0.1 * 9.81, rel=0.03)
@@ -129,7 +148,9 @@ def test_a_contact_that_sticks_does_not_slip():
     O.engines, O.dt = world.engines(gravity=(1.0, -9.81, 0)), world.step_for([ROCK])
     O.run(2000, wait=True)
     assert wall.slipOf(body.id) == 0.0
-    assert tuple(O.forces.f(body.id))[:2] == pytest.approx((-1.0 * body.state.mass, 9.81 * body.state.mass), rel=0.01)  # the rest of the swing
+    assert tuple(O.forces.f(body.id))[:2] == pytest.approx(
+        (-1.0 * body.state.mass, 9.81 * body.state.mass), rel=0.01
+    )  # the rest of the swing
 
 
 def test_rolling_is_resisted_as_the_wall_says():

@@ -10,23 +10,30 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-bands, strength, statistics = (synthetic.load(name) for name in ("laboratory.bands", "laboratory.strength", "statistics"))
+bands, strength, statistics = (
+    synthetic.load(name) for name in ("laboratory.bands", "laboratory.strength", "statistics")
+)
 
 
 # ---- curves and envelopes -------------------------------------------------------------------------
+
 
 def test_envelope_finds_the_line_that_touches_all_circles():
     c, angle = 88e3, math.radians(38.5)
     minor = np.array([0.25, 0.5, 1, 2, 4, 8, 16]) * 1e6
     major = minor * math.tan(math.pi / 4 + angle / 2) ** 2 + 2 * c * math.tan(math.pi / 4 + angle / 2)
     found = strength.envelope(minor, major)
-    assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(38.5, rel=1e-9)  # rounding
+    assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(
+        38.5, rel=1e-9
+    )  # rounding
     assert np.abs(found.misses).max() < 1e-12
     assert found.strength(minor) == pytest.approx(major, rel=1e-9)
     # circles whose line would cut the axis below zero: without cohesion the best is the mean of t/s, weighed by s/t
     bent = strength.envelope(minor, minor * np.linspace(3.6, 4.4, 7))
     s, t = minor * (np.linspace(3.6, 4.4, 7) + 1) / 2, minor * (np.linspace(3.6, 4.4, 7) - 1) / 2
-    assert bent.cohesion == 0 and math.sin(math.radians(bent.friction_deg)) == pytest.approx((s / t).sum() / (s**2 / t**2).sum(), rel=1e-9)
+    assert bent.cohesion == 0 and math.sin(math.radians(bent.friction_deg)) == pytest.approx(
+        (s / t).sum() / (s**2 / t**2).sum(), rel=1e-9
+    )
     with pytest.raises(ValueError, match="two confining pressures"):
         strength.envelope([1e6, 1e6], [4e6, 4.1e6])
 
@@ -34,10 +41,16 @@ def test_envelope_finds_the_line_that_touches_all_circles():
 def made_curve(noise=0.0):
     strain = np.arange(1, 601) * 1e-4
     rng = np.random.default_rng(1)
-    axial = 27e6 + 8e6 * np.exp(-((strain - 0.015) / 0.006) ** 2) + noise * rng.standard_normal(len(strain))
+    axial = 27e6 + 8e6 * np.exp(-(((strain - 0.015) / 0.006) ** 2)) + noise * rng.standard_normal(len(strain))
     # dε_v/dε₁ = 0.5 everywhere: sin ψ = 0.5/2.5
-    return {"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": 1.01 * axial, "sigma1_bottom_Pa": 0.99 * axial,
-            "sigma3_left_Pa": np.full(600, 8e6), "sigma3_right_Pa": np.full(600, 8.2e6)}
+    return {
+        "strain": strain,
+        "volumetric_strain": 0.5 * strain,
+        "sigma1_top_Pa": 1.01 * axial,
+        "sigma1_bottom_Pa": 0.99 * axial,
+        "sigma3_left_Pa": np.full(600, 8e6),
+        "sigma3_right_Pa": np.full(600, 8.2e6),
+    }
 
 
 def test_curve_measures_peak_plateau_and_dilatancy():
@@ -52,18 +65,32 @@ def test_curve_measures_peak_plateau_and_dilatancy():
 def test_a_peak_is_a_mean_over_strain_and_not_over_rows():
     """Platens that take up their speed make rows that cover little strain; here the first ten cover 0.01 %, all others 0.01 % each."""
     strain = np.concatenate((np.arange(1, 11) * 1e-5, np.arange(2, 101) * 1e-4))
-    stress = np.where(strain < 5.5e-4, 8.0, 2.0)  # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
+    stress = np.where(
+        strain < 5.5e-4, 8.0, 2.0
+    )  # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
     begin, mean = strength.running_mean(strain, stress, 2e-3)
     assert mean[0] == pytest.approx(3.5, rel=1e-12) and begin[0] == 0 and begin[-1] == pytest.approx(0.008)  # rounding
     assert mean[-1] == pytest.approx(2.0, rel=1e-12) and len(begin) == 90
-    c = strength.curve({"strain": strain, "volumetric_strain": 0.5 * strain, "sigma1_top_Pa": stress, "sigma1_bottom_Pa": stress,
-                        "sigma3_left_Pa": 0 * strain, "sigma3_right_Pa": 0 * strain}, (0.005, 0.01))
+    c = strength.curve(
+        {
+            "strain": strain,
+            "volumetric_strain": 0.5 * strain,
+            "sigma1_top_Pa": stress,
+            "sigma1_bottom_Pa": stress,
+            "sigma3_left_Pa": 0 * strain,
+            "sigma3_right_Pa": 0 * strain,
+        },
+        (0.005, 0.01),
+    )
     assert (c.peak, c.peak_strain, c.residual) == pytest.approx((3.5, 1e-3, 2.0), rel=1e-12)
 
 
 def test_the_shortest_test_can_be_measured():
     end = strength.SHORTEST - 1e-9  # a test ends once it is as near
-    short = {name: np.interp(np.linspace(1, 40, 40) / 40 * end, made_curve()["strain"], values) for name, values in made_curve().items()}
+    short = {
+        name: np.interp(np.linspace(1, 40, 40) / 40 * end, made_curve()["strain"], values)
+        for name, values in made_curve().items()
+    }
     assert strength.curve(short, (strength.PLATEAU * strength.SHORTEST, strength.SHORTEST)).peak > 0
 
 
@@ -75,7 +102,9 @@ def test_a_curve_without_a_plateau_is_refused():
 
 def test_confidence_over_seeds_is_students():
     e = statistics.Estimate.of([38.0, 39.0, 40.0])
-    assert e.mean == 39.0 and e.half_width == pytest.approx(4.3027 / math.sqrt(3), rel=1e-4)  # t(0.975, 2 degrees of freedom) has 5 digits
+    assert e.mean == 39.0 and e.half_width == pytest.approx(
+        4.3027 / math.sqrt(3), rel=1e-4
+    )  # t(0.975, 2 degrees of freedom) has 5 digits
     assert math.isnan(statistics.Estimate.of([38.0]).half_width)
 
 
@@ -86,10 +115,14 @@ def test_cohesion_and_angle_come_back_from_circles(cohesion, friction_deg):
     for minor in (np.array([1e5, 3e6]), np.geomspace(1e4, 1e7, 12)):
         major = minor * n + 2 * cohesion * math.sqrt(n)
         found = strength.envelope(minor, major)
-        assert found.friction_deg == pytest.approx(friction_deg, abs=1e-6) and found.cohesion == pytest.approx(cohesion, abs=1e-7 * major.max())  # rounding
+        assert found.friction_deg == pytest.approx(friction_deg, abs=1e-6) and found.cohesion == pytest.approx(
+            cohesion, abs=1e-7 * major.max()
+        )  # rounding
         assert found.strength(2.5e5) == pytest.approx(2.5e5 * n + 2 * cohesion * math.sqrt(n), rel=1e-9)
         s, t = (major + minor) / 2, (major - minor) / 2  # the line is as far from each centre as the radius
-        assert (cohesion + s * math.tan(math.radians(friction_deg))) * math.cos(math.radians(friction_deg)) == pytest.approx(t, rel=1e-9)
+        assert (cohesion + s * math.tan(math.radians(friction_deg))) * math.cos(
+            math.radians(friction_deg)
+        ) == pytest.approx(t, rel=1e-9)
 
 
 def test_misses_are_relative_and_outside_is_positive():
@@ -100,11 +133,15 @@ def test_misses_are_relative_and_outside_is_positive():
     low, middle, high = strength.envelope(minor, major).misses
     assert 0.02 < middle < 0.1 and -0.1 < low < 0 and -0.1 < high < 0
     scaled = strength.envelope(1e-3 * minor, 1e-3 * major)
-    assert scaled.misses == pytest.approx((low, middle, high), rel=1e-6) and scaled.cohesion == pytest.approx(1e-3 * strength.envelope(minor, major).cohesion, rel=1e-6)
+    assert scaled.misses == pytest.approx((low, middle, high), rel=1e-6) and scaled.cohesion == pytest.approx(
+        1e-3 * strength.envelope(minor, major).cohesion, rel=1e-6
+    )
     s, t = (major + minor) / 2, (major - minor) / 2
     found = strength.envelope(minor, major)
     phi = math.radians(found.friction_deg)
-    assert (low, middle, high) == pytest.approx(tuple((t - found.cohesion * math.cos(phi) - s * math.sin(phi)) / t), rel=1e-9)
+    assert (low, middle, high) == pytest.approx(
+        tuple((t - found.cohesion * math.cos(phi) - s * math.sin(phi)) / t), rel=1e-9
+    )
 
 
 def steps(values, strain):
@@ -117,33 +154,57 @@ def test_the_plateau_is_a_mean_with_its_error():
     strain = np.arange(1, 601) * 1e-4
     axial = np.concatenate((np.full(299, 40e6), steps([20e6, 21e6, 22e6, 23e6, 24e6], np.arange(301))))
     top, bottom = np.where(strain < 0.03, 1.002, 0.97) * axial, np.where(strain < 0.03, 0.998, 1.03) * axial
-    found = strength.curve({"strain": strain, "volumetric_strain": -0.2 * strain, "sigma1_top_Pa": top, "sigma1_bottom_Pa": bottom,
-                            "sigma3_left_Pa": np.where(strain < 0.03, 4e6, 5e6), "sigma3_right_Pa": np.where(strain < 0.03, 6e6, 8e6)}, (0.03, 0.06))
+    found = strength.curve(
+        {
+            "strain": strain,
+            "volumetric_strain": -0.2 * strain,
+            "sigma1_top_Pa": top,
+            "sigma1_bottom_Pa": bottom,
+            "sigma3_left_Pa": np.where(strain < 0.03, 4e6, 5e6),
+            "sigma3_right_Pa": np.where(strain < 0.03, 6e6, 8e6),
+        },
+        (0.03, 0.06),
+    )
     assert found.peak == pytest.approx(40e6, rel=1e-12) and found.peak_confining == pytest.approx(5e6, rel=1e-12)
-    assert found.residual == pytest.approx(22e6, rel=1e-3) and found.residual_confining == pytest.approx(6.5e6, rel=1e-12)  # 301 rows in five blocks
+    assert found.residual == pytest.approx(22e6, rel=1e-3) and found.residual_confining == pytest.approx(
+        6.5e6, rel=1e-12
+    )  # 301 rows in five blocks
     assert found.residual_error == pytest.approx(1e6 * math.sqrt(2.5 / 5), rel=1e-2)
     assert found.imbalance == pytest.approx(1 - 0.97 / 1.03, rel=1e-9)
-    assert found.dilatancy_deg == pytest.approx(math.degrees(math.asin(-0.2 / 1.8)), rel=1e-9) and found.volumetric_end == pytest.approx(-0.012)
+    assert found.dilatancy_deg == pytest.approx(
+        math.degrees(math.asin(-0.2 / 1.8)), rel=1e-9
+    ) and found.volumetric_end == pytest.approx(-0.012)
 
 
 def test_dilatancy_is_that_of_the_peak():
     """The volume shrinks before 1.2 % of strain, grows by 0.4 of the strain up to 1.8 %, and no longer then; the peak is at 1.5 %."""
     strain = np.arange(1, 601) * 1e-4
     volume = np.interp(strain, [0, 0.012, 0.018, 0.06], [0, -0.002, 0.0004, 0.0004])
-    assert strength.curve({**made_curve(), "volumetric_strain": volume}, (0.04, 0.06)).dilatancy_deg == pytest.approx(math.degrees(math.asin(0.4 / 2.4)), rel=1e-6)
+    assert strength.curve({**made_curve(), "volumetric_strain": volume}, (0.04, 0.06)).dilatancy_deg == pytest.approx(
+        math.degrees(math.asin(0.4 / 2.4)), rel=1e-6
+    )
 
 
 # ---- bands ----------------------------------------------------------------------------------------
+
 
 def test_bands_are_found_with_their_angle_and_width():
     rng = np.random.default_rng(2)
     x, y = rng.uniform(0, 100, 6000), rng.uniform(0, 200, 6000)
     r = np.full(6000, 1.0)
     # a band of 12 m, six diameters, that rises at 60° to the right through (45, 90); and a weaker one of 10 m at −55°
-    offset = lambda deg, px, py: -math.sin(math.radians(deg)) * (x - px) + math.cos(math.radians(deg)) * (y - py)  # noqa: E731
-    rotation = 0.3 * (np.abs(offset(60, 45, 90)) < 6) - 0.2 * (np.abs(offset(-55, 50, 100)) < 5) + 0.01 * rng.standard_normal(6000)
+    offset = lambda deg, px, py: -math.sin(math.radians(deg)) * (x - px) + math.cos(math.radians(deg)) * (
+        y - py
+    )  # noqa: E731
+    rotation = (
+        0.3 * (np.abs(offset(60, 45, 90)) < 6)
+        - 0.2 * (np.abs(offset(-55, 50, 100)) < 5)
+        + 0.01 * rng.standard_normal(6000)
+    )
     left, right = bands.find(x, y, r, rotation)
-    assert left.angle_deg == pytest.approx(60, abs=3) and right.angle_deg == pytest.approx(-55, abs=3)  # a strip is 2 m wide, the band 120 m long
+    assert left.angle_deg == pytest.approx(60, abs=3) and right.angle_deg == pytest.approx(
+        -55, abs=3
+    )  # a strip is 2 m wide, the band 120 m long
     assert left.width == pytest.approx(6, abs=1) and right.width == pytest.approx(5, abs=1)  # one strip
     assert left.rotation > 0.2 and right.rotation < -0.13
 
@@ -158,10 +219,18 @@ def test_bands_are_mirrored_with_their_sample():
     """What turns counterclockwise in a band to the right turns clockwise in one to the left."""
     rng = np.random.default_rng(5)
     x, y, r = rng.uniform(0, 100, 5000), rng.uniform(0, 200, 5000), np.ones(5000)
-    rotation = 0.3 * (np.abs(-math.sin(math.radians(57)) * (x - 45) + math.cos(math.radians(57)) * (y - 90)) < 6) + 0.01 * rng.standard_normal(5000)
+    rotation = 0.3 * (
+        np.abs(-math.sin(math.radians(57)) * (x - 45) + math.cos(math.radians(57)) * (y - 90)) < 6
+    ) + 0.01 * rng.standard_normal(5000)
     (right, none), (nothing, left) = bands.find(x, y, r, rotation), bands.find(-x, y, r, -rotation)
-    assert none is None and nothing is None and (right.angle_deg, left.angle_deg) == pytest.approx((57.0, -57.0), abs=3)  # a strip is 2 m wide, the band 120 m long
+    assert (
+        none is None and nothing is None and (right.angle_deg, left.angle_deg) == pytest.approx((57.0, -57.0), abs=3)
+    )  # a strip is 2 m wide, the band 120 m long
     wanted = (right.width, -right.rotation, right.contrast, right.offset)
-    assert (left.width, left.rotation, left.contrast, left.offset) == pytest.approx(wanted, rel=0.05)  # strips begin elsewhere
-    assert right.offset == pytest.approx(-math.sin(math.radians(57)) * -5 + math.cos(math.radians(57)) * -10, abs=2.0)  # of the band from the centre, (50, 100); a strip
+    assert (left.width, left.rotation, left.contrast, left.offset) == pytest.approx(
+        wanted, rel=0.05
+    )  # strips begin elsewhere
+    assert right.offset == pytest.approx(
+        -math.sin(math.radians(57)) * -5 + math.cos(math.radians(57)) * -10, abs=2.0
+    )  # of the band from the centre, (50, 100); a strip
     assert right.contrast > 5 and right.rotation == pytest.approx(0.3, rel=0.05)

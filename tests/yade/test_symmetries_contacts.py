@@ -15,19 +15,52 @@ ROUNDING, SOLVED = 1e-9, 1e-8
 def heap(seed=4):
     """24 disks of several sizes that fly about in a box, collide and come to lie on each other."""
     dice = np.random.default_rng(seed)
-    disks = tuple(Disk(0.7 + 1.05 * a + dice.uniform(-0.05, 0.05), 0.55 + 1.05 * b + dice.uniform(-0.05, 0.05), dice.uniform(0.3, 0.5),
-                       tuple(dice.uniform(-2, 2, 2)), dice.uniform(-3, 3)) for b in range(4) for a in range(6))
-    return World(disks, (Line(((-0.2, 5), (0, 0), (4, -0.3), (6.8, 0.2), (7, 5)), piece=1.5, sense=1),), dict(
-        rock=dict(frictionAngle=0.3, rollingFriction=0.05, restitution=0.2), ground=dict(frictionAngle=0.25, rollingFriction=0.1, restitution=0.4)), dt=3e-3, steps=150, options=dict(maxIterations=3000))
+    disks = tuple(
+        Disk(
+            0.7 + 1.05 * a + dice.uniform(-0.05, 0.05),
+            0.55 + 1.05 * b + dice.uniform(-0.05, 0.05),
+            dice.uniform(0.3, 0.5),
+            tuple(dice.uniform(-2, 2, 2)),
+            dice.uniform(-3, 3),
+        )
+        for b in range(4)
+        for a in range(6)
+    )
+    return World(
+        disks,
+        (Line(((-0.2, 5), (0, 0), (4, -0.3), (6.8, 0.2), (7, 5)), piece=1.5, sense=1),),
+        dict(
+            rock=dict(frictionAngle=0.3, rollingFriction=0.05, restitution=0.2),
+            ground=dict(frictionAngle=0.25, rollingFriction=0.1, restitution=0.4),
+        ),
+        dt=3e-3,
+        steps=150,
+        options=dict(maxIterations=3000),
+    )
 
 
 def pressed(seed=6):
     """24 disks that overlap by some per cent at the beginning: errors of position are taken back while the disks fall, turn, and meet the floor."""
     dice = np.random.default_rng(seed)
-    disks = tuple(Disk(0.5 + 0.93 * (a + 0.5 * (b % 2)), 0.47 + 0.81 * b, dice.uniform(0.47, 0.5), tuple(dice.uniform(-1, 1, 2)), dice.uniform(-2, 2))
-                  for b in range(4) for a in range(6))
-    return World(disks, (Line(((-2, -0.25), (9, -0.25)), piece=2.0),), dict(rock=dict(frictionAngle=0.3, rollingFriction=0.1), ground=dict(frictionAngle=0.3)),
-                 dt=3e-3, steps=90, options=dict(maxIterations=3000))
+    disks = tuple(
+        Disk(
+            0.5 + 0.93 * (a + 0.5 * (b % 2)),
+            0.47 + 0.81 * b,
+            dice.uniform(0.47, 0.5),
+            tuple(dice.uniform(-1, 1, 2)),
+            dice.uniform(-2, 2),
+        )
+        for b in range(4)
+        for a in range(6)
+    )
+    return World(
+        disks,
+        (Line(((-2, -0.25), (9, -0.25)), piece=2.0),),
+        dict(rock=dict(frictionAngle=0.3, rollingFriction=0.1), ground=dict(frictionAngle=0.3)),
+        dt=3e-3,
+        steps=90,
+        options=dict(maxIterations=3000),
+    )
 
 
 WORLDS = {"heap": heap(), "pressed": pressed()}
@@ -42,8 +75,12 @@ def known(request):
     world = WORLDS[request.param]
     course = play(world)
     sliding, rolling, debonding, impact, given = np.abs(course["losses"][-1])
-    assert min(sliding, rolling, impact) > 1e-3 * course.mass * course.speed**2 and debonding == 0  # all that may happen does
-    assert request.param != "pressed" or (given > 1e-3 * course.mass * course.speed**2 and course["overlap"][0, 0] > 0.001)
+    assert (
+        min(sliding, rolling, impact) > 1e-3 * course.mass * course.speed**2 and debonding == 0
+    )  # all that may happen does
+    assert request.param != "pressed" or (
+        given > 1e-3 * course.mass * course.speed**2 and course["overlap"][0, 0] > 0.001
+    )
     return world, course
 
 
@@ -68,12 +105,16 @@ def test_far_from_the_origin_only_the_last_bits_of_places_are_lost(known):
 
 # ---- ids and orders -------------------------------------------------------------------------------
 
+
 def uncorrected(world):
     """Errors of position are not solved for to a tolerance: what ten sweeps leave of them knows the order. So they stay here."""
     return replace(world, options={**world.options, "relaxationRate": 0})
 
 
-@pytest.mark.parametrize("change", [lambda w: replace(w, order=tuple(range(len(w.disks)))[::-1]), shuffled, lambda w: replace(w, walls_last=True)])
+@pytest.mark.parametrize(
+    "change",
+    [lambda w: replace(w, order=tuple(range(len(w.disks)))[::-1]), shuffled, lambda w: replace(w, walls_last=True)],
+)
 def test_ids_do_not_matter(known, change):
     if known[0] is WORLDS["pressed"]:
         pytest.skip("disks that are pressed into one another on all sides have forces that are not unique")
@@ -103,9 +144,16 @@ def test_the_order_in_which_yade_keeps_a_pair_does_not_matter(known):
 
 # ---- walls in other pieces ------------------------------------------------------------------------
 
-@pytest.mark.parametrize("change", [
-    lambda line: replace(line, piece=0.4), lambda line: replace(line, piece=None),
-    lambda line: replace(line, vertices=line.vertices[::-1], sense=-line.sense)], ids=["fine", "whole", "drawn backwards"])
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda line: replace(line, piece=0.4),
+        lambda line: replace(line, piece=None),
+        lambda line: replace(line, vertices=line.vertices[::-1], sense=-line.sense),
+    ],
+    ids=["fine", "whole", "drawn backwards"],
+)
 def test_how_a_wall_is_cut_and_drawn_does_not_matter(known, change):
     world, here = known
     assert_same(play(replace(world, walls=tuple(change(line) for line in world.walls))), here, SOLVED)
@@ -113,11 +161,20 @@ def test_how_a_wall_is_cut_and_drawn_does_not_matter(known, change):
 
 # ---- company --------------------------------------------------------------------------------------
 
+
 def beside(first, second, way):
     """Both worlds in one scene, the second moved by ``way`` [m]."""
     moved = tuple(replace(d, x=d.x + way, stuff="other " + d.stuff) for d in second.disks)
-    walls = tuple(replace(line, vertices=tuple((x + way, y) for x, y in line.vertices), stuff="other " + line.stuff) for line in second.walls)
-    return replace(first, disks=first.disks + moved, walls=first.walls + walls, stuffs=first.stuffs | {"other " + k: v for k, v in second.stuffs.items()})
+    walls = tuple(
+        replace(line, vertices=tuple((x + way, y) for x, y in line.vertices), stuff="other " + line.stuff)
+        for line in second.walls
+    )
+    return replace(
+        first,
+        disks=first.disks + moved,
+        walls=first.walls + walls,
+        stuffs=first.stuffs | {"other " + k: v for k, v in second.stuffs.items()},
+    )
 
 
 def part(course, disks, walls, way=0.0):
@@ -134,9 +191,16 @@ def part(course, disks, walls, way=0.0):
 def test_two_distant_scenes_do_not_know_of_each_other():
     a, b, way = replace(WORLDS["heap"], steps=90), WORLDS["pressed"], 64.0
     both, alone = play(beside(a, b, way)), (play(a), play(b))
-    for own, disks, walls, x in ((alone[0], slice(0, 24), slice(0, 1), 0.0), (alone[1], slice(24, 48), slice(1, 2), way)):
+    for own, disks, walls, x in (
+        (alone[0], slice(0, 24), slice(0, 1), 0.0),
+        (alone[1], slice(24, 48), slice(1, 2), way),
+    ):
         # one residual for both, relative to the mean of all; 64 m take six bits of a place
         assert_same(part(both, disks, walls, x), own, SOLVED, losses=None, overlap=None)
     # energies are those of both
-    assert both["losses"] == pytest.approx(alone[0]["losses"] + alone[1]["losses"], rel=1e-8, abs=1e-4)  # J, of some 1e4
-    assert both["overlap"][:, 0] == pytest.approx(np.maximum(alone[0]["overlap"][:, 0], alone[1]["overlap"][:, 0]), abs=1e-9)
+    assert both["losses"] == pytest.approx(
+        alone[0]["losses"] + alone[1]["losses"], rel=1e-8, abs=1e-4
+    )  # J, of some 1e4
+    assert both["overlap"][:, 0] == pytest.approx(
+        np.maximum(alone[0]["overlap"][:, 0], alone[1]["overlap"][:, 0]), abs=1e-9
+    )

@@ -11,7 +11,10 @@ from contact_scenes import TIGHT, material
 MIRROR = {"bottom": "bottom", "top": "top", "left": "right", "right": "left"}
 TRANSPOSED = {"bottom": "left", "left": "bottom", "right": "top", "top": "right"}
 WIDTH, HEIGHT, PRESSURE = 6.4, 4.4, 1e5
-ROUNDING, SOLVED = 1e-9, 1e-7  # of 300 steps under load, in the scales of the walls; the solver's 1e-12 where the order of contacts is another
+ROUNDING, SOLVED = (
+    1e-9,
+    1e-7,
+)  # of 300 steps under load, in the scales of the walls; the solver's 1e-12 where the order of contacts is another
 
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -19,11 +22,14 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 # ---- walls ----------------------------------------------------------------------------------------
 
+
 def disks():
     """24 places and radii, with room between them."""
     dice = np.random.default_rng(8)
     x, y = (v.ravel() for v in np.meshgrid(0.55 + 1.05 * np.arange(6), 0.55 + 1.08 * np.arange(4)))
-    return np.column_stack((x + dice.uniform(-0.02, 0.02, 24), y + dice.uniform(-0.02, 0.02, 24))), dice.uniform(0.4, 0.5, 24)
+    return np.column_stack((x + dice.uniform(-0.02, 0.02, 24), y + dice.uniform(-0.02, 0.02, 24))), dice.uniform(
+        0.4, 0.5, 24
+    )
 
 
 def pressed(names=None, order=None, length=1.0, pressure=1.0, density=1.0, steps=300):
@@ -50,7 +56,10 @@ def pressed(names=None, order=None, length=1.0, pressure=1.0, density=1.0, steps
     if names == MIRROR:
         walls.drive("right")  # which `free` has not touched; the left one is free
     unit = np.sqrt(density * length**2 / pressure)  # of time, √(m/p)
-    O.engines, O.dt = scene.engines(gravity=(0, 0, 0), verlet=0.1 * length, correctionSpeed=length / unit, **TIGHT), 2e-3 * unit
+    O.engines, O.dt = (
+        scene.engines(gravity=(0, 0, 0), verlet=0.1 * length, correctionSpeed=length / unit, **TIGHT),
+        2e-3 * unit,
+    )
     walls.pressure = PRESSURE * pressure
     for _ in range(steps):
         walls.step()
@@ -61,8 +70,12 @@ def pressed(names=None, order=None, length=1.0, pressure=1.0, density=1.0, steps
     if names == TRANSPOSED:
         found, at = found[:, ::-1], {name: p[::-1] for name, p in at.items()}
     stresses, forces = walls.stresses(), walls.forces()
-    return (found, np.array([at["right"][0], at["top"][1], at["left"][0], at["bottom"][1]]), np.array([stresses[names[s]] for s in SIDES]) / PRESSURE / pressure,
-            np.array([forces[names[s]] for s in SIDES]) / PRESSURE / pressure / length)
+    return (
+        found,
+        np.array([at["right"][0], at["top"][1], at["left"][0], at["bottom"][1]]),
+        np.array([stresses[names[s]] for s in SIDES]) / PRESSURE / pressure,
+        np.array([forces[names[s]] for s in SIDES]) / PRESSURE / pressure / length,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +83,9 @@ def here():
     found = pressed()
     O.reset()
     places, walls, stresses, _ = found
-    assert walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and (stresses > 0.5).sum() == 3  # they have come in and press; rough platens keep it from the left one
+    assert (
+        walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and (stresses > 0.5).sum() == 3
+    )  # they have come in and press; rough platens keep it from the left one
     return found
 
 
@@ -106,7 +121,11 @@ def test_forces_of_four_walls_by_hand():
         walls.step()
     assert walls.forces() == pytest.approx(dict.fromkeys(SIDES, 4e4), rel=1e-9)
     assert walls.stresses() == pytest.approx(dict.fromkeys(SIDES, 4e4), rel=1e-9)
-    assert (walls.width(), walls.height()) == pytest.approx((1.0, 1.0), abs=1e-9) and walls.is_free("top") and not walls.is_free("left")
+    assert (
+        (walls.width(), walls.height()) == pytest.approx((1.0, 1.0), abs=1e-9)
+        and walls.is_free("top")
+        and not walls.is_free("left")
+    )
     walls.drive("top", (0, -0.2))  # a platen that comes down: the disk yields nowhere
     assert not walls.is_free("top") and O.forces.permF(walls.ids["top"]).norm() == 0
     walls.free("top", 100.0)
@@ -114,7 +133,9 @@ def test_forces_of_four_walls_by_hand():
     walls.step()
     walls.step()
     push = 4e4 * (1 + 0.5 * O.dt)  # the width at the step's beginning
-    assert walls.forces() == pytest.approx({"bottom": push, "top": push, "left": 1e-9, "right": 1e-9}, rel=1e-9, abs=1e-6)
+    assert walls.forces() == pytest.approx(
+        {"bottom": push, "top": push, "left": 1e-9, "right": 1e-9}, rel=1e-9, abs=1e-6
+    )
     assert walls.width() == pytest.approx(1.0 + 0.5 * 2 * O.dt, abs=1e-9)
 
 
@@ -133,16 +154,23 @@ def test_the_pressure_follows_the_lengths_of_the_sample():
     walls.pressure = 100.0
     walls.step()
     # no disk: F = p H, outwards negative
-    assert walls.state("right").vel[0] == pytest.approx(-100 * 3 / 50 * 1e-2, rel=1e-12) and walls.state("left").vel[0] == pytest.approx(100 * 3 / 70 * 1e-2, rel=1e-12)
+    assert walls.state("right").vel[0] == pytest.approx(-100 * 3 / 50 * 1e-2, rel=1e-12) and walls.state("left").vel[
+        0
+    ] == pytest.approx(100 * 3 / 70 * 1e-2, rel=1e-12)
     assert walls.forces() == pytest.approx({"bottom": 0, "right": 0, "left": 0, "top": 0}, abs=1e-9)
 
 
 # ---- the membrane ---------------------------------------------------------------------------------
 
+
 def made_sample(seed=4):
     x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(9), np.arange(15)))
     dice = np.random.default_rng(seed)
-    return x + 0.05 * dice.standard_normal(len(x)), y + 0.05 * dice.standard_normal(len(y)), dice.uniform(0.45, 0.55, len(x))
+    return (
+        x + 0.05 * dice.standard_normal(len(x)),
+        y + 0.05 * dice.standard_normal(len(y)),
+        dice.uniform(0.45, 0.55, len(x)),
+    )
 
 
 BOTTOM, TOP, SIGMA = -0.55, 14.55, 7.0
@@ -172,8 +200,15 @@ def test_the_membrane_in_another_frame(name):
         "shifted": lambda: membrane.forces(x + 50, y - 20, r, BOTTOM - 20, TOP - 20, SIGMA),
         "units": lambda: membrane.forces(1e3 * x, 1e3 * y, 1e3 * r, 1e3 * BOTTOM, 1e3 * TOP, SIGMA),
         "ids": lambda: membrane.forces(x[order], y[order], r[order], BOTTOM, TOP, SIGMA),
-        "pressure": lambda: membrane.forces(x, y, r, BOTTOM, TOP, -2 * SIGMA)}[name]()
-    expected = {"mirror": force * (-1, 1), "upside down": force * (1, -1), "units": 1e3 * force, "ids": force[order], "pressure": -2 * force}.get(name, force)
+        "pressure": lambda: membrane.forces(x, y, r, BOTTOM, TOP, -2 * SIGMA),
+    }[name]()
+    expected = {
+        "mirror": force * (-1, 1),
+        "upside down": force * (1, -1),
+        "units": 1e3 * force,
+        "ids": force[order],
+        "pressure": -2 * force,
+    }.get(name, force)
     scale = {"units": 1e3}.get(name, 1.0)
     assert np.abs(found - expected).max() < 1e-11 * SIGMA * scale  # rounding, places of 50 m
     assert inside == pytest.approx(area * scale**2, rel=1e-12)
@@ -191,7 +226,9 @@ def test_a_membrane_turns_a_sample_only_as_its_ends_do():
     # the end disks, from whose height to the platen's their arm is counted
     moment = np.sum(at[:, 0] * force[:, 1] - at[:, 1] * force[:, 0])
     lt, lb, rb, rt = at[[left[0], left[-1], right[0], right[-1]], 0]
-    lid = SIGMA * 0.5 * ((rb**2 - lb**2) - (rt**2 - lt**2))  # of the pressure on the platens, upwards below and downwards above
+    lid = (
+        SIGMA * 0.5 * ((rb**2 - lb**2) - (rt**2 - lt**2))
+    )  # of the pressure on the platens, upwards below and downwards above
     arm = 0.0
     for chain, sign in ((left, 1), (right, -1)):
         for k, end in ((chain[0], TOP if chain is left else BOTTOM), (chain[-1], BOTTOM if chain is left else TOP)):

@@ -16,11 +16,17 @@ def corner():
     """Two disks in a corner, pressed into it by an oblique gravity and turning, after some steps: ids of the floor, of the side, and of the first disk."""
     O.reset()
     stuff = material(0.3, 0.1)
-    floor, side = (O.bodies.append(scene.segments(ends, stuff))[0] for ends in ([(-20, 0), (20, 0)], [(0, 20), (0, -20)]))
+    floor, side = (
+        O.bodies.append(scene.segments(ends, stuff))[0] for ends in ([(-20, 0), (20, 0)], [(0, 20), (0, -20)])
+    )
     first = O.bodies.append(scene.disk((0.5, 0.5), 0.5, stuff))
     second = O.bodies.append(scene.disk((1.765, 0.8), 0.8, stuff))
     O.bodies[first].state.ori, O.bodies[second].state.ori = Quaternion((0, 0, 1), 2.5), Quaternion((0, 0, 1), -0.4)
-    O.bodies[first].state.angVel, O.bodies[second].state.vel, O.bodies[second].state.angVel = (0, 0, 0.5), (-2.0, 0, 0), (0, 0, -2.0)
+    O.bodies[first].state.angVel, O.bodies[second].state.vel, O.bodies[second].state.angVel = (
+        (0, 0, 0.5),
+        (-2.0, 0, 0),
+        (0, 0, -2.0),
+    )
     begin(gravity=(-4, -9.81, 0))
     run(3)
     yield floor, side, first
@@ -42,11 +48,23 @@ def test_bodies_are_those_of_the_scene(corner):
 def test_contacts_are_those_of_the_scene(corner):
     table = tables.contacts(engine())
     pairs = list(zip(table["id1"].tolist(), table["id2"].tolist()))
-    assert sorted(map(sorted, pairs)) == list(map(sorted, pairs)) and len(pairs) == sum(i.isReal for i in O.interactions) >= 3
+    assert (
+        sorted(map(sorted, pairs)) == list(map(sorted, pairs))
+        and len(pairs) == sum(i.isReal for i in O.interactions) >= 3
+    )
     for k, (a, b) in enumerate(pairs):
         i = O.interactions[a, b]
-        wanted = (i.phys.normal, i.phys.tangential, i.phys.torque, *tuple(i.geom.normal)[:2], -i.geom.penetrationDepth, *tuple(i.geom.contactPoint)[:2])
-        assert tuple(table[name][k] for name in ("normal", "tangential", "torque", "nx", "ny", "gap", "x", "y")) == wanted
+        wanted = (
+            i.phys.normal,
+            i.phys.tangential,
+            i.phys.torque,
+            *tuple(i.geom.normal)[:2],
+            -i.geom.penetrationDepth,
+            *tuple(i.geom.contactPoint)[:2],
+        )
+        assert (
+            tuple(table[name][k] for name in ("normal", "tangential", "torque", "nx", "ny", "gap", "x", "y")) == wanted
+        )
         assert not table["bonded"][k] and table["broken"][k] == 0
 
 
@@ -57,8 +75,16 @@ def test_loaded_contacts_name_disks_and_walls(corner):
     for i in O.interactions:
         if i.isReal and i.phys.normal != 0:
             low, high = sorted((i.id1, i.id2))
-            wanted[high - first, {floor: -1, side: -2}.get(low, low - first)] = (i.phys.normal, i.phys.tangential, *tuple(i.geom.contactPoint)[:2])
+            wanted[high - first, {floor: -1, side: -2}.get(low, low - first)] = (
+                i.phys.normal,
+                i.phys.tangential,
+                *tuple(i.geom.contactPoint)[:2],
+            )
     assert {(0, -1), (0, -2), (1, -1), (1, 0)} >= set(wanted) >= {(0, -1), (1, 0)}
-    assert {(int(a), int(b)): values for a, b, *values in zip(found["ci"], found["cj"], *(map(float, found[name]) for name in ("cn", "ct", "cx", "cy")))} == {
-        pair: list(values) for pair, values in wanted.items()}
+    assert {
+        (int(a), int(b)): values
+        for a, b, *values in zip(
+            found["ci"], found["cj"], *(map(float, found[name]) for name in ("cn", "ct", "cx", "cy"))
+        )
+    } == {pair: list(values) for pair, values in wanted.items()}
     assert not found["cbonded"].any() and np.abs(found["ct"]).max() > 0

@@ -56,7 +56,9 @@ def test_contacts_bound_the_step():
 
 
 def test_bonds_bound_the_step_and_are_crossed_in_several():
-    stuff = material(0.3, tensileStrength=1e3, bondEllipseNormal=0.02, bondEllipseTangential=0.01, bondCreationDistance=0.02)
+    stuff = material(
+        0.3, tensileStrength=1e3, bondEllipseNormal=0.02, bondEllipseTangential=0.01, bondCreationDistance=0.02
+    )
     free = pair(0.0, stuff, bonded=True)
     O.bodies[free].state.vel = (2.0, 0, 0)
     s = stepper(largest=1.0, bondPath=0.25, growth=1.5)
@@ -70,9 +72,14 @@ def test_bonds_bound_the_step_and_are_crossed_in_several():
 
 # ---- the rates, and what else bounds a step -------------------------------------------------------
 
+
 def test_the_rate_of_two_disks_is_that_of_their_centres():
     stuff = material(0.0)
-    for x, y, r, velocity in ((0, 0, 0.5, (1.0, 2.0, 0)), (1.2, 0, 0.7, (4.0, -2.0, 0)), (9, 9, 0.5, (50, 0, 0))):  # the last one touches nothing
+    for x, y, r, velocity in (
+        (0, 0, 0.5, (1.0, 2.0, 0)),
+        (1.2, 0, 0.7, (4.0, -2.0, 0)),
+        (9, 9, 0.5, (50, 0, 0)),
+    ):  # the last one touches nothing
         k = O.bodies.append(scene.disk((x, y), r, stuff))
         O.bodies[k].state.vel, O.bodies[k].state.angVel = velocity, (0, 0, 30)  # spins do not count
     e = begin(gravity=(0, 0, 0))
@@ -108,7 +115,9 @@ def test_the_rate_at_a_wall_is_normal_to_it(velocity, rate):
 @pytest.mark.parametrize("velocity, rate", [((2.0, 0.1, 0), "normal"), ((0.2, 0.8, 0), "shear")])
 def test_the_rate_of_a_bond_is_that_at_which_it_crosses_its_ellipse(velocity, rate):
     strength, h = 1e3, 1e-3
-    stuff = material(0.5, tensileStrength=strength, bondEllipseNormal=0.05, bondEllipseTangential=0.02, bondCreationDistance=0.02)
+    stuff = material(
+        0.5, tensileStrength=strength, bondEllipseNormal=0.05, bondEllipseTangential=0.02, bondCreationDistance=0.02
+    )
     free = pair(0.0, stuff, bonded=True)
     s = O.bodies[free].state
     s.vel = velocity
@@ -228,9 +237,15 @@ def test_saved_scenes_go_on_with_the_same_steps(tmp_path):
     assert course() == unbroken
 
 
-@pytest.mark.parametrize("options, words", [
-    (dict(path=0.0), ("path = 0", "positive")), (dict(largest=1e-5), ("largest", "smallest")), (dict(growth=0.5), ("growth = 0.5", "at least 1")),
-    (dict(smallest=math.nan), ("smallest", "positive"))])
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        (dict(path=0.0), ("path = 0", "positive")),
+        (dict(largest=1e-5), ("largest", "smallest")),
+        (dict(growth=0.5), ("growth = 0.5", "at least 1")),
+        (dict(smallest=math.nan), ("smallest", "positive")),
+    ],
+)
 def test_refuses_limits_without_sense(options, words):
     O.bodies.append(scene.disk((0, 0), 1.0, material(0.3)))
     begin()

@@ -17,10 +17,16 @@ BULK = 2500 * 0.84 * 9.81  # N/m³
 
 def test_push_and_resistance_of_the_dry_slab():
     found = toe.passive(SHIPPED, 88e3, 38.5, 0.84)
-    assert found.thickness_m == pytest.approx(65, rel=1e-4)  # of the shipped section; looked for within a hundredth of the length
-    assert found.push_dry == pytest.approx(BULK * SHIPPED.area * (math.sin(BETA) - 0.3 * math.cos(BETA)), rel=1e-5)  # the plane's ends are rounded
+    assert found.thickness_m == pytest.approx(
+        65, rel=1e-4
+    )  # of the shipped section; looked for within a hundredth of the length
+    assert found.push_dry == pytest.approx(
+        BULK * SHIPPED.area * (math.sin(BETA) - 0.3 * math.cos(BETA)), rel=1e-5
+    )  # the plane's ends are rounded
     k = math.tan(math.radians(45 + 38.5 / 2)) ** 2
-    assert found.resistance_dry == pytest.approx(k * 0.5 * BULK * math.cos(BETA) * 65**2 + 2 * 88e3 * math.sqrt(k) * 65, rel=1e-4)
+    assert found.resistance_dry == pytest.approx(
+        k * 0.5 * BULK * math.cos(BETA) * 65**2 + 2 * 88e3 * math.sqrt(k) * 65, rel=1e-4
+    )
 
 
 def test_the_toe_fails_where_water_makes_push_and_resistance_equal():
@@ -54,10 +60,15 @@ def test_a_run_is_set_beside_its_toe_by_height_and_by_force():
 def board(dip, volume="disk", length=400.0, thick=20.0, size=1.0):
     """A rectangular slab on a plane that dips by ``dip`` degrees, to the left where that is negative; its foot is at (30, 7) m."""
     b, way = math.radians(abs(dip)), 1 if dip >= 0 else -1
-    places = [(-s * math.cos(b) + n * math.sin(b), s * math.sin(b) + n * math.cos(b)) for s, n in ((0, 0), (length, 0), (length, thick), (0, thick))]
+    places = [
+        (-s * math.cos(b) + n * math.sin(b), s * math.sin(b) + n * math.cos(b))
+        for s, n in ((0, 0), (length, 0), (length, thick), (0, thick))
+    ]
     foot = (size * 30.0, size * 7.0)
     layer = section.Layer("slab", "rock", tuple((foot[0] + size * way * x, foot[1] + size * y) for x, y in places))
-    return dataclasses.replace(SHIPPED, layers=(layer,), water=dataclasses.replace(SHIPPED.water, point=foot, dip=dip, volume=volume))
+    return dataclasses.replace(
+        SHIPPED, layers=(layer,), water=dataclasses.replace(SHIPPED.water, point=foot, dip=dip, volume=volume)
+    )
 
 
 @pytest.mark.parametrize("dip", [20.0, -20.0])
@@ -76,13 +87,20 @@ def test_a_rectangular_slab_fails_where_a_quadratic_equation_says(dip, volume, s
     found = toe.passive(board(dip, volume, size=size), cohesion, friction_deg, fraction)
     assert found.thickness_m == pytest.approx(thick, rel=1e-9)  # rounding of turned vertices
     assert (found.push_dry, found.resistance_dry) == pytest.approx((push, resistance), rel=1e-8)
-    assert found.water_m == pytest.approx(height, rel=1e-7) and found.push_N_per_m == pytest.approx(push + mu * lift * length * height, rel=1e-7)
+    assert found.water_m == pytest.approx(height, rel=1e-7) and found.push_N_per_m == pytest.approx(
+        push + mu * lift * length * height, rel=1e-7
+    )
 
 
 def test_the_toe_is_the_lower_end():
     """A slab that is thinner at its crown has its thickness where it is held, whichever way it dips."""
     for dip in (20.0, -20.0):
         made = board(dip)
-        wedge = dataclasses.replace(made, layers=(dataclasses.replace(made.layers[0], vertices=made.layers[0].vertices[:2] + made.layers[0].vertices[3:]),))
+        wedge = dataclasses.replace(
+            made,
+            layers=(
+                dataclasses.replace(made.layers[0], vertices=made.layers[0].vertices[:2] + made.layers[0].vertices[3:]),
+            ),
+        )
         # 20 m at the foot, nothing at the crown; looked for within a hundredth of the length
         assert toe.passive(wedge, 20e3, 35.0, 0.8).thickness_m == pytest.approx(20.0, rel=0.02)

@@ -40,49 +40,79 @@ def quick_run(tmp_path_factory):
 
 @pytest.mark.parametrize("name", QUICK)
 def test_quick_check_holds(name, quick_run):
-    result, = runner.run_checks([ALL[name]], quick_run[0], quick=True, resume=True)  # one that stopped is run again, here
+    (result,) = runner.run_checks(
+        [ALL[name]], quick_run[0], quick=True, resume=True
+    )  # one that stopped is run again, here
     assert not result.error, (quick_run[0] / "checks" / name / "error.txt").read_text()
-    failed = [f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}" for c in result.claims if not c.passed]
+    failed = [
+        f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}"
+        for c in result.claims
+        if not c.passed
+    ]
     assert result.claims and not failed, "\n".join(failed)
 
 
 #: Checks of other modules whose quick form nothing else runs; those of Siconos stand in test_siconos.
-OTHERS = ("whole-avalanche", "slope-convergence", "sweeps-to-a-residual", "sweeps-in-a-running-scene", "ways-to-solve", "sweeps-by-thickness", "collapse-of-rounded-places")
+OTHERS = (
+    "whole-avalanche",
+    "slope-convergence",
+    "sweeps-to-a-residual",
+    "sweeps-in-a-running-scene",
+    "ways-to-solve",
+    "sweeps-by-thickness",
+    "collapse-of-rounded-places",
+)
 
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_quick_form_of_a_long_check_holds(name, tmp_path):
     assert ALL[name].quick_seconds is not None
-    result, = runner.run_checks([ALL[name]], tmp_path, quick=True, threads=2)
+    (result,) = runner.run_checks([ALL[name]], tmp_path, quick=True, threads=2)
     assert not result.error, (tmp_path / "checks" / name / "error.txt").read_text()
-    failed = [f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}" for c in result.claims if not c.passed]
+    failed = [
+        f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}"
+        for c in result.claims
+        if not c.passed
+    ]
     assert result.claims and not failed, "\n".join(failed)
 
 
 def test_every_other_check_has_a_quick_form():
     # these do not hold at a looser tolerance; scripts/verify.py runs them in full
-    assert [c.name for c in ALL.values() if c.quick_seconds is None] == ["siconos-slope-at-failure", "siconos-avalanche"]
+    assert [c.name for c in ALL.values() if c.quick_seconds is None] == [
+        "siconos-slope-at-failure",
+        "siconos-avalanche",
+    ]
 
 
 def test_strength_of_a_bonded_sample_converges(tmp_path):
-    result, = runner.run_checks([ALL["strength-convergence"]], tmp_path, quick=True)
+    (result,) = runner.run_checks([ALL["strength-convergence"]], tmp_path, quick=True)
     assert not result.error
-    assert len(result.claims) == 6 and all(c.passed for c in result.claims), [c.what for c in result.claims if not c.passed]
+    assert len(result.claims) == 6 and all(c.passed for c in result.claims), [
+        c.what for c in result.claims if not c.passed
+    ]
 
 
 @pytest.mark.parametrize("name", [c.name for c in ALL.values() if module_of(c) in OURS])
 def test_derivation_is_sound_markup(name):
-    docutils.core.publish_parts(ALL[name].derivation, writer_name="html5", settings_overrides={"halt_level": 2, "report_level": 2})
+    docutils.core.publish_parts(
+        ALL[name].derivation, writer_name="html5", settings_overrides={"halt_level": 2, "report_level": 2}
+    )
 
 
 # ---- claims ---------------------------------------------------------------------------------------
 
+
 def test_claims_are_two_sided_and_say_why():
     assert near("x", 1.05, 1, absolute=0.05 + 1e-12, why="w").passed
     assert near("x", -1.01, -1, relative=0.02, why="w").passed  # relative to the magnitude
-    assert not near("x", 1.03, 1, relative=0.02, why="w").passed and not near("x", 0.97, 1, relative=0.02, why="w").passed
+    assert (
+        not near("x", 1.03, 1, relative=0.02, why="w").passed and not near("x", 0.97, 1, relative=0.02, why="w").passed
+    )
     assert between("x", 2, 2, 3, why="w").passed and not between("x", 3.1, 2, 3, why="w").passed
-    assert at_most("x", 0, 1, why="w").passed and not at_most("x", -1e-9, 1, why="w").passed  # an error cannot be negative
+    assert (
+        at_most("x", 0, 1, why="w").passed and not at_most("x", -1e-9, 1, why="w").passed
+    )  # an error cannot be negative
     assert at_least("x", 1e300, 1, why="w").passed and not at_least("x", 0.5, 1, why="w").passed
     with pytest.raises(ValueError, match="does not say why"):
         near("x", 1, 1)
@@ -102,6 +132,7 @@ def test_an_outcome_without_claims_does_not_pass():
 
 
 # ---- registry and runner --------------------------------------------------------------------------
+
 
 def made(run, name="made"):
     return registry.Check(name, "Made by a test", "Tests", "Nothing to derive.", 1.0, 1.0, run)
@@ -148,8 +179,12 @@ def test_resume_takes_over_what_has_finished(tmp_path, monkeypatch):
         calls.append(bench.quick)
         figure = Figure()
         figure.add_subplot().plot([0, 1])
-        return Outcome([near("x", 1, 1, why="w"), at_least("y", math.nan, 0, why="w")], plots=[(figure, "a line")],
-                       tables=[("t", ["a"], [["1"]])], remarks=["r"])
+        return Outcome(
+            [near("x", 1, 1, why="w"), at_least("y", math.nan, 0, why="w")],
+            plots=[(figure, "a line")],
+            tables=[("t", ["a"], [["1"]])],
+            remarks=["r"],
+        )
 
     def failing(bench):
         calls.append("failing")
@@ -159,7 +194,11 @@ def test_resume_takes_over_what_has_finished(tmp_path, monkeypatch):
     first = list(runner.run_checks(checks, tmp_path))
     again = list(runner.run_checks(checks, tmp_path, resume=True))
     assert calls == [False, "failing", "failing"]  # an error is tried again
-    assert again[0].claims[0] == first[0].claims[0] and math.isnan(again[0].claims[1].measured) and again[0].claims[1].high == math.inf
+    assert (
+        again[0].claims[0] == first[0].claims[0]
+        and math.isnan(again[0].claims[1].measured)
+        and again[0].claims[1].high == math.inf
+    )
     assert (again[0].plots, again[0].remarks, again[0].wall_s) == (first[0].plots, first[0].remarks, first[0].wall_s)
     assert [c.passed for c in again[0].claims] == [True, False]
     list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
@@ -179,8 +218,12 @@ def test_report_shows_claims_plots_and_errors(tmp_path):
     def good(bench):
         figure = Figure()
         figure.add_subplot().plot([0, 1])
-        return Outcome([near("speed < light", 1, 1, unit="m/s", why="w")], plots=[(figure, "a line")],
-                       tables=[("a table", ["head"], [["cell"]])], remarks=["a remark"])
+        return Outcome(
+            [near("speed < light", 1, 1, unit="m/s", why="w")],
+            plots=[(figure, "a line")],
+            tables=[("a table", ["head"], [["cell"]])],
+            remarks=["a remark"],
+        )
 
     def off(bench):
         return Outcome([at_most("error", 2, 1, why="w")])
@@ -190,12 +233,24 @@ def test_report_shows_claims_plots_and_errors(tmp_path):
 
     results = list(runner.run_checks([made(good, "good"), made(off, "off"), made(stops, "stops")], tmp_path))
     page = report.write_report(tmp_path / "report.html", results, quick=True, versions={"YADE": "1"}).read_text()
-    for text in ("speed &lt; light", "data:image/png;base64,", "a table", "cell", "a remark", "FAIL", "the disk is square", "quick subset",
-                 "2 of 2 claims do not hold", "Nothing to derive", "YADE 1"):
+    for text in (
+        "speed &lt; light",
+        "data:image/png;base64,",
+        "a table",
+        "cell",
+        "a remark",
+        "FAIL",
+        "the disk is square",
+        "quick subset",
+        "2 of 2 claims do not hold",
+        "Nothing to derive",
+        "YADE 1",
+    ):
         assert text in page, text
 
 
 # ---- the command ----------------------------------------------------------------------------------
+
 
 def test_command_refuses_an_unknown_check(tmp_path):
     ended = verify("--out", str(tmp_path / "out"), "--only", "perpetual-motion")

@@ -14,26 +14,49 @@ import synthetic_slope as synthetic
 
 records, video, style = (synthetic.load(name) for name in ("records", "video", "figures.style"))
 RecordsError = records.RecordsError
-WALLS = [("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"), ("FB", [[0.0, 0.0], [3.0, 4.0]], "backstop"), ("SS", [[3.0, 4.0], [100.0, 4.0]], "ground")]
+WALLS = [
+    ("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"),
+    ("FB", [[0.0, 0.0], [3.0, 4.0]], "backstop"),
+    ("SS", [[3.0, 4.0], [100.0, 4.0]], "ground"),
+]
 TIMES = {"t0": 5.0, "t1": 50.0, "t3": 60.0, "t5": 92.0}
 X, Y = np.array([-60.0, -40.0, -20.0, 20.0]), np.array([70.0, 50.0, 30.0, 10.0])
 # time [s], water [m], wet, released, way [m], speed [m/s] down the slope of three quarters
-COURSE = ((0.0, 0.0, [0, 0, 0, 0], [0, 0, 0, 0], 0.0, 0.0), (55.04, 10.0, [1, 1, 0, 0], [0, 0, 0, 0], 0.0, 0.0), (80.0, 20.0, [1, 1, 1, 0], [0, 1, 1, 0], 30.0, 10.0))
+COURSE = (
+    (0.0, 0.0, [0, 0, 0, 0], [0, 0, 0, 0], 0.0, 0.0),
+    (55.04, 10.0, [1, 1, 0, 0], [0, 0, 0, 0], 0.0, 0.0),
+    (80.0, 20.0, [1, 1, 1, 0], [0, 1, 1, 0], 30.0, 10.0),
+)
 
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
     folder, made = tmp_path_factory.mktemp("frames"), []
     for k, (time, water, wet, released, way, speed) in enumerate(COURSE):
-        s = synthetic.few(X + 0.8 * way, Y - 0.6 * way, r=[3.0, 3.0, 4.0, 5.0], layer=[0, 1, 0, 1], time_s=time, water_m=water, wet=np.array(wet, bool),
-                          released=np.array(released, bool), vx=np.full(4, 0.8 * speed), vy=np.full(4, -0.6 * speed))
+        s = synthetic.few(
+            X + 0.8 * way,
+            Y - 0.6 * way,
+            r=[3.0, 3.0, 4.0, 5.0],
+            layer=[0, 1, 0, 1],
+            time_s=time,
+            water_m=water,
+            wet=np.array(wet, bool),
+            released=np.array(released, bool),
+            vx=np.full(4, 0.8 * speed),
+            vy=np.full(4, -0.6 * speed),
+        )
         made.append(records.write_snapshot(folder / f"{k}.npz", **vars(s)))
     return made
 
 
 def series():
     t = np.linspace(0, 100, 101)
-    return {"time_s": t, "dp_normal_effective_N_per_m": 1e6 * (900 - t), "dp_shear_N_per_m": 1e6 * (300 - 2 * t), "fb_normal_N_per_m": 1e6 * (100 + 3 * t)}
+    return {
+        "time_s": t,
+        "dp_normal_effective_N_per_m": 1e6 * (900 - t),
+        "dp_shear_N_per_m": 1e6 * (300 - 2 * t),
+        "fb_normal_N_per_m": 1e6 * (100 + 3 * t),
+    }
 
 
 @pytest.fixture
@@ -56,9 +79,17 @@ def shown(monkeypatch, tmp_path):
             (disks,) = (c for c in ax.collections if isinstance(c, EllipseCollection))
             (water,) = (one for one in ax.lines if drawn.colour(one) == style.WATER)
             cursor = [one.get_xdata()[0] for ax in told.fig.axes[1:] for one in ax.lines if one.get_linewidth() == 1.6]
-            told.frames.append(types.SimpleNamespace(
-                words=drawn.texts(told.fig), centres=np.array(disks.get_offsets()), radii=np.array(disks._widths), fills=drawn.hexes(disks.get_facecolor()),
-                water=drawn.points(water) if water.get_visible() else None, cursor=cursor, picture=np.array(picture, dtype=np.uint8)))
+            told.frames.append(
+                types.SimpleNamespace(
+                    words=drawn.texts(told.fig),
+                    centres=np.array(disks.get_offsets()),
+                    radii=np.array(disks._widths),
+                    fills=drawn.hexes(disks.get_facecolor()),
+                    water=drawn.points(water) if water.get_visible() else None,
+                    cursor=cursor,
+                    picture=np.array(picture, dtype=np.uint8),
+                )
+            )
 
     told = types.SimpleNamespace(fig=None, options=None, frames=[])
     monkeypatch.setattr(video, "_Writer", Kept)
@@ -74,13 +105,26 @@ def test_each_frame_shows_its_snapshot(shown, files):
     told = shown(files, fps=10)
     assert told.options["fps"] == 10 and len(told.frames) == 3
     first, wet, moving = told.frames
-    assert [f.words for f in told.frames] == [["t = 0.0 s", "water table 0.0 m    mean speed 0.0 m/s"], ["t = 55.0 s", "water table 10.0 m    mean speed 0.0 m/s"],
-                                              ["t = 80.0 s", "water table 20.0 m    mean speed 10.0 m/s"]]
+    assert [f.words for f in told.frames] == [
+        ["t = 0.0 s", "water table 0.0 m    mean speed 0.0 m/s"],
+        ["t = 55.0 s", "water table 10.0 m    mean speed 0.0 m/s"],
+        ["t = 80.0 s", "water table 20.0 m    mean speed 10.0 m/s"],
+    ]
     (d0, d1), (w0, w1), (r0, r1) = style.DRY, style.WET, style.RELEASED
-    assert [f.fills for f in told.frames] == [[d0, d1, d0, d1], [w0, w1, d0, d1], [w0, r1, r0, d1]] and wet.radii.tolist() == [3, 3, 4, 5]
-    assert np.array_equal(first.centres, np.column_stack([X, Y])) and moving.centres == pytest.approx(np.column_stack([X + 24, Y - 18]), rel=1e-12)
+    assert [f.fills for f in told.frames] == [
+        [d0, d1, d0, d1],
+        [w0, w1, d0, d1],
+        [w0, r1, r0, d1],
+    ] and wet.radii.tolist() == [3, 3, 4, 5]
+    assert np.array_equal(first.centres, np.column_stack([X, Y])) and moving.centres == pytest.approx(
+        np.column_stack([X + 24, Y - 18]), rel=1e-12
+    )
     # along the normal (0.6, 0.8) of the plane
-    assert first.water is None and wet.water == pytest.approx(np.array([[-94, 83], [6, 8]])) and moving.water == pytest.approx(np.array([[-88, 91], [12, 16]]))
+    assert (
+        first.water is None
+        and wet.water == pytest.approx(np.array([[-94, 83], [6, 8]]))
+        and moving.water == pytest.approx(np.array([[-88, 91], [12, 16]]))
+    )
     assert drawn.legend(told.fig) == {"dry": d0, "under pore pressure": w0, "released": r0} and len(told.fig.axes) == 1
 
 
@@ -107,14 +151,24 @@ def test_the_strip_of_forces_has_a_cursor_at_the_time_of_the_frame(shown, files)
     told = shown(files, fps=10, series=series(), times=TIMES)
     assert [f.cursor for f in told.frames] == [[0.0], [55.04], [80.0]]
     slope, strip = told.fig.axes
-    assert strip.get_xlabel() == "time [s]" and strip.get_ylabel() == "force [MN/m]" and strip.get_xlim() == (0, 100) and strip.get_position().y1 < slope.get_position().y0
+    assert (
+        strip.get_xlabel() == "time [s]"
+        and strip.get_ylabel() == "force [MN/m]"
+        and strip.get_xlim() == (0, 100)
+        and strip.get_position().y1 < slope.get_position().y0
+    )
     t = series()["time_s"]
-    forces = {"$N'_{DP}$  effective normal force on DP": 900 - t, "$T_{DP}$  shear force on DP": 300 - 2 * t, "$N'_{FB}$  normal force on FB": 100 + 3 * t}
+    forces = {
+        "$N'_{DP}$  effective normal force on DP": 900 - t,
+        "$T_{DP}$  shear force on DP": 300 - 2 * t,
+        "$N'_{FB}$  normal force on FB": 100 + 3 * t,
+    }
     for name, values in forces.items():
         assert drawn.points(drawn.line(strip, name)) == pytest.approx(np.column_stack([t, values]))
         assert drawn.legend(told.fig)[name] == drawn.colour(drawn.line(strip, name))
-    assert set(TIMES.values()) <= set(drawn.uprights(strip)) and {t.get_text(): 100 * t.get_position()[0] for t in strip.texts} == pytest.approx(
-        {f"$t_{{{name[1]}}}$": at for name, at in TIMES.items()})
+    assert set(TIMES.values()) <= set(drawn.uprights(strip)) and {
+        t.get_text(): 100 * t.get_position()[0] for t in strip.texts
+    } == pytest.approx({f"$t_{{{name[1]}}}$": at for name, at in TIMES.items()})
     assert [band[:2] for band in drawn.bands(strip)] == [(5, 50), (60, 92)]  # t2 is not known
 
 
@@ -123,14 +177,21 @@ def test_forces_are_means_over_a_second_once_the_avalanche_moves(shown, files):
     jumps = np.zeros(1001)
     jumps[200], jumps[750] = 22e6, 22e6  # 20 s, before t3, and 75 s
     told = shown(files, fps=10, series={"time_s": t, **{name: jumps for name, *_ in video.FORCES}}, times=TIMES)
-    for label in ("$N'_{DP}$  effective normal force on DP", "$T_{DP}$  shear force on DP", "$N'_{FB}$  normal force on FB"):
+    for label in (
+        "$N'_{DP}$  effective normal force on DP",
+        "$T_{DP}$  shear force on DP",
+        "$N'_{FB}$  normal force on FB",
+    ):
         force = drawn.points(drawn.line(told.fig.axes[1], label))[:, 1]
         assert force[[199, 200, 201]].tolist() == [0, 22, 0]
         assert force[[744, 745, 750, 755, 756]] == pytest.approx([0, 2, 2, 2, 0], abs=1e-9)  # 11 rows of 0.1 s
 
 
 def test_a_wide_and_a_tall_slope_keep_equal_scales(shown, files, tmp_path):
-    tall = [records.write_snapshot(tmp_path / f"{k}.npz", **vars(synthetic.few([-1.0, 2.0], [0.0, 500.0]))) for k in range(2)]
+    tall = [
+        records.write_snapshot(tmp_path / f"{k}.npz", **vars(synthetic.few([-1.0, 2.0], [0.0, 500.0])))
+        for k in range(2)
+    ]
     for paths in (files, tall):
         ax = shown(paths, fps=10).fig.axes[0]
         box = ax.get_position()
@@ -139,10 +200,13 @@ def test_a_wide_and_a_tall_slope_keep_equal_scales(shown, files, tmp_path):
 
 # ---- the file -------------------------------------------------------------------------------------
 
+
 @pytest.mark.skipif(not shutil.which("ffmpeg"), reason="no ffmpeg")
 def test_video(tmp_path, files):
     seen = []
-    path, note = video.write_mp4(files, WALLS, tmp_path / "v.mp4", 10, series=series(), times=TIMES, progress=lambda *a: seen.append(a))
+    path, note = video.write_mp4(
+        files, WALLS, tmp_path / "v.mp4", 10, series=series(), times=TIMES, progress=lambda *a: seen.append(a)
+    )
     assert note is None and path == tmp_path / "v.mp4" and seen == [(1, 3), (2, 3), (3, 3)]
     assert [p.name for p in tmp_path.iterdir()] == ["v.mp4"]
     if shutil.which("ffprobe"):

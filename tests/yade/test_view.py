@@ -8,7 +8,17 @@ import pytest
 from yade import O
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
-from yade.wrapper import Collider, ForceEngine, InsertionSortCollider, InteractionLoop, NewtonIntegrator, NonsmoothTimeStepper, PorePressureEngine, PyRunner, SlipWeakeningMat
+from yade.wrapper import (
+    Collider,
+    ForceEngine,
+    InsertionSortCollider,
+    InteractionLoop,
+    NewtonIntegrator,
+    NonsmoothTimeStepper,
+    PorePressureEngine,
+    PyRunner,
+    SlipWeakeningMat,
+)
 
 from contact_scenes import begin, engine, free_disk, loose_heap, material
 
@@ -28,20 +38,38 @@ def plain(value):
 def everything():
     """Every attribute of bodies, interactions and forces, in the order in which YADE lists them; and the counters and sums of the solver."""
     bodies = [(b.id, plain(b.state)) for b in O.bodies if b]
-    links = [(i.id1, i.id2, i.isReal, i.iterBorn, i.iterMadeReal, i.geom and plain(i.geom), i.phys and plain(i.phys)) for i in O.interactions]
+    links = [
+        (i.id1, i.id2, i.isReal, i.iterBorn, i.iterMadeReal, i.geom and plain(i.geom), i.phys and plain(i.phys))
+        for i in O.interactions
+    ]
     forces = [(plain(O.forces.f(b.id)), plain(O.forces.t(b.id))) for b in O.bodies if b]
-    own = {k: plain(v) for k, v in engine().dict().items() if "econds" not in k and not k.startswith("view") and k not in ("label", "ompThreads")}
+    own = {
+        k: plain(v)
+        for k, v in engine().dict().items()
+        if "econds" not in k and not k.startswith("view") and k not in ("label", "ompThreads")
+    }
     return bodies, links, forces, own, O.iter, O.time
 
 
 def busy(steps_of_time=False):
     """Bonded and loose disks fall on a wall that weakens, into water; a wall moves against them. Bonds break, contacts come and go."""
-    stuff = material(0.5, 0.05, tensileStrength=5e3, residualTensileStrength=1e3, layer=1, bondCreationDistance=0.35, bondEllipseNormal=0.02, bondEllipseTangential=0.02)
+    stuff = material(
+        0.5,
+        0.05,
+        tensileStrength=5e3,
+        residualTensileStrength=1e3,
+        layer=1,
+        bondCreationDistance=0.35,
+        bondEllipseNormal=0.02,
+        bondEllipseTangential=0.02,
+    )
     weak = material(0.4, kind=SlipWeakeningMat, criticalSlip=0.2, wall=True)
     O.bodies.append(scene.segments([(-3, 2.5), (0, -0.2), (10, -0.2), (13, 3)], weak, piece=2))
     ids = loose_heap(stuff, columns=7, rows=5)
     driven = free_disk(-2.0, 3.2, (1.5, 0, 0), stuff)
-    water = PorePressureEngine(planePoint=(0, 0, 0), planeNormal=(0, 1, 0), times=[0, 0.3], heights=[0, 2.0], releaseDistance=0.5)
+    water = PorePressureEngine(
+        planePoint=(0, 0, 0), planeNormal=(0, 1, 0), times=[0, 0.3], heights=[0, 2.0], releaseDistance=0.5
+    )
     begin(dt=2e-3, reach=0.4, tolerance=1e-6)
     O.engines = O.engines[:1] + [water] + O.engines[1:]
     if steps_of_time:
@@ -63,9 +91,13 @@ def beside_others():
 
 def own_engines(*kinds):
     """YADE's own engines in the place of ours of these kinds."""
-    own = {Collider: lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=e.verletDist),
-           InteractionLoop: lambda e: InteractionLoop(e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors),
-           NewtonIntegrator: lambda e: NewtonIntegrator(damping=0, gravity=e.gravity)}
+    own = {
+        Collider: lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=e.verletDist),
+        InteractionLoop: lambda e: InteractionLoop(
+            e.geomDispatcher.functors, e.physDispatcher.functors, e.lawDispatcher.functors
+        ),
+        NewtonIntegrator: lambda e: NewtonIntegrator(damping=0, gravity=e.gravity),
+    }
     O.engines = [next((own[kind](e) for kind in kinds if isinstance(e, kind)), e) for e in O.engines]
 
 
@@ -110,7 +142,10 @@ def test_all_that_python_can_read_is_the_same_in_every_way(adaptive):
     unwatched = course("run", build)
     assert engine().views < most_views(begin)
     assert engine().viewedBy == "the end of the run"
-    assert engine().brokenTension + engine().brokenShear + engine().brokenTorque + engine().brokenMixed > 5 and engine().bonds > 5
+    assert (
+        engine().brokenTension + engine().brokenShear + engine().brokenTorque + engine().brokenMixed > 5
+        and engine().bonds > 5
+    )
     assert any(i.isReal and type(i.phys).__name__ == "SlipWeakeningPhys" for i in O.interactions)
     watchers = course("watched", build)
     assert engine().views >= STEPS
@@ -121,12 +156,17 @@ def test_all_that_python_can_read_is_the_same_in_every_way(adaptive):
 
 def without_signs(row):
     """What is made of one interaction but for what soft laws alone need; a zero has no sign."""
-    return [(key, np.add(value, 0.0).tolist() if isinstance(value, (float, Vector3)) else value)
-            for part in (row.geom, row.phys) for key, value in sorted(part.dict().items()) if key not in ("shearInc", "refR1", "refR2", "wallMaterial")]
+    return [
+        (key, np.add(value, 0.0).tolist() if isinstance(value, (float, Vector3)) else value)
+        for part in (row.geom, row.phys)
+        for key, value in sorted(part.dict().items())
+        if key not in ("shearInc", "refR1", "refR2", "wallMaterial")
+    ]
 
 
 def test_interactions_are_what_yades_own_loop_makes_of_them():
     """With YADE's own loop and integrator geometry and thresholds are written by the functors themselves, in every step."""
+
     def end(own):
         O.reset()
         busy()
@@ -150,6 +190,7 @@ def test_interactions_are_what_yades_own_loop_makes_of_them():
 
 def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines():
     """On the way disks are taken away and put in, a bonded contact is ended, a disk is thrown, and what touches is bonded anew."""
+
     def end(way):
         O.reset()
         ids, driven = busy(steps_of_time=True)
@@ -161,12 +202,25 @@ def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines
             else:
                 advance(way, 200)
             walls = [plain(m) for m in O.materials if isinstance(m, SlipWeakeningMat)]
-            counts = [getattr(engine(), name) for name in ("bonds", "brokenTension", "brokenShear", "brokenTorque", "brokenMixed", "totalIterations")]
-            rows.append(([(b.id, b.state.pos, b.state.vel, b.state.ori, b.state.angVel) for b in O.bodies if b], walls, counts,
-                         sorted((sorted((i.id1, i.id2)), without_signs(i)) for i in O.interactions if i.isReal)))
+            counts = [
+                getattr(engine(), name)
+                for name in ("bonds", "brokenTension", "brokenShear", "brokenTorque", "brokenMixed", "totalIterations")
+            ]
+            rows.append(
+                (
+                    [(b.id, b.state.pos, b.state.vel, b.state.ori, b.state.angVel) for b in O.bodies if b],
+                    walls,
+                    counts,
+                    sorted((sorted((i.id1, i.id2)), without_signs(i)) for i in O.interactions if i.isReal),
+                )
+            )
             O.bodies.erase(ids[3 * leg])
             free_disk(1.0 + leg, 9.0, (0.3 * leg - 1, -4, 0), O.bodies[ids[1]].material)
-            contact = min((i for i in O.interactions if i.isReal and i.phys.bonded), key=lambda i: sorted((i.id1, i.id2)), default=None)
+            contact = min(
+                (i for i in O.interactions if i.isReal and i.phys.bonded),
+                key=lambda i: sorted((i.id1, i.id2)),
+                default=None,
+            )
             if contact:
                 O.interactions.erase(contact.id1, contact.id2)
             O.bodies[ids[31]].state.vel = (0, 3, 0)
@@ -187,6 +241,7 @@ def pair():
 
 def changed(what):
     """A change that a script makes between two runs."""
+
     def body(name, value):
         return lambda made: setattr(O.bodies[made[0][11]].state, name, value)
 
@@ -194,7 +249,12 @@ def changed(what):
         def change(made):
             for i in O.interactions:
                 if i.isReal:
-                    setattr(i.phys, name, factor * getattr(i.phys, name) if not isinstance(getattr(i.phys, name), bool) else factor)
+                    setattr(
+                        i.phys,
+                        name,
+                        factor * getattr(i.phys, name) if not isinstance(getattr(i.phys, name), bool) else factor,
+                    )
+
         return change
 
     def erase_body(made):
@@ -234,24 +294,85 @@ def changed(what):
         O.engines = O.engines[:newton] + [ForceEngine(force=(4000, 0, 0), ids=[made[0][7]])] + O.engines[newton:]
 
     return {
-        "pos": lambda made: setattr(O.bodies[made[0][11]].state, "pos", O.bodies[made[0][11]].state.pos + type(O.bodies[0].state.pos)(0.03, 0.05, 0)),
-        "vel": body("vel", (3, 1, 0)), "angVel": body("angVel", (0, 0, 4)), "mass": body("mass", 5000.0), "inertia": body("inertia", (900, 900, 900)),
+        "pos": lambda made: setattr(
+            O.bodies[made[0][11]].state,
+            "pos",
+            O.bodies[made[0][11]].state.pos + type(O.bodies[0].state.pos)(0.03, 0.05, 0),
+        ),
+        "vel": body("vel", (3, 1, 0)),
+        "angVel": body("angVel", (0, 0, 4)),
+        "mass": body("mass", 5000.0),
+        "inertia": body("inertia", (900, 900, 900)),
         "ori": body("ori", ((0, 0, 1), 0.3)),
-        "normal": phys("normal", 0.0), "tangential": phys("tangential", -1.0), "torque": phys("torque", 3.0), "restitution": phys("restitution", 0.0),
-        "friction": phys("friction", 0.2), "residualFriction": phys("residualFriction", 0.2), "tensileForce": phys("tensileForce", 0.1),
-        "residualTensileForce": phys("residualTensileForce", 5.0), "rollingArm": phys("rollingArm", 4.0), "residualRollingArm": phys("residualRollingArm", 0.0),
-        "ellipseNormal": phys("ellipseNormal", 0.01), "ellipseTangential": phys("ellipseTangential", 0.1), "bonded": phys("bonded", False),
-        "erased body": erase_body, "erased interaction": erase_interaction, "exchanged physics": exchange, "cleared interactions": lambda made: O.interactions.clear(), "inserted disk": insert,
-        "isActive": silence, "materials": material_of, "radius": radius, "blockedDOFs": block, "out of the plane": out_of_the_plane,
-        "unbond": lambda made: engine().unbond(), "resetTime": lambda made: O.resetTime(), "dt": lambda made: setattr(O, "dt", 1e-3),
-        "integrator": lambda made: own_engines(NewtonIntegrator), "loop": lambda made: own_engines(InteractionLoop), "force": pushed,
+        "normal": phys("normal", 0.0),
+        "tangential": phys("tangential", -1.0),
+        "torque": phys("torque", 3.0),
+        "restitution": phys("restitution", 0.0),
+        "friction": phys("friction", 0.2),
+        "residualFriction": phys("residualFriction", 0.2),
+        "tensileForce": phys("tensileForce", 0.1),
+        "residualTensileForce": phys("residualTensileForce", 5.0),
+        "rollingArm": phys("rollingArm", 4.0),
+        "residualRollingArm": phys("residualRollingArm", 0.0),
+        "ellipseNormal": phys("ellipseNormal", 0.01),
+        "ellipseTangential": phys("ellipseTangential", 0.1),
+        "bonded": phys("bonded", False),
+        "erased body": erase_body,
+        "erased interaction": erase_interaction,
+        "exchanged physics": exchange,
+        "cleared interactions": lambda made: O.interactions.clear(),
+        "inserted disk": insert,
+        "isActive": silence,
+        "materials": material_of,
+        "radius": radius,
+        "blockedDOFs": block,
+        "out of the plane": out_of_the_plane,
+        "unbond": lambda made: engine().unbond(),
+        "resetTime": lambda made: O.resetTime(),
+        "dt": lambda made: setattr(O, "dt", 1e-3),
+        "integrator": lambda made: own_engines(NewtonIntegrator),
+        "loop": lambda made: own_engines(InteractionLoop),
+        "force": pushed,
     }[what]
 
 
-CHANGES = ["pos", "vel", "angVel", "mass", "inertia", "ori", "normal", "tangential", "torque", "restitution", "friction", "residualFriction", "tensileForce",
-           "residualTensileForce", "rollingArm", "residualRollingArm", "ellipseNormal", "ellipseTangential", "bonded", "erased body", "erased interaction", "exchanged physics",
-           "cleared interactions", "inserted disk", "isActive", "materials", "radius", "blockedDOFs", "out of the plane", "unbond", "resetTime", "dt", "integrator",
-           "loop", "force"]
+CHANGES = [
+    "pos",
+    "vel",
+    "angVel",
+    "mass",
+    "inertia",
+    "ori",
+    "normal",
+    "tangential",
+    "torque",
+    "restitution",
+    "friction",
+    "residualFriction",
+    "tensileForce",
+    "residualTensileForce",
+    "rollingArm",
+    "residualRollingArm",
+    "ellipseNormal",
+    "ellipseTangential",
+    "bonded",
+    "erased body",
+    "erased interaction",
+    "exchanged physics",
+    "cleared interactions",
+    "inserted disk",
+    "isActive",
+    "materials",
+    "radius",
+    "blockedDOFs",
+    "out of the plane",
+    "unbond",
+    "resetTime",
+    "dt",
+    "integrator",
+    "loop",
+    "force",
+]
 
 
 @functools.lru_cache
@@ -275,7 +396,9 @@ WITHIN = {
     "friction": lambda ids: [setattr(i.phys, "residualFriction", 0.1) for i in O.interactions if i.isReal],
     "bonded": lambda ids: setattr(pair().phys, "bonded", False),
     "erased interaction": lambda ids: O.interactions.erase(*(lambda i: (i.id1, i.id2))(pair())),
-    "gravity": lambda ids: setattr(next(e for e in O.engines if isinstance(e, NewtonIntegrator)), "gravity", (1, -9, 0)),
+    "gravity": lambda ids: setattr(
+        next(e for e in O.engines if isinstance(e, NewtonIntegrator)), "gravity", (1, -9, 0)
+    ),
 }
 
 
@@ -283,12 +406,17 @@ WITHIN = {
 @pytest.mark.parametrize("what", WITHIN)
 def test_what_a_script_changes_within_a_step_is_taken_up(what, place):
     """An engine that acts in two steps of the run, anywhere in the list."""
+
     def end(way):
         O.reset()
         made = busy()
         O.change = lambda: WITHIN[what](made[0])
-        at = {"first": 0, "before the loop": next(k for k, e in enumerate(O.engines) if isinstance(e, InteractionLoop)),
-              "before the solver": next(k for k, e in enumerate(O.engines) if e is engine() or e.label == engine().label), "last": len(O.engines)}[place]
+        at = {
+            "first": 0,
+            "before the loop": next(k for k, e in enumerate(O.engines) if isinstance(e, InteractionLoop)),
+            "before the solver": next(k for k, e in enumerate(O.engines) if e is engine() or e.label == engine().label),
+            "last": len(O.engines),
+        }[place]
         O.engines = O.engines[:at] + [PyRunner(command="O.change()", iterPeriod=75, nDo=2)] + O.engines[at:]
         looked_at(way)
         advance(way, STEPS)
@@ -329,18 +457,30 @@ def test_what_is_saved_within_a_run_is_true(tmp_path):
 
 def test_engines_that_look_now_and_then_see_the_truth(tmp_path):
     """By step, by time and by the clock: each sees what a watcher of every step sees."""
+
     def seen(**period):
         O.reset()
         busy()
         rows, begin = [], time.monotonic()
-        O.seen = lambda: rows.append((O.iter, [plain(b.state) for b in O.bodies], plain([i.phys.normalForce for i in O.interactions if i.isReal])))
+        O.seen = lambda: rows.append(
+            (
+                O.iter,
+                [plain(b.state) for b in O.bodies],
+                plain([i.phys.normalForce for i in O.interactions if i.isReal]),
+            )
+        )
         O.engines = O.engines + [PyRunner(command="O.seen()", **period)]
         advance("run", STEPS)
         return {row[0]: row[1:] for row in rows}, engine().views - len(rows) < most_views(begin)
 
     every, _ = seen(iterPeriod=1, initRun=True)
     assert len(every) == STEPS
-    for period in (dict(iterPeriod=17), dict(virtPeriod=0.05), dict(iterPeriod=1, firstIterRun=40, nDo=3), dict(iterPeriod=30, initRun=True)):
+    for period in (
+        dict(iterPeriod=17),
+        dict(virtPeriod=0.05),
+        dict(iterPeriod=1, firstIterRun=40, nDo=3),
+        dict(iterPeriod=30, initRun=True),
+    ):
         some, few = seen(**period)
         assert 1 < len(some) < 60 and few, period  # nobody else was shown anything
         assert all(every[step] == row for step, row in some.items()), period

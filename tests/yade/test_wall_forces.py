@@ -55,7 +55,12 @@ def test_sums_have_the_bits_of_looks_after_each_step(period):
             O.step()
             if O.iter % period == 0:
                 seconds, found = O.time - before, looked(ids)
-                time, normal, shear, peak = time + seconds, normal + found[0] * seconds, shear + found[1] * seconds, max(peak, found[0])
+                time, normal, shear, peak = (
+                    time + seconds,
+                    normal + found[0] * seconds,
+                    shear + found[1] * seconds,
+                    max(peak, found[0]),
+                )
         assert forces.take() == {"bed": (normal / time, shear / time, peak)} and peak > 0, first
 
 
@@ -93,7 +98,12 @@ def pulled(force):
 def test_signs_and_what_is_forgotten():
     wall, found = pulled((3, 4, 0))
     run(2)
-    assert (found.seconds, found.normal, found.shear, found.peak) == (1.0, -4.0, 3.0, -4.0)  # it is drawn off its ground, and along
+    assert (found.seconds, found.normal, found.shear, found.peak) == (
+        1.0,
+        -4.0,
+        3.0,
+        -4.0,
+    )  # it is drawn off its ground, and along
     O.forces.setPermF(wall, (0, -8, 0))
     run(1)
     assert found.take() == (pytest.approx(0.0, abs=1e-12), pytest.approx(2.0, rel=1e-12), 8.0)
@@ -106,10 +116,15 @@ def test_signs_and_what_is_forgotten():
     assert found.take() == (-2.0, 0.0, -2.0)
 
 
-@pytest.mark.parametrize("spoil, words", [
-    (lambda e: setattr(e, "along", []), ("WallForceEngine: 1 ids and 0 directions",)), (lambda e: setattr(e, "period", 0), ("period = 0", "at least 1")),
-    (lambda e: setattr(e, "ids", [-1]), ("id -1", "no such body")),
-    (lambda e: setattr(O, "engines", [O.engines[0], e, O.engines[1]]), ("before the integrator", "put it behind"))])
+@pytest.mark.parametrize(
+    "spoil, words",
+    [
+        (lambda e: setattr(e, "along", []), ("WallForceEngine: 1 ids and 0 directions",)),
+        (lambda e: setattr(e, "period", 0), ("period = 0", "at least 1")),
+        (lambda e: setattr(e, "ids", [-1]), ("id -1", "no such body")),
+        (lambda e: setattr(O, "engines", [O.engines[0], e, O.engines[1]]), ("before the integrator", "put it behind")),
+    ],
+)
 def test_what_would_be_summed_up_wrongly_is_refused(spoil, words):
     _, found = pulled((0, 0, 0))
     run(1)

@@ -8,25 +8,50 @@ from yade.nonsmooth import records
 def test_it_settles_gets_wet_fails_weakens_moves_and_rests(whole):
     s, times = whole.series, whole.summary["times_s"]
     assert whole.summary["finished"] is True and whole.state["stage"] == "done" and whole.state["failed_dry"] is None
-    assert None not in times.values() and times["t0"] < times["t1"] <= times["t2"] < times["t3"] < times["t4"] < times["t5"]
+    assert (
+        None not in times.values()
+        and times["t0"] < times["t1"] <= times["t2"] < times["t3"] < times["t4"] < times["t5"]
+    )
     assert set(s["stage"]) == {0, 1, 2} and (np.diff(s["stage"]) >= 0).all()
-    for name, least in (("wet_disks", 50), ("released_disks", 50), ("weakened_disks", 10), ("speed_max_m_per_s", 3.0), ("water_m", 0.5), ("slip_mean_dp_m", 0.5)):
+    for name, least in (
+        ("wet_disks", 50),
+        ("released_disks", 50),
+        ("weakened_disks", 10),
+        ("speed_max_m_per_s", 3.0),
+        ("water_m", 0.5),
+        ("slip_mean_dp_m", 0.5),
+    ):
         assert s[name].max() > least, name
-    assert np.abs(s["ss_normal_N_per_m"]).max() > 1e4 and np.abs(s["fb_normal_N_per_m"]).max() > 1e4 and s["dp_water_N_per_m"].max() > 1e5
+    assert (
+        np.abs(s["ss_normal_N_per_m"]).max() > 1e4
+        and np.abs(s["fb_normal_N_per_m"]).max() > 1e4
+        and s["dp_water_N_per_m"].max() > 1e5
+    )
     for mode in ("tension", "shear", "torque", "mixed"):
         assert s[f"bonds_broken_{mode}"][-1] > 0, mode
     assert s["speed_mean_m_per_s"][-1] < 0.03 * s["speed_mean_m_per_s"].max()
     gravity, time = whole.watch.steps.gravity[:, 1], whole.watch.steps.time - whole.watch.steps.dt
-    assert gravity[2:] == pytest.approx(-9.81 * np.minimum(time[2:] / 0.3, 1), rel=1e-9)  # it grows, and then it is whole
+    assert gravity[2:] == pytest.approx(
+        -9.81 * np.minimum(time[2:] / 0.3, 1), rel=1e-9
+    )  # it grows, and then it is whole
     steps = np.diff(s["step"])
-    assert set(steps[s["stage"][1:] < 2]) == {4} and steps.max() > 4  # rows of 0.02 s, steps of 5 ms and shorter ones where disks are fast
+    assert (
+        set(steps[s["stage"][1:] < 2]) == {4} and steps.max() > 4
+    )  # rows of 0.02 s, steps of 5 ms and shorter ones where disks are fast
 
 
 #: Relative to the column's largest value; where not rounding of sums over thousands of steps, the reason stands beside.
 CLOSE = {
-    "slip_mean_dp_m": 1e-3, "energy_water_J": 1e-4, "energy_sliding_J": 1e-3, "energy_rolling_J": 1e-3, "energy_impact_J": 1e-3, "energy_bonds_J": 1e-3,
-    "energy_error_rel": 1e-5, "energy_correction_J": 0.01,  # disks that are turned back (ContactSeamCorrect) have two velocities at a step's end, of which the table has the second
-    "residual": 1e-6, "residual_N_per_m": 1e-6,  # velocities are computed anew, in another order of contacts
+    "slip_mean_dp_m": 1e-3,
+    "energy_water_J": 1e-4,
+    "energy_sliding_J": 1e-3,
+    "energy_rolling_J": 1e-3,
+    "energy_impact_J": 1e-3,
+    "energy_bonds_J": 1e-3,
+    "energy_error_rel": 1e-5,
+    "energy_correction_J": 0.01,  # disks that are turned back (ContactSeamCorrect) have two velocities at a step's end, of which the table has the second
+    "residual": 1e-6,
+    "residual_N_per_m": 1e-6,  # velocities are computed anew, in another order of contacts
 }
 
 
@@ -40,4 +65,6 @@ def test_a_column_is_what_the_steps_say(known, name):
     if records.COLUMNS[name].integer:
         assert np.array_equal(found, expected), np.flatnonzero(found != expected)[:5]
     else:
-        assert np.abs(found - expected).max() <= CLOSE.get(name, 1e-9) * np.abs(expected).max(), np.argmax(np.abs(found - expected))
+        assert np.abs(found - expected).max() <= CLOSE.get(name, 1e-9) * np.abs(expected).max(), np.argmax(
+            np.abs(found - expected)
+        )

@@ -20,7 +20,7 @@ class Summary:
     def at(self, name, time, seconds):
         """Mean of a column over the rows of the seconds up to a time, of 0.02 s each, or of that row alone."""
         k = np.searchsorted(self.rows["time_s"], time - 1e-9)
-        return self.rows[name][k + 1 - max(1, round(seconds / 0.02)):k + 1].mean()
+        return self.rows[name][k + 1 - max(1, round(seconds / 0.02)) : k + 1].mean()
 
     # what was computed
     def disks(self):
@@ -34,8 +34,12 @@ class Summary:
         close = np.hypot(x[i] - x[j], y[i] - y[j]) - r[i] - r[j] <= 0.05 * (r[i] + r[j])
         (x0, y0), (x1, y1) = self.section.wall("FB").vertices
         size = math.hypot(x1 - x0, y1 - y0)
-        along, off = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / size, ((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)) / size
-        return int((close & (layer[i] == layer[j])).sum()) + int(((off - r <= 0.05 * 2 * r) & (along > 0) & (along < size)).sum())
+        along, off = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / size, (
+            (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)
+        ) / size
+        return int((close & (layer[i] == layer[j])).sum()) + int(
+            ((off - r <= 0.05 * 2 * r) & (along > 0) & (along < size)).sum()
+        )
 
     def contacts_initial(self):
         rows = self.known.watch.begun
@@ -106,9 +110,20 @@ class Summary:
         t2 = t[(s["weakened_disks"] >= 0.01 * math.dist(a, b) / math.sqrt(0.5 * 1.0)) & (t >= t0)][0]
         push = {now: self.at("fb_normal_N_per_m", now, 0.2) for now in t[(t > t0 + 0.2 - 1e-6) & (t < t2 + 1e-6)]}
         t1 = min(now for now, force in push.items() if force >= 0.98 * max(push.values()))
-        t3 = min(now for now in t[t >= t2] if self.at("dp_shear_N_per_m", now, 0.2) <= 0.1 * self.at("dp_shear_N_per_m", t2, 0.2))
+        t3 = min(
+            now
+            for now in t[t >= t2]
+            if self.at("dp_shear_N_per_m", now, 0.2) <= 0.1 * self.at("dp_shear_N_per_m", t2, 0.2)
+        )
         fast = t[s["speed_mean_m_per_s"] >= 0.03 * s["speed_mean_m_per_s"].max()]
-        return {"t0": t0, "t1": t1, "t2": t2, "t3": t3, "t4": t[s["energy_kinetic_J"].argmax()], "t5": t[t > fast[-1]][0]}
+        return {
+            "t0": t0,
+            "t1": t1,
+            "t2": t2,
+            "t3": t3,
+            "t4": t[s["energy_kinetic_J"].argmax()],
+            "t5": t[t > fast[-1]][0],
+        }
 
     def failed_dry_s(self):
         return None
@@ -135,7 +150,9 @@ class Summary:
         return self.at("dp_shear_N_per_m", self.rows["time_s"][-1], 0.4)
 
     def fb_rise_over_dp_drop(self):
-        return (self.fb_force_at_failure_N_per_m() - self.fb_force_dry_N_per_m()) / (self.dp_shear_dry_N_per_m() - self.dp_shear_at_failure_N_per_m())
+        return (self.fb_force_at_failure_N_per_m() - self.fb_force_dry_N_per_m()) / (
+            self.dp_shear_dry_N_per_m() - self.dp_shear_at_failure_N_per_m()
+        )
 
     def triggering_s(self):
         return self.times["t3"] - self.times["t2"]
@@ -165,9 +182,15 @@ class Summary:
         number = np.bincount(at)
         for k in range(math.ceil(((snapshot.x + snapshot.r).max() - low) / width)):
             x = low + (k + 0.5) * width
-            walls = [np.interp(x, *np.transpose(w.vertices)) for w in self.section.walls if w.vertices[0][0] <= x <= w.vertices[-1][0]]
+            walls = [
+                np.interp(x, *np.transpose(w.vertices))
+                for w in self.section.walls
+                if w.vertices[0][0] <= x <= w.vertices[-1][0]
+            ]
             here = snapshot.y[at == k] + snapshot.r[at == k]
-            heights.append(here.max() - min(walls) if len(here) >= 0.1 * number[number > 0].mean() and walls else math.nan)
+            heights.append(
+                here.max() - min(walls) if len(here) >= 0.1 * number[number > 0].mean() and walls else math.nan
+            )
         return np.array(heights), width
 
     def deposit_thickness_max_m(self):
@@ -179,7 +202,10 @@ class Summary:
 
     # energies
     def energy_losses_J_per_m(self):
-        return {name.split("_")[1]: self.rows[name][-1] for name in ("energy_sliding_J", "energy_rolling_J", "energy_impact_J", "energy_bonds_J")}
+        return {
+            name.split("_")[1]: self.rows[name][-1]
+            for name in ("energy_sliding_J", "energy_rolling_J", "energy_impact_J", "energy_bonds_J")
+        }
 
     def energy_dissipated_J_per_m(self):
         return sum(self.energy_losses_J_per_m().values())
@@ -215,7 +241,10 @@ class Summary:
 
 
 #: Where a key's value is recomputed less exactly: how much less, relative. ``wall_s`` is a clock's, ``section`` and ``finished`` stand in tests of their own.
-ROUGH = {"packing_fraction": 2e-3, "energy_error_rel": 1e-6}  # points of a grid, 0.05 m apart; sums over thousands of steps
+ROUGH = {
+    "packing_fraction": 2e-3,
+    "energy_error_rel": 1e-6,
+}  # points of a grid, 0.05 m apart; sums over thousands of steps
 OTHERWISE = {"section", "finished", "wall_s"}
 
 
@@ -227,11 +256,17 @@ def summary(whole, known):
 def test_every_key_of_the_summary_is_recomputed(whole):
     assert {name for name in vars(Summary) if name in whole.summary} | OTHERWISE == set(whole.summary)
     assert whole.summary == json.loads((whole.folder / "summary.json").read_text())
-    assert whole.summary["section"] == "small slope" and whole.summary["wall_s"] >= whole.state["wall_steps_s"] > whole.state["wall_moving_s"] > 0
+    assert (
+        whole.summary["section"] == "small slope"
+        and whole.summary["wall_s"] >= whole.state["wall_steps_s"] > whole.state["wall_moving_s"] > 0
+    )
     assert whole.state["moving_s"] == pytest.approx(whole.series["time_s"][-1] - whole.state["moving"], abs=1e-9)
 
 
-@pytest.mark.parametrize("name", [name for name in vars(Summary) if not name.startswith("_") and name not in ("at", "profile", "turned", "toe")])
+@pytest.mark.parametrize(
+    "name",
+    [name for name in vars(Summary) if not name.startswith("_") and name not in ("at", "profile", "turned", "toe")],
+)
 def test_a_key_of_the_summary_is_what_the_records_say(whole, summary, name):
     expected = getattr(summary, name)()
     if expected is None or isinstance(expected, dict):

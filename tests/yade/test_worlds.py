@@ -6,8 +6,18 @@ import pytest
 from yade import O
 from yade.nonsmooth import scene, section, worlds
 
-ROCK = section.Material("rock", friction=0.6, residual_friction=0.6, rolling_friction=0, residual_rolling_friction=0, density=2500.0, tensile_strength=1e5)
-GROUND = section.Material("ground", friction=0.2, residual_friction=0.2, rolling_friction=0, residual_rolling_friction=0, bonded=False)
+ROCK = section.Material(
+    "rock",
+    friction=0.6,
+    residual_friction=0.6,
+    rolling_friction=0,
+    residual_rolling_friction=0,
+    density=2500.0,
+    tensile_strength=1e5,
+)
+GROUND = section.Material(
+    "ground", friction=0.2, residual_friction=0.2, rolling_friction=0, residual_rolling_friction=0, bonded=False
+)
 WORLDS = [worlds.Hard(time_step=2e-3), worlds.Soft(stiffness=1e8, diameter=(1.0, 1.0))]
 
 
@@ -53,5 +63,7 @@ def test_the_soft_step_is_a_share_of_the_smallest_limit():
     world = worlds.Soft(stiffness=1e8, diameter=(1.0, 1.0), step_share=0.3)
     limit = world.equivalent(ROCK).step_limit
     # a quarter of the mass: half of the period
-    assert world.step_for([ROCK]) == pytest.approx(0.3 * limit, rel=1e-12) and world.step_for([ROCK, light]) == world.step_for([light, ROCK]) == pytest.approx(0.15 * limit, rel=1e-9)
+    assert world.step_for([ROCK]) == pytest.approx(0.3 * limit, rel=1e-12) and world.step_for(
+        [ROCK, light]
+    ) == world.step_for([light, ROCK]) == pytest.approx(0.15 * limit, rel=1e-9)
     assert WORLDS[0].step_for([ROCK, light]) == 2e-3

@@ -23,7 +23,18 @@ class Watch:
     ``begun``, ``rows``: the contact table after two steps and at each row, see :meth:`contacts`; ``dumps``: every :data:`DUMPED` rows the number of the row and its contact problem.
     """
 
-    COUNTERS = ("slidingLoss", "rollingLoss", "debondingLoss", "impactLoss", "externalWork", "wallWork", "correctionEnergy", "energyError", "kineticEnergy", "potentialEnergy")
+    COUNTERS = (
+        "slidingLoss",
+        "rollingLoss",
+        "debondingLoss",
+        "impactLoss",
+        "externalWork",
+        "wallWork",
+        "correctionEnergy",
+        "energyError",
+        "kineticEnergy",
+        "potentialEnergy",
+    )
     BODY = ("x", "y", "angle", "vx", "vy", "omega")
 
     def __init__(self, built, folder):
@@ -58,10 +69,23 @@ class Watch:
         if O.iter == 2:
             self.begun = self.contacts()
         losses, slip = self._of_contacts(self._last, after, O.time - began)
-        self._seen.append((
-            O.iter, O.time, O.time - began, tuple(self.newton.gravity)[:2], self._last, after, [(*tuple(O.forces.f(i))[:2], O.forces.t(i)[2]) for i in self.pieces],
-            tuple(water.totalForce)[:2], water.height, *tables.water(water, self.first, self.count), [getattr(self.solver, name) for name in self.COUNTERS],
-            losses, slip))
+        self._seen.append(
+            (
+                O.iter,
+                O.time,
+                O.time - began,
+                tuple(self.newton.gravity)[:2],
+                self._last,
+                after,
+                [(*tuple(O.forces.f(i))[:2], O.forces.t(i)[2]) for i in self.pieces],
+                tuple(water.totalForce)[:2],
+                water.height,
+                *tables.water(water, self.first, self.count),
+                [getattr(self.solver, name) for name in self.COUNTERS],
+                losses,
+                slip,
+            )
+        )
         self._last = after
 
     def contacts(self):
@@ -84,7 +108,9 @@ class Watch:
             dx, dy, wi = (vx[j] - np.where(wall, 0, vx[i]), vy[j] - np.where(wall, 0, vy[i]), np.where(wall, 0, w[i]))
             u.append((dx * nx + dy * ny, -dx * ny + dy * nx - w[j] * lever_j - wi * lever_i, w[j] - wi))
         normal, sliding, rolling = (-0.5 * h * force * (a + b) for force, a, b in zip((n, t, torque), *u))
-        slip, dp = np.zeros(self.count), wall & np.isin(table[:, 0], [i for i, name in zip(self.pieces, self.wall_of) if name == "DP"]) & (n > 0)
+        slip, dp = np.zeros(self.count), wall & np.isin(
+            table[:, 0], [i for i, name in zip(self.pieces, self.wall_of) if name == "DP"]
+        ) & (n > 0)
         np.add.at(slip, j[dp], np.abs(h * u[1][1][dp]))
         return (sliding.sum(), rolling.sum(), normal[n >= 0].sum(), normal[n < 0].sum()), slip
 
@@ -102,7 +128,22 @@ class Watch:
         patch.setattr(experiment, "advance", self.advance)
 
     def end(self):
-        names = ("iter", "time", "dt", "gravity", "before", "after", "walls", "water", "height", "wet", "released", "counters", "losses", "slip")
+        names = (
+            "iter",
+            "time",
+            "dt",
+            "gravity",
+            "before",
+            "after",
+            "walls",
+            "water",
+            "height",
+            "wet",
+            "released",
+            "counters",
+            "losses",
+            "slip",
+        )
         self.steps = SimpleNamespace(**{name: np.array(part) for name, part in zip(names, zip(*self._seen))})
         del self._seen, self.solver, self.water, self.newton
 
@@ -150,4 +191,11 @@ def run(folder, watched=True, **changes):
     state = asdict(run.state) | {"overlap_worst_ever": built.solver.overlapWorstEver}
     summary = results.summarise(folder, chosen, state, threads=2)
     O.reset()
-    return SimpleNamespace(folder=folder, section=chosen, state=state, series=records.read_series(folder / "series.csv"), summary=summary, watch=watch)
+    return SimpleNamespace(
+        folder=folder,
+        section=chosen,
+        state=state,
+        series=records.read_series(folder / "series.csv"),
+        summary=summary,
+        watch=watch,
+    )

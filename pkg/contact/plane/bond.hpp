@@ -19,7 +19,7 @@ namespace nonsmooth::contact::plane {
 /// Points and normal as seen from their bodies.
 struct BondMarks {
 	Point first, second; // P in the frame of each body [m]
-	Point normal;        // in that of the first
+	Point normal; // in that of the first
 };
 
 /// Half-axes of the zone [m].
@@ -50,13 +50,16 @@ inline BondMarks markBond(const Motion& first, const Motion& second, const Point
 {
 	const Point &x1 = first.position, &x2 = second.position;
 	const Point  p { x2.x - secondRadius * normal.x, x2.y - secondRadius * normal.y };
-	return { rotateBack(first.rotation, { p.x - x1.x, p.y - x1.y }), rotateBack(second.rotation, { p.x - x2.x, p.y - x2.y }), rotateBack(first.rotation, normal) };
+	return { rotateBack(first.rotation, { p.x - x1.x, p.y - x1.y }),
+		 rotateBack(second.rotation, { p.x - x2.x, p.y - x2.y }), rotateBack(first.rotation, normal) };
 }
 
 inline BondDisplacement bondDisplacement(const BondMarks& marks, const Motion& first, const Motion& second)
 {
-	const Point a1 = rotate(first.rotation, marks.first), a2 = rotate(second.rotation, marks.second), n = rotate(first.rotation, marks.normal);
-	const double dx = second.position.x + a2.x - first.position.x - a1.x, dy = second.position.y + a2.y - first.position.y - a1.y;
+	const Point a1 = rotate(first.rotation, marks.first), a2 = rotate(second.rotation, marks.second),
+	            n   = rotate(first.rotation, marks.normal);
+	const double dx = second.position.x + a2.x - first.position.x - a1.x,
+	             dy = second.position.y + a2.y - first.position.y - a1.y;
 	return { dx * n.x + dy * n.y, n.x * dy - n.y * dx };
 }
 
@@ -77,7 +80,10 @@ inline double grownRestGap(double restGap, double gap) { return std::max(restGap
 constexpr double reached = 1 - 1e-9;
 
 /// Whether a bond with impulses p and velocities u at the end of the step has reached its tensile threshold and opens: it keeps its new length.
-inline bool yieldsInTension(const Contact& c, const Impulse& p, const Impulse& u) { return c.adhesion > 0 && p.n <= -reached * c.adhesion && u.n > 0; }
+inline bool yieldsInTension(const Contact& c, const Impulse& p, const Impulse& u)
+{
+	return c.adhesion > 0 && p.n <= -reached * c.adhesion && u.n > 0;
+}
 
 /// By how much a bond yields in a step of length h [s].
 inline YieldPath yieldOfStep(const Contact& c, const Impulse& p, const Impulse& u, double h)

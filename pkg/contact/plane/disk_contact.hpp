@@ -12,10 +12,10 @@
 namespace nonsmooth::contact::plane {
 
 struct DiskContact {
-	double nx, ny;   // unit normal, the first disk's outward
-	double gap;      // [m]
+	double nx, ny; // unit normal, the first disk's outward
+	double gap; // [m]
 	double distance; // of the centres [m]
-	Point  point;    // [m]
+	Point  point; // [m]
 };
 
 /// `dz`: how far the second centre lies above the first one [m], for spheres that are not exactly in one plane; n and x_c are their parts in it.

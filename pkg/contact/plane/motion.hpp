@@ -46,7 +46,10 @@ inline Point rotateBack(const Rotation& q, const Point& v)
 }
 
 /// first b, then a.
-inline Rotation product(const Rotation& a, const Rotation& b) { return { a.w * b.z + a.z * b.w, a.w * b.w - a.z * b.z }; }
+inline Rotation product(const Rotation& a, const Rotation& b)
+{
+	return { a.w * b.z + a.z * b.w, a.w * b.w - a.z * b.z };
+}
 
 /// Of length 1 again; what has no length stays.
 inline Rotation normalized(const Rotation& q)
@@ -58,7 +61,8 @@ inline Rotation normalized(const Rotation& q)
 }
 
 /// Velocity and place at the end of a step of length h [s], with force and torque [N, N m]; mass and moment of inertia [kg, kg m²] are not looked at where blocked.
-inline void integrate(Motion& m, const Twist& force, double mass, double inertia, unsigned blocked, const Point& gravity, double h)
+inline void
+integrate(Motion& m, const Twist& force, double mass, double inertia, unsigned blocked, const Point& gravity, double h)
 {
 	Twist& v = m.velocity;
 	if (blocked != blockedAll) {
@@ -71,7 +75,7 @@ inline void integrate(Motion& m, const Twist& force, double mass, double inertia
 	const double square = v.w * v.w;
 	if (square != 0) {
 		const double speed = std::sqrt(square), half = 0.5 * (speed * h);
-		m.rotation         = product({ std::sin(half) * (v.w / speed), std::cos(half) }, m.rotation);
+		m.rotation = product({ std::sin(half) * (v.w / speed), std::cos(half) }, m.rotation);
 	}
 	m.rotation = normalized(m.rotation);
 }

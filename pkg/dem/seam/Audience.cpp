@@ -18,15 +18,22 @@
 namespace yade::nscd {
 
 namespace {
-	template <class... Classes> bool isOneOf(const Engine& engine) { return ((typeid(engine) == typeid(Classes)) || ...); }
+	template <class... Classes> bool isOneOf(const Engine& engine)
+	{
+		return ((typeid(engine) == typeid(Classes)) || ...);
+	}
 
 	/// Reads and writes neither bodies nor interactions. Of these classes themselves, since a derived one may.
-	bool isBlind(const Engine& engine) { return isOneOf<ForceResetter, NonsmoothTimeStepper, WallForceEngine>(engine); }
+	bool isBlind(const Engine& engine)
+	{
+		return isOneOf<ForceResetter, NonsmoothTimeStepper, WallForceEngine>(engine);
+	}
 
 	/// Runs Python, or writes files. But for CourseRunner its isActivated is PeriodicEngine's, or Recorder's, which asks that one.
 	bool isRunnerOrRecorder(const Engine& engine)
 	{
-		return isOneOf<PyRunner, CourseRunner>(engine) || dynamic_cast<const Recorder*>(&engine) || engine.getClassName() == "VTKRecorder" || engine.getClassName() == "SnapshotEngine"
+		return isOneOf<PyRunner, CourseRunner>(engine) || dynamic_cast<const Recorder*>(&engine)
+		        || engine.getClassName() == "VTKRecorder" || engine.getClassName() == "SnapshotEngine"
 		        || engine.getClassName() == "DomainLimiter";
 	}
 
@@ -43,7 +50,9 @@ namespace {
 	{
 		if (!scene._nextEngines.empty()) return "other engines";
 		if (stepsLeft(scene) > 0) return ""; // advance() shows all when it ends, however it ends
-		if (!Omega::instance().isRunning() || scene.stopAtIter == scene.iter + 1 || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime)) return "the end of the run";
+		if (!Omega::instance().isRunning() || scene.stopAtIter == scene.iter + 1
+		    || (scene.stopAtTime > 0 && scene.time + scene.dt >= scene.stopAtTime))
+			return "the end of the run";
 		return "";
 	}
 }
@@ -52,13 +61,16 @@ bool othersMayLook(const Scene& scene) { return Omega::instance().isRunning() ||
 
 bool takesTurns(const Engine& engine)
 {
-	return isOneOf<PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, ContactDynamicsEngine, PlanarNewtonIntegrator>(engine);
+	return isOneOf<
+	        PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, ContactDynamicsEngine,
+	        PlanarNewtonIntegrator>(engine);
 }
 
 bool mayAct(const Engine& engine, long iter, Real time)
 {
 	if (isBlind(engine)) return false;
-	if (isOneOf<CourseRunner>(engine)) return static_cast<const CourseRunner&>(engine).isDue(time, engine.scene->dt);
+	if (isOneOf<CourseRunner>(engine))
+		return static_cast<const CourseRunner&>(engine).isDue(time, engine.scene->dt);
 	const auto* periodic = isRunnerOrRecorder(engine) ? dynamic_cast<const PeriodicEngine*>(&engine) : nullptr;
 	if (!periodic) return true;
 	const PeriodicEngine& p = *periodic;
@@ -66,7 +78,8 @@ bool mayAct(const Engine& engine, long iter, Real time)
 	if (p.nDone == 0 || iter < p.iterLast) return true; // it may run at once
 	if (p.nDo >= 0 && p.nDone >= p.nDo) return false;
 	constexpr Real sure = 0.2; // s; until it is asked
-	return (p.virtPeriod > 0 && time - p.virtLast >= p.virtPeriod * (1 - 1e-9)) || (p.realPeriod > 0 && PeriodicEngine::getClock() - p.realLast >= p.realPeriod - sure)
+	return (p.virtPeriod > 0 && time - p.virtLast >= p.virtPeriod * (1 - 1e-9))
+	        || (p.realPeriod > 0 && PeriodicEngine::getClock() - p.realLast >= p.realPeriod - sure)
 	        || (p.iterPeriod > 0 && iter - p.iterLast >= p.iterPeriod);
 }
 

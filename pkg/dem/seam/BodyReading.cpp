@@ -32,18 +32,21 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 		r.clumped      = body->isClump() || body->isClumpMember();
 		if (const Shape* shape = body->shape.get()) {
 			const bool exactly = typeid(*shape) == typeid(Sphere);
-			if (exactly || dynamic_cast<const Sphere*>(shape)) r.radius = static_cast<const Sphere*>(shape)->radius;
+			if (exactly || dynamic_cast<const Sphere*>(shape))
+				r.radius = static_cast<const Sphere*>(shape)->radius;
 			r.plain = exactly && !body->isClump();
 		}
 		readMotion(s, r);
-		r.mass    = s.mass;
-		r.inertia = s.inertia[2];
-		r.blocked = s.blockedDOFs;
+		r.mass       = s.mass;
+		r.inertia    = s.inertia[2];
+		r.blocked    = s.blockedDOFs;
 		r.planar     = staysInPlane(s);
 		r.aspherical = body->isAspherical() && !(s.blockedDOFs & State::DOF_RXRYRZ);
 		r.bounded    = (bool)body->bound;
 	}
-	if (stateless >= 0) throw std::runtime_error("body #" + std::to_string(stateless) + " has no state: set Body.state = State(...)");
+	if (stateless >= 0)
+		throw std::runtime_error(
+		        "body #" + std::to_string(stateless) + " has no state: set Body.state = State(...)");
 }
 
 void readMotion(const State& state, BodyReading& reading)

@@ -8,17 +8,17 @@ namespace yade::nscd {
 
 struct BodyReading {
 	nonsmooth::contact::plane::Motion motion;
-	Real        z;
-	Real        mass, inertia; // of motion in the plane
-	Real        radius;                      // of a sphere, negative for another shape and where there is none
-	unsigned    blocked;                     // State::blockedDOFs
-	bool        present;                     // false: there is no such body, and nothing else is set but the radius
-	bool        clumped;                     // a clump, or of one
-	bool        plain;                       // a sphere and not of a class derived from it, and not a clump
-	bool        aspherical;                  // free to turn, with three different inertias
-	bool        bounded;                     // has a Body::bound
-	bool        planar;                      // all of its velocity is here, and nothing can bring it out of the plane; the others' states are always up to date
-	bool        moved;                       // its state does not know it yet
+	Real                              z;
+	Real                              mass, inertia; // of motion in the plane
+	Real                              radius; // of a sphere, negative for another shape and where there is none
+	unsigned                          blocked; // State::blockedDOFs
+	bool present; // false: there is no such body, and nothing else is set but the radius
+	bool clumped; // a clump, or of one
+	bool plain; // a sphere and not of a class derived from it, and not a clump
+	bool aspherical; // free to turn, with three different inertias
+	bool bounded; // has a Body::bound
+	bool planar; // all of its velocity is here, and nothing can bring it out of the plane; the others' states are always up to date
+	bool moved; // its state does not know it yet
 
 	Vector3r place() const { return Vector3r(motion.position.x, motion.position.y, z); }
 };

@@ -22,24 +22,33 @@ struct alignas(64) Reading {
 	Keeper      keeper = Unknown;
 	bool        cohesive : 1, bounces : 1; // its physics is an NscdPhys; with restitution
 	bool        bonded : 1, yielded : 1, slips : 1;
-	bool        usable : 1;  // its numbers make sense, and its normal lies in the plane
-	bool        active : 1;  // Interaction::isActive
+	bool        usable : 1; // its numbers make sense, and its normal lies in the plane
+	bool        active : 1; // Interaction::isActive
 	bool        wasRead : 1; // its geometry and thresholds are those of the interaction
 	bool        leftOut : 1; // of the last solve, and bears nothing
-	bool        reacts : 1;  // its reactions are not yet those of the interaction
+	bool        reacts : 1; // its reactions are not yet those of the interaction
 
 	Real adhesion = 0, friction = 0, rollingArm = 0;
 	Real residualAdhesion = 0; // of a touching contact without a bond
 	Real normal = 0, tangential = 0, torque = 0, correction = 0; // of the last step
 
 	Interaction*                         interaction = nullptr; // null: the place is free
-	ScGeom*                              geom = nullptr;
-	NscdPhys*                            phys = nullptr; // null where the interaction has another physics
+	ScGeom*                              geom        = nullptr;
+	NscdPhys*                            phys        = nullptr; // null where the interaction has another physics
 	Real                                 restitution = 0;
 	nonsmooth::contact::plane::YieldPath path; // of a bond that the arrays keep
 
 	Reading()
-	        : cohesive(false), bounces(false), bonded(false), yielded(false), slips(false), usable(false), active(true), wasRead(true), leftOut(false), reacts(false)
+	        : cohesive(false)
+	        , bounces(false)
+	        , bonded(false)
+	        , yielded(false)
+	        , slips(false)
+	        , usable(false)
+	        , active(true)
+	        , wasRead(true)
+	        , leftOut(false)
+	        , reacts(false)
 	{
 	}
 };
@@ -51,7 +60,10 @@ struct alignas(64) BondReading {
 	nonsmooth::contact::plane::BondEllipse zone;
 };
 
-inline Vector3r vectorOf(const nonsmooth::contact::plane::YieldPath& path) { return Vector3r(path.tension, path.shear, path.torque); }
+inline Vector3r vectorOf(const nonsmooth::contact::plane::YieldPath& path)
+{
+	return Vector3r(path.tension, path.shear, path.torque);
+}
 
 /// Component of a unit normal along z up to which it lies in the plane.
 constexpr Real flatness = 1e-6;
@@ -60,8 +72,8 @@ constexpr Real flatness = 1e-6;
 inline bool makeSense(const NscdPhys& phys)
 {
 	const Real sum = phys.adhesion + phys.currentFriction + phys.currentRollingArm + phys.length;
-	return phys.adhesion >= 0 && phys.currentFriction >= 0 && phys.currentRollingArm >= 0 && phys.length > 0 && phys.restitution >= 0 && phys.restitution <= 1
-	        && sum <= std::numeric_limits<Real>::max();
+	return phys.adhesion >= 0 && phys.currentFriction >= 0 && phys.currentRollingArm >= 0 && phys.length > 0
+	        && phys.restitution >= 0 && phys.restitution <= 1 && sum <= std::numeric_limits<Real>::max();
 }
 
 /// The cohesive physics of an interaction, null if it has another; the usual two classes are recognised without a search.
@@ -94,7 +106,9 @@ struct Found {
 
 inline Found look(Interaction& i)
 {
-	return { &i, i.isReal() ? static_cast<ScGeom*>(i.geom.get()) : nullptr, i.phys.get(), i.getId1(), i.getId2(), i.isActive };
+	return { &i,           i.isReal() ? static_cast<ScGeom*>(i.geom.get()) : nullptr,
+		 i.phys.get(), i.getId1(),
+		 i.getId2(),   i.isActive };
 }
 
 /// Reads a real interaction.
@@ -130,7 +144,9 @@ inline void read(const Found& found, Reading& r, BondReading& bond)
 	if (!r.bonded) return;
 	r.yielded = phys.yielded;
 	r.path    = { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] };
-	bond      = { { { phys.anchor1[0], phys.anchor1[1] }, { phys.anchor2[0], phys.anchor2[1] }, { phys.axis[0], phys.axis[1] } },
+	bond      = { { { phys.anchor1[0], phys.anchor1[1] },
+		        { phys.anchor2[0], phys.anchor2[1] },
+		        { phys.axis[0], phys.axis[1] } },
 		      { phys.ellipseNormal, phys.ellipseTangential } };
 }
 
@@ -143,7 +159,8 @@ inline void writeReactions(const Reading& r)
 	phys.torque      = r.torque;
 	phys.correction  = r.correction;
 	phys.normalForce = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(r.normal * r.nx, r.normal * r.ny, 0);
-	phys.shearForce  = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(-r.tangential * r.ny, r.tangential * r.nx, 0);
+	phys.shearForce  = r.leftOut ? Vector3r(Vector3r::Zero())
+	                             : Vector3r(-r.tangential * r.ny, r.tangential * r.nx, 0);
 }
 
 } // namespace yade::nscd

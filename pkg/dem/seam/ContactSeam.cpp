@@ -14,14 +14,15 @@ using contact::Impulse;
 using contact::Twist;
 
 namespace {
-	constexpr long   tidyPeriod = 100; // steps
-	constexpr Real   unseen     = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
+	constexpr long tidyPeriod = 100; // steps
+	constexpr Real unseen = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
 
-	constexpr int    mostRecalls = 4; // solves of a step after which all contacts left out are taken in
+	constexpr int mostRecalls = 4; // solves of a step after which all contacts left out are taken in
 
 	[[noreturn]] void refuse(const Body& body, const string& why, const string& remedy)
 	{
-		throw std::runtime_error("ContactDynamicsEngine: body #" + std::to_string(body.getId()) + " " + why + ": " + remedy);
+		throw std::runtime_error(
+		        "ContactDynamicsEngine: body #" + std::to_string(body.getId()) + " " + why + ": " + remedy);
 	}
 }
 
@@ -50,7 +51,8 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k) {
 			const int slot = order[k].slot;
 			if (partOf[k] == Solved) {
-				problem.impulses[in] = warmStart[in] = gatherContact(slot, problem.contacts[in], links[in]);
+				problem.impulses[in] = warmStart[in] = gatherContact(
+				        slot, problem.contacts[in], links[in]);
 				++in;
 			} else if (partOf[k] == Left) {
 				gatherContact(slot, leftContacts[left], leftLinks[left]);
@@ -74,7 +76,7 @@ void ContactSeam::forgetReactions(int slot)
 void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 {
 	const auto& read = resident->bodies;
-	const long size = (long)read.size();
+	const long  size = (long)read.size();
 	// also what a script or an engine after the integrator has added to a list that counts as summed up: ForceResetter does not see it
 	scene.forces.addMaxId(Body::id_t(size));
 	scene.forces.synced = false;
@@ -87,7 +89,9 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	problem.positions.resize(size);
 	present.resize(size);
 	const Real h     = relaxation.step;
-	const auto first = std::find_if(read.begin(), read.end(), [](const BodyReading& b) { return b.present && b.radius > 0; });
+	const auto first = std::find_if(read.begin(), read.end(), [](const BodyReading& b) {
+		return b.present && b.radius > 0;
+	});
 	const Real plane = first == read.end() ? 0 : first->z; // in which all disks lie
 	int        bad   = -1; // body with an unusable state; reported after the loop, which must not throw
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
@@ -113,7 +117,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		const Vector3r &f = scene.forces.getForce(id), &m = scene.forces.getTorque(id);
 		external[id]          = { f[0], f[1], m[2] };
 		problem.positions[id] = s.motion.position;
-		Twist v      = before[id];
+		Twist v               = before[id];
 		if (w.x > 0) v.x += h * (f[0] * w.x + gravity[0]);
 		if (w.y > 0) v.y += h * (f[1] * w.y + gravity[1]);
 		if (w.w > 0) v.w += h * m[2] * w.w;
@@ -121,27 +125,38 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 
 		const bool     moves  = !w.isFixed();
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-		if (!std::isfinite(v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + w.x + w.y + w.w) || (moves && (d & planar) != planar) || s.clumped
-		    || w.x < 0 || w.y < 0 || w.w < 0 || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
+		if (!std::isfinite(v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + w.x + w.y + w.w)
+		    || (moves && (d & planar) != planar) || s.clumped || w.x < 0 || w.y < 0 || w.w < 0
+		    || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
 			bad = std::max(bad, (int)id);
 	}
 	if (bad >= 0) {
 		const Body& body = *(*scene.bodies)[bad];
-		if (body.isClump() || body.isClumpMember()) refuse(body, "belongs to a clump", "clumps are not supported; use single spheres");
+		if (body.isClump() || body.isClumpMember())
+			refuse(body, "belongs to a clump", "clumps are not supported; use single spheres");
 		resident->showBody(bad);
 		const State& s = *body.state;
-		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum())) refuse(body, "has a position or velocity that is not finite", "look at the forces and velocities set by the script");
+		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum()))
+			refuse(body, "has a position or velocity that is not finite",
+			       "look at the forces and velocities set by the script");
 		const auto     number = [](Real value) { return boost::lexical_cast<string>(value); };
 		const unsigned free   = ~s.blockedDOFs;
-		if (((free & (State::DOF_X | State::DOF_Y)) && !(s.mass > 0)) || ((free & State::DOF_RZ) && !(s.inertia[2] > 0)))
-			refuse(body, "can move but has mass = " + number(s.mass) + " kg and inertia = " + number(s.inertia[2]) + " kg m² about z",
+		if (((free & (State::DOF_X | State::DOF_Y)) && !(s.mass > 0))
+		    || ((free & State::DOF_RZ) && !(s.inertia[2] > 0)))
+			refuse(body,
+			       "can move but has mass = " + number(s.mass) + " kg and inertia = " + number(s.inertia[2])
+			               + " kg m² about z",
 			       "set state.mass and state.inertia to positive values, or block its DOFs");
 		if (read[bad].radius > 0 && !(std::abs(s.pos[2] - plane) <= flatness * read[bad].radius))
-			refuse(body, "is at z = " + number(s.pos[2]) + " m and body #" + std::to_string(first - read.begin()) + " at z = " + number(plane) + " m",
+			refuse(body,
+			       "is at z = " + number(s.pos[2]) + " m and body #" + std::to_string(first - read.begin())
+			               + " at z = " + number(plane) + " m",
 			       "put all disks at one z, since only the part of a contact in the x-y plane would act");
 		const Vector3r& f = scene.forces.getForce(bad);
-		if (!std::isfinite(f.sum())) refuse(body, "has a force that is not finite", "look at the engines that add forces");
-		refuse(body, "can leave the x-y plane", "set state.blockedDOFs = 'zXY' (the contact problem is two-dimensional)");
+		if (!std::isfinite(f.sum()))
+			refuse(body, "has a force that is not finite", "look at the engines that add forces");
+		refuse(body, "can leave the x-y plane",
+		       "set state.blockedDOFs = 'zXY' (the contact problem is two-dimensional)");
 	}
 }
 
@@ -149,11 +164,11 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 /// neighbours in memory.
 void ContactSeam::tidy(Scene& scene)
 {
-	auto& list = *scene.interactions;
+	auto&                                list = *scene.interactions;
 	const std::lock_guard<std::mutex>    drawing(list.drawloopmutex); // YADE's viewer walks along it meanwhile
 	std::vector<shared_ptr<Interaction>> sorted(list.begin(), list.begin() + list.size());
-	const auto key = [](const shared_ptr<Interaction>& i) {
-		return std::pair<int, int>(std::min(i->getId1(), i->getId2()), std::max(i->getId1(), i->getId2()));
+	const auto                           key = [](const shared_ptr<Interaction>& i) {
+                return std::pair<int, int>(std::min(i->getId1(), i->getId2()), std::max(i->getId1(), i->getId2()));
 	};
 	std::sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
 	for (size_t k = 0; k < sorted.size(); ++k) {
@@ -175,7 +190,7 @@ void ContactSeam::divide(const Scene& scene)
 	for (long part = 0; part < (long)chunksOf(count); ++part)
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
 			const Reading& reading = resident->readings[order[k].slot];
-			partOf[k]               = None;
+			partOf[k]              = None;
 			if (!reading.active || !present[reading.first] || !present[reading.second]) continue;
 			if (!reading.usable) bad = std::min(bad, (long)k);
 			if (!reading.cohesive) continue;
@@ -195,7 +210,8 @@ bool ContactSeam::mustBeSolved(const Reading& reading) const
 	const Real widest = relaxation.openGap * reading.length;
 	if (reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
 	const Contact c       = frameOf(reading);
-	const Real    closing = std::min(Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
+	const Real    closing = std::min(
+	           Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
 	return reading.gap + 1.2 * relaxation.step * closing <= widest;
 }
 
@@ -204,7 +220,9 @@ size_t ContactSeam::recall()
 {
 	const auto gapAfter = [this](size_t k) {
 		const Contact& c = leftContacts[k];
-		return readingOf(leftLinks[k]).gap + relaxation.step * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
+		return readingOf(leftLinks[k]).gap
+		        + relaxation.step
+		        * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
 	};
 	bool needed = false;
 	for (size_t k = 0; k < leftLinks.size() && !needed; ++k)
@@ -259,12 +277,15 @@ Contact ContactSeam::frameOf(const Reading& reading) const
 	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
 	const int  i = swapped ? id2 : id1, j = swapped ? id1 : id2;
 	if (s1 && s2) return contact::plane::diskFrame(i, j, nx, ny, radius[i], radius[j], reading.gap);
-	Contact    c;
-	c.i  = i;
-	c.j  = j;
-	c.nx = nx;
-	c.ny = ny;
-	const auto lever = [&](int id) { return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x, reading.geom->contactPoint[1] - problem.positions[id].y }; };
+	Contact c;
+	c.i              = i;
+	c.j              = j;
+	c.nx             = nx;
+	c.ny             = ny;
+	const auto lever = [&](int id) {
+		return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x,
+			                reading.geom->contactPoint[1] - problem.positions[id].y };
+	};
 	const auto ri = lever(i), rj = lever(j);
 	c.leverNi = ny * ri.x - nx * ri.y;
 	c.leverTi = ri.x * nx + ri.y * ny;
@@ -280,7 +301,7 @@ Impulse ContactSeam::gatherContact(int slot, Contact& result, Link& link) const
 	const Reading& reading = resident->readings[slot];
 	const Real     gap = reading.gap, h = relaxation.step;
 	Contact        c = frameOf(reading);
-	link         = { slot, reading.correction };
+	link             = { slot, reading.correction };
 	if (!reading.bonded && gap > 0) c.biasN = gap / h;
 	if (reading.bounces && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
@@ -292,7 +313,8 @@ Impulse ContactSeam::gatherContact(int slot, Contact& result, Link& link) const
 	c.rollingArm = reading.rollingArm;
 	c.length     = reading.length;
 	result       = c;
-	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed()) return {}; // no reaction is found, so none may stay
+	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed())
+		return {}; // no reaction is found, so none may stay
 	return { h * reading.normal, h * reading.tangential, h * reading.torque };
 }
 

@@ -13,11 +13,11 @@ namespace yade::nscd {
 
 /// How errors of position are dealt with, see contact/law.hpp and contact/solver.hpp.
 struct Relaxation {
-	Real step;         // h [s]
-	Real rate;         // κ, share of an overlap or bond error that one step takes back
+	Real step; // h [s]
+	Real rate; // κ, share of an overlap or bond error that one step takes back
 	Real largestSpeed; // of that correction [m/s]
-	Real slack;        // overlaps and bond errors up to this [ℓ] stay
-	Real openGap;      // a gap wider than this [ℓ] that will not close in the step is left out
+	Real slack; // overlaps and bond errors up to this [ℓ] stay
+	Real openGap; // a gap wider than this [ℓ] that will not close in the step is left out
 };
 
 /// A gathered contact's place in Resident::readings.
@@ -30,9 +30,9 @@ struct Link {
 struct StepSums {
 	// contacts
 	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
-	Real overlap = 0, worstOverlap = 0;                       // sum and maximum over contacts, in units of ℓ
-	int  worstIds[2] = { -1, -1 };                            // bodies of the first contact that has the maximum
-	Real contactRate = 0, bondRate = 0;                       // [1/s], see NonsmoothTimeStepper
+	Real overlap = 0, worstOverlap = 0; // sum and maximum over contacts, in units of ℓ
+	int  worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
+	Real contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
 	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 	// bodies
 	Real     kinetic = 0, potential = 0, external = 0, wallWork = 0; // [J]; external and wallWork during the step
@@ -42,27 +42,33 @@ struct StepSums {
 	int      bodies = 0;
 
 	void add(const StepSums& other);
-	bool anyBroken() const { return std::any_of(std::begin(broken), std::end(broken), [](int count) { return count > 0; }); }
+	bool anyBroken() const
+	{
+		return std::any_of(std::begin(broken), std::end(broken), [](int count) { return count > 0; });
+	}
 };
 
 class ContactSeam {
 public:
 	/// Makes the contact problem of a step; throws std::runtime_error naming the body where the scene cannot be taken.
-	void gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
+	void
+	gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
 	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids; returns how many. They need another solve. After
 	/// a few rounds it takes in all.
 	size_t recall();
 	/// After the last solve: finds how far bodies are to be displaced to take back overlaps and bonds' errors of length; scatter moves them.
-	void correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace, int sweeps);
+	void
+	correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace,
+	        int sweeps);
 	/// Takes reactions to the contacts, average contact forces to O.forces, and slip to the walls.
 	/// `rates`: also how fast contacts and bonds change, for the choice of the next step.
 	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads, bool rates);
 
-	nonsmooth::contact::Problem problem;
+	nonsmooth::contact::Problem              problem;
 	std::vector<nonsmooth::contact::Impulse> warmStart; // what the solve began with
-	std::vector<Link>           links;
-	std::vector<size_t>         broken; // places of the contacts whose bonds broke in the step
-	const Reading&              readingOf(const Link& link) const { return resident->readings[link.slot]; }
+	std::vector<Link>                        links;
+	std::vector<size_t>                      broken; // places of the contacts whose bonds broke in the step
+	const Reading& readingOf(const Link& link) const { return resident->readings[link.slot]; }
 
 private:
 	/// What becomes of a contact in a step.
@@ -72,40 +78,42 @@ private:
 	static constexpr size_t sumChunk = 1024;
 	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
 
-	void gatherBodies(Scene& scene, const Vector3r& gravity);
-	void tidy(Scene& scene);
-	void divide(const Scene& scene);
-	bool mustBeSolved(const Reading& reading) const;
+	void                        gatherBodies(Scene& scene, const Vector3r& gravity);
+	void                        tidy(Scene& scene);
+	void                        divide(const Scene& scene);
+	bool                        mustBeSolved(const Reading& reading) const;
 	nonsmooth::contact::Contact frameOf(const Reading& reading) const;
 	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
-	void forgetReactions(int slot);
-	void scatterContact(size_t k, const nonsmooth::contact::Impulse& u);
-	void sumReactions();
-	void scatterForces(Scene& scene, size_t begin, size_t end);
-	void turnBack(long k);
-	void displace(size_t begin, size_t end);
-	bool yieldsInTension(size_t k, const nonsmooth::contact::Impulse& u) const;
-	void rateContact(size_t k, const nonsmooth::contact::Impulse& u, StepSums& sums) const;
-	void sumContact(size_t k, const nonsmooth::contact::Impulse& u1, StepSums& sums) const;
-	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
+	void                        forgetReactions(int slot);
+	void                        scatterContact(size_t k, const nonsmooth::contact::Impulse& u);
+	void                        sumReactions();
+	void                        scatterForces(Scene& scene, size_t begin, size_t end);
+	void                        turnBack(long k);
+	void                        displace(size_t begin, size_t end);
+	bool                        yieldsInTension(size_t k, const nonsmooth::contact::Impulse& u) const;
+	void                        rateContact(size_t k, const nonsmooth::contact::Impulse& u, StepSums& sums) const;
+	void                        sumContact(size_t k, const nonsmooth::contact::Impulse& u1, StepSums& sums) const;
+	void                        sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
-	Relaxation                             relaxation { 1, 0, 0, 0, 0 };
-	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
-	std::vector<Link>                        leftLinks;    // their links
-	int                                    threads = 1;
-	int                                    recalls = 0; // of this step
-	std::vector<nonsmooth::contact::Twist> before; // velocities at the beginning of the step
-	std::vector<nonsmooth::contact::Twist> external; // force and torque of other engines [N, N m]
-	std::vector<nonsmooth::contact::Twist> reaction; // sum of contact impulses on each body
-	std::vector<nonsmooth::contact::PositionError> errors;        // of contacts
-	nonsmooth::contact::PositionCorrection         correction;    // none where there are no displacements
-	std::vector<nonsmooth::contact::Twist>         turning;       // of bodies: impulses that keep the angular momentum, see turnBack [N s]
-	std::vector<char>                      present;
-	Resident*                              resident = nullptr; // during a step
-	std::vector<Part>                      partOf;             // by place in the order of contacts
-	std::vector<size_t>                    solvedBefore, leftBefore; // contacts to be solved, and left out, before each chunk of them, and all
-	std::vector<Real>                      radius; // of spheres, negative for other shapes
-	std::vector<Real>                      mass, inertia;
+	Relaxation                                     relaxation { 1, 0, 0, 0, 0 };
+	std::vector<nonsmooth::contact::Contact>       leftContacts; // left out of the solve, with
+	std::vector<Link>                              leftLinks; // their links
+	int                                            threads = 1;
+	int                                            recalls = 0; // of this step
+	std::vector<nonsmooth::contact::Twist>         before; // velocities at the beginning of the step
+	std::vector<nonsmooth::contact::Twist>         external; // force and torque of other engines [N, N m]
+	std::vector<nonsmooth::contact::Twist>         reaction; // sum of contact impulses on each body
+	std::vector<nonsmooth::contact::PositionError> errors; // of contacts
+	nonsmooth::contact::PositionCorrection         correction; // none where there are no displacements
+	std::vector<nonsmooth::contact::Twist>
+	                    turning; // of bodies: impulses that keep the angular momentum, see turnBack [N s]
+	std::vector<char>   present;
+	Resident*           resident = nullptr; // during a step
+	std::vector<Part>   partOf; // by place in the order of contacts
+	std::vector<size_t> solvedBefore,
+	        leftBefore; // contacts to be solved, and left out, before each chunk of them, and all
+	std::vector<Real> radius; // of spheres, negative for other shapes
+	std::vector<Real> mass, inertia;
 };
 
 } // namespace yade::nscd

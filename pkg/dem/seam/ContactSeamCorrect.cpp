@@ -20,7 +20,8 @@ namespace {
 /// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
 bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
 {
-	return readingOf(links[k]).bonded && contact::plane::yieldsInTension(problem.contacts[k], problem.impulses[k], u);
+	return readingOf(links[k]).bonded
+	        && contact::plane::yieldsInTension(problem.contacts[k], problem.impulses[k], u);
 }
 
 void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
@@ -34,12 +35,12 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 	errors.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
 	for (long k = 0; k < count; ++k) {
-		const Contact& c   = problem.contacts[k];
-		const Impulse  u   = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-		auto&          e   = errors[k];
-		const Reading& r   = readingOf(links[k]);
-		e.impulse          = links[k].correction;
-		e.held             = r.bonded && !yieldsInTension(k, u);
+		const Contact& c = problem.contacts[k];
+		const Impulse  u = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		auto&          e = errors[k];
+		const Reading& r = readingOf(links[k]);
+		e.impulse        = links[k].correction;
+		e.held           = r.bonded && !yieldsInTension(k, u);
 		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
 		const Real slack = relaxation.slack * c.length, off = r.gap - (e.held ? r.restGap : 0);
 		e.error = e.held ? beyond(off + h * u.n, slack) - (1 - relaxation.rate) * beyond(off, slack)
@@ -59,11 +60,13 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 void ContactSeam::turnBack(long k)
 {
 	const Contact& c    = problem.contacts[k];
-	const auto     free = [this](int body) { return problem.inverseMass[body].x > 0 && problem.inverseMass[body].x == problem.inverseMass[body].y; };
+	const auto     free = [this](int body) {
+                return problem.inverseMass[body].x > 0 && problem.inverseMass[body].x == problem.inverseMass[body].y;
+	};
 	if (!free(c.i) || !free(c.j)) return; // what holds a body takes its angular momentum
 	const auto &vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
 	const auto &di = correction.displacements[c.i], &dj = correction.displacements[c.j];
-	const Real  passing  = -c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y);
+	const Real  passing = -c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y);
 	const auto &xi = problem.positions[c.i], &xj = problem.positions[c.j];
 	const Real  distance = c.nx * (xj.x + dj.x - xi.x - di.x) + c.ny * (xj.y + dj.y - xi.y - di.y);
 	if (!(distance > 0)) return;

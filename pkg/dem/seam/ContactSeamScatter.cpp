@@ -56,11 +56,12 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 #pragma omp for schedule(dynamic, 1)
 		for (long part = 0; part < (long)chunksC; ++part) {
 			const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
-			StepSums sums; // by themselves, since `parts` and `slip` share cache lines between threads
-			bool     slips = false;
+			StepSums     sums; // by themselves, since `parts` and `slip` share cache lines between threads
+			bool         slips = false;
 			for (size_t k = begin; k < end; ++k) {
 				const Contact& c = problem.contacts[k];
-				const Impulse  u = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+				const Impulse  u = contact::relativeVelocity(
+				         c, problem.velocities[c.i], problem.velocities[c.j]);
 				scatterContact(k, u);
 				slips |= readingOf(links[k]).slips;
 				sumContact(k, u, sums);
@@ -86,11 +87,14 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 			const Contact& c = problem.contacts[k];
 			const Reading& r = readingOf(links[k]);
 			if (!r.slips || problem.impulses[k].n + c.adhesion <= 0) continue;
-			r.phys->addSlip(std::abs(h * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).t), scene.iter);
+			const auto apart = contact::relativeVelocity(
+			        c, problem.velocities[c.i], problem.velocities[c.j]);
+			r.phys->addSlip(std::abs(h * apart.t), scene.iter);
 		}
 	broken.clear();
 	for (size_t part = 0; part < chunksC; ++part)
-		for (size_t k = part * sumChunk; parts[part].anyBroken() && k < std::min((part + 1) * sumChunk, count); ++k)
+		for (size_t k = part * sumChunk; parts[part].anyBroken() && k < std::min((part + 1) * sumChunk, count);
+		     ++k)
 			if (readingOf(links[k]).broken != NscdPhys::None) broken.push_back(k);
 	StepSums total;
 	for (const StepSums& s : parts)
@@ -131,8 +135,8 @@ void ContactSeam::sumReactions()
 {
 	reaction.assign(before.size(), {});
 	for (size_t k = 0; k < links.size(); ++k) {
-		const Contact& c = problem.contacts[k];
-		const Impulse& p = problem.impulses[k];
+		const Contact& c  = problem.contacts[k];
+		const Impulse& p  = problem.impulses[k];
 		const Real     fx = c.nx * p.n - c.ny * p.t, fy = c.ny * p.n + c.nx * p.t;
 		Twist &        ri = reaction[c.i], &rj = reaction[c.j];
 		ri.x -= fx;
@@ -161,20 +165,21 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 /// How fast a contact turns and its bond crosses its ellipse at the end of the step.
 inline void ContactSeam::rateContact(size_t k, const Impulse& u, StepSums& sums) const
 {
-	const Contact& c = problem.contacts[k];
+	const Contact& c  = problem.contacts[k];
 	const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
 	const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
 	const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
-	if (wall)
-		sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
-	else if (!(dx * dx + dy * dy < (1 - 1e-9) * most * most)) // the root, which is slow, only where it may be the largest
+	if (wall) sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
+	else if (!(dx * dx + dy * dy
+	           < (1 - 1e-9) * most * most)) // the root, which is slow, only where it may be the largest
 		sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
 	const Reading& r = readingOf(links[k]);
 	if (!r.bonded) return;
 	const bool  inArrays = r.keeper == Reading::Arrays;
 	const auto& zone     = resident->bonds[links[k].slot].zone;
-	const Real  along = inArrays ? zone.normal : r.phys->ellipseNormal, across = inArrays ? zone.tangential : r.phys->ellipseTangential;
-	sums.bondRate     = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
+	const Real  along    = inArrays ? zone.normal : r.phys->ellipseNormal,
+	           across    = inArrays ? zone.tangential : r.phys->ellipseTangential;
+	sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
 }
 
 inline void ContactSeam::sumContact(size_t k, const Impulse& u1, StepSums& sums) const
@@ -207,7 +212,7 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 	for (size_t id = begin; id < end; ++id) {
 		if (!present[id]) continue;
 		const Twist &v0 = before[id], &v1 = problem.velocities[id], &r = reaction[id], &f = external[id];
-		const auto&  w  = problem.inverseMass[id];
+		const auto&  w = problem.inverseMass[id];
 		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
 		const Real half = 0.5 * relaxation.step, x = v0.x + v1.x, y = v0.y + v1.y, a = v0.w + v1.w;
 		sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));
@@ -223,12 +228,14 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 			const Twist &d = correction.displacements[id], &p = turning[id];
 			v2.x += w.x * p.x;
 			v2.y += w.y * p.y;
-			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y)) - mass[id] * gravity.dot(Vector3r(d.x, d.y, 0));
+			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y))
+			        - mass[id] * gravity.dot(Vector3r(d.x, d.y, 0));
 		}
 		sums.mass += mass[id];
 		sums.centre += mass[id] * at;
 		sums.momentum += mass[id] * Vector3r(v2.x, v2.y, 0);
-		const Real speed = std::sqrt(v2.x * v2.x + v2.y * v2.y); // not hypot, whose last bit is the C library's own
+		const Real speed = std::sqrt(
+		        v2.x * v2.x + v2.y * v2.y); // not hypot, whose last bit is the C library's own
 		sums.speed += speed;
 		sums.largestSpeed = std::max(sums.largestSpeed, speed);
 		++sums.bodies;

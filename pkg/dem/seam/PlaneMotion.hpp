@@ -10,7 +10,8 @@ namespace yade::nscd {
 inline bool staysInPlane(const State& s)
 {
 	constexpr unsigned out = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-	return (s.blockedDOFs & out) == out && s.vel[2] == 0 && s.angVel[0] == 0 && s.angVel[1] == 0 && s.ori.x() == 0 && s.ori.y() == 0;
+	return (s.blockedDOFs & out) == out && s.vel[2] == 0 && s.angVel[0] == 0 && s.angVel[1] == 0 && s.ori.x() == 0
+	        && s.ori.y() == 0;
 }
 
 inline nonsmooth::contact::plane::Motion motionOf(const State& s)

@@ -11,7 +11,10 @@
 namespace yade::nscd {
 
 namespace {
-	double clockNow() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+	double clockNow()
+	{
+		return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+	}
 
 	/// Shows what a thread leaves when it ends: YADE starts one for each O.run, and O.pause() may end it behind our last look.
 	struct ThreadEnd {
@@ -27,8 +30,9 @@ namespace {
 	bool isAs(const State& s, const BodyReading& known)
 	{
 		const auto& m = known.motion;
-		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w
-		        && s.ori.z() == m.rotation.z && s.ori.w() == m.rotation.w;
+		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x
+		        && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w && s.ori.z() == m.rotation.z
+		        && s.ori.w() == m.rotation.w;
 	}
 
 	/// Brings the state of the body of that id up to date, but for one that is gone, or was changed by somebody else since it was as in `asShown`.
@@ -44,13 +48,14 @@ namespace {
 
 std::shared_ptr<Resident> Resident::of(Scene& scene)
 {
-	static std::mutex                                 mutex;
+	static std::mutex                                        mutex;
 	static std::map<const Scene*, std::shared_ptr<Resident>> all;
-	const std::lock_guard<std::mutex>                 guard(mutex);
-	auto&                                             found = all[&scene];
+	const std::lock_guard<std::mutex>                        guard(mutex);
+	auto&                                                    found = all[&scene];
 	if (found && found->container.lock() == scene.bodies) return found; // a new scene may lie where an old one was
 	for (auto it = all.begin(); it != all.end();)
-		it = it->first != &scene && (!it->second || it->second->container.expired()) ? all.erase(it) : std::next(it);
+		it = it->first != &scene && (!it->second || it->second->container.expired()) ? all.erase(it)
+		                                                                             : std::next(it);
 	found            = std::make_shared<Resident>();
 	found->container = scene.bodies;
 	return found;
@@ -62,7 +67,8 @@ void Resident::takeBodies(Scene& scene)
 	readBodies(scene, threads, bodies);
 	shaped.clear();
 	for (size_t id = 0; id < bodies.size(); ++id)
-		if (const BodyReading& b = bodies[id]; b.present && !(b.radius > 0) && !b.clumped) shaped.push_back(int(id));
+		if (const BodyReading& b = bodies[id]; b.present && !(b.radius > 0) && !b.clumped)
+			shaped.push_back(int(id));
 	if (othersMayLook(scene)) asShown = bodies;
 	else
 		asShown.clear();
@@ -73,9 +79,9 @@ void Resident::takeBodies(Scene& scene)
 void Resident::takeContacts(Scene& scene)
 {
 	const double begin = clockNow();
-	auto&      list = *scene.interactions;
-	const int  size = int(bodies.size());
-	const long all  = (long)list.size();
+	auto&        list  = *scene.interactions;
+	const int    size  = int(bodies.size());
+	const long   all   = (long)list.size();
 	found.resize(all);
 	long unreal = 0;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : unreal)
@@ -86,14 +92,17 @@ void Resident::takeContacts(Scene& scene)
 	}
 	const auto each = [&](auto take) {
 		for (long k = 0; k < all; ++k) {
-			const int low = std::min(found[k].first, found[k].second), high = std::max(found[k].first, found[k].second);
+			const int low  = std::min(found[k].first, found[k].second),
+			          high = std::max(found[k].first, found[k].second);
 			if (found[k].geom && low >= 0 && high < size) take(low, Place { low, high, int(k) });
 		}
 	};
 	nonsmooth::neighbours::sortIntoBuckets(bodies.size(), each, bucket, order);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < (long)bodies.size(); ++k)
-		std::sort(order.begin() + bucket[k], order.begin() + bucket[k + 1], [](const Place& a, const Place& b) { return a.high < b.high; });
+		std::sort(order.begin() + bucket[k], order.begin() + bucket[k + 1], [](const Place& a, const Place& b) {
+			return a.high < b.high;
+		});
 	const long count = (long)order.size();
 	readings.resize(count);
 	bonds.resize(count);
@@ -134,7 +143,9 @@ bool Resident::takeKnown(Scene& scene)
 	const double begin = clockNow();
 	auto&        list  = *scene.interactions;
 	if (list.size() != order.size() + potential.size()) return false;
-	const auto isThere = [&](const shared_ptr<Interaction>& i) { return i->linIx >= 0 && size_t(i->linIx) < list.size() && list[i->linIx] == i; };
+	const auto isThere = [&](const shared_ptr<Interaction>& i) {
+		return i->linIx >= 0 && size_t(i->linIx) < list.size() && list[i->linIx] == i;
+	};
 	for (const Potential& p : potential)
 		if (!isThere(p.interaction) || p.interaction->isReal()) return false;
 	const long count = (long)order.size();
@@ -142,12 +153,14 @@ bool Resident::takeKnown(Scene& scene)
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
 	for (long k = 0; k < count; ++k) {
 		if (k + (long)later < count) fetch<sizeof(Interaction)>(readings[order[k + later].slot].interaction);
-		if (k + (long)soon < count && readings[order[k + soon].slot].phys) fetch<1>(&readings[order[k + soon].slot].phys->touched);
+		if (k + (long)soon < count && readings[order[k + soon].slot].phys)
+			fetch<1>(&readings[order[k + soon].slot].phys->touched);
 		const int     slot = order[k].slot;
 		const Holder& held = holders[slot];
 		Interaction&  i    = *held.interaction;
 		Reading&      r    = readings[slot];
-		if (!isThere(held.interaction) || i.geom != held.geom || i.phys != held.phys || i.getId1() != r.first) other = true;
+		if (!isThere(held.interaction) || i.geom != held.geom || i.phys != held.phys || i.getId1() != r.first)
+			other = true;
 		else if (r.keeper != Reading::Arrays || r.phys->touched)
 			readSlot(look(i), slot);
 		else {
@@ -169,7 +182,9 @@ void Resident::hold()
 	const long count = (long)readings.size();
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k)
-		if (Interaction* i = readings[k].interaction) holders[k] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()), i->geom, i->phys };
+		if (Interaction* i = readings[k].interaction)
+			holders[k] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()), i->geom,
+				       i->phys };
 }
 
 void Resident::displace(size_t id, const nonsmooth::contact::Twist& d)
@@ -227,7 +242,7 @@ void Resident::showContact(int slot) const
 		geom.normal           = Vector3r(r.nx, r.ny, r.nz);
 		phys.adhesion         = r.adhesion;
 		phys.currentFriction = phys.tangensOfFrictionAngle = r.friction;
-		phys.currentRollingArm                              = r.rollingArm;
+		phys.currentRollingArm                             = r.rollingArm;
 	}
 	if (r.bonded) {
 		phys.restGap   = r.restGap;
@@ -261,8 +276,10 @@ void Resident::show(const string& who, bool staysKnown)
 #pragma omp parallel for schedule(static) num_threads(threads)
 		for (long id = 0; id < count; ++id) {
 			if (id + (long)later < count) fetch<sizeof(Body)>((*kept)[id + later].get());
-			if (id + (long)soon < count && (*kept)[id + soon]) fetch<sizeof(State)>((*kept)[id + soon]->state.get());
-			write(bodies[id], (*kept)[id], id, asShown); // threads would wait for each other if each body asked for the container
+			if (id + (long)soon < count && (*kept)[id + soon])
+				fetch<sizeof(State)>((*kept)[id + soon]->state.get());
+			write(bodies[id], (*kept)[id], id,
+			      asShown); // threads would wait for each other if each body asked for the container
 		}
 	}
 	if (bodiesOwned || contactsOwned) {
@@ -326,12 +343,14 @@ void Resident::add(const shared_ptr<Interaction>& interaction)
 void Resident::merge(InteractionContainer& list)
 {
 	if (come.empty() && gone.empty()) return;
-	const auto before = [](const Place& a, const Place& b) { return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high); };
+	const auto before = [](const Place& a, const Place& b) {
+		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
+	};
 	std::sort(come.begin(), come.end(), before);
 	std::sort(gone.begin(), gone.end());
 	merged.clear();
 	merged.reserve(order.size() + come.size());
-	auto next = come.begin();
+	auto next    = come.begin();
 	auto leaving = gone.begin();
 	for (size_t k = 0; k < order.size(); ++k) {
 		const Place& place = order[k];
@@ -363,7 +382,7 @@ void Resident::repack()
 {
 	const long count = (long)order.size();
 	const auto pack  = [&](auto& items) {
-		std::remove_reference_t<decltype(items)> sorted(count);
+                std::remove_reference_t<decltype(items)> sorted(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
 		for (long k = 0; k < count; ++k)
 			sorted[k] = std::move(items[order[k].slot]);
@@ -388,7 +407,8 @@ void Resident::forgetErased(InteractionContainer& list)
 bool Resident::isBehind(const Scene& scene) const
 {
 	auto& list = *scene.interactions;
-	return bodies.size() != scene.bodies->size() || !scene.bodies->checkedByCollider || list.dirty || list.size() != interactionsSeen;
+	return bodies.size() != scene.bodies->size() || !scene.bodies->checkedByCollider || list.dirty
+	        || list.size() != interactionsSeen;
 }
 
 Turn::Turn(Engine& engine_, int threads)
@@ -418,12 +438,13 @@ Turn::Turn(Engine& engine_, int threads)
 
 void Turn::end()
 {
-	Scene& scene = *engine.scene;
+	Scene& scene  = *engine.scene;
 	Viewer viewer = whoLooksAfter(scene, engine);
 	if (viewer.name.empty() && othersMayLook(scene)) {
 		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
 		threadEnd.last = data;
-		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfLook)) viewer = { "others, now and then", true };
+		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfLook))
+			viewer = { "others, now and then", true };
 	}
 	if (!viewer.name.empty()) data->show(viewer.name, viewer.isPython);
 	data->interactionsSeen = scene.interactions->size();

@@ -84,18 +84,18 @@ public:
 	std::vector<BodyReading> bodies; // by id
 	std::vector<int>         shaped; // those that are no disks and of no clump
 	std::vector<Reading>     readings; // by slot
-	std::vector<BondReading> bonds;    // by slot, of contacts that the arrays keep
+	std::vector<BondReading> bonds; // by slot, of contacts that the arrays keep
 	std::vector<Place>       order;
 	std::vector<int>         gone; // places in the order of contacts that are to be left out
 	/// Interactions that are not real, in the order of their list after the last loop; and the step of that loop.
-	std::vector<Potential>               potential;
-	long                                 potentialOf = never;
+	std::vector<Potential> potential;
+	long                   potentialOf = never;
 	/// Where bodies were when the geometry of contacts was found; by id.
 	std::vector<nonsmooth::contact::Point> places;
-	static constexpr long never = std::numeric_limits<long>::min();
+	static constexpr long                  never = std::numeric_limits<long>::min();
 
-	long   shown = 0;    // times so far
-	string shownTo;      // who looked the last time
+	long   shown = 0; // times so far
+	string shownTo; // who looked the last time
 
 private:
 	friend class Turn;
@@ -105,28 +105,31 @@ private:
 		shared_ptr<IPhys>       phys;
 	};
 	std::unique_lock<std::recursive_mutex> betweenTurns();
-	bool takeKnown(Scene& scene);
-	int  slotOf(const shared_ptr<Interaction>& interaction);
-	void showContact(int slot) const;
-	void repack();
-	bool isBehind(const Scene& scene) const;
+	bool                                   takeKnown(Scene& scene);
+	int                                    slotOf(const shared_ptr<Interaction>& interaction);
+	void                                   showContact(int slot) const;
+	void                                   repack();
+	bool                                   isBehind(const Scene& scene) const;
 
-	int                                      threads = 1; // those of the last turn
-	std::recursive_mutex                     lock; // an engine's turn, or a look from another thread
-	std::atomic<int>                         waiting { 0 }; // threads that want to look; turns follow each other too closely for them to come in by chance
-	bool                                     beingSaved = false; // by a thread that holds Python's lock until it has written all
-	boost::weak_ptr<BodyContainer>           container;
-	bool                                     bodiesOwned = false, contactsOwned = false, held = false;
-	bool                                     contactsKnown = false; // not owned, but as they were shown unless Python has changed them
-	size_t                                   interactionsSeen = 0; // at the end of the last turn
-	std::vector<BodyReading>                 asShown; // during a run in the background: what the states had when they were last written or read
-	std::vector<Holder>                      holders; // by slot
-	std::vector<int>                         freeSlots;
-	size_t                                   strewn = 0; // contacts that came since slots were last in their order
-	std::vector<Place>                       come, merged;
-	std::vector<int>                         bucket;
-	std::vector<Found>                       found; // by place in the list of interactions
-	double                                   lastShown = 0, costOfLook = 0; // by a clock [s]; of the last time, with what was taken since
+	int                  threads = 1; // those of the last turn
+	std::recursive_mutex lock; // an engine's turn, or a look from another thread
+	std::atomic<int>     waiting {
+                0
+	}; // threads that want to look; turns follow each other too closely for them to come in by chance
+	bool beingSaved = false; // by a thread that holds Python's lock until it has written all
+	boost::weak_ptr<BodyContainer> container;
+	bool                           bodiesOwned = false, contactsOwned = false, held = false;
+	bool   contactsKnown    = false; // not owned, but as they were shown unless Python has changed them
+	size_t interactionsSeen = 0; // at the end of the last turn
+	std::vector<BodyReading>
+	        asShown; // during a run in the background: what the states had when they were last written or read
+	std::vector<Holder> holders; // by slot
+	std::vector<int>    freeSlots;
+	size_t              strewn = 0; // contacts that came since slots were last in their order
+	std::vector<Place>  come, merged;
+	std::vector<int>    bucket;
+	std::vector<Found>  found; // by place in the list of interactions
+	double lastShown = 0, costOfLook = 0; // by a clock [s]; of the last time, with what was taken since
 };
 
 /// An engine's turn. Throws std::runtime_error where bodies cannot be read.
@@ -135,7 +138,7 @@ public:
 	Turn(Engine& engine, int threads);
 	~Turn();
 	/// Ends it: shows where somebody may look before the next one. Without it, as where an exception leaves, all is shown.
-	void end();
+	void      end();
 	Resident& resident() { return *data; }
 
 private:

@@ -9,7 +9,7 @@ from ..verification.lmgc90_packing import carried
 __all__ = ["carried", "lmgc90", "measure", "solve_cold"]
 
 LOOSE, TIGHT = 1e-4, 1e-7  # residuals of the solve and of what it is compared with
-SWEEPS = 50_000            # at most; a slope whose bonds share the load may not get to the tight one
+SWEEPS = 50_000  # at most; a slope whose bonds share the load may not get to the tight one
 
 
 def solve_cold(problem):
@@ -17,9 +17,16 @@ def solve_cold(problem):
     loose = contact.solve(problem, start="cold", tolerance=LOOSE, max_iterations=SWEEPS)
     # late in a solve the residual rises and falls over tens of sweeps: seldom looked at, it causes fewer needless restarts
     tight = contact.solve(problem, start="cold", tolerance=TIGHT, max_iterations=SWEEPS, check_every=50)
-    return {"contacts": len(problem.length), "sweeps": loose.iterations, "restarts": loose.restarts, "converged": loose.converged, "residual": loose.relative,
-            "share_of_weight": carried(problem, loose.impulse) / carried(problem, tight.impulse), "sweeps_tight": tight.iterations,
-            "residual_tight": tight.relative}
+    return {
+        "contacts": len(problem.length),
+        "sweeps": loose.iterations,
+        "restarts": loose.restarts,
+        "converged": loose.converged,
+        "residual": loose.relative,
+        "share_of_weight": carried(problem, loose.impulse) / carried(problem, tight.impulse),
+        "sweeps_tight": tight.iterations,
+        "residual_tight": tight.relative,
+    }
 
 
 def measure(folder, problem):

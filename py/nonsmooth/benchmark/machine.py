@@ -16,9 +16,19 @@ def describe() -> dict:
     """Processor, its cores and caches, compiler, versions, load average and date, as far as the system tells."""
     import _nonsmooth_contact
 
-    return {"cpu": _cpu_model(), "cores": os.cpu_count(), "caches": _caches(), "memory_GB": _memory(), "compiler": _nonsmooth_contact.compiler,
-            "best_path": _nonsmooth_contact.kernels[0], "system": platform.platform(), "python": platform.python_version(), "yade": config.version,
-            "load_average": list(os.getloadavg()), "date": datetime.datetime.now().astimezone().isoformat(timespec="seconds")}
+    return {
+        "cpu": _cpu_model(),
+        "cores": os.cpu_count(),
+        "caches": _caches(),
+        "memory_GB": _memory(),
+        "compiler": _nonsmooth_contact.compiler,
+        "best_path": _nonsmooth_contact.kernels[0],
+        "system": platform.platform(),
+        "python": platform.python_version(),
+        "yade": config.version,
+        "load_average": list(os.getloadavg()),
+        "date": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
+    }
 
 
 def _cpu_model():
@@ -26,7 +36,10 @@ def _cpu_model():
         lines = Path("/proc/cpuinfo").read_text().splitlines()
     except OSError:
         lines = []
-    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), platform.processor() or platform.machine())
+    return next(
+        (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")),
+        platform.processor() or platform.machine(),
+    )
 
 
 def _caches():

@@ -42,17 +42,29 @@ def summarise(found) -> dict:
     rest, moving, soft = (_of(found["steps"], state, found["threads"]) for state in ("rest", "moving", "soft"))
     sweeps, cold, hard = found["sweeps"], found["cold_start"]["slope"], {"rest": rest, "moving": moving}
     step, soft_step = rest["step_ms"]["median"], soft["step_ms"]["median"]
-    spreads = {"sweep_ns_per_contact": sweeps["ns_per_contact"]["best"], "sweep_speedup_over_scalar": sweeps["speedup_over_reference"]["best"],
-               "sweep_speedup_two_threads": sweeps["speedup_two_threads"], "step_ms": rest["step_ms"], "soft_step_ms": soft["step_ms"]}
-    return {**{name: s["median"] for name, s in spreads.items()},
-            "step_over_soft_step": step / soft_step,
-            "simulated_second_over_soft": step / rest["time_step_s"] / (soft_step / soft["time_step_s"]),
-            "outside_solve_over_solve": {state: _outside_over_solve(m) for state, m in hard.items()},
-            **{f"correction_over_step{which}": m["stage_ms"]["correct"]["mean"] / m["step_ms"]["mean"] for which, m in (("", rest), ("_moving", moving))},
-            "stage_ms": {state: {name: s["mean"] for name, s in m["stage_ms"].items()} for state, m in hard.items()},
-            "cold_sweeps_to_1e-4": cold["sweeps"], "warm_sweeps_mean": rest["sweeps_mean"],
-            "fraction_of_bandwidth_bound": sweeps["fraction_of_bandwidth_bound"]["working_set"],
-            "quartiles": {name: s["quartiles"] for name, s in spreads.items()}, **found}
+    spreads = {
+        "sweep_ns_per_contact": sweeps["ns_per_contact"]["best"],
+        "sweep_speedup_over_scalar": sweeps["speedup_over_reference"]["best"],
+        "sweep_speedup_two_threads": sweeps["speedup_two_threads"],
+        "step_ms": rest["step_ms"],
+        "soft_step_ms": soft["step_ms"],
+    }
+    return {
+        **{name: s["median"] for name, s in spreads.items()},
+        "step_over_soft_step": step / soft_step,
+        "simulated_second_over_soft": step / rest["time_step_s"] / (soft_step / soft["time_step_s"]),
+        "outside_solve_over_solve": {state: _outside_over_solve(m) for state, m in hard.items()},
+        **{
+            f"correction_over_step{which}": m["stage_ms"]["correct"]["mean"] / m["step_ms"]["mean"]
+            for which, m in (("", rest), ("_moving", moving))
+        },
+        "stage_ms": {state: {name: s["mean"] for name, s in m["stage_ms"].items()} for state, m in hard.items()},
+        "cold_sweeps_to_1e-4": cold["sweeps"],
+        "warm_sweeps_mean": rest["sweeps_mean"],
+        "fraction_of_bandwidth_bound": sweeps["fraction_of_bandwidth_bound"]["working_set"],
+        "quartiles": {name: s["quartiles"] for name, s in spreads.items()},
+        **found,
+    }
 
 
 def _at(summary, name):
@@ -71,41 +83,99 @@ def _with_quartiles(spread):
 
 def table(summary) -> str:
     """Tables of text: headlines, steps by stage, sweeps by path, cold starts."""
-    rows = [(what, _number(_at(summary, name)), " … ".join(map(_number, summary["quartiles"].get(name, ())))) for name, what in HEADLINES.items()]
+    rows = [
+        (what, _number(_at(summary, name)), " … ".join(map(_number, summary["quartiles"].get(name, ()))))
+        for name, what in HEADLINES.items()
+    ]
     parts = [tabulate(rows, ("", "", "quartiles"), disable_numparse=True)]
     steps = [(f"{m['state']}, {m['threads']} thr.", m) for m in summary["steps"]]
     stages = list(steps[0][1]["stage_ms"])
     rows = [("step", *(_with_quartiles(m["step_ms"]) for _, m in steps))]
     # a stage that works in some steps only, as the collider does, shows in the mean alone
-    rows += [(f"{name}, mean", *(_number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for _, m in steps)) for name in stages]
-    rows += [(name, *(_number(m[key]) if key in m else "-" for _, m in steps))
-             for name, key in (("sweeps, mean", "sweeps_mean"), ("contacts", "contacts"), ("candidates", "candidates"))]
+    rows += [
+        (f"{name}, mean", *(_number(m["stage_ms"][name]["mean"]) if name in m["stage_ms"] else "-" for _, m in steps))
+        for name in stages
+    ]
+    rows += [
+        (name, *(_number(m[key]) if key in m else "-" for _, m in steps))
+        for name, key in (("sweeps, mean", "sweeps_mean"), ("contacts", "contacts"), ("candidates", "candidates"))
+    ]
     parts.append(tabulate(rows, ("[ms]", *(name for name, _ in steps)), disable_numparse=True))
     found = summary["sweeps"]
-    rows = [(name.replace("_", " "), _with_quartiles(s), _with_quartiles(found["speedup_over_reference"][name]) if name != "reference" else "1")
-            for name, s in found["ns_per_contact"].items()]
+    rows = [
+        (
+            name.replace("_", " "),
+            _with_quartiles(s),
+            _with_quartiles(found["speedup_over_reference"][name]) if name != "reference" else "1",
+        )
+        for name, s in found["ns_per_contact"].items()
+    ]
     parts.append(tabulate(rows, ("sweep", "ns a contact", "over reference"), disable_numparse=True))
     rate = found["bandwidth_GB_per_s"]
     bound = found["fraction_of_bandwidth_bound"]
-    parts.append(f"memory: {rate['working_set']:.1f} GB/s over the {found['working_set_MB']:.1f} MB of the blocks, {rate['memory']:.1f} GB/s over what no "
-                 f"cache holds; a sweep takes {1 / bound['working_set']:.2f} and {1 / bound['memory']:.2f} times as long")
-    rows = [(name, str(c["contacts"]), str(c["sweeps"]), f"{c['share_of_weight']:.4f}", f"{c['sweeps_tight']} ({c['residual_tight']:.0e})")
-            for name, c in summary["cold_start"].items()]
-    heads = ("cold start", "contacts", "sweeps to 1e-4", "load on the ground, relative to a tight solve", "sweeps of that (residual)")
+    parts.append(
+        f"memory: {rate['working_set']:.1f} GB/s over the {found['working_set_MB']:.1f} MB of the blocks, {rate['memory']:.1f} GB/s over what no "
+        f"cache holds; a sweep takes {1 / bound['working_set']:.2f} and {1 / bound['memory']:.2f} times as long"
+    )
+    rows = [
+        (
+            name,
+            str(c["contacts"]),
+            str(c["sweeps"]),
+            f"{c['share_of_weight']:.4f}",
+            f"{c['sweeps_tight']} ({c['residual_tight']:.0e})",
+        )
+        for name, c in summary["cold_start"].items()
+    ]
+    heads = (
+        "cold start",
+        "contacts",
+        "sweeps to 1e-4",
+        "load on the ground, relative to a tight solve",
+        "sweeps of that (residual)",
+    )
     parts.append(tabulate(rows, heads, disable_numparse=True))
     m = summary["machine"]
-    parts.append(f"{m['cpu']}, {m['cores']} cores, {m['compiler']}, path {m['best_path']}, load {m['load_average'][0]:.1f}, {m['date']}")
+    parts.append(
+        f"{m['cpu']}, {m['cores']} cores, {m['compiler']}, path {m['best_path']}, load {m['load_average'][0]:.1f}, {m['date']}"
+    )
     return "\n\n".join(parts)
 
 
 def scale_table(found) -> str:
     """Table of text of what scale.run found: one row a size."""
     threads = str(found["threads"])
-    rows = [(str(s["disks"]), str(s["candidates"]), f"{s['packing_s']:.0f}", f"{s['building_s']:.1f}",
-             f"{1e-3 * s['bytes_per_contact']:.2f}", f"{1e-3 * s['bytes_per_contact_scene']:.2f}",
-             f"{1e-3 * s['bytes_per_disk']:.2f}", f"{1e-3 * s['soft_memory']['bytes_per_disk']:.2f}" if "soft_memory" in s else "-", _with_quartiles(s["step_ms"]),
-             _number(s["sweeps_mean"]), _with_quartiles(s["sweep_ns_per_contact"]["1"]), _with_quartiles(s["sweep_ns_per_contact"][threads]),
-             str(s["cold_start"]["sweeps"]) if "cold_start" in s else "-") for s in found["sizes"]]
-    heads = ("disks", "contacts", "packing [s]", "building [s]", "kB a contact", "without the solver", "kB a disk", "with soft contacts", "step [ms]",
-             "sweeps", "ns a contact and sweep", f"{threads} threads", "cold sweeps to 1e-4")
+    rows = [
+        (
+            str(s["disks"]),
+            str(s["candidates"]),
+            f"{s['packing_s']:.0f}",
+            f"{s['building_s']:.1f}",
+            f"{1e-3 * s['bytes_per_contact']:.2f}",
+            f"{1e-3 * s['bytes_per_contact_scene']:.2f}",
+            f"{1e-3 * s['bytes_per_disk']:.2f}",
+            f"{1e-3 * s['soft_memory']['bytes_per_disk']:.2f}" if "soft_memory" in s else "-",
+            _with_quartiles(s["step_ms"]),
+            _number(s["sweeps_mean"]),
+            _with_quartiles(s["sweep_ns_per_contact"]["1"]),
+            _with_quartiles(s["sweep_ns_per_contact"][threads]),
+            str(s["cold_start"]["sweeps"]) if "cold_start" in s else "-",
+        )
+        for s in found["sizes"]
+    ]
+    heads = (
+        "disks",
+        "contacts",
+        "packing [s]",
+        "building [s]",
+        "kB a contact",
+        "without the solver",
+        "kB a disk",
+        "with soft contacts",
+        "step [ms]",
+        "sweeps",
+        "ns a contact and sweep",
+        f"{threads} threads",
+        "cold sweeps to 1e-4",
+    )
     return tabulate(rows, heads, disable_numparse=True)

@@ -27,10 +27,10 @@ __all__ = ["SIZES", "measure", "measure_soft_memory", "measure_sweeps", "run"]
 SIZES = (5000, 20_000, 100_000, 1_000_000)
 PROBLEM, PACKING = "step.h5", "packing.npz"
 LOADING, STEPS = 60, 40  # steps before those that are timed, and those
-REPEATS = 9              # timings of a sweep
+REPEATS = 9  # timings of a sweep
 COLD_CONTACTS = 500_000  # of the largest problem that is solved from zero impulses as far as cold_start asks
-SOFT_DISKS = 100_000     # of the largest slope of soft contacts: their bonds are made in Python
-SOFT_YOUNG = 1e9         # Pa; of no influence on memory
+SOFT_DISKS = 100_000  # of the largest slope of soft contacts: their bonds are made in Python
+SOFT_YOUNG = 1e9  # Pa; of no influence on memory
 
 
 def _resident():
@@ -45,7 +45,9 @@ def measure(folder, source, disks, steps=STEPS):
     Raises section.SectionError or packing.PackingError where the disks do not go in.
     """
     chosen = states.section_of(source, disks)
-    numerics = dataclasses.replace(chosen.numerics, time_step=chosen.numerics.time_step * chosen.scale, tolerance=chosen.numerics.tolerance_moving)
+    numerics = dataclasses.replace(
+        chosen.numerics, time_step=chosen.numerics.time_step * chosen.scale, tolerance=chosen.numerics.tolerance_moving
+    )
     chosen = dataclasses.replace(chosen, numerics=numerics)
     began = time.perf_counter()
     packed = packing.pack(chosen)  # not from the cache: how long it takes is asked
@@ -60,10 +62,24 @@ def measure(folder, source, disks, steps=STEPS):
     begun = solver.totalIterations
     timed.run(steps, warm_up=0)
     grown = _resident() - before
-    memory = {"bytes_per_disk": grown / len(packed), "bytes_per_contact": grown / solver.candidates, "bytes_per_contact_scene": scene / solver.candidates}
-    return {"disks": len(packed), "candidates": solver.candidates, "bonds": bonds, "packing_s": packing_s, "building_s": building_s, **memory,
-            **timed.summary(), "sweeps_mean": (solver.totalIterations - begun) / steps, "time_step_s": O.dt, "steps": LOADING + steps,
-            **_dumped(solver, Path(folder) / PROBLEM)}
+    memory = {
+        "bytes_per_disk": grown / len(packed),
+        "bytes_per_contact": grown / solver.candidates,
+        "bytes_per_contact_scene": scene / solver.candidates,
+    }
+    return {
+        "disks": len(packed),
+        "candidates": solver.candidates,
+        "bonds": bonds,
+        "packing_s": packing_s,
+        "building_s": building_s,
+        **memory,
+        **timed.summary(),
+        "sweeps_mean": (solver.totalIterations - begun) / steps,
+        "time_step_s": O.dt,
+        "steps": LOADING + steps,
+        **_dumped(solver, Path(folder) / PROBLEM),
+    }
 
 
 def _scene_alone():
@@ -89,7 +105,12 @@ def measure_soft_memory(folder, source, disks, packed):
     chosen, packed = states.section_of(source, disks), packing_files.load(packed)
     before = _resident()
     # fragile bonds are YADE's own; others need an engine of ours
-    world = worlds.Soft(stiffness=SOFT_YOUNG, diameter=(chosen.disks.d_min, chosen.disks.d_max), verlet=-chosen.numerics.verlet_distance, fragile=True)
+    world = worlds.Soft(
+        stiffness=SOFT_YOUNG,
+        diameter=(chosen.disks.d_min, chosen.disks.d_max),
+        verlet=-chosen.numerics.verlet_distance,
+        fragile=True,
+    )
     built = slope.build(chosen, packed, world)
     advance()
     built.solver.bond()
@@ -114,7 +135,9 @@ def measure_sweeps(folder, problems, threads):
 def run(out, source, sizes, threads, progress=lambda share, doing: None):
     """Measures all sizes, one after the other; returns a dictionary that JSON can hold. Raises states.BenchmarkError with the first failure."""
     sizes = sorted(sizes)
-    seconds, of_soft = {size: 10 + 1e-3 * size for size in sizes}, {size: 5 + 3e-4 * size for size in sizes if size <= SOFT_DISKS}
+    seconds, of_soft = {size: 10 + 1e-3 * size for size in sizes}, {
+        size: 5 + 3e-4 * size for size in sizes if size <= SOFT_DISKS
+    }
     of_sweeps = 5 + 1e-4 * sum(sizes)
     course = Course(out, sum(seconds.values()) + sum(of_soft.values()) + of_sweeps, progress)
     found, problems = [], []
@@ -125,10 +148,21 @@ def run(out, source, sizes, threads, progress=lambda share, doing: None):
         packed = home / PACKING
         if size in of_soft:
             found[-1]["soft_memory"] = course.call(
-                f"scale-soft-{size}", of_soft[size], measure_soft_memory, {**asked, "packed": str(packed)}, threads)
+                f"scale-soft-{size}", of_soft[size], measure_soft_memory, {**asked, "packed": str(packed)}, threads
+            )
         packed.unlink()
-    timed = course.call("scale-sweeps", of_sweeps, measure_sweeps, {"problems": [str(path) for path in problems], "threads": threads}, threads)
+    timed = course.call(
+        "scale-sweeps",
+        of_sweeps,
+        measure_sweeps,
+        {"problems": [str(path) for path in problems], "threads": threads},
+        threads,
+    )
     for path in problems:
         path.unlink()  # the largest has half a gigabyte
-    return {"machine": machine.describe(), "section": source, "threads": threads,
-            "sizes": [{**one, "sweep_ns_per_contact": times} for one, times in zip(found, timed["sweeps"])]}
+    return {
+        "machine": machine.describe(),
+        "section": source,
+        "threads": threads,
+        "sizes": [{**one, "sweep_ns_per_contact": times} for one, times in zip(found, timed["sweeps"])],
+    }

@@ -12,8 +12,18 @@ import math
 from yade import O, utils
 from yade.minieigenHP import Vector3
 from yade.wrapper import (
-    Bo1_Segment_Aabb, Bo1_Sphere_Aabb, ForceResetter, FrictMat, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom, InsertionSortCollider,
-    InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
+    Bo1_Segment_Aabb,
+    Bo1_Sphere_Aabb,
+    ForceResetter,
+    FrictMat,
+    Ig2_Segment_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom,
+    InsertionSortCollider,
+    InteractionLoop,
+    Ip2_FrictMat_FrictMat_FrictPhys,
+    Law2_ScGeom_FrictPhys_CundallStrack,
+    NewtonIntegrator,
+)
 
 __all__ = ["soften"]
 
@@ -25,7 +35,9 @@ def soften(built):
     gravity = built.section.gravity
     density = built.section.materials[built.section.layers[0].material].density
     O.interactions.clear()
-    O.materials.append(FrictMat(young=YOUNG, poisson=POISSON, frictionAngle=math.atan(FRICTION), density=density, label="soft"))
+    O.materials.append(
+        FrictMat(young=YOUNG, poisson=POISSON, frictionAngle=math.atan(FRICTION), density=density, label="soft")
+    )
     for body in O.bodies:
         body.material = O.materials["soft"]
     for k in range(built.first_disk, built.first_disk + built.count):
@@ -35,9 +47,14 @@ def soften(built):
         body.state.inertia = Vector3(1, 1, 1) * (0.4 * body.state.mass * r**2)
     O.engines = [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=-built.section.numerics.verlet_distance),
-        InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Segment_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
-                        [Law2_ScGeom_FrictPhys_CundallStrack()]),
+        InsertionSortCollider(
+            [Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=-built.section.numerics.verlet_distance
+        ),
+        InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom(), Ig2_Segment_Sphere_ScGeom()],
+            [Ip2_FrictMat_FrictMat_FrictPhys()],
+            [Law2_ScGeom_FrictPhys_CundallStrack()],
+        ),
         NewtonIntegrator(damping=DAMPING, gravity=(0, -gravity, 0)),
     ]
     O.dt = 0.5 * utils.PWaveTimeStep()

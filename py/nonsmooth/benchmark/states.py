@@ -26,16 +26,16 @@ from . import soft_contacts
 __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
 
 NAMES = ("rest", "moving", "soft")
-REST_SECONDS = 1.0   # of simulation after the settling ...
-REST_SPEED = 0.05    # ... and the largest mean speed that counts as rest then [m/s]
+REST_SECONDS = 1.0  # of simulation after the settling ...
+REST_SPEED = 0.05  # ... and the largest mean speed that counts as rest then [m/s]
 WEAKENED = ("DP", "FB")  # walls, see above
 WATER_HEIGHT = 20.0  # of the moving slope [m]
-SPEED = 5.0          # its mean speed [m/s] ...
+SPEED = 5.0  # its mean speed [m/s] ...
 MOVING_SECONDS = 20.0  # ... or what it has reached after so much simulated time
-SOFT_SECONDS = 1.0   # of simulation on soft contacts
-SPEED_LEAST = 0.2    # m/s, below which a slope does not count as moving
+SOFT_SECONDS = 1.0  # of simulation on soft contacts
+SPEED_LEAST = 0.2  # m/s, below which a slope does not count as moving
 PROGRESS_STEPS = 20  # between two notes of how far the making is
-KEPT_DAYS = 14       # without use; every build of the engines has states of its own
+KEPT_DAYS = 14  # without use; every build of the engines has states of its own
 
 
 class BenchmarkError(UserError, RuntimeError):
@@ -50,16 +50,26 @@ def section_of(source, disks):
     chosen = section.load(source).with_disks(disks)
     missing = [name for name in WEAKENED if name not in {wall.name for wall in chosen.walls}]
     if missing or chosen.water is None:
-        raise BenchmarkError(f"{source}: there is no {'wall ' + missing[0] if missing else 'water'}, which the moving slope needs; take jiufengershan or a "
-                             "section made from it")
+        raise BenchmarkError(
+            f"{source}: there is no {'wall ' + missing[0] if missing else 'water'}, which the moving slope needs; take jiufengershan or a "
+            "section made from it"
+        )
     return chosen
 
 
 def key_of(chosen):
     """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
     code = [Path(__file__), *(Path(m.__file__) for m in (scene, slope, experiment, course, packing, soft_contacts))]
-    return keys.key_of({"section": chosen.key("settled"), "water": dataclasses.asdict(chosen.water), "seed": chosen.seed,
-                               "yade": config.version, "engines": keys.engines_key(), "code": [keys.digest(path) for path in code]})
+    return keys.key_of(
+        {
+            "section": chosen.key("settled"),
+            "water": dataclasses.asdict(chosen.water),
+            "seed": chosen.seed,
+            "yade": config.version,
+            "engines": keys.engines_key(),
+            "code": [keys.digest(path) for path in code],
+        }
+    )
 
 
 def folder_of(chosen) -> Path:
@@ -115,15 +125,19 @@ def _save(name, chosen, built):
 def _settle(chosen, progress):
     """The settling of a slope experiment, which then ends instead of raising the water."""
     stages = dataclasses.replace(chosen.stages, dry=0.0, end=dataclasses.replace(chosen.stages.end, time=REST_SECONDS))
-    dry = dataclasses.replace(chosen, stages=stages, water=dataclasses.replace(chosen.water, table=((0.0, 0.0),), rate=0.0))
+    dry = dataclasses.replace(
+        chosen, stages=stages, water=dataclasses.replace(chosen.water, table=((0.0, 0.0),), rate=0.0)
+    )
     built = slope.build(dry, packing.cached_pack(dry))
     foreseen = chosen.stages.settle.ramp + 1.5 + REST_SECONDS
     with tempfile.TemporaryDirectory() as records:
         run = experiment.Experiment(built, records, progress=lambda stage, now, _: progress(min(1.0, now / foreseen)))
         run.run()
     if built.solver.meanSpeed > REST_SPEED or run.state.failed_dry is not None:
-        raise BenchmarkError(f"{chosen.source}: {built.count} disks do not come to rest (mean speed {built.solver.meanSpeed:.2g} m/s after {O.time:.1f} s); "
-                             "take more disks, or stronger materials")
+        raise BenchmarkError(
+            f"{chosen.source}: {built.count} disks do not come to rest (mean speed {built.solver.meanSpeed:.2g} m/s after {O.time:.1f} s); "
+            "take more disks, or stronger materials"
+        )
     return built
 
 
@@ -140,8 +154,10 @@ def _move(built, progress):
         advance(PROGRESS_STEPS)
         progress(min(1.0, solver.meanSpeed / SPEED))
     if solver.meanSpeed < SPEED_LEAST:
-        raise BenchmarkError(f"the slope of {built.count} disks does not move {MOVING_SECONDS:g} s after its wall DP has lost its friction (mean speed "
-                             f"{solver.meanSpeed:.2g} m/s); take another number of disks")
+        raise BenchmarkError(
+            f"the slope of {built.count} disks does not move {MOVING_SECONDS:g} s after its wall DP has lost its friction (mean speed "
+            f"{solver.meanSpeed:.2g} m/s); take another number of disks"
+        )
 
 
 def _run_soft(progress):

@@ -6,7 +6,14 @@ import time
 from pathlib import Path
 
 from yade import O
-from yade.wrapper import Collider, ContactDynamicsEngine, ForceResetter, InteractionLoop, NewtonIntegrator, PorePressureEngine
+from yade.wrapper import (
+    Collider,
+    ContactDynamicsEngine,
+    ForceResetter,
+    InteractionLoop,
+    NewtonIntegrator,
+    PorePressureEngine,
+)
 
 from ..statistics import spread
 from ..stepping import advance
@@ -15,13 +22,29 @@ from . import states
 __all__ = ["STAGES", "TimedSteps", "measure"]
 
 #: Stages of a step in their order, those of ContactDynamicsEngine.stageSeconds among them; "other" is what no stage has.
-STAGES = ("reset", "collide", "interactions", "pore_pressure", "gather", "solve", "correct", "scatter", "integrate", "other")
-STAGE_OF = {ForceResetter: "reset", Collider: "collide", InteractionLoop: "interactions", PorePressureEngine: "pore_pressure",
-            NewtonIntegrator: "integrate"}  # by the class of the engine or one it is derived from: what YADE's own timers count
+STAGES = (
+    "reset",
+    "collide",
+    "interactions",
+    "pore_pressure",
+    "gather",
+    "solve",
+    "correct",
+    "scatter",
+    "integrate",
+    "other",
+)
+STAGE_OF = {
+    ForceResetter: "reset",
+    Collider: "collide",
+    InteractionLoop: "interactions",
+    PorePressureEngine: "pore_pressure",
+    NewtonIntegrator: "integrate",
+}  # by the class of the engine or one it is derived from: what YADE's own timers count
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
 
 
-BLOCK = 10    # steps that are made and timed together, as a run makes them: after each look from Python contacts and bodies are read anew
+BLOCK = 10  # steps that are made and timed together, as a run makes them: after each look from Python contacts and bodies are read anew
 
 
 class TimedSteps:
@@ -69,11 +92,25 @@ def measure(folder, source, disks, state, steps, dump=False):
     timed = TimedSteps().run(0)
     solver = timed.solver
     if solver is None:
-        return {**timed.run(steps, warm_up=0).summary(), "contacts": O.interactions.countReal(), "time_step_s": O.dt, "steps": steps}
+        return {
+            **timed.run(steps, warm_up=0).summary(),
+            "contacts": O.interactions.countReal(),
+            "time_step_s": O.dt,
+            "steps": steps,
+        }
     sweeps, unconverged, begun = solver.totalIterations, solver.unconverged, O.time
     timed.run(steps, warm_up=0)
     if dump:
         solver.dump(str(Path(folder) / "step.h5"))
-    return {**timed.summary(), "sweeps_mean": (solver.totalIterations - sweeps) / steps, "unconverged": solver.unconverged - unconverged,
-            "contacts": solver.contacts, "candidates": solver.candidates, "bonds": solver.bonds, "mean_speed_m_per_s": solver.meanSpeed,
-            "tolerance": solver.tolerance, "time_step_s": (O.time - begun) / steps, "steps": steps}
+    return {
+        **timed.summary(),
+        "sweeps_mean": (solver.totalIterations - sweeps) / steps,
+        "unconverged": solver.unconverged - unconverged,
+        "contacts": solver.contacts,
+        "candidates": solver.candidates,
+        "bonds": solver.bonds,
+        "mean_speed_m_per_s": solver.meanSpeed,
+        "tolerance": solver.tolerance,
+        "time_step_s": (O.time - begun) / steps,
+        "steps": steps,
+    }

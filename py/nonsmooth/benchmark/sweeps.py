@@ -19,7 +19,12 @@ __all__ = ["FEW", "MANY", "PATHS", "bandwidth", "measure", "sweep_seconds"]
 
 FEW, MANY = 20, 120  # sweeps of the two solves
 #: Ways through the solver that are timed: name -> (path, threads), see contact.solve.
-PATHS = {"reference": ("reference", 1), "portable": ("portable", 1), "best": ("best", 1), "best_two_threads": ("best", 2)}
+PATHS = {
+    "reference": ("reference", 1),
+    "portable": ("portable", 1),
+    "best": ("best", 1),
+    "best_two_threads": ("best", 2),
+}
 MEMORY_BYTES = 256_000_000  # more than any cache
 STREAM_BYTES = 1_000_000_000  # passed over in all, for each size of working set
 
@@ -28,9 +33,13 @@ def sweep_seconds(problem, path, threads):
     """Wall time of one sweep over the ContactProblem [s]. Raises RuntimeError where one of the solves ended early."""
 
     def solve(sweeps):
-        solved = contact.solve(problem, tolerance=1e-300, max_iterations=sweeps, check_every=sweeps, threads=threads, path=path)
+        solved = contact.solve(
+            problem, tolerance=1e-300, max_iterations=sweeps, check_every=sweeps, threads=threads, path=path
+        )
         if solved.iterations != sweeps:
-            raise RuntimeError(f"a solve made {solved.iterations} sweeps instead of {sweeps}: no contact of the problem acts, so its sweeps cannot be timed")
+            raise RuntimeError(
+                f"a solve made {solved.iterations} sweeps instead of {sweeps}: no contact of the problem acts, so its sweeps cannot be timed"
+            )
         return solved.seconds
 
     # the better of two, since what a large solve does once (layout, memory anew) takes as long as many sweeps, and not always as long
@@ -57,10 +66,20 @@ def measure(folder, problem, repeats):
             seconds[name][k] = sweep_seconds(loaded, path, threads)
     best = np.median(seconds["best"])
     cached, memory = (float(np.median(bandwidth(b))) for b in (max(size * count, 1e4), MEMORY_BYTES))
-    return {"contacts": count, "bytes_per_contact": size, "working_set_MB": 1e-6 * size * count,
-            "ns_per_contact": {name: spread(1e9 * s / count) for name, s in seconds.items()},
-            # pairs of one turn, so that a slow moment of the machine does not count for one of them alone
-            "speedup_over_reference": {name: spread(seconds["reference"] / s) for name, s in seconds.items() if name != "reference"},
-            "speedup_two_threads": spread(seconds["best"] / seconds["best_two_threads"]),
-            "bandwidth_GB_per_s": {"working_set": 1e-9 * cached, "memory": 1e-9 * memory},
-            "fraction_of_bandwidth_bound": {"working_set": size * count / cached / best, "memory": size * count / memory / best}, "repeats": repeats}
+    return {
+        "contacts": count,
+        "bytes_per_contact": size,
+        "working_set_MB": 1e-6 * size * count,
+        "ns_per_contact": {name: spread(1e9 * s / count) for name, s in seconds.items()},
+        # pairs of one turn, so that a slow moment of the machine does not count for one of them alone
+        "speedup_over_reference": {
+            name: spread(seconds["reference"] / s) for name, s in seconds.items() if name != "reference"
+        },
+        "speedup_two_threads": spread(seconds["best"] / seconds["best_two_threads"]),
+        "bandwidth_GB_per_s": {"working_set": 1e-9 * cached, "memory": 1e-9 * memory},
+        "fraction_of_bandwidth_bound": {
+            "working_set": size * count / cached / best,
+            "memory": size * count / memory / best,
+        },
+        "repeats": repeats,
+    }

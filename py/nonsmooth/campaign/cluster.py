@@ -55,5 +55,7 @@ def write(out, title, keys):
     """Writes both into the folder ``out``; ``keys``: of the runs, by their names, in the order of the plan."""
     command = _Quoted(shlex.join([sys.executable, str(SCRIPT), "--out", "."]))
     name = "".join(c if c.isalnum() or c in "-_." else "-" for c in title) or "campaign"
-    write_atomically(Path(out) / "Snakefile", SNAKEFILE.format(keys=json.dumps(keys, indent=4), command=command).encode())
+    write_atomically(
+        Path(out) / "Snakefile", SNAKEFILE.format(keys=json.dumps(keys, indent=4), command=command).encode()
+    )
     write_atomically(Path(out) / "array.sh", ARRAY.format(command=command, name=name, last=len(keys) - 1).encode())

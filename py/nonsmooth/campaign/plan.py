@@ -59,7 +59,12 @@ class Plan:
     def write(self, out):
         """Writes the plan, and its files for a cluster, into the folder ``out``."""
         out = Path(out)
-        content = {"format": FORMAT, "title": self.title, "function": self.function, "runs": [asdict(one) for one in self.runs]}
+        content = {
+            "format": FORMAT,
+            "title": self.title,
+            "function": self.function,
+            "runs": [asdict(one) for one in self.runs],
+        }
         write_atomically(out / FILE, json.dumps(content, indent=1).encode())
         cluster.write(out, self.title, {one.name: keys.run_key(one.key) for one in self.runs})
 
@@ -72,11 +77,21 @@ class Plan:
         installation.engines()
         output_folder.claim(out, "sweep.py", resume)
         self.write(out)
-        side_by_side.run([self._made(one, out) for one in self.runs], threads, resume, PlanError, "; what has ended is kept, go on with --resume", progress, go_on=True)
+        side_by_side.run(
+            [self._made(one, out) for one in self.runs],
+            threads,
+            resume,
+            PlanError,
+            "; what has ended is kept, go on with --resume",
+            progress,
+            go_on=True,
+        )
         return collect(out)
 
     def _made(self, one, out):
-        return side_by_side.Run(one.name, Path(out) / "runs" / one.name, self.function, one.arguments, one.key, one.work)
+        return side_by_side.Run(
+            one.name, Path(out) / "runs" / one.name, self.function, one.arguments, one.key, one.work
+        )
 
 
 def read(out) -> Plan:
@@ -95,11 +110,16 @@ def read(out) -> Plan:
 
 def run_one(out, which):
     """Does one run of the plan in the folder ``out``, as a job of a cluster does: ``which``: its name, or its number from 0. Returns its result, which is
-    kept; a run that has ended is not repeated, and one that was halted goes on. Raises PlanError where there is no such run, or where it fails."""
+    kept; a run that has ended is not repeated, and one that was halted goes on. Raises PlanError where there is no such run, or where it fails.
+    """
     plan = read(out)
     found = [one for k, one in enumerate(plan.runs) if which in (one.name, k)]
     if not found:
-        what = f"number {which}: give one from 0 to {len(plan.runs) - 1}" if isinstance(which, int) else f"run is called {which!r}: see {Path(out) / FILE}"
+        what = (
+            f"number {which}: give one from 0 to {len(plan.runs) - 1}"
+            if isinstance(which, int)
+            else f"run is called {which!r}: see {Path(out) / FILE}"
+        )
         raise PlanError(f"{out}: no {what}")
     made = plan._made(found[0], out)
     output_folder.claim(made.folder, "sweep.py")
@@ -117,8 +137,10 @@ def collect(out) -> dict:
     missing = [name for name, result in found.items() if result is None]
     if missing:
         more = f" and {len(missing) - 3} more" if len(missing) > 3 else ""
-        raise PlanError(f"{out}: {len(missing)} of {len(plan.runs)} runs have no result of this input, these engines and this code: {', '.join(missing[:3])}{more}; "
-                        "run them, or go on with --resume")
+        raise PlanError(
+            f"{out}: {len(missing)} of {len(plan.runs)} runs have no result of this input, these engines and this code: {', '.join(missing[:3])}{more}; "
+            "run them, or go on with --resume"
+        )
     rows = [{"run": one.name, **one.values, **_numbers(found[one.name])} for one in plan.runs]
     columns = list(dict.fromkeys(name for row in rows for name in row))
     table = {name: [row.get(name) for row in rows] for name in columns}

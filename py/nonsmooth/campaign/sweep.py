@@ -48,7 +48,14 @@ def sweep(base, over, end=None, figures=False) -> Plan:
         for key, value in values.items():
             _put(data, key, value)
         made = section.of(data, name)
-        planned.append(Planned(name, values, {"data": section_data.plain(made), "end": end, "figures": figures}, float(sum(made.disk_counts()))))
+        planned.append(
+            Planned(
+                name,
+                values,
+                {"data": section_data.plain(made), "end": end, "figures": figures},
+                float(sum(made.disk_counts())),
+            )
+        )
     return Plan(base.name, FUNCTION, tuple(planned))
 
 
@@ -67,10 +74,14 @@ def run_slope(made, out, end=None, figures=False, resume=False, threads=1) -> ru
 
 def _short(over):
     """Names of keys in names of runs: the last word, or as many as tell them apart."""
+
     def last(key, count):
         return ".".join(key.split(".")[-count:])
 
-    return {key: next(last(key, n) for n in range(1, 99) if sum(last(other, n) == last(key, n) for other in over) == 1) for key in over}
+    return {
+        key: next(last(key, n) for n in range(1, 99) if sum(last(other, n) == last(key, n) for other in over) == 1)
+        for key in over
+    }
 
 
 def _text(value):
@@ -102,5 +113,11 @@ def _put(data, key, value):
 def _refuse(key, word, so_far, names):
     near = difflib.get_close_matches(word, [str(n) for n in names], 1)
     where = f"in {so_far} of the section" if so_far else "in the section"
-    advice = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(map(str, names))}" if names else "nothing can be varied there"
+    advice = (
+        f"did you mean {near[0]!r}?"
+        if near
+        else f"there are {', '.join(map(str, names))}"
+        if names
+        else "nothing can be varied there"
+    )
     raise PlanError(f"{key}: there is no {word!r} {where}; {advice}")

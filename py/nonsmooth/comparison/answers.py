@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-VERDICTS = {True: "they differ by no more than two packings do", False: "they differ", None: "more seeds are needed to tell"}
+VERDICTS = {
+    True: "they differ by no more than two packings do",
+    False: "they differ",
+    None: "more seeds are needed to tell",
+}
 
 __all__ = ["answer_cost", "answer_costs", "answer_same", "number", "spread"]
 
@@ -51,10 +55,14 @@ def answer_same(summary, names):
         if q["difference_95"] is None or q["scatter"] is None:
             text += "; with these runs difference cannot be told from scatter."
         else:
-            text += (f". The difference of the same packings is {number(q['difference'], unit)} ± {number(q['difference_95'], unit)} (95 % confidence), the scatter over seeds "
-                     f"{number(q['scatter'], unit)}: {VERDICTS[q['agree']]}.")
+            text += (
+                f". The difference of the same packings is {number(q['difference'], unit)} ± {number(q['difference_95'], unit)} (95 % confidence), the scatter over seeds "
+                f"{number(q['scatter'], unit)}: {VERDICTS[q['agree']]}."
+            )
         sentences.append(text)
-    verdict = "not told" if None in verdicts else ("yes" if all(verdicts) else ("no" if not any(verdicts) else "in part"))
+    verdict = (
+        "not told" if None in verdicts else ("yes" if all(verdicts) else ("no" if not any(verdicts) else "in part"))
+    )
     if summary.get("deposit_overlap_fraction") is not None:
         text = f"Deposits of the same packing cover each other by {number(100 * summary['deposit_overlap_fraction'])} % of the area that either covers"
         if summary.get("deposit_overlap_m2") is not None:
@@ -73,14 +81,22 @@ def answer_costs(summary):
     if found:
         verdict = "hard" if found["factor"] > 1 else "soft"
         cheaper = found["factor"] if found["factor"] > 1 else 1 / found["factor"]
-        where = "the scatter over seeds, below which errors tell nothing" if found["at_scatter"] else "the smallest that both reach"
-        sentences.append(f"At equal accuracy (error {number(found['error'])} against the finest hard run: {where}) {verdict} costs less, by a factor "
-                         f"of {number(cheaper)}: "
-                         f"“{found['hard_label']}” against “{found['soft_label']}”.")
+        where = (
+            "the scatter over seeds, below which errors tell nothing"
+            if found["at_scatter"]
+            else "the smallest that both reach"
+        )
+        sentences.append(
+            f"At equal accuracy (error {number(found['error'])} against the finest hard run: {where}) {verdict} costs less, by a factor "
+            f"of {number(cheaper)}: "
+            f"“{found['hard_label']}” against “{found['soft_label']}”."
+        )
     own = work["against_own"]["compared"]
     if own:
-        sentences.append(f"Each against the finest run of its own world, at an error of {number(own['error'])}: a factor of {number(own['factor'])}, "
-                         f"soft over hard.")
+        sentences.append(
+            f"Each against the finest run of its own world, at an error of {number(own['error'])}: a factor of {number(own['factor'])}, "
+            f"soft over hard."
+        )
     return verdict, sentences + [s for s in answer_cost(summary) if s]
 
 
@@ -88,10 +104,16 @@ def answer_cost(summary):
     """Sentences on wall time for a second of simulation."""
     factor = summary["soft_over_hard_wall_equal_overlap"]
     if factor is not None:
-        beyond = " That stiffness was not run: the factor is extrapolated." if summary["equal_overlap_extrapolated"] else ""
-        yield (f"At equal mean overlap ({number(summary['overlap_hard_rel'], digits=2)} of the mean diameter, which takes a Young's modulus of "
-               f"{number(summary['stiffness_equal_overlap_Pa'], 'Pa', 2)}) a second of simulation costs soft contacts {number(factor)} times the "
-               f"wall time of hard ones.{beyond}")
+        beyond = (
+            " That stiffness was not run: the factor is extrapolated." if summary["equal_overlap_extrapolated"] else ""
+        )
+        yield (
+            f"At equal mean overlap ({number(summary['overlap_hard_rel'], digits=2)} of the mean diameter, which takes a Young's modulus of "
+            f"{number(summary['stiffness_equal_overlap_Pa'], 'Pa', 2)}) a second of simulation costs soft contacts {number(factor)} times the "
+            f"wall time of hard ones.{beyond}"
+        )
     rock = summary["soft_over_hard_wall_rock_stiffness"]
     if rock is not None:
-        yield f"At a rock's stiffness, 10 GPa, {number(rock)} times" + (" (extrapolated)." if summary["rock_stiffness_extrapolated"] else ".")
+        yield f"At a rock's stiffness, 10 GPa, {number(rock)} times" + (
+            " (extrapolated)." if summary["rock_stiffness_extrapolated"] else "."
+        )

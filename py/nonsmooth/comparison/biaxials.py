@@ -29,8 +29,10 @@ KEYS = ("sigma1_peak_Pa", "sigma1_residual_Pa")
 CURVES = {"stress": "σ₁ over σ₃", "volume": "volumetric strain"}
 BONDS = True  # the kind of bonds matters
 MOVING = False  # the mass has no stage of motion with a damping of its own
-OVERLAP = ("Mean overlap of the contacts between disks that bear a force or a bond, in mean diameters of the pair, read from snapshots; a bond over a gap "
-           "counts as 0.")
+OVERLAP = (
+    "Mean overlap of the contacts between disks that bear a force or a bond, in mean diameters of the pair, read from snapshots; a bond over a gap "
+    "counts as 0."
+)
 OVERLAP_WHEN = ("before the test", "at its end")
 COST_WHEN = "of the test"
 
@@ -44,9 +46,11 @@ QUANTITIES = (
 )
 
 RELAX_UNITS, REST_UNITS = 40.0, 20.0  # t_i in which the pressure grows on soft contacts, and for which it then rests
-SWITCHES = 20                         # times that the membrane is laid anew while the sample comes to rest in it
-SAMPLES = 20                          # of the forces on the walls, in a row of the series
-SOFT_COLUMNS = tuple(name for name in biaxial.COLUMNS if name not in ("iterations_mean", "residual_worst", "unconverged"))
+SWITCHES = 20  # times that the membrane is laid anew while the sample comes to rest in it
+SAMPLES = 20  # of the forces on the walls, in a row of the series
+SOFT_COLUMNS = tuple(
+    name for name in biaxial.COLUMNS if name not in ("iterations_mean", "residual_worst", "unconverged")
+)
 
 
 def test_of(case: Case) -> biaxial.Test:
@@ -57,12 +61,28 @@ def test_of(case: Case) -> biaxial.Test:
     o, standard = case.options, {f.name: f.default for f in dataclasses.fields(biaxial.Test)}
     strain = o.get("strain", STRAIN)
     if not strength.SHORTEST <= strain < 1:
-        raise ComparisonError(f"--strain {strain:g}: give the axial strain at the end, from {strength.SHORTEST:g}, which has a peak and a plateau, to less than 1")
-    shape = pressing.Shape(case.disks, case.seed, friction=0.0)  # pressed: soft contacts then begin without the work of bonds that were bent by the pressure
-    numerics = dict(step=standard["step"] * case.step, tolerance=standard["tolerance"] * case.tolerance) if case.world == "hard" else {}
+        raise ComparisonError(
+            f"--strain {strain:g}: give the axial strain at the end, from {strength.SHORTEST:g}, which has a peak and a plateau, to less than 1"
+        )
+    shape = pressing.Shape(
+        case.disks, case.seed, friction=0.0
+    )  # pressed: soft contacts then begin without the work of bonds that were bent by the pressure
+    numerics = (
+        dict(step=standard["step"] * case.step, tolerance=standard["tolerance"] * case.tolerance)
+        if case.world == "hard"
+        else {}
+    )
     platens = o.get("platens", standard["platens"])
-    return biaxial.Test(materials.load(case.source), o.get("confining", CONFINING), shape, strain, platens, o.get("sides", standard["sides"]),
-                        o.get("inertia", standard["inertia"]), **numerics)
+    return biaxial.Test(
+        materials.load(case.source),
+        o.get("confining", CONFINING),
+        shape,
+        strain,
+        platens,
+        o.get("sides", standard["sides"]),
+        o.get("inertia", standard["inertia"]),
+        **numerics,
+    )
 
 
 def disks_of(case: Case):
@@ -87,10 +107,18 @@ def run(folder, **plain):
     from yade import O
 
     s = course.state
-    return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "rate_per_s": s["rate"],
-            "time_step_s": O.dt,
-            "steps": O.iter - s["begin"], "simulated_s": O.time - s["begin_time"], "wall_steps_s": s["wall_steps_s"],
-            "overlap_worst_rel": course.sample.engine.overlapWorstEver}
+    return {
+        "disks": s["disks"],
+        "bonds": s["bonds"],
+        "contacts": s["contacts"],
+        "packing_fraction": s["fraction"],
+        "rate_per_s": s["rate"],
+        "time_step_s": O.dt,
+        "steps": O.iter - s["begin"],
+        "simulated_s": O.time - s["begin_time"],
+        "wall_steps_s": s["wall_steps_s"],
+        "overlap_worst_rel": course.sample.engine.overlapWorstEver,
+    }
 
 
 class _SoftSample:
@@ -126,14 +154,31 @@ class SoftCourse(biaxial.Course):
         shape, rock = test.shape, test.material
         pressed = pressing.load(shape)
         O.reset()
-        world = worlds.Soft(case.stiffness, (2 * float(pressed.r.min()), 2 * float(pressed.r.max())), model=case.model, damping=case.damping,
-                            step_share=case.step, verlet=0.1 * shape.d_min, fragile=case.fragile)
-        smooth = dataclasses.replace(test.platen, name="side", bonded=False, tensile_strength=0.0, friction=0.0, residual_friction=0.0,
-                                     rolling_friction=0.0, residual_rolling_friction=0.0)
+        world = worlds.Soft(
+            case.stiffness,
+            (2 * float(pressed.r.min()), 2 * float(pressed.r.max())),
+            model=case.model,
+            damping=case.damping,
+            step_share=case.step,
+            verlet=0.1 * shape.d_min,
+            fragile=case.fragile,
+        )
+        smooth = dataclasses.replace(
+            test.platen,
+            name="side",
+            bonded=False,
+            tensile_strength=0.0,
+            friction=0.0,
+            residual_friction=0.0,
+            rolling_friction=0.0,
+            residual_rolling_friction=0.0,
+        )
         stuff, rough, side = world.material(rock), world.wall_material(test.platen), world.wall_material(smooth)
         O.materials.append((stuff, rough, side))
         walls = Walls.around(pressed.width, pressed.height, rough, side)
-        ids = O.bodies.append([scene.disk((float(x), float(y)), float(r), stuff) for x, y, r in zip(pressed.x, pressed.y, pressed.r)])
+        ids = O.bodies.append(
+            [scene.disk((float(x), float(y)), float(r), stuff) for x, y, r in zip(pressed.x, pressed.y, pressed.r)]
+        )
         O.engines = world.engines(gravity=(0, 0, 0))
         O.dt = world.step_for([rock])
         body = _SoftSample(Measures(world, [(rock, list(ids))]), walls, ids[0], len(ids))
@@ -158,9 +203,16 @@ class SoftCourse(biaxial.Course):
         area = course._membrane() if test.sides == "flexible" else height * walls.width()
         if test.sides == "rigid" and test.platens != "smooth":
             walls.free("left", walls.state("right").mass)
-        state |= {"height": height, "area": area, "bonds": body.bonds, "begin": O.iter, "begin_time": O.time, "disks": body.count,
-                  "contacts": body.engine.contacts,
-                  "fraction": float(np.sum(math.pi * pressed.r**2)) / area}
+        state |= {
+            "height": height,
+            "area": area,
+            "bonds": body.bonds,
+            "begin": O.iter,
+            "begin_time": O.time,
+            "disks": body.count,
+            "contacts": body.engine.contacts,
+            "fraction": float(np.sum(math.pi * pressed.r**2)) / area,
+        }
         course.snapshot("begin")
         return course
 
@@ -197,23 +249,45 @@ def measure(case: Case, folder, found) -> Outcome:
     Raises ComparisonError for a test that was kept without the wall time of its steps.
     """
     if "wall_steps_s" not in found:  # as of versions that counted rows and snapshots of hard tests as well
-        raise ComparisonError(f"{folder}: its result.json has no wall_steps_s, the wall time of steps alone; remove the folder and go on with --resume")
+        raise ComparisonError(
+            f"{folder}: its result.json has no wall_steps_s, the wall time of steps alone; remove the folder and go on with --resume"
+        )
     test = test_of(case)
     series = records.read_series(folder / "series.csv")
     c = strength.curve(series, (strength.PLATEAU * test.strain, test.strain))
-    begins, stress = strength.running_mean(series["strain"], strength.axial_stress(series) / test.confining, strength.PEAK_WINDOW)
+    begins, stress = strength.running_mean(
+        series["strain"], strength.axial_stress(series) / test.confining, strength.PEAK_WINDOW
+    )
     strain = begins + strength.PEAK_WINDOW / 2
     volume = np.interp(strain, series["strain"], series["volumetric_strain"])
     broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
-    values = {"sigma1_peak_Pa": c.peak, "sigma1_residual_Pa": c.residual, "strain_peak": c.peak_strain,
-              "dilatancy_deg": c.dilatancy_deg if math.isfinite(c.dilatancy_deg) else None,
-              "volumetric_strain_end": c.volumetric_end, "bonds_broken_share": broken / found["bonds"] if found["bonds"] else None}
+    values = {
+        "sigma1_peak_Pa": c.peak,
+        "sigma1_residual_Pa": c.residual,
+        "strain_peak": c.peak_strain,
+        "dilatancy_deg": c.dilatancy_deg if math.isfinite(c.dilatancy_deg) else None,
+        "volumetric_strain_end": c.volumetric_end,
+        "bonds_broken_share": broken / found["bonds"] if found["bonds"] else None,
+    }
     begin, end = (records.read_snapshot(folder / "snapshots" / f"{name}.npz") for name in ("begin", "end"))
-    return Outcome(case, values, {"abscissa": strain, "stress": stress, "volume": volume}, series, None, None,
-                   forces_of(begin),
-                   overlap=_overlap(end), overlap_rest=_overlap(begin),
-                   cost=Cost(found["steps"], found["time_step_s"], found["wall_steps_s"], found["simulated_s"],
-                             found["wall_steps_s"] / found["simulated_s"]))
+    return Outcome(
+        case,
+        values,
+        {"abscissa": strain, "stress": stress, "volume": volume},
+        series,
+        None,
+        None,
+        forces_of(begin),
+        overlap=_overlap(end),
+        overlap_rest=_overlap(begin),
+        cost=Cost(
+            found["steps"],
+            found["time_step_s"],
+            found["wall_steps_s"],
+            found["simulated_s"],
+            found["wall_steps_s"] / found["simulated_s"],
+        ),
+    )
 
 
 def _overlap(snapshot):

@@ -44,7 +44,9 @@ def moduli_of(stiffnesses, least=1):
     if not all(0 < e < math.inf for e in chosen):
         raise ComparisonError(f"--stiffness {told}: give Young's moduli above 0 [Pa]")
     if len(chosen) < least:
-        raise ComparisonError(f"--stiffness {told}: give {least} Young's moduli or more, or nothing can be said of their effect")
+        raise ComparisonError(
+            f"--stiffness {told}: give {least} Young's moduli or more, or nothing can be said of their effect"
+        )
     return chosen
 
 
@@ -54,7 +56,9 @@ def check_soft(damping, damping_moving, step_share):
         if value is not None and not 0 <= value < 1:
             raise ComparisonError(f"{key} {value:g}: give a number from 0 to less than 1")
     if not 0 < step_share <= 1:
-        raise ComparisonError(f"--step-share {step_share:g}: give a number above 0, and no more than 1, the stability limit")
+        raise ComparisonError(
+            f"--step-share {step_share:g}: give a number above 0, and no more than 1, the stability limit"
+        )
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,9 @@ class Case:
     def name(self):
         """Name of the run's folder: what tells it from the others of a plan."""
         if self.world == "soft":
-            extra = ("" if self.damping != self.damping_moving else f"-damping{self.damping:g}") + ("-fragile" if self.fragile else "")
+            extra = ("" if self.damping != self.damping_moving else f"-damping{self.damping:g}") + (
+                "-fragile" if self.fragile else ""
+            )
             return f"soft-{self.stiffness:.3g}Pa-seed{self.seed}{extra}".replace("+", "")
         return f"hard-step{self.step:g}-tolerance{self.tolerance:g}-seed{self.seed}"
 
@@ -94,7 +100,11 @@ class Case:
         if self.world == "soft":
             constant = f", damping {self.damping:g} throughout" if self.damping == self.damping_moving else ""
             return f"soft, {modulus_label(self.stiffness)}{constant}" + (", fragile bonds" if self.fragile else "")
-        changed = [f"{name} × {factor:g}" for name, factor in (("step", self.step), ("tolerance", self.tolerance)) if factor != 1]
+        changed = [
+            f"{name} × {factor:g}"
+            for name, factor in (("step", self.step), ("tolerance", self.tolerance))
+            if factor != 1
+        ]
         return ", ".join(["hard", *changed])
 
 
@@ -112,7 +122,9 @@ class Plan:
     def cases(self):
         """All of them, once each."""
         pairs = [c for pair in self.ensemble for c in pair]
-        return list(dict.fromkeys((*self.sweep, *self.numerics, *(c for c in (self.damping, self.fragile) if c), *pairs)))
+        return list(
+            dict.fromkeys((*self.sweep, *self.numerics, *(c for c in (self.damping, self.fragile) if c), *pairs))
+        )
 
 
 def work_of(case):
@@ -122,8 +134,22 @@ def work_of(case):
     return 1 / case.step / case.tolerance**0.3
 
 
-def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, step_share=0.8, ensemble=None, numerics=HARD_NUMERICS, damping_run=True,
-         model="cohesion_moment", fragile=False, bonds_run=False, options=None) -> Plan:
+def plan(
+    source,
+    disks,
+    seeds,
+    stiffnesses,
+    damping=0.2,
+    damping_moving=0.02,
+    step_share=0.8,
+    ensemble=None,
+    numerics=HARD_NUMERICS,
+    damping_run=True,
+    model="cohesion_moment",
+    fragile=False,
+    bonds_run=False,
+    options=None,
+) -> Plan:
     """The runs of a comparison.
 
     ``stiffnesses``: Young's moduli [Pa]; ``ensemble``: the one of the ensemble (default: the upper of the middle ones); ``numerics``: pairs as
@@ -132,7 +158,9 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
     """
     chosen = moduli_of(stiffnesses, 2)
     if not seeds or len(set(seeds)) < len(seeds) or min(seeds) < 0:
-        raise ComparisonError(f"--seeds {' '.join(map(str, seeds)) or 'nothing'}: give whole numbers from 0, each once, and one at least")
+        raise ComparisonError(
+            f"--seeds {' '.join(map(str, seeds)) or 'nothing'}: give whole numbers from 0, each once, and one at least"
+        )
     check_soft(damping, damping_moving, step_share)
     if ensemble is not None and not 0 < ensemble < math.inf:
         raise ComparisonError(f"--ensemble-stiffness {ensemble:g}: give a Young's modulus above 0 [Pa]")
@@ -141,17 +169,31 @@ def plan(source, disks, seeds, stiffnesses, damping=0.2, damping_moving=0.02, st
         chosen = sorted((*chosen, middle))
 
     def soft(stiffness, seed, moving=damping_moving, fragile=fragile):
-        return Case("soft", source, disks, seed, step_share, stiffness=stiffness, damping=damping, damping_moving=moving, model=model, fragile=fragile,
-                    options=_Options(options or {}))
+        return Case(
+            "soft",
+            source,
+            disks,
+            seed,
+            step_share,
+            stiffness=stiffness,
+            damping=damping,
+            damping_moving=moving,
+            model=model,
+            fragile=fragile,
+            options=_Options(options or {}),
+        )
 
     def hard(seed, step=1.0, tolerance=1.0):
         return Case("hard", source, disks, seed, step, tolerance, options=_Options(options or {}))
 
     first = seeds[0]
-    return Plan(tuple((hard(seed), soft(middle, seed)) for seed in seeds), tuple(soft(e, first) for e in chosen),
-                (*(hard(first, *pair) for pair in numerics[:-1]), hard(first), *(hard(first, *pair) for pair in numerics[-1:])),
-                soft(middle, first, damping) if damping_run and damping_moving not in (None, damping) else None,
-                soft(middle, first, fragile=True) if bonds_run and not fragile and model == "cohesion_moment" else None)
+    return Plan(
+        tuple((hard(seed), soft(middle, seed)) for seed in seeds),
+        tuple(soft(e, first) for e in chosen),
+        (*(hard(first, *pair) for pair in numerics[:-1]), hard(first), *(hard(first, *pair) for pair in numerics[-1:])),
+        soft(middle, first, damping) if damping_run and damping_moving not in (None, damping) else None,
+        soft(middle, first, fragile=True) if bonds_run and not fragile and model == "cohesion_moment" else None,
+    )
 
 
 class _Options(dict):

@@ -49,10 +49,14 @@ def measure_hard(folder, source, disks, state, steps):
     sweeps = solver.totalIterations
     walls, overlaps, made, simulated = _timed(steps, solver)
     return _found(simulated / made, made, walls, overlaps, solver.contacts, solver.meanSpeed) | {
-        "tolerance": solver.tolerance, "sweeps_mean": (solver.totalIterations - sweeps) / made}
+        "tolerance": solver.tolerance,
+        "sweeps_mean": (solver.totalIterations - sweeps) / made,
+    }
 
 
-def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_share, relax=RELAX_SECONDS, model="cohesion_moment"):
+def measure_soft(
+    folder, source, disks, state, stiffness, steps, damping, step_share, relax=RELAX_SECONDS, model="cohesion_moment"
+):
     """The same on soft contacts with this Young's modulus [Pa]; ``damping``: of the integrator, ``step_share``: of the stability limit."""
     from yade import O
 
@@ -71,8 +75,14 @@ def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_s
     if state == "moving":
         chosen = _without_strength(chosen, states.WEAKENED)
     packed = packing_files.Packing(t["x"], t["y"], t["r"], layers)
-    world = worlds.Soft(stiffness, (chosen.disks.d_min, chosen.disks.d_max), model=model, damping=damping, step_share=step_share,
-                        verlet=-chosen.numerics.verlet_distance)
+    world = worlds.Soft(
+        stiffness,
+        (chosen.disks.d_min, chosen.disks.d_max),
+        model=model,
+        damping=damping,
+        step_share=step_share,
+        verlet=-chosen.numerics.verlet_distance,
+    )
     built = slope.build(chosen, packed, world)
     order = slope.order_of(chosen, packed)
     for k, old in enumerate(order):
@@ -88,7 +98,10 @@ def measure_soft(folder, source, disks, state, stiffness, steps, damping, step_s
         note(0.9 * k / relax_steps)
     walls, overlaps, made, simulated = _timed(steps, built.solver)
     return _found(simulated / made, made, walls, overlaps, built.solver.contacts, built.solver.meanSpeed) | {
-        "bonds_made": bonds, "bonds_before": len(held), "state_time_s": time_s}
+        "bonds_made": bonds,
+        "bonds_before": len(held),
+        "state_time_s": time_s,
+    }
 
 
 def _timed(steps, solver):
@@ -110,9 +123,17 @@ def _timed(steps, solver):
 def _found(dt, steps, walls, overlaps, contacts, speed):
     # the median of the blocks, so that what else the machine did for a moment does not count
     wall = float(np.median(walls))
-    return {"time_step_s": dt, "steps": steps, "wall_s_per_step": wall, "wall_s_per_step_blocks": walls, "rate": wall / dt,
-            "overlap_mean_rel": float(np.mean([mean for mean, _ in overlaps])), "overlap_worst_rel": float(np.max([worst for _, worst in overlaps])),
-            "contacts": contacts, "mean_speed_m_per_s": speed}
+    return {
+        "time_step_s": dt,
+        "steps": steps,
+        "wall_s_per_step": wall,
+        "wall_s_per_step_blocks": walls,
+        "rate": wall / dt,
+        "overlap_mean_rel": float(np.mean([mean for mean, _ in overlaps])),
+        "overlap_worst_rel": float(np.max([worst for _, worst in overlaps])),
+        "contacts": contacts,
+        "mean_speed_m_per_s": speed,
+    }
 
 
 def _layer(label):
@@ -126,8 +147,16 @@ def _without_strength(chosen, walls):
     for wall in chosen.walls:
         if wall.name in walls:
             name = f"{wall.material} without strength"
-            made[name] = dataclasses.replace(chosen.materials[wall.material], name=name, friction=0.0, residual_friction=0.0, tensile_strength=0.0,
-                                             residual_tensile_strength=0.0, bonded=False, slip_weakening=None)
+            made[name] = dataclasses.replace(
+                chosen.materials[wall.material],
+                name=name,
+                friction=0.0,
+                residual_friction=0.0,
+                tensile_strength=0.0,
+                residual_tensile_strength=0.0,
+                bonded=False,
+                slip_weakening=None,
+            )
             wall = dataclasses.replace(wall, material=name)
         changed.append(wall)
     return dataclasses.replace(chosen, walls=tuple(changed), materials=MappingProxyType(made))
@@ -157,8 +186,20 @@ def _bond(built, order, held):
     return number
 
 
-def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping=0.2, damping_moving=0.02, step_share=0.8, resume=False,
-        progress=lambda share, doing: None, model="cohesion_moment"):
+def run(
+    out,
+    source,
+    disks,
+    threads,
+    stiffnesses=STIFFNESSES,
+    steps=300,
+    damping=0.2,
+    damping_moving=0.02,
+    step_share=0.8,
+    resume=False,
+    progress=lambda share, doing: None,
+    model="cohesion_moment",
+):
     """Makes the states that are missing and measures both worlds, one process after the other on ``threads``; returns :func:`summarise` of it.
 
     ``stiffnesses``: Young's moduli [Pa]; ``steps``: that are timed, :data:`LOOKS` or more. Raises ComparisonError before anything runs for numbers that
@@ -171,19 +212,33 @@ def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping
     for key, value, least in (("--disks", disks, 1), ("--threads", threads, 1), ("--steps", steps, LOOKS)):
         if value < least:
             raise ComparisonError(f"{key} {value}: give {least} or more")
-    bonds, lost = losses.of_case(slopes, Case("soft", source, disks, 1, step_share, stiffness=stiffnesses[0], damping=damping, model=model))
+    bonds, lost = losses.of_case(
+        slopes, Case("soft", source, disks, 1, step_share, stiffness=stiffnesses[0], damping=damping, model=model)
+    )
     subject = {"source": source, "disks": disks}
     made = not states.exist(source, disks)
     per_thousand = disks / 1000
     hard_s = 2 + 0.015 * steps * per_thousand
-    soft_s = {e: 5 + 0.2 * per_thousand + (0.0012 * per_thousand) * (steps + RELAX_SECONDS * (e / 1e10) ** 0.5 * 5500) for e in stiffnesses}
-    measuring = Course(out, (10 * per_thousand if made else 0) + len(STATES) * (hard_s + sum(soft_s.values())), progress)
+    soft_s = {
+        e: 5 + 0.2 * per_thousand + (0.0012 * per_thousand) * (steps + RELAX_SECONDS * (e / 1e10) ** 0.5 * 5500)
+        for e in stiffnesses
+    }
+    measuring = Course(
+        out, (10 * per_thousand if made else 0) + len(STATES) * (hard_s + sum(soft_s.values())), progress
+    )
     if made:
         measuring.call("states", 10 * per_thousand, states.make, subject, threads)
     found = {"hard": {}, "soft": {}}
 
     def once(name, seconds, function, arguments):
-        key = keys.key_of({"name": name, "threads": threads, "state": states.folder_of(states.section_of(source, disks)).name, **arguments})
+        key = keys.key_of(
+            {
+                "name": name,
+                "threads": threads,
+                "state": states.folder_of(states.section_of(source, disks)).name,
+                **arguments,
+            }
+        )
         folder = measuring.home / name
         known = kept(folder, key) if resume else None
         if known is None:
@@ -194,13 +249,43 @@ def run(out, source, disks, threads, stiffnesses=STIFFNESSES, steps=300, damping
 
     for state in STATES:
         found["hard"][state] = once(f"hard-{state}", hard_s, measure_hard, {**subject, "state": state, "steps": steps})
-        found["soft"][state] = [{"stiffness_Pa": e, **once(f"soft-{e:g}-{state}".replace("+", ""), soft_s[e], measure_soft, {
-            **subject, "state": state, "stiffness": e, "steps": steps, "damping": damping_moving if state == "moving" else damping,
-            "step_share": step_share, "model": model})}
-            for e in stiffnesses]
-    return summarise(found) | clean({"scenario": "slope", "disks": disks, "threads": threads, "source": source, "damping": damping,
-                                     "damping_moving": damping_moving, "step_share": step_share,
-                                     "model": model, "bonds": bonds, "model_lacks": lost, "steps_timed": steps, "relax_s": RELAX_SECONDS, "machine": machine.describe()})
+        found["soft"][state] = [
+            {
+                "stiffness_Pa": e,
+                **once(
+                    f"soft-{e:g}-{state}".replace("+", ""),
+                    soft_s[e],
+                    measure_soft,
+                    {
+                        **subject,
+                        "state": state,
+                        "stiffness": e,
+                        "steps": steps,
+                        "damping": damping_moving if state == "moving" else damping,
+                        "step_share": step_share,
+                        "model": model,
+                    },
+                ),
+            }
+            for e in stiffnesses
+        ]
+    return summarise(found) | clean(
+        {
+            "scenario": "slope",
+            "disks": disks,
+            "threads": threads,
+            "source": source,
+            "damping": damping,
+            "damping_moving": damping_moving,
+            "step_share": step_share,
+            "model": model,
+            "bonds": bonds,
+            "model_lacks": lost,
+            "steps_timed": steps,
+            "relax_s": RELAX_SECONDS,
+            "machine": machine.describe(),
+        }
+    )
 
 
 def summarise(found):
@@ -208,23 +293,39 @@ def summarise(found):
     states = {}
     for state, hard in found["hard"].items():
         soft = found["soft"][state]
-        moduli, overlaps, rates, steps, walls = ([s[name] for s in soft] for name in ("stiffness_Pa", "overlap_mean_rel", "rate", "time_step_s",
-                                                                                      "wall_s_per_step"))
+        moduli, overlaps, rates, steps, walls = (
+            [s[name] for s in soft]
+            for name in ("stiffness_Pa", "overlap_mean_rel", "rate", "time_step_s", "wall_s_per_step")
+        )
         modulus, _ = precision.loglog(hard["overlap_mean_rel"], overlaps, moduli)
         rate, beyond = precision.soft_rate(modulus, moduli, steps, walls)
         rock, rock_beyond = precision.soft_rate(ROCK_STIFFNESS, moduli, steps, walls)
         worst = precision.loglog(hard["overlap_worst_rel"], [s["overlap_worst_rel"] for s in soft], moduli)
         at_worst = precision.soft_rate(worst[0], moduli, steps, walls)
         fits = [precision.power_law(moduli, values) for values in (overlaps, rates)]
-        states[state] = {"equal_worst_overlap": at_worst[0] / hard["rate"], "equal_worst_overlap_stiffness_Pa": worst[0],
-                         "equal_worst_overlap_extrapolated": at_worst[1],
-                         "equal_overlap": rate / hard["rate"], "equal_overlap_stiffness_Pa": modulus, "equal_overlap_extrapolated": beyond,
-                         "rock_stiffness": rock / hard["rate"],
-                         "rock_stiffness_extrapolated": rock_beyond, "overlap_power": fits[0].power if fits[0] else None,
-                         "rate_power": fits[1].power if fits[1] else None,
-                         "hard": hard, "soft": soft}
+        states[state] = {
+            "equal_worst_overlap": at_worst[0] / hard["rate"],
+            "equal_worst_overlap_stiffness_Pa": worst[0],
+            "equal_worst_overlap_extrapolated": at_worst[1],
+            "equal_overlap": rate / hard["rate"],
+            "equal_overlap_stiffness_Pa": modulus,
+            "equal_overlap_extrapolated": beyond,
+            "rock_stiffness": rock / hard["rate"],
+            "rock_stiffness_extrapolated": rock_beyond,
+            "overlap_power": fits[0].power if fits[0] else None,
+            "rate_power": fits[1].power if fits[1] else None,
+            "hard": hard,
+            "soft": soft,
+        }
     head = states["moving"]
-    return clean({"soft_over_hard_wall_equal_overlap": head["equal_overlap"], "soft_over_hard_wall_rock_stiffness": head["rock_stiffness"],
-                  "stiffness_equal_overlap_Pa": head["equal_overlap_stiffness_Pa"], "equal_overlap_extrapolated": head["equal_overlap_extrapolated"],
-                  "rock_stiffness_extrapolated": head["rock_stiffness_extrapolated"], "overlap_hard_rel": head["hard"]["overlap_mean_rel"],
-                  "states": states})
+    return clean(
+        {
+            "soft_over_hard_wall_equal_overlap": head["equal_overlap"],
+            "soft_over_hard_wall_rock_stiffness": head["rock_stiffness"],
+            "stiffness_equal_overlap_Pa": head["equal_overlap_stiffness_Pa"],
+            "equal_overlap_extrapolated": head["equal_overlap_extrapolated"],
+            "rock_stiffness_extrapolated": head["rock_stiffness_extrapolated"],
+            "overlap_hard_rel": head["hard"]["overlap_mean_rel"],
+            "states": states,
+        }
+    )

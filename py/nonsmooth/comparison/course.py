@@ -8,21 +8,50 @@ from pathlib import Path
 
 from ..benchmark import machine
 from ..whole_files import write_atomically
-from . import answers, biaxial_report, biaxials, collapse_report, collapses, losses, report, runs, slope_report, slopes, summary
+from . import (
+    answers,
+    biaxial_report,
+    biaxials,
+    collapse_report,
+    collapses,
+    losses,
+    report,
+    runs,
+    slope_report,
+    slopes,
+    summary,
+)
 from .cases import HARD_NUMERICS, ComparisonError, plan
 
 __all__ = ["PARTS", "SCENARIOS", "check_stiffnesses", "compare", "lacks"]
 
 #: Experiment (see :mod:`outcomes`) and report of each scenario.
-SCENARIOS = {"slope": (slopes, slope_report), "biaxial": (biaxials, biaxial_report), "column": (collapses.COLUMN, collapse_report),
-             "pile": (collapses.PILE, collapse_report)}
+SCENARIOS = {
+    "slope": (slopes, slope_report),
+    "biaxial": (biaxials, biaxial_report),
+    "column": (collapses.COLUMN, collapse_report),
+    "pile": (collapses.PILE, collapse_report),
+}
 #: Parts of the plan that a comparison can do without, see :mod:`cases`.
 PARTS = ("numerics", "damping", "bonds")
 COST_QUESTION = "Which costs less at equal accuracy, and by what factor?"
 
 
-def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, threads=1, resume=False, progress=lambda share, doing: None,
-            without=(), options=None, **plan_options):
+def compare(
+    scenario,
+    out,
+    seeds,
+    *,
+    disks=None,
+    source=None,
+    stiffnesses=None,
+    threads=1,
+    resume=False,
+    progress=lambda share, doing: None,
+    without=(),
+    options=None,
+    **plan_options,
+):
     """Runs all cases that are not kept, writes ``summary.json`` and ``report.html`` into ``out``; returns the summary and the answered questions.
 
     ``scenario``: a key of SCENARIOS; arguments that are None take the scenario's own; ``without``: names from PARTS that
@@ -40,10 +69,19 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
         plan_options["damping_moving"] = None
     if stiffnesses is None and plan_options.get("ensemble") is None:
         plan_options["ensemble"] = experiment.ENSEMBLE_STIFFNESS
-    parts = dict(numerics=HARD_NUMERICS[-1:] if "numerics" in without else HARD_NUMERICS, damping_run="damping" not in without,
-                 bonds_run=experiment.BONDS and "bonds" not in without)
-    chosen = plan(source or experiment.SOURCE, disks, seeds, stiffnesses or experiment.DEFAULT_STIFFNESSES, options=options,
-                  **{**plan_options, **parts})
+    parts = dict(
+        numerics=HARD_NUMERICS[-1:] if "numerics" in without else HARD_NUMERICS,
+        damping_run="damping" not in without,
+        bonds_run=experiment.BONDS and "bonds" not in without,
+    )
+    chosen = plan(
+        source or experiment.SOURCE,
+        disks,
+        seeds,
+        stiffnesses or experiment.DEFAULT_STIFFNESSES,
+        options=options,
+        **{**plan_options, **parts},
+    )
     cases = chosen.cases
     bonds, lost = losses.of_case(experiment, chosen.ensemble[0][1])
     check_stiffnesses(experiment, chosen.sweep)
@@ -52,16 +90,33 @@ def compare(scenario, out, seeds, *, disks=None, source=None, stiffnesses=None, 
         experiment.prepare(case)
     found = runs.run(experiment.run, cases, out, threads, resume, progress)
     outcomes = {case: experiment.measure(case, runs.folder_of(case, out), one) for case, one in zip(cases, found)}
-    told = {**summary.summarise(experiment, chosen, outcomes), "machine": summary.clean(machine.describe()), "threads": threads, "bonds": bonds,
-            "model_lacks": lost,
-            # a run kept by a version that did not note it counts with what it noted of itself
-            "runs_wall_s": sum(one.get("process_wall_s", one["wall_s"]) for one in found)}
-    questions = [(text, *answers.answer_same(told, names)) for text, names in pages.QUESTIONS] + [(COST_QUESTION, *answers.answer_costs(told))]
+    told = {
+        **summary.summarise(experiment, chosen, outcomes),
+        "machine": summary.clean(machine.describe()),
+        "threads": threads,
+        "bonds": bonds,
+        "model_lacks": lost,
+        # a run kept by a version that did not note it counts with what it noted of itself
+        "runs_wall_s": sum(one.get("process_wall_s", one["wall_s"]) for one in found),
+    }
+    questions = [(text, *answers.answer_same(told, names)) for text, names in pages.QUESTIONS] + [
+        (COST_QUESTION, *answers.answer_costs(told))
+    ]
     (out / "figures").mkdir(parents=True, exist_ok=True)
-    sections = [*pages.sections(out, experiment, chosen, outcomes, told), *report.common_sections(out, experiment, chosen, outcomes, told)]
+    sections = [
+        *pages.sections(out, experiment, chosen, outcomes, told),
+        *report.common_sections(out, experiment, chosen, outcomes, told),
+    ]
     told["wall_s"] = time.monotonic() - began
     write_atomically(out / "summary.json", (json.dumps(told, indent=1) + "\n").encode())
-    report.write(out / "report.html", f"Hard against soft: {scenario}", _lead(chosen, experiment, told), questions, sections, told["machine"])
+    report.write(
+        out / "report.html",
+        f"Hard against soft: {scenario}",
+        _lead(chosen, experiment, told),
+        questions,
+        sections,
+        told["machine"],
+    )
     return told, questions
 
 
@@ -70,8 +125,11 @@ def check_stiffnesses(experiment, sweep):
     least = experiment.least_stiffness(sweep[0]) if hasattr(experiment, "least_stiffness") else 0.0
     weak, strong = ([f"{c.stiffness:g}" for c in sweep if (c.stiffness < least) == below] for below in (True, False))
     if weak:
-        raise ComparisonError(f"--stiffness {','.join(weak)}: too weak for the weight of this {experiment.NAME}; its disks at the bottom would overlap more than "
-                              f"is let through; give {1.05 * least:.2g} Pa or more" + (f", as --stiffness {','.join(strong)}" if len(strong) > 1 else ""))
+        raise ComparisonError(
+            f"--stiffness {','.join(weak)}: too weak for the weight of this {experiment.NAME}; its disks at the bottom would overlap more than "
+            f"is let through; give {1.05 * least:.2g} Pa or more"
+            + (f", as --stiffness {','.join(strong)}" if len(strong) > 1 else "")
+        )
 
 
 def lacks(told):
@@ -82,13 +140,17 @@ def lacks(told):
 def _lead(chosen, experiment, told):
     hard, soft = chosen.ensemble[0]
     constant = soft.damping_moving in (None, soft.damping)
-    rest = f"{soft.damping:g}" if constant else f"{soft.damping:g} at rest, {soft.damping_moving:g} while the mass moves"
-    return [f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and parameters with Contact "
-            f"Dynamics (“hard”) and with YADE's "
-            f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa "
-            f"where seeds are compared; "
-            f"{told['bonds']}; time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",
-            *lacks(told),
-            f"The processes of all runs took {answers.number(told['runs_wall_s'], 's')} of wall time in sum, each on one thread, runs that were kept from earlier "
-            f"sittings included; this sitting took {answers.number(told['wall_s'], 's')}, with {told['threads']} at a time.",
-            "The scatter is the standard deviation over seeds, root mean square of both worlds'. Differences within it may be chance."]
+    rest = (
+        f"{soft.damping:g}" if constant else f"{soft.damping:g} at rest, {soft.damping_moving:g} while the mass moves"
+    )
+    return [
+        f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and parameters with Contact "
+        f"Dynamics (“hard”) and with YADE's "
+        f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa "
+        f"where seeds are compared; "
+        f"{told['bonds']}; time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",
+        *lacks(told),
+        f"The processes of all runs took {answers.number(told['runs_wall_s'], 's')} of wall time in sum, each on one thread, runs that were kept from earlier "
+        f"sittings included; this sitting took {answers.number(told['wall_s'], 's')}, with {told['threads']} at a time.",
+        "The scatter is the standard deviation over seeds, root mean square of both worlds'. Differences within it may be chance.",
+    ]

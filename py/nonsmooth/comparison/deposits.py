@@ -16,7 +16,9 @@ def outline(x, y, r, closing=None):
     ``closing``: gaps narrower than twice this length [m] are filled (default: the mean radius).
     """
     a = float(r.mean()) if closing is None else closing
-    return unary_union([Point(float(p), float(q)).buffer(float(s) + a, CORNERS) for p, q, s in zip(x, y, r)]).buffer(-a, CORNERS)
+    return unary_union([Point(float(p), float(q)).buffer(float(s) + a, CORNERS) for p, q, s in zip(x, y, r)]).buffer(
+        -a, CORNERS
+    )
 
 
 def overlap(one, other):

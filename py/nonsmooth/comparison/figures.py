@@ -13,8 +13,18 @@ from ..figures.style import INK, LINES
 from ..measure.ground import ground_of
 from .cases import modulus_label
 
-__all__ = ["convergence", "cost", "cost_and_overlap", "courses", "deposits_overlaid", "force_distribution", "modes", "network", "overlaps",
-           "work_precision"]
+__all__ = [
+    "convergence",
+    "cost",
+    "cost_and_overlap",
+    "courses",
+    "deposits_overlaid",
+    "force_distribution",
+    "modes",
+    "network",
+    "overlaps",
+    "work_precision",
+]
 
 HARD, SOFT, BOTH = LINES["blue"], LINES["orange"], "#b9b9c9"
 SHADES = ("#f6c28b", "#ee9a4d", "#D55E00", "#8f3c00", "#4d1f00", "#2b1100")  # soft, from the softest to the stiffest
@@ -54,12 +64,19 @@ def deposits_overlaid(hard, soft, begin, walls, share, path=None):
     ax = fig.add_axes([0, 0, 1, height / (height + 0.5)])
     style.frame(ax, x0 - dx, x1 + dx, y0 - dy, y1 + dy)
     style.draw_walls(ax, ground_of(walls))
-    for geometry, colour, order in ((hard.difference(both), HARD, 2), (soft.difference(both), SOFT, 2), (both, BOTH, 2.1)):
+    for geometry, colour, order in (
+        (hard.difference(both), HARD, 2),
+        (soft.difference(both), SOFT, 2),
+        (both, BOTH, 2.1),
+    ):
         patch = _patch(geometry, fc=colour, ec="none", zorder=order)
         if patch is not None:
             ax.add_patch(patch)
-    handles = [Patch(color=BOTH, label=f"both: {100 * share:.0f} % of the area of either"), Patch(color=HARD, label="hard alone"),
-               Patch(color=SOFT, label="soft alone")]
+    handles = [
+        Patch(color=BOTH, label=f"both: {100 * share:.0f} % of the area of either"),
+        Patch(color=HARD, label="hard alone"),
+        Patch(color=SOFT, label="soft alone"),
+    ]
     if begin is not None:
         ax.add_patch(_patch(begin, fc="none", ec=INK, lw=0.9, ls=(0, (4, 2)), zorder=3))
         handles.append(Patch(fc="none", ec=INK, ls="--", label="before"))
@@ -81,8 +98,14 @@ def courses(groups, columns, abscissa, path=None):
         for title, colour, runs in groups:
             for k, run in enumerate(runs):
                 if name in run:
-                    ax.plot(abscissa[2] * np.asarray(run[abscissa[0]]), factor * np.asarray(run[name]), color=colour, lw=1.6 if len(runs) == 1 else 1.0,
-                            alpha=1.0 if len(runs) == 1 else 0.75, label=title if k == 0 else None)
+                    ax.plot(
+                        abscissa[2] * np.asarray(run[abscissa[0]]),
+                        factor * np.asarray(run[name]),
+                        color=colour,
+                        lw=1.6 if len(runs) == 1 else 1.0,
+                        alpha=1.0 if len(runs) == 1 else 0.75,
+                        label=title if k == 0 else None,
+                    )
         ax.set_ylabel(label)
         ax.grid(color="#e3e3e3", lw=0.7)
         ax.set_axisbelow(True)
@@ -102,8 +125,14 @@ def force_distribution(groups, path=None):
         if len(forces):
             density, _ = np.histogram(forces / np.mean(forces), edges, density=False)
             seen = density > 0
-            ax.plot(at[seen], (density / len(forces) / (edges[1] - edges[0]))[seen], color=colour, marker="o", ms=3,
-                    label=f"{label} ({len(forces)} contacts)")
+            ax.plot(
+                at[seen],
+                (density / len(forces) / (edges[1] - edges[0]))[seen],
+                color=colour,
+                marker="o",
+                ms=3,
+                label=f"{label} ({len(forces)} contacts)",
+            )
     ax.set_yscale("log")
     ax.set_xlabel("normal force over its mean, N/⟨N⟩")
     ax.set_ylabel("probability density P(N/⟨N⟩)")
@@ -122,8 +151,16 @@ def modes(groups, path=None):
     for k, (label, colour, counts) in enumerate(groups):
         means = [100 * float(np.mean(counts[n])) for n in names]
         spread = [100 * float(np.std(counts[n], ddof=1)) if len(counts[n]) > 1 else 0.0 for n in names]
-        ax.bar(np.arange(len(names)) + (k + 0.5) * wide - 0.4, means, 0.94 * wide, color=colour, yerr=spread if any(spread) else None, ecolor=INK,
-               capsize=2, label=label)
+        ax.bar(
+            np.arange(len(names)) + (k + 0.5) * wide - 0.4,
+            means,
+            0.94 * wide,
+            color=colour,
+            yerr=spread if any(spread) else None,
+            ecolor=INK,
+            capsize=2,
+            label=label,
+        )
     ax.set_xticks(range(len(names)), ("tension", "shear", "torque", "several at once,\nor not known"))
     ax.set_ylabel("broken bonds [% of those made]")
     ax.legend()
@@ -156,8 +193,12 @@ def overlaps(moduli, rest, moving, hard_rest, hard_moving, path=None, when=("at 
 def cost(moduli, rates, steps, hard_rate, hard_steps, path=None):
     """Wall time and number of steps for a second of simulation, against stiffness."""
     fig = style.figure(9.5, 4.2, layout="constrained")
-    for ax, values, level, label in zip(fig.subplots(1, 2), (rates, steps), (hard_rate, hard_steps),
-                                        ("wall time for a second of simulation [s]", "steps in a second of simulation")):
+    for ax, values, level, label in zip(
+        fig.subplots(1, 2),
+        (rates, steps),
+        (hard_rate, hard_steps),
+        ("wall time for a second of simulation [s]", "steps in a second of simulation"),
+    ):
         ax.plot(moduli, values, color=SOFT, marker="s", label="soft")
         ax.axhline(level, color=HARD, label=f"hard: {level:.3g}")
         ax.set(xscale="log", yscale="log")
@@ -176,18 +217,31 @@ def cost_and_overlap(panels, path=None):
     at equal overlap (None: not known).
     """
     fig = style.figure(11, 4.8, layout="constrained")
-    for ax, (title, hard, soft, factor) in zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels):
+    for ax, (title, hard, soft, factor) in zip(
+        np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels
+    ):
         x, y = [s["overlap_mean_rel"] for s in soft], [s["rate"] for s in soft]
         ax.plot(x, y, color=SOFT, marker=MARKS["soft"], label="soft")
         for s in soft:
-            ax.annotate(modulus_label(s["stiffness_Pa"]), (s["overlap_mean_rel"], s["rate"]), xytext=(6, 4), textcoords="offset points", fontsize=8,
-                        color=SOFT)
+            ax.annotate(
+                modulus_label(s["stiffness_Pa"]),
+                (s["overlap_mean_rel"], s["rate"]),
+                xytext=(6, 4),
+                textcoords="offset points",
+                fontsize=8,
+                color=SOFT,
+            )
         ax.plot([hard["overlap_mean_rel"]], [hard["rate"]], color=HARD, marker=MARKS["hard"], ms=8, ls="", label="hard")
         if factor:
             rate = factor * hard["rate"]
             ax.plot([x[-1], hard["overlap_mean_rel"]], [y[-1], rate], color=SOFT, ls=(0, (4, 2)), lw=1.0)
             ax.plot([hard["overlap_mean_rel"]] * 2, [hard["rate"], rate], color=INK, lw=0.9)
-            ax.annotate(f"× {factor:.3g}", (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])), xytext=(6, 0), textcoords="offset points")
+            ax.annotate(
+                f"× {factor:.3g}",
+                (hard["overlap_mean_rel"], np.sqrt(rate * hard["rate"])),
+                xytext=(6, 0),
+                textcoords="offset points",
+            )
         ax.set(xscale="log", yscale="log")
         ax.margins(x=0.15, y=0.12)
         ax.set_title(title)
@@ -210,11 +264,23 @@ def work_precision(panels, chance, path=None):
     panels = [(title, *(_drawable(points) for points in groups)) for title, *groups in panels]
     panes = list(zip(np.atleast_1d(fig.subplots(1, len(panels), sharex=True, sharey=True)), panels))
     for ax, (title, hard, soft, aside) in panes:
-        for world, points, colour, name in (("hard", hard, HARD, "hard"), ("soft", soft, SOFT, "soft"), ("soft", aside, SOFT, "soft, other bonds")):
+        for world, points, colour, name in (
+            ("hard", hard, HARD, "hard"),
+            ("soft", soft, SOFT, "soft"),
+            ("soft", aside, SOFT, "soft, other bonds"),
+        ):
             if not points:
                 continue
-            ax.plot([p[0] for p in points], [p[1] for p in points], color=colour, ls="", marker=MARKS[world] if name == world else "D", ms=7,
-                    mfc=colour if name == world else "none", label=name)
+            ax.plot(
+                [p[0] for p in points],
+                [p[1] for p in points],
+                color=colour,
+                ls="",
+                marker=MARKS[world] if name == world else "D",
+                ms=7,
+                mfc=colour if name == world else "none",
+                label=name,
+            )
         if chance:
             ax.axhspan(1e-12, chance, color="#eeeeee", zorder=0)
             ax.axhline(chance, color=LINES["grey"], ls=(0, (4, 2)), label="scatter over seeds")
@@ -241,17 +307,34 @@ def _drawable(points):
 
 def _name_points(ax, named, level=None):
     """Writes the labels of ``named``, pairs ((x, y, label), colour), beside their points, clear of points, other labels, the legend and the line at ``level``."""
-    taken = [Bbox.from_extents(x - 5, y - 5, x + 5, y + 5) for x, y in ax.transData.transform([p[:2] for p, _ in named])] + [ax.get_legend().get_window_extent()]
+    taken = [
+        Bbox.from_extents(x - 5, y - 5, x + 5, y + 5) for x, y in ax.transData.transform([p[:2] for p, _ in named])
+    ] + [ax.get_legend().get_window_extent()]
     if level:
         y = ax.transData.transform((ax.get_xlim()[0], level))[1]
         taken.append(Bbox.from_extents(ax.bbox.xmin, y - 1, ax.bbox.xmax, y + 1))
     away = {"left": 7, "right": -7, "bottom": 2, "top": -2}
     for (x, y, label), colour in named:
         text = None
-        for ha, va in (("left", "bottom"), ("left", "top"), ("right", "bottom"), ("right", "top"), ("left", "bottom")):  # the first again where none is free
+        for ha, va in (
+            ("left", "bottom"),
+            ("left", "top"),
+            ("right", "bottom"),
+            ("right", "top"),
+            ("left", "bottom"),
+        ):  # the first again where none is free
             if text:
                 text.remove()
-            text = ax.annotate(label, (x, y), xytext=(away[ha], away[va]), textcoords="offset points", fontsize=7.5, color=colour, ha=ha, va=va)
+            text = ax.annotate(
+                label,
+                (x, y),
+                xytext=(away[ha], away[va]),
+                textcoords="offset points",
+                fontsize=7.5,
+                color=colour,
+                ha=ha,
+                va=va,
+            )
             box = text.get_window_extent()
             if box.count_overlaps(taken) == 0 and ax.bbox.xmin < box.xmin and box.xmax < ax.bbox.xmax:
                 break
@@ -270,7 +353,14 @@ def convergence(moduli, rows, path=None):
         good = np.isfinite(d) & (d > 0)
         ax.plot(np.asarray(moduli)[good], d[good], color=SOFT, marker="s", ls="")
         if power is not None and scale is not None:
-            ax.plot(moduli, scale * np.asarray(moduli) ** power, color=SOFT, lw=0.9, ls=(0, (4, 2)), label=rf"$\propto E^{{{power:.2f}}}$")
+            ax.plot(
+                moduli,
+                scale * np.asarray(moduli) ** power,
+                color=SOFT,
+                lw=0.9,
+                ls=(0, (4, 2)),
+                label=rf"$\propto E^{{{power:.2f}}}$",
+            )
         if chance:
             ax.axhline(chance, color=LINES["grey"], lw=0.9, label="scatter over seeds")
         ax.set(xscale="log", yscale="log")
@@ -278,11 +368,13 @@ def convergence(moduli, rows, path=None):
         ax.grid(color="#e3e3e3", lw=0.7)
         if ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=7.5)
-    for ax in axes[len(rows):]:
+    for ax in axes[len(rows) :]:
         ax.set_visible(False)
-    for ax in axes[max(0, len(rows) - across):len(rows)]:
+    for ax in axes[max(0, len(rows) - across) : len(rows)]:
         ax.set_xlabel("Young's modulus [Pa]")
-        ax.tick_params(labelbottom=True)  # above an empty place of the grid too, where the shared axis would leave them to that
+        ax.tick_params(
+            labelbottom=True
+        )  # above an empty place of the grid too, where the shared axis would leave them to that
     for ax in axes[::across]:
         ax.set_ylabel("relative difference")
     return style.save(fig, path)

@@ -17,13 +17,17 @@ def of_case(experiment, case):
     ``experiment``: module or object with ``disks_of(case)``, see :mod:`outcomes`. Raises SoftError for a material that the model cannot have.
     """
     materials, diameter = experiment.disks_of(case)
-    world = worlds.Soft(case.stiffness, diameter, model=case.model, damping=case.damping, step_share=case.step, fragile=case.fragile)
+    world = worlds.Soft(
+        case.stiffness, diameter, model=case.model, damping=case.damping, step_share=case.step, fragile=case.fragile
+    )
     fullest = dataclasses.replace(world, model=FULLEST)
     lost = {}
     for m in materials:  # the same for each; but each has to have an equivalent
         known = soft.describe(fullest.equivalent(m)).lost
         lost |= dict.fromkeys(line for line in soft.describe(world.equivalent(m)).lost if line not in known)
-    if case.model == "friction" and not any(m.bonded or m.rolling_friction or m.residual_rolling_friction for m in materials):
+    if case.model == "friction" and not any(
+        m.bonded or m.rolling_friction or m.residual_rolling_friction for m in materials
+    ):
         lost = {}  # it has neither bonds nor moments, and these disks need none
     return _bonds(materials, world), list(lost)
 

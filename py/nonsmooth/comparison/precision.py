@@ -25,7 +25,19 @@ import numpy as np
 
 from . import deposits
 
-__all__ = ["Fit", "Work", "compare_work", "curve_difference", "error", "force_difference", "loglog", "parts", "power_law", "scatter", "soft_rate"]
+__all__ = [
+    "Fit",
+    "Work",
+    "compare_work",
+    "curve_difference",
+    "error",
+    "force_difference",
+    "loglog",
+    "parts",
+    "power_law",
+    "scatter",
+    "soft_rate",
+]
 
 POINTS = 400  # of the abscissa on which curves are compared
 
@@ -53,7 +65,9 @@ def parts(one, reference, key_quantities=()):
     found = {}
     for name in one.curves:
         if name != "abscissa" and name in reference.curves:
-            found[name] = curve_difference(one.curves["abscissa"], one.curves[name], reference.curves["abscissa"], reference.curves[name])
+            found[name] = curve_difference(
+                one.curves["abscissa"], one.curves[name], reference.curves["abscissa"], reference.curves[name]
+            )
     if one.deposit is not None and reference.deposit is not None:
         found["deposit"] = 1 - deposits.overlap(one.deposit, reference.deposit)
     for name in key_quantities:
@@ -85,7 +99,10 @@ def force_difference(one, reference):
         return math.nan, math.nan
     a, b = (np.array([forces.get(pair, 0.0) for pair in pairs]) for forces in (one, reference))
     mean = np.mean(list(reference.values()))
-    return float(np.sqrt(np.mean((a - b) ** 2)) / mean), float(np.corrcoef(a, b)[0, 1]) if a.std() > 0 and b.std() > 0 else math.nan
+    return (
+        float(np.sqrt(np.mean((a - b) ** 2)) / mean),
+        float(np.corrcoef(a, b)[0, 1]) if a.std() > 0 and b.std() > 0 else math.nan,
+    )
 
 
 @dataclass(frozen=True)
@@ -181,7 +198,10 @@ def compare_work(hard, soft, floor=0.0):
     target = max(reached, floor)
 
     def cheapest(points):
-        return min((k for k, (w, e) in enumerate(points) if math.isfinite(e) and w > 0 and e <= target * (1 + 1e-12)), key=lambda k: points[k][0])
+        return min(
+            (k for k, (w, e) in enumerate(points) if math.isfinite(e) and w > 0 and e <= target * (1 + 1e-12)),
+            key=lambda k: points[k][0],
+        )
 
     a, b = cheapest(hard), cheapest(soft)
     return Work(target, a, b, soft[b][0] / hard[a][0], floor > reached)

@@ -23,6 +23,22 @@ def run(function, cases, out, threads, resume=False, progress=lambda share, doin
     being done. Raises ComparisonError with the first failure after all others have ended.
     """
     name = processes.named(function)
-    made = [side_by_side.Run(c.name, folder_of(c, out), function, asdict(c), keys.key_of({"function": name, "case": asdict(c)}), work_of(c)) for c in cases]
-    return side_by_side.run(made, threads, resume, ComparisonError, "; finished runs are kept, go on with --resume",
-                            lambda share, ended: progress(share, f"{ended} of {len(made)} runs done"))
+    made = [
+        side_by_side.Run(
+            c.name,
+            folder_of(c, out),
+            function,
+            asdict(c),
+            keys.key_of({"function": name, "case": asdict(c)}),
+            work_of(c),
+        )
+        for c in cases
+    ]
+    return side_by_side.run(
+        made,
+        threads,
+        resume,
+        ComparisonError,
+        "; finished runs are kept, go on with --resume",
+        lambda share, ended: progress(share, f"{ended} of {len(made)} runs done"),
+    )

@@ -38,7 +38,11 @@ QUANTITIES = (
 NAME, TITLE = "slope", "Rain-triggered rock slope"
 SOURCE, DISKS = "jiufengershan", 3000
 KEYS = ("water_at_failure_m",)  # quantities that are parts of the error, besides curves and deposit
-CURVES = {"front": "the front's way", "centroid": "the centre of mass's way", "deposit": "the deposit (1 − common area)"}
+CURVES = {
+    "front": "the front's way",
+    "centroid": "the centre of mass's way",
+    "deposit": "the deposit (1 − common area)",
+}
 OVERLAP = "Mean overlap of the contacts that touch or bear a force, at walls too, in mean diameters of the pair (the disk's at a wall)."
 OVERLAP_WHEN = ("at rest, before the water rises", "while moving")
 COST_WHEN = "while the mass moves"
@@ -49,8 +53,13 @@ def section_of(case: Case):
     s = section.load(case.source).with_disks(case.disks)
     n, stages = s.numerics, s.stages
     if case.world == "hard":
-        n = dataclasses.replace(n, time_step=n.time_step * case.step, path=n.path and n.path * case.step, tolerance=n.tolerance * case.tolerance,
-                                tolerance_moving=n.tolerance_moving * case.tolerance)
+        n = dataclasses.replace(
+            n,
+            time_step=n.time_step * case.step,
+            path=n.path and n.path * case.step,
+            tolerance=n.tolerance * case.tolerance,
+            tolerance_moving=n.tolerance_moving * case.tolerance,
+        )
     if case.options.get("end") is not None:
         stages = dataclasses.replace(stages, end=dataclasses.replace(stages.end, time=case.options["end"]))
     return dataclasses.replace(s, seed=case.seed, numerics=n, stages=stages)
@@ -77,42 +86,68 @@ def run(folder, **plain):
     s, note = section_of(case), Progress(folder)
     world = None
     if case.world == "soft":
-        world = worlds.Soft(case.stiffness, (s.disks.d_min, s.disks.d_max), model=case.model, damping=case.damping, step_share=case.step, fragile=case.fragile,
-                            verlet=-s.numerics.verlet_distance)
+        world = worlds.Soft(
+            case.stiffness,
+            (s.disks.d_min, s.disks.d_max),
+            model=case.model,
+            damping=case.damping,
+            step_share=case.step,
+            fragile=case.fragile,
+            verlet=-s.numerics.verlet_distance,
+        )
     built = slope.build(s, packing.cached_pack(s), world)
     if case.world == "soft":  # so that rows are those of the hard run
         row = scales.of(s).row_seconds
         O.dt = row / math.ceil(row / O.dt)
-    course = experiment.Experiment(built, folder, progress=lambda stage, now, foreseen: note(now / foreseen), damping_moving=case.damping_moving)
+    course = experiment.Experiment(
+        built, folder, progress=lambda stage, now, foreseen: note(now / foreseen), damping_moving=case.damping_moving
+    )
     course.run()
-    return {"state": asdict(course.state), "disks": built.count, "steps": O.iter - course.state.first_step, "simulated_s": O.time,
-            "overlap_worst_ever": built.solver.overlapWorstEver}
+    return {
+        "state": asdict(course.state),
+        "disks": built.count,
+        "steps": O.iter - course.state.first_step,
+        "simulated_s": O.time,
+        "overlap_worst_ever": built.solver.overlapWorstEver,
+    }
 
 
 def measure(case: Case, folder, found) -> Outcome:
     """What the records of a finished run say; ``found``: what :func:`run` returned. Runs are aligned by when the slope begins to move."""
     s, state = section_of(case), found["state"]
     if "simulated_s" not in found:  # as of versions whose steps were all as long
-        raise ComparisonError(f"{folder}: its result.json has no simulated_s; remove the folder and go on with --resume")
+        raise ComparisonError(
+            f"{folder}: its result.json has no simulated_s; remove the folder and go on with --resume"
+        )
     series, second = results.chosen_rows(records.read_series(folder / "series.csv"), state), scales.of(s).mean_seconds
     times = results.characteristic_times(series, s, state)
     t, last = series["time_s"], float(series["time_s"][-1])
-    at = lambda name, when, span=second: None if when is None else results.mean_of(series, name, when, span)  # noqa: E731
-    begin, end = (records.read_snapshot(folder / name) if (folder / name).exists() else None for name in ("t0.npz", "end.npz"))
+    at = (
+        lambda name, when, span=second: None if when is None else results.mean_of(series, name, when, span)
+    )  # noqa: E731
+    begin, end = (
+        records.read_snapshot(folder / name) if (folder / name).exists() else None for name in ("t0.npz", "end.npz")
+    )
     after = t >= (times["t0"] or 0.0) - 1e-9
     failed_dry = state.get("failed_dry")
     front0 = series["front_m"][0] if failed_dry is not None else state["front0"]
     start = state["moving"] if state["moving"] is not None else times["t0"]
-    moved = np.hypot(series["centroid_x_m"] - series["centroid_x_m"][after][0], series["centroid_y_m"] - series["centroid_y_m"][after][0])
+    moved = np.hypot(
+        series["centroid_x_m"] - series["centroid_x_m"][after][0],
+        series["centroid_y_m"] - series["centroid_y_m"][after][0],
+    )
     broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
     values = {
         "water_at_failure_m": at("water_m", times["t1"], 0.0),
         "front_travel_m": None if front0 is None else float(series["front_m"][-1] - front0),
-        "centroid_travel_m": float(moved[-1]), "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", times["t1"]),
-        "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", times["t1"]), "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2 * second),
+        "centroid_travel_m": float(moved[-1]),
+        "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", times["t1"]),
+        "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", times["t1"]),
+        "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2 * second),
         "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2 * second),
         "bonds_broken_share": broken / state["bonds_initial"] if state["bonds_initial"] else None,
-        "deposit_thickness_max_m": None, "speed_mean_max_m_per_s": float(series["speed_mean_m_per_s"].max()),
+        "deposit_thickness_max_m": None,
+        "speed_mean_max_m_per_s": float(series["speed_mean_m_per_s"].max()),
     }
     notes = []
     if end is not None:
@@ -124,18 +159,31 @@ def measure(case: Case, folder, found) -> Outcome:
         notes.append("the slope did not begin to move")
     elif times["t5"] is None:
         notes.append(f"stopped at {last:.0f} s, before the mass was at rest")
-    moving = (t >= start) & (series["speed_mean_m_per_s"] > 0.1 * series["speed_mean_m_per_s"].max()) if start is not None else np.zeros(len(t), bool)
+    moving = (
+        (t >= start) & (series["speed_mean_m_per_s"] > 0.1 * series["speed_mean_m_per_s"].max())
+        if start is not None
+        else np.zeros(len(t), bool)
+    )
     rest = (t > (times["t0"] or last) - second) & (t <= (times["t0"] or last) + 1e-9)
-    curves = {"abscissa": t[after] - (start if start is not None else t[after][0]),
-              "front": series["front_m"][after] - (series["front_m"][after][0] if front0 is None else front0),
-              "centroid": moved[after]}
+    curves = {
+        "abscissa": t[after] - (start if start is not None else t[after][0]),
+        "front": series["front_m"][after] - (series["front_m"][after][0] if front0 is None else front0),
+        "centroid": moved[after],
+    }
     simulated = found["simulated_s"]
     rate = state["wall_moving_s"] / state["moving_s"] if state["moving_s"] else state["wall_steps_s"] / simulated
     return Outcome(
-        case, values, curves, series, *(None if n is None else (n.x, n.y, n.r) for n in (begin, end)),
-        forces={} if begin is None else forces_of(begin), overlap=_mean(series, moving if moving.any() else after),
-        overlap_rest=_mean(series, rest if rest.any() else after), cost=Cost(found["steps"], simulated / found["steps"], state["wall_steps_s"], simulated,
-                                                                             rate), notes=notes)
+        case,
+        values,
+        curves,
+        series,
+        *(None if n is None else (n.x, n.y, n.r) for n in (begin, end)),
+        forces={} if begin is None else forces_of(begin),
+        overlap=_mean(series, moving if moving.any() else after),
+        overlap_rest=_mean(series, rest if rest.any() else after),
+        cost=Cost(found["steps"], simulated / found["steps"], state["wall_steps_s"], simulated, rate),
+        notes=notes,
+    )
 
 
 def forces_of(snapshot):

@@ -39,8 +39,11 @@ def estimate(hard, soft):
     pairs = [(a, b) for a, b in zip(hard, soft) if a is not None and b is not None]
     found = {}
     for world, values in (("hard", number(hard)), ("soft", number(soft))):
-        found[world] = {"mean": float(np.mean(values)) if values else None, "sd": float(np.std(values, ddof=1)) if len(values) > 1 else None,
-                        "values": list(hard if world == "hard" else soft)}
+        found[world] = {
+            "mean": float(np.mean(values)) if values else None,
+            "sd": float(np.std(values, ddof=1)) if len(values) > 1 else None,
+            "values": list(hard if world == "hard" else soft),
+        }
     difference = Estimate.of([b - a for a, b in pairs]) if pairs else None
     found["difference"] = None if difference is None else difference.mean
     found["difference_95"] = None if difference is None or math.isnan(difference.half_width) else difference.half_width
@@ -69,10 +72,22 @@ def stiffest_within(differences, scatter):
 
 def _run(outcome, error, own):
     c = outcome.case
-    return {"name": c.name, "label": c.label, "world": c.world, "seed": c.seed, "stiffness_Pa": c.stiffness, "step_factor": c.step,
-            "tolerance_factor": c.tolerance,
-            "values": outcome.values, "overlap_mean_rel": outcome.overlap, "overlap_rest_rel": outcome.overlap_rest, "cost": asdict(outcome.cost),
-            "error_against_hard": error, "error_against_own_world": own, "notes": outcome.notes}
+    return {
+        "name": c.name,
+        "label": c.label,
+        "world": c.world,
+        "seed": c.seed,
+        "stiffness_Pa": c.stiffness,
+        "step_factor": c.step,
+        "tolerance_factor": c.tolerance,
+        "values": outcome.values,
+        "overlap_mean_rel": outcome.overlap,
+        "overlap_rest_rel": outcome.overlap_rest,
+        "cost": asdict(outcome.cost),
+        "error_against_hard": error,
+        "error_against_own_world": own,
+        "notes": outcome.notes,
+    }
 
 
 def summarise(scenario, plan, outcomes):
@@ -83,46 +98,88 @@ def summarise(scenario, plan, outcomes):
     keys = scenario.KEYS
     pairs = [(outcomes[h], outcomes[s]) for h, s in plan.ensemble]
     hard, soft = ([p[k] for p in pairs] for k in (0, 1))
-    quantities = {q.name: {"means": q.means, "unit": q.unit, **estimate([o.values.get(q.name) for o in hard], [o.values.get(q.name) for o in soft])}
-                  for q in scenario.QUANTITIES}
+    quantities = {
+        q.name: {
+            "means": q.means,
+            "unit": q.unit,
+            **estimate([o.values.get(q.name) for o in hard], [o.values.get(q.name) for o in soft]),
+        }
+        for q in scenario.QUANTITIES
+    }
     both = [(a, b) for a, b in pairs if a.deposit is not None and b.deposit is not None]
     deposit = [deposits.overlap(a.deposit, b.deposit) for a, b in both]
     common = {str(a.case.seed): deposits.common_area(a.deposit, b.deposit) for a, b in both}
-    between = [deposits.overlap(a.deposit, b.deposit) for k, a in enumerate(hard) for b in hard[k + 1:] if a.deposit is not None and b.deposit is not None]
+    between = [
+        deposits.overlap(a.deposit, b.deposit)
+        for k, a in enumerate(hard)
+        for b in hard[k + 1 :]
+        if a.deposit is not None and b.deposit is not None
+    ]
     mean = lambda name, world: quantities[name][world]["mean"] if name in quantities else None  # noqa: E731
     numerics, sweep = [outcomes[c] for c in plan.numerics], [outcomes[c] for c in plan.sweep]
     chance = precision.scatter(hard, keys)
     work = _work(numerics, sweep, [outcomes[plan.fragile]] if plan.fragile else [], chance, keys)
-    runs = [_run(o, precision.error(o, numerics[-1], keys), precision.error(o, numerics[-1] if o.case.world == "hard" else sweep[-1], keys))
-            for o in outcomes.values()]
+    runs = [
+        _run(
+            o,
+            precision.error(o, numerics[-1], keys),
+            precision.error(o, numerics[-1] if o.case.world == "hard" else sweep[-1], keys),
+        )
+        for o in outcomes.values()
+    ]
     summary = {
-        "scenario": scenario.NAME, "disks": plan.ensemble[0][0].disks, "seeds": [h.seed for h, _ in plan.ensemble],
+        "scenario": scenario.NAME,
+        "disks": plan.ensemble[0][0].disks,
+        "seeds": [h.seed for h, _ in plan.ensemble],
         "stiffnesses_Pa": [c.stiffness for c in plan.sweep],
-        "ensemble_stiffness_Pa": plan.ensemble[0][1].stiffness, "damping": plan.ensemble[0][1].damping,
+        "ensemble_stiffness_Pa": plan.ensemble[0][1].stiffness,
+        "damping": plan.ensemble[0][1].damping,
         "damping_moving": plan.ensemble[0][1].damping_moving,
-        "step_share": plan.ensemble[0][1].step, "model": plan.ensemble[0][1].model,
-        "water_at_failure_hard_m": mean("water_at_failure_m", "hard"), "water_at_failure_soft_m": mean("water_at_failure_m", "soft"),
-        "front_travel_hard_m": mean("front_travel_m", "hard"), "front_travel_soft_m": mean("front_travel_m", "soft"),
+        "step_share": plan.ensemble[0][1].step,
+        "model": plan.ensemble[0][1].model,
+        "water_at_failure_hard_m": mean("water_at_failure_m", "hard"),
+        "water_at_failure_soft_m": mean("water_at_failure_m", "soft"),
+        "front_travel_hard_m": mean("front_travel_m", "hard"),
+        "front_travel_soft_m": mean("front_travel_m", "soft"),
         "deposit_overlap_fraction": float(np.mean(deposit)) if deposit else None,
-        "deposit_overlap_m2": float(np.mean(list(common.values()))) if common else None, "deposit_overlap_m2_by_seed": common,
+        "deposit_overlap_m2": float(np.mean(list(common.values()))) if common else None,
+        "deposit_overlap_m2_by_seed": common,
         "deposit_overlap_fraction_between_seeds": float(np.mean(between)) if between else None,
-        **_cost(outcomes[plan.ensemble[0][0]], sweep), "work_precision": work, "convergence": _convergence(scenario, plan, outcomes, quantities, chance),
-        "scatter": chance, "quantities": quantities, "runs": runs,
+        **_cost(outcomes[plan.ensemble[0][0]], sweep),
+        "work_precision": work,
+        "convergence": _convergence(scenario, plan, outcomes, quantities, chance),
+        "scatter": chance,
+        "quantities": quantities,
+        "runs": runs,
     }
     return clean(summary)
 
 
 def _cost(hard, sweep):
     """Wall time for a second of simulation (see Cost.rate), soft over hard: at equal mean overlap (Outcome.overlap), and at a rock's stiffness."""
-    moduli, overlaps, steps, walls = ([f(o) for o in sweep] for f in (lambda o: o.case.stiffness, lambda o: o.overlap, lambda o: o.cost.step_s,
-                                                                      lambda o: o.cost.rate * o.cost.step_s))
+    moduli, overlaps, steps, walls = (
+        [f(o) for o in sweep]
+        for f in (
+            lambda o: o.case.stiffness,
+            lambda o: o.overlap,
+            lambda o: o.cost.step_s,
+            lambda o: o.cost.rate * o.cost.step_s,
+        )
+    )
     modulus, _ = precision.loglog(hard.overlap, overlaps, moduli)
     rate, beyond = precision.soft_rate(modulus, moduli, steps, walls)
     rock, rock_beyond = precision.soft_rate(ROCK_STIFFNESS, moduli, steps, walls)
     rates = [o.cost.rate for o in sweep]
-    return {"soft_over_hard_wall_equal_overlap": rate / hard.cost.rate, "stiffness_equal_overlap_Pa": modulus, "equal_overlap_extrapolated": beyond,
-            "soft_over_hard_wall_rock_stiffness": rock / hard.cost.rate, "rock_stiffness_extrapolated": rock_beyond, "overlap_hard_rel": hard.overlap,
-            "wall_s_per_simulated_s_hard": hard.cost.rate, "wall_s_per_simulated_s_soft": dict(zip(map("{:g}".format, moduli), rates))}
+    return {
+        "soft_over_hard_wall_equal_overlap": rate / hard.cost.rate,
+        "stiffness_equal_overlap_Pa": modulus,
+        "equal_overlap_extrapolated": beyond,
+        "soft_over_hard_wall_rock_stiffness": rock / hard.cost.rate,
+        "rock_stiffness_extrapolated": rock_beyond,
+        "overlap_hard_rel": hard.overlap,
+        "wall_s_per_simulated_s_hard": hard.cost.rate,
+        "wall_s_per_simulated_s_soft": dict(zip(map("{:g}".format, moduli), rates)),
+    }
 
 
 def _work(numerics, sweep, aside, chance, keys):
@@ -130,21 +187,42 @@ def _work(numerics, sweep, aside, chance, keys):
 
     ``aside``: soft outcomes that are shown but not compared.
     """
-    point = lambda o, reference: {"run": o.case.name, "label": o.case.label, "wall_s": o.cost.wall_s, "error": precision.error(o, reference, keys),  # noqa: E731
-                                  "parts": precision.parts(o, reference, keys)}
+    point = lambda o, reference: {
+        "run": o.case.name,
+        "label": o.case.label,
+        "wall_s": o.cost.wall_s,
+        "error": precision.error(o, reference, keys),  # noqa: E731
+        "parts": precision.parts(o, reference, keys),
+    }
     found = {"scatter": chance, "reference_hard": numerics[-1].case.name, "reference_soft": sweep[-1].case.name}
-    for kind, references in (("against_hard", (numerics[-1], numerics[-1])), ("against_own", (numerics[-1], sweep[-1]))):
+    for kind, references in (
+        ("against_hard", (numerics[-1], numerics[-1])),
+        ("against_own", (numerics[-1], sweep[-1])),
+    ):
         lists = [[o for o in group if o is not reference] for group, reference in zip((numerics, sweep), references)]
-        points = [[(o.cost.wall_s, precision.error(o, reference, keys)) for o in group] for group, reference in zip(lists, references)]
+        points = [
+            [(o.cost.wall_s, precision.error(o, reference, keys)) for o in group]
+            for group, reference in zip(lists, references)
+        ]
         work = precision.compare_work(*points, chance)
         compared = None
         if work is not None:
             hard, soft = lists[0][work.hard].case, lists[1][work.soft].case
-            compared = {"error": work.error, "at_scatter": work.at_scatter, "factor": work.factor, "hard": hard.name, "soft": soft.name,
-                        "hard_label": hard.label, "soft_label": soft.label}
+            compared = {
+                "error": work.error,
+                "at_scatter": work.at_scatter,
+                "factor": work.factor,
+                "hard": hard.name,
+                "soft": soft.name,
+                "hard_label": hard.label,
+                "soft_label": soft.label,
+            }
         found[kind] = {"compared": compared} | {
-            world: [point(o, reference) for o in group] for world, group, reference in zip(("hard", "soft", "soft_aside"), (*lists, aside),
-                                                                                           (*references, references[1]))}
+            world: [point(o, reference) for o in group]
+            for world, group, reference in zip(
+                ("hard", "soft", "soft_aside"), (*lists, aside), (*references, references[1])
+            )
+        }
     return found
 
 
@@ -153,29 +231,60 @@ def _convergence(scenario, plan, outcomes, quantities, chance):
     reference = outcomes[plan.ensemble[0][0]]
     sweep = [outcomes[c] for c in plan.sweep]
     moduli = [o.case.stiffness for o in sweep]
-    rows = {"error": {"means": "error, all parts together", "differences": [precision.error(o, reference, scenario.KEYS) for o in sweep],
-                      "scatter": chance}}
+    rows = {
+        "error": {
+            "means": "error, all parts together",
+            "differences": [precision.error(o, reference, scenario.KEYS) for o in sweep],
+            "scatter": chance,
+        }
+    }
     for name in precision.parts(sweep[-1], reference):
-        rows[name] = {"means": f"difference of {scenario.CURVES.get(name, name)}",
-                      "differences": [precision.parts(o, reference).get(name, math.nan) for o in sweep],
-                      "scatter": _median_part(plan, outcomes, name)}
+        rows[name] = {
+            "means": f"difference of {scenario.CURVES.get(name, name)}",
+            "differences": [precision.parts(o, reference).get(name, math.nan) for o in sweep],
+            "scatter": _median_part(plan, outcomes, name),
+        }
     for q in scenario.QUANTITIES:
         base, spread = reference.values.get(q.name), quantities[q.name]["hard"]["sd"]
         if base:
-            differences = [math.nan if o.values.get(q.name) is None else abs(o.values[q.name] / base - 1) for o in sweep]
-            rows[q.name] = {"means": q.means, "differences": differences, "scatter": math.nan if spread is None else spread / abs(base)}
-    rows["overlap"] = {"means": f"mean overlap, {scenario.OVERLAP_WHEN[0]}", "differences": [o.overlap_rest for o in sweep], "scatter": math.nan}
+            differences = [
+                math.nan if o.values.get(q.name) is None else abs(o.values[q.name] / base - 1) for o in sweep
+            ]
+            rows[q.name] = {
+                "means": q.means,
+                "differences": differences,
+                "scatter": math.nan if spread is None else spread / abs(base),
+            }
+    rows["overlap"] = {
+        "means": f"mean overlap, {scenario.OVERLAP_WHEN[0]}",
+        "differences": [o.overlap_rest for o in sweep],
+        "scatter": math.nan,
+    }
     for row in rows.values():
         fit = precision.power_law(moduli, row["differences"])
-        row |= {"power": fit.power if fit else None, "power_error": fit.power_error if fit else None, "scale": fit.scale if fit else None,
-                "stiffest_within_scatter": stiffest_within(row["differences"], row["scatter"])}
+        row |= {
+            "power": fit.power if fit else None,
+            "power_error": fit.power_error if fit else None,
+            "scale": fit.scale if fit else None,
+            "stiffest_within_scatter": stiffest_within(row["differences"], row["scatter"]),
+        }
     networks = [precision.force_difference(o.forces, reference.forces) for o in sweep]
-    own = [precision.force_difference(outcomes[c].forces, reference.forces) for c in plan.numerics if outcomes[c] is not reference]
-    return {"stiffnesses_Pa": moduli, "rows": rows,
-            "forces": {"rms_over_mean": [n[0] for n in networks], "correlation": [n[1] for n in networks],
-                       "hard_runs": [outcomes[c].case.label for c in plan.numerics if outcomes[c] is not reference],
-                       "hard_rms_over_mean": [n[0] for n in own],
-                       "hard_correlation": [n[1] for n in own]}}
+    own = [
+        precision.force_difference(outcomes[c].forces, reference.forces)
+        for c in plan.numerics
+        if outcomes[c] is not reference
+    ]
+    return {
+        "stiffnesses_Pa": moduli,
+        "rows": rows,
+        "forces": {
+            "rms_over_mean": [n[0] for n in networks],
+            "correlation": [n[1] for n in networks],
+            "hard_runs": [outcomes[c].case.label for c in plan.numerics if outcomes[c] is not reference],
+            "hard_rms_over_mean": [n[0] for n in own],
+            "hard_correlation": [n[1] for n in own],
+        },
+    }
 
 
 def _median_part(plan, outcomes, name):

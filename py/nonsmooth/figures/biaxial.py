@@ -33,9 +33,25 @@ def stress_strain(tests, path=None, pdf=False):
         begin, mean = strength.running_mean(series["strain"], axial, strength.PEAK_WINDOW)
         top.plot(strain, axial / sigma3, color=colour, lw=0.4, alpha=0.35)
         top.plot(100 * (begin + strength.PEAK_WINDOW / 2), mean / sigma3, color=colour, label=f"{sigma3 / MEGA:g}")
-        top.plot(100 * measured["strain_peak"], measured["sigma1_peak_Pa"] / sigma3, "o", ms=5, color=colour, mec="white", mew=0.7, zorder=5)
+        top.plot(
+            100 * measured["strain_peak"],
+            measured["sigma1_peak_Pa"] / sigma3,
+            "o",
+            ms=5,
+            color=colour,
+            mec="white",
+            mew=0.7,
+            zorder=5,
+        )
         begin, end = measured["residual_between_strains"]
-        top.hlines(measured["sigma1_residual_Pa"] / sigma3, 100 * begin, 100 * min(end, strain[-1] / 100), color=colour, lw=1.2, ls=(0, (4, 2)))
+        top.hlines(
+            measured["sigma1_residual_Pa"] / sigma3,
+            100 * begin,
+            100 * min(end, strain[-1] / 100),
+            color=colour,
+            lw=1.2,
+            ls=(0, (4, 2)),
+        )
         bottom.plot(strain, 100 * np.asarray(series["volumetric_strain"]), color=colour)
     top.set(ylabel="σ₁ / σ₃  [-]", ylim=(0, None))
     top.legend(title="σ₃ [MPa]", ncol=min(4, len(tests)), loc="lower right")
@@ -55,7 +71,11 @@ def mohr(summary, path=None, pdf=False):
     tests = summary["tests"]
     lowest = sorted({t["confining_Pa"] for t in tests})
     limit = lowest[max(0, min(2, len(lowest) - 2))]
-    kinds = [(kind, colour) for kind, colour in (("peak", style.LINES["blue"]), ("residual", style.LINES["orange"])) if summary[f"cohesion_{kind}_kPa"] is not None]
+    kinds = [
+        (kind, colour)
+        for kind, colour in (("peak", style.LINES["blue"]), ("residual", style.LINES["orange"]))
+        if summary[f"cohesion_{kind}_kPa"] is not None
+    ]
     for ax, chosen in ((whole, tests), (close, [t for t in tests if t["confining_Pa"] <= limit])):
         far = 1.05 * max(t["sigma1_peak_Pa"] for t in chosen) / MEGA
         high = 0.0
@@ -64,11 +84,29 @@ def mohr(summary, path=None, pdf=False):
             for t in chosen:
                 a, b = t[f"sigma3_{kind}_Pa"] / MEGA, t[f"sigma1_{kind}_Pa"] / MEGA
                 turn = np.linspace(0, math.pi, 181)
-                ax.plot(0.5 * (a + b) + 0.5 * (b - a) * np.cos(turn), 0.5 * (b - a) * np.sin(turn), color=colour, lw=0.9, alpha=0.8)
+                ax.plot(
+                    0.5 * (a + b) + 0.5 * (b - a) * np.cos(turn),
+                    0.5 * (b - a) * np.sin(turn),
+                    color=colour,
+                    lw=0.9,
+                    alpha=0.8,
+                )
                 high = max(high, 0.5 * (b - a))
             x = np.array([0, far])
-            ax.plot(x, 1e-3 * c + x * math.tan(math.radians(angle)), color=colour, lw=2, label=f"{kind}: c′ = {c:.0f} kPa, φ′ = {angle:.1f}°")
-        ax.set(xlim=(0, far), ylim=(0, 1.6 * high), xlabel="normal stress [MPa]", ylabel="shear stress [MPa]", aspect="equal")
+            ax.plot(
+                x,
+                1e-3 * c + x * math.tan(math.radians(angle)),
+                color=colour,
+                lw=2,
+                label=f"{kind}: c′ = {c:.0f} kPa, φ′ = {angle:.1f}°",
+            )
+        ax.set(
+            xlim=(0, far),
+            ylim=(0, 1.6 * high),
+            xlabel="normal stress [MPa]",
+            ylabel="shear stress [MPa]",
+            aspect="equal",
+        )
     whole.set_title(f"{len(tests)} tests")
     close.set_title("the lowest pressures, where cohesion shows")
     whole.legend(loc="upper left")
@@ -116,9 +154,23 @@ def chains(snapshot, title, path=None, pdf=False):
     strong = max(float(np.quantile(np.abs(snapshot.cn), 0.98)), 1e-12)
     for sign, colour in ((1, style.COMPRESSION), (-1, style.TENSION)):
         chosen = np.flatnonzero(sign * snapshot.cn > 0)
-        ax.add_collection(PolyCollection(forces.force_bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)), facecolors=colour, lw=0, zorder=3, rasterized=True), autolim=False)
+        ax.add_collection(
+            PolyCollection(
+                forces.force_bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)),
+                facecolors=colour,
+                lw=0,
+                zorder=3,
+                rasterized=True,
+            ),
+            autolim=False,
+        )
     ax.set_title(title)
-    fig.legend(handles=[Patch(color=style.COMPRESSION, label="compression"), Patch(color=style.TENSION, label="tension")], loc="lower center", ncol=2, bbox_to_anchor=(0.5, -0.004))
+    fig.legend(
+        handles=[Patch(color=style.COMPRESSION, label="compression"), Patch(color=style.TENSION, label="tension")],
+        loc="lower center",
+        ncol=2,
+        bbox_to_anchor=(0.5, -0.004),
+    )
     return style.save(fig, path, pdf)
 
 
@@ -133,12 +185,34 @@ def effects(rows, path=None, pdf=False):
     for ax, name in zip(fig.subplots(1, len(names), sharey=True, squeeze=False)[0], names):
         chosen = sorted((row for row in rows if row["effect"] == name), key=lambda row: row["value"])
         values = [row["value"] for row in chosen]
-        for kind, colour, word in (("peak", style.LINES["blue"], "peak"), ("residual", style.LINES["orange"], "plateau")):
+        for kind, colour, word in (
+            ("peak", style.LINES["blue"], "peak"),
+            ("residual", style.LINES["orange"], "plateau"),
+        ):
             for row in chosen:
-                ax.plot([row["value"]] * len(row[f"{kind}_deg"]), row[f"{kind}_deg"], "o", ms=3.5, color=colour, alpha=0.35, mew=0)
-            ax.errorbar(values, [row[f"{kind}_mean_deg"] for row in chosen], [row[f"{kind}_95_deg"] or 0.0 for row in chosen], fmt="s-", ms=5, color=colour,
-                        capsize=3, lw=1.4, label=word)
-        ax.axvline(next(row["value"] for row in chosen if row["usual"]), color="#777777", lw=1, ls=(0, (4, 3)), zorder=0)
+                ax.plot(
+                    [row["value"]] * len(row[f"{kind}_deg"]),
+                    row[f"{kind}_deg"],
+                    "o",
+                    ms=3.5,
+                    color=colour,
+                    alpha=0.35,
+                    mew=0,
+                )
+            ax.errorbar(
+                values,
+                [row[f"{kind}_mean_deg"] for row in chosen],
+                [row[f"{kind}_95_deg"] or 0.0 for row in chosen],
+                fmt="s-",
+                ms=5,
+                color=colour,
+                capsize=3,
+                lw=1.4,
+                label=word,
+            )
+        ax.axvline(
+            next(row["value"] for row in chosen if row["usual"]), color="#777777", lw=1, ls=(0, (4, 3)), zorder=0
+        )
         ax.set(xscale="log", xlabel=chosen[0]["label"])
         ax.set_xticks(values, [f"{v:g}" for v in values])
         ax.minorticks_off()

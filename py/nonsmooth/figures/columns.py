@@ -35,9 +35,14 @@ def collapse(times, places, r, unit, path=None, width=None, gate=None, pdf=False
     whole = (margin + wide + 0.1, below + sum(tall) + between * len(times))
     fig = style.figure(*whole)
     tops = whole[1] - np.cumsum([between + h for h in tall])
-    axes = [fig.add_axes((margin / whole[0], bottom / whole[1], wide / whole[0], h / whole[1])) for bottom, h in zip(tops, tall)]
+    axes = [
+        fig.add_axes((margin / whole[0], bottom / whole[1], wide / whole[0], h / whole[1]))
+        for bottom, h in zip(tops, tall)
+    ]
     first = places[0][0]
-    colours = style.layer_colours(np.minimum(4, np.argsort(np.argsort(first, kind="stable"), kind="stable") * 5 // len(first)))
+    colours = style.layer_colours(
+        np.minimum(4, np.argsort(np.argsort(first, kind="stable"), kind="stable") * 5 // len(first))
+    )
     for k, (ax, t, (x, y), mass) in enumerate(zip(axes, times, places, joined)):
         shown = type("Disks", (), dict(x=x / scale, y=y / scale, r=r / scale))
         style.draw_disks(ax, shown, colours)
@@ -65,7 +70,10 @@ def runout(groups, path=None, pdf=False):
     "height": the aspect ratio between the two}}}.
     """
     fig = style.figure(10, 4.9, layout="constrained")
-    panels = (("runout", "Runout", "$(L_f-L_0)/L_0$", scaling.RUNOUT), ("height", "Final height", "$H_f/L_0$", scaling.HEIGHT))
+    panels = (
+        ("runout", "Runout", "$(L_f-L_0)/L_0$", scaling.RUNOUT),
+        ("height", "Final height", "$H_f/L_0$", scaling.HEIGHT),
+    )
     for ax, (name, title, label, laws) in zip(fig.subplots(1, 2), panels):
         every = np.concatenate([g["aspect"] for g in groups.values()])
         low, high = 0.85 * every.min(), 1.15 * every.max()
@@ -74,7 +82,9 @@ def runout(groups, path=None, pdf=False):
                 if ends[0] < ends[1]:
                     c, n = law.pieces[k]
                     ax.plot(ends, [c * a**n for a in ends], color=colour, ls=dash, label=law.source if k else None)
-        for (group, g), colour, marker in zip(groups.items(), (LINES["blue"], LINES["purple"], LINES["sky"], LINES["grey"]) * 3, MARKERS * 2):
+        for (group, g), colour, marker in zip(
+            groups.items(), (LINES["blue"], LINES["purple"], LINES["sky"], LINES["grey"]) * 3, MARKERS * 2
+        ):
             ax.plot(g["aspect"], g[name], ls="none", marker=marker, ms=5, mfc="white", color=colour, label=group)
             for k, fit in enumerate(g["fits"][name]):
                 if fit is not None:
@@ -82,7 +92,13 @@ def runout(groups, path=None, pdf=False):
                     inside = g["aspect"][g["aspect"] < change] if k == 0 else g["aspect"][g["aspect"] >= change]
                     ends = np.array([inside.min(), inside.max()])
                     sure = "" if np.isnan(fit.exponent_95) else f"\\pm{fit.exponent_95:.2f}"
-                    ax.plot(ends, fit(ends), color=colour, lw=1.2, label=f"fit: ${fit.factor:.2f}\\,a^{{{fit.exponent:.2f}{sure}}}$")
+                    ax.plot(
+                        ends,
+                        fit(ends),
+                        color=colour,
+                        lw=1.2,
+                        label=f"fit: ${fit.factor:.2f}\\,a^{{{fit.exponent:.2f}{sure}}}$",
+                    )
         ax.set_xscale("log")
         ax.set_yscale("log")
         for axis in (ax.xaxis, ax.yaxis):

@@ -61,14 +61,26 @@ def _force_scale(ax, reference, width, side):
     newtons, unit = style.force_unit(forces[0])
     length, pitch = 0.09 * (x1 - x0), 0.075 * (y1 - y0)
     begin = 0.0 if side > 0 else 0.7
-    ax.add_patch(Rectangle((x0 + begin * (x1 - x0), y0), 0.3 * (x1 - x0), 0.32 * (y1 - y0), fc="white", ec="none", alpha=0.75, zorder=8))
+    ax.add_patch(
+        Rectangle(
+            (x0 + begin * (x1 - x0), y0), 0.3 * (x1 - x0), 0.32 * (y1 - y0), fc="white", ec="none", alpha=0.75, zorder=8
+        )
+    )
     ax.text(begin + 0.02, 0.30, "normal force", transform=ax.transAxes, va="top", fontsize=9, zorder=9)
     for k, force in enumerate(forces):
         y = y0 + 0.2 * (y1 - y0) - k * pitch
         w = width * force / reference
-        ax.add_patch(Rectangle((x0 + (begin + 0.02) * (x1 - x0), y - w / 2), length, w, color=COMPRESSION, lw=0, zorder=9))
+        ax.add_patch(
+            Rectangle((x0 + (begin + 0.02) * (x1 - x0), y - w / 2), length, w, color=COMPRESSION, lw=0, zorder=9)
+        )
         ax.text(
-            x0 + (begin + 0.13) * (x1 - x0), y, f"{force / newtons:g} {unit}", va="center", fontsize=9, color=INK, zorder=9
+            x0 + (begin + 0.13) * (x1 - x0),
+            y,
+            f"{force / newtons:g} {unit}",
+            va="center",
+            fontsize=9,
+            color=INK,
+            zorder=9,
         )
 
 
@@ -117,9 +129,17 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     style.scale_bar(top, 0.98 if ground.side > 0 else 0.22, 0.86)
     layers = np.unique(snapshot.layer)
     named = ground.layers or [f"{k + 1}" for k in range(layers[-1] + 1)]
-    handles = [Patch(color=style.LAYERS[k % len(style.LAYERS)], label=style.plain(named[k]) + " (top)" * bool(k == layers[-1])) for k in layers[::-1]]
-    top.legend(handles=handles, title="layer", loc="lower left" if ground.side > 0 else "lower right",
-               bbox_to_anchor=(0.06 if ground.side > 0 else 0.94, 0.02), handlelength=1.3)
+    handles = [
+        Patch(color=style.LAYERS[k % len(style.LAYERS)], label=style.plain(named[k]) + " (top)" * bool(k == layers[-1]))
+        for k in layers[::-1]
+    ]
+    top.legend(
+        handles=handles,
+        title="layer",
+        loc="lower left" if ground.side > 0 else "lower right",
+        bbox_to_anchor=(0.06 if ground.side > 0 else 0.94, 0.02),
+        handlelength=1.3,
+    )
     fig.text(
         0.5, 0.985, f"Initial state: {len(snapshot.x):,} disks, {len(snapshot.ci):,} contacts, "
         f"{int((snapshot.cn < 0).sum()):,} of them in tension", ha="center", va="top", fontsize=11.5,
@@ -137,7 +157,16 @@ def force_chains(snapshot, walls, path=None, pdf=False):
         style.scale_bar(ax, 0.965 if ground.side > 0 else 0.21, 0.045, 0.17)
         bx0, bx1, by0, by1 = box
         top.add_patch(Rectangle((bx0, by0), bx1 - bx0, by1 - by0, fill=False, ec=INK, lw=1.1, zorder=6))
-        top.text(bx0 if ground.side > 0 else bx1, by0, f"{letter} " if ground.side > 0 else f" {letter}", va="bottom", ha="right" if ground.side > 0 else "left", fontsize=11, fontweight="bold", zorder=7)
+        top.text(
+            bx0 if ground.side > 0 else bx1,
+            by0,
+            f"{letter} " if ground.side > 0 else f" {letter}",
+            va="bottom",
+            ha="right" if ground.side > 0 else "left",
+            fontsize=11,
+            fontweight="bold",
+            zorder=7,
+        )
         if letter == "b":
             _force_scale(ax, reference, width, ground.side)
     fig.legend(
@@ -160,7 +189,9 @@ def _limits(curves, shown):
 def _sketch(ax, side, name, back, wet):
     """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none. Names that are no
     index have no room."""
-    symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(style.symbol(letter, of))  # noqa: E731
+    symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(
+        style.symbol(letter, of)
+    )  # noqa: E731
     style.frame(ax, *(-10.8 * side, 4.6 * side), -1.6, 6.6)
     at = lambda points: np.asarray(points) * (side, 1)  # noqa: E731
     slope, after = np.tan(np.radians(21)), "left" if side > 0 else "right"
@@ -179,10 +210,19 @@ def _sketch(ax, side, name, back, wet):
     ax.text(*at(middle - 2.6 * normal), symbol("N", name), ha="center", va="center", color=LINES["blue"], fontsize=9.5)
     start = middle + 2.4 * down - 0.32 * normal
     ax.annotate("", at(start - 1.9 * down), at(start), arrowprops={**arrow, "color": LINES["orange"]})
-    ax.text(*at(start + 0.1 * down - 0.75 * normal), symbol("T", name), ha=after, va="center", color=LINES["orange"], fontsize=9.5)
+    ax.text(
+        *at(start + 0.1 * down - 0.75 * normal),
+        symbol("T", name),
+        ha=after,
+        va="center",
+        color=LINES["orange"],
+        fontsize=9.5,
+    )
     if back:
         push = wall.mean(axis=0)
-        ax.annotate("", at(push), at(push + 2.0 * np.array([0.93, -0.36])), arrowprops={**arrow, "color": LINES["green"]})
+        ax.annotate(
+            "", at(push), at(push + 2.0 * np.array([0.93, -0.36])), arrowprops={**arrow, "color": LINES["green"]}
+        )
         ax.text(*at(push + (2.1, -1.1)), symbol("N'", back), ha=after, va="center", color=LINES["green"], fontsize=9.5)
 
 
@@ -224,8 +264,10 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
         (f"{of('U', name)}  water pressure", curve(pore), "sky", "-"),
     ] if wet else [(f"{of('N', name)}  normal on {style.plain(name)}", curve(total), "blue", "-")]  # fmt: skip
     dashed = (0, (3, 1.2))
-    other = [(f"{of('T', name)}  shear on {style.plain(name)}", curve(shear), "orange", "-"),
-             (f"{change}  since $t_0$", curve(shear - shear[start]), "orange", dashed)]
+    other = [
+        (f"{of('T', name)}  shear on {style.plain(name)}", curve(shear), "orange", "-"),
+        (f"{change}  since $t_0$", curve(shear - shear[start]), "orange", dashed),
+    ]
     if rest:
         other.insert(1, (f"{push}  normal on {style.plain(rest)}", curve(back), "green", "-"))
         other.append((f"{push_change}  since $t_0$", curve(back - back[start]), "green", dashed))
@@ -236,7 +278,13 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
 
     fig = style.figure(12.4, 8.6)
     lefts, widths = ([0.062, 0.685], [0.595, 0.255]) if len(spans) == 2 else ([0.062], [0.878])
-    fig.text(0.062, 0.975, f"Forces on {style.plain(name)} (slip surface)" + f" and {style.plain(rest)} (backstop)" * bool(rest), fontsize=13, va="top")
+    fig.text(
+        0.062,
+        0.975,
+        f"Forces on {style.plain(name)} (slip surface)" + f" and {style.plain(rest)} (backstop)" * bool(rest),
+        fontsize=13,
+        va="top",
+    )
     fig.text(
         0.062, 0.938, "per metre of width. " + (f"From $t_3$ on: lines are means over {window:g} s, pale: every value."
         if "t3" in t else "Every value is shown."), fontsize=9.5, color="#555555", va="top",
@@ -263,7 +311,9 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
             ax.axhline(0, color="#555555", lw=0.7, zorder=1.5)
             if column == 0:
                 ax.set_ylabel(f"force [{unit}]")
-                fig.text(0.012, bottom + 0.325, "(a)" if row == 0 else "(b)", fontsize=12, fontweight="bold", va="center")
+                fig.text(
+                    0.012, bottom + 0.325, "(a)" if row == 0 else "(b)", fontsize=12, fontweight="bold", va="center"
+                )
                 legend.append(ax.get_legend_handles_labels())
             else:
                 ax.tick_params(labelleft=False)

@@ -41,7 +41,9 @@ def energy(series, path=None, times=None, pdf=False, limit=0.02):
     largest = max(max(np.abs(v).max() for v in values), 1e-300)
     factor, unit = next(((f, u) for f, u in ((1e9, "GJ"), (1e6, "MJ"), (1e3, "kJ")) if largest >= f), (1.0, "J"))
     fig = style.figure(10, 6.6, layout="constrained")
-    above, below = _row(fig, 2, ("Energy since the start", "Error of the energy balance"), time, style.known_times(times))
+    above, below = _row(
+        fig, 2, ("Energy since the start", "Error of the energy balance"), time, style.known_times(times)
+    )
     above.get_gridspec().set_height_ratios((2.4, 1))
     for (_, label, colour, dash), v in zip(lines, values):
         above.plot(time, v / factor, color=LINES[colour], ls=dash, label=label)
@@ -86,7 +88,14 @@ def solver(series, path=None, times=None, pdf=False):
     residual = np.maximum(residual, floor)
     b.plot(time, residual, color=LINES["sky"], **dots)
     within = np.mean(residual <= tolerance * (1 + 1e-6))
-    b.plot(time, tolerance, color=LINES["orange"], lw=1.3, ls=(0, (4, 3)), label=f"tolerance, kept by\n{100 * within:.0f} % of the steps")
+    b.plot(
+        time,
+        tolerance,
+        color=LINES["orange"],
+        lw=1.3,
+        ls=(0, (4, 3)),
+        label=f"tolerance, kept by\n{100 * within:.0f} % of the steps",
+    )
     b.set_yscale("log")
     b.set_ylabel("residual [-]")
     b.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))

@@ -17,9 +17,9 @@ def _time_label(label):
     return f"$t_{{{label[1:]}}}$" if label in style.TIME_NAMES else str(label)
 
 
-INSET = (0.445, 0.79)      # of the panel's width, of the close-up of a slope that falls to the right ...
+INSET = (0.445, 0.79)  # of the panel's width, of the close-up of a slope that falls to the right ...
 LOWEST, HIGHEST = 0.33, 0.95  # ... and of its height, where nothing is in the way
-LEAST = 0.35               # of the panel's height that a close-up takes
+LEAST = 0.35  # of the panel's height that a close-up takes
 
 
 def _room(cases, ground, view):
@@ -28,7 +28,11 @@ def _room(cases, ground, view):
     left, right = INSET if ground.side > 0 else (1 - INSET[1], 1 - INSET[0])
     a, b = x0 + left * (x1 - x0), x0 + right * (x1 - x0)
     tops = [(s.y + s.r)[(s.x + s.r > a) & (s.x - s.r < b)] for s in cases]
-    tops.append(np.concatenate([wall.vertices[(wall.vertices[:, 0] > a) & (wall.vertices[:, 0] < b), 1] for wall in ground.walls]))
+    tops.append(
+        np.concatenate(
+            [wall.vertices[(wall.vertices[:, 0] > a) & (wall.vertices[:, 0] < b), 1] for wall in ground.walls]
+        )
+    )
     top = max(max((t.max() for t in tops if len(t)), default=y0), y0)
     bottom = max(LOWEST, (top - y0) / (y1 - y0) + 0.03)
     if bottom > HIGHEST - LEAST:  # more sky
@@ -50,15 +54,26 @@ def _foot(ax, snapshot, ground, view, place, first):
     for spine in inset.spines.values():
         spine.set_visible(True)
     style.draw_walls(inset, ground, named=("backstop", "obstacle"))
-    near = (np.abs(snapshot.x - (x0 + x1) / 2) < 0.6 * (x1 - x0)) & (np.abs(snapshot.y - (y0 + y1) / 2) < 0.7 * (y1 - y0))
+    near = (np.abs(snapshot.x - (x0 + x1) / 2) < 0.6 * (x1 - x0)) & (
+        np.abs(snapshot.y - (y0 + y1) / 2) < 0.7 * (y1 - y0)
+    )
     style.draw_disks(inset, snapshot, style.state_colours(snapshot), near)
     if snapshot.water_m > 0:
         style.water_line(inset, ground, snapshot.water_m)
     ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, ec=INK, lw=0.8, zorder=6))
     if first:
         style.scale_bar(inset, 0.3 if side > 0 else 0.93, 0.07, 0.2)
-        inset.text(0.97, 0.94, "foot, enlarged", transform=inset.transAxes, ha="right", va="top", fontsize=9, zorder=8,
-                   bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1.5})
+        inset.text(
+            0.97,
+            0.94,
+            "foot, enlarged",
+            transform=inset.transAxes,
+            ha="right",
+            va="top",
+            fontsize=9,
+            zorder=8,
+            bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1.5},
+        )
 
 
 @style.styled
@@ -98,7 +113,9 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
         )  # fmt: skip
         lines = [meaning] if meaning else []
         lines += [f"water table {style.length(snapshot.water_m, extent, 1)}" if snapshot.water_m > 0 else "no water"]
-        lines += [f"wet {100 * (snapshot.wet & ~snapshot.released).mean():.0f} %, released {100 * snapshot.released.mean():.0f} %"]
+        lines += [
+            f"wet {100 * (snapshot.wet & ~snapshot.released).mean():.0f} %, released {100 * snapshot.released.mean():.0f} %"
+        ]
         ax.text(
             edge, 0.93 - 0.27 / height, "\n".join(lines), transform=ax.transAxes, ha=align, va="top", fontsize=9.5,
             linespacing=1.35, color="#444444",
@@ -142,7 +159,12 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
 
     x, base, surface = deposit_profile(snapshot, ground)
     thickness = surface - base
-    note = {"fontsize": 10.5, "color": INK, "zorder": 8, "bbox": {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1.5}}
+    note = {
+        "fontsize": 10.5,
+        "color": INK,
+        "zorder": 8,
+        "bbox": {"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1.5},
+    }
     arrow = {"arrowstyle": "<|-|>", "color": INK, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
     if np.isfinite(thickness).any():
         k = int(np.nanargmax(thickness))
@@ -156,12 +178,23 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
     for at in (a, b):
         ax.plot([at, at], [level - 0.02 * (y1 - y0), level + 0.16 * (y1 - y0)], color=INK, lw=0.9, ls=":", zorder=7)
     ax.annotate("", (b, level), (a, level), arrowprops={**arrow, "arrowstyle": "-|>"}, zorder=8)
-    ax.text((a + b) / 2, level - 0.012 * (y1 - y0), f"front: {style.length(side * (b - a), extent)}", ha="center", va="top", **note)
+    ax.text(
+        (a + b) / 2,
+        level - 0.012 * (y1 - y0),
+        f"front: {style.length(side * (b - a), extent)}",
+        ha="center",
+        va="top",
+        **note,
+    )
     mass = slice(None) if ground.mass is None else np.isin(snapshot.layer, ground.mass)
-    centres = [np.average(np.column_stack([s.x, s.y])[mass], axis=0, weights=s.r[mass] ** 2) for s in (initial, snapshot)]
+    centres = [
+        np.average(np.column_stack([s.x, s.y])[mass], axis=0, weights=s.r[mass] ** 2) for s in (initial, snapshot)
+    ]
     ax.plot(*centres[0], marker="o", mfc="white", mec=INK, ms=7, mew=1.5, zorder=8)
     ax.plot(*centres[1], marker="o", mfc=INK, mec="white", ms=8, mew=1.2, zorder=8)
-    ax.annotate("", centres[1], centres[0], arrowprops={**arrow, "arrowstyle": "-|>", "shrinkA": 5, "shrinkB": 5}, zorder=7)
+    ax.annotate(
+        "", centres[1], centres[0], arrowprops={**arrow, "arrowstyle": "-|>", "shrinkA": 5, "shrinkB": 5}, zorder=7
+    )
     along = np.hypot(*(centres[1] - centres[0]))
     ax.annotate(
         f"centre of mass: {style.length(along, extent)}", centres[0] + 0.12 * (centres[1] - centres[0]), xytext=(6 * side, 6),
@@ -169,9 +202,17 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
     )  # fmt: skip
     style.scale_bar(ax, 0.985 if side > 0 else 0.165, 0.93, 0.15)
     layers = np.unique(snapshot.layer)[::-1]
-    handles = [Patch(color=style.LAYERS[n % len(style.LAYERS)], label=style.plain(ground.layer(n)) + " (top)" * bool(n == layers[0])) for n in layers]
+    handles = [
+        Patch(
+            color=style.LAYERS[n % len(style.LAYERS)],
+            label=style.plain(ground.layer(n)) + " (top)" * bool(n == layers[0]),
+        )
+        for n in layers
+    ]
     handles.append(Line2D([], [], color=INK, lw=1.4, ls=(0, (4, 2)), label="initial surface"))
-    handles.append(Line2D([], [], ls="", marker="o", mfc="white", mec=INK, mew=1.5, ms=6, label="centre of mass before"))
+    handles.append(
+        Line2D([], [], ls="", marker="o", mfc="white", mec=INK, mew=1.5, ms=6, label="centre of mass before")
+    )
     handles.append(Line2D([], [], ls="", marker="o", color=INK, ms=6, label="and after"))
     fig.legend(handles=handles, loc="upper center", ncol=len(handles), handlelength=1.6, columnspacing=1.4)
     return style.save(fig, path, pdf)

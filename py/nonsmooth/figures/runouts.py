@@ -34,12 +34,33 @@ def runouts(cases, walls, path=None, pdf=False):
         for at in (a, b):
             ax.axvline(at, color=INK, lw=0.9, ls=":", zorder=7)
         level = view[2] + 0.06 * (view[3] - view[2])
-        ax.annotate("", (b, level), (a, level), arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}, zorder=8)
-        ax.text(edge, 0.93, f"{style.plain(label)}: front {style.length(ground.side * (b - a), view[1] - view[0])}", transform=ax.transAxes, ha=align, va="top", fontsize=12,
-                fontweight="bold", color=INK, bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 2}, zorder=9)
+        ax.annotate(
+            "",
+            (b, level),
+            (a, level),
+            arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.3, "shrinkA": 0, "shrinkB": 0},
+            zorder=8,
+        )
+        ax.text(
+            edge,
+            0.93,
+            f"{style.plain(label)}: front {style.length(ground.side * (b - a), view[1] - view[0])}",
+            transform=ax.transAxes,
+            ha=align,
+            va="top",
+            fontsize=12,
+            fontweight="bold",
+            color=INK,
+            bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 2},
+            zorder=9,
+        )
         if k:
             ax.plot([0, 1], [1, 1], transform=ax.transAxes, color="#bbbbbb", lw=0.8, clip_on=False, zorder=8)
     style.scale_bar(ax, 0.2 if ground.side > 0 else 0.95, 0.1, 0.15)
     layers = np.unique(np.concatenate([last.layer for *_, last in cases]))
-    fig.legend(handles=[Patch(color=style.LAYERS[n % len(style.LAYERS)], label=style.plain(ground.layer(n))) for n in layers], loc="upper center", ncol=len(layers))
+    fig.legend(
+        handles=[Patch(color=style.LAYERS[n % len(style.LAYERS)], label=style.plain(ground.layer(n))) for n in layers],
+        loc="upper center",
+        ncol=len(layers),
+    )
     return style.save(fig, path, pdf)

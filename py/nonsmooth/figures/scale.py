@@ -15,9 +15,23 @@ def cost_by_size(sizes, path=None, pdf=False):
     threads = sorted(sizes[0]["sweep_ns_per_contact"], key=int)
     panels = (
         ("A step", "time [ms]", {"": [s["step_ms"]["median"] for s in sizes]}, True),
-        ("A sweep, for each contact", "time [ns]", {"1 thread" if n == "1" else f"{n} threads": of_sweep(n) for n in threads}, False),
-        ("Memory, for each contact", "memory [kB]", {"all": [1e-3 * s["bytes_per_contact"] for s in sizes],
-                                                     "bodies, interactions and collider, without the solver": [1e-3 * s["bytes_per_contact_scene"] for s in sizes]}, False),
+        (
+            "A sweep, for each contact",
+            "time [ns]",
+            {"1 thread" if n == "1" else f"{n} threads": of_sweep(n) for n in threads},
+            False,
+        ),
+        (
+            "Memory, for each contact",
+            "memory [kB]",
+            {
+                "all": [1e-3 * s["bytes_per_contact"] for s in sizes],
+                "bodies, interactions and collider, without the solver": [
+                    1e-3 * s["bytes_per_contact_scene"] for s in sizes
+                ],
+            },
+            False,
+        ),
         ("Packing", "time [s]", {"": [s["packing_s"] for s in sizes]}, True),
     )
     fig = style.figure(10, 6.6, layout="constrained")

@@ -20,7 +20,14 @@ RELEASED = ("#e06aa6", "#f5a9cd")
 COMPRESSION, TENSION = "#1f5fa8", "#d62728"
 GROUND, WALL, WATER, INK = "#e4e4e0", "#222222", "#0b6fb8", "#222222"
 # Okabe and Ito's palette for lines.
-LINES = {"blue": "#0072B2", "orange": "#D55E00", "green": "#009E73", "purple": "#9E4F86", "sky": "#4AA8DE", "grey": "#777777"}
+LINES = {
+    "blue": "#0072B2",
+    "orange": "#D55E00",
+    "green": "#009E73",
+    "purple": "#9E4F86",
+    "sky": "#4AA8DE",
+    "grey": "#777777",
+}
 
 RC = {
     "font.size": 9.5, "axes.titlesize": 10.5, "axes.labelsize": 9.5, "legend.fontsize": 9, "axes.edgecolor": "#555555",
@@ -99,12 +106,20 @@ def plain(text):
 
 def symbol(letter, name):
     """A quantity of a wall: the wall's name is its index where it is a short word, or follows in brackets."""
-    return f"${letter}_{{{name}}}$" if name.isalnum() and name.isascii() and len(name) <= 4 else f"${letter}$ ({plain(name)})"
+    return (
+        f"${letter}_{{{name}}}$"
+        if name.isalnum() and name.isascii() and len(name) <= 4
+        else f"${letter}$ ({plain(name)})"
+    )
 
 
 def length(value, extent, digits=0):
     """A length [m] with its unit, which is that of a picture ``extent`` [m] wide: m, below 20 m with two more digits, cm or mm."""
-    factor, unit, more = next(rest for least, *rest in ((20, 1, "m", 0), (2, 1, "m", 2), (0.2, 100, "cm", 0), (0, 1000, "mm", 0)) if extent >= least)
+    factor, unit, more = next(
+        rest
+        for least, *rest in ((20, 1, "m", 0), (2, 1, "m", 2), (0.2, 100, "cm", 0), (0, 1000, "mm", 0))
+        if extent >= least
+    )
     return f"{factor * value:,.{digits + more}f} {unit}"
 
 
@@ -160,8 +175,15 @@ def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
         points = wall.vertices
         ax.fill_between(points[:, 0], points[:, 1], y0 - (y1 - y0), color=GROUND, lw=0.6, zorder=0.5)
     for wall in ground.walls:
-        ax.plot(wall.vertices[:, 0], wall.vertices[:, 1], color=WALL, lw=0.6 * width if wall.buried else width, ls=(0, (1, 1.5)) if wall.buried else "-",
-                solid_capstyle="round", zorder=4)
+        ax.plot(
+            wall.vertices[:, 0],
+            wall.vertices[:, 1],
+            color=WALL,
+            lw=0.6 * width if wall.buried else width,
+            ls=(0, (1, 1.5)) if wall.buried else "-",
+            solid_capstyle="round",
+            zorder=4,
+        )
         if named is None or wall.role in named:
             _name_wall(ax, wall, ground.side, (x0, x1, y0, y1), size)
 
@@ -216,9 +238,13 @@ def scale_bar(ax, x=0.97, y=0.07, share=0.2):
     x0, x1 = ax.get_xlim()
     long = nice(share * (x1 - x0))
     w = long / (x1 - x0)
-    factor, unit = next((f, u) for f, u, least in ((1, "m", 1), (100, "cm", 0.01), (1000, "mm", 0)) if long >= least * (1 - 1e-9))
+    factor, unit = next(
+        (f, u) for f, u, least in ((1, "m", 1), (100, "cm", 0.01), (1000, "mm", 0)) if long >= least * (1 - 1e-9)
+    )
     ax.plot([x - w, x], [y, y], transform=ax.transAxes, color=INK, lw=3, solid_capstyle="butt", zorder=7)
-    ax.text(x - w / 2, y + 0.02, f"{factor * long:g} {unit}", transform=ax.transAxes, ha="center", va="bottom", zorder=7)
+    ax.text(
+        x - w / 2, y + 0.02, f"{factor * long:g} {unit}", transform=ax.transAxes, ha="center", va="bottom", zorder=7
+    )
 
 
 def water_line(ax, ground, height, **options):

@@ -24,8 +24,14 @@ def slides(walls, path=None, pdf=False):
         for k, (pressure, rows) in enumerate(zip(found["pressures_Pa"], series)):
             slip, normal, shear = (np.asarray(rows[column]) for column in ("slip_m", "normal_Pa", "shear_Pa"))
             borne = normal > 0.01 * pressure  # where bonds break the block may fly for some steps
-            ax.plot(100 * slip[borne], shear[borne] / normal[borne], color=colour, alpha=1 - 0.7 * k / max(1, len(series) - 1), lw=1.2,
-                    label=f"{pressure / MEGA:g} MPa")
+            ax.plot(
+                100 * slip[borne],
+                shear[borne] / normal[borne],
+                color=colour,
+                alpha=1 - 0.7 * k / max(1, len(series) - 1),
+                lw=1.2,
+                label=f"{pressure / MEGA:g} MPa",
+            )
         ax.set(xlabel="slip of the wall [cm]", title=name, xlim=(0, None))
     axes[0].set_ylim(0, None)
     axes[0].legend(title="normal stress", loc="upper right")
@@ -34,12 +40,31 @@ def slides(walls, path=None, pdf=False):
     for name, colour in zip(names, _cycle(colours, len(names))):
         mine = [f for f, _ in walls if f["material"] == name]
         for kind, mark, line in (("peak", "o", "-"), ("residual", "s", "--")):
-            normal, shear = (np.array([s[f"{what}_{kind}"] for f in mine for s in f["slides"]]) / MEGA for what in ("normal", "shear"))
-            friction, cohesion = (float(np.mean([f[f"{what}_{kind}{unit}"] for f in mine])) for what, unit in (("friction", ""), ("cohesion", "_kPa")))
+            normal, shear = (
+                np.array([s[f"{what}_{kind}"] for f in mine for s in f["slides"]]) / MEGA
+                for what in ("normal", "shear")
+            )
+            friction, cohesion = (
+                float(np.mean([f[f"{what}_{kind}{unit}"] for f in mine]))
+                for what, unit in (("friction", ""), ("cohesion", "_kPa"))
+            )
             x = np.array([0, 1.05 * normal.max()])
             last.plot(normal, shear, mark, ms=4, color=colour, mfc=colour if kind == "peak" else "none")
-            last.plot(x, 1e-3 * cohesion + friction * x, line, lw=1.1, color=colour, label=f"{name}, {kind}: μ = {friction:.2f}, c = {abs(round(cohesion)):d} kPa")
-    last.set(xlabel="normal stress [MPa]", ylabel="shear stress [MPa]", xlim=(0, None), ylim=(0, None), title=f"strength, {len(walls) // len(names)} block{'s' if len(walls) > len(names) else ''} each")
+            last.plot(
+                x,
+                1e-3 * cohesion + friction * x,
+                line,
+                lw=1.1,
+                color=colour,
+                label=f"{name}, {kind}: μ = {friction:.2f}, c = {abs(round(cohesion)):d} kPa",
+            )
+    last.set(
+        xlabel="normal stress [MPa]",
+        ylabel="shear stress [MPa]",
+        xlim=(0, None),
+        ylim=(0, None),
+        title=f"strength, {len(walls) // len(names)} block{'s' if len(walls) > len(names) else ''} each",
+    )
     last.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return style.save(fig, path, pdf)
 

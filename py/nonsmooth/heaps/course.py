@@ -19,15 +19,29 @@ from .grains import Heap, HeapError
 __all__ = ["COLUMNS", "Result", "Scene", "build", "check_damping", "run"]
 
 #: Columns of the series; units are in the names, see :class:`Result`.
-COLUMNS = ("step", "time_s", "front_m", "front_left_m", "farthest_m", "height_m", "centroid_x_m", "centroid_y_m", "energy_kinetic_J", "energy_potential_J",
-           "connected_disks", "overlap_mean_rel", "overlap_worst_rel", "wall_s")
+COLUMNS = (
+    "step",
+    "time_s",
+    "front_m",
+    "front_left_m",
+    "farthest_m",
+    "height_m",
+    "centroid_x_m",
+    "centroid_y_m",
+    "energy_kinetic_J",
+    "energy_potential_J",
+    "connected_disks",
+    "overlap_mean_rel",
+    "overlap_worst_rel",
+    "wall_s",
+)
 
-RECORDS = 20        # to T = √(H/g)
-REST_SPEED = 0.02   # √(g d), rms speed of the connected disks at rest ...
-REST_TIME = 0.5     # T, for so long
+RECORDS = 20  # to T = √(H/g)
+REST_SPEED = 0.02  # √(g d), rms speed of the connected disks at rest ...
+REST_TIME = 0.5  # T, for so long
 SETTLED_SPEED = 0.01  # √(g d), rms speed in the box before the release
-SETTLE_LIMIT = 10.0   # T
-DURATION = 15.0       # T
+SETTLE_LIMIT = 10.0  # T
+DURATION = 15.0  # T
 WEIGHT_OVERLAP = 0.05  # diameters, largest overlap under the heap's own weight that is let through
 FRAMES = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # T
 
@@ -56,28 +70,44 @@ class Scene:
         left, right = measures.fronts(x, r, joined)
         kinetic = 0.5 * float(np.sum(mass * (t["vx"] ** 2 + t["vy"] ** 2 + 0.5 * (r * t["omega"]) ** 2)))
         mean, worst = measures.overlap(x, y, r, self._walls(x, y), self._glued)
-        return {"front_m": right, "front_left_m": left, "farthest_m": float(np.max(x + r)), "height_m": float(np.max(measures.surface(x, y, r, joined)[1])),
-                "centroid_x_m": float(np.average(x, weights=mass)), "centroid_y_m": float(np.average(y, weights=mass)), "energy_kinetic_J": kinetic,
-                "energy_potential_J": self.heap.gravity * float(np.sum(mass * y)), "connected_disks": int(np.count_nonzero(joined)),
-                "overlap_mean_rel": mean, "overlap_worst_rel": worst}, joined
+        return {
+            "front_m": right,
+            "front_left_m": left,
+            "farthest_m": float(np.max(x + r)),
+            "height_m": float(np.max(measures.surface(x, y, r, joined)[1])),
+            "centroid_x_m": float(np.average(x, weights=mass)),
+            "centroid_y_m": float(np.average(y, weights=mass)),
+            "energy_kinetic_J": kinetic,
+            "energy_potential_J": self.heap.gravity * float(np.sum(mass * y)),
+            "connected_disks": int(np.count_nonzero(joined)),
+            "overlap_mean_rel": mean,
+            "overlap_worst_rel": worst,
+        }, joined
 
     def rms_speed(self, joined=slice(None)):
         """Root mean square of the disks' speed, in units of √(g d)."""
         t = preparation.disk_table(self.stand)
-        return math.sqrt(np.mean((t["vx"] ** 2 + t["vy"] ** 2)[joined]) / (self.heap.gravity * self.heap.mean_diameter()))
+        return math.sqrt(
+            np.mean((t["vx"] ** 2 + t["vy"] ** 2)[joined]) / (self.heap.gravity * self.heap.mean_diameter())
+        )
 
     def _walls(self, x, y):
         """Distances of the disks from lines that are there."""
         place, width = self.heap.place(), self.prepared.width
-        return [*([x - place] if "left" not in self.heap.gates() else []), *([place + width - x] if "right" not in self.heap.gates() else []),
-                *([y] if self.heap.base == "smooth" else [])]
+        return [
+            *([x - place] if "left" not in self.heap.gates() else []),
+            *([place + width - x] if "right" not in self.heap.gates() else []),
+            *([y] if self.heap.base == "smooth" else []),
+        ]
 
     @cached_property
     def _glued(self):
         if not self.stand.base:
             return None
         bodies = [O.bodies[i] for i in self.stand.base]
-        return tuple(np.array(column) for column in zip(*((b.state.pos[0], b.state.pos[1], b.shape.radius) for b in bodies)))
+        return tuple(
+            np.array(column) for column in zip(*((b.state.pos[0], b.state.pos[1], b.shape.radius) for b in bodies))
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,13 +175,31 @@ class Result:
     def summary(self):
         """Numbers of the run, a dictionary that JSON can hold."""
         s, last = self.series, lambda name: float(self.series[name][-1])
-        return {"world": self.world, "settings": self.settings, "heap": self.heap.plain(), "disks": len(self.x),
-                "disks_asked": None if self.heap.packing else int(self.heap.disks), "width_m": self.width, "height_m": self.height,
-                "aspect": self.aspect, "front_m": last("front_m"), "farthest_m": last("farthest_m"), "runout_rel": float(self.runout),
-                "final_height_m": last("height_m"), "final_height_rel": float(self.final_height), "repose_deg": [None if math.isnan(a) else a for a in self.repose()],
-                "connected_disks": int(np.count_nonzero(self.connected)), "rested": self.rested, "time_s": last("time_s"), "fall_time_s": math.sqrt(self.height / self.heap.gravity),
-                "time_step_s": self.time_step, "steps": self.steps, "wall_s": self.wall_s, "overlap_mean_rel": float(np.mean(s["overlap_mean_rel"])),
-                "overlap_worst_rel": float(np.max(s["overlap_worst_rel"]))}
+        return {
+            "world": self.world,
+            "settings": self.settings,
+            "heap": self.heap.plain(),
+            "disks": len(self.x),
+            "disks_asked": None if self.heap.packing else int(self.heap.disks),
+            "width_m": self.width,
+            "height_m": self.height,
+            "aspect": self.aspect,
+            "front_m": last("front_m"),
+            "farthest_m": last("farthest_m"),
+            "runout_rel": float(self.runout),
+            "final_height_m": last("height_m"),
+            "final_height_rel": float(self.final_height),
+            "repose_deg": [None if math.isnan(a) else a for a in self.repose()],
+            "connected_disks": int(np.count_nonzero(self.connected)),
+            "rested": self.rested,
+            "time_s": last("time_s"),
+            "fall_time_s": math.sqrt(self.height / self.heap.gravity),
+            "time_step_s": self.time_step,
+            "steps": self.steps,
+            "wall_s": self.wall_s,
+            "overlap_mean_rel": float(np.mean(s["overlap_mean_rel"])),
+            "overlap_worst_rel": float(np.max(s["overlap_worst_rel"])),
+        }
 
 
 def build(heap, world):
@@ -167,8 +215,10 @@ def build(heap, world):
     # the weight above a disk at the bottom, ρ g H d, over its spring E R (YADE's, for a slice 1 m thick), in diameters
     weight = heap.density * heap.gravity * ready.height / (0.5 * heap.mean_diameter())
     if weight > WEIGHT_OVERLAP * stiffness:
-        raise HeapError(f"stiffness {stiffness:g} Pa: disks at the bottom would overlap by {100 * weight / stiffness:.2g} % of a diameter under the weight above; "
-                        f"give {weight / WEIGHT_OVERLAP:.2g} or more")
+        raise HeapError(
+            f"stiffness {stiffness:g} Pa: disks at the bottom would overlap by {100 * weight / stiffness:.2g} % of a diameter under the weight above; "
+            f"give {weight / WEIGHT_OVERLAP:.2g} or more"
+        )
     return Scene(heap, world, ready, preparation.put(heap, world, ready.x, ready.y, ready.r))
 
 
@@ -177,7 +227,9 @@ def check_damping(world, moving):
     if moving is None:
         return
     if world.name != "soft":
-        raise HeapError(f"damping_moving {moving!r}: {world.name} contacts have no damping; leave it out, or take the soft world")
+        raise HeapError(
+            f"damping_moving {moving!r}: {world.name} contacts have no damping; leave it out, or take the soft world"
+        )
     if not 0 <= moving < 1:
         raise HeapError(f"damping_moving {moving!r}: give a number from 0 to less than 1")
 
@@ -192,7 +244,9 @@ class _Damping:
     def __call__(self):
         speed = self._scene.rms_speed()
         self._fastest = max(self._fastest, speed)
-        self._newton.damping = stages.damping(stages.flowing(speed, self._fastest) if self._fastest > 0 else 1.0, self._rest, self._moving)
+        self._newton.damping = stages.damping(
+            stages.flowing(speed, self._fastest) if self._fastest > 0 else 1.0, self._rest, self._moving
+        )
 
 
 def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None, damping_moving=None):
@@ -210,8 +264,10 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     every = max(1, round(unit / RECORDS / O.dt))
     # springs yield under the weight first; hard disks have nothing to do
     if not until(lambda: scene.rms_speed() < SETTLED_SPEED, SETTLE_LIMIT * unit / O.dt, every):
-        raise HeapError(f"the disks do not come to rest in their box in the {world.name} world: rms speed {scene.rms_speed():.2g} √(g d) after {SETTLE_LIMIT:.0f} T, "
-                        f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping")
+        raise HeapError(
+            f"the disks do not come to rest in their box in the {world.name} world: rms speed {scene.rms_speed():.2g} √(g d) after {SETTLE_LIMIT:.0f} T, "
+            f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping"
+        )
     begin = O.iter
     rows, kept, wall, calm = [], {}, 0.0, 0
     waiting = sorted(frames)
@@ -238,5 +294,18 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     t = preparation.disk_table(scene.stand)
     half = 0.5 if "left" in heap.gates() else 1.0
     series = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
-    return Result(heap, world.name, settings, half * scene.prepared.width, scene.prepared.height, series, t["x"], t["y"], t["r"], joined,
-                  calm * every * O.dt >= REST_TIME * unit, O.dt, kept)
+    return Result(
+        heap,
+        world.name,
+        settings,
+        half * scene.prepared.width,
+        scene.prepared.height,
+        series,
+        t["x"],
+        t["y"],
+        t["r"],
+        joined,
+        calm * every * O.dt >= REST_TIME * unit,
+        O.dt,
+        kept,
+    )

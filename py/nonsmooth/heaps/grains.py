@@ -16,7 +16,7 @@ from ..soft.parameters import ROLLING_MODELS
 __all__ = ["BASES", "FRACTION", "Heap", "HeapError"]
 
 BASES = ("smooth", "rough")
-FRACTION = 0.82       # of the disks as they are packed, before they settle: loose enough for disks of one size
+FRACTION = 0.82  # of the disks as they are packed, before they settle: loose enough for disks of one size
 PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top
 
 
@@ -76,7 +76,10 @@ class Heap:
         if not 0 <= self.wall_friction <= self.friction:
             refuse("wall_friction", f"give a number from 0 to friction, {self.friction:g}")
         if self.base_friction is not None and not 0 <= self.base_friction <= self.friction:
-            refuse("base_friction", f"give a number from 0 to friction, {self.friction:g}: of two materials in contact, the smaller friction holds")
+            refuse(
+                "base_friction",
+                f"give a number from 0 to friction, {self.friction:g}: of two materials in contact, the smaller friction holds",
+            )
 
     # ---- sizes ----------------------------------------------------------------------------------------
 
@@ -137,8 +140,16 @@ class Heap:
 
     def material(self):
         """The disks' section.Material."""
-        return Material("grains", friction=self.friction, residual_friction=self.friction, rolling_friction=self.rolling_friction,
-                        residual_rolling_friction=self.rolling_friction, restitution=self.restitution, density=self.density, bonded=False)
+        return Material(
+            "grains",
+            friction=self.friction,
+            residual_friction=self.friction,
+            rolling_friction=self.rolling_friction,
+            residual_rolling_friction=self.rolling_friction,
+            restitution=self.restitution,
+            density=self.density,
+            bonded=False,
+        )
 
     def floor_material(self):
         """The floor's section.Material."""
@@ -148,8 +159,10 @@ class Heap:
     def check_model(self, model):
         """Raises HeapError for a soft contact ``model`` that has no rolling resistance where the grains have some: it would be dropped in silence."""
         if self.rolling_friction > 0 and model not in ROLLING_MODELS:
-            raise HeapError(f"rolling_friction {self.rolling_friction:g} with model {model!r}: contacts of this model do not resist rolling; take model "
-                            f"{', '.join(ROLLING_MODELS)}, which without bonds, as here, is friction with rolling, or rolling_friction 0")
+            raise HeapError(
+                f"rolling_friction {self.rolling_friction:g} with model {model!r}: contacts of this model do not resist rolling; take model "
+                f"{', '.join(ROLLING_MODELS)}, which without bonds, as here, is friction with rolling, or rolling_friction 0"
+            )
 
     def plain(self):
         """All parameters as JSON holds them, and for a packing file its content's checksum in place of its path."""

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 __all__ = ["NEAR", "TOUCH", "connected", "fronts", "gaps", "overlap", "repose", "surface"]
 
 TOUCH = 0.05  # mean diameters; disks with a smaller gap belong together
-NEAR = 0.01   # ℓ; pairs with a smaller gap are contacts of which the mean overlap is taken
+NEAR = 0.01  # ℓ; pairs with a smaller gap are contacts of which the mean overlap is taken
 WINDOW = 2.0  # mean diameters, width over which the surface is averaged
 
 
@@ -71,7 +71,11 @@ def repose(x, height):
     for side, sign in ((slice(None, top + 1), 1), (slice(top, None), -1)):
         a, h = x[side], height[side]
         part = (h >= 0.2 * height[top]) & (h <= 0.8 * height[top])
-        found.append(math.degrees(math.atan(sign * np.polyfit(a[part], h[part], 1)[0])) if np.count_nonzero(part) > 2 else math.nan)
+        found.append(
+            math.degrees(math.atan(sign * np.polyfit(a[part], h[part], 1)[0]))
+            if np.count_nonzero(part) > 2
+            else math.nan
+        )
     return tuple(found)
 
 

@@ -15,15 +15,18 @@ from .grains import HeapError, sizes_along
 
 __all__ = ["Prepared", "Stand", "cache_path", "disk_table", "prepared", "put"]
 
-VERSION = 2        # of the way disks are prepared; a new number makes old files unused
-STEP = 0.05        # √(d/g)
+VERSION = 2  # of the way disks are prepared; a new number makes old files unused
+STEP = 0.05  # √(d/g)
 TOLERANCE = 1e-5
-SLACK = 1e-5       # ℓ, overlaps that stay; ten times as large ones would push springs, which begin with these places
+SLACK = 1e-5  # ℓ, overlaps that stay; ten times as large ones would push springs, which begin with these places
 REST_SPEED = 5e-3  # √(g d), rms; the solver creeps on at about half of it
-LIMIT = 20_000     # steps
-LOOSEST = 0.7      # packing fraction, the least that is tried
+LIMIT = 20_000  # steps
+LOOSEST = 0.7  # packing fraction, the least that is tried
 CHUNK = 200
-ROUGH_REACH, FLOOR_REACH = 6.0, 15.0  # heights of the box beside it: glued disks, and the floor; what falls from the top at once rolls 13 in 6.5 T
+ROUGH_REACH, FLOOR_REACH = (
+    6.0,
+    15.0,
+)  # heights of the box beside it: glued disks, and the floor; what falls from the top at once rolls 13 in 6.5 T
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +56,9 @@ class Stand:
 def cache_path(heap):
     """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them;
     the engines do, so that a run has the same bits with and without a cache from earlier builds."""
-    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")} | {"engines": keys.engines_key()}
+    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")} | {
+        "engines": keys.engines_key()
+    }
     return packing_files.cache_folder("heaps") / f"{keys.key_of(plain)[:32]}-v{VERSION}.npz"
 
 
@@ -91,7 +96,9 @@ def _settle(heap):
         return math.sqrt(np.mean(t["vx"] ** 2 + t["vy"] ** 2))
 
     if not until(lambda: speed() <= wanted, LIMIT, CHUNK):
-        raise HeapError(f"the disks do not come to rest in their box: rms speed {speed():.2g} m/s after {O.iter} steps, wanted {wanted:.2g} m/s; try another seed")
+        raise HeapError(
+            f"the disks do not come to rest in their box: rms speed {speed():.2g} m/s after {O.iter} steps, wanted {wanted:.2g} m/s; try another seed"
+        )
     t = disk_table(stand)
     found = packing.Packing(t["x"], t["y"], t["r"], np.zeros(len(x)))
     O.reset()
@@ -121,8 +128,14 @@ def put(heap, world, x, y, r, still=False):
     O.reset()
     add = lambda m: O.materials[O.materials.append(m)]  # noqa: E731
     stuff, ground = add(world.material(grains)), add(world.wall_material(floor))
-    side, held = (add(world.wall_material(replace(floor, friction=f, residual_friction=f, rolling_friction=0.0, residual_rolling_friction=0.0)))
-                  for f in (0.0, 0.0 if still else heap.wall_friction))
+    side, held = (
+        add(
+            world.wall_material(
+                replace(floor, friction=f, residual_friction=f, rolling_friction=0.0, residual_rolling_friction=0.0)
+            )
+        )
+        for f in (0.0, 0.0 if still else heap.wall_friction)
+    )
     width, height = heap.box()
     x0, largest = heap.place(), heap.diameters()[1]
     x1, top = x0 + width, 2 * height + largest
@@ -146,7 +159,9 @@ def put(heap, world, x, y, r, still=False):
         for name, (reach, sign) in starts.items():
             radii = sizes_along(heap, reach, name)
             centres = sign * (2 * np.cumsum(radii) - radii)
-            base += O.bodies.append([scene.disk((float(c), -float(a)), float(a), glued, fixed=True) for c, a in zip(centres, radii)])
+            base += O.bodies.append(
+                [scene.disk((float(c), -float(a)), float(a), glued, fixed=True) for c, a in zip(centres, radii)]
+            )
             end = sign * 2 * float(np.sum(radii))
             floor_ends = [(end, 0), (far_right, 0)] if sign > 0 else [(far_left, 0), (end, 0)]
             walls += O.bodies.append(scene.segments(floor_ends, ground, sense=1))

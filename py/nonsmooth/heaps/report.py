@@ -21,7 +21,9 @@ _VALUES = {"runout": "runout_rel", "height": "final_height_rel"}
 
 def _arrays(found):
     runs = [run for run in found.values() if run["rested"]]
-    return np.array([run["aspect"] for run in runs]), {name: np.array([run[key] for run in runs]) for name, key in _VALUES.items()}
+    return np.array([run["aspect"] for run in runs]), {
+        name: np.array([run[key] for run in runs]) for name, key in _VALUES.items()
+    }
 
 
 def _fits(found):
@@ -47,11 +49,32 @@ def summarise(found):
         laws = scaling.RUNOUT if name == "runout" else scaling.HEIGHT
         for k, fit in enumerate(pair):
             where = f"{name}_{'above' if k else 'below'}"
-            fits[where] = None if fit is None else {
-                "factor": fit.factor, "exponent": fit.exponent, "exponent_95": None if math.isnan(fit.exponent_95) else fit.exponent_95, "points": fit.points,
-                "change": CHANGES[name], "published": [{"source": law.source, "factor": law.pieces[k][0], "exponent": law.pieces[k][1],
-                                                        "off_rel": fit.exponent / law.pieces[k][1] - 1} for law in laws]}
-    return {"runs": found, "fits": fits, "at_rest": sum(run["rested"] for run in found.values()), "disks_fewest": min(run["disks"] for run in found.values())}
+            fits[where] = (
+                None
+                if fit is None
+                else {
+                    "factor": fit.factor,
+                    "exponent": fit.exponent,
+                    "exponent_95": None if math.isnan(fit.exponent_95) else fit.exponent_95,
+                    "points": fit.points,
+                    "change": CHANGES[name],
+                    "published": [
+                        {
+                            "source": law.source,
+                            "factor": law.pieces[k][0],
+                            "exponent": law.pieces[k][1],
+                            "off_rel": fit.exponent / law.pieces[k][1] - 1,
+                        }
+                        for law in laws
+                    ],
+                }
+            )
+    return {
+        "runs": found,
+        "fits": fits,
+        "at_rest": sum(run["rested"] for run in found.values()),
+        "disks_fewest": min(run["disks"] for run in found.values()),
+    }
 
 
 def counts(found):
@@ -74,14 +97,18 @@ def by_front(found, folders):
         order = np.argsort(x)
         share = np.cumsum(r[order] ** 2) / np.sum(r**2)
         a.append(run["aspect"])
-        rows.append([(measures.fronts(x, r, measures.connected(x, y, r, gap))[1] - place) / width - 1 for gap in GAPS]
-                    + [(x[order][np.searchsorted(share, q)] - place) / width - 1 for q in SHARES])
+        rows.append(
+            [(measures.fronts(x, r, measures.connected(x, y, r, gap))[1] - place) / width - 1 for gap in GAPS]
+            + [(x[order][np.searchsorted(share, q)] - place) / width - 1 for q in SHARES]
+        )
     names = [f"gaps below {100 * g:g} % of a diameter" for g in GAPS] + [f"{100 * q:g} % of the mass" for q in SHARES]
     found = []
     for k, name in enumerate(names):
         values = np.array([row[k] for row in rows])
         fits = scaling.exponents(a, values, CHANGES["runout"]) if (values > 0).all() else (None, None)
-        found.append({"front": name, **{side: None if f is None else f.exponent for side, f in zip(("below", "above"), fits)}})
+        found.append(
+            {"front": name, **{side: None if f is None else f.exponent for side, f in zip(("below", "above"), fits)}}
+        )
     return found
 
 
@@ -93,20 +120,33 @@ def group(found):
 
 def table(found, summary):
     """The runs and the fits as text."""
-    lines = ["run                    disks      a   runout/L0   height/L0   repose [°]   time/T     steps   wall [s]   worst overlap"]
+    lines = [
+        "run                    disks      a   runout/L0   height/L0   repose [°]   time/T     steps   wall [s]   worst overlap"
+    ]
     for name, r in found.items():
         angles = " ".join("-" if a is None else f"{a:.1f}" for a in r["repose_deg"])
-        lines.append(f"{name:20s} {r['disks']:7d} {r['aspect']:6.2f} {r['runout_rel']:11.3f} {r['final_height_rel']:11.3f} {angles:>12s} {r['time_s'] / r['fall_time_s']:8.1f} "
-                     f"{r['steps']:9d} {r['wall_s']:10.1f} {r['overlap_worst_rel']:15.1e}{'' if r['rested'] else '  did not come to rest'}")
-    short = [f"{name} has {r['disks']} of {r['disks_asked']}" for name, r in found.items() if r["disks"] < (r.get("disks_asked") or 0)]
+        lines.append(
+            f"{name:20s} {r['disks']:7d} {r['aspect']:6.2f} {r['runout_rel']:11.3f} {r['final_height_rel']:11.3f} {angles:>12s} {r['time_s'] / r['fall_time_s']:8.1f} "
+            f"{r['steps']:9d} {r['wall_s']:10.1f} {r['overlap_worst_rel']:15.1e}{'' if r['rested'] else '  did not come to rest'}"
+        )
+    short = [
+        f"{name} has {r['disks']} of {r['disks_asked']}"
+        for name, r in found.items()
+        if r["disks"] < (r.get("disks_asked") or 0)
+    ]
     if short:
         lines.append(f"fewer disks than asked for, as their boxes are small: {', '.join(short)}")
     for where, fit in summary["fits"].items():
         if fit:
             sure = "" if fit["exponent_95"] is None else f" ± {fit['exponent_95']:.2f}"
-            beside = "; ".join(f"{p['source']}: {p['factor']:g} a^{p['exponent']:.3g}, {100 * p['off_rel']:+.0f} %" for p in fit["published"])
+            beside = "; ".join(
+                f"{p['source']}: {p['factor']:g} a^{p['exponent']:.3g}, {100 * p['off_rel']:+.0f} %"
+                for p in fit["published"]
+            )
             name, side = where.split("_")
-            lines.append(f"{name} {side} a = {fit['change']:g}: {fit['factor']:.2f} a^({fit['exponent']:.3f}{sure}), {fit['points']} runs. {beside}")
+            lines.append(
+                f"{name} {side} a = {fit['change']:g}: {fit['factor']:.2f} a^({fit['exponent']:.3f}{sure}), {fit['points']} runs. {beside}"
+            )
     return "\n".join(lines)
 
 

@@ -34,11 +34,15 @@ class Law:
 
 
 #: Laws of the runout. Staron and Hinch: two-dimensional Contact Dynamics; Lube et al.: experiments between close walls.
-RUNOUT = (Law("Staron and Hinch (2005), contact dynamics", 2.0, ((2.5, 1.0), (3.25, 0.7))),
-          Law("Lube et al. (2005), experiments", 2.3, ((1.2, 1.0), (1.9, 2 / 3))))
+RUNOUT = (
+    Law("Staron and Hinch (2005), contact dynamics", 2.0, ((2.5, 1.0), (3.25, 0.7))),
+    Law("Lube et al. (2005), experiments", 2.3, ((1.2, 1.0), (1.9, 2 / 3))),
+)
 #: Laws of the final height at the wall; below the change the top is not reached.
-HEIGHT = (Law("Staron and Hinch (2005), contact dynamics", 0.7, ((1.0, 1.0), (0.65, 0.35))),
-          Law("Lube et al. (2005), experiments", 1.15, ((1.0, 1.0), (1.0, 0.4))))
+HEIGHT = (
+    Law("Staron and Hinch (2005), contact dynamics", 0.7, ((1.0, 1.0), (0.65, 0.35))),
+    Law("Lube et al. (2005), experiments", 1.15, ((1.0, 1.0), (1.0, 0.4))),
+)
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,9 @@ def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, damping
             raise HeapError(f"stiffness {soft.get('stiffness')!r}: the soft world needs Young's modulus in Pa, above 0")
         made = worlds.Soft(diameter=heap.diameters(), **soft)
         if not 0 < made.step_share <= 1:
-            raise HeapError(f"step_share {made.step_share!r}: the time step in units of its stability limit; give a number above 0, to 1 at most")
+            raise HeapError(
+                f"step_share {made.step_share!r}: the time step in units of its stability limit; give a number above 0, to 1 at most"
+            )
         made.equivalent(heap.material())  # refuses values that no soft contact has
         heap.check_model(made.model)
     else:
@@ -59,13 +61,28 @@ def one(folder, kind, heap, world, duration):
     from . import course
 
     folder, made = Path(folder), KINDS[kind](**heap)
-    result = course.run(made, world_of(made, **world), duration, progress=kept_runs.Progress(folder), damping_moving=world.get("damping_moving"))
+    result = course.run(
+        made,
+        world_of(made, **world),
+        duration,
+        progress=kept_runs.Progress(folder),
+        damping_moving=world.get("damping_moving"),
+    )
     with records.SeriesWriter(folder / "series.csv", course.COLUMNS, overwrite=True) as series:
         for row in zip(*(result.series[name].tolist() for name in course.COLUMNS)):
             series.write(dict(zip(course.COLUMNS, row)))
     times = sorted(result.frames)
-    write_arrays(folder / "places.npz", compressed=True, time=times, x=[result.frames[t][0] for t in times], y=[result.frames[t][1] for t in times],
-                 r=result.r, x_end=result.x, y_end=result.y, connected=result.connected)
+    write_arrays(
+        folder / "places.npz",
+        compressed=True,
+        time=times,
+        x=[result.frames[t][0] for t in times],
+        y=[result.frames[t][1] for t in times],
+        r=result.r,
+        x_end=result.x,
+        y_end=result.y,
+        connected=result.connected,
+    )
     return result.summary()
 
 
@@ -73,7 +90,11 @@ def frames(folder):
     """Places of a run below ``folder``: times [s] with the end last, a list of (x, y) for each, and radii [m]."""
     with np.load(Path(folder) / "places.npz", allow_pickle=False) as data:
         series = records.read_series(Path(folder) / "series.csv")
-        return [*data["time"].tolist(), float(series["time_s"][-1])], [*zip(data["x"], data["y"]), (data["x_end"], data["y_end"])], data["r"]
+        return (
+            [*data["time"].tolist(), float(series["time_s"][-1])],
+            [*zip(data["x"], data["y"]), (data["x_end"], data["y_end"])],
+            data["r"],
+        )
 
 
 def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda share: None):
@@ -86,5 +107,16 @@ def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda shar
     for name, (heap, world) in cases.items():
         kind = next(k for k, v in KINDS.items() if type(heap) is v)
         arguments = {"kind": kind, "heap": asdict(heap), "world": world, "duration": duration}
-        made.append(side_by_side.Run(name, Path(out) / "runs" / name, one, arguments, key_of(heap, world, duration), heap.disks * heap.box()[1] / heap.mean_diameter()))
-    return dict(zip(cases, side_by_side.run(made, threads, resume, HeapError, progress=lambda share, ended: progress(share))))
+        made.append(
+            side_by_side.Run(
+                name,
+                Path(out) / "runs" / name,
+                one,
+                arguments,
+                key_of(heap, world, duration),
+                heap.disks * heap.box()[1] / heap.mean_diameter(),
+            )
+        )
+    return dict(
+        zip(cases, side_by_side.run(made, threads, resume, HeapError, progress=lambda share, ended: progress(share)))
+    )

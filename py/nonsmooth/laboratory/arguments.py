@@ -16,7 +16,9 @@ def pressures(least=1):
         except ValueError:
             raise argparse.ArgumentTypeError(f"{text!r}: give pressures in MPa, separated by commas") from None
         if not all(v > 0 for v in values) or len(set(values)) < max(least, len(values)):
-            raise argparse.ArgumentTypeError(f"{text!r}: give {'' if least < 2 else f'{least} or more '}positive pressures, each once")
+            raise argparse.ArgumentTypeError(
+                f"{text!r}: give {'' if least < 2 else f'{least} or more '}positive pressures, each once"
+            )
         return values
 
     return read
@@ -41,7 +43,13 @@ def bar():
     from ..commands import closing
 
     # a file gets a line every half a minute
-    with closing(tqdm(total=1000, mininterval=0.5 if sys.stderr.isatty() else 30, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left")) as shown:
+    with closing(
+        tqdm(
+            total=1000,
+            mininterval=0.5 if sys.stderr.isatty() else 30,
+            bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left",
+        )
+    ) as shown:
 
         def progress(share, doing):
             shown.set_description_str(doing, refresh=False)

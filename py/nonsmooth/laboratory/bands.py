@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-STRIP = 1.0          # d, width of a strip
+STRIP = 1.0  # d, width of a strip
 ANGLES = np.radians(np.arange(35, 81, 1.0))  # of a band to the horizontal; the minor stress is horizontal
 
 
@@ -53,7 +53,13 @@ def _strongest(x, y, area, turned, sign, d):
     if not height > 2 * rest or rest < 0:
         return None
     half = rest + 0.5 * (height - rest)
-    return Band(math.degrees(angle), float(centres[k]), _width(profile, k, half) * STRIP, sign * float(height), float(height / rest) if rest > 0 else math.inf)
+    return Band(
+        math.degrees(angle),
+        float(centres[k]),
+        _width(profile, k, half) * STRIP,
+        sign * float(height),
+        float(height / rest) if rest > 0 else math.inf,
+    )
 
 
 def _profile(x, y, area, turned, angle, d):
@@ -65,7 +71,7 @@ def _profile(x, y, area, turned, angle, d):
     mean = np.bincount(k - low, area * turned) / np.maximum(filled, 1e-300)
     keep = filled > 0.4 * np.max(filled)
     first, last = np.flatnonzero(keep)[[0, -1]]
-    return mean[first:last + 1], (np.arange(first, last + 1) + low + 0.5) * STRIP * d
+    return mean[first : last + 1], (np.arange(first, last + 1) + low + 0.5) * STRIP * d
 
 
 def _width(profile, k, half):
@@ -76,6 +82,14 @@ def _width(profile, k, half):
     right = k
     while right < len(profile) - 1 and profile[right] > half:
         right += 1
-    a = left + (half - profile[left]) / (profile[left + 1] - profile[left]) if profile[left] <= half < profile[left + 1] else left
-    b = right - (half - profile[right]) / (profile[right - 1] - profile[right]) if profile[right] <= half < profile[right - 1] else right
+    a = (
+        left + (half - profile[left]) / (profile[left + 1] - profile[left])
+        if profile[left] <= half < profile[left + 1]
+        else left
+    )
+    b = (
+        right - (half - profile[right]) / (profile[right - 1] - profile[right])
+        if profile[right] <= half < profile[right - 1]
+        else right
+    )
     return float(b - a)

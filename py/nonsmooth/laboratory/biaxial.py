@@ -27,14 +27,33 @@ from . import membrane, sample
 from .biaxial_test import Test, key_of
 from .walls import Walls
 
-RAMP = 0.002               # strain in which the platens reach their speed
-ROW_STRAIN = 1e-4          # between two rows of series.csv
+RAMP = 0.002  # strain in which the platens reach their speed
+ROW_STRAIN = 1e-4  # between two rows of series.csv
 SNAPSHOTS = (0.01, 0.02, 0.04)  # strains, besides the begin and the end
-CHECKPOINT_SECONDS = 60    # of wall time
+CHECKPOINT_SECONDS = 60  # of wall time
 
-COLUMNS = ("step", "time_s", "strain", "volumetric_strain", "sigma1_top_Pa", "sigma1_bottom_Pa", "sigma3_left_Pa", "sigma3_right_Pa", "inertial_number",
-           "bonds_alive", "bonds_broken_tension", "bonds_broken_shear", "bonds_broken_torque", "bonds_broken_mixed", "contacts", "speed_mean_m_per_s",
-           "iterations_mean", "residual_worst", "unconverged", "overlap_worst_rel")
+COLUMNS = (
+    "step",
+    "time_s",
+    "strain",
+    "volumetric_strain",
+    "sigma1_top_Pa",
+    "sigma1_bottom_Pa",
+    "sigma3_left_Pa",
+    "sigma3_right_Pa",
+    "inertial_number",
+    "bonds_alive",
+    "bonds_broken_tension",
+    "bonds_broken_shear",
+    "bonds_broken_torque",
+    "bonds_broken_mixed",
+    "contacts",
+    "speed_mean_m_per_s",
+    "iterations_mean",
+    "residual_worst",
+    "unconverged",
+    "overlap_worst_rel",
+)
 
 
 class TestError(UserError, RuntimeError):
@@ -51,7 +70,9 @@ class Course:
     def __init__(self, test, folder, body, state):
         """``body``: the Sample in the scene; ``state``: dictionary of numbers that a checkpoint keeps."""
         self.test, self.folder, self.sample, self.state = test, Path(folder), body, state
-        self.series = records.SeriesWriter(self.folder / "series.csv", self.columns, resume_from=state.pop("series", None), overwrite=True)
+        self.series = records.SeriesWriter(
+            self.folder / "series.csv", self.columns, resume_from=state.pop("series", None), overwrite=True
+        )
         self._saved = self._clock = time.monotonic()
 
     # ---- begin ----------------------------------------------------------------------------------
@@ -59,12 +80,34 @@ class Course:
     def begin(cls, test, folder):
         """Puts the sample into the scene, bonded and under its pressure."""
         began = time.monotonic()
-        body = sample.Sample.build(test.shape, test.material, test.platen, test.confining, tolerance=min(test.tolerance, 1e-5), maxIterations=max(test.max_iterations, 1000))
+        body = sample.Sample.build(
+            test.shape,
+            test.material,
+            test.platen,
+            test.confining,
+            tolerance=min(test.tolerance, 1e-5),
+            maxIterations=max(test.max_iterations, 1000),
+        )
         engine, walls = body.engine, body.walls
         unit, height, width = math.sqrt(body.mass / test.confining), walls.height(), walls.width()
-        state = {"unit_s": unit, "rate": test.inertia / unit, "height": height, "width": width, "area": height * width, "bonds": body.bonds, "begin": O.iter,
-                 "begin_time": O.time, "disks": body.count, "contacts": engine.contacts, "made_s": time.monotonic() - began, "wall_s": 0.0, "wall_steps_s": 0.0,
-                 "sweeps": engine.totalIterations, "unconverged": engine.unconverged, "fraction": body.disks_area() / (height * width)}
+        state = {
+            "unit_s": unit,
+            "rate": test.inertia / unit,
+            "height": height,
+            "width": width,
+            "area": height * width,
+            "bonds": body.bonds,
+            "begin": O.iter,
+            "begin_time": O.time,
+            "disks": body.count,
+            "contacts": engine.contacts,
+            "made_s": time.monotonic() - began,
+            "wall_s": 0.0,
+            "wall_steps_s": 0.0,
+            "sweeps": engine.totalIterations,
+            "unconverged": engine.unconverged,
+            "fraction": body.disks_area() / (height * width),
+        }
         engine.tolerance, engine.maxIterations = test.tolerance, test.max_iterations
         O.dt = test.step * unit
         walls.drive("top")
@@ -73,7 +116,9 @@ class Course:
             walls.remove("left", "right")
             state["area"] = course._membrane()
         elif test.platens != "smooth":
-            walls.free("left", walls.state("right").mass)  # platens that drag must not load one side more than the other
+            walls.free(
+                "left", walls.state("right").mass
+            )  # platens that drag must not load one side more than the other
         course.snapshot("begin")
         return course
 
@@ -103,7 +148,13 @@ class Course:
         per_row = max(1, round(ROW_STRAIN / (s["rate"] * O.dt)))
         taken = [strain for strain in SNAPSHOTS if strain < test.strain - 1e-9]
         while self.strain < test.strain - 1e-9:
-            sums, sweeps, worst, missed, began = {}, engine.totalIterations, 0.0, engine.unconverged, time.perf_counter()
+            sums, sweeps, worst, missed, began = (
+                {},
+                engine.totalIterations,
+                0.0,
+                engine.unconverged,
+                time.perf_counter(),
+            )
             for _ in range(per_row):
                 elapsed = (O.time - s["begin_time"]) * s["rate"]
                 # the speed grows linearly with the time until half of twice RAMP's strain
@@ -127,7 +178,9 @@ class Course:
                 self.checkpoint()
             if interrupted():
                 self.series.close()
-                raise interrupts.Interrupted(f"at a strain of {s['strain']:.4f}; the checkpoint is written, go on with --resume")
+                raise interrupts.Interrupted(
+                    f"at a strain of {s['strain']:.4f}; the checkpoint is written, go on with --resume"
+                )
         self.snapshot("end")
         self._count_time()
         self.series.close()
@@ -137,7 +190,9 @@ class Course:
         body = self.sample
         t = tables.bodies(body.engine)
         try:
-            found, area = membrane.forces(t["x"], t["y"], t["r"], body.walls.place("bottom")[1], body.walls.place("top")[1], self.test.confining)
+            found, area = membrane.forces(
+                t["x"], t["y"], t["r"], body.walls.place("bottom")[1], body.walls.place("top")[1], self.test.confining
+            )
         except membrane.MembraneError as error:
             raise TestError(f"at a strain of {self.strain:.4f}: {error}, or give --sides rigid") from None
         now = set(np.flatnonzero(np.any(found != 0, axis=1)).tolist())
@@ -155,13 +210,27 @@ class Course:
         width = area / height
         sides = self.test.sides == "rigid"
         row = {
-            "step": O.iter, "time_s": O.time - s["begin_time"], "strain": s["strain"], "volumetric_strain": area / s["area"] - 1,
-            "sigma1_top_Pa": sums["top"] / width, "sigma1_bottom_Pa": sums["bottom"] / width,
-            "sigma3_left_Pa": sums["left"] / height if sides else self.test.confining, "sigma3_right_Pa": sums["right"] / height if sides else self.test.confining,
-            "inertial_number": s["rate"] * s["unit_s"], "bonds_alive": engine.bonds, "bonds_broken_tension": engine.brokenTension,
-            "bonds_broken_shear": engine.brokenShear, "bonds_broken_torque": engine.brokenTorque, "bonds_broken_mixed": engine.brokenMixed,
-            "contacts": engine.contacts, "speed_mean_m_per_s": engine.meanSpeed, "iterations_mean": sweeps, "residual_worst": worst, "unconverged": missed,
-            "overlap_worst_rel": engine.overlapWorst}
+            "step": O.iter,
+            "time_s": O.time - s["begin_time"],
+            "strain": s["strain"],
+            "volumetric_strain": area / s["area"] - 1,
+            "sigma1_top_Pa": sums["top"] / width,
+            "sigma1_bottom_Pa": sums["bottom"] / width,
+            "sigma3_left_Pa": sums["left"] / height if sides else self.test.confining,
+            "sigma3_right_Pa": sums["right"] / height if sides else self.test.confining,
+            "inertial_number": s["rate"] * s["unit_s"],
+            "bonds_alive": engine.bonds,
+            "bonds_broken_tension": engine.brokenTension,
+            "bonds_broken_shear": engine.brokenShear,
+            "bonds_broken_torque": engine.brokenTorque,
+            "bonds_broken_mixed": engine.brokenMixed,
+            "contacts": engine.contacts,
+            "speed_mean_m_per_s": engine.meanSpeed,
+            "iterations_mean": sweeps,
+            "residual_worst": worst,
+            "unconverged": missed,
+            "overlap_worst_rel": engine.overlapWorst,
+        }
         self.series.write({name: row[name] for name in self.columns})
 
     # ---- records --------------------------------------------------------------------------------
@@ -173,16 +242,34 @@ class Course:
         folder.mkdir(parents=True, exist_ok=True)
         none = np.zeros(body.count, bool)
         records.write_snapshot(
-            folder / f"{name}.npz", time_s=O.time - self.state["begin_time"], step=O.iter, water_m=0.0, layer=np.zeros(body.count, int), wet=none, released=none,
+            folder / f"{name}.npz",
+            time_s=O.time - self.state["begin_time"],
+            step=O.iter,
+            water_m=0.0,
+            layer=np.zeros(body.count, int),
+            wet=none,
+            released=none,
             **{key: t[key] for key in ("x", "y", "r", "angle", "vx", "vy")},
-            **tables.loaded_contacts(body.engine, body.first_disk, {i: k for k, i in enumerate(body.walls.ids.values())}))
+            **tables.loaded_contacts(
+                body.engine, body.first_disk, {i: k for k, i in enumerate(body.walls.ids.values())}
+            ),
+        )
 
     def checkpoint(self):
         """Saves all that :meth:`resume` needs."""
         self._count_time()
         self.series.sync()
-        checkpoints.write(self.folder, key_of(self.test), {"walls": self.sample.walls.ids, "first_disk": self.sample.first_disk, "count": self.sample.count, "state": self.state,
-                                                         "series": self.series.mark()})
+        checkpoints.write(
+            self.folder,
+            key_of(self.test),
+            {
+                "walls": self.sample.walls.ids,
+                "first_disk": self.sample.first_disk,
+                "count": self.sample.count,
+                "state": self.state,
+                "series": self.series.mark(),
+            },
+        )
         self._saved = time.monotonic()
 
     def _count_time(self):
@@ -202,7 +289,23 @@ def run(folder, **plain):
     course.run(Progress(folder))
     s, engine = course.state, course.sample.engine
     steps = O.iter - s["begin"]
-    return {"disks": s["disks"], "bonds": s["bonds"], "contacts": s["contacts"], "packing_fraction": s["fraction"], "height_m": s["height"], "width_m": s["width"],
-            "rate_per_s": s["rate"], "inertial_number": test.inertia, "time_step_s": O.dt, "steps": steps, "simulated_s": O.time - s["begin_time"],
-            "wall_making_s": s["made_s"], "wall_s": s["wall_s"], "wall_steps_s": s["wall_steps_s"], "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
-            "unconverged": engine.unconverged - s["unconverged"], "overlap_worst_rel": engine.overlapWorstEver, "residual": engine.residual}
+    return {
+        "disks": s["disks"],
+        "bonds": s["bonds"],
+        "contacts": s["contacts"],
+        "packing_fraction": s["fraction"],
+        "height_m": s["height"],
+        "width_m": s["width"],
+        "rate_per_s": s["rate"],
+        "inertial_number": test.inertia,
+        "time_step_s": O.dt,
+        "steps": steps,
+        "simulated_s": O.time - s["begin_time"],
+        "wall_making_s": s["made_s"],
+        "wall_s": s["wall_s"],
+        "wall_steps_s": s["wall_steps_s"],
+        "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
+        "unconverged": engine.unconverged - s["unconverged"],
+        "overlap_worst_rel": engine.overlapWorstEver,
+        "residual": engine.residual,
+    }

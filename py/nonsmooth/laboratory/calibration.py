@@ -30,15 +30,29 @@ from . import biaxial_test, campaign, pressing
 # σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15 % of c; under half of it, 5 %.
 PRESSURES = (0.5, 3.0, 12.0, 48.0)
 PEAK_STRAIN = 0.03  # at the end of tests of which only the peak is wanted
-BOUNDS = {"tensile_strength": (1e2, 1e9), "friction": (0.02, 2.0), "rolling_friction": (0.005, 0.6), "residual_share": (0.01, 1.0)}
+BOUNDS = {
+    "tensile_strength": (1e2, 1e9),
+    "friction": (0.02, 2.0),
+    "rolling_friction": (0.005, 0.6),
+    "residual_share": (0.01, 1.0),
+}
 # first derivatives by logarithms: of ln c, φ [°], ln c_res, φ_res [°]; those of friction measured on 5,000 disks with μ_s from 0.21 to 0.3
-SLOPES = {"tensile_strength": (1.0, 0.0, 1.0, 0.0), "friction": (0.75, 17.0, 0.0, 12.0), "rolling_friction": (0.2, 4.0, 0.0, 5.0), "residual_share": (0.0, 0.0, 1.0, 0.0)}
-SCALE = 0.02                    # a misfit of 2 % counts as one
-DEGREES = 0.7                   # of angles, about the same
-COARSE = 3.0                    # what coarse samples may miss, in these units: fine ones differ from them by more
-DIGITS = 4                      # of a trial's parameters: the last bits of exponentials and of linear algebra are a processor's own, and a test grows them
-PROBE = 0.3                     # step (of logarithms) of the trials that measure derivatives: ten times the samples' scatter of some per cent
-LEARN = 0.04                    # smallest step (of logarithms) from which the Jacobian learns; what differs after a smaller one is scatter
+SLOPES = {
+    "tensile_strength": (1.0, 0.0, 1.0, 0.0),
+    "friction": (0.75, 17.0, 0.0, 12.0),
+    "rolling_friction": (0.2, 4.0, 0.0, 5.0),
+    "residual_share": (0.0, 0.0, 1.0, 0.0),
+}
+SCALE = 0.02  # a misfit of 2 % counts as one
+DEGREES = 0.7  # of angles, about the same
+COARSE = 3.0  # what coarse samples may miss, in these units: fine ones differ from them by more
+DIGITS = 4  # of a trial's parameters: the last bits of exponentials and of linear algebra are a processor's own, and a test grows them
+PROBE = (
+    0.3  # step (of logarithms) of the trials that measure derivatives: ten times the samples' scatter of some per cent
+)
+LEARN = (
+    0.04  # smallest step (of logarithms) from which the Jacobian learns; what differs after a smaller one is scatter
+)
 
 
 @dataclass(frozen=True)
@@ -62,19 +76,34 @@ class Calibration:
     def __init__(self, wanted, start, out, threads, say=print, resume=False, progress=lambda share, doing: None):
         """``start``: section.Material whose other parameters are kept; ``say``: called with a line of text for every trial; ``progress``: now and then
         with the share that is done of as many trials as there may be, and what is being done."""
-        self.wanted, self.start, self.out, self.threads, self.say, self.resume, self.progress = wanted, start, Path(out), threads, say, resume, progress
-        self.names = ("tensile_strength", "friction") + (("rolling_friction", "residual_share") if wanted.with_residual else ())
+        self.wanted, self.start, self.out, self.threads, self.say, self.resume, self.progress = (
+            wanted,
+            start,
+            Path(out),
+            threads,
+            say,
+            resume,
+            progress,
+        )
+        self.names = ("tensile_strength", "friction") + (
+            ("rolling_friction", "residual_share") if wanted.with_residual else ()
+        )
         self.trials = []
         self.known = self._kept() if resume else []
         share = start.residual_tensile_strength / start.tensile_strength if start.tensile_strength > 0 else 0.25
-        first = {"tensile_strength": 1.1 * wanted.cohesion, "friction": start.friction, "rolling_friction": start.rolling_friction, "residual_share": max(share, 0.02)}
+        first = {
+            "tensile_strength": 1.1 * wanted.cohesion,
+            "friction": start.friction,
+            "rolling_friction": start.rolling_friction,
+            "residual_share": max(share, 0.02),
+        }
         self.x0 = np.log([first[name] for name in self.names])
         self.share = share
         self.jacobian, self.last = self._first_jacobian(), None
         self._done, self._whole = 0.0, 1.0  # disks of the trials behind us, and of all that may come
 
     def _first_jacobian(self):
-        return np.array([SLOPES[name] for name in self.names], float).T[:4 if self.wanted.with_residual else 2]
+        return np.array([SLOPES[name] for name in self.names], float).T[: 4 if self.wanted.with_residual else 2]
 
     # ---- parameters -----------------------------------------------------------------------------
     def parameters(self, x):
@@ -86,8 +115,16 @@ class Calibration:
         v = self.parameters(x)
         friction, rolling = v["friction"], v.get("rolling_friction", self.start.rolling_friction)
         return dataclasses.replace(
-            self.start, name="calibrated", tensile_strength=v["tensile_strength"], residual_tensile_strength=v.get("residual_share", self.share) * v["tensile_strength"],
-            friction=friction, residual_friction=friction, rolling_friction=rolling, residual_rolling_friction=rolling, envelope=None)
+            self.start,
+            name="calibrated",
+            tensile_strength=v["tensile_strength"],
+            residual_tensile_strength=v.get("residual_share", self.share) * v["tensile_strength"],
+            friction=friction,
+            residual_friction=friction,
+            rolling_friction=rolling,
+            residual_rolling_friction=rolling,
+            envelope=None,
+        )
 
     # ---- trials ---------------------------------------------------------------------------------
     def _kept(self):
@@ -101,7 +138,9 @@ class Calibration:
         except FileNotFoundError:
             return []
         except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-            raise campaign.CampaignError(f"{path}: the trials of the earlier search cannot be read ({error}); remove the file, and they are made again") from None
+            raise campaign.CampaignError(
+                f"{path}: the trials of the earlier search cannot be read ({error}); remove the file, and they are made again"
+            ) from None
 
     def measure(self, x, disks, seeds):
         """c [Pa], φ [°], and where they are wanted c_res, φ_res of the material at ``x``, an array, with samples of so many disks.
@@ -114,12 +153,16 @@ class Calibration:
                 if trial not in self.trials:
                     self.trials.append(trial)
                 return np.array(trial["found"])
-        found = self.test(self.material(x), disks, seeds)[:len(self.jacobian)]
-        self.trials.append({"key": key, "parameters": self.parameters(x), "disks": disks, "seeds": list(seeds), "found": found})
+        found = self.test(self.material(x), disks, seeds)[: len(self.jacobian)]
+        self.trials.append(
+            {"key": key, "parameters": self.parameters(x), "disks": disks, "seeds": list(seeds), "found": found}
+        )
         write_atomically(self.out / "trials.json", json.dumps(self.trials, indent=1).encode())
         named = ", ".join(f"{name} {value:g}" for name, value in self.parameters(x).items())
         residual = f", c_res {1e-3 * found[2]:.1f} kPa, φ_res {found[3]:.2f}°" if len(found) > 2 else ""
-        self.say(f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°{residual}")
+        self.say(
+            f"trial {len(self.trials)}, {disks} disks: {named} → c {1e-3 * found[0]:.1f} kPa, φ {found[1]:.2f}°{residual}"
+        )
         return np.array(found)
 
     def _key(self, material, disks, seeds):
@@ -128,20 +171,32 @@ class Calibration:
 
     def _tests(self, material, disks, seeds):
         strain = biaxial_test.Test.strain if self.wanted.with_residual else PEAK_STRAIN
-        return [biaxial_test.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain) for seed in seeds for p in PRESSURES]
+        return [
+            biaxial_test.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain)
+            for seed in seeds
+            for p in PRESSURES
+        ]
 
     def test(self, material, disks, seeds):
         """c [Pa], φ [°], and where they are wanted c_res, φ_res of a material, a list, from biaxial tests."""
         folder = self.out / f"trial-{self._key(material, disks, seeds)[:12]}"  # its checkpoints are its own
-        measured = campaign.run(self._tests(material, disks, seeds), folder, self.threads, self.resume, self._show(disks * len(seeds)))
+        measured = campaign.run(
+            self._tests(material, disks, seeds), folder, self.threads, self.resume, self._show(disks * len(seeds))
+        )
         s = campaign.summarise(material, measured, 0.0, self.threads)
         shutil.rmtree(folder, ignore_errors=True)
         found = [1e3 * s["cohesion_peak_kPa"], s["friction_peak_deg"]]
-        return found + [1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]] if self.wanted.with_residual else found
+        return (
+            found + [1e3 * s["cohesion_residual_kPa"], s["friction_residual_deg"]]
+            if self.wanted.with_residual
+            else found
+        )
 
     def _show(self, disks):
         number, before, self._done = len(self.trials) + 1, self._done, self._done + disks
-        return lambda share, doing: self.progress(min(1.0, (before + share * disks) / self._whole), f"trial {number}: {doing}")
+        return lambda share, doing: self.progress(
+            min(1.0, (before + share * disks) / self._whole), f"trial {number}: {doing}"
+        )
 
     def misfits(self, found):
         """What a trial misses, in units of SCALE and DEGREES, an array of two or four; ``found``: as :meth:`measure` returns it."""
@@ -149,7 +204,10 @@ class Calibration:
         parts = [math.log(max(found[0], 1e-3 * w.cohesion) / w.cohesion) / SCALE, (found[1] - w.friction_deg) / DEGREES]
         if w.with_residual:
             # a residual cohesion near zero is measured to some kPa, not to per cents
-            parts += [(found[2] - w.residual_cohesion) / (SCALE * w.cohesion), (found[3] - w.residual_friction_deg) / DEGREES]
+            parts += [
+                (found[2] - w.residual_cohesion) / (SCALE * w.cohesion),
+                (found[3] - w.residual_friction_deg) / DEGREES,
+            ]
         return np.array(parts)
 
     def search(self, disks, seeds, x, trials, enough=1.0):
@@ -157,10 +215,13 @@ class Calibration:
 
         ``x``: logarithms of the parameters, as :attr:`names` has them. Raises as :meth:`measure` does.
         """
-        scale = np.array([1 / SCALE, 1 / DEGREES, 1 / SCALE, 1 / DEGREES])[:len(self.jacobian)]
+        scale = np.array([1 / SCALE, 1 / DEGREES, 1 / SCALE, 1 / DEGREES])[: len(self.jacobian)]
         best = [None, None]
         low, high = (np.log([BOUNDS[name][k] for name in self.names]) for k in (0, 1))
-        self.jacobian, self.last = self._first_jacobian(), None  # what another kind of samples has taught is mostly their scatter
+        self.jacobian, self.last = (
+            self._first_jacobian(),
+            None,
+        )  # what another kind of samples has taught is mostly their scatter
 
         def residuals(at):
             r = self.misfits(self.measure(at, disks, seeds))
@@ -173,7 +234,15 @@ class Calibration:
                 best[:] = at.copy(), r
             return r if np.abs(r).max() > enough else np.zeros_like(r)  # the samples tell no more
 
-        least_squares(residuals, np.clip(x, low + 1e-6, high - 1e-6), jac=lambda at: self.jacobian * scale[:, None], bounds=(low, high), max_nfev=trials, ftol=1e-3, xtol=1e-3)
+        least_squares(
+            residuals,
+            np.clip(x, low + 1e-6, high - 1e-6),
+            jac=lambda at: self.jacobian * scale[:, None],
+            bounds=(low, high),
+            max_nfev=trials,
+            ftol=1e-3,
+            xtol=1e-3,
+        )
         return best[0], best[1]
 
     def derivatives(self, disks, seeds, x):
@@ -184,7 +253,9 @@ class Calibration:
         for k in range(len(x)):
             beside = np.array(x, float)
             beside[k] += PROBE if x[k] + PROBE < high[k] else -PROBE
-            step = math.log(self.parameters(beside)[self.names[k]] / self.parameters(x)[self.names[k]])  # as it was made
+            step = math.log(
+                self.parameters(beside)[self.names[k]] / self.parameters(x)[self.names[k]]
+            )  # as it was made
             columns.append((self.misfits(self.measure(beside, disks, seeds)) - here) / step)
         return np.column_stack(columns)
 
@@ -200,15 +271,29 @@ class Calibration:
         x, misfit = self.search(*fine, x, trials[1])
         material = self.material(x)
         found = next(t["found"] for t in self.trials if t["key"] == self._key(material, *fine))
-        return material, {"material": dataclasses.asdict(material), "wanted": dataclasses.asdict(self.wanted), "found": found, "misfit_in_tolerances": misfit.tolist(),
-                          "tolerances": {"cohesion_rel": SCALE, "friction_deg": DEGREES}, "reached": bool(np.abs(misfit).max() <= 1), "trials": self.trials, **certain,
-                          "given": "σ_ext and μ_s follow from c and φ for the given μ_r; another μ_r gives another μ_s with the same peak and another plateau"
-                          if not self.wanted.with_residual else "four parameters from four strengths"}
+        return material, {
+            "material": dataclasses.asdict(material),
+            "wanted": dataclasses.asdict(self.wanted),
+            "found": found,
+            "misfit_in_tolerances": misfit.tolist(),
+            "tolerances": {"cohesion_rel": SCALE, "friction_deg": DEGREES},
+            "reached": bool(np.abs(misfit).max() <= 1),
+            "trials": self.trials,
+            **certain,
+            "given": "σ_ext and μ_s follow from c and φ for the given μ_r; another μ_r gives another μ_s with the same peak and another plateau"
+            if not self.wanted.with_residual
+            else "four parameters from four strengths",
+        }
 
 
 def uniqueness(names, derivatives):
     """What strengths tell about parameters, a dictionary, from :meth:`Calibration.derivatives` (shape (strengths, parameters), as many of either)."""
     _, singular, directions = np.linalg.svd(derivatives)
     errors = np.sqrt(np.diag(np.linalg.pinv(derivatives.T @ derivatives)))
-    return {"parameters": list(names), "sensitivity": derivatives.tolist(), "singular_values": singular.tolist(),
-            "parameter_error_rel": dict(zip(names, errors.tolist())), "least_certain_direction": dict(zip(names, directions[-1].tolist()))}
+    return {
+        "parameters": list(names),
+        "sensitivity": derivatives.tolist(),
+        "singular_values": singular.tolist(),
+        "parameter_error_rel": dict(zip(names, errors.tolist())),
+        "least_certain_direction": dict(zip(names, directions[-1].tolist())),
+    }

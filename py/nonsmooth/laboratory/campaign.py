@@ -43,12 +43,24 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     home, tests = Path(out) / "tests", list(tests)
     for test in tests:
         if test.strain < strength.SHORTEST:
-            raise CampaignError(f"--strain {test.strain:g}: too short to measure a peak and what follows; give {strength.SHORTEST:g} or more")
+            raise CampaignError(
+                f"--strain {test.strain:g}: too short to measure a peak and what follows; give {strength.SHORTEST:g} or more"
+            )
     folders = [home / name_of(test) for test in tests]
-    made = [side_by_side.Run(folder.name, folder, "laboratory.biaxial:run", asdict(test), biaxial_test.key_of(test)) for test, folder in zip(tests, folders)]
+    made = [
+        side_by_side.Run(folder.name, folder, "laboratory.biaxial:run", asdict(test), biaxial_test.key_of(test))
+        for test, folder in zip(tests, folders)
+    ]
     side_by_side.check(made, CampaignError, "; give each confining pressure and seed once")
     _press({test.shape for test in tests}, home, threads, progress)
-    side_by_side.run(made, threads, resume, CampaignError, progress=lambda share, ended: progress(share, f"{len(made)} test{'s' if len(made) > 1 else ''}"), go_on=True)
+    side_by_side.run(
+        made,
+        threads,
+        resume,
+        CampaignError,
+        progress=lambda share, ended: progress(share, f"{len(made)} test{'s' if len(made) > 1 else ''}"),
+        go_on=True,
+    )
     for folder in folders:
         shutil.rmtree(folder / "checkpoint", ignore_errors=True)
     return [measure(test, folder) for test, folder in zip(tests, folders)]
@@ -77,13 +89,42 @@ def measure(test, folder):
     series = records.read_series(folder / "series.csv")
     plateau = (strength.PLATEAU * test.strain, test.strain)
     c = strength.curve(series, plateau)
-    return {"confining_Pa": test.confining, "seed": test.shape.seed, "disks": found["disks"], "bonds": found["bonds"], "packing_fraction": found["packing_fraction"],
-            "sigma1_peak_Pa": c.peak, "strain_peak": c.peak_strain, "sigma3_peak_Pa": c.peak_confining, "sigma1_residual_Pa": c.residual,
-            "sigma1_residual_error_Pa": c.residual_error, "sigma3_residual_Pa": c.residual_confining, "residual_between_strains": plateau,
-            "dilatancy_deg": c.dilatancy_deg, "volumetric_strain_end": c.volumetric_end, "platen_difference_rel": c.imbalance,
-            **{key: bands_of(folder, snapshot) for key, snapshot in BANDS_AT.items()},
-            **{key: found[key] for key in ("inertial_number", "rate_per_s", "time_step_s", "steps", "simulated_s", "height_m", "width_m", "wall_making_s", "wall_s", "wall_steps_s",
-                                           "sweeps_mean", "unconverged", "overlap_worst_rel")}}
+    return {
+        "confining_Pa": test.confining,
+        "seed": test.shape.seed,
+        "disks": found["disks"],
+        "bonds": found["bonds"],
+        "packing_fraction": found["packing_fraction"],
+        "sigma1_peak_Pa": c.peak,
+        "strain_peak": c.peak_strain,
+        "sigma3_peak_Pa": c.peak_confining,
+        "sigma1_residual_Pa": c.residual,
+        "sigma1_residual_error_Pa": c.residual_error,
+        "sigma3_residual_Pa": c.residual_confining,
+        "residual_between_strains": plateau,
+        "dilatancy_deg": c.dilatancy_deg,
+        "volumetric_strain_end": c.volumetric_end,
+        "platen_difference_rel": c.imbalance,
+        **{key: bands_of(folder, snapshot) for key, snapshot in BANDS_AT.items()},
+        **{
+            key: found[key]
+            for key in (
+                "inertial_number",
+                "rate_per_s",
+                "time_step_s",
+                "steps",
+                "simulated_s",
+                "height_m",
+                "width_m",
+                "wall_making_s",
+                "wall_s",
+                "wall_steps_s",
+                "sweeps_mean",
+                "unconverged",
+                "overlap_worst_rel",
+            )
+        },
+    }
 
 
 def bands_of(folder, snapshot):
@@ -91,8 +132,12 @@ def bands_of(folder, snapshot):
     begin = records.read_snapshot(folder / "snapshots" / "begin.npz")
     path = folder / "snapshots" / f"{snapshot}.npz"
     s = records.read_snapshot(path if path.exists() else folder / "snapshots" / "end.npz")
-    return [None if b is None else {"angle_deg": b.angle_deg, "width_d": b.width, "rotation_rad": b.rotation, "contrast": b.contrast}
-            for b in bands.find(s.x, s.y, s.r, s.angle - begin.angle)]
+    return [
+        None
+        if b is None
+        else {"angle_deg": b.angle_deg, "width_d": b.width, "rotation_rad": b.rotation, "contrast": b.contrast}
+        for b in bands.find(s.x, s.y, s.r, s.angle - begin.angle)
+    ]
 
 
 def summarise(material, measured, wall_s=None, threads=None):
@@ -103,21 +148,44 @@ def summarise(material, measured, wall_s=None, threads=None):
     by_seed = {}
     for m in measured:
         by_seed.setdefault(m["seed"], []).append(m)
-    whole = {"material": asdict(material), "tests": measured, "seeds": sorted(by_seed), "threads": threads, "wall_s": wall_s,
-             "fit": "line closest to tangent to the circles, least squares of relative misses; confidence over seeds by Student's t"}
+    whole = {
+        "material": asdict(material),
+        "tests": measured,
+        "seeds": sorted(by_seed),
+        "threads": threads,
+        "wall_s": wall_s,
+        "fit": "line closest to tangent to the circles, least squares of relative misses; confidence over seeds by Student's t",
+    }
     if len({m["confining_Pa"] for m in measured}) < 2:
         return {**whole, "note": "one confining pressure: no envelope"}
     whole["fit_confining_Pa"] = [m["confining_Pa"] for m in next(iter(by_seed.values()))]
     for kind in ("peak", "residual"):
         if kind == "residual" and min(m["residual_between_strains"][0] for m in measured) < strength.SOFTENED - 1e-9:
-            names = ("cohesion_residual_kPa", "cohesion_residual_95_kPa", "friction_residual_deg", "friction_residual_95_deg", "misses_residual_rel")
-            return {**whole, **dict.fromkeys(names), "note": f"no residual envelope: the strain ends before {strength.SOFTENED / strength.PLATEAU:g}"}
-        fits = [strength.envelope([m[f"sigma3_{kind}_Pa"] for m in group], [m[f"sigma1_{kind}_Pa"] for m in group]) for group in by_seed.values()]
+            names = (
+                "cohesion_residual_kPa",
+                "cohesion_residual_95_kPa",
+                "friction_residual_deg",
+                "friction_residual_95_deg",
+                "misses_residual_rel",
+            )
+            return {
+                **whole,
+                **dict.fromkeys(names),
+                "note": f"no residual envelope: the strain ends before {strength.SOFTENED / strength.PLATEAU:g}",
+            }
+        fits = [
+            strength.envelope([m[f"sigma3_{kind}_Pa"] for m in group], [m[f"sigma1_{kind}_Pa"] for m in group])
+            for group in by_seed.values()
+        ]
         cohesion = Estimate.of([1e-3 * f.cohesion for f in fits])
         friction = Estimate.of([f.friction_deg for f in fits])
-        whole |= {f"cohesion_{kind}_kPa": cohesion.mean, f"cohesion_{kind}_95_kPa": number(cohesion.half_width), f"friction_{kind}_deg": friction.mean,
-                  f"friction_{kind}_95_deg": number(friction.half_width),
-                  f"misses_{kind}_rel": np.mean([f.misses for f in fits], axis=0).tolist()}
+        whole |= {
+            f"cohesion_{kind}_kPa": cohesion.mean,
+            f"cohesion_{kind}_95_kPa": number(cohesion.half_width),
+            f"friction_{kind}_deg": friction.mean,
+            f"friction_{kind}_95_deg": number(friction.half_width),
+            f"misses_{kind}_rel": np.mean([f.misses for f in fits], axis=0).tolist(),
+        }
     return whole
 
 

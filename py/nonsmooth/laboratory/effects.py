@@ -15,8 +15,8 @@ from ..statistics import Estimate
 from . import biaxial_test, campaign
 from .pressing import Shape
 
-PRESSURE = 8e6   # Pa, of the paper's Figures 9 and 10
-COUNT = 2000     # disks, where the size of the sample is not what varies
+PRESSURE = 8e6  # Pa, of the paper's Figures 9 and 10
+COUNT = 2000  # disks, where the size of the sample is not what varies
 
 
 @dataclass(frozen=True)
@@ -34,15 +34,42 @@ def effects(material, seeds, count=COUNT, pressure=PRESSURE, **options):
     usual = biaxial_test.Test(material, pressure, Shape(count, 0), **options)
 
     def tests(values, change):
-        return {v: [change(dataclasses.replace(usual, shape=dataclasses.replace(usual.shape, seed=s)), v) for s in seeds] for v in values}
+        return {
+            v: [change(dataclasses.replace(usual, shape=dataclasses.replace(usual.shape, seed=s)), v) for s in seeds]
+            for v in values
+        }
 
-    shaped = lambda test, **fields: dataclasses.replace(test, shape=dataclasses.replace(test.shape, **fields))  # noqa: E731
+    shaped = lambda test, **fields: dataclasses.replace(
+        test, shape=dataclasses.replace(test.shape, **fields)
+    )  # noqa: E731
     return [
-        Effect("disks", "disks of the sample", tests([count // 4, count // 2, count, 2 * count], lambda t, n: shaped(t, count=n)), count),
-        Effect("diameter", "mean diameter [m]", tests([0.2, 2.0, 20.0], lambda t, d: shaped(t, d_min=d / 2, d_max=2 * d)), 2.0),
-        Effect("inertia", "inertial number of the loading", tests([4 * usual.inertia, 2 * usual.inertia, usual.inertia, usual.inertia / 2],
-                                                                 lambda t, i: dataclasses.replace(t, inertia=i)), usual.inertia),
-        Effect("step", "time step [t_i]", tests([2 * usual.step, usual.step, usual.step / 2], lambda t, h: dataclasses.replace(t, step=h)), usual.step),
+        Effect(
+            "disks",
+            "disks of the sample",
+            tests([count // 4, count // 2, count, 2 * count], lambda t, n: shaped(t, count=n)),
+            count,
+        ),
+        Effect(
+            "diameter",
+            "mean diameter [m]",
+            tests([0.2, 2.0, 20.0], lambda t, d: shaped(t, d_min=d / 2, d_max=2 * d)),
+            2.0,
+        ),
+        Effect(
+            "inertia",
+            "inertial number of the loading",
+            tests(
+                [4 * usual.inertia, 2 * usual.inertia, usual.inertia, usual.inertia / 2],
+                lambda t, i: dataclasses.replace(t, inertia=i),
+            ),
+            usual.inertia,
+        ),
+        Effect(
+            "step",
+            "time step [t_i]",
+            tests([2 * usual.step, usual.step, usual.step / 2], lambda t, h: dataclasses.replace(t, step=h)),
+            usual.step,
+        ),
     ]
 
 
@@ -59,11 +86,21 @@ def run(chosen, out, threads, resume=False, progress=lambda share, doing: None):
         key = tuple(map(biaxial_test.key_of, group))
         if key not in known:
             size = _work(group)
-            known[key] = campaign.run(group, Path(out) / f"{effect.name}-{value:g}", threads, resume,
-                                      lambda share, doing, d=done, s=size: progress((d + s * share) / whole, f"{effect.label} {value:g}: {doing}"))
+            known[key] = campaign.run(
+                group,
+                Path(out) / f"{effect.name}-{value:g}",
+                threads,
+                resume,
+                lambda share, doing, d=done, s=size: progress(
+                    (d + s * share) / whole, f"{effect.label} {value:g}: {doing}"
+                ),
+            )
         done += _work(group)
         rows.append((effect, value, known[key]))
-    return [_row(effect, value, measured, next(m for e, v, m in rows if e is effect and v == effect.usual)) for effect, value, measured in rows]
+    return [
+        _row(effect, value, measured, next(m for e, v, m in rows if e is effect and v == effect.usual))
+        for effect, value, measured in rows
+    ]
 
 
 def _work(group):
@@ -77,12 +114,23 @@ def _angle(test, kind):
 
 
 def _row(effect, value, measured, usual):
-    row = {"effect": effect.name, "label": effect.label, "value": value, "usual": value == effect.usual, "seeds": [m["seed"] for m in measured],
-           "wall_s": [m["wall_s"] for m in measured]}
+    row = {
+        "effect": effect.name,
+        "label": effect.label,
+        "value": value,
+        "usual": value == effect.usual,
+        "seeds": [m["seed"] for m in measured],
+        "wall_s": [m["wall_s"] for m in measured],
+    }
     for kind in ("peak", "residual"):
         angles = [_angle(m, kind) for m in measured]
         change = [a[f"sigma1_{kind}_Pa"] / b[f"sigma1_{kind}_Pa"] - 1 for a, b in zip(measured, usual)]
         of_angle, of_change = Estimate.of(angles), Estimate.of(change)
-        row |= {f"{kind}_deg": angles, f"{kind}_mean_deg": of_angle.mean, f"{kind}_95_deg": campaign.number(of_angle.half_width),
-                f"{kind}_change_rel": of_change.mean, f"{kind}_change_95_rel": campaign.number(of_change.half_width)}
+        row |= {
+            f"{kind}_deg": angles,
+            f"{kind}_mean_deg": of_angle.mean,
+            f"{kind}_95_deg": campaign.number(of_angle.half_width),
+            f"{kind}_change_rel": of_change.mean,
+            f"{kind}_change_95_rel": campaign.number(of_change.half_width),
+        }
     return row

@@ -29,7 +29,9 @@ def load(name_or_path):
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and not path.exists():
         raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
-    document = read(path, section.FOLDER / "section.schema.yaml", part=("properties", "materials", "additionalProperties"))
+    document = read(
+        path, section.FOLDER / "section.schema.yaml", part=("properties", "materials", "additionalProperties")
+    )
     material = section_building.material_from(path.stem, document.data)
     if material.density is None:
         document.refuse((), "the key 'density' is missing", "add it (kg/m³, of the disks)")
@@ -48,7 +50,9 @@ def of(plain):
 
 def save(material, path, comment=""):
     """Writes a material file; ``comment``: text for its head."""
-    plain = {k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening") and v is not None}
+    plain = {
+        k: v for k, v in dataclasses.asdict(material).items() if k not in ("name", "slip_weakening") and v is not None
+    }
     plain["bond_ellipse"] = list(plain["bond_ellipse"])
     head = "".join(f"# {line}\n" for line in comment.splitlines())
     write_atomically(Path(path), (head + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True)).encode())

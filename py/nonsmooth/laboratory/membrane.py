@@ -35,7 +35,10 @@ def boundary(x, y, r):
     triangles[flip] = triangles[flip][:, [0, 2, 1]]
     triangles = triangles[keep]
     edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    there, back = edges[:, 0].astype(np.int64) * len(x) + edges[:, 1], edges[:, 1].astype(np.int64) * len(x) + edges[:, 0]
+    there, back = (
+        edges[:, 0].astype(np.int64) * len(x) + edges[:, 1],
+        edges[:, 1].astype(np.int64) * len(x) + edges[:, 0],
+    )
     after = {}
     for p, q in edges[~np.isin(back, there)].tolist():
         after.setdefault(p, []).append(q)
@@ -48,14 +51,18 @@ def boundary(x, y, r):
         here = chain[-1]
         choices = after[here]
         came = places[here] - before
+
         def turn(q):
             go = places[q] - places[here]
             return np.arctan2(came[0] * go[1] - came[1] * go[0], came @ go)
+
         follow = min(choices, key=turn)
         if follow == start:
             return np.array(chain)
         if len(chain) > len(edges):
-            raise MembraneError("the outline of the sample does not close; more disks, or a smaller strain, keep it whole")
+            raise MembraneError(
+                "the outline of the sample does not close; more disks, or a smaller strain, keep it whole"
+            )
         before = places[here]
         chain.append(follow)
 
@@ -71,8 +78,15 @@ def sides(x, y, r, bottom, top):
     high = np.flatnonzero(top - y[loop] - r[loop] < near)
     if not len(low) or not len(high):
         raise MembraneError("no disk of the sample's outline is near a platen")
-    corner = {name: int(where[np.argmin(sign * x[loop[where]])]) for name, where, sign in
-              (("bottom left", low, 1), ("bottom right", low, -1), ("top left", high, 1), ("top right", high, -1))}
+    corner = {
+        name: int(where[np.argmin(sign * x[loop[where]])])
+        for name, where, sign in (
+            ("bottom left", low, 1),
+            ("bottom right", low, -1),
+            ("top left", high, 1),
+            ("top right", high, -1),
+        )
+    }
     n = len(loop)
 
     def part(begin, end):

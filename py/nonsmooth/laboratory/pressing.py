@@ -24,18 +24,18 @@ from ..errors import UserError
 from ..packing_files import cache_folder
 from ..whole_files import write_arrays
 
-VERSION = 2          # of the way samples are made; a new number makes old files unused
-PRESSURE = 1e6       # Pa
-DENSITY = 2500.0     # kg/m³
-WALL_MASS = 0.02     # of the sample's mass, of a wall that follows the pressure
-STEP = 0.05          # t_i
-RAMP = 400           # steps in which the pressure grows
+VERSION = 2  # of the way samples are made; a new number makes old files unused
+PRESSURE = 1e6  # Pa
+DENSITY = 2500.0  # kg/m³
+WALL_MASS = 0.02  # of the sample's mass, of a wall that follows the pressure
+STEP = 0.05  # t_i
+RAMP = 400  # steps in which the pressure grows
 TOLERANCE, MAX_ITERATIONS = 1e-5, 1000
-SLACK = 1e-5         # ℓ, overlaps that stay; ten times as large ones would push springs, which may begin with these places
-REST_SPEED = 3e-4    # √(p/ρ), mean speed at rest; loose disks without friction fly about for ever
-REST_STRESS = 0.01   # p, what the mean on each of the four walls may differ from it at rest ...
-REST_STEPS = 40      # ... over about so many steps; the walls go on swinging a little
-LIMIT = 6000         # steps
+SLACK = 1e-5  # ℓ, overlaps that stay; ten times as large ones would push springs, which may begin with these places
+REST_SPEED = 3e-4  # √(p/ρ), mean speed at rest; loose disks without friction fly about for ever
+REST_STRESS = 0.01  # p, what the mean on each of the four walls may differ from it at rest ...
+REST_STEPS = 40  # ... over about so many steps; the walls go on swinging a little
+LIMIT = 6000  # steps
 
 
 class SampleError(UserError, RuntimeError):
@@ -69,11 +69,19 @@ class Shape:
         width = math.sqrt(self.count * math.pi / 4 * self.mean_square / self.fraction / self.aspect)
         for _ in range(4):  # the packing is looser along its border, so the box is a little larger
             corners = ((0.0, 0.0), (width, 0.0), (width, self.aspect * width), (0.0, self.aspect * width))
-            made = dataclasses.replace(shipped, layers=(section.Layer("sample", "rock", corners),), disks=disks, seed=self.seed, source="the sample")
+            made = dataclasses.replace(
+                shipped,
+                layers=(section.Layer("sample", "rock", corners),),
+                disks=disks,
+                seed=self.seed,
+                source="the sample",
+            )
             width *= math.sqrt(self.count / max(1, sum(made.disk_counts())))
         if width < 4 * self.d_max:
-            raise SampleError(f"{self.count} disks of {self.d_min:g} to {self.d_max:g} m make a sample {width:.3g} m wide, "
-                              f"{width / self.d_max:.2g} of the largest disks: ask for more disks, or a smaller aspect than {self.aspect:g}")
+            raise SampleError(
+                f"{self.count} disks of {self.d_min:g} to {self.d_max:g} m make a sample {width:.3g} m wide, "
+                f"{width / self.d_max:.2g} of the largest disks: ask for more disks, or a smaller aspect than {self.aspect:g}"
+            )
         return made
 
 
@@ -91,7 +99,9 @@ class Pressed:
 def cache_path(shape):
     """Where the pressed sample of a shape is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/samples. Other engines press their own, so that a test has the
     same bits with and without a cache from earlier builds."""
-    return cache_folder("samples") / f"{keys.key_of(asdict(shape) | {'engines': keys.engines_key()})[:32]}-v{VERSION}.npz"
+    return (
+        cache_folder("samples") / f"{keys.key_of(asdict(shape) | {'engines': keys.engines_key()})[:32]}-v{VERSION}.npz"
+    )
 
 
 def load(shape):
@@ -144,7 +154,14 @@ def make(folder, **plain):
     O.materials.append((stuff, smooth))
     walls = Walls.around(*box.layers[0].points[2], smooth, smooth)
     O.bodies.append([scene.disk((float(made.x[k]), float(made.y[k])), float(made.r[k]), stuff) for k in order])
-    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * shape.d_min, tolerance=TOLERANCE, maxIterations=MAX_ITERATIONS, correctionSlack=SLACK)
+    O.engines = scene.engines(
+        gravity=(0, 0, 0),
+        reach=0.2,
+        verlet=0.1 * shape.d_min,
+        tolerance=TOLERANCE,
+        maxIterations=MAX_ITERATIONS,
+        correctionSlack=SLACK,
+    )
     engine = scene.contact_dynamics()
     whole = DENSITY * float(np.sum(math.pi * made.r**2))
     O.dt = STEP * math.sqrt(whole / len(made) / PRESSURE)
@@ -163,14 +180,25 @@ def make(folder, **plain):
             mean[name] += (stress - mean[name]) / REST_STEPS
 
     def calm():
-        return O.iter > 2 * RAMP + REST_STEPS and engine.meanSpeed < slow and all(abs(s / PRESSURE - 1) < REST_STRESS for s in mean.values())
+        return (
+            O.iter > 2 * RAMP + REST_STEPS
+            and engine.meanSpeed < slow
+            and all(abs(s / PRESSURE - 1) < REST_STRESS for s in mean.values())
+        )
 
     if not until(calm, LIMIT, make=press):
-        raise SampleError(f"the sample does not come to rest under pressure: mean speed {engine.meanSpeed:g} m/s, wanted {slow:g} m/s, "
-                          f"stresses {mean}; try another seed")
+        raise SampleError(
+            f"the sample does not come to rest under pressure: mean speed {engine.meanSpeed:g} m/s, wanted {slow:g} m/s, "
+            f"stresses {mean}; try another seed"
+        )
     t, corner = tables.bodies(engine), (walls.place("left")[0], walls.place("bottom")[1])
     _keep(shape, t["x"] - corner[0], t["y"] - corner[1], t["r"], walls.width(), walls.height())
-    return {"steps": O.iter, "disks": len(made), "sweeps_mean": engine.totalIterations / O.iter, "overlap_worst_rel": engine.overlapWorst}
+    return {
+        "steps": O.iter,
+        "disks": len(made),
+        "sweeps_mean": engine.totalIterations / O.iter,
+        "overlap_worst_rel": engine.overlapWorst,
+    }
 
 
 def _keep(shape, x, y, r, width, height):

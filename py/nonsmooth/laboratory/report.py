@@ -12,16 +12,24 @@ from .campaign import name_of_result
 
 def table(summary):
     """Rows of text: one a test, then the envelopes."""
-    lines = [" σ₃ [MPa]  seed   σ₁ peak  at ε₁ [%]   residual   ψ [°]   bands [d] at 1 %, 4 %     I        platens differ"]
+    lines = [
+        " σ₃ [MPa]  seed   σ₁ peak  at ε₁ [%]   residual   ψ [°]   bands [d] at 1 %, 4 %     I        platens differ"
+    ]
     for t in summary["tests"]:
-        widths = "  ".join(", ".join("-" if b is None else f"{b['width_d']:.1f}" for b in t[key]) for key in ("bands", "bands_late"))
-        lines.append(f"{t['confining_Pa'] / 1e6:9.3g} {t['seed']:5d} {t['sigma1_peak_Pa'] / 1e6:9.3f} {100 * t['strain_peak']:10.2f} {t['sigma1_residual_Pa'] / 1e6:10.3f} "
-                     f"{t['dilatancy_deg']:7.1f}   {widths:23s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %")
+        widths = "  ".join(
+            ", ".join("-" if b is None else f"{b['width_d']:.1f}" for b in t[key]) for key in ("bands", "bands_late")
+        )
+        lines.append(
+            f"{t['confining_Pa'] / 1e6:9.3g} {t['seed']:5d} {t['sigma1_peak_Pa'] / 1e6:9.3f} {100 * t['strain_peak']:10.2f} {t['sigma1_residual_Pa'] / 1e6:10.3f} "
+            f"{t['dilatancy_deg']:7.1f}   {widths:23s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %"
+        )
     for kind in ("peak", "residual"):
         if summary.get(f"cohesion_{kind}_kPa") is not None:
             dc, df = summary[f"cohesion_{kind}_95_kPa"], summary[f"friction_{kind}_95_deg"]
-            lines.append(f"{kind:9s} cohesion {summary[f'cohesion_{kind}_kPa']:6.1f}{'' if dc is None else f' ± {dc:.1f}'} kPa, "
-                         f"friction {summary[f'friction_{kind}_deg']:5.2f}{'' if df is None else f' ± {df:.2f}'}°")
+            lines.append(
+                f"{kind:9s} cohesion {summary[f'cohesion_{kind}_kPa']:6.1f}{'' if dc is None else f' ± {dc:.1f}'} kPa, "
+                f"friction {summary[f'friction_{kind}_deg']:5.2f}{'' if df is None else f' ± {df:.2f}'}°"
+            )
     return "\n".join(lines + [summary["note"]] if "note" in summary else lines)
 
 
@@ -29,7 +37,9 @@ def draw(out, summary):
     """Figures and ParaView files of a campaign in ``out``; returns the figures' paths."""
     out, made = Path(out), []
     first = [t for t in summary["tests"] if t["seed"] == summary["seeds"][0]]
-    curves = [(t["confining_Pa"], records.read_series(out / "tests" / name_of_result(t) / "series.csv"), t) for t in first]
+    curves = [
+        (t["confining_Pa"], records.read_series(out / "tests" / name_of_result(t) / "series.csv"), t) for t in first
+    ]
     made.append(figures.stress_strain(curves, out / "stress_strain.png"))
     if "cohesion_peak_kPa" in summary:
         made.append(figures.mohr(summary, out / "mohr.png"))
@@ -46,9 +56,14 @@ def draw(out, summary):
 def _pictures(test, frames, out):
     """The sample by rotation, and its forces: from snapshots by name."""
     order = [name for name in ("1", "2", "4", "end") if name in frames]
-    title = lambda name: f"{'end' if name == 'end' else f'ε₁ = {name} %'}, σ₃ = {test['confining_Pa'] / 1e6:g} MPa"  # noqa: E731
+    title = (
+        lambda name: f"{'end' if name == 'end' else f'ε₁ = {name} %'}, σ₃ = {test['confining_Pa'] / 1e6:g} MPa"
+    )  # noqa: E731
     panels = [(title(name), frames[name]) for name in (order[0], order[-1])]
-    return [figures.rotations(frames["begin"], panels, out / "bands.png"), figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png")]
+    return [
+        figures.rotations(frames["begin"], panels, out / "bands.png"),
+        figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png"),
+    ]
 
 
 def _paraview(frames, folder):

@@ -20,7 +20,13 @@ class Sample:
     """Handles of a sample that is in the scene: its ``walls``, id of its first disk, number of disks, and of bonds made (None after a resume)."""
 
     def __init__(self, walls, first_disk, count):
-        self.engine, self.walls, self.first_disk, self.count, self.bonds = scene.contact_dynamics(), walls, first_disk, count, None
+        self.engine, self.walls, self.first_disk, self.count, self.bonds = (
+            scene.contact_dynamics(),
+            walls,
+            first_disk,
+            count,
+            None,
+        )
 
     @classmethod
     def build(cls, shape, rock, platen, pressure, **solver):
@@ -34,11 +40,15 @@ class Sample:
         pressed = pressing.load(shape)
         O.reset()
         # disks of a layer below -1 are never bonded
-        stuff, rough = scene.material(rock, layer=0 if rock.bonded else -2), scene.material(platen, wall=True, bondsToAll=platen.bonded, layer=-1)
+        stuff, rough = scene.material(rock, layer=0 if rock.bonded else -2), scene.material(
+            platen, wall=True, bondsToAll=platen.bonded, layer=-1
+        )
         smooth = NscdMat(frictionAngle=0.0, wall=True, layer=-1)
         O.materials.append((stuff, rough, smooth))
         walls = Walls.around(pressed.width, pressed.height, rough, smooth)
-        ids = O.bodies.append([scene.disk((float(x), float(y)), float(r), stuff) for x, y, r in zip(pressed.x, pressed.y, pressed.r)])
+        ids = O.bodies.append(
+            [scene.disk((float(x), float(y)), float(r), stuff) for x, y, r in zip(pressed.x, pressed.y, pressed.r)]
+        )
         reach = max(0.2, 0.01 + rock.bond_creation_distance)
         O.engines = scene.engines(gravity=(0, 0, 0), reach=reach, verlet=0.1 * shape.d_min, **solver)
         made = cls(walls, ids[0], len(ids))

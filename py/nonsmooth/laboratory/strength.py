@@ -19,10 +19,10 @@ from scipy import optimize
 
 from ..statistics import standard_error
 
-PEAK_WINDOW = 2e-3           # strain over which the stress is averaged before its maximum is taken
-DILATANCY_WINDOW = 5e-3      # strain around the peak over which the slope of the volume is taken
-PLATEAU = 0.5                # share of a test's strain from which on the residual strength is the mean
-SOFTENED = 0.04              # strain from which on the paper's tests are on their plateau (section 5.2); a mean that begins before is no residual strength
+PEAK_WINDOW = 2e-3  # strain over which the stress is averaged before its maximum is taken
+DILATANCY_WINDOW = 5e-3  # strain around the peak over which the slope of the volume is taken
+PLATEAU = 0.5  # share of a test's strain from which on the residual strength is the mean
+SOFTENED = 0.04  # strain from which on the paper's tests are on their plateau (section 5.2); a mean that begins before is no residual strength
 SHORTEST = PEAK_WINDOW / (1 - PLATEAU)  # strain of a test that has both a peak and a plateau to measure
 
 
@@ -37,7 +37,7 @@ class Curve:
     residual_error: float
     residual_confining: float
     dilatancy_deg: float
-    imbalance: float           # largest difference between the platens around the peak and on the plateau, relative
+    imbalance: float  # largest difference between the platens around the peak and on the plateau, relative
     volumetric_end: float
 
 
@@ -48,7 +48,9 @@ def curve(series, plateau):
     """
     strain = np.asarray(series["strain"], float)
     if strain[-1] < plateau[0] + PEAK_WINDOW - 1e-8:
-        raise ValueError(f"the test ended at a strain of {strain[-1]:.4f}, before the plateau, which begins at {plateau[0]:g}")
+        raise ValueError(
+            f"the test ended at a strain of {strain[-1]:.4f}, before the plateau, which begins at {plateau[0]:g}"
+        )
     top, bottom = (np.asarray(series[f"sigma1_{name}_Pa"], float) for name in ("top", "bottom"))
     axial = axial_stress(series)
     lateral = 0.5 * (np.asarray(series["sigma3_left_Pa"], float) + np.asarray(series["sigma3_right_Pa"], float))
@@ -61,14 +63,24 @@ def curve(series, plateau):
     around = np.abs(strain - middle) <= DILATANCY_WINDOW / 2
     # rows stand closer while the platens take up their speed; a row counts for the strain that it covers
     weight = np.sqrt(np.diff(strain, prepend=0.0)[around])
-    slope = np.polyfit(strain[around], np.asarray(series["volumetric_strain"], float)[around], 1, w=weight)[0] if around.sum() > 2 else math.nan
+    slope = (
+        np.polyfit(strain[around], np.asarray(series["volumetric_strain"], float)[around], 1, w=weight)[0]
+        if around.sum() > 2
+        else math.nan
+    )
     gap = lambda where: abs(top[where].mean() / bottom[where].mean() - 1)  # noqa: E731
     return Curve(
-        peak=float(mean[k]), peak_strain=float(middle), peak_confining=float(lateral[at].mean()), residual=float(axial[late].mean()),
-        residual_error=standard_error(blocks), residual_confining=float(lateral[late].mean()),
+        peak=float(mean[k]),
+        peak_strain=float(middle),
+        peak_confining=float(lateral[at].mean()),
+        residual=float(axial[late].mean()),
+        residual_error=standard_error(blocks),
+        residual_confining=float(lateral[late].mean()),
         # sin ψ = dε_v / (2 dε₁ + dε_v) in plane strain
-        dilatancy_deg=math.degrees(math.asin(max(-1.0, min(1.0, slope / (2 + slope))))), imbalance=float(max(gap(at), gap(late))),
-        volumetric_end=float(series["volumetric_strain"][-1]))
+        dilatancy_deg=math.degrees(math.asin(max(-1.0, min(1.0, slope / (2 + slope))))),
+        imbalance=float(max(gap(at), gap(late))),
+        volumetric_end=float(series["volumetric_strain"][-1]),
+    )
 
 
 def axial_stress(series):

@@ -22,17 +22,39 @@ PAPER = {
     "FB": {"cohesion_peak": 70.0, "friction_peak": 35.0, "cohesion_residual": 0.0, "friction_residual": 26.6},
     "SS": {"cohesion_residual": 0.0, "friction_residual": 11.3},
 }
-FIGURES = {"cohesion_peak": "peak cohesion [kPa]", "friction_peak": "peak friction [°]", "cohesion_residual": "residual cohesion [kPa]", "friction_residual": "residual friction [°]"}
+FIGURES = {
+    "cohesion_peak": "peak cohesion [kPa]",
+    "friction_peak": "peak friction [°]",
+    "cohesion_residual": "residual cohesion [kPa]",
+    "friction_residual": "residual friction [°]",
+}
 BONDED = 1e5  # Pa, of DP's bonds in Table 1
 
 
 def walls():
     """{row: Material} of the walls that are slid on."""
     dp, fb, ss = (materials.load(name) for name in ("dp", "fb", "ss"))
-    return {"DP": dp, "DP, bonded": dataclasses.replace(dp, name="dp-bonded", bonded=True, tensile_strength=BONDED), "FB": fb, "SS": ss}
+    return {
+        "DP": dp,
+        "DP, bonded": dataclasses.replace(dp, name="dp-bonded", bonded=True, tensile_strength=BONDED),
+        "FB": fb,
+        "SS": ss,
+    }
 
 
-def run(out, disks, seeds, pressures, slide_seeds, slide_pressures, strain=biaxial_test.Test.strain, material="wwr", threads=1, resume=False, progress=lambda share, doing: None):
+def run(
+    out,
+    disks,
+    seeds,
+    pressures,
+    slide_seeds,
+    slide_pressures,
+    strain=biaxial_test.Test.strain,
+    material="wwr",
+    threads=1,
+    resume=False,
+    progress=lambda share, doing: None,
+):
     """Makes all tests below the folder ``out``, and returns what JSON can hold: ``rock`` (campaign.summarise), ``walls`` {row: [wall_shear.strength_of, one a seed]}, and
     ``rows`` (see :func:`rows`).
 
@@ -41,14 +63,32 @@ def run(out, disks, seeds, pressures, slide_seeds, slide_pressures, strain=biaxi
     """
     out, rock = Path(out), materials.load(material)
     friction = None if rock.bonded else 0.0  # as biaxial.py makes its samples
-    tests = [biaxial_test.Test(rock, p, pressing.Shape(disks, seed, friction=friction), strain) for seed in seeds for p in sorted(pressures)]
+    tests = [
+        biaxial_test.Test(rock, p, pressing.Shape(disks, seed, friction=friction), strain)
+        for seed in seeds
+        for p in sorted(pressures)
+    ]
     measured = campaign.run(tests, out / "rock", threads, resume, lambda share, doing: progress(0.9 * share, doing))
-    groups = {row: [[wall_shear.Test(m, p, seed) for p in slide_pressures] for seed in slide_seeds] for row, m in walls().items()}
+    groups = {
+        row: [[wall_shear.Test(m, p, seed) for p in slide_pressures] for seed in slide_seeds]
+        for row, m in walls().items()
+    }
     flat = [test for one in groups.values() for group in one for test in group]
-    slides = iter(wall_shear.run(flat, out / "walls", threads, resume, lambda share, doing: progress(0.9 + 0.1 * share, doing)))
-    told = {"disks": disks, "seeds": list(seeds), "pressures_Pa": sorted(pressures), "slide_seeds": list(slide_seeds), "slide_pressures_Pa": list(slide_pressures),
-            "rock": campaign.summarise(rock, measured, threads=threads),
-            "walls": {row: [wall_shear.strength_of(group, [next(slides) for _ in group]) for group in one] for row, one in groups.items()}}
+    slides = iter(
+        wall_shear.run(flat, out / "walls", threads, resume, lambda share, doing: progress(0.9 + 0.1 * share, doing))
+    )
+    told = {
+        "disks": disks,
+        "seeds": list(seeds),
+        "pressures_Pa": sorted(pressures),
+        "slide_seeds": list(slide_seeds),
+        "slide_pressures_Pa": list(slide_pressures),
+        "rock": campaign.summarise(rock, measured, threads=threads),
+        "walls": {
+            row: [wall_shear.strength_of(group, [next(slides) for _ in group]) for group in one]
+            for row, one in groups.items()
+        },
+    }
     return told | {"rows": rows(told)}
 
 
@@ -70,9 +110,16 @@ def rows(told):
 
 def table(found):
     """(heads, rows) of texts for what :func:`rows` returned: a line for each row of Table 1."""
+
     def text(one):
         if one["mean"] is None:
             return "not measured"
-        return f"{round(one['mean'], 1) + 0.0:.1f}" + ("" if one["half_95"] is None else f" ± {one['half_95']:.1f}") + (" (–)" if one["paper"] is None else f" ({one['paper']:g})")
+        return (
+            f"{round(one['mean'], 1) + 0.0:.1f}"
+            + ("" if one["half_95"] is None else f" ± {one['half_95']:.1f}")
+            + (" (–)" if one["paper"] is None else f" ({one['paper']:g})")
+        )
 
-    return ["", *(f"{name}, ours (paper)" for name in FIGURES.values())], [[row, *(text(one) for one in found if one["row"] == row)] for row in PAPER]
+    return ["", *(f"{name}, ours (paper)" for name in FIGURES.values())], [
+        [row, *(text(one) for one in found if one["row"] == row)] for row in PAPER
+    ]

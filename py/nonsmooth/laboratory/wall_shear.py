@@ -24,14 +24,14 @@ from ..kept_runs import Progress
 from . import materials
 
 BLOCK_STRENGTH = 1e9  # Pa, of the block's own bonds
-BLOCK_BONDS = 0.15    # ℓ; a disk that the block does not hold could roll between it and the wall
-SPEED = 0.1           # m/s
-STEP = 2e-3           # s
-PEAK_SLIP = 0.005     # m, slip until which the peak is looked for: a quarter of the smallest bond's ellipse
-PLATE_MASS = 0.2      # of the block's
-PRESSING = 150        # steps in which the pressure grows
+BLOCK_BONDS = 0.15  # ℓ; a disk that the block does not hold could roll between it and the wall
+SPEED = 0.1  # m/s
+STEP = 2e-3  # s
+PEAK_SLIP = 0.005  # m, slip until which the peak is looked for: a quarter of the smallest bond's ellipse
+PLATE_MASS = 0.2  # of the block's
+PRESSING = 150  # steps in which the pressure grows
 LENGTH, HEIGHT = 50.0, 6.0  # mean diameters
-TOLERANCE = 1e-4      # a bonded beam converges slowly
+TOLERANCE = 1e-4  # a bonded beam converges slowly
 
 
 COLUMNS = ("step", "slip_m", "normal_Pa", "shear_Pa")
@@ -77,8 +77,13 @@ class Test:
         """A section with one layer, the block: what `packing.pack` fills."""
         shipped, (width, height) = section.load("jiufengershan"), self.extent
         corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
-        return replace(shipped, layers=(section.Layer("block", "rock", corners),), seed=self.seed, source="the block",
-                       disks=section.Disks(self.d_min, self.d_max, "uniform_by_volume", shipped.disks.packing_fraction))
+        return replace(
+            shipped,
+            layers=(section.Layer("block", "rock", corners),),
+            seed=self.seed,
+            source="the block",
+            disks=section.Disks(self.d_min, self.d_max, "uniform_by_volume", shipped.disks.packing_fraction),
+        )
 
 
 @dataclass(frozen=True)
@@ -103,14 +108,31 @@ def slide(test, record=lambda row: None):
     block, material, pressure, (width, height) = test.block(), test.material, test.pressure, test.extent
     rock, made = block.materials["rock"], packing.cached_pack(block)
     O.reset()
-    strong = replace(rock, tensile_strength=BLOCK_STRENGTH, bond_creation_distance=BLOCK_BONDS, friction=1.0, residual_friction=1.0, rolling_friction=1.0, residual_rolling_friction=1.0)
+    strong = replace(
+        rock,
+        tensile_strength=BLOCK_STRENGTH,
+        bond_creation_distance=BLOCK_BONDS,
+        friction=1.0,
+        residual_friction=1.0,
+        rolling_friction=1.0,
+        residual_rolling_friction=1.0,
+    )
     stuff, wall = scene.material(strong), scene.material(material, wall=True, bondsToAll=material.bonded, layer=-1)
     glue = scene.material(strong, wall=True, bondsToAll=True, layer=-1)
     O.materials.append((stuff, wall, glue))
-    base, plate = (O.bodies.append(scene.segments(ends, what, sense=1))[0] for ends, what in (
-        (((-width, 0), (3 * width, 0)), wall), (((3 * width, height), (-width, height)), glue)))
-    O.bodies.append([scene.disk((float(made.x[k]), float(made.y[k])), float(made.r[k]), stuff) for k in np.argsort(made.x, kind="stable")])
-    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.1 * test.d_min, tolerance=TOLERANCE, maxIterations=1000)
+    base, plate = (
+        O.bodies.append(scene.segments(ends, what, sense=1))[0]
+        for ends, what in ((((-width, 0), (3 * width, 0)), wall), (((3 * width, height), (-width, height)), glue))
+    )
+    O.bodies.append(
+        [
+            scene.disk((float(made.x[k]), float(made.y[k])), float(made.r[k]), stuff)
+            for k in np.argsort(made.x, kind="stable")
+        ]
+    )
+    O.engines = scene.engines(
+        gravity=(0, 0, 0), reach=0.2, verlet=0.1 * test.d_min, tolerance=TOLERANCE, maxIterations=1000
+    )
     O.dt = STEP
     mass = rock.density * float(np.sum(math.pi * made.r**2))
     load, state = pressure * width, O.bodies[plate].state
@@ -140,7 +162,14 @@ def slide(test, record=lambda row: None):
         if pulled > 0.5 * test.way:
             late.append((normal, shear))
     residual = np.mean(late, axis=0)
-    return Slide(peak[0] / width, peak[1] / width, residual[0] / width, residual[1] / width, float(sum(bonded)) / width, len(made))
+    return Slide(
+        peak[0] / width,
+        peak[1] / width,
+        residual[0] / width,
+        residual[1] / width,
+        float(sum(bonded)) / width,
+        len(made),
+    )
 
 
 def _radius(O, interaction, wall):
@@ -167,23 +196,42 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     failure after the others have ended.
     """
     tests = list(tests)
-    made = [side_by_side.Run(t.name, Path(out) / "tests" / t.name, run_one, asdict(t), keys.key_of(asdict(t))) for t in tests]
+    made = [
+        side_by_side.Run(t.name, Path(out) / "tests" / t.name, run_one, asdict(t), keys.key_of(asdict(t)))
+        for t in tests
+    ]
     side_by_side.check(made, SlideError, "; give each seed once, and each wall, under a file name of its own")
     for seed in sorted({t.seed for t in tests}):
         progress(0.0, f"packing of seed {seed}")
         packing.cached_pack(next(t for t in tests if t.seed == seed).block())
-    found = side_by_side.run(made, threads, resume, SlideError, progress=lambda share, ended: progress(share, f"{ended} of {len(made)} slides done"))
+    found = side_by_side.run(
+        made,
+        threads,
+        resume,
+        SlideError,
+        progress=lambda share, ended: progress(share, f"{ended} of {len(made)} slides done"),
+    )
     names = Slide.__dataclass_fields__
     return [Slide(**{name: one[name] for name in names}) for one in found]
 
 
 def strength_of(tests, slides):
     """Friction and cohesion of a wall from the Slides of Tests of one material and one block: a dictionary for ``summary.json``."""
-    found = {"material": tests[0].material.name, "seed": tests[0].seed, "pressures_Pa": [t.pressure for t in tests], "coverage": float(np.mean([s.coverage for s in slides])),
-             "disks": slides[0].disks, "slides": [asdict(s) for s in slides]}
+    found = {
+        "material": tests[0].material.name,
+        "seed": tests[0].seed,
+        "pressures_Pa": [t.pressure for t in tests],
+        "coverage": float(np.mean([s.coverage for s in slides])),
+        "disks": slides[0].disks,
+        "slides": [asdict(s) for s in slides],
+    }
     for kind in ("peak", "residual"):
         normal, shear = (np.array([getattr(s, f"{what}_{kind}") for s in slides]) for what in ("normal", "shear"))
         slope, cohesion = np.polyfit(normal, shear, 1)
-        found |= {f"friction_{kind}": float(slope), f"friction_{kind}_deg": math.degrees(math.atan(slope)), f"cohesion_{kind}_kPa": 1e-3 * float(cohesion),
-                  f"misfit_{kind}_rel": float(np.max(np.abs(slope * normal + cohesion - shear) / shear))}
+        found |= {
+            f"friction_{kind}": float(slope),
+            f"friction_{kind}_deg": math.degrees(math.atan(slope)),
+            f"cohesion_{kind}_kPa": 1e-3 * float(cohesion),
+            f"misfit_{kind}_rel": float(np.max(np.abs(slope * normal + cohesion - shear) / shear)),
+        }
     return found

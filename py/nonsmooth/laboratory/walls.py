@@ -23,9 +23,18 @@ class Walls:
     def around(cls, width, height, platen, side):
         """Adds the walls of a box with its corner at the origin; ``platen``: material of bottom and top, ``side``: of left and right, both in the scene."""
         far = 3 * (width + height)
-        lines = {"bottom": ((-far, 0), (far, 0)), "right": ((width, -far), (width, far)), "top": ((far, height), (-far, height)),
-                 "left": ((0, far), (0, -far))}  # each with the disks on its left
-        return cls({name: O.bodies.append(scene.segments(ends, platen if name in ("bottom", "top") else side, sense=1))[0] for name, ends in lines.items()})
+        lines = {
+            "bottom": ((-far, 0), (far, 0)),
+            "right": ((width, -far), (width, far)),
+            "top": ((far, height), (-far, height)),
+            "left": ((0, far), (0, -far)),
+        }  # each with the disks on its left
+        return cls(
+            {
+                name: O.bodies.append(scene.segments(ends, platen if name in ("bottom", "top") else side, sense=1))[0]
+                for name, ends in lines.items()
+            }
+        )
 
     def state(self, wall):
         return O.bodies[self.ids[wall]].state

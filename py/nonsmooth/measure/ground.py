@@ -84,7 +84,9 @@ def ground_of(walls):
         return walls
     found = []
     for wall in getattr(walls, "walls", walls):
-        name, vertices, role = (wall.name, wall.vertices, getattr(wall, "role", None)) if hasattr(wall, "vertices") else (*wall, None)[:3]
+        name, vertices, role = (
+            (wall.name, wall.vertices, getattr(wall, "role", None)) if hasattr(wall, "vertices") else (*wall, None)[:3]
+        )
         vertices = np.asarray(vertices, dtype=float)
         if vertices.ndim != 2 or vertices.shape[1] != 2 or len(vertices) < 2:
             raise GroundError(f"wall {name} has vertices of shape {vertices.shape}; give at least two points (x, y)")
@@ -96,8 +98,14 @@ def ground_of(walls):
     slip = [wall for wall in found if wall.role == "slip"]
     side = getattr(walls, "side", -1.0 if slip and chord([wall.vertices for wall in slip])[0] < 0 else 1.0)
     water = _water_of(walls) if hasattr(walls, "water") else _plane(slip)
-    return Ground(found, side, water, [layer.name for layer in layers], mass if len(mass) < len(layers) else None,
-                  walls.water.wall if getattr(walls, "water", None) else slip[0].name if slip else None)
+    return Ground(
+        found,
+        side,
+        water,
+        [layer.name for layer in layers],
+        mass if len(mass) < len(layers) else None,
+        walls.water.wall if getattr(walls, "water", None) else slip[0].name if slip else None,
+    )
 
 
 def _water_of(section):

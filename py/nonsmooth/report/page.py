@@ -21,7 +21,12 @@ def write(path, template, filters=None, **values) -> Path:
     Returns the path. Raises WriteError.
     """
     path, template = Path(path), Path(template)
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader([template.parent, Path(__file__).parent]), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader([template.parent, Path(__file__).parent]),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     environment.filters |= {"image": lambda name: _image(path.parent / name), "prose": _prose} | (filters or {})
     page = environment.get_template(template.name).render(date=datetime.date.today().isoformat(), **values)
     write_atomically(path, page.encode())
@@ -34,5 +39,7 @@ def _image(path):
 
 def _prose(text):
     """A docstring's reStructuredText as HTML."""
-    parts = docutils.core.publish_parts(text, writer_name="html5", settings_overrides={"report_level": 4, "initial_header_level": 4})
+    parts = docutils.core.publish_parts(
+        text, writer_name="html5", settings_overrides={"report_level": 4, "initial_header_level": 4}
+    )
     return jinja2.utils.markupsafe.Markup(parts["fragment"])

@@ -24,9 +24,31 @@ from .description import describe
 from .parameters import MODELS, Equivalent, SoftError, equivalent
 from .reverse import material_of
 
-__all__ = ["MODELS", "Equivalent", "SoftError", "bond", "bond_walls", "describe", "engines", "engines_of", "equivalent", "material", "material_of", "wall_material", "weaken"]
+__all__ = [
+    "MODELS",
+    "Equivalent",
+    "SoftError",
+    "bond",
+    "bond_walls",
+    "describe",
+    "engines",
+    "engines_of",
+    "equivalent",
+    "material",
+    "material_of",
+    "wall_material",
+    "weaken",
+]
 
-_IN_YADE = {"bond": "bonds", "bond_walls": "bonds", "weaken": "bonds", "engines": "functors", "engines_of": "functors", "material": "functors", "wall_material": "functors"}
+_IN_YADE = {
+    "bond": "bonds",
+    "bond_walls": "bonds",
+    "weaken": "bonds",
+    "engines": "functors",
+    "engines_of": "functors",
+    "material": "functors",
+    "wall_material": "functors",
+}
 
 
 def __getattr__(name):

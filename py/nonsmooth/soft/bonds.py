@@ -9,7 +9,19 @@ from scipy.spatial import cKDTree
 
 from yade import O, utils
 from yade.minieigenHP import Vector3
-from yade.wrapper import BondEllipseEngine, CohFrictMat, CohFrictPhys, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, JCFpmMat, JCFpmPhys, NscdMat, Segment, Sphere, WallPhys
+from yade.wrapper import (
+    BondEllipseEngine,
+    CohFrictMat,
+    CohFrictPhys,
+    InteractionLoop,
+    Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    JCFpmMat,
+    JCFpmPhys,
+    NscdMat,
+    Segment,
+    Sphere,
+    WallPhys,
+)
 
 from .parameters import SoftError
 
@@ -40,14 +52,20 @@ def bond(e, ids=None, fragile=True):
     ids = [b.id for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else list(ids)
     for k in ids:
         if not isinstance(O.bodies[k].material, MATERIALS[e.model]):
-            raise SoftError(f"body {k}: material {type(O.bodies[k].material).__name__}, and {e.model} bonds disks of {MATERIALS[e.model].__name__}; "
-                            "make them of soft.material(...), or give the ids of those that are")
+            raise SoftError(
+                f"body {k}: material {type(O.bodies[k].material).__name__}, and {e.model} bonds disks of {MATERIALS[e.model].__name__}; "
+                "make them of soft.material(...), or give the ids of those that are"
+            )
     m = e.material
     if not m.bonded or len(ids) < 2:
         return 0
     places = np.array([O.bodies[k].state.pos for k in ids])[:, :2]
     radii = np.array([O.bodies[k].shape.radius for k in ids])
-    pairs = cKDTree(places).query_pairs(2 * radii.max() * (1 + m.bond_creation_distance), output_type="ndarray").reshape(-1, 2)
+    pairs = (
+        cKDTree(places)
+        .query_pairs(2 * radii.max() * (1 + m.bond_creation_distance), output_type="ndarray")
+        .reshape(-1, 2)
+    )
     lengths = radii[pairs].sum(axis=1)
     gaps = np.hypot(*(places[pairs[:, 0]] - places[pairs[:, 1]]).T) - lengths
     near = gaps <= m.bond_creation_distance * lengths
@@ -59,7 +77,14 @@ def bond(e, ids=None, fragile=True):
             _make(e, contact, float(length), functor)
             if follower:
                 contact.phys.fragile = False
-                follower.add(a, b, m.bond_ellipse[0] * length, m.bond_ellipse[1] * length, m.residual_friction, m.residual_rolling_friction * length)
+                follower.add(
+                    a,
+                    b,
+                    m.bond_ellipse[0] * length,
+                    m.bond_ellipse[1] * length,
+                    m.residual_friction,
+                    m.residual_rolling_friction * length,
+                )
             count += 1
     return count
 
@@ -71,7 +96,9 @@ def _follower(model="cohesion_moment"):
     for engine in O.engines:
         if isinstance(engine, BondEllipseEngine):
             return engine
-    raise SoftError("O.engines has no BondEllipseEngine, which ductile bonds need; set O.engines = soft.engines(e, ductile=True) first")
+    raise SoftError(
+        "O.engines has no BondEllipseEngine, which ductile bonds need; set O.engines = soft.engines(e, ductile=True) first"
+    )
 
 
 def bond_walls(ids=None, fragile=True):
@@ -84,7 +111,9 @@ def bond_walls(ids=None, fragile=True):
     walls than WallPhys.
     """
     disks = [b for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else [O.bodies[k] for k in ids]
-    centres, radii = np.array([b.state.pos for b in disks]).reshape(-1, 3)[:, :2], np.array([b.shape.radius for b in disks])
+    centres, radii = np.array([b.state.pos for b in disks]).reshape(-1, 3)[:, :2], np.array(
+        [b.shape.radius for b in disks]
+    )
     count, follower = 0, None if fragile else _follower()
     for wall in O.bodies:
         m = wall.material
@@ -99,22 +128,39 @@ def bond_walls(ids=None, fragile=True):
         near = (place >= -half) & (place < half) & (height > 0) & (height - radii <= m.bondCreationDistance * 2 * radii)
         for k in np.flatnonzero(near):
             i = disks[k].id
-            contact = O.interactions[wall.id, i] if O.interactions.has(wall.id, i, True) else utils.createInteraction(wall.id, i)
+            contact = (
+                O.interactions[wall.id, i]
+                if O.interactions.has(wall.id, i, True)
+                else utils.createInteraction(wall.id, i)
+            )
             if not isinstance(contact.phys, WallPhys):
-                raise SoftError(f"body {wall.id}: contacts with walls are {type(contact.phys).__name__}; set O.engines = soft.engines(...) first")
+                raise SoftError(
+                    f"body {wall.id}: contacts with walls are {type(contact.phys).__name__}; set O.engines = soft.engines(...) first"
+                )
             if not contact.phys.bonded:
                 p = contact.phys
                 p.bonded, p.restPenetration, p.fragile = True, min(contact.geom.penetrationDepth, 0.0), fragile
                 if follower:
-                    follower.add(wall.id, i, m.bondEllipseNormal * p.length, m.bondEllipseTangential * p.length, p.residualFriction, p.residualRollingArm)
+                    follower.add(
+                        wall.id,
+                        i,
+                        m.bondEllipseNormal * p.length,
+                        m.bondEllipseTangential * p.length,
+                        p.residualFriction,
+                        p.residualRollingArm,
+                    )
                 count += 1
     return count
 
 
 def _functor(e):
     """The functor that makes bonds of CohFrictPhys, None in "jcfpm"; SoftError where the engines are not those of the model."""
-    functors = [f for engine in O.engines if isinstance(engine, InteractionLoop) for f in engine.physDispatcher.functors]
-    name = {"cohesion_moment": "Ip2_CohFrictMat_CohFrictMat_CohFrictPhys", "jcfpm": "Ip2_JCFpmMat_JCFpmMat_JCFpmPhys"}[e.model]
+    functors = [
+        f for engine in O.engines if isinstance(engine, InteractionLoop) for f in engine.physDispatcher.functors
+    ]
+    name = {"cohesion_moment": "Ip2_CohFrictMat_CohFrictMat_CohFrictPhys", "jcfpm": "Ip2_JCFpmMat_JCFpmMat_JCFpmPhys"}[
+        e.model
+    ]
     for f in functors:
         if type(f).__name__ == name:
             return f if isinstance(f, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys) else None

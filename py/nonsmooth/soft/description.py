@@ -80,10 +80,16 @@ def describe(e: Equivalent) -> Description:
     m, length = e.material, e.length
     kn, ks, kr = e.stiffnesses(0.5 * length, 0.5 * length)
     tension, shear, torque = e.thresholds(length)
-    law = {"cohesion_moment": "Law2_ScGeom6D_CohFrictPhys_CohesionMoment", "jcfpm": "Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM",
-           "friction": "Law2_ScGeom_FrictPhys_CundallStrack"}[e.model]
-    names = {"cohesion_moment": ("normalAdhesion", "shearAdhesion", "rollingAdhesion"), "jcfpm": ("FnMax", "FsMax", "-"),
-             "friction": ("-", "-", "-")}[e.model]
+    law = {
+        "cohesion_moment": "Law2_ScGeom6D_CohFrictPhys_CohesionMoment",
+        "jcfpm": "Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM",
+        "friction": "Law2_ScGeom_FrictPhys_CundallStrack",
+    }[e.model]
+    names = {
+        "cohesion_moment": ("normalAdhesion", "shearAdhesion", "rollingAdhesion"),
+        "jcfpm": ("FnMax", "FsMax", "-"),
+        "friction": ("-", "-", "-"),
+    }[e.model]
     rows = [
         ("quantity", "in YADE", "value", "hard law"),
         ("contact law", law, "-", "Law2_ScGeom_NscdPhys_SignoriniCoulomb"),
@@ -96,23 +102,52 @@ def describe(e: Equivalent) -> Description:
         ("torque threshold at N = 0", names[2], _force(torque, "N m"), "μ_r ℓ F_a"),
     ]
     if e.model != "friction":
-        rows.append(("friction of a bond", "tanFrictionAngle" if e.model == "jcfpm" else "tangensOfFrictionAngle", f"{m.friction:.6g}", "μ_s"))
+        rows.append(
+            (
+                "friction of a bond",
+                "tanFrictionAngle" if e.model == "jcfpm" else "tangensOfFrictionAngle",
+                f"{m.friction:.6g}",
+                "μ_s",
+            )
+        )
     if e.model == "cohesion_moment":
-        rows += [("rolling arm of a bond", "maxRollPl", f"{m.rolling_friction * length:.6g} m", "μ_r ℓ"),
-                 ("rolling arm without a bond", "maxRollPl", f"{m.residual_rolling_friction * length:.6g} m", "residual μ_r ℓ")]
+        rows += [
+            ("rolling arm of a bond", "maxRollPl", f"{m.rolling_friction * length:.6g} m", "μ_r ℓ"),
+            (
+                "rolling arm without a bond",
+                "maxRollPl",
+                f"{m.residual_rolling_friction * length:.6g} m",
+                "residual μ_r ℓ",
+            ),
+        ]
     if tension:
-        rows += [("elongation of a bond at its break", "F_a/kn", f"{tension / kn:.3g} m", f"ε_n ℓ = {m.bond_ellipse[0] * length:.3g} m"),
-                 ("energy of a break in tension", "F_a²/(2 kn)", f"{tension**2 / (2 * kn):.3g} J",
-                  f"F_a ε_n ℓ = {tension * m.bond_ellipse[0] * length:.3g} J")]
-    rows += [("restitution of elastic disks", f"damping {e.damping:g}", f"{e.restitution:.3g}", f"e = {m.restitution:g}"),
-             ("largest stable time step", "O.dt", f"{e.step_limit:.3g} s", "no such limit")]
+        rows += [
+            (
+                "elongation of a bond at its break",
+                "F_a/kn",
+                f"{tension / kn:.3g} m",
+                f"ε_n ℓ = {m.bond_ellipse[0] * length:.3g} m",
+            ),
+            (
+                "energy of a break in tension",
+                "F_a²/(2 kn)",
+                f"{tension**2 / (2 * kn):.3g} J",
+                f"F_a ε_n ℓ = {tension * m.bond_ellipse[0] * length:.3g} J",
+            ),
+        ]
+    rows += [
+        ("restitution of elastic disks", f"damping {e.damping:g}", f"{e.restitution:.3g}", f"e = {m.restitution:g}"),
+        ("largest stable time step", "O.dt", f"{e.step_limit:.3g} s", "no such limit"),
+    ]
     kind = {"cohesion_moment": "CohFrictMat", "jcfpm": "JCFpmMat", "friction": "FrictMat"}[e.model]
     for name, value in e.attributes().items():
         what, unit, law_has = _ATTRIBUTES[name]
         if (e.model, name) == ("jcfpm", "frictionAngle"):
             what, law_has = "friction angle of a bond", "atan μ_s"
         shown = str(value) if isinstance(value, bool) else f"{value:.6g} {unit}".rstrip()
-        rows.append((what, f"{kind}.{name}", shown + (f" (atan {math.tan(value):.6g})" if unit == "rad" else ""), law_has))
+        rows.append(
+            (what, f"{kind}.{name}", shown + (f" (atan {math.tan(value):.6g})" if unit == "rad" else ""), law_has)
+        )
     return Description(tuple(rows), _ALWAYS + _LOST[e.model])
 
 

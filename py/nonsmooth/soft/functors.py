@@ -5,10 +5,30 @@ from __future__ import annotations
 import math
 
 from yade.wrapper import (
-    BondEllipseEngine, Bo1_Segment_Aabb, Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_Segment_Sphere_ScGeom, Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Sphere_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop, Ip2_CohFrictMat_CohFrictMat_CohFrictPhys, Ip2_FrictMat_FrictMat_FrictPhys,
-    Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, Ip2_NscdMat_FrictMat_WallPhys, JCFpmMat, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, Law2_ScGeom_FrictPhys_CundallStrack,
-    Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM, Law2_SegmentGeom_WallPhys_SlipWeakening, NewtonIntegrator, NscdMat, PyRunner)
+    BondEllipseEngine,
+    Bo1_Segment_Aabb,
+    Bo1_Sphere_Aabb,
+    CohFrictMat,
+    ForceResetter,
+    FrictMat,
+    Ig2_Segment_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Sphere_Sphere_ScGeom6D,
+    InsertionSortCollider,
+    InteractionLoop,
+    Ip2_CohFrictMat_CohFrictMat_CohFrictPhys,
+    Ip2_FrictMat_FrictMat_FrictPhys,
+    Ip2_JCFpmMat_JCFpmMat_JCFpmPhys,
+    Ip2_NscdMat_FrictMat_WallPhys,
+    JCFpmMat,
+    Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    Law2_ScGeom_FrictPhys_CundallStrack,
+    Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM,
+    Law2_SegmentGeom_WallPhys_SlipWeakening,
+    NewtonIntegrator,
+    NscdMat,
+    PyRunner,
+)
 
 from .. import scene
 from ..section import Material
@@ -36,7 +56,9 @@ def wall_material(e, wall, **others):
     options = dict(young=e.young, poisson=e.shear_ratio)
     if isinstance(wall, Material):
         return scene.wall_material(wall, **{**options, **others})
-    return NscdMat(**{**options, **dict(density=e.material.density, frictionAngle=math.atan(wall), wall=True, layer=-1), **others})
+    return NscdMat(
+        **{**options, **dict(density=e.material.density, frictionAngle=math.atan(wall), wall=True, layer=-1), **others}
+    )
 
 
 def engines(e, **options):
@@ -44,7 +66,9 @@ def engines(e, **options):
     return engines_of(e.model, e.damping, **{**dict(rolling_ratio=e.rolling_ratio or 1.0), **options})
 
 
-def engines_of(model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200, ductile=False):
+def engines_of(
+    model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=0.1, before=(), after=(), every=200, ductile=False
+):
     """The list O.engines of a simulation with soft contacts; the scene's time step is the caller's, below ``Equivalent.step_limit``.
 
     ``rolling_ratio``: of walls' contacts, k_r/(k_s R²). ``gravity`` [m/s²], ``verlet``, ``before``, ``after`` as :func:`yade.nonsmooth.scene.engines` has them. There is no ``reach``:
@@ -58,19 +82,29 @@ def engines_of(model, damping, rolling_ratio=1.0, gravity=(0, -9.81, 0), verlet=
     """
     geometry = Ig2_Sphere_Sphere_ScGeom6D() if model == "cohesion_moment" else Ig2_Sphere_Sphere_ScGeom()
     own = {
-        "cohesion_moment": lambda: ([Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()],
-                                    # incremental, or thresholds of torques would not be kept (YADE's own warning)
-                                    [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True)]),
-        "jcfpm": lambda: ([Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(cohesiveTresholdIteration=0)], [Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()]),
+        "cohesion_moment": lambda: (
+            [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys()],
+            # incremental, or thresholds of torques would not be kept (YADE's own warning)
+            [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(always_use_moment_law=True, useIncrementalForm=True)],
+        ),
+        "jcfpm": lambda: (
+            [Ip2_JCFpmMat_JCFpmMat_JCFpmPhys(cohesiveTresholdIteration=0)],
+            [Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM()],
+        ),
         "friction": lambda: ([], []),
     }
     physics, laws = own[model]()
-    residual = PyRunner(command="from yade.nonsmooth import soft; soft.weaken()", iterPeriod=every, label="softResidual")
+    residual = PyRunner(
+        command="from yade.nonsmooth import soft; soft.weaken()", iterPeriod=every, label="softResidual"
+    )
     return [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=verlet),
-        InteractionLoop([geometry, Ig2_Segment_Sphere_ScGeom()], [*physics, Ip2_FrictMat_FrictMat_FrictPhys(), Ip2_NscdMat_FrictMat_WallPhys(rollingRatio=rolling_ratio)],
-                        [*laws, Law2_ScGeom_FrictPhys_CundallStrack(), Law2_SegmentGeom_WallPhys_SlipWeakening()]),
+        InteractionLoop(
+            [geometry, Ig2_Segment_Sphere_ScGeom()],
+            [*physics, Ip2_FrictMat_FrictMat_FrictPhys(), Ip2_NscdMat_FrictMat_WallPhys(rollingRatio=rolling_ratio)],
+            [*laws, Law2_ScGeom_FrictPhys_CundallStrack(), Law2_SegmentGeom_WallPhys_SlipWeakening()],
+        ),
         *before,
         # weight is damped too, YADE's default: with forces of contacts damped alone, a disk on a wall never comes to rest
         NewtonIntegrator(damping=damping, gravity=gravity),

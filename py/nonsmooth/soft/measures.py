@@ -70,11 +70,23 @@ class Measures:
             if not i.isReal:
                 continue
             id1, id2, g, p = i.id1, i.id2, i.geom, i.phys
-            normal, force, shear, point, depth = g.normal, p.normalForce, p.shearForce, g.contactPoint, g.penetrationDepth
+            normal, force, shear, point, depth = (
+                g.normal,
+                p.normalForce,
+                p.shearForce,
+                g.contactPoint,
+                g.penetrationDepth,
+            )
             nx, ny, x, y = normal[0], normal[1], point[0], point[1]
             n, t = force[0] * nx + force[1] * ny, shear[1] * nx - shear[0] * ny
             ids = (id1, id2) if id1 < id2 else (id2, id1)
-            torque = p.moment_bending[2] if isinstance(p, CohFrictPhys) else p.rollingTorque if isinstance(p, WallPhys) else 0.0
+            torque = (
+                p.moment_bending[2]
+                if isinstance(p, CohFrictPhys)
+                else p.rollingTorque
+                if isinstance(p, WallPhys)
+                else 0.0
+            )
             holds = bonded(p)
             if holds:
                 whole[ids] = (_mode(p, n, abs(t), abs(torque)), x, y)
@@ -97,17 +109,38 @@ class Measures:
                 self._breaks.append((O.iter, O.time, *ids, mode, x, y))
         self._whole, self._rows = whole, rows
         self.overlapWorstEver = max(self.overlapWorstEver, worst)
-        self._found = {"contacts": touching, "bonds": len(whole), "overlapMean": overlap / touching if touching else 0.0, "overlapWorst": worst,
-                       "brokenTension": self.broken[TENSION], "brokenShear": self.broken[SHEAR], "brokenTorque": self.broken[TORQUE],
-                       "brokenMixed": self.broken[MIXED]}
+        self._found = {
+            "contacts": touching,
+            "bonds": len(whole),
+            "overlapMean": overlap / touching if touching else 0.0,
+            "overlapWorst": worst,
+            "brokenTension": self.broken[TENSION],
+            "brokenShear": self.broken[SHEAR],
+            "brokenTorque": self.broken[TORQUE],
+            "brokenMixed": self.broken[MIXED],
+        }
         return self._found
 
-    contacts, bonds, overlapMean, overlapWorst, brokenTension, brokenShear, brokenTorque, brokenMixed = map(_seen, (
-        "contacts", "bonds", "overlapMean", "overlapWorst", "brokenTension", "brokenShear", "brokenTorque", "brokenMixed"))
+    contacts, bonds, overlapMean, overlapWorst, brokenTension, brokenShear, brokenTorque, brokenMixed = map(
+        _seen,
+        (
+            "contacts",
+            "bonds",
+            "overlapMean",
+            "overlapWorst",
+            "brokenTension",
+            "brokenShear",
+            "brokenTorque",
+            "brokenMixed",
+        ),
+    )
 
     def _length(self, ids):
         """ℓ of a pair [m]: sum of the radii, or the diameter of a disk at a wall."""
-        radii = [self._radii[k] if k in self._radii else self._radii.setdefault(k, getattr(O.bodies[k].shape, "radius", 0.0)) for k in ids]
+        radii = [
+            self._radii[k] if k in self._radii else self._radii.setdefault(k, getattr(O.bodies[k].shape, "radius", 0.0))
+            for k in ids
+        ]
         return radii[0] + radii[1] if radii[0] and radii[1] else 2 * max(radii)
 
     # ---- disks ----------------------------------------------------------------------------------
@@ -119,7 +152,11 @@ class Measures:
             ids = self._table["id"]
             if self._masses.get("id") is None or not np.array_equal(self._masses["id"], ids):
                 states = [O.bodies[int(k)].state for k in ids]
-                self._masses = {"id": ids, "mass": np.array([s.mass for s in states]), "inertia": np.array([s.inertia[2] for s in states])}
+                self._masses = {
+                    "id": ids,
+                    "mass": np.array([s.mass for s in states]),
+                    "inertia": np.array([s.inertia[2] for s in states]),
+                }
             self._table |= self._masses
             self._step = O.iter
         return self._table
@@ -164,11 +201,18 @@ def _mode(p, normal, shear, torque):
     """Index of the BREAK_MODES that a bond is nearest to: where the force is the largest part of its threshold."""
     if isinstance(p, CohFrictPhys):
         held = max(normal, -p.normalAdhesion)
-        parts = {TENSION: _share(-normal, p.normalAdhesion), SHEAR: _share(shear, p.shearAdhesion + held * p.tangensOfFrictionAngle),
-                 TORQUE: _share(torque, p.rollingAdhesion + held * p.maxRollPl)}
+        parts = {
+            TENSION: _share(-normal, p.normalAdhesion),
+            SHEAR: _share(shear, p.shearAdhesion + held * p.tangensOfFrictionAngle),
+            TORQUE: _share(torque, p.rollingAdhesion + held * p.maxRollPl),
+        }
     elif isinstance(p, WallPhys):
         held = max(0.0, p.tensileForce + normal)
-        parts = {TENSION: _share(-normal, p.tensileForce), SHEAR: _share(shear, p.friction * held), TORQUE: _share(torque, p.rollingArm * held)}
+        parts = {
+            TENSION: _share(-normal, p.tensileForce),
+            SHEAR: _share(shear, p.friction * held),
+            TORQUE: _share(torque, p.rollingArm * held),
+        }
     elif isinstance(p, JCFpmPhys):
         parts = {TENSION: _share(-normal, p.FnMax), SHEAR: _share(shear, p.FsMax + normal * p.tanFrictionAngle)}
     else:

@@ -92,20 +92,44 @@ class Equivalent:
         σ_ext ℓ/(π R²) with R = ℓ/2.
         """
         m = self.material
-        values = dict(density=m.density, young=self.young, poisson=self.shear_ratio, frictionAngle=math.atan(m.residual_friction))
+        values = dict(
+            density=m.density, young=self.young, poisson=self.shear_ratio, frictionAngle=math.atan(m.residual_friction)
+        )
         stress = 4 * self.thresholds(self.length)[0] / self.length**2
         if self.model == "cohesion_moment":
             # YADE's arm is η min(R), the law's μ_r ℓ
-            return values | dict(normalCohesion=stress, shearCohesion=m.friction * stress, etaRoll=2 * m.residual_rolling_friction, etaTwist=0,
-                                 alphaKr=self.rolling_ratio, alphaKtw=0, momentRotationLaw=True, fragile=True, isCohesive=m.bonded)
+            return values | dict(
+                normalCohesion=stress,
+                shearCohesion=m.friction * stress,
+                etaRoll=2 * m.residual_rolling_friction,
+                etaTwist=0,
+                alphaKr=self.rolling_ratio,
+                alphaKtw=0,
+                momentRotationLaw=True,
+                fragile=True,
+                isCohesive=m.bonded,
+            )
         if self.model == "jcfpm":
-            return values | dict(tensileStrength=stress / math.pi, cohesion=m.friction * stress / math.pi, frictionAngle=math.atan(m.friction),
-                                 residualFrictionAngle=math.atan(m.residual_friction))
+            return values | dict(
+                tensileStrength=stress / math.pi,
+                cohesion=m.friction * stress / math.pi,
+                frictionAngle=math.atan(m.friction),
+                residualFrictionAngle=math.atan(m.residual_friction),
+            )
         return values
 
 
-def equivalent(material: Material, stiffness: float, model: str = "cohesion_moment", *, diameter, shear_ratio: float = 0.3,
-               rolling_ratio: float = 1.0, damping: float = 0.2, contacts: int = 6) -> Equivalent:
+def equivalent(
+    material: Material,
+    stiffness: float,
+    model: str = "cohesion_moment",
+    *,
+    diameter,
+    shear_ratio: float = 0.3,
+    rolling_ratio: float = 1.0,
+    damping: float = 0.2,
+    contacts: int = 6,
+) -> Equivalent:
     """The soft model that stands for ``material``.
 
     ``stiffness``: Young's modulus E [Pa]; YADE makes k_n = E R [N/m] of it for disks of radius R, see :meth:`Equivalent.stiffnesses`.
@@ -125,7 +149,11 @@ def equivalent(material: Material, stiffness: float, model: str = "cohesion_mome
     sizes = (diameter, diameter) if np.isscalar(diameter) else tuple(diameter)
     if len(sizes) != 2 or not 0 < sizes[0] <= sizes[1] < math.inf:
         raise SoftError(f"diameter {diameter!r}: give one positive number [m], or (smallest, largest)")
-    for key, value, least in (("stiffness", stiffness, 0.0), ("shear_ratio", shear_ratio, 0.0), ("contacts", contacts, 0)):
+    for key, value, least in (
+        ("stiffness", stiffness, 0.0),
+        ("shear_ratio", shear_ratio, 0.0),
+        ("contacts", contacts, 0),
+    ):
         if not least < value < math.inf:
             raise SoftError(f"{key} {value!r}: give a number greater than {least:g}")
     if not 0 <= rolling_ratio < math.inf:
@@ -133,15 +161,28 @@ def equivalent(material: Material, stiffness: float, model: str = "cohesion_mome
     if not 0 <= damping < 1:
         raise SoftError(f"damping {damping!r}: give a number from 0 to less than 1")
     if material.density is None:
-        raise SoftError(f"material {material.name}: density None, and the step depends on the disks' mass; add `density` (kg/m³, of the disks)")
+        raise SoftError(
+            f"material {material.name}: density None, and the step depends on the disks' mass; add `density` (kg/m³, of the disks)"
+        )
     if material.slip_weakening:
-        raise SoftError(f"material {material.name}: slip_weakening {material.slip_weakening.law!r}, which no soft model has; take it away")
+        raise SoftError(
+            f"material {material.name}: slip_weakening {material.slip_weakening.law!r}, which no soft model has; take it away"
+        )
     if model == "cohesion_moment" and material.rolling_friction > 0 and rolling_ratio == 0:
-        raise SoftError(f"rolling_ratio 0: the material {material.name} resists rolling, so its contacts need a stiffness; give more than 0")
+        raise SoftError(
+            f"rolling_ratio 0: the material {material.name} resists rolling, so its contacts need a stiffness; give more than 0"
+        )
     sizes = tuple(map(float, sizes))
-    parameters = dict(material=material, model=model, young=float(stiffness), shear_ratio=float(shear_ratio),
-                      rolling_ratio=float(rolling_ratio) if model == "cohesion_moment" else 0.0, damping=float(damping), diameters=sizes,
-                      contacts=int(contacts))
+    parameters = dict(
+        material=material,
+        model=model,
+        young=float(stiffness),
+        shear_ratio=float(shear_ratio),
+        rolling_ratio=float(rolling_ratio) if model == "cohesion_moment" else 0.0,
+        damping=float(damping),
+        diameters=sizes,
+        contacts=int(contacts),
+    )
     made = Equivalent(step_limit=math.nan, **parameters)
     squares = [_greatest_square(made, 0.5 * sizes[0], 0.5 * other) for other in sizes]
     return Equivalent(step_limit=2 / math.sqrt(contacts * max(squares)), **parameters)

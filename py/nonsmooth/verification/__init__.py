@@ -10,10 +10,34 @@ import importlib
 from .claims import Claim, Outcome, at_least, at_most, between, near
 from .registry import Bench, Check, check, registered
 
-__all__ = ["MODULES", "Bench", "Check", "Claim", "Outcome", "at_least", "at_most", "between", "check", "load_checks", "near"]
+__all__ = [
+    "MODULES",
+    "Bench",
+    "Check",
+    "Claim",
+    "Outcome",
+    "at_least",
+    "at_most",
+    "between",
+    "check",
+    "load_checks",
+    "near",
+]
 
 #: Modules of this package that hold checks, in the report's order.
-MODULES = ("contacts", "bonds", "impacts", "packings", "siconos", "lmgc90", "solver", "methods", "convergence", "collapse", "avalanche")
+MODULES = (
+    "contacts",
+    "bonds",
+    "impacts",
+    "packings",
+    "siconos",
+    "lmgc90",
+    "solver",
+    "methods",
+    "convergence",
+    "collapse",
+    "avalanche",
+)
 
 
 def load_checks():

@@ -19,11 +19,13 @@ RADIUS = 0.5
 LENGTH = 2 * RADIUS
 SIGMA, FRICTION, ROLLING = 1e5, 0.3, 0.1
 F_A = SIGMA * LENGTH
-PUSH = 2e5          # N, the compression of some cases
-JUST = 1e-6         # relative distance from a threshold that must be told
-LEAST = 1e-10       # m/s: motion that counts; the solve leaves 1e-12 of F h/m = 2 m/s at most
+PUSH = 2e5  # N, the compression of some cases
+JUST = 1e-6  # relative distance from a threshold that must be told
+LEAST = 1e-10  # m/s: motion that counts; the solve leaves 1e-12 of F h/m = 2 m/s at most
 DIGITS = "bisection to 1e-9; the least motion that counts, 1e-10 m/s, takes up to 6e-9 of a threshold of 3 kN"
-RESIDUAL = dict(residualTensileStrength=0.25 * SIGMA, residualFrictionAngle=math.atan(0.2), residualRollingFriction=0.05)
+RESIDUAL = dict(
+    residualTensileStrength=0.25 * SIGMA, residualFrictionAngle=math.atan(0.2), residualRollingFriction=0.05
+)
 
 
 class Pair:
@@ -32,7 +34,9 @@ class Pair:
     def __init__(self, angle=0.0, zone=(1e-4, 1e-4), bonded=True, dt=0.02, **more):
         O.reset()
         self.c, self.s = math.cos(angle), math.sin(angle)
-        stuff = material(FRICTION, ROLLING, tensileStrength=SIGMA, bondEllipseNormal=zone[0], bondEllipseTangential=zone[1], **more)
+        stuff = material(
+            FRICTION, ROLLING, tensileStrength=SIGMA, bondEllipseNormal=zone[0], bondEllipseTangential=zone[1], **more
+        )
         self.fixed = disk(0, 0, stuff, fixed=True)
         self.free = disk(LENGTH * self.c, LENGTH * self.s, stuff)
         self.state, self.start, self.turn = self.free.state, self.free.state.pos, self.free.state.ori
@@ -44,7 +48,9 @@ class Pair:
     def load(self, normal=0.0, shear=0.0, torque=0.0):
         """Compression and shear [N] at the contact point on the free disk, torque about it [N m]."""
         O.forces.setPermF(self.free.id, (-normal * self.c - shear * self.s, -normal * self.s + shear * self.c, 0))
-        O.forces.setPermT(self.free.id, (0, 0, torque - RADIUS * shear))  # takes back the moment that the shear's lever makes
+        O.forces.setPermT(
+            self.free.id, (0, 0, torque - RADIUS * shear)
+        )  # takes back the moment that the shear's lever makes
 
     @property
     def speed(self):
@@ -79,11 +85,21 @@ def cases(adhesion, friction, rolling):
         "torque": ("torque", JUST, lambda x: dict(torque=-torque(0) * x)),
         "torque under compression": ("torque", JUST, lambda x: dict(normal=PUSH, torque=torque(PUSH) * x)),
         "torque under tension": ("torque", 0.5, lambda x: dict(normal=pull, torque=torque(pull) * x)),
-        "shear with 0.9 of the greatest torque":
-            ("shear", JUST, lambda x: dict(normal=PUSH, shear=shear(PUSH) * x, torque=0.9 * torque(PUSH))),
-        "torque with 0.9 of the greatest shear":
-            ("torque", JUST, lambda x: dict(normal=PUSH, shear=0.9 * shear(PUSH), torque=torque(PUSH) * x)),
-        "shear and torque together": (None, JUST, lambda x: dict(normal=PUSH, shear=shear(PUSH) * x, torque=torque(PUSH) * x)),
+        "shear with 0.9 of the greatest torque": (
+            "shear",
+            JUST,
+            lambda x: dict(normal=PUSH, shear=shear(PUSH) * x, torque=0.9 * torque(PUSH)),
+        ),
+        "torque with 0.9 of the greatest shear": (
+            "torque",
+            JUST,
+            lambda x: dict(normal=PUSH, shear=0.9 * shear(PUSH), torque=torque(PUSH) * x),
+        ),
+        "shear and torque together": (
+            None,
+            JUST,
+            lambda x: dict(normal=PUSH, shear=shear(PUSH) * x, torque=torque(PUSH) * x),
+        ),
     }
 
 
@@ -114,23 +130,43 @@ def bond_thresholds(bench):
             bench.progress(name)
             found = Pair(angle).threshold(loads)
             where = f"{name}, at {angle:g} rad"
-            claims.append(near(where + ": threshold", found, 1, relative=1e-8, unit="of the derived one",
-                               why=DIGITS))
+            claims.append(near(where + ": threshold", found, 1, relative=1e-8, unit="of the derived one", why=DIGITS))
             pair = Pair(angle)
             pair.load(**loads(1 - JUST))
             run(300)
             moved = (pair.state.pos - pair.start).norm() if engine().bonds else math.inf
-            claims.append(at_most(where + ": move in 6 s at 1 − 1e-6", moved, 1e-9, unit="m",
-                                  why="it rests, bonded; a yield of 1e-6 of the load would have moved it by 1e-3 m"))
+            claims.append(
+                at_most(
+                    where + ": move in 6 s at 1 − 1e-6",
+                    moved,
+                    1e-9,
+                    unit="m",
+                    why="it rests, bonded; a yield of 1e-6 of the load would have moved it by 1e-3 m",
+                )
+            )
             pair = Pair(angle)
             pair.load(**loads(1 + overload))
             ended = _breaks_as(pair)
             if mode:
-                claims.append(near(f"{where}: broke by {ended} at 1 + {overload:g}", ended == mode, 1,
-                                   why="it must be the mode that was loaded"))
+                claims.append(
+                    near(
+                        f"{where}: broke by {ended} at 1 + {overload:g}",
+                        ended == mode,
+                        1,
+                        why="it must be the mode that was loaded",
+                    )
+                )
             rows.append([name, f"{angle:g}", f"{found:.10f}", f"1 + {overload:g}", ended])
-    return Outcome(claims, tables=[("Thresholds found, in units of the derived ones, and how the bond ended above them",
-                                    ["load", "angle", "threshold", "overload", "ended by"], rows)])
+    return Outcome(
+        claims,
+        tables=[
+            (
+                "Thresholds found, in units of the derived ones, and how the bond ended above them",
+                ["load", "angle", "threshold", "overload", "ended by"],
+                rows,
+            )
+        ],
+    )
 
 
 @check("Residual strength of a contact without a bond", subject="Bonds", seconds=1)
@@ -144,8 +180,7 @@ def residual_thresholds(bench):
         pair = Pair(angle=2.0, **RESIDUAL)
         engine().unbond()
         found[name] = pair.threshold(loads)
-        claims.append(near(name + ": threshold", found[name], 1, relative=1e-8, unit="of the derived one",
-                           why=DIGITS))
+        claims.append(near(name + ": threshold", found[name], 1, relative=1e-8, unit="of the derived one", why=DIGITS))
     return Outcome(claims)
 
 
@@ -184,13 +219,34 @@ def bond_ellipse(bench):
         worst = max(worst, abs(went / path - 1))
         if degrees == 0:
             claims += [
-                near("energy that a bond takes in tension", taken, F_A * zone[0] * LENGTH, relative=1.01 / steps, unit="J", why=one_step),
-                near("mode of the break along the normal (1 is tension)", contacts()[0].phys.brokenMode, 1, why="a name"),
+                near(
+                    "energy that a bond takes in tension",
+                    taken,
+                    F_A * zone[0] * LENGTH,
+                    relative=1.01 / steps,
+                    unit="J",
+                    why=one_step,
+                ),
+                near(
+                    "mode of the break along the normal (1 is tension)", contacts()[0].phys.brokenMode, 1, why="a name"
+                ),
             ]
-    claims.insert(0, at_most(f"straight: largest relative error of the path over {len(ends)} directions", worst, 1.01 / steps, why=one_step))
+    claims.insert(
+        0,
+        at_most(
+            f"straight: largest relative error of the path over {len(ends)} directions",
+            worst,
+            1.01 / steps,
+            why=one_step,
+        ),
+    )
 
     pair = Pair(zone=(0.05, 0.02), dt=1e-3)
-    path = _root(lambda y: (y / (0.02 * LENGTH))**2 + ((LENGTH - math.sqrt(LENGTH**2 - y**2)) / (0.05 * LENGTH))**2 - 1, 0, 0.02 * LENGTH)
+    path = _root(
+        lambda y: (y / (0.02 * LENGTH)) ** 2 + ((LENGTH - math.sqrt(LENGTH**2 - y**2)) / (0.05 * LENGTH)) ** 2 - 1,
+        0,
+        0.02 * LENGTH,
+    )
     pair.state.blockedDOFs = "yzXY"
     pair.state.inertia = (1e12,) * 3
     pair.load(normal=PUSH)
@@ -204,8 +260,14 @@ def bond_ellipse(bench):
     loss = LENGTH * np.sum(0.5 * (force[1:] + force[:-1]) * -np.diff(alpha))
     claims += [
         near("sliding: path", went, path, relative=1.01 / steps, unit="m", why=one_step),
-        near("sliding: energy", taken, loss, relative=0.02 / steps, unit="J",
-             why=f"the normal is that of a step's beginning: 1/{steps} of its turn, 0.02"),
+        near(
+            "sliding: energy",
+            taken,
+            loss,
+            relative=0.02 / steps,
+            unit="J",
+            why=f"the normal is that of a step's beginning: 1/{steps} of its turn, 0.02",
+        ),
         near("mode of the break (2 is shear)", contacts()[0].phys.brokenMode, 2, why="a name"),
     ]
 
@@ -221,8 +283,14 @@ def bond_ellipse(bench):
     went, taken = _until_broken(lambda: (spin * O.dt * (O.iter - began), engine().rollingLoss), 2 * steps)
     claims += [
         near("rolling: angle", went, angle, relative=1.01 / steps, unit="rad", why=one_step),
-        near("rolling: energy", taken, ROLLING * LENGTH * (F_A + PUSH) * 2 * angle, relative=1.51 / steps, unit="J",
-             why="one step's move, and half a step in which the disk begins to turn"),
+        near(
+            "rolling: energy",
+            taken,
+            ROLLING * LENGTH * (F_A + PUSH) * 2 * angle,
+            relative=1.51 / steps,
+            unit="J",
+            why="one step's move, and half a step in which the disk begins to turn",
+        ),
         near("mode of the break (3 is torque)", contacts()[0].phys.brokenMode, 3, why="a name"),
     ]
     figure = Figure(figsize=(5, 4))
@@ -230,7 +298,9 @@ def bond_ellipse(bench):
     axes.add_patch(Ellipse((0, 0), 2 * zone[0], 2 * zone[1], fill=False, linewidth=1))
     axes.plot(*np.array(ends).T / LENGTH, "o", markersize=4)
     axes.set(xlabel="d_n [ℓ]", ylabel="d_t [ℓ]", xlim=(-0.03, 0.03), ylim=(-0.06, 0.06))
-    return Outcome(claims, plots=[(figure, "Where the mark was when the bond broke, for straight paths; the ellipse is drawn.")])
+    return Outcome(
+        claims, plots=[(figure, "Where the mark was when the bond broke, for straight paths; the ellipse is drawn.")]
+    )
 
 
 def _until_broken(read, most):
@@ -277,7 +347,9 @@ def _first_breaks(most):
         O.step()
         broken = tables.breaks(engine())
         if len(broken["step"]):
-            return list(zip(broken["id1"].tolist(), broken["id2"].tolist())), [tables.BREAK_MODES[m] for m in broken["mode"]]
+            return list(zip(broken["id1"].tolist(), broken["id2"].tolist())), [
+                tables.BREAK_MODES[m] for m in broken["mode"]
+            ]
     return [], []
 
 
@@ -305,23 +377,59 @@ def cantilever(bench):
         for k, i in enumerate(contacts()):
             left = holds - k
             shear, moment = left * one, left**2 / 2 * one * LENGTH
-            worst = max(worst, abs(i.phys.normal) / one, abs(abs(i.phys.tangential) / shear - 1), abs(abs(i.phys.torque) / moment - 1))
-            rows.append([f"{holds} disks, contact {k + 1}", f"{i.phys.normal / one:.1e}", f"{i.phys.tangential / one:.6f} ({shear / one:g})",
-                         f"{i.phys.torque / one / LENGTH:.6f} ({moment / one / LENGTH:g})"])
+            worst = max(
+                worst,
+                abs(i.phys.normal) / one,
+                abs(abs(i.phys.tangential) / shear - 1),
+                abs(abs(i.phys.torque) / moment - 1),
+            )
+            rows.append(
+                [
+                    f"{holds} disks, contact {k + 1}",
+                    f"{i.phys.normal / one:.1e}",
+                    f"{i.phys.tangential / one:.6f} ({shear / one:g})",
+                    f"{i.phys.torque / one / LENGTH:.6f} ({moment / one / LENGTH:g})",
+                ]
+            )
         claims += [
             near(f"{name} governs: bonds of {holds} disks after 1 s", engine().bonds, holds, why="a count"),
-            at_most(f"{holds} disks: farthest move", max((b.state.pos - p).norm() for b, p in zip(disks, start)), 1e-8, unit="m",
-                    why="it rests; one step's fall is 2.5e-4 m, and 200 steps are solved to 1e-12 times a condition number of n⁴"),
-            at_most(f"{holds} disks: largest relative error of a reaction", worst, 1e-7,
-                    why="residual 1e-12, condition number n⁴ or a few 1e3, and a margin"),
+            at_most(
+                f"{holds} disks: farthest move",
+                max((b.state.pos - p).norm() for b, p in zip(disks, start)),
+                1e-8,
+                unit="m",
+                why="it rests; one step's fall is 2.5e-4 m, and 200 steps are solved to 1e-12 times a condition number of n⁴",
+            ),
+            at_most(
+                f"{holds} disks: largest relative error of a reaction",
+                worst,
+                1e-7,
+                why="residual 1e-12, condition number n⁴ or a few 1e3, and a margin",
+            ),
         ]
         disks = row_of_disks(holds + 1, strength, rolling=rolling)
         pairs, modes = _first_breaks(2000)
-        claims.append(near(f"{holds + 1} disks: the first bond to break is the root's, by {name}", (pairs, modes) == ([(0, 1)], [name]), 1,
-                           why=f"it must be; what broke: {pairs}, {modes}"))
-    claims += _edge("eight disks", lambda strength: row_of_disks(8, strength), 8**2 / (2 * ROLLING), moment=8**2 / 2, turning=8)
-    return Outcome(claims, tables=[("Reactions in units of the weight w and w d; in brackets, from statics",
-                                    ["contact", "N/w", "T/w", "Γ/(w d)"], rows)])
+        claims.append(
+            near(
+                f"{holds + 1} disks: the first bond to break is the root's, by {name}",
+                (pairs, modes) == ([(0, 1)], [name]),
+                1,
+                why=f"it must be; what broke: {pairs}, {modes}",
+            )
+        )
+    claims += _edge(
+        "eight disks", lambda strength: row_of_disks(8, strength), 8**2 / (2 * ROLLING), moment=8**2 / 2, turning=8
+    )
+    return Outcome(
+        claims,
+        tables=[
+            (
+                "Reactions in units of the weight w and w d; in brackets, from statics",
+                ["contact", "N/w", "T/w", "Γ/(w d)"],
+                rows,
+            )
+        ],
+    )
 
 
 def _edge(name, build, strength, moment, turning, margin=1e-5):
@@ -338,10 +446,21 @@ def _edge(name, build, strength, moment, turning, margin=1e-5):
     inertia = turning / 8 + turning**3 / 3 - turning / 12
     expected = margin * moment * G / inertia * 3 * O.dt * (turning - 0.5)
     return [
-        at_most(f"{name}, F_a 1e-5 above what statics asks for: fastest disk", speeds[0], 1e-9, unit="m/s",
-                why="it rests; a step's fall is 0.05 m/s, solved to 1e-12 times a condition number of n⁴"),
-        near(f"{name}, F_a 1e-5 below: fastest disk after three steps", speeds[1], expected, relative=1e-3, unit="m/s",
-             why="1e-5 of the moment is known to the same error, 1e-9, four digits"),
+        at_most(
+            f"{name}, F_a 1e-5 above what statics asks for: fastest disk",
+            speeds[0],
+            1e-9,
+            unit="m/s",
+            why="it rests; a step's fall is 0.05 m/s, solved to 1e-12 times a condition number of n⁴",
+        ),
+        near(
+            f"{name}, F_a 1e-5 below: fastest disk after three steps",
+            speeds[1],
+            expected,
+            relative=1e-3,
+            unit="m/s",
+            why="1e-5 of the moment is known to the same error, 1e-9, four digits",
+        ),
     ]
 
 
@@ -375,35 +494,76 @@ def bridge(bench):
     one, torques = weight(disks[0]), np.array([i.phys.torque for i in contacts()])
     limit = ROLLING * strength
     claims += [
-        at_most("eight disks: farthest move", max((b.state.pos - p).norm() for b, p in zip(disks, start)), 1e-8, unit="m",
-                why="it rests; one step's fall is 2.5e-4 m"),
-        at_most("eight disks: largest moment, in M_p", np.abs(torques).max() / (limit * one * LENGTH), 1 + 1e-9,
-                why="the threshold itself; rounding"),
-        near("eight disks: moment of an end less that of the middle, in w d", abs(torques[0] - torques[4]) / one / LENGTH, 8, relative=1e-6,
-             why="balance: w d n²/8, whatever the ends bear; residual 1e-12 times the condition number"),
+        at_most(
+            "eight disks: farthest move",
+            max((b.state.pos - p).norm() for b, p in zip(disks, start)),
+            1e-8,
+            unit="m",
+            why="it rests; one step's fall is 2.5e-4 m",
+        ),
+        at_most(
+            "eight disks: largest moment, in M_p",
+            np.abs(torques).max() / (limit * one * LENGTH),
+            1 + 1e-9,
+            why="the threshold itself; rounding",
+        ),
+        near(
+            "eight disks: moment of an end less that of the middle, in w d",
+            abs(torques[0] - torques[4]) / one / LENGTH,
+            8,
+            relative=1e-6,
+            why="balance: w d n²/8, whatever the ends bear; residual 1e-12 times the condition number",
+        ),
     ]
     disks = row_of_disks(9, strength, both_ends=True)
     run(1)
     spins = np.array([0.0, *(b.state.angVel[2] for b in disks), 0.0])
     turns = np.abs(np.diff(spins)) / np.abs(np.diff(spins)).max()
     hinges = np.flatnonzero(turns > 1e-6).tolist()
-    claims.append(near("nine disks: they turn at contacts 1, 5, 6 and 10 of ten and nowhere else", hinges == [0, 4, 5, 9], 1,
-                       why=f"the collapse mechanism is unique; turning by more than 1e-6 of the most: {[h + 1 for h in hinges]}"))
+    claims.append(
+        near(
+            "nine disks: they turn at contacts 1, 5, 6 and 10 of ten and nowhere else",
+            hinges == [0, 4, 5, 9],
+            1,
+            why=f"the collapse mechanism is unique; turning by more than 1e-6 of the most: {[h + 1 for h in hinges]}",
+        )
+    )
     pairs, modes = _first_breaks(1000)
-    claims.append(between("nine disks: bonds that break in the first step in which any does", len(pairs), 1, 10, why="it must collapse"))
+    claims.append(
+        between(
+            "nine disks: bonds that break in the first step in which any does",
+            len(pairs),
+            1,
+            10,
+            why="it must collapse",
+        )
+    )
     bench.progress("threshold")
-    claims += _edge("eight disks", lambda strength: row_of_disks(8, strength, both_ends=True), 8**2 / (16 * ROLLING),
-                    moment=8**2 / 8, turning=4)
+    claims += _edge(
+        "eight disks",
+        lambda strength: row_of_disks(8, strength, both_ends=True),
+        8**2 / (16 * ROLLING),
+        moment=8**2 / 8,
+        turning=4,
+    )
     figure = Figure(figsize=(6.4, 3))
     axes = figure.add_subplot()
     at = np.arange(9)
     axes.plot(at, torques / one / LENGTH, "o-", markersize=4, label="computed, eight disks")
     fine = np.linspace(0, 8, 100)
-    axes.plot(fine, torques[0] / one / LENGTH + np.sign(torques[4] - torques[0]) * fine * (8 - fine) / 2, color="#777777", linewidth=0.8,
-              label="w d c (n − c)/2 from there")
+    axes.plot(
+        fine,
+        torques[0] / one / LENGTH + np.sign(torques[4] - torques[0]) * fine * (8 - fine) / 2,
+        color="#777777",
+        linewidth=0.8,
+        label="w d c (n − c)/2 from there",
+    )
     for side in (-1, 1):
         axes.axhline(side * limit, color="#D55E00", linewidth=0.8, linestyle="--")
     axes.set(xlabel="disks to the left of the contact", ylabel="Γ / (w d)")
     axes.legend(frameon=False)
-    return Outcome(claims, plots=[(figure, "Moments in the row of eight that holds; dashed: ± M_p.")],
-                   remarks=[f"Nine disks: first to break were the bonds {pairs}, by {', '.join(modes)}, at step {O.iter}."])
+    return Outcome(
+        claims,
+        plots=[(figure, "Moments in the row of eight that holds; dashed: ± M_p.")],
+        remarks=[f"Nine disks: first to break were the bonds {pairs}, by {', '.join(modes)}, at step {O.iter}."],
+    )

@@ -18,14 +18,30 @@ def run_cases(bench, function, cases):
     end of its output where a case fails; the others are finished first.
     """
     cases, name = list(cases), processes.named(function)
-    runs = [side_by_side.Run(name_of(function, case), folder_of(bench, function, case), function, case, keys.key_of({"function": name, "case": case})) for case in cases]
+    runs = [
+        side_by_side.Run(
+            name_of(function, case),
+            folder_of(bench, function, case),
+            function,
+            case,
+            keys.key_of({"function": name, "case": case}),
+        )
+        for case in cases
+    ]
     bench.progress(f"{function.__name__}, {len(cases)} cases")
-    return side_by_side.run(runs, bench.threads, resume=True, progress=lambda share, ended: bench.progress(f"{function.__name__}, {ended} of {len(cases)} cases"))
+    return side_by_side.run(
+        runs,
+        bench.threads,
+        resume=True,
+        progress=lambda share, ended: bench.progress(f"{function.__name__}, {ended} of {len(cases)} cases"),
+    )
 
 
 def name_of(function, case):
     """Name of a case's folder: the function and the values, in the order of their names."""
-    values = (f"{key}={value:g}" if isinstance(value, float) else f"{key}={value}" for key, value in sorted(case.items()))
+    values = (
+        f"{key}={value:g}" if isinstance(value, float) else f"{key}={value}" for key, value in sorted(case.items())
+    )
     return ",".join((function.__name__.strip("_"), *values))
 
 

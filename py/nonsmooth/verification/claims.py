@@ -12,14 +12,14 @@ __all__ = ["Claim", "Outcome", "at_least", "at_most", "between", "near"]
 class Claim:
     """One row of the report. ``low`` and ``high`` bound ``measured``, both allowed."""
 
-    what: str       # the figure in words, e.g. "acceleration of a disk that rolls down 21°"
+    what: str  # the figure in words, e.g. "acceleration of a disk that rolls down 21°"
     measured: float
     low: float
     high: float
     expected: float | None = None  # None where only a range is claimed
     unit: str = ""
-    against: str = "derivation"    # whom it is compared with, e.g. "Siconos", "LMGC90", "derivation"
-    why: str = ""                  # why just this tolerance
+    against: str = "derivation"  # whom it is compared with, e.g. "Siconos", "LMGC90", "derivation"
+    why: str = ""  # why just this tolerance
 
     def __post_init__(self):
         if not self.why:

@@ -14,7 +14,7 @@ from . import Outcome, at_most, check
 from .cases import folder_of, run_cases
 
 SUBJECT = "Convergence"
-WHEN = 0.66   # √(H/g), as the profile in the middle of a published collapse
+WHEN = 0.66  # √(H/g), as the profile in the middle of a published collapse
 OVERLAP = 0.01  # ℓ, the largest to begin with
 ASPECT = 2.0
 TOLERANCE = 1e-5
@@ -45,10 +45,19 @@ def collapse(folder, disks, seed, path, overlap, rate):
     advance(round(WHEN * unit / O.dt))
     t = preparation.disk_table(scene.stand)
     x1, height = measures.surface(t["x"], t["y"], t["r"], np.ones(len(t["x"]), bool))
-    write_arrays(folder / "profile.npz", x0=before[0], height0=before[1], x=x1, height=height, places_x=t["x"], places_y=t["y"])
+    write_arrays(
+        folder / "profile.npz", x0=before[0], height0=before[1], x=x1, height=height, places_x=t["x"], places_y=t["y"]
+    )
     _, _, gap = measures.gaps(x, y, ready.r, 0.0)
-    return {"disks": len(x), "overlap_first_rel": float(-gap.min() / heap.mean_diameter()) if len(gap) else 0.0, "time_s": O.time, "steps": O.iter,
-            "top_m": float(height.max()), "front_m": float(x1.max()), "diameter_m": heap.mean_diameter()}
+    return {
+        "disks": len(x),
+        "overlap_first_rel": float(-gap.min() / heap.mean_diameter()) if len(gap) else 0.0,
+        "time_s": O.time,
+        "steps": O.iter,
+        "top_m": float(height.max()),
+        "front_m": float(x1.max()),
+        "diameter_m": heap.mean_diameter(),
+    }
 
 
 def rounded(x, y, r, overlap):
@@ -78,26 +87,61 @@ def collapse_of_rounded_places(bench):
     share of the area below. Two runs with anything else between them show how far chance goes: the same column without overlaps.
     """
     disks, seeds = (1000, (1,)) if bench.quick else (3000, (1, 2))
-    kinds = {"h": (PATH_PER_STEP, OVERLAP, 0.2), "h/4": (PATH_PER_STEP / 4, OVERLAP, 0.2), "h/4, nothing taken back": (PATH_PER_STEP / 4, OVERLAP, 0.0),
-             "h, no overlaps": (PATH_PER_STEP, 0.0, 0.2), "h/4, no overlaps": (PATH_PER_STEP / 4, 0.0, 0.2)}
-    cases = [dict(disks=disks, seed=s, path=path, overlap=overlap, rate=rate) for s in seeds for path, overlap, rate in kinds.values()]
+    kinds = {
+        "h": (PATH_PER_STEP, OVERLAP, 0.2),
+        "h/4": (PATH_PER_STEP / 4, OVERLAP, 0.2),
+        "h/4, nothing taken back": (PATH_PER_STEP / 4, OVERLAP, 0.0),
+        "h, no overlaps": (PATH_PER_STEP, 0.0, 0.2),
+        "h/4, no overlaps": (PATH_PER_STEP / 4, 0.0, 0.2),
+    }
+    cases = [
+        dict(disks=disks, seed=s, path=path, overlap=overlap, rate=rate)
+        for s in seeds
+        for path, overlap, rate in kinds.values()
+    ]
     found = run_cases(bench, collapse, cases)
     profiles, rows, share = {}, [], {}
     for c, f in zip(cases, found):
         with np.load(folder_of(bench, collapse, c) / "profile.npz", allow_pickle=False) as data:
             profiles[c["seed"], c["path"], c["overlap"], c["rate"]] = {name: data[name] for name in data.files}
-    pairs = (("h", "h/4"), ("h/4", "h/4, nothing taken back"), ("h, no overlaps", "h/4, no overlaps"), ("h", "h, no overlaps"))
+    pairs = (
+        ("h", "h/4"),
+        ("h/4", "h/4, nothing taken back"),
+        ("h, no overlaps", "h/4, no overlaps"),
+        ("h", "h, no overlaps"),
+    )
     for a, b in pairs:
         of = lambda s, kind: (profiles[s, *kinds[kind]]["x"], profiles[s, *kinds[kind]]["height"])  # noqa: E731
         share[a, b] = [area_between(of(s, a), of(s, b)) for s in seeds]
         rows.append([f"{a} against {b}", *(f"{100 * v:.2f}" for v in share[a, b])])
     claims = [
-        at_most(f"seed {s}: area between the profiles with h and h/4, of the area", v, 0.01, against="the finer step",
-                why="profiles printed with four digits agree to 0.7 %; a bias on the velocity gave 3 to 17 %") for s, v in zip(seeds, share["h", "h/4"])]
-    claims.append(at_most("largest overlap to begin with over 0.01 ℓ, off by", abs(max(f["overlap_first_rel"] for f in found) / OVERLAP - 1), 0.5,
-                          why="a column without overlaps would prove nothing"))
-    return Outcome(claims, plots=[(_sheet(bench, profiles, kinds, seeds[0]), f"Surfaces of the column with seed {seeds[0]} at rest (grey) and after 0.66 √(H/g)")],
-                   tables=[(f"Area between two profiles [%], {disks:,} disks", ["", *(f"seed {s}" for s in seeds)], rows)])
+        at_most(
+            f"seed {s}: area between the profiles with h and h/4, of the area",
+            v,
+            0.01,
+            against="the finer step",
+            why="profiles printed with four digits agree to 0.7 %; a bias on the velocity gave 3 to 17 %",
+        )
+        for s, v in zip(seeds, share["h", "h/4"])
+    ]
+    claims.append(
+        at_most(
+            "largest overlap to begin with over 0.01 ℓ, off by",
+            abs(max(f["overlap_first_rel"] for f in found) / OVERLAP - 1),
+            0.5,
+            why="a column without overlaps would prove nothing",
+        )
+    )
+    return Outcome(
+        claims,
+        plots=[
+            (
+                _sheet(bench, profiles, kinds, seeds[0]),
+                f"Surfaces of the column with seed {seeds[0]} at rest (grey) and after 0.66 √(H/g)",
+            )
+        ],
+        tables=[(f"Area between two profiles [%], {disks:,} disks", ["", *(f"seed {s}" for s in seeds)], rows)],
+    )
 
 
 @style.styled
@@ -106,7 +150,11 @@ def _sheet(bench, profiles, kinds, seed):
     ax = figure.subplots()
     first = profiles[seed, *kinds["h"]]
     ax.plot(first["x0"], first["height0"], color="#999999", lw=1, label="at rest")
-    for kind, look in (("h", dict(color="#0072B2", lw=1.8)), ("h/4", dict(color="#D55E00", lw=1.2)), ("h/4, nothing taken back", dict(color="#000000", lw=0.8, ls="--"))):
+    for kind, look in (
+        ("h", dict(color="#0072B2", lw=1.8)),
+        ("h/4", dict(color="#D55E00", lw=1.2)),
+        ("h/4, nothing taken back", dict(color="#000000", lw=0.8, ls="--")),
+    ):
         ax.plot(profiles[seed, *kinds[kind]]["x"], profiles[seed, *kinds[kind]]["height"], label=kind, **look)
     ax.set(xlabel="x [m]", ylabel="height [m]", aspect="equal", xlim=(0, None), ylim=(0, None))
     ax.legend(frameon=False)

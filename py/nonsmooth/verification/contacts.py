@@ -75,12 +75,29 @@ def slider_on_a_plane(bench):
         name = f"μ = {friction:g}: "
         claims += [
             near(name + "acceleration", slope.speed / O.time, expected, relative=1e-9, unit="m/s²", why=EXACT),
-            near(name + "acceleration as tabulated", slope.speed / O.time, tabulated, absolute=5e-4, unit="m/s²",
-                 why="the tabulated figure has three decimals"),
-            near(name + "time for 5 m", arrival, math.sqrt(10 / expected), absolute=O.dt, unit="s",
-                 why="one step; half of one is the scheme's own"),
-            at_most(name + "largest speed off the plane", bump, 1e-9, unit="m/s",
-                    why="joints are straight to rounding, 1e-16 m a step of 1e-3 s"),
+            near(
+                name + "acceleration as tabulated",
+                slope.speed / O.time,
+                tabulated,
+                absolute=5e-4,
+                unit="m/s²",
+                why="the tabulated figure has three decimals",
+            ),
+            near(
+                name + "time for 5 m",
+                arrival,
+                math.sqrt(10 / expected),
+                absolute=O.dt,
+                unit="s",
+                why="one step; half of one is the scheme's own",
+            ),
+            at_most(
+                name + "largest speed off the plane",
+                bump,
+                1e-9,
+                unit="m/s",
+                why="joints are straight to rounding, 1e-16 m a step of 1e-3 s",
+            ),
             at_most(name + "contacts that carry force at a time", most, 1, why="one plane, one contact"),
         ]
         axes.plot(times, speeds, label=f"μ = {friction:g}")
@@ -127,13 +144,22 @@ def disk_on_an_incline(bench):
             found.append((slope.speed / O.time, slope.surface_speed / O.time))
         expected = [incline_accelerations(t, friction, rolling) for t in tangents]
         worst = np.abs(np.array(found) - expected).max() / G
-        claims.append(at_most(f"μ_s = {friction:g}, μ_r = {rolling:g}: largest error of a or r α over {len(tangents)} slopes", worst, 1e-9,
-                              unit="g", why=EXACT))
+        claims.append(
+            at_most(
+                f"μ_s = {friction:g}, μ_r = {rolling:g}: largest error of a or r α over {len(tangents)} slopes",
+                worst,
+                1e-9,
+                unit="g",
+                why=EXACT,
+            )
+        )
         fine = np.linspace(0.02, 0.8, 400)
         curves = np.array([incline_accelerations(t, friction, rolling) for t in fine])
         for column, name, colour in ((0, "a", "#0072B2"), (1, "r α", "#D55E00")):
             axes.plot(fine, curves[:, column], color=colour, linewidth=1, label=f"{name}, derivation")
-            axes.plot(tangents, np.array(found)[:, column], "o", color=colour, markersize=3.5, label=f"{name}, computed")
+            axes.plot(
+                tangents, np.array(found)[:, column], "o", color=colour, markersize=3.5, label=f"{name}, computed"
+            )
         axes.set(xlabel="tan θ", title=f"μ_s = {friction:g}, μ_r = {rolling:g}")
     panels[0].set(ylabel="acceleration [m/s²]")
     panels[0].legend(frameon=False)
@@ -142,23 +168,57 @@ def disk_on_an_incline(bench):
     start, slip = 2 * rolling, 3 * friction - 4 * rolling
     slope = Incline(start * (1 - EDGE), friction, rolling)
     run(200)
-    claims.append(at_most("just below tan θ = 2 μ_r: speed after 0.2 s", abs(slope.speed) + abs(slope.surface_speed), 1e-10, unit="m/s",
-                          why=AT_REST))
+    claims.append(
+        at_most(
+            "just below tan θ = 2 μ_r: speed after 0.2 s",
+            abs(slope.speed) + abs(slope.surface_speed),
+            1e-10,
+            unit="m/s",
+            why=AT_REST,
+        )
+    )
     slope = Incline(start * (1 + EDGE), friction, rolling)
     run(200)
     ramp = "1e-6 beyond the threshold the driving force is the difference of two that are solved to 1e-12: six digits"
     excess = 2 / 3 * G / math.hypot(1, start) * start * EDGE
-    claims.append(near("just above tan θ = 2 μ_r: acceleration", slope.speed / O.time, excess, relative=1e-4, unit="m/s²", why=ramp))
+    claims.append(
+        near(
+            "just above tan θ = 2 μ_r: acceleration", slope.speed / O.time, excess, relative=1e-4, unit="m/s²", why=ramp
+        )
+    )
     slope = Incline(slip * (1 - EDGE), friction, rolling)
     run(200)
-    claims.append(at_most("just below tan θ = 3 μ_s − 4 μ_r: speed of slip", abs(slope.speed - slope.surface_speed), 1e-10, unit="m/s",
-                          why=AT_REST))
+    claims.append(
+        at_most(
+            "just below tan θ = 3 μ_s − 4 μ_r: speed of slip",
+            abs(slope.speed - slope.surface_speed),
+            1e-10,
+            unit="m/s",
+            why=AT_REST,
+        )
+    )
     slope = Incline(slip * (1 + EDGE), friction, rolling)
     run(200)
-    claims.append(near("just above tan θ = 3 μ_s − 4 μ_r: growth of slip", (slope.speed - slope.surface_speed) / O.time,
-                       G / math.hypot(1, slip) * slip * EDGE, relative=1e-4, unit="m/s²", why=ramp))
-    return Outcome(claims, plots=[(figure, "Acceleration of the centre and of the rim over the slope, from rest. Left: rests, rolls, slips. "
-                                           "Right: with 2 μ_r > μ_s it never turns.")])
+    claims.append(
+        near(
+            "just above tan θ = 3 μ_s − 4 μ_r: growth of slip",
+            (slope.speed - slope.surface_speed) / O.time,
+            G / math.hypot(1, slip) * slip * EDGE,
+            relative=1e-4,
+            unit="m/s²",
+            why=ramp,
+        )
+    )
+    return Outcome(
+        claims,
+        plots=[
+            (
+                figure,
+                "Acceleration of the centre and of the rim over the slope, from rest. Left: rests, rolls, slips. "
+                "Right: with 2 μ_r > μ_s it never turns.",
+            )
+        ],
+    )
 
 
 @check("A spinning disk set down on a floor", subject="Sliding and rolling", seconds=1)
@@ -182,7 +242,7 @@ def spinning_disk(bench):
         wall([(-40, 0), (40, 0)], stuff)
         body = disk(0, RADIUS, stuff, spin=-spin)  # clockwise: drives it towards +x
         e, s = begin(gravity=(0, -G, 0)), body.state
-        rim, energy = RADIUS * spin, 0.25 * s.mass * (RADIUS * spin)**2
+        rim, energy = RADIUS * spin, 0.25 * s.mass * (RADIUS * spin) ** 2
         slip_ends, speed = rim / ((3 * friction + 4 * rolling) * G), friction * rim / (3 * friction + 4 * rolling)
         end = slip_ends + 3 * speed / (4 * rolling * G) + 0.2 if rolling else 2.5 * slip_ends
         times, speeds, rims, rolls_at, stops_at = [], [], [], math.inf, math.inf
@@ -197,33 +257,72 @@ def spinning_disk(bench):
                 stops_at = min(stops_at, O.time)
         name = f"μ_r = {rolling:g}: "
         late = "it rolls at the end of the step in which slip ends, up to one later"
-        claims.append(near(name + "time at which slip ends", rolls_at, slip_ends, absolute=1.01 * O.dt, unit="s", why=late))
+        claims.append(
+            near(name + "time at which slip ends", rolls_at, slip_ends, absolute=1.01 * O.dt, unit="s", why=late)
+        )
         at_half = np.searchsorted(times, slip_ends / 2)
-        claims.append(near(name + "r ω half-way", rims[at_half], rim - 2 * (friction + 2 * rolling) * G * times[at_half],
-                           relative=1e-9, unit="m/s", why=EXACT))
+        claims.append(
+            near(
+                name + "r ω half-way",
+                rims[at_half],
+                rim - 2 * (friction + 2 * rolling) * G * times[at_half],
+                relative=1e-9,
+                unit="m/s",
+                why=EXACT,
+            )
+        )
         if rolling:
             claims += [
-                near(name + "time at which it stops", stops_at, slip_ends + 3 * speed / (4 * rolling * G), absolute=2.01 * O.dt, unit="s",
-                     why="the two changes of regime take up to one step each"),
-                near(name + "sliding loss", e.slidingLoss, friction * s.mass * G * rim * slip_ends / 2, relative=1e-5, unit="J",
-                     why="the step in which slip ends errs by its share of slip, (h/t₁)² = 5e-6"),
-                near(name + "sliding and rolling loss", e.slidingLoss + e.rollingLoss, energy, relative=1e-9, unit="J", why=EXACT),
+                near(
+                    name + "time at which it stops",
+                    stops_at,
+                    slip_ends + 3 * speed / (4 * rolling * G),
+                    absolute=2.01 * O.dt,
+                    unit="s",
+                    why="the two changes of regime take up to one step each",
+                ),
+                near(
+                    name + "sliding loss",
+                    e.slidingLoss,
+                    friction * s.mass * G * rim * slip_ends / 2,
+                    relative=1e-5,
+                    unit="J",
+                    why="the step in which slip ends errs by its share of slip, (h/t₁)² = 5e-6",
+                ),
+                near(
+                    name + "sliding and rolling loss",
+                    e.slidingLoss + e.rollingLoss,
+                    energy,
+                    relative=1e-9,
+                    unit="J",
+                    why=EXACT,
+                ),
             ]
         else:
             claims += [
                 near(name + "final speed", speeds[-1], rim / 3, relative=1e-9, unit="m/s", why=EXACT),
                 near(name + "final r ω", rims[-1], rim / 3, relative=1e-9, unit="m/s", why=EXACT),
                 near(name + "sliding loss", e.slidingLoss, 2 / 3 * energy, relative=1e-9, unit="J", why=EXACT),
-                at_most(name + "rolling loss", abs(e.rollingLoss), 1e-9 * energy, unit="J", why="there is no torque to dissipate; rounding"),
+                at_most(
+                    name + "rolling loss",
+                    abs(e.rollingLoss),
+                    1e-9 * energy,
+                    unit="J",
+                    why="there is no torque to dissipate; rounding",
+                ),
             ]
-        claims.append(at_most(name + "error of the energy balance", abs(e.energyError), 1e-9 * energy, unit="J", why=EXACT))
+        claims.append(
+            at_most(name + "error of the energy balance", abs(e.energyError), 1e-9 * energy, unit="J", why=EXACT)
+        )
         axes.plot(times, speeds, label="v")
         axes.plot(times, rims, label="r ω")
         axes.axvline(slip_ends, color="#777777", linewidth=0.7, linestyle="--")
         axes.set(xlabel="time [s]", title=f"μ_r = {rolling:g}")
         axes.legend(frameon=False)
     figure.axes[0].set(ylabel="speed [m/s]")
-    return Outcome(claims, plots=[(figure, "Speed of the centre and of the rim; the dashed line is the derived end of slip.")])
+    return Outcome(
+        claims, plots=[(figure, "Speed of the centre and of the rim; the dashed line is the derived end of slip.")]
+    )
 
 
 class Squeeze:
@@ -232,8 +331,8 @@ class Squeeze:
     def __init__(self, load, above, below, friction=0.3, rolling=0.0, dt=1e-4, rolls=False):
         O.reset()
         stuff = material(friction, rolling)
-        self.floor, = wall([(-40, 0), (40, 0)], stuff, velocity=(below, 0))
-        self.roof, = wall([(-40, 2 * RADIUS), (40, 2 * RADIUS)], stuff, velocity=(above, 0))
+        (self.floor,) = wall([(-40, 0), (40, 0)], stuff, velocity=(below, 0))
+        (self.roof,) = wall([(-40, 2 * RADIUS), (40, 2 * RADIUS)], stuff, velocity=(above, 0))
         self.roof.state.mass = 1000
         self.roof.state.blockedDOFs = "xzXYZ"  # it may move up and down
         self.disk = disk(0, RADIUS, stuff)
@@ -246,7 +345,7 @@ class Squeeze:
     @property
     def kinetic(self):
         s = self.disk.state
-        return 0.5 * (s.mass * s.vel.squaredNorm() + s.inertia[2] * s.angVel[2]**2)
+        return 0.5 * (s.mass * s.vel.squaredNorm() + s.inertia[2] * s.angVel[2] ** 2)
 
     def force(self, body):
         """Force of the contacts on the wall along x [N]."""
@@ -286,16 +385,47 @@ def disk_between_driven_walls(bench):
     early = np.searchsorted(times, t1 / 2)
     late = np.searchsorted(times, t2 - O.dt)
     claims += [
-        near("both slip: r ω after t₁/2", rims[early], -4 * friction * load / s.mass * times[early], relative=1e-9, unit="m/s", why=EXACT),
-        near("the floor sticks: v just before t₂", speeds[late], 4 / 3 * friction * load / s.mass * (times[late] - t1),
-             absolute=4 / 3 * friction * load / s.mass * O.dt, unit="m/s", why="t₁ falls into a step: one step's gain"),
+        near(
+            "both slip: r ω after t₁/2",
+            rims[early],
+            -4 * friction * load / s.mass * times[early],
+            relative=1e-9,
+            unit="m/s",
+            why=EXACT,
+        ),
+        near(
+            "the floor sticks: v just before t₂",
+            speeds[late],
+            4 / 3 * friction * load / s.mass * (times[late] - t1),
+            absolute=4 / 3 * friction * load / s.mass * O.dt,
+            unit="m/s",
+            why="t₁ falls into a step: one step's gain",
+        ),
         near("steady speed (u₁ + u₂)/2", speeds[-1], (above + below) / 2, relative=1e-9, unit="m/s", why=EXACT),
         near("steady r ω = (u₂ − u₁)/2", rims[-1], (below - above) / 2, relative=1e-9, unit="m/s", why=EXACT),
-        near("work of the walls", e.wallWork, work, absolute=2 * friction * load * (above - below) * O.dt, unit="J",
-             why="t₁ and t₂ fall into steps: two steps' work"),
-        near("work of the walls less sliding loss", e.wallWork - e.slidingLoss, squeeze.kinetic, relative=1e-9, unit="J", why=EXACT),
-        at_most("other losses", abs(e.rollingLoss) + abs(e.impactLoss) + abs(e.debondingLoss), 1e-9 * work, unit="J",
-                why="there are none; rounding"),
+        near(
+            "work of the walls",
+            e.wallWork,
+            work,
+            absolute=2 * friction * load * (above - below) * O.dt,
+            unit="J",
+            why="t₁ and t₂ fall into steps: two steps' work",
+        ),
+        near(
+            "work of the walls less sliding loss",
+            e.wallWork - e.slidingLoss,
+            squeeze.kinetic,
+            relative=1e-9,
+            unit="J",
+            why=EXACT,
+        ),
+        at_most(
+            "other losses",
+            abs(e.rollingLoss) + abs(e.impactLoss) + abs(e.debondingLoss),
+            1e-9 * work,
+            unit="J",
+            why="there are none; rounding",
+        ),
     ]
 
     rolling, spin = 0.05, (below - above) / (2 * RADIUS)
@@ -303,14 +433,37 @@ def disk_between_driven_walls(bench):
     e, steps = engine(), 500
     run(steps)
     claims += [
-        near("rolling friction: shear force 2 μ_r N of the roof", -squeeze.force(squeeze.roof), 2 * rolling * load, relative=1e-8, unit="N",
-             why=EXACT),
-        near("rolling friction: work of the walls", e.wallWork, 2 * rolling * load * (above - below) * O.time, relative=1e-8, unit="J",
-             why=EXACT),
-        near("rolling friction: loss", e.rollingLoss, 2 * 2 * rolling * RADIUS * load * abs(spin) * O.time, relative=1e-8, unit="J",
-             why=EXACT),
-        at_most("rolling friction: sliding loss", abs(e.slidingLoss), 1e-8 * abs(e.rollingLoss), unit="J",
-                why="nothing slips; the solve's 1e-12 and rounding"),
+        near(
+            "rolling friction: shear force 2 μ_r N of the roof",
+            -squeeze.force(squeeze.roof),
+            2 * rolling * load,
+            relative=1e-8,
+            unit="N",
+            why=EXACT,
+        ),
+        near(
+            "rolling friction: work of the walls",
+            e.wallWork,
+            2 * rolling * load * (above - below) * O.time,
+            relative=1e-8,
+            unit="J",
+            why=EXACT,
+        ),
+        near(
+            "rolling friction: loss",
+            e.rollingLoss,
+            2 * 2 * rolling * RADIUS * load * abs(spin) * O.time,
+            relative=1e-8,
+            unit="J",
+            why=EXACT,
+        ),
+        at_most(
+            "rolling friction: sliding loss",
+            abs(e.slidingLoss),
+            1e-8 * abs(e.rollingLoss),
+            unit="J",
+            why="nothing slips; the solve's 1e-12 and rounding",
+        ),
     ]
 
     torque = 2000.0
@@ -321,10 +474,21 @@ def disk_between_driven_walls(bench):
         run(200)
         changes.append((squeeze.disk.state.angVel[2] - spin) / O.time)
     claims += [
-        at_most("squeeze just above N*: change of spin", abs(changes[0]), 1e-9, unit="rad/s²",
-                why="the torque alone would give 8 rad/s²; the solve, 1e-12 of it, may drift over 200 steps"),
-        near("squeeze just below N*: change of spin", changes[1], torque * EDGE / squeeze.disk.state.inertia[2], relative=1e-3, unit="rad/s²",
-             why="1e-6 of the torque, known to the solve's 1e-12 and to the change of N while the roof begins to carry"),
+        at_most(
+            "squeeze just above N*: change of spin",
+            abs(changes[0]),
+            1e-9,
+            unit="rad/s²",
+            why="the torque alone would give 8 rad/s²; the solve, 1e-12 of it, may drift over 200 steps",
+        ),
+        near(
+            "squeeze just below N*: change of spin",
+            changes[1],
+            torque * EDGE / squeeze.disk.state.inertia[2],
+            relative=1e-3,
+            unit="rad/s²",
+            why="1e-6 of the torque, known to the solve's 1e-12 and to the change of N while the roof begins to carry",
+        ),
     ]
     figure = Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
@@ -338,7 +502,7 @@ def disk_between_driven_walls(bench):
 
 
 def _stack(count, stuff):
-    floor, = wall([(-5, 0), (5, 0)], stuff)
+    (floor,) = wall([(-5, 0), (5, 0)], stuff)
     return floor, [disk(0, RADIUS + 2 * RADIUS * k, stuff) for k in range(count)]
 
 
@@ -355,13 +519,21 @@ def stack_of_disks(bench):
     found, one = [i.phys.normal for i in contacts()], weight(disks[0])
     worst = max(abs(n / (one * (50 - k)) - 1) for k, n in enumerate(found))
     digits = "residual 1e-12 times the chain's condition number, 4e3, and ten times more for the top contact, which carries one part in 50"
-    return Outcome([
-        near("contacts", len(found), 50, why="a count"),
-        near("force on the floor", -O.forces.f(floor.id)[1], 50 * one, relative=1e-7, unit="N", why=digits),
-        at_most("largest relative error of a contact's force", worst, 1e-6, why=digits),
-        at_most("fastest disk", e.maxSpeed, 1e-7, unit="m/s", why="1e-6 of a step's fall, 0.05 m/s, from the same error of force"),
-        at_most("largest overlap", e.overlapWorst, 1e-9, unit="ℓ", why="that speed times a step of 5e-3 s"),
-    ])
+    return Outcome(
+        [
+            near("contacts", len(found), 50, why="a count"),
+            near("force on the floor", -O.forces.f(floor.id)[1], 50 * one, relative=1e-7, unit="N", why=digits),
+            at_most("largest relative error of a contact's force", worst, 1e-6, why=digits),
+            at_most(
+                "fastest disk",
+                e.maxSpeed,
+                1e-7,
+                unit="m/s",
+                why="1e-6 of a step's fall, 0.05 m/s, from the same error of force",
+            ),
+            at_most("largest overlap", e.overlapWorst, 1e-9, unit="ℓ", why="that speed times a step of 5e-3 s"),
+        ]
+    )
 
 
 def _reactions():
@@ -411,12 +583,34 @@ def changed_time_step(bench):
             rows.append([name, f"{h:g}", f"{e.residual:.1e}", f"{changed:.1e}"])
         moved = max((b.state.pos - p).norm() for b, p in zip(disks, places))
         claims += [
-            near(f"{name}: sweeps after the changes", e.totalIterations - sweeps, 0, why="a count: the start is the solution"),
+            near(
+                f"{name}: sweeps after the changes",
+                e.totalIterations - sweeps,
+                0,
+                why="a count: the start is the solution",
+            ),
             near(f"{name}: steps above the tolerance", e.unconverged - unconverged, 0, why="a count"),
-            at_most(f"{name}: largest change of a reaction", changed, 1e-7,
-                    why="forces are kept, not computed anew: rounding and the first solve's 1e-12 times a condition number up to 1e3"),
-            at_most(f"{name}: fastest disk, in g h", fastest, 1e-6, why="the first solve's error of force, in parts of a disk's weight"),
+            at_most(
+                f"{name}: largest change of a reaction",
+                changed,
+                1e-7,
+                why="forces are kept, not computed anew: rounding and the first solve's 1e-12 times a condition number up to 1e3",
+            ),
+            at_most(
+                f"{name}: fastest disk, in g h",
+                fastest,
+                1e-6,
+                why="the first solve's error of force, in parts of a disk's weight",
+            ),
             at_most(f"{name}: farthest move", moved, 1e-8, unit="m", why="20 steps with that speed"),
         ]
-    return Outcome(claims, tables=[("Residuals before any sweep, and the largest relative change of a reaction so far",
-                                    ["structure", "h [s]", "residual", "change"], rows)])
+    return Outcome(
+        claims,
+        tables=[
+            (
+                "Residuals before any sweep, and the largest relative change of a reaction so far",
+                ["structure", "h [s]", "residual", "change"],
+                rows,
+            )
+        ],
+    )

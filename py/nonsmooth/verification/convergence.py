@@ -23,13 +23,16 @@ TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7)
 TOLERANCES_MOVING = (2e-3, 2e-4, 2e-5)
 SLOPE_SEEDS = range(1, 21)  # packings to choose from
 STEP, TOLERANCE, TOLERANCE_MOVING = 10e-3, 1e-6, 2e-4  # of the shipped section
-SMALL = Path(__file__).resolve().parents[3] / "tests" / "data" / "small_slope.yaml"  # of the source checkout: 320 disks that do all within ten seconds of their time
+SMALL = (
+    Path(__file__).resolve().parents[3] / "tests" / "data" / "small_slope.yaml"
+)  # of the source checkout: 320 disks that do all within ten seconds of their time
 WIDTH, HEIGHT = 30.0, 60.0  # m, of the bonded sample: about 500 disks of 1 to 4 m
-SPEED, RAMP = 0.05, 4.0     # m/s of the platen in compression, and seconds in which it is reached
-PULL = 0.02                 # m/s in tension
+SPEED, RAMP = 0.05, 4.0  # m/s of the platen in compression, and seconds in which it is reached
+PULL = 0.02  # m/s in tension
 
 
 # ---- a bonded sample ------------------------------------------------------------------------------
+
 
 def strength(folder, seed, pull, time_step, tolerance, speed, strain):
     """Peak stress of a bonded sample of the shipped section's rock between two platens.
@@ -51,9 +54,13 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
     platen = NscdMat(frictionAngle=math.atan(0.3), wall=True, **glue)
     O.materials.append((rock, platen))
     O.bodies.append([scene.disk((float(x), float(y)), float(r), rock) for x, y, r in zip(made.x, made.y, made.r)])
-    bottom, top = (O.bodies.append(scene.segments(ends, platen, sense=1))[0]
-                   for ends in (((-WIDTH, 0), (2 * WIDTH, 0)), ((2 * WIDTH, HEIGHT), (-WIDTH, HEIGHT))))
-    O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.2 * float(made.r.min()), tolerance=tolerance, maxIterations=5000)
+    bottom, top = (
+        O.bodies.append(scene.segments(ends, platen, sense=1))[0]
+        for ends in (((-WIDTH, 0), (2 * WIDTH, 0)), ((2 * WIDTH, HEIGHT), (-WIDTH, HEIGHT)))
+    )
+    O.engines = scene.engines(
+        gravity=(0, 0, 0), reach=0.2, verlet=0.2 * float(made.r.min()), tolerance=tolerance, maxIterations=5000
+    )
     O.dt = time_step
     engine = scene.contact_dynamics()
     O.step()
@@ -63,7 +70,9 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
         moving.vel = (0, sign * speed * min(1.0, O.time / RAMP), 0)
         O.step()
         # force on the platens, positive in the sense of the test
-        rows.append((O.time, abs(moving.pos[1] - start), -sign * O.forces.f(top)[1], sign * O.forces.f(bottom)[1], engine.bonds))
+        rows.append(
+            (O.time, abs(moving.pos[1] - start), -sign * O.forces.f(top)[1], sign * O.forces.f(bottom)[1], engine.bonds)
+        )
     time, path, above, below, alive = np.array(rows).T
     force = 0.5 * (above + below)
     window = max(1, round(0.5 / time_step))  # the mean over half a second
@@ -71,16 +80,43 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
     k = int(np.argmax(smooth))
     write_arrays(folder / "curve.npz", path=path, force=force, bonds=alive)
     middle = slice(k, k + window)
-    return {"peak_Pa": smooth[k] / WIDTH, "path_m": float(path[middle].mean()), "work_J_per_m2": float(np.sum(force * np.diff(path, prepend=0))) / WIDTH,
-            "imbalance": float(abs(above[middle].mean() - below[middle].mean())) / smooth[k], "bonds": bonds, "broken": int(bonds - alive[-1]),
-            "disks": len(made), "sweeps": engine.totalIterations / engine.steps, "unconverged": engine.unconverged}
+    return {
+        "peak_Pa": smooth[k] / WIDTH,
+        "path_m": float(path[middle].mean()),
+        "work_J_per_m2": float(np.sum(force * np.diff(path, prepend=0))) / WIDTH,
+        "imbalance": float(abs(above[middle].mean() - below[middle].mean())) / smooth[k],
+        "bonds": bonds,
+        "broken": int(bonds - alive[-1]),
+        "disks": len(made),
+        "sweeps": engine.totalIterations / engine.steps,
+        "unconverged": engine.unconverged,
+    }
 
 
 # ---- the slope ------------------------------------------------------------------------------------
 
-KEEP = ("water_at_failure_m", "front_travel_m", "centroid_travel_m", "deposit_thickness_max_m", "fb_force_at_failure_N_per_m", "speed_mean_max_m_per_s",
-        "motion_s", "triggering_s", "bulking_factor", "energy_error_rel", "energy_correction_rel", "overlap_worst_rel", "iterations_mean",
-        "residual_p95_over_tolerance", "times_s", "finished", "disks", "steps", "packing_fraction", "bonds_initial")
+KEEP = (
+    "water_at_failure_m",
+    "front_travel_m",
+    "centroid_travel_m",
+    "deposit_thickness_max_m",
+    "fb_force_at_failure_N_per_m",
+    "speed_mean_max_m_per_s",
+    "motion_s",
+    "triggering_s",
+    "bulking_factor",
+    "energy_error_rel",
+    "energy_correction_rel",
+    "overlap_worst_rel",
+    "iterations_mean",
+    "residual_p95_over_tolerance",
+    "times_s",
+    "finished",
+    "disks",
+    "steps",
+    "packing_fraction",
+    "bonds_initial",
+)
 
 
 def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving, slack=None):
@@ -92,10 +128,20 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving,
 
     chosen = section.load("jiufengershan").with_disks(disks) if disks else section.load(str(SMALL))
     shipped = dataclasses.replace(chosen, seed=seed)
-    numerics = dataclasses.replace(shipped.numerics, time_step=time_step, path=shipped.numerics.path * time_step / shipped.numerics.time_step, tolerance=tolerance,
-                                   tolerance_moving=tolerance_moving, max_iterations=1000)
+    numerics = dataclasses.replace(
+        shipped.numerics,
+        time_step=time_step,
+        path=shipped.numerics.path * time_step / shipped.numerics.time_step,
+        tolerance=tolerance,
+        tolerance_moving=tolerance_moving,
+        max_iterations=1000,
+    )
     rock = shipped.materials["rock"]
-    rock = dataclasses.replace(rock, tensile_strength=strength * rock.tensile_strength, residual_tensile_strength=strength * rock.residual_tensile_strength)
+    rock = dataclasses.replace(
+        rock,
+        tensile_strength=strength * rock.tensile_strength,
+        residual_tensile_strength=strength * rock.residual_tensile_strength,
+    )
     s = dataclasses.replace(shipped, numerics=numerics, materials={**shipped.materials, "rock": rock})
     built = builder.build(s, packing.cached_pack(s))
     if slack is not None:
@@ -108,18 +154,24 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving,
         shutil.rmtree(folder / part, ignore_errors=True)
     series = results.chosen_rows(records.read_series(folder / "series.csv"), state)
     return {name: summary[name] for name in KEEP} | {
-        "moving_s": None if run.state.moving is None else run.state.moving - run.state.t0, "water_hold_m": run.state.water_hold,
-        "settled_s": run.state.settled, "unconverged": built.solver.unconverged, "breaks_logged": len(tables.breaks(built.solver)["step"]),
-        "bonds_alive": int(series["bonds_alive"][-1]), "broken": sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))}
+        "moving_s": None if run.state.moving is None else run.state.moving - run.state.t0,
+        "water_hold_m": run.state.water_hold,
+        "settled_s": run.state.settled,
+        "unconverged": built.solver.unconverged,
+        "breaks_logged": len(tables.breaks(built.solver)["step"]),
+        "bonds_alive": int(series["bonds_alive"][-1]),
+        "broken": sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed")),
+    }
 
 
 # ---- sweeps over one number -----------------------------------------------------------------------
+
 
 @dataclasses.dataclass
 class Sweep:
     """A quantity of the same samples for several values of one number; ``values``: {value: {seed: quantity}}."""
 
-    varied: str     # in words
+    varied: str  # in words
     unit: str
     default: float
     values: dict
@@ -163,11 +215,24 @@ class Sweep:
             for seed, x in self.values[v].items():
                 points.setdefault(seed, {})[v] = x * scale
         if relative:
-            points = {seed: {v: 100 * (x / line[self.finest] - 1) for v, x in line.items()} for seed, line in points.items() if self.finest in line}
+            points = {
+                seed: {v: 100 * (x / line[self.finest] - 1) for v, x in line.items()}
+                for seed, line in points.items()
+                if self.finest in line
+            }
         for line in points.values():
             ax.plot(line.keys(), line.values(), color="#0072B2", lw=0.8, alpha=0.5)
         columns = [[line[v] for line in points.values() if v in line] for v in order]
-        ax.errorbar(order, [np.mean(c) for c in columns], [np.nan_to_num(standard_error(c)) for c in columns], fmt="o-", color="#0072B2", lw=1.8, ms=4.5, capsize=3)
+        ax.errorbar(
+            order,
+            [np.mean(c) for c in columns],
+            [np.nan_to_num(standard_error(c)) for c in columns],
+            fmt="o-",
+            color="#0072B2",
+            lw=1.8,
+            ms=4.5,
+            capsize=3,
+        )
         ax.axvline(self.default, color="#777777", lw=1, ls=(0, (4, 3)))
         ax.set(xscale="log", xlabel=f"{self.varied} [{self.unit}]")
         ax.set_xticks(order, [f"{v:g}" for v in order])
@@ -185,10 +250,19 @@ class Sweep:
         for v in sorted(self.values, reverse=True):
             at = [x * scale for x in self.values[v].values()]
             mean, error = self.change(v, self.finest)
-            yield [f"{v:g}", f"{np.mean(at):.4g}", f"{standard_error(at):.2g}", f"{100 * mean:+.2f} ± {100 * error:.2f}"]
+            yield [
+                f"{v:g}",
+                f"{np.mean(at):.4g}",
+                f"{standard_error(at):.2g}",
+                f"{100 * mean:+.2f} ± {100 * error:.2f}",
+            ]
 
 
-AXES = {"time_step": ("time step", "s"), "tolerance": ("tolerance", "-"), "tolerance_moving": ("tolerance in motion", "-")}
+AXES = {
+    "time_step": ("time step", "s"),
+    "tolerance": ("tolerance", "-"),
+    "tolerance_moving": ("tolerance in motion", "-"),
+}
 
 
 def _plus_minus(error):
@@ -196,6 +270,7 @@ def _plus_minus(error):
 
 
 # ---- checks ---------------------------------------------------------------------------------------
+
 
 @style.styled
 def sheet(bench, name, title, panels, relative=False):
@@ -225,36 +300,86 @@ def strength_convergence(bench):
     seeds = (1,) if bench.quick else (1, 2, 3, 4)
     steps, tolerances = (STEPS[1:3], TOLERANCES[1:3]) if bench.quick else (STEPS, TOLERANCES)
     at = {(h, TOLERANCE) for h in steps} | {(STEP, r) for r in tolerances}
-    cases = [dict(kind, seed=s, time_step=h, tolerance=r) for s in seeds for h, r in sorted(at, reverse=True) for kind in KINDS.values()]
+    cases = [
+        dict(kind, seed=s, time_step=h, tolerance=r)
+        for s in seeds
+        for h, r in sorted(at, reverse=True)
+        for kind in KINDS.values()
+    ]
     if not bench.quick:
-        cases += [dict(kind, speed=kind["speed"] / 2, seed=s, time_step=STEP, tolerance=TOLERANCE) for s in seeds for kind in KINDS.values()]
+        cases += [
+            dict(kind, speed=kind["speed"] / 2, seed=s, time_step=STEP, tolerance=TOLERANCE)
+            for s in seeds
+            for kind in KINDS.values()
+        ]
     found = run_cases(bench, strength, cases)
     claims, panels, tables = [], [], []
     for name, kind in KINDS.items():
-        for key, default, fixed in (("time_step", STEP, {"tolerance": TOLERANCE}), ("tolerance", TOLERANCE, {"time_step": STEP})):
+        for key, default, fixed in (
+            ("time_step", STEP, {"tolerance": TOLERANCE}),
+            ("tolerance", TOLERANCE, {"time_step": STEP}),
+        ):
             sweep = Sweep.of(cases, found, key, "peak_Pa", default, **kind, **fixed)
             panels.append((sweep, 1e-3, f"change of strength in {name} [%]"))
-            tables.append((f"{name.capitalize()}, mean of {len(seeds)} samples", [f"{sweep.varied} [{sweep.unit}]", "strength [kPa]", "its standard error",
-                                                                                   "change from the finest [%]"], list(sweep.rows(1e-3))))
+            tables.append(
+                (
+                    f"{name.capitalize()}, mean of {len(seeds)} samples",
+                    [
+                        f"{sweep.varied} [{sweep.unit}]",
+                        "strength [kPa]",
+                        "its standard error",
+                        "change from the finest [%]",
+                    ],
+                    list(sweep.rows(1e-3)),
+                )
+            )
             claims += _strength_claims(name, sweep, PRECISION[name])
-    text = ("Change of the strength of bonded samples with the time step and the solver's tolerance; thin: single samples, thick: mean, "
-            "dashed: the shipped section's value")
+    text = (
+        "Change of the strength of bonded samples with the time step and the solver's tolerance; thin: single samples, thick: mean, "
+        "dashed: the shipped section's value"
+    )
     if not bench.quick:
         tables.append(_half_speed(cases, found))
-    drawn = sheet(bench, "convergence_strength.png", "Strength of a bonded sample: change from the finest value", panels, relative=True)
+    drawn = sheet(
+        bench,
+        "convergence_strength.png",
+        "Strength of a bonded sample: change from the finest value",
+        panels,
+        relative=True,
+    )
     return Outcome(claims, plots=[(drawn, text)], tables=tables)
 
 
 def _strength_claims(name, sweep, precision):
-    scatter = f"between samples the strength scatters by {100 * sweep.scatter():.0f} %" if len(sweep.values[sweep.default]) > 1 else "one sample only"
+    scatter = (
+        f"between samples the strength scatters by {100 * sweep.scatter():.0f} %"
+        if len(sweep.values[sweep.default]) > 1
+        else "one sample only"
+    )
     claims = []
     if sweep.finest < sweep.default:
         mean, error = sweep.change(sweep.default, sweep.finest)
-        claims.append(near(f"strength in {name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error), 1 + mean, 1, absolute=precision[0],
-                           against="the finest", why=precision[2] + "; " + scatter))
+        claims.append(
+            near(
+                f"strength in {name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error),
+                1 + mean,
+                1,
+                absolute=precision[0],
+                against="the finest",
+                why=precision[2] + "; " + scatter,
+            )
+        )
     step, error = sweep.largest_step()
-    claims.append(near(f"strength in {name}, largest change from one value of the {sweep.varied} to the next" + _plus_minus(error), 1 + step, 1, absolute=precision[1],
-                       against="the next finer", why="the coarse values are meant to show where a trend begins; " + scatter))
+    claims.append(
+        near(
+            f"strength in {name}, largest change from one value of the {sweep.varied} to the next" + _plus_minus(error),
+            1 + step,
+            1,
+            absolute=precision[1],
+            against="the next finer",
+            why="the coarse values are meant to show where a trend begins; " + scatter,
+        )
+    )
     return claims
 
 
@@ -262,17 +387,36 @@ def _half_speed(cases, found):
     """Table of the strengths at half the platen's speed, which must not matter."""
     rows = []
     for name, kind in KINDS.items():
-        at = {speed: {c["seed"]: f["peak_Pa"] for c, f in zip(cases, found) if c["pull"] == kind["pull"] and c["speed"] == speed
-                      and (c["time_step"], c["tolerance"]) == (STEP, TOLERANCE)} for speed in (kind["speed"], kind["speed"] / 2)}
+        at = {
+            speed: {
+                c["seed"]: f["peak_Pa"]
+                for c, f in zip(cases, found)
+                if c["pull"] == kind["pull"]
+                and c["speed"] == speed
+                and (c["time_step"], c["tolerance"]) == (STEP, TOLERANCE)
+            }
+            for speed in (kind["speed"], kind["speed"] / 2)
+        }
         whole, half = at.values()
-        rows += [[name, str(s), f"{whole[s] / 1e3:.4g}", f"{half[s] / 1e3:.4g}", f"{100 * (half[s] / whole[s] - 1):+.2f}"] for s in whole]
-    return "Half the speed of the platen", ["", "sample", "strength [kPa]", "at half the speed [kPa]", "change [%]"], rows
+        rows += [
+            [name, str(s), f"{whole[s] / 1e3:.4g}", f"{half[s] / 1e3:.4g}", f"{100 * (half[s] / whole[s] - 1):+.2f}"]
+            for s in whole
+        ]
+    return (
+        "Half the speed of the platen",
+        ["", "sample", "strength [kPa]", "at half the speed [kPa]", "change [%]"],
+        rows,
+    )
 
 
 #: What is claimed of the strength: default against finest, one value against the next, and why.
 PRECISION = {
-    "compression": (0.02, 0.05, "the sample fails along one of several paths, and anything that differs can lead to another one: half the "
-                    "platen's speed by 2 to 4 %"),
+    "compression": (
+        0.02,
+        0.05,
+        "the sample fails along one of several paths, and anything that differs can lead to another one: half the "
+        "platen's speed by 2 to 4 %",
+    ),
     "tension": (0.005, 0.01, "the first crack's load; a bond's yield force does not depend on the step"),
 }
 KINDS = {"compression": dict(pull=0, speed=SPEED, strain=0.002), "tension": dict(pull=1, speed=PULL, strain=0.001)}
@@ -281,7 +425,8 @@ KINDS = {"compression": dict(pull=0, speed=SPEED, strain=0.002), "tension": dict
 @dataclasses.dataclass(frozen=True)
 class Slopes:
     """What :func:`slope_convergence` looks at: ``disks`` and ``strength`` of :func:`slope`; values of its numbers, coarse to fine, with the default of each; packings that
-    ``compared`` default and finest, and those of the values ``between``; the water [m] that a packing must bear to be looked at (``stands``)."""
+    ``compared`` default and finest, and those of the values ``between``; the water [m] that a packing must bear to be looked at (``stands``).
+    """
 
     disks: int
     strength: float
@@ -297,7 +442,9 @@ class Slopes:
     limits: tuple  # of the change of the water at failure and of the runout, relative
 
 
-FULL = Slopes(1000, 2.0, SLOPE_STEPS, STEP, TOLERANCES, TOLERANCE, TOLERANCES_MOVING, TOLERANCE_MOVING, 10, 3, 1.0, (0.05, 0.15))
+FULL = Slopes(
+    1000, 2.0, SLOPE_STEPS, STEP, TOLERANCES, TOLERANCE, TOLERANCES_MOVING, TOLERANCE_MOVING, 10, 3, 1.0, (0.05, 0.15)
+)
 QUICK = Slopes(0, 1.0, (5e-3, 2.5e-3), 5e-3, (1e-4, 1e-5), 1e-4, (2e-3, 5e-4), 2e-3, 2, 2, 0.2, (0.15, 0.5))
 
 
@@ -321,41 +468,119 @@ def slope_convergence(bench):
     k = QUICK if bench.quick else FULL
     # what counts most first, so that an interrupted check has something of everything
     default = (k.step, k.tolerance, k.moving)
-    at = [(h, *default[1:]) for h in k.steps] + [(k.step, r, k.moving) for r in k.tolerances] + [(*default[:2], r) for r in k.tolerances_moving]
-    compared = {default, (k.steps[-1], *default[1:]), (k.step, k.tolerances[-1], k.moving), (*default[:2], k.tolerances_moving[-1])}
-    case = lambda seed, h, r, m: dict(disks=k.disks, seed=seed, strength=k.strength, time_step=h, tolerance=r, tolerance_moving=m)  # noqa: E731
+    at = (
+        [(h, *default[1:]) for h in k.steps]
+        + [(k.step, r, k.moving) for r in k.tolerances]
+        + [(*default[:2], r) for r in k.tolerances_moving]
+    )
+    compared = {
+        default,
+        (k.steps[-1], *default[1:]),
+        (k.step, k.tolerances[-1], k.moving),
+        (*default[:2], k.tolerances_moving[-1]),
+    }
+    case = lambda seed, h, r, m: dict(
+        disks=k.disks, seed=seed, strength=k.strength, time_step=h, tolerance=r, tolerance_moving=m
+    )  # noqa: E731
     standing, fallen = _standing(bench, k, lambda seed: case(seed, *default))
-    cases = [case(s, *numbers) for numbers in dict.fromkeys(at) for s in standing[:k.compared if numbers in compared else k.between]]
+    cases = [
+        case(s, *numbers)
+        for numbers in dict.fromkeys(at)
+        for s in standing[: k.compared if numbers in compared else k.between]
+    ]
     found = run_cases(bench, slope, cases)
-    axes = (("time_step", k.step, {"tolerance": k.tolerance, "tolerance_moving": k.moving}), ("tolerance", k.tolerance, {"time_step": k.step, "tolerance_moving": k.moving}),
-            ("tolerance_moving", k.moving, {"time_step": k.step, "tolerance": k.tolerance}))
+    axes = (
+        ("time_step", k.step, {"tolerance": k.tolerance, "tolerance_moving": k.moving}),
+        ("tolerance", k.tolerance, {"time_step": k.step, "tolerance_moving": k.moving}),
+        ("tolerance_moving", k.moving, {"time_step": k.step, "tolerance": k.tolerance}),
+    )
     claims, tables, failure, runout = [], [], [], []
     for quantity, name, panels, limit, why in (
-            ("water_hold_m", "water at failure", failure, k.limits[0],
-             "which bond breaks first differs with anything that differs, by up to 6 % of the height in one packing"),
-            ("front_travel_m", "travel of the front", runout, k.limits[1],
-             "runs of one packing differ by 10 % and more without a trend, for collisions amplify every difference")):
+        (
+            "water_hold_m",
+            "water at failure",
+            failure,
+            k.limits[0],
+            "which bond breaks first differs with anything that differs, by up to 6 % of the height in one packing",
+        ),
+        (
+            "front_travel_m",
+            "travel of the front",
+            runout,
+            k.limits[1],
+            "runs of one packing differ by 10 % and more without a trend, for collisions amplify every difference",
+        ),
+    ):
         for key, default, fixed in axes:
             if quantity == "water_hold_m" and key == "tolerance_moving":
                 continue  # begins to count after the failure
             sweep = Sweep.of(cases, found, key, quantity, default, **fixed)
             panels.append((sweep, 1, f"{name} [m]"))
-            tables.append((f"{name.capitalize()}, mean of {k.compared} packings ({k.between} between default and finest)", [f"{sweep.varied} [{sweep.unit}]", f"{name} [m]", "its standard error",
-                                                                                        "change from the finest [%]"], list(sweep.rows(1))))
+            tables.append(
+                (
+                    f"{name.capitalize()}, mean of {k.compared} packings ({k.between} between default and finest)",
+                    [
+                        f"{sweep.varied} [{sweep.unit}]",
+                        f"{name} [m]",
+                        "its standard error",
+                        "change from the finest [%]",
+                    ],
+                    list(sweep.rows(1)),
+                )
+            )
             mean, error = sweep.change(sweep.default, sweep.finest)
-            claims.append(near(f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error), 1 + mean, 1, absolute=limit, against="the finest",
-                               why=f"{why}; between packings it scatters by {100 * sweep.scatter():.0f} %"))
-    keys = ("disks", "steps", "iterations_mean", "residual_p95_over_tolerance", "unconverged", "energy_error_rel", "energy_correction_rel", "overlap_worst_rel")
-    tables.append(("All runs", ["seed", "time step [s]", "tolerance", "in motion", *keys],
-                   [[str(c["seed"]), *(f"{c[name]:g}" for name in ("time_step", "tolerance", "tolerance_moving")), *(f"{f[key]:.4g}" for key in keys)]
-                    for c, f in zip(cases, found)]))
+            claims.append(
+                near(
+                    f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error),
+                    1 + mean,
+                    1,
+                    absolute=limit,
+                    against="the finest",
+                    why=f"{why}; between packings it scatters by {100 * sweep.scatter():.0f} %",
+                )
+            )
+    keys = (
+        "disks",
+        "steps",
+        "iterations_mean",
+        "residual_p95_over_tolerance",
+        "unconverged",
+        "energy_error_rel",
+        "energy_correction_rel",
+        "overlap_worst_rel",
+    )
+    tables.append(
+        (
+            "All runs",
+            ["seed", "time step [s]", "tolerance", "in motion", *keys],
+            [
+                [
+                    str(c["seed"]),
+                    *(f"{c[name]:g}" for name in ("time_step", "tolerance", "tolerance_moving")),
+                    *(f"{f[key]:.4g}" for key in keys),
+                ]
+                for c, f in zip(cases, found)
+            ],
+        )
+    )
     thin = "thin: single packings, thick: mean, dashed: the shipped section's value"
-    return Outcome(claims, plots=[
-        (sheet(bench, "convergence_failure.png", f"Failure of the slope, {found[0]['disks']:,} disks", failure),
-         f"Height of the water table when the slope begins to move (mean speed 0.2 m/s); {thin}"),
-        (sheet(bench, "convergence_runout.png", f"Runout of the avalanche, {found[0]['disks']:,} disks", runout),
-         f"Distance that the front has gone when the avalanche rests; {thin}")], tables=tables,
-        remarks=[f"Left out, as they did not stand dry: packings of seed {', '.join(map(str, fallen))}."] if fallen else [])
+    return Outcome(
+        claims,
+        plots=[
+            (
+                sheet(bench, "convergence_failure.png", f"Failure of the slope, {found[0]['disks']:,} disks", failure),
+                f"Height of the water table when the slope begins to move (mean speed 0.2 m/s); {thin}",
+            ),
+            (
+                sheet(bench, "convergence_runout.png", f"Runout of the avalanche, {found[0]['disks']:,} disks", runout),
+                f"Distance that the front has gone when the avalanche rests; {thin}",
+            ),
+        ],
+        tables=tables,
+        remarks=[f"Left out, as they did not stand dry: packings of seed {', '.join(map(str, fallen))}."]
+        if fallen
+        else [],
+    )
 
 
 def _standing(bench, kind, case):
@@ -365,5 +590,7 @@ def _standing(bench, kind, case):
         lacking = kind.compared - len(standing)
         now, seeds = seeds[:lacking], seeds[lacking:]
         for seed, found in zip(now, run_cases(bench, slope, [case(s) for s in now])):
-            (standing if found["water_hold_m"] is not None and found["water_hold_m"] > kind.stands else fallen).append(seed)
+            (standing if found["water_hold_m"] is not None and found["water_hold_m"] > kind.stands else fallen).append(
+                seed
+            )
     return standing, fallen

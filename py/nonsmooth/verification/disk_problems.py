@@ -13,8 +13,22 @@ from ..contact import ContactProblem
 __all__ = ["below", "of_disks", "random_cluster"]
 
 
-def of_disks(x, y, r, walls=(), *, inverse_mass=None, free_velocity=None, density=2500.0, gravity=9.81, time_step=5e-3, reach=0.05,
-             relaxation=0.2, friction=0.3, rolling=0.1) -> ContactProblem:
+def of_disks(
+    x,
+    y,
+    r,
+    walls=(),
+    *,
+    inverse_mass=None,
+    free_velocity=None,
+    density=2500.0,
+    gravity=9.81,
+    time_step=5e-3,
+    reach=0.05,
+    relaxation=0.2,
+    friction=0.3,
+    rolling=0.1,
+) -> ContactProblem:
     """The first step of disks at rest, or with ``free_velocity`` (n, 3), by the same formulas as the engine's.
 
     ``x, y, r``: (n,) [m]; ``walls``: half-planes (x, y, n_x, n_y) with the normal into the free side; they become fixed bodies after the
@@ -54,17 +68,35 @@ def of_disks(x, y, r, walls=(), *, inverse_mass=None, free_velocity=None, densit
     places = np.vstack([np.column_stack([x, y]), np.reshape([w[:2] for w in walls], (-1, 2))])
     free_velocity = np.vstack([free_velocity, fixed])
     return ContactProblem(
-        time_step=time_step, inverse_mass=np.vstack([inverse_mass, fixed]), free_velocity=free_velocity, velocity=free_velocity.copy(),
-        body=np.vstack(body).astype(np.int32), normal=np.vstack(normal), lever=np.vstack(lever), bias=bias, adhesion=np.zeros(len(gap)),
-        friction=np.full(len(gap), float(friction)), rolling_arm=rolling * length, length=length, warm_start=np.zeros((len(gap), 3)),
-        impulse=np.zeros((len(gap), 3)), position=places)
+        time_step=time_step,
+        inverse_mass=np.vstack([inverse_mass, fixed]),
+        free_velocity=free_velocity,
+        velocity=free_velocity.copy(),
+        body=np.vstack(body).astype(np.int32),
+        normal=np.vstack(normal),
+        lever=np.vstack(lever),
+        bias=bias,
+        adhesion=np.zeros(len(gap)),
+        friction=np.full(len(gap), float(friction)),
+        rolling_arm=rolling * length,
+        length=length,
+        warm_start=np.zeros((len(gap), 3)),
+        impulse=np.zeros((len(gap), 3)),
+        position=places,
+    )
 
 
 def below(problem, height) -> ContactProblem:
     """The problem with the contacts alone whose disks have their centres below a height [m]."""
     moves = problem.inverse_mass.any(axis=1)
     kept = np.all((problem.position[problem.body, 1] < height) | ~moves[problem.body], axis=1)
-    own = {field.name for field in dataclasses.fields(problem)} - {"time_step", "inverse_mass", "free_velocity", "velocity", "position"}
+    own = {field.name for field in dataclasses.fields(problem)} - {
+        "time_step",
+        "inverse_mass",
+        "free_velocity",
+        "velocity",
+        "position",
+    }
     return dataclasses.replace(problem, **{name: getattr(problem, name)[kept] for name in own})
 
 

@@ -40,8 +40,21 @@ def restitution_head_on(bench):
         claims += [
             near(name + "first disk", left.state.vel[0], -0.5 - 1.5 * e, absolute=1e-9, unit="m/s", why=EXACT),
             near(name + "second disk", right.state.vel[0], -0.5 + 1.5 * e, absolute=1e-9, unit="m/s", why=EXACT),
-            near(name + "loss", bench_engine.impactLoss, (1 - e**2) * approach, absolute=1e-9 * approach, unit="J", why=EXACT),
-            at_most(name + "error of the energy balance", abs(bench_engine.energyError), 1e-9 * approach, unit="J", why=EXACT),
+            near(
+                name + "loss",
+                bench_engine.impactLoss,
+                (1 - e**2) * approach,
+                absolute=1e-9 * approach,
+                unit="J",
+                why=EXACT,
+            ),
+            at_most(
+                name + "error of the energy balance",
+                abs(bench_engine.energyError),
+                1e-9 * approach,
+                unit="J",
+                why=EXACT,
+            ),
         ]
         O.reset()
         springy, other = material(0.3, restitution=e), material(0.3)
@@ -49,7 +62,9 @@ def restitution_head_on(bench):
         flying = disk(1, 0, springy, velocity=(-2, 0))
         begin()
         run(600)
-        claims.append(near(name + "speed after a wall", flying.state.vel[0], 2 * e, absolute=1e-9, unit="m/s", why=EXACT))
+        claims.append(
+            near(name + "speed after a wall", flying.state.vel[0], 2 * e, absolute=1e-9, unit="m/s", why=EXACT)
+        )
     return Outcome(claims)
 
 
@@ -75,14 +90,30 @@ def landing(bench):
         elif not math.isfinite(landed):
             landed = O.time
     fall = math.ceil(-0.5 + math.sqrt(0.25 + 2 * height / (G * O.dt**2)))
-    return Outcome([
-        near("step in which it lands", landed / O.dt, fall, absolute=1e-6, why="a count; time is a sum of steps"),
-        at_most("force before it touches", early, 1e-9 * weight(body), unit="N", why="none acts across a gap that stays open; rounding"),
-        at_most("gap at rest", abs(s.pos[1] - RADIUS), 1e-12, unit="m", why="rounding of positions, 1e-16 m, over 300 steps"),
-        at_most("largest overlap", e.overlapWorstEver, 1e-12, unit="ℓ", why="the gap is closed exactly, never passed"),
-        near("loss", e.impactLoss, weight(body) * height, relative=1e-9, unit="J", why=EXACT),
-        near("force on the floor", contacts()[0].phys.normal, weight(body), relative=1e-9, unit="N", why=EXACT),
-    ])
+    return Outcome(
+        [
+            near("step in which it lands", landed / O.dt, fall, absolute=1e-6, why="a count; time is a sum of steps"),
+            at_most(
+                "force before it touches",
+                early,
+                1e-9 * weight(body),
+                unit="N",
+                why="none acts across a gap that stays open; rounding",
+            ),
+            at_most(
+                "gap at rest",
+                abs(s.pos[1] - RADIUS),
+                1e-12,
+                unit="m",
+                why="rounding of positions, 1e-16 m, over 300 steps",
+            ),
+            at_most(
+                "largest overlap", e.overlapWorstEver, 1e-12, unit="ℓ", why="the gap is closed exactly, never passed"
+            ),
+            near("loss", e.impactLoss, weight(body) * height, relative=1e-9, unit="J", why=EXACT),
+            near("force on the floor", contacts()[0].phys.normal, weight(body), relative=1e-9, unit="N", why=EXACT),
+        ]
+    )
 
 
 def _glance(ratio, e, friction, spin, pair, speed=1.0):
@@ -95,7 +126,9 @@ def _glance(ratio, e, friction, spin, pair, speed=1.0):
         second = disk(RADIUS, 0, stuff, velocity=(-speed / 2, slip / 2))
     else:
         wall([(0, -5), (0, 5)], stuff)
-        second = disk(RADIUS, 0, stuff, velocity=(-speed, slip + RADIUS * spin), spin=spin)  # the touching rim moves with slip
+        second = disk(
+            RADIUS, 0, stuff, velocity=(-speed, slip + RADIUS * spin), spin=spin
+        )  # the touching rim moves with slip
     begin(dt=1e-4)
     run(1)
     s = second.state
@@ -134,7 +167,14 @@ def oblique_impact(bench):
                 expected = (ratio - lost, e, 2 * lost / 3 + 0.35 if not pair else lost / 3)
                 worst = np.maximum(worst, np.abs(np.subtract((slip, normal, spin), expected)))
                 found.append(slip)
-            axes.plot(ratios, found, "ox"[pair], markersize=4, color={0: "#0072B2", 0.5: "#D55E00", 1: "#009E73"}[e], label=f"e = {e:g}, {what}")
+            axes.plot(
+                ratios,
+                found,
+                "ox"[pair],
+                markersize=4,
+                color={0: "#0072B2", 0.5: "#D55E00", 1: "#009E73"}[e],
+                label=f"e = {e:g}, {what}",
+            )
             if not pair:
                 axes.plot(ratios, np.maximum(0, ratios - limit), color="#777777", linewidth=0.8)
         for name, value in zip(("slip after", "normal speed after", "spin after (r ω)"), worst):
@@ -142,8 +182,16 @@ def oblique_impact(bench):
         for side in (-1, 1):
             slip, _, _ = _glance(3 * friction * 1.5 * (1 + side * 1e-6), 0.5, friction, 0.0, pair)
             beyond = 3 * friction * 1.5 * 1e-6 if side > 0 else 0.0
-            claims.append(near(f"{what}, e = 0.5: slip after, {'1e-6 beyond' if side > 0 else '1e-6 below'} the limit of sticking",
-                               slip, beyond, absolute=1e-10, unit="U_n", why=EXACT))
+            claims.append(
+                near(
+                    f"{what}, e = 0.5: slip after, {'1e-6 beyond' if side > 0 else '1e-6 below'} the limit of sticking",
+                    slip,
+                    beyond,
+                    absolute=1e-10,
+                    unit="U_n",
+                    why=EXACT,
+                )
+            )
     axes.set(xlabel="slip before, U_t/U_n", ylabel="slip after")
     axes.legend(frameon=False, ncol=2)
     return Outcome(claims, plots=[(figure, "Slip after an impact with μ = 0.2; lines: derivation.")])
@@ -171,12 +219,20 @@ def cradle(bench):
         run(200)
         speeds = [b.state.vel[0] for b in disks]
         where = f"gaps of {gap * 1e3:g} mm: "
-        claims += [near(f"{where}disk {k + 1}", v, x, absolute=1e-9, unit="m/s", why=EXACT) for k, (v, x) in enumerate(zip(speeds, expected))]
-        claims.append(near(where + "energy", sum(v**2 for v in speeds), 1, relative=1e-9, unit="of before", why=EXACT))
-    return Outcome(claims, remarks=["Where the order of impacts matters, leave gaps and take a step that resolves them."])
+        claims += [
+            near(f"{where}disk {k + 1}", v, x, absolute=1e-9, unit="m/s", why=EXACT)
+            for k, (v, x) in enumerate(zip(speeds, expected))
+        ]
+        claims.append(
+            near(where + "energy", sum(v**2 for v in speeds), 1, relative=1e-9, unit="of before", why=EXACT)
+        )
+    return Outcome(
+        claims, remarks=["Where the order of impacts matters, leave gaps and take a step that resolves them."]
+    )
 
 
 # ---- a chain that is not solved -------------------------------------------------------------------
+
 
 class Chain:
     """Disks in a row between a wall at the left and a force F [N] on the last one, at rest, slightly overlapping, with no correction of
@@ -225,7 +281,7 @@ def oscillation(amplitudes):
 
 def expected_oscillation(mode, sweeps, order=None):
     """Period and decay time in steps; ``order``: q of a sweep in long waves, None for two colours, which is exact."""
-    left = math.cos(mode)**(2 * sweeps) if order is None else math.exp(-order * sweeps * mode**2)
+    left = math.cos(mode) ** (2 * sweeps) if order is None else math.exp(-order * sweeps * mode**2)
     return 2 * math.pi / math.acos(math.sqrt(left)), -2 / math.log(left)
 
 
@@ -253,7 +309,9 @@ def random_chain(count, sweeps, steps, seed=1):
     return np.array(found)
 
 
-@check("A chain that is not solved behaves elastically, a solved one does not", subject="Incomplete convergence", seconds=2)
+@check(
+    "A chain that is not solved behaves elastically, a solved one does not", subject="Incomplete convergence", seconds=2
+)
 def elastic_chain(bench):
     """A chain of rigid disks solved with a fixed number N of Gauss-Seidel sweeps a step carries damped sound waves (Unger, Brendel, Wolf
     and Kertész 2002, Phys. Rev. E 65, 061305; Unger and Kertész 2002, arXiv:cond-mat/0211696). Their chain, 50 disks between a wall and
@@ -283,16 +341,22 @@ def elastic_chain(bench):
     figure, claims, rows = Figure(figsize=(7.4, 3.4)), [], []
     wave, law = figure.subplots(1, 2)
     exact = "the recurrence is exact for the linear chain; left is the start, a mode of Jacobi's method, which loses 5e-4 in the first sweep"
-    for sweeps in ((20, 40) if bench.quick else (5, 10, 20, 40, 80)):
+    for sweeps in (20, 40) if bench.quick else (5, 10, 20, 40, 80):
         bench.progress(f"{sweeps} sweeps")
         chain = Chain(method="gaussSeidel", maxIterations=sweeps, tolerance=1e-300)
         chain.stir(1e-3)
         amplitudes = chain.follow(200)
         period, decay = oscillation(amplitudes[2:])
         wanted = expected_oscillation(chain.mode, sweeps)
-        speed = math.sqrt((2 * math.pi / period)**2 + 1 / decay**2) / chain.mode
-        rows.append([str(sweeps), f"{period:.4f} ({wanted[0]:.4f})", f"{decay:.4f} ({wanted[1]:.4f})",
-                     f"{speed:.4f} ({math.sqrt(sweeps):.4f})"])
+        speed = math.sqrt((2 * math.pi / period) ** 2 + 1 / decay**2) / chain.mode
+        rows.append(
+            [
+                str(sweeps),
+                f"{period:.4f} ({wanted[0]:.4f})",
+                f"{decay:.4f} ({wanted[1]:.4f})",
+                f"{speed:.4f} ({math.sqrt(sweeps):.4f})",
+            ]
+        )
         claims += [
             near(f"{sweeps} sweeps: period", period, wanted[0], relative=1e-5, unit="h", why=exact),
             near(f"{sweeps} sweeps: decay time", decay, wanted[1], relative=1e-5, unit="h", why=exact),
@@ -300,25 +364,59 @@ def elastic_chain(bench):
         law.plot(sweeps, speed, "o", color="#0072B2", markersize=4)
         if sweeps == 40:
             q = (speed**2) / sweeps
-            claims.append(near("q of our sweep, from (c h/d)²/N", q, 1, relative=0.03, why="long waves: N κ² = 0.04 is the next term"))
+            claims.append(
+                near(
+                    "q of our sweep, from (c h/d)²/N",
+                    q,
+                    1,
+                    relative=0.03,
+                    why="long waves: N κ² = 0.04 is the next term",
+                )
+            )
             wave.plot(amplitudes / amplitudes[0], linewidth=1, label="40 sweeps, two colours")
             turn, fade = 2 * math.pi / wanted[0], wanted[1]
             k = np.arange(0, 201, 2)
             # the recurrence from the first two velocities, in closed form
             a0, a1 = amplitudes[2] / amplitudes[0], amplitudes[3] / amplitudes[0]
             tail = (a1 * math.exp(1 / fade) - a0 * math.cos(turn)) / math.sin(turn)
-            wave.plot(k + 2, np.exp(-k / fade) * (a0 * np.cos(turn * k) + tail * np.sin(turn * k)), "k.", markersize=2.5, label="derivation")
+            wave.plot(
+                k + 2,
+                np.exp(-k / fade) * (a0 * np.cos(turn * k) + tail * np.sin(turn * k)),
+                "k.",
+                markersize=2.5,
+                label="derivation",
+            )
     bench.progress("random order")
     random_order = 2 * math.sqrt(math.e) - 2.5
     amplitudes = random_chain(50, 40, 150)
     period, decay = oscillation(amplitudes)
     claims += [
-        near("q of random sweeps, 2 √e − 5/2", random_order, 0.797, absolute=5e-4, against="Unger et al. 2002",
-             why="their figure has three decimals"),
-        near("random sweeps (Python): period", period, 35.6, relative=0.02, unit="h", against="Unger et al. 2002",
-             why="one series of orders; and their formula is that of long waves, ours gives 35.5"),
-        near("random sweeps (Python): decay time", decay, 63.5, relative=0.05, unit="h", against="Unger et al. 2002",
-             why="one series of orders: chance moves it by some per cent"),
+        near(
+            "q of random sweeps, 2 √e − 5/2",
+            random_order,
+            0.797,
+            absolute=5e-4,
+            against="Unger et al. 2002",
+            why="their figure has three decimals",
+        ),
+        near(
+            "random sweeps (Python): period",
+            period,
+            35.6,
+            relative=0.02,
+            unit="h",
+            against="Unger et al. 2002",
+            why="one series of orders; and their formula is that of long waves, ours gives 35.5",
+        ),
+        near(
+            "random sweeps (Python): decay time",
+            decay,
+            63.5,
+            relative=0.05,
+            unit="h",
+            against="Unger et al. 2002",
+            why="one series of orders: chance moves it by some per cent",
+        ),
     ]
     wave.plot(amplitudes, linewidth=1, label="40 sweeps, random order")
     wave.set(xlabel="step", ylabel="velocity of the gravest mode")
@@ -337,13 +435,37 @@ def elastic_chain(bench):
     run(1)
     free = solved.force * O.dt / solved.disks[-1].state.mass
     claims += [
-        at_most("40 plain sweeps: force at the wall in the first step", felt, 1e-3, unit="F",
-                why="news has diffused over √(2 N) = 9 of 50 disks: exp(−50²/(4 N)) = 2e-7, with a wide margin"),
-        near("accelerated, 1e-10: force at the wall in the first step", contacts()[0].phys.normal / solved.force, 1, absolute=1e-6, unit="F",
-             why="tolerance 1e-10 times the chain's condition number, 4e3, and a margin"),
-        at_most("accelerated, 1e-10: fastest disk", solved.engine.maxSpeed / free, 1e-6, unit="F h/m",
-                why="the same error, against the speed that the last disk would get alone"),
+        at_most(
+            "40 plain sweeps: force at the wall in the first step",
+            felt,
+            1e-3,
+            unit="F",
+            why="news has diffused over √(2 N) = 9 of 50 disks: exp(−50²/(4 N)) = 2e-7, with a wide margin",
+        ),
+        near(
+            "accelerated, 1e-10: force at the wall in the first step",
+            contacts()[0].phys.normal / solved.force,
+            1,
+            absolute=1e-6,
+            unit="F",
+            why="tolerance 1e-10 times the chain's condition number, 4e3, and a margin",
+        ),
+        at_most(
+            "accelerated, 1e-10: fastest disk",
+            solved.engine.maxSpeed / free,
+            1e-6,
+            unit="F h/m",
+            why="the same error, against the speed that the last disk would get alone",
+        ),
     ]
-    return Outcome(claims, plots=[(figure, "Left: velocity after a start in the gravest mode. Right: speed of sound; dots: computed.")],
-                   tables=[("Gravest mode of 50 disks; in brackets, derived (speed: in long waves)",
-                            ["sweeps", "period [h]", "decay time [h]", "speed of sound [d/h]"], rows)])
+    return Outcome(
+        claims,
+        plots=[(figure, "Left: velocity after a start in the gravest mode. Right: speed of sound; dots: computed.")],
+        tables=[
+            (
+                "Gravest mode of 50 disks; in brackets, derived (speed: in long waves)",
+                ["sweeps", "period [h]", "decay time [h]", "speed of sound [d/h]"],
+                rows,
+            )
+        ],
+    )

@@ -21,14 +21,43 @@ from yade.wrapper import NscdMat
 from .. import contact, scene
 from ..scene import contact_dynamics as engine
 
-__all__ = ["DISKS", "FLOOR", "G", "H", "LEFT", "MU", "RIGHT", "Balance", "Dump", "balance", "build", "carried", "dump_step", "engine", "impulses_of", "load",
-           "pair_keys", "relative_velocities", "step_problem", "velocities_of", "warm_start", "with_radius_levers"]
+__all__ = [
+    "DISKS",
+    "FLOOR",
+    "G",
+    "H",
+    "LEFT",
+    "MU",
+    "RIGHT",
+    "Balance",
+    "Dump",
+    "balance",
+    "build",
+    "carried",
+    "dump_step",
+    "engine",
+    "impulses_of",
+    "load",
+    "pair_keys",
+    "relative_velocities",
+    "step_problem",
+    "velocities_of",
+    "warm_start",
+    "with_radius_levers",
+]
 
-DISKS, FLOOR, LEFT, RIGHT = 5000, 5000, 5001, 5002  # number of disks; ids of the walls, in our scene and, less one, in LMGC90
-WIDTH, HEIGHT = 409.59035, 91.2221                   # of the box [m]
-TILT = 2.6794896585028633e-08                        # of the sides about the middle of their height, outwards [rad]: LMGC90 reads rounded input
-DENSITY, G, MU, H = 2500.0, 9.81, 0.3, 5e-3          # [kg/m³], [m/s²], -, [s]
-ALERT = 0.05                                         # LMGC90 knows contacts up to this gap [m]
+DISKS, FLOOR, LEFT, RIGHT = (
+    5000,
+    5000,
+    5001,
+    5002,
+)  # number of disks; ids of the walls, in our scene and, less one, in LMGC90
+WIDTH, HEIGHT = 409.59035, 91.2221  # of the box [m]
+TILT = (
+    2.6794896585028633e-08  # of the sides about the middle of their height, outwards [rad]: LMGC90 reads rounded input
+)
+DENSITY, G, MU, H = 2500.0, 9.81, 0.3, 5e-3  # [kg/m³], [m/s²], -, [s]
+ALERT = 0.05  # LMGC90 knows contacts up to this gap [m]
 DATA = Path(__file__).resolve().parents[3] / "tests" / "data"
 
 
@@ -36,16 +65,16 @@ DATA = Path(__file__).resolve().parents[3] / "tests" / "data"
 class Dump:
     """LMGC90's step. Disks: arrays of length 5,000; contacts: of length 10,531, in LMGC90's order, frame and signs."""
 
-    x: np.ndarray             # beginning of the step [m]
+    x: np.ndarray  # beginning of the step [m]
     y: np.ndarray
     r: np.ndarray
-    velocity: np.ndarray      # (n, 3): beginning of the step [m/s, m/s, rad/s]
+    velocity: np.ndarray  # (n, 3): beginning of the step [m/s, m/s, rad/s]
     velocity_end: np.ndarray  # (n, 3): its end
-    pair: np.ndarray          # (c, 2) int: disk, disk or wall, as ids of our scene
-    fn: np.ndarray            # [N]
+    pair: np.ndarray  # (c, 2) int: disk, disk or wall, as ids of our scene
+    fn: np.ndarray  # [N]
     ft: np.ndarray
-    gap_end: np.ndarray       # at the end of the step [m]
-    vn: np.ndarray            # [m/s]
+    gap_end: np.ndarray  # at the end of the step [m]
+    vn: np.ndarray  # [m/s]
     vt: np.ndarray
 
     @property
@@ -68,7 +97,9 @@ def load() -> Dump:
     disks, contacts = DATA / "lmgc90_5000_disks.txt.gz", DATA / "lmgc90_5000_contacts.txt.gz"
     for path in (disks, contacts):
         if not path.exists():
-            raise FileNotFoundError(f"{path} is missing: the packing by LMGC90 is part of the source repository (tests/data); run from a checkout")
+            raise FileNotFoundError(
+                f"{path} is missing: the packing by LMGC90 is part of the source repository (tests/data); run from a checkout"
+            )
     d, c = np.loadtxt(disks), np.loadtxt(contacts)
     return Dump(d[:, 0], d[:, 1], d[:, 2], d[:, 3:6], d[:, 6:9], c[:, :2].astype(int) - 1, *c[:, 2:].T)
 
@@ -76,7 +107,8 @@ def load() -> Dump:
 def build(dump: Dump, **options):
     """The step's beginning as the scene of YADE: disks are ids 0 to 4,999, then floor, left and right side; returns the engine.
 
-    ``options``: attributes of ContactDynamicsEngine. The share of an overlap that a step takes back is 0 unless given, as in LMGC90."""
+    ``options``: attributes of ContactDynamicsEngine. The share of an overlap that a step takes back is 0 unless given, as in LMGC90.
+    """
     stuff = NscdMat(density=DENSITY, frictionAngle=math.atan(MU))
     O.materials.append(stuff)
     O.bodies.append([scene.disk(c, r, stuff) for c, r in zip(dump.middle, dump.r)])
@@ -138,7 +170,9 @@ def impulses_of(dump: Dump, problem: contact.ContactProblem):
     at = order[np.searchsorted(ours, theirs, sorter=order).clip(max=len(ours) - 1)]
     missing = np.flatnonzero(ours[at] != theirs)
     if len(missing):
-        raise ValueError(f"{len(missing)} of LMGC90's contacts are not in our problem, the first between {dump.pair[missing[0]] + 1}")
+        raise ValueError(
+            f"{len(missing)} of LMGC90's contacts are not in our problem, the first between {dump.pair[missing[0]] + 1}"
+        )
     impulse = np.zeros((len(ours), 3))
     impulse[at, 0], impulse[at, 1] = H * dump.fn, -H * dump.ft
     return impulse, at
@@ -159,7 +193,11 @@ def relative_velocities(problem: contact.ContactProblem, velocity) -> np.ndarray
     i, j = problem.body.T
     d, (nx, ny), l = velocity[j] - velocity[i], problem.normal.T, problem.lever
     wi, wj = velocity[i, 2], velocity[j, 2]
-    return np.c_[nx * d[:, 0] + ny * d[:, 1] + l[:, 2] * wj - l[:, 0] * wi, nx * d[:, 1] - ny * d[:, 0] + l[:, 3] * wj - l[:, 1] * wi, d[:, 2]]
+    return np.c_[
+        nx * d[:, 0] + ny * d[:, 1] + l[:, 2] * wj - l[:, 0] * wi,
+        nx * d[:, 1] - ny * d[:, 0] + l[:, 3] * wj - l[:, 1] * wi,
+        d[:, 2],
+    ]
 
 
 def body_impulses(problem: contact.ContactProblem, impulse) -> np.ndarray:
@@ -189,7 +227,7 @@ class Balance:
     """What carries the packing in a step, as shares of its weight."""
 
     floor: float
-    sides: float    # by friction, upwards
+    sides: float  # by friction, upwards
     falling: float  # momentum that the disks gain in the step, downwards, over what the weight gives in a step
 
     @property
@@ -201,4 +239,6 @@ def balance(dump: Dump, problem: contact.ContactProblem, impulse) -> Balance:
     """Sums of impulses of shape (c, 3) over the walls, and the momentum that they leave."""
     sums, weight = body_impulses(problem, impulse), H * dump.weight
     falling = -(dump.mass * (velocities_of(problem, impulse)[:DISKS, 1] - dump.velocity[:, 1])).sum()
-    return Balance(float(-sums[FLOOR, 1] / weight), float(-(sums[LEFT, 1] + sums[RIGHT, 1]) / weight), float(falling / weight))
+    return Balance(
+        float(-sums[FLOOR, 1] / weight), float(-(sums[LEFT, 1] + sums[RIGHT, 1]) / weight), float(falling / weight)
+    )

@@ -13,11 +13,11 @@ from .claims import Outcome, at_most, between, near
 from .registry import check
 
 SUBJECT = "Packings"
-DENSITY = 2500.0                        # kg/m³
-PRESSURE = 1e4                          # Pa; rigid disks know no other stress, so its value sets the unit of time only
-STEP = 0.02                             # s while a box is compressed: a twentieth of the time below
-MEAN_MASS = DENSITY * math.pi / 4       # kg/m; disks of all samples have the mean square diameter 1 m²
-WALL_MASS = 10 * MEAN_MASS              # kg/m, of a wall that follows the pressure
+DENSITY = 2500.0  # kg/m³
+PRESSURE = 1e4  # Pa; rigid disks know no other stress, so its value sets the unit of time only
+STEP = 0.02  # s while a box is compressed: a twentieth of the time below
+MEAN_MASS = DENSITY * math.pi / 4  # kg/m; disks of all samples have the mean square diameter 1 m²
+WALL_MASS = 10 * MEAN_MASS  # kg/m, of a wall that follows the pressure
 TIME = math.sqrt(MEAN_MASS / PRESSURE)  # s, of the inertial number: 0.44 s, in which pressure moves a disk by its size
 
 
@@ -46,10 +46,17 @@ class Box:
         stuff = NscdMat(density=DENSITY, frictionAngle=angle)
         smooth = NscdMat(frictionAngle=0.0, wall=True)
         O.materials.append((stuff, smooth))
-        O.bodies.append([scene.disk(((k % columns + 0.5) * pitch, (k // columns + 0.5) * pitch), float(radii[k]), stuff) for k in range(count)])
+        O.bodies.append(
+            [
+                scene.disk(((k % columns + 0.5) * pitch, (k // columns + 0.5) * pitch), float(radii[k]), stuff)
+                for k in range(count)
+            ]
+        )
         self.walls = Walls.around(width, height, smooth, smooth)
         self.walls.pressure = PRESSURE
-        O.engines = scene.engines(gravity=(0, 0, 0), reach=0.2, verlet=0.2 * self.small, tolerance=1e-4, maxIterations=1000)
+        O.engines = scene.engines(
+            gravity=(0, 0, 0), reach=0.2, verlet=0.2 * self.small, tolerance=1e-4, maxIterations=1000
+        )
         O.dt = STEP
         self.engine = scene.contact_dynamics()
         self.count = count
@@ -78,10 +85,13 @@ class Box:
             return settled == 30
 
         if not until(calm, 5000, make=lambda _: walls.step()):
-            raise RuntimeError(f"the sample does not come to rest under its pressure: stresses {walls.stresses()}, mean speed {self.engine.meanSpeed:g} m/s")
+            raise RuntimeError(
+                f"the sample does not come to rest under its pressure: stresses {walls.stresses()}, mean speed {self.engine.meanSpeed:g} m/s"
+            )
 
 
 # ---- friction without friction --------------------------------------------------------------------
+
 
 def shear(folder, count, seed, inertia, strain, step):
     """Slow biaxial compression of a frictionless packing.
@@ -108,8 +118,15 @@ def shear(folder, count, seed, inertia, strain, step):
             rows.append((sums * parts / steps).tolist())
             sums[:] = 0
     last = walls.width(), walls.height()
-    return {"stresses": rows, "steps": steps, "sweeps": (engine.totalIterations - sweeps) / steps, "unconverged": engine.unconverged - failed,
-            "size": [first, last], "overlap": engine.overlapWorstEver, "step_s": O.dt}
+    return {
+        "stresses": rows,
+        "steps": steps,
+        "sweeps": (engine.totalIterations - sweeps) / steps,
+        "unconverged": engine.unconverged - failed,
+        "size": [first, last],
+        "overlap": engine.overlapWorstEver,
+        "step_s": O.dt,
+    }
 
 
 def angle_of(stresses, begin):
@@ -117,7 +134,7 @@ def angle_of(stresses, begin):
 
     ``stresses``: rows of equal strain, columns σ on the top, bottom, right and left wall. The error is that of the mean over ten blocks.
     """
-    rows = np.array(stresses)[int(begin * len(stresses)):]
+    rows = np.array(stresses)[int(begin * len(stresses)) :]
     major, minor = rows[:, :2].mean(axis=1), rows[:, 2:].mean(axis=1)
     sine = lambda a, b: (a.mean() - b.mean()) / (a.mean() + b.mean())  # noqa: E731
     blocks = [math.degrees(math.asin(sine(a, b))) for a, b in zip(np.array_split(major, 10), np.array_split(minor, 10))]
@@ -152,36 +169,104 @@ def frictionless_packing(bench):
         mean = float(np.mean([a for a, _ in angles]))
         error = math.sqrt(sum(e * e for _, e in angles)) / len(angles)
         curve.append((inertia, step, mean, error))
-        rows.append([f"{inertia:g}", f"{step:g}", ", ".join(f"{a:.2f} ± {e:.2f}" for a, e in angles), f"{mean:.2f} ± {error:.2f}",
-                     f"{np.mean([f['sweeps'] for f in runs]):.0f}", str(sum(f["unconverged"] for f in runs)), f"{max(f['overlap'] for f in runs):.1e}"])
+        rows.append(
+            [
+                f"{inertia:g}",
+                f"{step:g}",
+                ", ".join(f"{a:.2f} ± {e:.2f}" for a, e in angles),
+                f"{mean:.2f} ± {error:.2f}",
+                f"{np.mean([f['sweeps'] for f in runs]):.0f}",
+                str(sum(f["unconverged"] for f in runs)),
+                f"{max(f['overlap'] for f in runs):.1e}",
+            ]
+        )
     inertia, _, angle, error = curve[0]
-    claims = [between(f"angle of friction at I = {inertia:g}, ± {error:.2f}°", angle, 4, 7, unit="°", against="Taboada and Estrada 2009",
-                      why="the paper's range; no tolerance is added, the standard error over blocks of strain and seeds is stated"),
-              at_most("σ on the top wall against the bottom wall, relative, slowest rate",
-                      max(abs(np.mean(f["stresses"], axis=0)[0] / np.mean(f["stresses"], axis=0)[1] - 1)
-                          for c, f in zip(cases, found) if c["inertia"] == inertia),
-                      0.01, against="momentum balance", why="the two differ by the sample's acceleration, which averages out of a slow test, and the solver's error")]
+    claims = [
+        between(
+            f"angle of friction at I = {inertia:g}, ± {error:.2f}°",
+            angle,
+            4,
+            7,
+            unit="°",
+            against="Taboada and Estrada 2009",
+            why="the paper's range; no tolerance is added, the standard error over blocks of strain and seeds is stated",
+        ),
+        at_most(
+            "σ on the top wall against the bottom wall, relative, slowest rate",
+            max(
+                abs(np.mean(f["stresses"], axis=0)[0] / np.mean(f["stresses"], axis=0)[1] - 1)
+                for c, f in zip(cases, found)
+                if c["inertia"] == inertia
+            ),
+            0.01,
+            against="momentum balance",
+            why="the two differ by the sample's acceleration, which averages out of a slow test, and the solver's error",
+        ),
+    ]
     figure = Figure(figsize=(6.4, 4), layout="constrained")
     ax = figure.subplots()
     ax.axhspan(4, 7, color="#dcebf7", label="paper")
     main = [row for row in curve if row[1] == 0.1]
-    ax.errorbar([r[0] for r in main], [r[2] for r in main], [r[3] for r in main], fmt="o-", color="#0072B2", capsize=3, label="Δt = 0.1 √(m/P)")
+    ax.errorbar(
+        [r[0] for r in main],
+        [r[2] for r in main],
+        [r[3] for r in main],
+        fmt="o-",
+        color="#0072B2",
+        capsize=3,
+        label="Δt = 0.1 √(m/P)",
+    )
     fine = [row for row in curve if row[1] < 0.1]
     if fine:
         same = next(r for r in main if r[0] == fine[0][0])
-        claims.append(near("angle at a quarter of the time step, I = 0.003", fine[0][2], same[2], absolute=3 * math.hypot(fine[0][3], same[3]), unit="°",
-                           against="the longer step", why="three standard errors of the difference: no trend beyond the scatter of rearrangements"))
-        ax.errorbar(*([r[k]] for r in fine for k in (0, 2, 3)), fmt="s", color="#D55E00", capsize=3, label="a quarter of it")
+        claims.append(
+            near(
+                "angle at a quarter of the time step, I = 0.003",
+                fine[0][2],
+                same[2],
+                absolute=3 * math.hypot(fine[0][3], same[3]),
+                unit="°",
+                against="the longer step",
+                why="three standard errors of the difference: no trend beyond the scatter of rearrangements",
+            )
+        )
+        ax.errorbar(
+            *([r[k]] for r in fine for k in (0, 2, 3)), fmt="s", color="#D55E00", capsize=3, label="a quarter of it"
+        )
     ax.set(xscale="log", xlabel="inertial number [-]", ylabel="angle of friction [°]", ylim=(0, 12))
     ax.legend(frameon=False)
-    return Outcome(claims, plots=[(figure, f"Angle of friction of {count} frictionless disks against the rate of strain; bars: standard error over blocks of strain and seeds")],
-                   tables=[(f"{count} disks, γ to {strain:g}, mean beyond a fifth of it", ["I", "Δt/√(m/P)", "φ of the seeds [°]", "φ [°]", "sweeps a step",
-                                                                                           "steps above 1e-5", "worst overlap [ℓ]"], rows)],
-                   remarks=["A sample of this size fluctuates by a degree or more from one rearrangement to the next, which the error states. Flat "
-                            "frictionless walls order the disks beside them; what that does to the angle is not measured."])
+    return Outcome(
+        claims,
+        plots=[
+            (
+                figure,
+                f"Angle of friction of {count} frictionless disks against the rate of strain; bars: standard error over blocks of strain and seeds",
+            )
+        ],
+        tables=[
+            (
+                f"{count} disks, γ to {strain:g}, mean beyond a fifth of it",
+                [
+                    "I",
+                    "Δt/√(m/P)",
+                    "φ of the seeds [°]",
+                    "φ [°]",
+                    "sweeps a step",
+                    "steps above 1e-5",
+                    "worst overlap [ℓ]",
+                ],
+                rows,
+            )
+        ],
+        remarks=[
+            "A sample of this size fluctuates by a degree or more from one rearrangement to the next, which the error states. Flat "
+            "frictionless walls order the disks beside them; what that does to the angle is not measured."
+        ],
+    )
 
 
 # ---- statistics of forces -------------------------------------------------------------------------
+
 
 def network(folder, count, seed, friction, strain, ratio):
     """Normal forces of the disk-disk contacts of a packing, one and a half of the largest diameters and more from the walls.
@@ -221,13 +306,20 @@ def _look(box):
             break
     t, width, height = tables.contacts(engine), box.walls.width(), box.walls.height()
     margin, x0, y0 = 1.5 * box.large, box.walls.place("left"), box.walls.place("bottom")
-    inner = (np.abs(t["x"] - x0[0] - width / 2) < width / 2 - margin) & (np.abs(t["y"] - y0[1] - height / 2) < height / 2 - margin)
+    inner = (np.abs(t["x"] - x0[0] - width / 2) < width / 2 - margin) & (
+        np.abs(t["y"] - y0[1] - height / 2) < height / 2 - margin
+    )
     force = t["normal"][inner & (t["id1"] < box.count) & (t["id2"] < box.count)]
     disks = tables.bodies(engine)
     loaded = t["normal"] > 1e-5 * force.mean()
-    carrying = np.bincount(np.concatenate([t["id1"][loaded], t["id2"][loaded]]), minlength=box.count)[:box.count]
-    found = {"force": force[force > 0].tolist(), "residual": engine.residual, "fraction": float(np.sum(math.pi * disks["r"] ** 2) / (width * height)),
-             "coordination": float(carrying[carrying > 0].mean()), "loose": float(np.mean(carrying == 0))}
+    carrying = np.bincount(np.concatenate([t["id1"][loaded], t["id2"][loaded]]), minlength=box.count)[: box.count]
+    found = {
+        "force": force[force > 0].tolist(),
+        "residual": engine.residual,
+        "fraction": float(np.sum(math.pi * disks["r"] ** 2) / (width * height)),
+        "coordination": float(carrying[carrying > 0].mean()),
+        "loose": float(np.mean(carrying == 0)),
+    }
     engine.tolerance, engine.maxIterations = usual
     return found
 
@@ -238,8 +330,10 @@ def below_mean(share, least):
 
     inside = share[(share > least) & (share < 1)]
     logs = np.log(inside).mean()
+
     def norm(a):
         return (1 - least ** (1 - a)) / (1 - a) if abs(1 - a) > 1e-9 else -math.log(least)
+
     loss = lambda a: a * logs + math.log(norm(a))  # noqa: E731
     best = minimize_scalar(loss, bounds=(-2, 0.999), method="bounded").x
     bend = (loss(best + 1e-3) - 2 * loss(best) + loss(best - 1e-3)) / 1e-6
@@ -283,33 +377,93 @@ def force_network(bench):
         shares = [np.concatenate([np.array(look) / np.mean(look) for look in f["force"]]) for f in runs]
         results[name] = fit = _fits(shares)
         mean = lambda key: np.mean(np.concatenate([f[key] for f in runs]))  # noqa: E731
-        rows.append([name, str(sum(map(len, shares))), *(f"{v:.2f} ± {e:.2f}" for v, e in (fit[k] for k in ("alpha", "deep", "beta"))),
-                     f"{100 * fit['weak'][0]:.1f} ± {100 * fit['weak'][1]:.1f}", f"{mean('fraction'):.3f}", f"{mean('coordination'):.2f}", f"{100 * mean('loose'):.0f}"])
+        rows.append(
+            [
+                name,
+                str(sum(map(len, shares))),
+                *(f"{v:.2f} ± {e:.2f}" for v, e in (fit[k] for k in ("alpha", "deep", "beta"))),
+                f"{100 * fit['weak'][0]:.1f} ± {100 * fit['weak'][1]:.1f}",
+                f"{mean('fraction'):.3f}",
+                f"{mean('coordination'):.2f}",
+                f"{100 * mean('loose'):.0f}",
+            ]
+        )
     claims = []
     for name in ("1 to 2, at rest", "1 to 4, at rest"):
         (alpha, da), (beta, db), (weak, dw) = (results[name][k] for k in ("alpha", "beta", "weak"))
         claims += [
-            near(f"{name}: exponent α below the mean, ± {da:.2f}", alpha, 0, absolute=0.3, against="Mueth 1998, Radjai 1996",
-                 why="published exponents lie from 0 (uniform) to 0.3; a sample of our size cannot tell a sign, so the other side is as wide"),
-            between(f"{name}: rate β above the mean, ± {db:.2f}", beta, 1.09 - 3 * db, 1.8 + 3 * db, against="Radjai 1996, Løvoll 1999",
-                    why="from what a continuous density with α = 0.3 has to the experiment's value, and three standard errors; 1.4 lies between"),
-            between(f"{name}: contacts below the mean, ± {100 * dw:.1f} %", 100 * weak, 55 - 300 * dw, 65 + 300 * dw, unit="%", against="Radjai 1996",
-                    why="5 % around the published 60 %: continuous densities with α from 0 to 0.3 have 58.5 to 61 %, sizes shift it by as much; three standard errors")]
-    claims.append(at_most("largest residual of a look", max(max(f["residual"]) for f in found), 1e-5, against="the forces that are read",
-                          why="a thousandth of the smallest force that α is fitted to"))
-    return Outcome(claims, plots=[(_distribution(results), "Density of normal forces; lines: the published slopes, set at the mean")],
-                   tables=[(f"Packings of {count} disks, μ = 0.3", ["diameters", "contacts", "α on 0.01 to 1", "α on 10⁻⁴ to 1", "β", "below the mean [%]",
-                                                                    "packing fraction", "contacts of a loaded disk", "disks without load [%]"], rows)],
-                   remarks=["With diameters of 1 to 2 fewer contacts than the published 60 % lie below the mean; with 1 to 4 the share is reached and β falls: "
-                            "wider sizes spread the forces more. The smallest forces, below a hundredth of the mean, are more frequent than a uniform density has them, "
-                            "more so under shear: a slope that is read over four decades is steeper than one over two."])
+            near(
+                f"{name}: exponent α below the mean, ± {da:.2f}",
+                alpha,
+                0,
+                absolute=0.3,
+                against="Mueth 1998, Radjai 1996",
+                why="published exponents lie from 0 (uniform) to 0.3; a sample of our size cannot tell a sign, so the other side is as wide",
+            ),
+            between(
+                f"{name}: rate β above the mean, ± {db:.2f}",
+                beta,
+                1.09 - 3 * db,
+                1.8 + 3 * db,
+                against="Radjai 1996, Løvoll 1999",
+                why="from what a continuous density with α = 0.3 has to the experiment's value, and three standard errors; 1.4 lies between",
+            ),
+            between(
+                f"{name}: contacts below the mean, ± {100 * dw:.1f} %",
+                100 * weak,
+                55 - 300 * dw,
+                65 + 300 * dw,
+                unit="%",
+                against="Radjai 1996",
+                why="5 % around the published 60 %: continuous densities with α from 0 to 0.3 have 58.5 to 61 %, sizes shift it by as much; three standard errors",
+            ),
+        ]
+    claims.append(
+        at_most(
+            "largest residual of a look",
+            max(max(f["residual"]) for f in found),
+            1e-5,
+            against="the forces that are read",
+            why="a thousandth of the smallest force that α is fitted to",
+        )
+    )
+    return Outcome(
+        claims,
+        plots=[(_distribution(results), "Density of normal forces; lines: the published slopes, set at the mean")],
+        tables=[
+            (
+                f"Packings of {count} disks, μ = 0.3",
+                [
+                    "diameters",
+                    "contacts",
+                    "α on 0.01 to 1",
+                    "α on 10⁻⁴ to 1",
+                    "β",
+                    "below the mean [%]",
+                    "packing fraction",
+                    "contacts of a loaded disk",
+                    "disks without load [%]",
+                ],
+                rows,
+            )
+        ],
+        remarks=[
+            "With diameters of 1 to 2 fewer contacts than the published 60 % lie below the mean; with 1 to 4 the share is reached and β falls: "
+            "wider sizes spread the forces more. The smallest forces, below a hundredth of the mean, are more frequent than a uniform density has them, "
+            "more so under shear: a slope that is read over four decades is steeper than one over two."
+        ],
+    )
 
 
 def _fits(shares):
     """α, β and the share below the mean, each (mean over samples, standard error)."""
     out = {"all": np.concatenate(shares)}
-    for name, fit in (("alpha", lambda s: below_mean(s, 0.01)), ("deep", lambda s: below_mean(s, 1e-4)), ("beta", above_mean),
-                      ("weak", lambda s: (float(np.mean(s < 1)), math.sqrt(np.mean(s < 1) * np.mean(s >= 1) / len(s))))):
+    for name, fit in (
+        ("alpha", lambda s: below_mean(s, 0.01)),
+        ("deep", lambda s: below_mean(s, 1e-4)),
+        ("beta", above_mean),
+        ("weak", lambda s: (float(np.mean(s < 1)), math.sqrt(np.mean(s < 1) * np.mean(s >= 1) / len(s)))),
+    ):
         single = [fit(s) for s in shares]
         scatter = standard_error([v for v, _ in single])
         curvature = math.sqrt(sum(e * e for _, e in single)) / len(single)

@@ -22,11 +22,11 @@ class Bench:
 
 @dataclass(frozen=True)
 class Check:
-    name: str          # of the function, with dashes
+    name: str  # of the function, with dashes
     title: str
-    subject: str       # heading it stands under
-    derivation: str    # the function's docstring: what is expected and why
-    seconds: float     # roughly, in full
+    subject: str  # heading it stands under
+    derivation: str  # the function's docstring: what is expected and why
+    seconds: float  # roughly, in full
     quick_seconds: float | None  # the same with quick; None: left out of a quick run
     run: Callable[[Bench], object]
 

@@ -17,9 +17,18 @@ def write_report(path, results, *, quick, versions):
     subjects = {}
     for result in results:
         subjects.setdefault(result.check.subject, []).append(result)
-    return report.write(path, TEMPLATE, {"figure": _figure, "allowed": _allowed}, subjects=subjects, results=results, quick=quick, versions=versions,
-                        machine=f"{platform.machine()}, {platform.system()}", claims=sum(len(r.claims) for r in results),
-                        failed=sum(not c.passed for r in results for c in r.claims) + sum(bool(r.error) for r in results))
+    return report.write(
+        path,
+        TEMPLATE,
+        {"figure": _figure, "allowed": _allowed},
+        subjects=subjects,
+        results=results,
+        quick=quick,
+        versions=versions,
+        machine=f"{platform.machine()}, {platform.system()}",
+        claims=sum(len(r.claims) for r in results),
+        failed=sum(not c.passed for r in results for c in r.claims) + sum(bool(r.error) for r in results),
+    )
 
 
 def _figure(value, unit=""):

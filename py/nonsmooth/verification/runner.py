@@ -35,7 +35,9 @@ class Result:
         return not self.error and bool(self.claims) and all(claim.passed for claim in self.claims)
 
 
-def run_checks(checks, out, *, quick=False, threads=1, resume=False, progress=lambda check, text: None, done=lambda result: None):
+def run_checks(
+    checks, out, *, quick=False, threads=1, resume=False, progress=lambda check, text: None, done=lambda result: None
+):
     """Runs the checks and yields a :class:`Result` for each, in their order; each is on disk before the next begins.
 
     ``resume``: take over what an earlier run with the same ``quick``, engines and code wrote in ``out`` and finished without an error.
@@ -45,10 +47,14 @@ def run_checks(checks, out, *, quick=False, threads=1, resume=False, progress=la
         result = _read(check, folder, quick) if resume else None
         if result is None:
             if not resume:  # an interrupted check may have finished parts of its own
-                (folder / "result.json").unlink(missing_ok=True)  # first: a kill on the way must not leave it with half of what it names
+                (folder / "result.json").unlink(
+                    missing_ok=True
+                )  # first: a kill on the way must not leave it with half of what it names
                 shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True, exist_ok=True)
-            bench = Bench(folder=folder, quick=quick, threads=threads, progress=lambda text, check=check: progress(check, text))
+            bench = Bench(
+                folder=folder, quick=quick, threads=threads, progress=lambda text, check=check: progress(check, text)
+            )
             result = _run(check, bench)
             _write(result, folder, quick)
         done(result)
@@ -86,8 +92,15 @@ def _clear_scene():
 
 
 def _write(result, folder, quick):
-    plain = {"key": _key(result.check, quick), "wall_s": result.wall_s, "error": result.error, "claims": [_plain(c) for c in result.claims],
-             "plots": result.plots, "tables": result.tables, "remarks": result.remarks}
+    plain = {
+        "key": _key(result.check, quick),
+        "wall_s": result.wall_s,
+        "error": result.error,
+        "claims": [_plain(c) for c in result.claims],
+        "plots": result.plots,
+        "tables": result.tables,
+        "remarks": result.remarks,
+    }
     write_atomically(folder / "result.json", json.dumps(plain, indent=1).encode())
 
 
@@ -98,7 +111,9 @@ def _key(check, quick):
 
 def _plain(claim):
     """A claim as JSON can hold it: no bound is infinite, no figure undefined."""
-    return {name: None if isinstance(v, float) and not math.isfinite(v) else v for name, v in asdict(claim).items()} | {"passed": claim.passed}
+    return {name: None if isinstance(v, float) and not math.isfinite(v) else v for name, v in asdict(claim).items()} | {
+        "passed": claim.passed
+    }
 
 
 def _read(check, folder, quick):
@@ -111,6 +126,8 @@ def _read(check, folder, quick):
             fields.pop("passed")
             missing = {"measured": math.nan, "low": -math.inf, "high": math.inf}
             claims.append(Claim(**{k: missing[k] if v is None and k in missing else v for k, v in fields.items()}))
-        return Result(check, claims, [tuple(p) for p in plain["plots"]], plain["tables"], plain["remarks"], plain["wall_s"])
+        return Result(
+            check, claims, [tuple(p) for p in plain["plots"]], plain["tables"], plain["remarks"], plain["wall_s"]
+        )
     except (OSError, ValueError, KeyError, TypeError):
         return None

@@ -15,8 +15,10 @@ SUBJECT = "Against Siconos"
 ROUNDING = 1e-14  # a relative residual below this is an exact solution in double precision
 FALL = 9.81 * 5e-3  # m/s, what a free disk gains in a step
 METRIC = 5  # between the two residuals, once both are relative to the same size
-METRIC_WHY = ("its tolerance; the two measures weigh contacts by other powers of the mass and project on a cone or on intervals, which a "
-              "factor of 5 covers")
+METRIC_WHY = (
+    "its tolerance; the two measures weigh contacts by other powers of the mass and project on a cone or on intervals, which a "
+    "factor of 5 covers"
+)
 SAME_WHY = "the tolerance itself, and rounding"
 
 
@@ -34,7 +36,9 @@ def siconos_random_friction(bench):
     return _random_problems(bench, {})
 
 
-@check("Random clusters with friction, rolling resistance and cohesion, solved by Siconos too", subject=SUBJECT, seconds=3)
+@check(
+    "Random clusters with friction, rolling resistance and cohesion, solved by Siconos too", subject=SUBJECT, seconds=3
+)
 def siconos_random_rolling_cohesion(bench):
     """The same as without rolling and cohesion, but two thirds of the contacts resist rolling with an arm up to :math:`0.2\\,\\ell` and two thirds bear
     tension. Siconos's ``rolling_fc2d_driver`` knows the cone :math:`|T|\\le\\mu\\hat N,\\ |\\Gamma|\\le\\mu_r\\ell\\hat N` with
@@ -60,17 +64,49 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
         ratios.append(max(further.residual.relative, ROUNDING) / max(theirs.residual.relative, ROUNDING))
         forces = np.abs(theirs.impulse - ours.impulse).max() / np.abs(ours.impulse).max()
         indeterminate += forces > 1e4 * tolerance
-        figures = [[str(a.sweeps), f"{a.residual.force_rms:.1e}", f"{a.residual.speed_rms:.1e}"] for a in (theirs, ours)]
-        rows.append([str(seed), str(len(problem.length)), *figures[0], *figures[1], f"{speeds[-1]:.1e}", f"{forces:.1e}"])
+        figures = [
+            [str(a.sweeps), f"{a.residual.force_rms:.1e}", f"{a.residual.speed_rms:.1e}"] for a in (theirs, ours)
+        ]
+        rows.append(
+            [str(seed), str(len(problem.length)), *figures[0], *figures[1], f"{speeds[-1]:.1e}", f"{forces:.1e}"]
+        )
     claims = [
-        at_most("largest difference of a disk's velocity (turning: times the radius)", max(speeds), 1e3 * tolerance, unit="m/s", against="Siconos",
-                why="1e-10 of what stops disks of 1 m/s, times 1000: the condition of W for chains of up to 20 disks"),
-        at_most("Siconos's largest residual in our measure, times |p|/|q|", max(theirs_left), METRIC * tolerance, against="Siconos", why=METRIC_WHY),
-        at_most("Siconos's error of our impulses by its own function, times |q|/|p|, largest", max(by_siconos), METRIC * tolerance,
-                against="Siconos", why=METRIC_WHY),
-        at_most("our largest relative residual at the same number", max(ours_left), tolerance * (1 + 1e-6), against="Siconos", why=SAME_WHY),
-        at_most("our residual over Siconos's, ours asked for what Siconos reached, largest of all problems", max(ratios), 1.0, against="Siconos",
-                why=f"at or below on every problem is what is asked for; below {ROUNDING:g} both count as exact"),
+        at_most(
+            "largest difference of a disk's velocity (turning: times the radius)",
+            max(speeds),
+            1e3 * tolerance,
+            unit="m/s",
+            against="Siconos",
+            why="1e-10 of what stops disks of 1 m/s, times 1000: the condition of W for chains of up to 20 disks",
+        ),
+        at_most(
+            "Siconos's largest residual in our measure, times |p|/|q|",
+            max(theirs_left),
+            METRIC * tolerance,
+            against="Siconos",
+            why=METRIC_WHY,
+        ),
+        at_most(
+            "Siconos's error of our impulses by its own function, times |q|/|p|, largest",
+            max(by_siconos),
+            METRIC * tolerance,
+            against="Siconos",
+            why=METRIC_WHY,
+        ),
+        at_most(
+            "our largest relative residual at the same number",
+            max(ours_left),
+            tolerance * (1 + 1e-6),
+            against="Siconos",
+            why=SAME_WHY,
+        ),
+        at_most(
+            "our residual over Siconos's, ours asked for what Siconos reached, largest of all problems",
+            max(ratios),
+            1.0,
+            against="Siconos",
+            why=f"at or below on every problem is what is asked for; below {ROUNDING:g} both count as exact",
+        ),
     ]
     remarks = [
         f"With the same number as tolerance our residual is above Siconos's on {above} of {count} problems, though never above the tolerance: each "
@@ -79,7 +115,18 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
         f"On {indeterminate} of {count} problems an impulse differs by more than 1e-6 of the largest one while velocities agree: closed loops of "
         "contacts leave them undetermined.",
     ]
-    heads = ["seed", "contacts", "Siconos: sweeps", "N", "m/s", "ours: sweeps", "N", "m/s", "velocities differ by [m/s]", "impulses by [of the largest]"]
+    heads = [
+        "seed",
+        "contacts",
+        "Siconos: sweeps",
+        "N",
+        "m/s",
+        "ours: sweeps",
+        "N",
+        "m/s",
+        "velocities differ by [m/s]",
+        "impulses by [of the largest]",
+    ]
     caption = f"Tolerance {tolerance:g} for both; N and m/s: rms natural-map residual of either in our measure, as a force and as a velocity"
     return Outcome(claims=claims, tables=[(caption, heads, rows)], remarks=remarks)
 
@@ -122,7 +169,10 @@ def _one_step(bench, problem, tolerance, sweeps):
     radii, moved = _radii(problem), problem.inverse_mass.any(axis=1)
     moved[np.setdiff1d(np.arange(len(moved)), problem.body)] = False  # what nothing touches falls alike
     bench.progress("both at ten times the tolerance")
-    before = [solve_with_siconos(problem, bench.folder, 10 * tolerance, sweeps), solve_with_ours(problem, 10 * tolerance, sweeps)]
+    before = [
+        solve_with_siconos(problem, bench.folder, 10 * tolerance, sweeps),
+        solve_with_ours(problem, 10 * tolerance, sweeps),
+    ]
     bench.progress("Siconos")
     theirs = solve_with_siconos(problem, bench.folder, tolerance, sweeps)
     bench.progress("ours")
@@ -136,25 +186,71 @@ def _one_step(bench, problem, tolerance, sweeps):
     forces = further.residual.force_rms / theirs.residual.force_rms
     velocities = further.residual.speed_rms / theirs.residual.speed_rms
     claims = [
-        at_most("our relative residual at the same number", ours.residual.relative, tolerance * (1 + 1e-6), against="Siconos", why=SAME_WHY),
-        at_most("Siconos's residual in our measure, times |p|/|q|", theirs.residual.relative / q_over_p, METRIC * tolerance, against="Siconos",
-                why=METRIC_WHY),
-        at_most("Siconos's error of our impulses by its own function, times |q|/|p|", error * q_over_p, METRIC * tolerance, against="Siconos",
-                why=METRIC_WHY),
-        at_most("our residual over Siconos's as a force, ours asked for what Siconos reached", forces, 1.0, against="Siconos",
-                why="at or below is what is asked for"),
-        at_most("our residual over Siconos's as a velocity, ours asked for what Siconos reached", velocities, 1.0, against="Siconos",
-                why="the same in the other unit, though tolerances are on forces"),
-        at_most("median difference of the disks' velocities", np.median(differences), 0.01 * FALL, unit="m/s", against="Siconos",
-                why="1 % of what a free disk gains in the step"),
-        at_most("the same, over that at ten times the tolerance", np.median(differences) / np.median(differences_before), 0.5, against="Siconos",
-                why="two solvers of one law approach each other; a tenth would be linear, slow modes leave more"),
-        at_least("share of disks that both move the same, to a tenth of a step's free fall", 1 - other.mean(), 0.98, against="Siconos",
-                 why="the rest wedges or falls, as friction leaves open; a few in a hundred disks of a packing are that loose"),
+        at_most(
+            "our relative residual at the same number",
+            ours.residual.relative,
+            tolerance * (1 + 1e-6),
+            against="Siconos",
+            why=SAME_WHY,
+        ),
+        at_most(
+            "Siconos's residual in our measure, times |p|/|q|",
+            theirs.residual.relative / q_over_p,
+            METRIC * tolerance,
+            against="Siconos",
+            why=METRIC_WHY,
+        ),
+        at_most(
+            "Siconos's error of our impulses by its own function, times |q|/|p|",
+            error * q_over_p,
+            METRIC * tolerance,
+            against="Siconos",
+            why=METRIC_WHY,
+        ),
+        at_most(
+            "our residual over Siconos's as a force, ours asked for what Siconos reached",
+            forces,
+            1.0,
+            against="Siconos",
+            why="at or below is what is asked for",
+        ),
+        at_most(
+            "our residual over Siconos's as a velocity, ours asked for what Siconos reached",
+            velocities,
+            1.0,
+            against="Siconos",
+            why="the same in the other unit, though tolerances are on forces",
+        ),
+        at_most(
+            "median difference of the disks' velocities",
+            np.median(differences),
+            0.01 * FALL,
+            unit="m/s",
+            against="Siconos",
+            why="1 % of what a free disk gains in the step",
+        ),
+        at_most(
+            "the same, over that at ten times the tolerance",
+            np.median(differences) / np.median(differences_before),
+            0.5,
+            against="Siconos",
+            why="two solvers of one law approach each other; a tenth would be linear, slow modes leave more",
+        ),
+        at_least(
+            "share of disks that both move the same, to a tenth of a step's free fall",
+            1 - other.mean(),
+            0.98,
+            against="Siconos",
+            why="the rest wedges or falls, as friction leaves open; a few in a hundred disks of a packing are that loose",
+        ),
     ]
     caption = f"From a cold start; tolerance {tolerance:g}; residuals in our measure, one thread each; each row of ours names its tolerance"
-    named = ((theirs, theirs.solver), (ours, "ours, the same number"), (further, "ours, the lower of that and what Siconos reached"),
-             (equal, "ours, what Siconos reached"))
+    named = (
+        (theirs, theirs.solver),
+        (ours, "ours, the same number"),
+        (further, "ours, the lower of that and what Siconos reached"),
+        (equal, "ours, what Siconos reached"),
+    )
     remarks = [
         f"With the same number as tolerance our residual is {ours.residual.force_rms / theirs.residual.force_rms:.2f} times Siconos's. The numbers "
         f"do not mean the same: ours is relative to the rms impulse, Siconos's to |q|, which is {q_over_p:.2f} times as large here. So our solver "
@@ -165,15 +261,29 @@ def _one_step(bench, problem, tolerance, sweeps):
         f"{differences.max():.2g} m/s. Both keep the law to {max(theirs.residual.speed_largest, further.residual.speed_largest):.1g} m/s at every contact.",
     ]
     heads = ["solver", "sweeps", "seconds", "rms [N]", "largest [N]", "rms [m/s]", "largest [m/s]"]
-    curves = ("Residual in our measure against sweeps, from a cold start. Plain Gauss-Seidel is the method of both; ours runs it inside Nesterov's "
-              "extrapolation.")
-    return Outcome(claims=claims, tables=[(caption, heads, [_row(a, name) for a, name in named])], plots=[(_curves(bench, problem, theirs), curves)],
-                   remarks=remarks)
+    curves = (
+        "Residual in our measure against sweeps, from a cold start. Plain Gauss-Seidel is the method of both; ours runs it inside Nesterov's "
+        "extrapolation."
+    )
+    return Outcome(
+        claims=claims,
+        tables=[(caption, heads, [_row(a, name) for a, name in named])],
+        plots=[(_curves(bench, problem, theirs), curves)],
+        remarks=remarks,
+    )
 
 
 def _row(answer, name):
     r = answer.residual
-    return [name, str(answer.sweeps), f"{answer.seconds:.2f}", f"{r.force_rms:.2e}", f"{r.force_largest:.2e}", f"{r.speed_rms:.2e}", f"{r.speed_largest:.2e}"]
+    return [
+        name,
+        str(answer.sweeps),
+        f"{answer.seconds:.2f}",
+        f"{r.force_rms:.2e}",
+        f"{r.force_largest:.2e}",
+        f"{r.speed_rms:.2e}",
+        f"{r.speed_largest:.2e}",
+    ]
 
 
 def _curves(bench, problem, theirs):
@@ -223,5 +333,7 @@ def _relative_difference(a, b, problem):
 def _data(name):
     path = ROOT / "tests" / "data" / name
     if not path.exists():
-        raise OracleError(f"{path} is not there: this check needs the data of a source checkout (tests/data/README.md says where they come from)")
+        raise OracleError(
+            f"{path} is not there: this check needs the data of a source checkout (tests/data/README.md says where they come from)"
+        )
     return path

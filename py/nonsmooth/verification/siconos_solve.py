@@ -27,12 +27,12 @@ class Answer:
     """What one of the two solvers found, and what our own measure says of it."""
 
     solver: str
-    impulse: np.ndarray   # (c, 3) [N s, N s, N m s]
+    impulse: np.ndarray  # (c, 3) [N s, N s, N m s]
     velocity: np.ndarray  # (b, 3) [m/s, m/s, rad/s]
     sweeps: int
-    seconds: float        # of the solve alone
-    converged: bool       # by the solver's own test
-    own_error: float      # the figure of that test
+    seconds: float  # of the solve alone
+    converged: bool  # by the solver's own test
+    own_error: float  # the figure of that test
     residual: contact.Residual
 
 
@@ -52,11 +52,28 @@ def solve_with_siconos(problem, folder, tolerance, max_iterations, check_every=1
     """
     source, target = Path(folder) / "problem.h5", Path(folder) / "siconos.h5"
     contact.save(source, problem)
-    said = _ask(source, target, "--tolerance", repr(float(tolerance)), "--max-iterations", int(max_iterations), "--check-every", check_every,
-                *([] if rolling else ["--without-rolling"]))
+    said = _ask(
+        source,
+        target,
+        "--tolerance",
+        repr(float(tolerance)),
+        "--max-iterations",
+        int(max_iterations),
+        "--check-every",
+        check_every,
+        *([] if rolling else ["--without-rolling"]),
+    )
     answer = contact.load(target)
-    return Answer(f"Siconos {said['siconos']}, {said['solver']}", answer.impulse, answer.velocity, said["iterations"], said["seconds"], said["info"] == 0,
-                  said["error"], contact.residual(problem, answer.impulse))
+    return Answer(
+        f"Siconos {said['siconos']}, {said['solver']}",
+        answer.impulse,
+        answer.velocity,
+        said["iterations"],
+        said["seconds"],
+        said["info"] == 0,
+        said["error"],
+        contact.residual(problem, answer.impulse),
+    )
 
 
 def error_by_siconos(problem, folder, impulse) -> tuple[float, float]:
@@ -85,7 +102,23 @@ def _ask(*arguments):
 def solve_with_ours(problem, tolerance, max_iterations, method="accelerated", check_every=1) -> Answer:
     """Our solver from a cold start, on one thread. ``tolerance``: on the natural map relative to the rms impulse."""
     began = time.perf_counter()
-    found = contact.solve(problem, method=method, tolerance=tolerance, max_iterations=max_iterations, check_every=check_every, start="cold")
+    found = contact.solve(
+        problem,
+        method=method,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        check_every=check_every,
+        start="cold",
+    )
     seconds = time.perf_counter() - began
     name = "ours" if method == "accelerated" else "ours, plain Gauss-Seidel"
-    return Answer(name, found.impulse, found.velocity, found.iterations, seconds, found.converged, found.relative, contact.residual(problem, found.impulse))
+    return Answer(
+        name,
+        found.impulse,
+        found.velocity,
+        found.iterations,
+        seconds,
+        found.converged,
+        found.relative,
+        contact.residual(problem, found.impulse),
+    )

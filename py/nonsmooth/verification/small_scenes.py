@@ -11,9 +11,22 @@ from .. import scene
 from ..scene import contact_dynamics as engine
 from ..stepping import advance
 
-__all__ = ["DENSITY", "G", "TIGHT", "begin", "contacts", "disk", "engine", "material", "run", "set_gravity", "wall", "weight"]
+__all__ = [
+    "DENSITY",
+    "G",
+    "TIGHT",
+    "begin",
+    "contacts",
+    "disk",
+    "engine",
+    "material",
+    "run",
+    "set_gravity",
+    "wall",
+    "weight",
+]
 
-G = 9.81        # m/s²
+G = 9.81  # m/s²
 DENSITY = 2500  # kg/m³
 #: Settings for checks of the law itself: what is then left of the solver's error does not show.
 TIGHT = dict(tolerance=1e-12, maxIterations=20000)

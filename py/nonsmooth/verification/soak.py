@@ -31,7 +31,10 @@ FRACTION = 0.8  # of the disks' area in that, about
 SIDES = 60  # of the polygon
 TURNS_TO_JUDGE = 3
 HELD = 10  # steps for which gravity keeps its direction, a fifth of a degree
-WAYS = {"advance": "steps are made in the plugin's arrays, and shown each time gravity turns", "step": "O.step() for each, and so shown after each"}
+WAYS = {
+    "advance": "steps are made in the plugin's arrays, and shown each time gravity turns",
+    "step": "O.step() for each, and so shown after each",
+}
 
 
 def run(disks, steps, seed=1, progress=lambda share, doing: None, way="advance"):
@@ -62,13 +65,36 @@ def run(disks, steps, seed=1, progress=lambda share, doing: None, way="advance")
             worst, count = max(worst, engine.overlapWorst), count + 1
             sums += engine.kineticEnergy, engine.overlapMean
         lost = engine.slidingLoss + engine.rollingLoss + engine.impactLoss
-        rows.append({"step": O.iter, "turns": O.time / TURN, "overlap_worst_rel": worst, "overlap_mean_rel": sums[1] / count, "kinetic_J": sums[0] / count,
-                     "dissipated_J": lost, "energy_error_rel": (engine.energyError - turning) / lost if lost > 0 else 0.0, "memory_MB": memory(),
-                     "sweeps_mean": (engine.totalIterations - sweeps) / (end - first), "unconverged": engine.unconverged - missed, "inside": _inside(radius),
-                     "bits": _checksum(engine)})
+        rows.append(
+            {
+                "step": O.iter,
+                "turns": O.time / TURN,
+                "overlap_worst_rel": worst,
+                "overlap_mean_rel": sums[1] / count,
+                "kinetic_J": sums[0] / count,
+                "dissipated_J": lost,
+                "energy_error_rel": (engine.energyError - turning) / lost if lost > 0 else 0.0,
+                "memory_MB": memory(),
+                "sweeps_mean": (engine.totalIterations - sweeps) / (end - first),
+                "unconverged": engine.unconverged - missed,
+                "inside": _inside(radius),
+                "bits": _checksum(engine),
+            }
+        )
         progress((k + 1) / ROWS, f"{O.time / TURN:.1f} turns")
-    return {"disks": disks, "steps": steps, "seed": seed, "way": way, "step_s": STEP, "turn_s": TURN, "drum_radius_m": radius, "froude": (2 * math.pi / TURN) ** 2 * radius / GRAVITY,
-            "wall_s": time.monotonic() - began, "rows": rows, **judge(rows)}
+    return {
+        "disks": disks,
+        "steps": steps,
+        "seed": seed,
+        "way": way,
+        "step_s": STEP,
+        "turn_s": TURN,
+        "drum_radius_m": radius,
+        "froude": (2 * math.pi / TURN) ** 2 * radius / GRAVITY,
+        "wall_s": time.monotonic() - began,
+        "rows": rows,
+        **judge(rows),
+    }
 
 
 def judge(rows):
@@ -78,12 +104,18 @@ def judge(rows):
     """
     if rows[-1]["turns"] < TURNS_TO_JUDGE:
         return {"grew": None, "ratios": {}}
-    settled = rows[len(rows) // 10:]
+    settled = rows[len(rows) // 10 :]
     third = max(1, len(settled) // 3)
     ratios, grew = {}, []
     # A drum's flow is uneven: means of a third of it differ by some per cent, a largest value by more, and more than that may be chance where both are small.
     # Memory is measured to a megabyte or so.
-    for name, most, small in (("overlap_worst_rel", 2.0, 1e-3), ("overlap_mean_rel", 1.25, 1e-5), ("kinetic_J", 1.25, 0), ("sweeps_mean", 1.25, 0), ("memory_MB", 1.02, 0)):
+    for name, most, small in (
+        ("overlap_worst_rel", 2.0, 1e-3),
+        ("overlap_mean_rel", 1.25, 1e-5),
+        ("kinetic_J", 1.25, 0),
+        ("sweeps_mean", 1.25, 0),
+        ("memory_MB", 1.02, 0),
+    ):
         gather = max if name == "overlap_worst_rel" else lambda values: sum(values) / len(values)
         first, last = (gather([row[name] for row in part]) for part in (settled[:third], settled[-third:]))
         ratios[name] = last / first if first > 0 else 1.0
@@ -91,7 +123,9 @@ def judge(rows):
             grew.append(f"{name}: {first:.4g} in the first third, {last:.4g} in the last")
     errors = [abs(row["energy_error_rel"]) for row in settled]
     if not max(errors[-third:]) <= max(1.25 * max(errors[:third]), 1e-3):
-        grew.append(f"energy_error_rel: {max(errors[:third]):.2g} of what was dissipated in the first third, {max(errors[-third:]):.2g} in the last")
+        grew.append(
+            f"energy_error_rel: {max(errors[:third]):.2g} of what was dissipated in the first third, {max(errors[-third:]):.2g} in the last"
+        )
     if not all(row["inside"] == rows[0]["inside"] for row in rows):
         grew.append(f"disks left the drum: {rows[0]['inside']} were in it, and {rows[-1]['inside']} are")
     return {"grew": grew, "ratios": ratios}
@@ -120,8 +154,15 @@ def _fill(disks, seed):
     O.bodies.append(scene.segments(corners, stuff, sense=1, closed=True))
     pitch = 1.22  # wider than the widest disk
     reach = int(radius / pitch) + 1
-    places = sorted(((pitch * a, pitch * b) for a in range(-reach, reach + 1) for b in range(-reach, reach + 1)
-                     if math.hypot(pitch * a, pitch * b) < radius * math.cos(math.pi / SIDES) - 0.62), key=lambda p: (p[1], p[0]))
+    places = sorted(
+        (
+            (pitch * a, pitch * b)
+            for a in range(-reach, reach + 1)
+            for b in range(-reach, reach + 1)
+            if math.hypot(pitch * a, pitch * b) < radius * math.cos(math.pi / SIDES) - 0.62
+        ),
+        key=lambda p: (p[1], p[0]),
+    )
     if len(places) < disks:
         raise ValueError(f"{disks} disks: only {len(places)} have a place in their drum to begin with; give 60 or more")
     O.bodies.append([scene.disk(place, r, stuff) for place, r in zip(places, radii)])

@@ -17,7 +17,11 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
 METHODS = (("accelerated", "accelerated"), ("gaussSeidel", "plain Gauss-Seidel"))
 ORDERS = 21  # orders of the contacts, at random: sweeps to 1e-4 follow the order
 #: Name, method and interval of the looks at the residual.
-WAYS = (("accelerated", "accelerated", 10), ("accelerated, looked at every 50", "accelerated", 50), ("plain Gauss-Seidel", "gaussSeidel", 10))
+WAYS = (
+    ("accelerated", "accelerated", 10),
+    ("accelerated, looked at every 50", "accelerated", 50),
+    ("plain Gauss-Seidel", "gaussSeidel", 10),
+)
 
 
 @check("Sweeps to a residual, from a cold start and from known forces", subject=SUBJECT, seconds=50, quick=20)
@@ -49,55 +53,138 @@ def sweeps_to_a_residual(bench):
         for way, method, every in WAYS:
             for tolerance in TOLERANCES:
                 bench.progress(f"{start_name}, {way}, {tolerance:g}")
-                s = contact.solve(problem, method=method, start=start, tolerance=tolerance, max_iterations=cap, check_every=every)
+                s = contact.solve(
+                    problem, method=method, start=start, tolerance=tolerance, max_iterations=cap, check_every=every
+                )
                 b = lp.balance(dump, problem, s.impulse)
                 found[start_name, way, tolerance] = s, b
-                rows.append([start_name, way, f"{tolerance:.0e}", f"{s.iterations:,}" if s.converged else f"more than {cap:,}",
-                             f"{s.restarts}", f"{s.relative:.1e}",
-                             f"{b.carried:.4f}", f"{b.floor:.4f}"])
-    curves = {way: [_after(dump, problem, method, n, every) for n in _sweep_counts(cap, every)] for way, method, every in WAYS}
+                rows.append(
+                    [
+                        start_name,
+                        way,
+                        f"{tolerance:.0e}",
+                        f"{s.iterations:,}" if s.converged else f"more than {cap:,}",
+                        f"{s.restarts}",
+                        f"{s.relative:.1e}",
+                        f"{b.carried:.4f}",
+                        f"{b.floor:.4f}",
+                    ]
+                )
+    curves = {
+        way: [_after(dump, problem, method, n, every) for n in _sweep_counts(cap, every)] for way, method, every in WAYS
+    }
     climb = [_after(dump, problem, "accelerated", n) for n in range(10, 301, 10)]
     lifted = next((n for n, _, carried in climb if carried >= 0.99), np.inf)
     plain = {n: _after(dump, problem, "gaussSeidel", n) for n in (100, 1000)}
     bench.progress("cold, accelerated, 1e-4, by orders")
-    orders = np.array([contact.solve(_reordered(problem, seed), start="cold", tolerance=1e-4, max_iterations=cap).iterations for seed in range(ORDERS)])
+    orders = np.array(
+        [
+            contact.solve(_reordered(problem, seed), start="cold", tolerance=1e-4, max_iterations=cap).iterations
+            for seed in range(ORDERS)
+        ]
+    )
     fast = np.median(orders)
     claims = [
-        between(f"cold, accelerated: sweeps to 1e-4, median of {ORDERS} orders of contacts", fast, 70, 150, against="100 in earlier computations",
-                why="about 100 at this thickness, whatever the size; a factor of 1.5"),
-        between("cold, accelerated: sweeps until 0.99 of the weight is carried", lifted, 70, 150, against="100 on 16,901 disks",
-                why="a factor of 1.5 for another packing; looked at every 10"),
-        between("cold, plain: share of the weight carried after 100 sweeps", plain[100][2], 0.15, 0.45, against="0.29 on 16,901 disks",
-                why="a diffusion across the same thickness; half of it either way"),
-        between("cold, plain: the same after 1,000 sweeps", plain[1000][2], 0.7, 0.95, against="0.84 on 16,901 disks", why="the same"),
-        between("cold, plain: residual after 1,000 sweeps", plain[1000][1], 1e-4, 5e-4, against="2.3e-4 on 16,901 disks",
-                why="a factor of 2"),
-        at_least("cold: plain sweeps over accelerated ones to 1e-4", found["cold", "plain Gauss-Seidel", 1e-4][0].iterations / fast, 8,
-                 why="acceleration was worth a factor of 20 to 50 in reaching a share of the weight; in residual less, since plain sweeps smooth first"),
-        near("cold, accelerated: share carried at 1e-5", found["cold", "accelerated", 1e-5][1].carried, 1, absolute=0.02,
-             why="gaps of up to g h² = 0.25 mm may still close within the step"),
-        at_most("cold, accelerated, looked at every 50: sweeps to 1e-6", found["cold", "accelerated, looked at every 50", 1e-6][0].iterations, 3300,
-                why="no theory: a guard at three times what was found when this check was written, 1,100"),
-        *(near(f"from LMGC90's forces, {way}: sweeps to 1e-5", found["LMGC90's forces", way, 1e-5][0].iterations, 0, absolute=0,
-               why="its residual is below 1e-5: a solution must be recognised as one") for way, _, _ in WAYS),
-        at_most("from LMGC90's forces, accelerated: sweeps to 1e-6", found["LMGC90's forces", "accelerated", 1e-6][0].iterations, 100,
-                why="what is missed are our levers, a matter of neighbours"),
+        between(
+            f"cold, accelerated: sweeps to 1e-4, median of {ORDERS} orders of contacts",
+            fast,
+            70,
+            150,
+            against="100 in earlier computations",
+            why="about 100 at this thickness, whatever the size; a factor of 1.5",
+        ),
+        between(
+            "cold, accelerated: sweeps until 0.99 of the weight is carried",
+            lifted,
+            70,
+            150,
+            against="100 on 16,901 disks",
+            why="a factor of 1.5 for another packing; looked at every 10",
+        ),
+        between(
+            "cold, plain: share of the weight carried after 100 sweeps",
+            plain[100][2],
+            0.15,
+            0.45,
+            against="0.29 on 16,901 disks",
+            why="a diffusion across the same thickness; half of it either way",
+        ),
+        between(
+            "cold, plain: the same after 1,000 sweeps",
+            plain[1000][2],
+            0.7,
+            0.95,
+            against="0.84 on 16,901 disks",
+            why="the same",
+        ),
+        between(
+            "cold, plain: residual after 1,000 sweeps",
+            plain[1000][1],
+            1e-4,
+            5e-4,
+            against="2.3e-4 on 16,901 disks",
+            why="a factor of 2",
+        ),
+        at_least(
+            "cold: plain sweeps over accelerated ones to 1e-4",
+            found["cold", "plain Gauss-Seidel", 1e-4][0].iterations / fast,
+            8,
+            why="acceleration was worth a factor of 20 to 50 in reaching a share of the weight; in residual less, since plain sweeps smooth first",
+        ),
+        near(
+            "cold, accelerated: share carried at 1e-5",
+            found["cold", "accelerated", 1e-5][1].carried,
+            1,
+            absolute=0.02,
+            why="gaps of up to g h² = 0.25 mm may still close within the step",
+        ),
+        at_most(
+            "cold, accelerated, looked at every 50: sweeps to 1e-6",
+            found["cold", "accelerated, looked at every 50", 1e-6][0].iterations,
+            3300,
+            why="no theory: a guard at three times what was found when this check was written, 1,100",
+        ),
+        *(
+            near(
+                f"from LMGC90's forces, {way}: sweeps to 1e-5",
+                found["LMGC90's forces", way, 1e-5][0].iterations,
+                0,
+                absolute=0,
+                why="its residual is below 1e-5: a solution must be recognised as one",
+            )
+            for way, _, _ in WAYS
+        ),
+        at_most(
+            "from LMGC90's forces, accelerated: sweeps to 1e-6",
+            found["LMGC90's forces", "accelerated", 1e-6][0].iterations,
+            100,
+            why="what is missed are our levers, a matter of neighbours",
+        ),
     ]
     heads = ["start", "method", "residual wanted", "sweeps", "restarts", "residual", "carried", "floor"]
     _, left, carried = climb[9]
-    remark = (f"After 100 accelerated sweeps this packing carries {carried:.3f} of its weight at a residual of {left:.1e}, "
-              f"less than the 0.9945 at 4.0e-5 of the other one; "
-              f"it needs {lifted:g} to 0.99. To 1e-4 it takes {found['cold', 'accelerated', 1e-4][0].iterations} sweeps in the order of the file, and "
-              f"{orders.min()} to {orders.max()}, half of them {np.quantile(orders, 0.25):g} to {np.quantile(orders, 0.75):g}, in random ones.")
-    return Outcome(claims=claims,
-    tables=[("Sweeps until the independent residual is reached, and the share of the weight carried then.", heads, rows)],
-                   plots=[_convergence(curves)], remarks=[remark])
+    remark = (
+        f"After 100 accelerated sweeps this packing carries {carried:.3f} of its weight at a residual of {left:.1e}, "
+        f"less than the 0.9945 at 4.0e-5 of the other one; "
+        f"it needs {lifted:g} to 0.99. To 1e-4 it takes {found['cold', 'accelerated', 1e-4][0].iterations} sweeps in the order of the file, and "
+        f"{orders.min()} to {orders.max()}, half of them {np.quantile(orders, 0.25):g} to {np.quantile(orders, 0.75):g}, in random ones."
+    )
+    return Outcome(
+        claims=claims,
+        tables=[
+            ("Sweeps until the independent residual is reached, and the share of the weight carried then.", heads, rows)
+        ],
+        plots=[_convergence(curves)],
+        remarks=[remark],
+    )
 
 
 def _reordered(problem, seed):
     """The same problem with its contacts in another order."""
     order = np.random.default_rng(seed).permutation(len(problem.normal))
-    return dataclasses.replace(problem, **{name: np.asarray(getattr(problem, name))[order] for name in ("body", *contact.CONTACT_ARRAYS)})
+    return dataclasses.replace(
+        problem, **{name: np.asarray(getattr(problem, name))[order] for name in ("body", *contact.CONTACT_ARRAYS)}
+    )
 
 
 def _sweep_counts(cap, every):
@@ -106,7 +193,9 @@ def _sweep_counts(cap, every):
 
 def _after(dump, problem, method, sweeps, every=10):
     """(sweeps, residual, share carried) after so many sweeps from a cold start."""
-    s = contact.solve(problem, method=method, start="cold", tolerance=1e-15, max_iterations=int(sweeps), check_every=every)
+    s = contact.solve(
+        problem, method=method, start="cold", tolerance=1e-15, max_iterations=int(sweeps), check_every=every
+    )
     return s.iterations, s.relative, lp.balance(dump, problem, s.impulse).carried
 
 
@@ -120,8 +209,10 @@ def _convergence(curves):
     left.set(xlabel="sweeps", ylabel="independent residual")
     right.set(xlabel="sweeps", ylabel="share of the weight carried", ylim=(0, 1.05))
     left.legend()
-    return figure, ("From a cold start: residual and weight carried against sweeps, the solver stopped there "
-                    "and both taken from the impulses it returned.")
+    return figure, (
+        "From a cold start: residual and weight carried against sweeps, the solver stopped there "
+        "and both taken from the impulses it returned."
+    )
 
 
 @check("Sweeps in a running scene, from the forces of the step before", subject=SUBJECT, seconds=20, quick=8)
@@ -133,7 +224,8 @@ def sweeps_in_a_running_scene(bench):
     of weight.
 
     At loose tolerances a step may need no sweep at all: the errors of the steps add up until the residual sees them. That is the creep
-    which the check of a hundred steps measures. A quick run makes ten steps, of the tolerances and methods that claims are made of."""
+    which the check of a hundred steps measures. A quick run makes ten steps, of the tolerances and methods that claims are made of.
+    """
     dump = lp.load()
     steps, rows, mean = 10 if bench.quick else 30, [], {}
     tolerances = TOLERANCES[1:3] if bench.quick else TOLERANCES
@@ -149,19 +241,56 @@ def sweeps_in_a_running_scene(bench):
                 sweeps.append(engine.iterations)
                 carried.append(-sum(O.forces.f(wall)[1] for wall in (lp.FLOOR, lp.LEFT, lp.RIGHT)) / dump.weight)
             mean[method, tolerance] = np.mean(sweeps), np.array(carried)
-            rows.append([method_name, f"{tolerance:.0e}", f"{np.mean(sweeps):.1f}", f"{max(sweeps):,}",
-                         f"{sum(s >= 5000 for s in sweeps)}", f"{np.mean(carried):.5f}",
-                         f"{np.ptp(carried):.1e}"])
+            rows.append(
+                [
+                    method_name,
+                    f"{tolerance:.0e}",
+                    f"{np.mean(sweeps):.1f}",
+                    f"{max(sweeps):,}",
+                    f"{sum(s >= 5000 for s in sweeps)}",
+                    f"{np.mean(carried):.5f}",
+                    f"{np.ptp(carried):.1e}",
+                ]
+            )
     claims = [
-        at_most("accelerated, 1e-4: sweeps a step, mean", mean["accelerated", 1e-4][0], 13, against="130 from a cold start", why="a tenth"),
-        at_most("accelerated, 1e-5: sweeps a step, mean", mean["accelerated", 1e-5][0], 60, against="600 from a cold start", why="a tenth"),
-        *(near(f"accelerated, {t:.0e}: mean share of the weight carried", mean["accelerated", t][1].mean(), 1, absolute=2e-3,
-               why="what thirty steps leave out is momentum: 2e-3 of it is 3 mm/s, ten times what LMGC90's packing has") for t in tolerances if t < 1e-3),
-        near("plain, 1e-4: mean share of the weight carried", mean["gaussSeidel", 1e-4][1].mean(), 1, absolute=2e-3, why="the same"),
+        at_most(
+            "accelerated, 1e-4: sweeps a step, mean",
+            mean["accelerated", 1e-4][0],
+            13,
+            against="130 from a cold start",
+            why="a tenth",
+        ),
+        at_most(
+            "accelerated, 1e-5: sweeps a step, mean",
+            mean["accelerated", 1e-5][0],
+            60,
+            against="600 from a cold start",
+            why="a tenth",
+        ),
+        *(
+            near(
+                f"accelerated, {t:.0e}: mean share of the weight carried",
+                mean["accelerated", t][1].mean(),
+                1,
+                absolute=2e-3,
+                why="what thirty steps leave out is momentum: 2e-3 of it is 3 mm/s, ten times what LMGC90's packing has",
+            )
+            for t in tolerances
+            if t < 1e-3
+        ),
+        near(
+            "plain, 1e-4: mean share of the weight carried",
+            mean["gaussSeidel", 1e-4][1].mean(),
+            1,
+            absolute=2e-3,
+            why="the same",
+        ),
     ]
     heads = ["method", "tolerance", "sweeps a step, mean", "most", "steps at 5,000", "carried, mean", "carried, range"]
-    return Outcome(claims=claims,
-    tables=[(f"{steps} steps of 5 ms from LMGC90's state, each from the forces of the one before.", heads, rows)])
+    return Outcome(
+        claims=claims,
+        tables=[(f"{steps} steps of 5 ms from LMGC90's state, each from the forces of the one before.", heads, rows)],
+    )
 
 
 @check("Stopping tests by name: where they stop, and what they leave", subject=SUBJECT, seconds=20, quick=6)
@@ -173,7 +302,8 @@ def stopping_tests_by_name(bench):
     Since Maxm asks more of each contact than QM/16, and that more than Quad, they stop in this order. None of them is the natural map: what
     residual each leaves at 1e-4 is the figure to know when a computation by LMGC90 is to be repeated. An rms changes little from Quad to
     the natural map, which are relatives: they weigh the same misses as velocities or as impulses, so a factor of 5 either way is expected.
-    In large packings Maxm is some 16 to 30 times Quad, so stopping at Maxm < 1e-4 leaves a residual about so much smaller."""
+    In large packings Maxm is some 16 to 30 times Quad, so stopping at Maxm < 1e-4 leaves a residual about so much smaller.
+    """
     tolerance, cap = 1e-4, 20000
     dump, problem, _ = lp.step_problem(bench.folder)
     rows, claims, sweeps, left = [], [], {}, {}
@@ -181,39 +311,103 @@ def stopping_tests_by_name(bench):
     for method, method_name in methods:
         for test in ("Quad", "QM/16", "Maxm", "naturalMap"):
             bench.progress(f"{method_name}, {test}")
-            s = contact.solve(problem, method=method, start="cold", tolerance=tolerance, max_iterations=cap, stopping=test)
-            before = contact.solve(problem, method=method, start="cold", tolerance=tolerance, max_iterations=max(s.iterations - 10, 0), stopping=test)
+            s = contact.solve(
+                problem, method=method, start="cold", tolerance=tolerance, max_iterations=cap, stopping=test
+            )
+            before = contact.solve(
+                problem,
+                method=method,
+                start="cold",
+                tolerance=tolerance,
+                max_iterations=max(s.iterations - 10, 0),
+                stopping=test,
+            )
             figures = [_figures(problem, impulse) for impulse in (s.impulse, before.impulse)]
             b = lp.balance(dump, problem, s.impulse)
             sweeps[method, test], left[method, test] = s.iterations, s.relative
             if s.converged:
                 claims += [
-                    between(f"{method_name}: figure of {test} at its stop", figures[0][test], 0, tolerance * (1 + 1e-6),
-                            why="the tolerance; 1e-6 of it for velocities computed anew"),
-                    at_least(f"{method_name}: figure of {test} ten sweeps earlier", figures[1][test], tolerance,
-                             why="else it would have stopped there"),
+                    between(
+                        f"{method_name}: figure of {test} at its stop",
+                        figures[0][test],
+                        0,
+                        tolerance * (1 + 1e-6),
+                        why="the tolerance; 1e-6 of it for velocities computed anew",
+                    ),
+                    at_least(
+                        f"{method_name}: figure of {test} ten sweeps earlier",
+                        figures[1][test],
+                        tolerance,
+                        why="else it would have stopped there",
+                    ),
                 ]
-            rows.append([method_name, test, f"{s.iterations:,}" if s.converged else f"more than {cap:,}", f"{s.relative:.1e}",
-                         *(f"{figures[0][name]:.1e}" for name in ("Quad", "QM/16", "Maxm")), f"{b.carried:.4f}"])
+            rows.append(
+                [
+                    method_name,
+                    test,
+                    f"{s.iterations:,}" if s.converged else f"more than {cap:,}",
+                    f"{s.relative:.1e}",
+                    *(f"{figures[0][name]:.1e}" for name in ("Quad", "QM/16", "Maxm")),
+                    f"{b.carried:.4f}",
+                ]
+            )
         claims += [
-            at_least(f"{method_name}: sweeps of QM/16 over those of Quad", sweeps[method, "QM/16"] / sweeps[method, "Quad"], 1,
-                     why="it asks all that Quad asks, and more"),
-            at_least(f"{method_name}: sweeps of Maxm over those of QM/16", sweeps[method, "Maxm"] / sweeps[method, "QM/16"], 1,
-                     why="its figures are at least Quad's, and 16.666 times stricter than QM/16's maxima"),
-            between(f"{method_name}: residual that Quad leaves at 1e-4", left[method, "Quad"], 1e-4 / 5, 5e-4,
-                    why="relatives: a factor of 5 either way"),
-            between(f"{method_name}: residual that QM/16 leaves at 1e-4", left[method, "QM/16"], 1e-4 / 25, 2e-4,
-                    why="at most what Quad leaves"),
+            at_least(
+                f"{method_name}: sweeps of QM/16 over those of Quad",
+                sweeps[method, "QM/16"] / sweeps[method, "Quad"],
+                1,
+                why="it asks all that Quad asks, and more",
+            ),
+            at_least(
+                f"{method_name}: sweeps of Maxm over those of QM/16",
+                sweeps[method, "Maxm"] / sweeps[method, "QM/16"],
+                1,
+                why="its figures are at least Quad's, and 16.666 times stricter than QM/16's maxima",
+            ),
+            between(
+                f"{method_name}: residual that Quad leaves at 1e-4",
+                left[method, "Quad"],
+                1e-4 / 5,
+                5e-4,
+                why="relatives: a factor of 5 either way",
+            ),
+            between(
+                f"{method_name}: residual that QM/16 leaves at 1e-4",
+                left[method, "QM/16"],
+                1e-4 / 25,
+                2e-4,
+                why="at most what Quad leaves",
+            ),
         ]
         if method == "accelerated":
             ratio = left[method, "Maxm"] / left[method, "Quad"]
-            claims.append(between(f"{method_name}: residual that Maxm leaves, over that of Quad", ratio, 1 / 60, 1 / 8,
-                                  why="16 to 30 times less, to a factor of 2"))
+            claims.append(
+                between(
+                    f"{method_name}: residual that Maxm leaves, over that of Quad",
+                    ratio,
+                    1 / 60,
+                    1 / 8,
+                    why="16 to 30 times less, to a factor of 2",
+                )
+            )
     heads = ["method", "test at 1e-4", "sweeps", "residual left", "Quad", "QM/16", "Maxm", "carried"]
-    return Outcome(claims=claims,
-    tables=[("A cold start, stopped by each test: sweeps, the independent residual, each test's figure, and the share of the weight carried.", heads, rows)])
+    return Outcome(
+        claims=claims,
+        tables=[
+            (
+                "A cold start, stopped by each test: sweeps, the independent residual, each test's figure, and the share of the weight carried.",
+                heads,
+                rows,
+            )
+        ],
+    )
 
 
 def _figures(problem, impulse):
     changes = contact.velocity_changes(problem, impulse)
-    return {"Quad": changes.quad, "QM/16": changes.qm16, "Maxm": changes.maxm, "naturalMap": contact.residual(problem, impulse).relative}
+    return {
+        "Quad": changes.quad,
+        "QM/16": changes.qm16,
+        "Maxm": changes.maxm,
+        "naturalMap": contact.residual(problem, impulse).relative,
+    }

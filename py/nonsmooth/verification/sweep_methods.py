@@ -16,9 +16,9 @@ from scipy.sparse.linalg import splu
 
 __all__ = ["METHODS", "Sweeps", "run"]
 
-FLOPS = 100   # of one visit, see above
-LOOK = 10     # sweeps between two looks at the residual
-PATIENCE = 40 # sweeps between those that a restart compares, at most
+FLOPS = 100  # of one visit, see above
+LOOK = 10  # sweeps between two looks at the residual
+PATIENCE = 40  # sweeps between those that a restart compares, at most
 
 
 class Sweeps:
@@ -32,7 +32,9 @@ class Sweeps:
         self.i, self.j = problem.body.T
         (nx, ny), lever = problem.normal.T, problem.lever.T
         one, none = np.ones(c), np.zeros(c)
-        side = lambda n, t: np.array([np.column_stack([nx, ny, n]), np.column_stack([-ny, nx, t]), np.column_stack([none, none, one])])  # noqa: E731
+        side = lambda n, t: np.array(
+            [np.column_stack([nx, ny, n]), np.column_stack([-ny, nx, t]), np.column_stack([none, none, one])]
+        )  # noqa: E731
         self.rows = np.array([-side(lever[0], lever[1]), side(lever[2], lever[3])])
         mass = problem.inverse_mass
         self.pushes = np.array([self.rows[0] * mass[self.i], self.rows[1] * mass[self.j]])
@@ -66,13 +68,21 @@ class Sweeps:
 
     def relative(self, v):
         """Relative velocities (c, 3), bias included."""
-        return np.einsum("rcd,cd->cr", self.rows[0], v[self.i]) + np.einsum("rcd,cd->cr", self.rows[1], v[self.j]) + self.problem.bias
+        return (
+            np.einsum("rcd,cd->cr", self.rows[0], v[self.i])
+            + np.einsum("rcd,cd->cr", self.rows[1], v[self.j])
+            + self.problem.bias
+        )
 
     def project(self, p, pressing=None):
         """Impulses moved onto their graphs' admissible sets, normal first. Thresholds are those of the normal impulses ``pressing`` (c,) or of the new ones."""
         q = self.problem
         n = np.maximum(p[:, 0], -q.adhesion)
-        limits = np.maximum(0, np.column_stack([q.friction, q.rolling_arm]) * (q.adhesion + (n if pressing is None else pressing))[:, None])
+        limits = np.maximum(
+            0,
+            np.column_stack([q.friction, q.rolling_arm])
+            * (q.adhesion + (n if pressing is None else pressing))[:, None],
+        )
         return np.column_stack([n, np.clip(p[:, 1:], -limits, limits)])
 
     def residual(self, p, v):
@@ -87,7 +97,11 @@ class Sweeps:
             i, j = self.i[at], self.j[at]
             vi, vj = v[i], v[j]
             for row in range(3):
-                u = (self.rows[0, row, at] * vi).sum(axis=1) + (self.rows[1, row, at] * vj).sum(axis=1) + q.bias[at, row]
+                u = (
+                    (self.rows[0, row, at] * vi).sum(axis=1)
+                    + (self.rows[1, row, at] * vj).sum(axis=1)
+                    + q.bias[at, row]
+                )
                 new = p[at, row] - relaxation * self.inverse[at, row] * u
                 if row == 0:
                     new = np.maximum(new, -q.adhesion[at])
@@ -226,11 +240,15 @@ def anderson(s, p, v, depth=5):
         least = min(least, size)
         if size > 2 * least:
             results, changes, least = [], [], size
-        results, changes = [*results, (q, w)][-depth - 1:], [*changes, change][-depth - 1:]
+        results, changes = [*results, (q, w)][-depth - 1 :], [*changes, change][-depth - 1 :]
         p, v = q, w
         if len(changes) > 1:
             differences = np.array([(changes[-1] - c).ravel() for c in changes[:-1]])
-            shares = np.linalg.lstsq(differences @ differences.T + 1e-14 * size**2 * np.eye(len(differences)), differences @ changes[-1].ravel(), rcond=None)[0]
+            shares = np.linalg.lstsq(
+                differences @ differences.T + 1e-14 * size**2 * np.eye(len(differences)),
+                differences @ changes[-1].ravel(),
+                rcond=None,
+            )[0]
             p = q - sum(g * (q - old) for g, (old, _) in zip(shares, results[:-1]))
             v = w - sum(g * (w - old) for g, (_, old) in zip(shares, results[:-1]))
         yield 1, q, w
@@ -242,14 +260,22 @@ def alternating(s, p, v, weight=20.0):
     free = np.flatnonzero(q.inverse_mass.ravel() > 0)
     at = np.full(q.inverse_mass.size, -1)
     at[free] = np.arange(len(free))
-    entries = [(np.repeat(3 * np.arange(c) + row, 3), at[(3 * bodies[:, None] + np.arange(3)).ravel()], h[row].ravel())
-               for bodies, h in zip((s.i, s.j), s.rows) for row in range(3)]
+    entries = [
+        (np.repeat(3 * np.arange(c) + row, 3), at[(3 * bodies[:, None] + np.arange(3)).ravel()], h[row].ravel())
+        for bodies, h in zip((s.i, s.j), s.rows)
+        for row in range(3)
+    ]
     line, column, value = (np.concatenate(part) for part in zip(*entries))
     inside = column >= 0
     h = coo_matrix((value[inside], (line[inside], column[inside])), shape=(3 * c, len(free))).tocsc()
     penalty = weight * s.inverse.ravel()
     mass = 1 / q.inverse_mass.ravel()[free]
-    factors = splu((diags(mass) + h.T @ diags(penalty) @ h).tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}, diag_pivot_thresh=0)
+    factors = splu(
+        (diags(mass) + h.T @ diags(penalty) @ h).tocsc(),
+        permc_spec="MMD_AT_PLUS_A",
+        options={"SymmetricMode": True},
+        diag_pivot_thresh=0,
+    )
     filled = np.diff(factors.L.indptr).astype(float)
     done = 2 * float((filled**2).sum()) / (FLOPS * c)  # the factorisation
     fixed = np.zeros(q.inverse_mass.size)
@@ -270,8 +296,16 @@ def alternating(s, p, v, weight=20.0):
 
 
 #: The names that tables and figures give them.
-METHODS = {"Gauss-Seidel": plain, "over-relaxed by 1.3": over_relaxed, "accelerated (shipped)": accelerated, "accelerated, forth and back": forth_and_back,
-           "gradient of all at once, accelerated": gradient, "conjugate gradients": conjugate, "Anderson, depth 5": anderson, "ADMM": alternating}
+METHODS = {
+    "Gauss-Seidel": plain,
+    "over-relaxed by 1.3": over_relaxed,
+    "accelerated (shipped)": accelerated,
+    "accelerated, forth and back": forth_and_back,
+    "gradient of all at once, accelerated": gradient,
+    "conjugate gradients": conjugate,
+    "Anderson, depth 5": anderson,
+    "ADMM": alternating,
+}
 
 
 def run(problem, method, start, tolerance, most):

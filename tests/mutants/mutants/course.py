@@ -30,7 +30,7 @@ MUTANTS = (
     mutant("walls-first", COURSE, "        self.walls.forget()\n", "", "the first row counts the steps in which bonds are made",
            "test_slope_course.py::test_rows_hold_means_and_peaks"),
     # ---- course
-    mutant("course-hold", RULES, "water_hold=seen.water if rises and (follows or not s.stood) else s.water_hold)", "water_hold=s.water_hold)",
+    mutant("course-hold", RULES, "water_hold=seen.water if rises and (follows or not s.stood) else s.water_hold,", "water_hold=s.water_hold,",
            "the water table goes on rising while the slope moves", "plain:test_course.py::test_where_the_table_stays"),
     mutant("course-held-height", RULES, "return [state.t0], [state.water_hold]", "return [state.t0], [0.0]", "a table that is held falls to nothing",
            "plain:test_course.py::test_where_the_table_stays"),
@@ -190,7 +190,7 @@ MUTANTS = (
            "test_commands.py::test_a_command_ends_with_its_status_and_one_line"),
     mutant("script-water", PY + "section_arguments.py", "table=((0.0, 0.0),), rate=args.water", "table=((0.0, 0.0),), rate=1e-3 * args.water",
            "--water is read as millimetres a second", "test_options.py::test_an_option_acts[jiufengershan--water]"),
-    mutant("script-confining", "scripts/biaxial.py", "biaxial.Test(material, 1e6 * p,", "biaxial.Test(material, 1e3 * p,", "--confining is read as kilopascals",
+    mutant("script-confining", "scripts/biaxial.py", "            1e6 * p,\n            pressing.Shape(", "            1e3 * p,\n            pressing.Shape(", "--confining is read as kilopascals",
            "test_options.py::test_an_option_acts[biaxial--confining]"),
     mutant("script-strength", "scripts/wall_shear.py", "1e3 * args.tensile_strength", "1e6 * args.tensile_strength", "--tensile-strength is read as megapascals",
            "test_options.py::test_an_option_acts[wall_shear--tensile-strength]"),

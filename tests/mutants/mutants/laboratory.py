@@ -74,7 +74,7 @@ MUTANTS = (
            "test_soft.py::test_a_broken_bond_gets_the_residual_strengths"),
     mutant("soft-shear-sign", SOFT + "measures.py", "shear[1] * nx - shear[0] * ny", "shear[0] * ny - shear[1] * nx",
            "the tangential force of soft contacts has the wrong sign", "test_soft_measures.py::test_forces_are_those_on_the_second_body"),
-    mutant("soft-mode", SOFT + "measures.py", "parts = {TENSION: _share(-normal, p.normalAdhesion)", "parts = {TENSION: _share(normal, p.normalAdhesion)",
+    mutant("soft-mode", SOFT + "measures.py", "TENSION: _share(-normal, p.normalAdhesion)", "TENSION: _share(normal, p.normalAdhesion)",
            "a compressed bond counts as one in tension", "test_soft_measures.py::test_a_bond_is_counted_by_how_it_broke"),
     mutant("soft-overlap", SOFT + "measures.py", "radii[0] + radii[1] if", "2 * (radii[0] + radii[1]) if", "overlaps of soft disks are halved",
            "test_soft_measures.py::test_forces_are_those_on_the_second_body"),
