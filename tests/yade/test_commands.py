@@ -21,6 +21,7 @@ from yade.nonsmooth import (
     commands,
     errors,
     interrupts,
+    keys,
     output_folder,
     processes,
     records,
@@ -558,7 +559,9 @@ def test_damaged_trials_of_a_search_are_one_message(tmp_path, content):
 
 
 def test_a_wedge_that_ended_early_is_not_taken(tmp_path):
-    (tmp_path / "dry_hard.table").write_text("seconds friction water save\n2.0 0.6 0 'dry_hard.part'\n")
+    table = "seconds friction water save\n2.0 0.6 0 'dry_hard.part'\n"
+    source = (SCRIPTS / "examples" / "hard_wedge.py").read_text()
+    (tmp_path / "dry_hard.key").write_text(keys.run_key([table, source]))
     (tmp_path / "dry_hard.txt").write_text("# t centroid largest\n0.1 0.0 0.0\n0.2 0.0 0.0\n")
     status, _, lines = ended(start("wedge.py", "--seconds", 2, "--resume", "--out", tmp_path))
     assert status == 1 and "dry_hard.txt: the run ended before 2 s" in lines[-2], lines
