@@ -18,6 +18,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinxcontrib.bibtex",
     "nbsphinx",  # notebooks, with the results that they were written with
+    "bibliography",  # references in a page that closes what it opens
     "mathml",  # equations, without a network
     "yade_reference",  # classes of the plugin, from their docstrings
     "package_modules",  # modules of the package, from their docstrings
