@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import os
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 from .errors import UserError
 from .whole_files import remove_parts_below
 
-__all__ = ["FolderError", "claim"]
+__all__ = ["FolderError", "claim", "claimed"]
 
 LOCK = ".run"  # locked while a process writes into the folder; holds the names of the commands that have, one a line
 
@@ -63,3 +64,16 @@ def claim(folder, command, resume=False):
             ) from None
     if alone:
         remove_parts_below(folder, LOCK)
+
+
+@contextlib.contextmanager
+def claimed(folder, command, resume=False):
+    """The same for a block, in a process that lives on, as a notebook's: others may claim the folder once the block has ended. Raises what :func:`claim` raises."""
+    place = Path(folder).resolve()
+    before = place in _held
+    claim(folder, command, resume)
+    try:
+        yield
+    finally:
+        if not before:
+            _held.pop(place).close()

@@ -1,6 +1,7 @@
 """A plan of runs: what it makes of a section, what it keeps and collects, and that it is the same run here, through Snakemake and as a job of Slurm."""
 
 import csv
+import fcntl
 import json
 import shutil
 import subprocess
@@ -10,7 +11,7 @@ import oracles
 import pytest
 import shell
 from shell import ROOT
-from yade.nonsmooth import campaign, kept_runs, keys, processes, section, section_data
+from yade.nonsmooth import campaign, kept_runs, keys, output_folder, processes, section, section_data
 
 SHIPPED = section.load("interface")
 PYTHON = "/usr/bin/python3"
@@ -158,6 +159,22 @@ def test_the_table_has_values_and_numbers_of_each_run(tmp_path, called):
     )
     again = campaign.read(tmp_path)
     assert again == planned() and campaign.collect(tmp_path)["twice"] == [2, 4, 2, 4]
+
+
+def test_a_plan_holds_its_folder_while_it_runs_and_no_longer(tmp_path, called, monkeypatch):
+    """A notebook's process lives on, and a shell may go on with --resume; others are kept out meanwhile."""
+
+    def free():
+        with open(tmp_path / output_folder.LOCK, "a") as other:
+            try:
+                fcntl.flock(other, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                return False
+            return True
+
+    found = []
+    planned().run(tmp_path, 1, progress=lambda share, ended: found.append(free()))
+    assert found and not any(found) and free()
 
 
 def test_a_plan_that_grows_keeps_what_has_ended(tmp_path, called):

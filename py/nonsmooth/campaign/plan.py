@@ -75,18 +75,12 @@ class Plan:
         FolderError where another process works there, PlanError with the first failure after the others have ended, and interrupts.Interrupted after Ctrl-C.
         """
         installation.engines()
-        output_folder.claim(out, "sweep.py", resume)
-        self.write(out)
-        side_by_side.run(
-            [self._made(one, out) for one in self.runs],
-            threads,
-            resume,
-            PlanError,
-            "; what has ended is kept, go on with --resume",
-            progress,
-            go_on=True,
-        )
-        return collect(out)
+        advice = "; what has ended is kept, go on with --resume"
+        with output_folder.claimed(out, "sweep.py", resume):
+            self.write(out)
+            made = [self._made(one, out) for one in self.runs]
+            side_by_side.run(made, threads, resume, PlanError, advice, progress, go_on=True)
+            return collect(out)
 
     def _made(self, one, out):
         return side_by_side.Run(
@@ -122,8 +116,8 @@ def run_one(out, which):
         )
         raise PlanError(f"{out}: no {what}")
     made = plan._made(found[0], out)
-    output_folder.claim(made.folder, "sweep.py")
-    return side_by_side.run([made], 1, True, PlanError, go_on=True)[0]
+    with output_folder.claimed(made.folder, "sweep.py"):
+        return side_by_side.run([made], 1, True, PlanError, go_on=True)[0]
 
 
 def collect(out) -> dict:

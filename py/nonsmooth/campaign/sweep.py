@@ -65,10 +65,10 @@ def run_slope(made, out, end=None, figures=False, resume=False, threads=1) -> ru
 
     Raises FolderError where another process works there, and processes.RunError where the run fails.
     """
-    output_folder.claim(out, "slope.py", resume)
-    if not resume:
-        checkpoints.forget(out)
-    processes.call(FUNCTION, out, {"data": section_data.plain(made), "end": end, "figures": figures}, threads)
+    with output_folder.claimed(out, "slope.py", resume):
+        if not resume:
+            checkpoints.forget(out)
+        processes.call(FUNCTION, out, {"data": section_data.plain(made), "end": end, "figures": figures}, threads)
     return runs.open_run(out)
 
 
