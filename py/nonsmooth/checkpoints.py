@@ -19,16 +19,8 @@ from .whole_files import WriteError, remove_parts, sync_folder, whole, write_ato
 __all__ = ["exists", "forget", "read", "write"]
 
 FORMAT = 2
-OWN = (
-    "format",
-    "scene",
-    "size",
-    "sha256",
-    "step",
-    "key",
-    "engines",
-    "sum",
-)  # keys of the JSON file that are not the caller's
+# keys of the JSON file that are not the caller's
+OWN = ("format", "scene", "size", "sha256", "step", "key", "engines", "sum")
 
 
 def exists(folder):

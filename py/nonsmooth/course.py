@@ -45,11 +45,8 @@ FRAME_ROWS = 5  # between two snapshots, for the video and the figures
 SLOW_FRACTION = 0.1  # of the largest mean speed, see above
 STILL_SHARE = 0.25  # the tolerance of a slope that is still, of itself
 # for the progress bar alone
-SETTLING, MOTION, RISE = (
-    8.0,
-    55.0,
-    25.0,
-)  # s of a usual settling and of a usual avalanche; m of water that a usual slope bears
+# s of a usual settling and of a usual avalanche; m of water that a usual slope bears
+SETTLING, MOTION, RISE = (8.0, 55.0, 25.0)
 
 
 @dataclass

@@ -375,9 +375,8 @@ class Experiment:
     def _of_solver(self, e):
         """The columns of OF_SOLVER."""
         losses = e.slidingLoss + e.rollingLoss + e.debondingLoss + e.impactLoss
-        turned = (
-            losses + e.kineticEnergy + abs(e.externalWork) if self.state.stage != "settle" else 0.0
-        )  # gravity grows: no balance yet
+        # gravity grows: no balance yet
+        turned = losses + e.kineticEnergy + abs(e.externalWork) if self.state.stage != "settle" else 0.0
         return {
             "iterations": e.iterations,
             "residual": e.residual,

@@ -17,9 +17,8 @@ __all__ = ["InstallationError", "command", "engines"]
 
 _PACKAGE = Path(__file__).resolve().parent
 _CHECKOUT = _PACKAGE.parents[1]
-_INSTALLED = Path(__file__).parents[
-    3
-]  # the folder of a YADE's libraries, where this package is installed in its py/yade
+# the folder of a YADE's libraries, where this package is installed in its py/yade
+_INSTALLED = Path(__file__).parents[3]
 
 
 class InstallationError(UserError, RuntimeError):

@@ -93,9 +93,10 @@ class WallSeries:
         if not self._interfaces and not self._obstacles:
             return {}
         c = tables.contacts(self._slope.solver)
+        # on the second body
         force = np.stack(
             [c["normal"] * c["nx"] - c["tangential"] * c["ny"], c["normal"] * c["ny"] + c["tangential"] * c["nx"]]
-        )  # on the second body
+        )
         one, other = self._layer_of[c["id1"]], self._layer_of[c["id2"]]
         section, found = self._slope.section, {}
         for interface, lower, upper, _ in self._interfaces:

@@ -287,10 +287,8 @@ def test_damaged_files_are_refused_or_solved(reader, tmp_path_factory, compresse
         ("has no attribute format", (attribute, "format", None)),
         ("has no usable attribute time_step", (attribute, "time_step", np.zeros(3))),
         ("has the time_step nan: it must be positive and finite", (attribute, "time_step", float("nan"))),
-        (
-            "body 0 has the position (nan, 0): it must be finite",
-            (value, "bodies/position", 0, float("nan")),
-        ),  # by the solver
+        # by the solver
+        ("body 0 has the position (nan, 0): it must be finite", (value, "bodies/position", 0, float("nan"))),
     ],
 )
 def test_messages(reader, tmp_path, words, change):

@@ -5,11 +5,8 @@ import shutil
 import time
 from dataclasses import dataclass
 
-LAW = (
-    "contacts",
-    "bonds",
-    "impacts",
-)  # modules of checks that a mutant with checks runs: which notices which is a table of its own
+# modules of checks that a mutant with checks runs: which notices which is a table of its own
+LAW = ("contacts", "bonds", "impacts")
 LIMIT = 300.0  # s, for the tests of one mutant
 
 CAUGHT, CRASHED, TIMEOUT, SURVIVED, BROKEN = "caught", "crashed", "timeout", "SURVIVED", "BROKEN"

@@ -110,9 +110,8 @@ def sound(places, chosen):
     for m in chosen:
         for test in m.tests:
             if not test.startswith("check:"):
-                files.setdefault(test.partition("::")[0], set()).add(
-                    test
-                )  # a file's tests in one place, for what they share
+                # a file's tests in one place, for what they share
+                files.setdefault(test.partition("::")[0], set()).add(test)
     parts = [[] for _ in places]
     for k, tests in enumerate(sorted(files.values(), key=len, reverse=True)):
         parts[k % len(parts)] += sorted(tests)

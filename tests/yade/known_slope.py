@@ -94,9 +94,8 @@ def pile(columns, section, bottom, heights, stray=()):
     places = []
     for k, height in enumerate(heights):
         x = columns + BIN * k
-        top = (
-            bottom(x - 2 + BIN / 2) + height - 2.0
-        )  # of the highest disk's centre; bins begin at the first disk's left edge
+        # of the highest disk's centre; bins begin at the first disk's left edge
+        top = bottom(x - 2 + BIN / 2) + height - 2.0
         places += [(x, top - 3.0 * n) for n in range(11)]
     x, y = np.array(places + list(stray)).T
     zero = np.zeros(len(x))

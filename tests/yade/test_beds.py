@@ -117,9 +117,8 @@ def test_an_interface_bears_what_lies_on_it(tmp_path):
     packed = packing.cached_pack(made)
     weight = 2500 * 9.81 * math.pi * np.sum(packed.r[packed.layer == 1] ** 2)
     beta = math.radians(made.dip)
-    assert walls["normal_N_per_m"][last] == pytest.approx(
-        weight * math.cos(beta), rel=0.01
-    )  # still creeping by 2 mm/s at most
+    # still creeping by 2 mm/s at most
+    assert walls["normal_N_per_m"][last] == pytest.approx(weight * math.cos(beta), rel=0.01)
     assert walls["shear_N_per_m"][last] == pytest.approx(weight * math.sin(beta), rel=0.02)
     assert np.isnan(walls["slip_mean_m"][last]).all() and course.slope.solver.bonds > 300
 

@@ -119,9 +119,8 @@ def test_all_that_is_promised_is_there_and_a_number(measured):
 
 def test_stages_add_up_to_the_step(measured):
     for m in measured[1][0][0]["steps"]:
-        assert sum(s["mean"] for s in m["stage_ms"].values()) == pytest.approx(
-            m["step_ms"]["mean"], rel=1e-9
-        )  # "other" is the rest: rounding
+        # "other" is the rest: rounding
+        assert sum(s["mean"] for s in m["stage_ms"].values()) == pytest.approx(m["step_ms"]["mean"], rel=1e-9)
         # engines' own clocks lie inside the step's
         assert 0 <= m["stage_ms"]["other"]["mean"] < 0.5 * m["step_ms"]["mean"]
 
@@ -132,9 +131,8 @@ def test_what_a_step_costs_outside_its_solve_stands_over_the_solve(measured):
     for state, ratio in summary["outside_solve_over_solve"].items():
         ms = summary["stage_ms"][state]
         solve = ms["solve"] + ms["correct"]
-        assert ratio == pytest.approx(
-            (sum(ms.values()) - solve) / solve, rel=1e-9
-        )  # rounding: stages add up to the step
+        # rounding: stages add up to the step
+        assert ratio == pytest.approx((sum(ms.values()) - solve) / solve, rel=1e-9)
         assert ms == {
             name: s["mean"]
             for name, s in next(m for m in summary["steps"] if (m["state"], m["threads"]) == (state, 2))[
@@ -242,10 +240,8 @@ def test_cost_by_size_is_measured_and_drawn(measured, tmp_path):
     done = run("--scale", "500,350", "--section", measured[0] / "quick.yaml", "--threads", 1, "--out", tmp_path)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     found = json.loads((tmp_path / "scale.json").read_text())
-    assert [s["disks"] for s in found["sizes"]] == [
-        pytest.approx(350, abs=4),
-        pytest.approx(500, abs=4),
-    ]  # counts of layers are rounded
+    # counts of layers are rounded
+    assert [s["disks"] for s in found["sizes"]] == [pytest.approx(350, abs=4), pytest.approx(500, abs=4)]
     for s in found["sizes"]:
         assert all(math.isfinite(value) and value >= 0 for _, value in numbers(s))
         assert s["sweep_ns_per_contact"]["1"]["median"] > 0 and s["packing_s"] > 0 and s["step_ms"]["median"] > 0

@@ -255,9 +255,8 @@ def test_a_break_is_named_by_what_makes_more_than_60_per_cent_of_the_path(openin
 def test_walls_bond_only_where_they_say_so():
     for to_all, bonds in ((False, 0), (True, 1)):
         O.reset()
-        disk, wall = material(tensileStrength=SIGMA), material(
-            tensileStrength=SIGMA, wall=True, bondsToAll=to_all
-        )  # of one layer
+        # of one layer
+        disk, wall = material(tensileStrength=SIGMA), material(tensileStrength=SIGMA, wall=True, bondsToAll=to_all)
         O.bodies.append(scene.segments([(-5, 0), (5, 0)], wall))
         O.bodies.append(scene.disk((0, 0.5), 0.5, disk))
         begin(gravity=(0, 0, 0))

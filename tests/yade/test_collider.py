@@ -104,9 +104,8 @@ def test_disks_have_the_contacts_that_brute_force_finds():
         expected = step(ids)
         assert disk_pairs() == expected
         seen |= expected
-    assert (
-        len(seen) > 300 and 20 < collider().searches < 151
-    )  # contacts came and went; and pairs were kept over some steps
+    # contacts came and went; and pairs were kept over some steps
+    assert len(seen) > 300 and 20 < collider().searches < 151
 
 
 def test_far_disks_have_contacts_while_they_are_fast():
@@ -306,9 +305,8 @@ def test_moving_bodies_of_other_shapes_keep_their_contacts():
         O.step()
         for i in O.interactions:
             met |= {i.id1, i.id2} & set(ids)
-    assert (
-        met == set(ids) and len([i for i in O.interactions.all() if 0 in (i.id1, i.id2)]) < 4
-    )  # those behind the plate are forgotten
+    # those behind the plate are forgotten
+    assert met == set(ids) and len([i for i in O.interactions.all() if 0 in (i.id1, i.id2)]) < 4
 
 
 @pytest.mark.parametrize(

@@ -97,9 +97,8 @@ def test_a_result_is_in_units_of_its_box():
         for gates in (("right",), ("left", "right"))
     }
     column_, pile_ = (found[gates].summary() for gates in found)
-    assert (column_["runout_rel"], pile_["runout_rel"]) == pytest.approx(
-        (2.0, 1.0), rel=1e-12
-    )  # (9 + 3)/4 − 1, and half of (9 + 7)/4 − 1
+    # (9 + 3)/4 − 1, and half of (9 + 7)/4 − 1
+    assert (column_["runout_rel"], pile_["runout_rel"]) == pytest.approx((2.0, 1.0), rel=1e-12)
     for told in (column_, pile_):
         assert (told["aspect"], told["final_height_rel"], told["fall_time_s"]) == pytest.approx(
             (2.5, 1.5, 1.0), rel=1e-12
@@ -240,9 +239,8 @@ def test_collapse(collapse, world):
     s = r.series
     assert np.array_equal(r.r, preparation.prepared(c).r)  # no disk is lost or changed
     assert s["front_m"][0] == pytest.approx(r.width, rel=0.02)  # the mass reaches the gate ...
-    assert s["centroid_y_m"][0] == pytest.approx(
-        r.height / 2, rel=0.01
-    )  # ... and stands as it was prepared; springs yield
+    # ... and stands as it was prepared; springs yield
+    assert s["centroid_y_m"][0] == pytest.approx(r.height / 2, rel=0.01)
     # 200 disks scatter about Lube's 1.8 and Staron and Hinch's 3.75 at a = 1.5; YADE's damping shortens the soft runout
     assert 0.8 < r.runout < 4.5
     assert s["centroid_x_m"][-1] > s["centroid_x_m"][0] and s["height_m"][-1] < s["height_m"][0]
@@ -286,9 +284,8 @@ def test_damping_on_the_move_is_its_own(collapse):
         damping_moving=0.02,
         progress=lambda share: seen.append(next(e for e in O.engines if isinstance(e, NewtonIntegrator)).damping),
     )
-    assert (
-        seen[0] == world.damping == 0.2 and seen[-1] == 0.02
-    )  # at 1.5 T the speed is far above a tenth of its largest
+    # at 1.5 T the speed is far above a tenth of its largest
+    assert seen[0] == world.damping == 0.2 and seen[-1] == 0.02
     assert moved.settings["damping_moving"] == 0.02 and "damping_moving" not in usual.settings
     last = len(moved.series["step"]) - 1
     assert moved.series["step"][last] == usual.series["step"][last]
@@ -405,11 +402,12 @@ def test_report_compares_exponents_with_the_published_ones():
     summary = report.summarise(found)
     assert summary["at_rest"] == 7
     below, above = summary["fits"]["runout_below"], summary["fits"]["runout_above"]
+    # exact laws
     assert (
         below["exponent"] == pytest.approx(1.0)
         and above["exponent"] == pytest.approx(0.7)
         and above["factor"] == pytest.approx(6.5)
-    )  # exact laws
+    )
     assert [p["off_rel"] for p in above["published"]] == pytest.approx([0.0, 0.7 / (2 / 3) - 1], abs=1e-9)
     assert above["points"] == 3  # the one that moves is left out
     assert "did not come to rest" in report.table(

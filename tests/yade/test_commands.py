@@ -101,11 +101,8 @@ def test_a_scene_is_followed_until_it_is_calm_or_its_steps_are_used_up():
     made = []
     assert stepping.until(lambda: sum(made) >= 30, 100, 10, made.append) and made == [10, 10, 10]
     made.clear()
-    assert not stepping.until(lambda: False, 25, 10, made.append) and made == [
-        10,
-        10,
-        10,
-    ]  # the last chunk begins within the limit
+    # the last chunk begins within the limit
+    assert not stepping.until(lambda: False, 25, 10, made.append) and made == [10, 10, 10]
     made.clear()
     assert stepping.until(lambda: True, 5, make=made.append) and made == [1]
 
@@ -132,9 +129,8 @@ def test_ctrl_c_writes_a_checkpoint_and_the_run_goes_on_with_the_same_bytes(sect
     assert ended(start("jiufengershan.py", *options, "--out", tmp_path / "whole"))[0] == 0
     out = tmp_path / "out"
     for number in range(2):
-        least = 2 + (
-            rows(out / "series.csv") if number else 0
-        )  # of 30 rows of 0.1 s; two new ones, so that it is on its way
+        # of 30 rows of 0.1 s; two new ones, so that it is on its way
+        least = 2 + (rows(out / "series.csv") if number else 0)
         process = start("jiufengershan.py", *options, "--out", out, *(["--resume"] if number else []))
         wait_for(lambda least=least: rows(out / "series.csv") >= least, process)
         process.send_signal(signal.SIGINT)
@@ -166,10 +162,8 @@ def test_ctrl_c_writes_a_checkpoint_and_the_run_goes_on_with_the_same_bytes(sect
         ("verify.py", ("--quick", "--threads", 1)),
         ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--threads", 1)),
         ("benchmark.py", ("--quick", "--disks", 600, "--threads", 1)),
-        (
-            "jiufengershan.py",
-            ("--disks", 20000, "--seed", 987),
-        ),  # still packing: no packing of this seed is in the cache
+        # still packing: no packing of this seed is in the cache
+        ("jiufengershan.py", ("--disks", 20000, "--seed", 987)),
     ],
 )
 def test_ctrl_c_ends_every_command_with_one_line_and_status_130(tmp_path, name, arguments):
@@ -520,9 +514,8 @@ def test_what_killed_processes_left_half_written_goes_with_the_claim(tmp_path):
     leftovers.plant(tmp_path, *names, *others)
     for name in names:
         (tmp_path / name).write_text("whole")
-    (tmp_path / "runs" / "held" / output_folder.LOCK).write_text(
-        "column.py\n"
-    )  # another command's, which may be running
+    # another command's, which may be running
+    (tmp_path / "runs" / "held" / output_folder.LOCK).write_text("column.py\n")
     output_folder.claim(tmp_path, "compare_hard_soft.py", resume=True)
     assert [Path(name).parent.as_posix() for name in leftovers.found(tmp_path)] == [
         Path(name).parent.as_posix() for name in sorted([*others, *others])

@@ -87,9 +87,8 @@ def outcome(front, seed=1, water=10.0, world="hard", wall=10.0, **case):
 
 def test_error_has_its_parts():
     found = precision.parts(outcome(110.0, water=12.0), outcome(100.0), ("water_at_failure_m",))
-    assert found["front"] == pytest.approx(
-        0.1 / math.sqrt(3), rel=0.01
-    )  # rms of a difference that grows from 0 to a tenth
+    # rms of a difference that grows from 0 to a tenth
+    assert found["front"] == pytest.approx(0.1 / math.sqrt(3), rel=0.01)
     assert found["water_at_failure_m"] == pytest.approx(0.2)
     assert found["deposit"] == pytest.approx(1 - 101 / 111, abs=0.005)  # 101 of 111 disks in common
     whole = precision.error(outcome(110.0, water=12.0), outcome(100.0), ("water_at_failure_m",))
@@ -101,9 +100,8 @@ def test_a_curve_that_has_ended_keeps_its_value():
     """Half of the time both are equal, then one has ended at 1 and the other goes on to 2."""
     one, other = np.linspace(0, 1, 11), np.linspace(0, 2, 21)
     found = precision.curve_difference(one, one, other, other)
-    assert found == pytest.approx(
-        math.sqrt(1 / 6) / 2, rel=0.01
-    )  # rms of 0 on the first half, of 0 to 1 on the second, over 2
+    # rms of 0 on the first half, of 0 to 1 on the second, over 2
+    assert found == pytest.approx(math.sqrt(1 / 6) / 2, rel=0.01)
 
 
 def test_scatter_is_the_median_of_all_pairs():
@@ -183,18 +181,16 @@ def test_difference_and_scatter_over_seeds():
     found = summary.estimate([10.0, 11.0, 12.0], [10.5, 11.6, 12.4])
     assert found["hard"]["mean"] == pytest.approx(11) and found["hard"]["sd"] == pytest.approx(1)
     assert found["difference"] == pytest.approx(0.5)
-    assert found["difference_95"] == pytest.approx(
-        4.303 * 0.1 / math.sqrt(3), rel=1e-3
-    )  # Student's t for two degrees of freedom
+    # Student's t for two degrees of freedom
+    assert found["difference_95"] == pytest.approx(4.303 * 0.1 / math.sqrt(3), rel=1e-3)
     assert found["agree"] is True
     assert summary.estimate([10.0, 10.1], [12.0, 12.1])["agree"] is False
     assert summary.estimate([10.0], [12.0])["agree"] is None
     # by hand: 0.7 ± 12.706 · 0.2 spans the scatter and zero; 0.2 ± 0.041 leaves zero out and is small beside the scatter of 1.0
     assert summary.estimate([10.0, 11.0], [10.5, 11.9])["agree"] is None
     assert summary.estimate([10.0, 11.0, 12.0], [10.2, 11.2, 12.2 + 1e-9])["agree"] is True
-    assert summary.estimate([None, 10.0], [12.0, 11.0])["difference"] == pytest.approx(
-        1.0
-    )  # the seed without a failure is left out
+    # the seed without a failure is left out
+    assert summary.estimate([None, 10.0], [12.0, 11.0])["difference"] == pytest.approx(1.0)
 
 
 def test_cost_at_equal_overlap():
@@ -281,9 +277,8 @@ def test_plan_has_every_run_once():
         and made.damping.damping_moving == made.damping.damping
         and made.damping.stiffness == 1e8
     )
-    assert (
-        len(made.cases) == len({c.name for c in made.cases}) == 3 + 3 + 2 + 4 + 1
-    )  # hard, soft of the middle, other stiffnesses, numerics, damping
+    # hard, soft of the middle, other stiffnesses, numerics, damping
+    assert len(made.cases) == len({c.name for c in made.cases}) == 3 + 3 + 2 + 4 + 1
 
 
 @pytest.mark.parametrize(

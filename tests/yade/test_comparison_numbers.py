@@ -81,11 +81,12 @@ def test_slopes_that_do_not_fail_by_water_are_told(tmp_path, monkeypatch):
     )
     assert dry.values["centroid_travel_m"] == pytest.approx(math.hypot(210, 180), rel=SAME)
     stood = measured(tmp_path, monkeypatch, moving=None, moving_s=0.0)
+    # of all steps
     assert (
         stood.notes == ["the slope did not begin to move"]
         and stood.cost.rate == 10.0
         and stood.curves["abscissa"][0] == 0
-    )  # of all steps
+    )
     short = {name: values[:700] for name, values in known_slope.series().items()}
     assert measured(known_slope.write(tmp_path, short), monkeypatch).notes == [
         "stopped at 70 s, before the mass was at rest"
@@ -115,9 +116,8 @@ def test_a_power_has_the_error_of_its_fit():
     found = precision.power_law(x, 5 * x**-0.5 * np.exp([e, -2 * e, e]))
     assert (found.power, found.scale, found.points) == pytest.approx((-0.5, 5.0, 3), rel=SAME)
     assert found.power_error == pytest.approx(math.sqrt(6 * e * e / 1 / (2 * math.log(10) ** 2)), rel=1e-6)
-    assert (
-        precision.power_law(np.append(x, [1e3, 1e4]), np.append(5 * x**-0.5, [0.0, math.nan])).points == 3
-    )  # what is not positive is left out
+    # what is not positive is left out
+    assert precision.power_law(np.append(x, [1e3, 1e4]), np.append(5 * x**-0.5, [0.0, math.nan])).points == 3
     assert math.isnan(precision.power_law([1.0, 2.0], [1.0, 2.0]).power_error)
 
 
@@ -203,9 +203,8 @@ def test_means_differences_and_scatter(told):
 def test_deposits_of_one_packing_and_of_different_ones(told):
     """Rows of 100, 104 and 111 disks, and of 110, 114 and 122 on soft contacts."""
     ratio = lambda *pairs: np.mean([min(p) / max(p) for p in pairs])  # noqa: E731
-    assert told[0]["deposit_overlap_fraction"] == pytest.approx(
-        ratio((100, 110), (104, 114), (111, 122)), abs=2e-3
-    )  # rounded ends
+    # rounded ends
+    assert told[0]["deposit_overlap_fraction"] == pytest.approx(ratio((100, 110), (104, 114), (111, 122)), abs=2e-3)
     assert told[0]["deposit_overlap_fraction_between_seeds"] == pytest.approx(
         ratio((100, 104), (100, 111), (104, 111)), abs=2e-3
     )
@@ -229,9 +228,8 @@ def test_differences_fall_with_the_stiffness_as_they_were_made(told):
         rows["front_travel_m"]["scatter"] == pytest.approx(math.sqrt(31) / 100, rel=SAME)
         and rows["front_travel_m"]["stiffest_within_scatter"] is True
     )
-    assert rows["front"]["differences"] == pytest.approx(
-        np.array([1.0, 0.1, 0.01]) / math.sqrt(3), rel=0.01
-    )  # rms of a line, over the reference's largest; 400 points
+    # rms of a line, over the reference's largest; 400 points
+    assert rows["front"]["differences"] == pytest.approx(np.array([1.0, 0.1, 0.01]) / math.sqrt(3), rel=0.01)
     assert rows["overlap"]["differences"] == pytest.approx([5e-3, 5e-5, 5e-7], rel=SAME) and rows["overlap"][
         "power"
     ] == pytest.approx(-1, rel=SAME)
@@ -276,9 +274,8 @@ def test_work_is_compared_at_what_both_reach(told):
             math.sqrt(sum(part**2 for part in one["parts"].values()) / len(one["parts"])), rel=SAME
         ) and set(one["parts"]) == {"front", "deposit", "water_at_failure_m"}
     compared = work["against_hard"]["compared"]
-    assert compared["at_scatter"] is True and compared["error"] == pytest.approx(
-        work["scatter"], rel=SAME
-    )  # seeds scatter more than numerics
+    # seeds scatter more than numerics
+    assert compared["at_scatter"] is True and compared["error"] == pytest.approx(work["scatter"], rel=SAME)
     # the cheapest hard run that is as good as that, and the cheapest soft one: 10⁸ Pa
     cheapest = min((p for p in hard.values() if p["error"] <= work["scatter"]), key=lambda p: p["wall_s"])
     soft = {p["run"]: p for p in work["against_hard"]["soft"]}

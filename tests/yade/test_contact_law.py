@@ -151,9 +151,8 @@ def test_a_one_sided_wall_holds_on_its_side_alone(sense, side):
     out = rate * (0.2 - slack) if front else -rate * (0.8 - slack)
     assert away[deep] == pytest.approx((0 if front else -speed, 0.3 + out), abs=1e-11)
     assert away[leaving] == pytest.approx((speed if front else 0, 0.3 + out), abs=1e-11)
-    assert away[beyond] == pytest.approx(
-        (-speed, 0.501 - speed * O.dt), abs=1e-11
-    )  # in front 1 mm is more than a step's path
+    # in front 1 mm is more than a step's path
+    assert away[beyond] == pytest.approx((-speed, 0.501 - speed * O.dt), abs=1e-11)
     if front:
         assert away[touching] == pytest.approx((0, 0.5), abs=1e-11)
 
@@ -252,9 +251,8 @@ def test_friction_and_cohesion_fall_by_the_law_of_their_wall(law, left):
             seen.add(share)
             assert (i.phys.tangensOfFrictionAngle, i.phys.adhesion) == pytest.approx((mu, adhesion), rel=1e-12)
             assert i.phys.normal == pytest.approx(weight, rel=1e-9)
-            assert i.phys.tangential == pytest.approx(
-                math.copysign(mu * (weight + adhesion), speeds[i.id2]), rel=1e-9
-            )  # along −x, n turned by +90°
+            # along −x, n turned by +90°
+            assert i.phys.tangential == pytest.approx(math.copysign(mu * (weight + adhesion), speeds[i.id2]), rel=1e-9)
             assert i.phys.currentRollingArm == pytest.approx(0.1, rel=1e-12)  # which does not weaken
         for k in disks:
             assert wall.slipOf(k) == pytest.approx(abs(speeds[k]) * h * step, rel=1e-12)
@@ -286,9 +284,8 @@ def test_a_wall_never_gains_strength_by_slip_and_one_that_does_not_press_counts_
     phys = next(i.phys for i in contacts() if i.id2 == pressed)
     assert wall.slipOf(pressed) == pytest.approx(0.03, rel=1e-12)  # held by its cohesion alone
     assert phys.tangensOfFrictionAngle == pytest.approx(0.2, rel=1e-12) and phys.adhesion == 1e3
-    assert (
-        bare.slipOf(touching) == 0 and bare.meanSlip() == 0 and bare.weakenedCount() == 0
-    )  # nothing presses, nothing holds
+    # nothing presses, nothing holds
+    assert bare.slipOf(touching) == 0 and bare.meanSlip() == 0 and bare.weakenedCount() == 0
 
 
 def test_linear_weakening_follows_the_slip():

@@ -39,9 +39,8 @@ def test_holds_what_yade_holds(dumped):
     for pair, force in normal.items():
         assert found[tuple(sorted(pair))] == pytest.approx(force, rel=1e-14)  # a product and a quotient with h
     bodies = tables.bodies(e)
-    assert (
-        np.abs(problem.velocity[bodies["id"], 1] - bodies["vy"]).max() < 1e-13
-    )  # the integrator adds the forces up itself: rounding
+    # the integrator adds the forces up itself: rounding
+    assert np.abs(problem.velocity[bodies["id"], 1] - bodies["vy"]).max() < 1e-13
 
 
 def test_solved_again_it_gives_the_same_bits(dumped):
@@ -59,9 +58,8 @@ def test_each_path_solves_and_an_unknown_one_is_refused(dumped):
     for path in contact.paths()[:-1]:
         other = solve(path=path)
         assert np.array_equal(best.impulse, other.impulse) and np.array_equal(best.velocity, other.velocity), path
-    assert (
-        reference.converged and contact.residual(problem, reference.impulse).relative < 1.001e-8
-    )  # summed in another order
+    # summed in another order
+    assert reference.converged and contact.residual(problem, reference.impulse).relative < 1.001e-8
     assert best.seconds > 0
     # forces with friction are not unique, the motion is: a heap at rest moves in neither
     assert np.abs(reference.velocity - best.velocity).max() < 1e-5 * 9.81 * problem.time_step

@@ -46,9 +46,8 @@ def play(s, speed, start=None):
     while state.stage != "done":
         row = course.next_row(time, STEP, at.row_seconds)
         time = row * at.row_seconds
-        height = (
-            None if s.water is None else float(np.interp(time, *table)) if table else 0.0
-        )  # as the engine has it in the step that ends the row
+        # as the engine has it in the step that ends the row
+        height = None if s.water is None else float(np.interp(time, *table)) if table else 0.0
         seen = course.Seen(time, STEP, speed(time), height)
         given = dataclasses.astuple(state)
         new = course.noted(state, seen, at)
@@ -98,6 +97,7 @@ def test_the_module_needs_no_yade():
 
 
 # ---- settling and dry rest --------------------------------------------------------------------------
+# never: after the longest time
 @pytest.mark.parametrize(
     "speed, settled",
     [
@@ -106,7 +106,7 @@ def test_the_module_needs_no_yade():
         (steps((0.0, 5e-3)), 1.0),  # at the speed that counts as rest
         (steps((0.0, 5.1e-3)), 3.0),
     ],
-)  # never: after the longest time
+)
 def test_settled(speed, settled):
     rows = play(slope(), speed)
     state = rows[-1].state
@@ -192,9 +192,8 @@ def test_a_slope_that_stops_again_goes_on_rising_with_its_delay():
     heights = lambda *times: [at(rows, t).height for t in times]  # noqa: E731
     assert at(rows, 6.9).state.moving == close(5.0) and at(rows, 7.0).state.moving is None
     assert heights(5.0, 6.0, 7.0) == [close(3.5)] * 3  # held
-    assert heights(7.1, 10.0, 11.0, 12.0, 14.0) == [
-        close(h) for h in (3.6, 6.5, 7.5, 7.5, 7.5)
-    ]  # goes on from there, and is held again
+    # goes on from there, and is held again
+    assert heights(7.1, 10.0, 11.0, 12.0, 14.0) == [close(h) for h in (3.6, 6.5, 7.5, 7.5, 7.5)]
     assert [at(rows, t).state.water_delay for t in (6.9, 7.0, 13.9, 14.0)] == [close(d) for d in (0.0, 2.0, 2.0, 5.0)]
     last = rows[-1].state
     assert (
@@ -225,6 +224,7 @@ def test_the_largest_speed_counts_from_the_water_on():
 
 
 # ---- failed dry -------------------------------------------------------------------------------------
+# never stood since
 @pytest.mark.parametrize(
     "speed, failed, settled, table",
     [
@@ -234,7 +234,7 @@ def test_the_largest_speed_counts_from_the_water_on():
         (steps((1.45, 0.2), (6.0, 0.0)), 1.5, 1.0, 0.0),  # on the move at t0
         (steps((1.45, 0.15), (3.5, 0.2), (6.0, 0.0)), 3.5, 1.0, 2.0),
     ],
-)  # never stood since
+)
 def test_a_slope_fails_dry(speed, failed, settled, table):
     rows = play(slope(), speed)
     last = rows[-1].state
@@ -249,17 +249,16 @@ def test_a_slope_fails_dry(speed, failed, settled, table):
     assert last.resting_since == close(6.0) and rows[-1].time == close(11.0) and rows[-1].state.water_delay == 0
 
 
+# at t0 itself
 @pytest.mark.parametrize(
     "speed, moving",
     [
         (steps((0.4, 1.99), (0.6, 1e-3), (5.0, 0.3), (5.5, 9.0)), 5.0),  # did not get going, and stood
-        (
-            steps((1.45, 0.19), (1.95, 0.0199), (2.05, 0.1), (5.0, 0.2), (5.5, 9.0)),
-            5.0,
-        ),  # stood after t0, if only for a moment
+        # stood after t0, if only for a moment
+        (steps((1.45, 0.19), (1.95, 0.0199), (2.05, 0.1), (5.0, 0.2), (5.5, 9.0)), 5.0),
         (steps((1.45, 0.0199), (1.55, 0.1), (5.0, 0.2), (5.5, 9.0)), 5.0),
     ],
-)  # at t0 itself
+)
 def test_a_slope_that_has_stood_fails_by_water(speed, moving):
     last = play(slope(end=12.0), speed)[-1].state
     assert last.failed_dry is None and last.moving == close(moving) and last.stood and last.water_hold == close(3.5)
@@ -283,9 +282,8 @@ def test_still_is_five_seconds_at_one_height():
     held = play(slope(3.0, end=20.0), steps())
     arrived = next(row.time for row in held if row.state.water_hold is not None)
     assert arrived == close(4.5) and [row.time for row in held if row.still][0] == close(arrived + 5.0)
-    late = play(
-        slope(points=((0.0, 0.0), (7.95, 0.0), (8.05, 1.0)), rate=0.0, end=20.0), steps()
-    )  # from 9.45 s to 9.55 s
+    # from 9.45 s to 9.55 s
+    late = play(slope(points=((0.0, 0.0), (7.95, 0.0), (8.05, 1.0)), rate=0.0, end=20.0), steps())
     assert [row.still for row in late if row.time > 6.05] == [
         not 9.45 < row.time < 14.55 for row in late if row.time > 6.05
     ]

@@ -270,9 +270,8 @@ def test_leftovers_of_a_killed_process_end_no_resume(saved, tmp_path):
 def test_records_beyond_the_checkpoint_go_at_a_resume(saved, tmp_path):
     """They are of times that the run has not reached yet; a stop before them would show them as its own."""
     files = {n: c for n, c in saved.files.items() if not n.startswith("checkpoint/")}
-    files |= {
-        n: c for n, c in saved.earlier.items() if n.startswith("checkpoint/")
-    }  # at 1.9 s: the water rises from 2.0 s
+    # at 1.9 s: the water rises from 2.0 s
+    files |= {n: c for n, c in saved.earlier.items() if n.startswith("checkpoint/")}
     assert "t0.npz" in files and "snapshots/00000200.npz" in files
     check(saved, files, tmp_path / "out")
     assert not (tmp_path / "out" / "t0.npz").exists() and not (tmp_path / "out" / "snapshots" / "00000200.npz").exists()

@@ -198,9 +198,10 @@ def test_a_campaign_draws_its_first_seed_and_the_sample_nearest_8_megapascals(ke
     made = laboratory_report.draw(tmp_path, {"tests": tests, "seeds": [3, 4], **envelope})
     assert [path.name for path in made] == ["stress_strain.png", "mohr.png", "bands.png", "force_chains.png"]
     top, _ = kept["stress_strain.png"].axes
+    # of seed 3
     assert list(drawn.legend(top)) == ["1", "6", "20"] and all(
         drawn.points(drawn.line(top, name))[:, 1] == pytest.approx(2.0) for name in ("1", "6", "20")
-    )  # of seed 3
+    )
     assert kept["mohr.png"].axes[0].get_title() == "6 tests"
     first, last, _ = kept["bands.png"].axes
     assert (first.get_title(), last.get_title()) == ("ε₁ = 1 %, σ₃ = 6 MPa", "end, σ₃ = 6 MPa")
@@ -263,11 +264,12 @@ def test_a_heap_draws_its_places_in_widths_with_its_gate(kept, tmp_path):
     heap = column.Column(disks=200, aspect=1.5)
     path = heap_report.draw_collapse(heap, {"width_m": 4.0, "fall_time_s": 0.8}, tmp_path)
     fig = kept[path.name]
+    # 1.25, to even
     assert [drawn.texts(ax) for ax in fig.axes] == [
         ["t = 0.0 T (0.00 s)"],
         ["t = 1.2 T (1.00 s)"],
         ["at rest (4.50 s)"],
-    ]  # 1.25, to even
+    ]
     for ax, stretch, press in zip(fig.axes, (1, 1.25, 1.5), (1, 0.8, 0.7)):
         assert drawn.disks(ax)[0] == pytest.approx(np.column_stack([stretch * x, press * y]) / 4) and list(
             drawn.uprights(ax)

@@ -62,9 +62,8 @@ def test_loosely_solved_stack_does_not_creep():
         heights.append(top.pos[1])
     # each of 50 contacts may overlap by 1e-4 of a diameter; it creeps into that, and not beyond
     assert 49.5 - 1.1 * 50 * 1e-4 < min(heights) and max(heights) < 49.5 + 1e-4
-    assert sum(heights[-300:]) / 300 == pytest.approx(
-        sum(heights[:300]) / 300, abs=1.5e-3
-    )  # m, in 3.5 s; observed 8e-4
+    # m, in 3.5 s; observed 8e-4
+    assert sum(heights[-300:]) / 300 == pytest.approx(sum(heights[:300]) / 300, abs=1.5e-3)
     # a residual of 1e-4 leaves long waves of ± 4 % in a chain of 50 (its condition number is 4e3), but no bias
     assert sum(loads) / len(loads) == pytest.approx(1, abs=1e-3)
     assert 0.85 < min(loads) and max(loads) < 1.15

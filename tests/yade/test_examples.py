@@ -107,9 +107,8 @@ def test_a_line_of_a_shipped_table_rules_a_run(tmp_path):
         blocks = rows(
             launched("hard_incline.py", tmp_path, f"{os.path.join(EXAMPLES, 'incline.table')}:{line}"), "friction/tan"
         )
-        assert blocks[0][4] == pytest.approx(
-            9.81 * math.sin(math.radians(degrees)), abs=1e-4
-        )  # four digits are printed
+        # four digits are printed
+        assert blocks[0][4] == pytest.approx(9.81 * math.sin(math.radians(degrees)), abs=1e-4)
 
 
 def test_numerics_of_the_pile_come_from_a_table(tmp_path):
@@ -192,9 +191,8 @@ def test_hard_wedge_stands_still_for_a_minute_dry_and_in_changing_water(tmp_path
         text = output("hard_wedge.py", tmp_path, friction=friction, water=water, seconds=60)
         path = rows(text, "time [s]")
         assert path[-1][0] == pytest.approx(60)
-        assert (
-            max(abs(way) for _, *ways in path for way in ways) < 0.01
-        )  # mm; 1 mm is asked for, a tolerance of 1e-6 leaves 4e-4
+        # mm; 1 mm is asked for, a tolerance of 1e-6 leaves 4e-4
+        assert max(abs(way) for _, *ways in path for way in ways) < 0.01
         assert number(text, "steps") == 12000
 
 
@@ -234,9 +232,8 @@ def test_columns_run_out_alike_and_farther_the_higher_they_are(tmp_path):
     # the published lines for (L_f − L_0)/L_0 in two dimensions: 1.2 a (Lube) to 2.5 a (Staron and Hinch)
     assert 1.0 * 0.7 < runs["hard", 0.7] < 2.5 * 0.7
     assert 1.2 * 2.0 < runs["hard", 2.0] < 2.5 * 2.0
-    assert runs["soft", 0.7] == pytest.approx(
-        runs["hard", 0.7], rel=0.35
-    )  # some 100 disks: seeds scatter by 10 %, and springs run out by 15 % more
+    # some 100 disks: seeds scatter by 10 %, and springs run out by 15 % more
+    assert runs["soft", 0.7] == pytest.approx(runs["hard", 0.7], rel=0.35)
 
 
 def test_hard_slope_fails_at_the_water_of_statics_and_stands_where_it_is_rough(tmp_path):
@@ -268,9 +265,8 @@ def test_a_floor_bears_the_lid_and_the_disks(tmp_path):
         assert lid == pytest.approx(2e5 * 1.5 + 9.81 * 200, abs=0.1) and floor == pytest.approx(
             lid + weight, rel=5e-4
         ), world
-        assert (
-            1.1 < number(said, "height under the lid [m]") < 1.4
-        )  # 192 disks of 0.1 m in a box 1.5 m wide fill 1.0 m; pores are a sixth, and more where friction holds them open
+        # 192 disks of 0.1 m in a box 1.5 m wide fill 1.0 m; pores are a sixth, and more where friction holds them open
+        assert 1.1 < number(said, "height under the lid [m]") < 1.4
 
 
 def test_a_shear_box_resists_alike_in_both_worlds(tmp_path):
@@ -326,9 +322,8 @@ def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):
     ]
     for key, rate in curves.items():
         found = [runs[key][name] for name in ("displacement_mm", "largest_mm", "creep_mm_per_min")]
-        assert found == pytest.approx(
-            [2 * rate, 4 * rate, 60 * rate], abs=0.06
-        )  # three digits in the file, a line through ten of its points
+        # three digits in the file, a line through ten of its points
+        assert found == pytest.approx([2 * rate, 4 * rate, 60 * rate], abs=0.06)
     assert abs(runs["dry_hard"]["displacement_mm"]) < 0.01 and (tmp_path / "dry_hard.txt").exists()  # it stands
     assert (tmp_path / "wedge.png").stat().st_size > 10_000 and "dry     hard" in done.out
 

@@ -93,10 +93,8 @@ def test_a_slope_that_stands_still_is_solved_more_tightly(in_process, tmp_path):
     assert done.status == 0, done.err
     s = records.read_series(tmp_path / "series.csv")
     settled = s["time_s"][s["stage"] == 0][-1]
-    late, early = (
-        s["time_s"] > settled + 1.06 + 0.04,
-        s["time_s"] < settled + 1.06 - 0.02,
-    )  # looked at once a row, 0.02 s
+    # looked at once a row, 0.02 s
+    late, early = (s["time_s"] > settled + 1.06 + 0.04, s["time_s"] < settled + 1.06 - 0.02)
     assert (s["speed_mean_m_per_s"][s["stage"] == 2] < 0.04).all() and late.sum() > 10  # else it would count as moving
     assert set(s["tolerance"][late]) == {0.25e-4} and set(s["tolerance"][early]) == {1e-4}
     assert (s["water_m"] == 0).all() and (s["wet_disks"] == 0).all()

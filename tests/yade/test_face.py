@@ -49,9 +49,10 @@ def test_what_is_left_out_is_the_papers_in_proportion():
     bare["disks"] = {"diameter": [1.0, 4.0]}
     bare["water"] = {"plane": "DP", "table": {"rate": 1.0}}
     made = section.of(bare)
+    # area is that of scales, to the last bit
     assert (
         made.stages == SHIPPED.stages and made.numerics == SHIPPED.numerics and (made.gravity, made.seed) == (9.81, 1)
-    )  # area is that of scales, to the last bit
+    )
     assert made.water == dataclasses.replace(
         SHIPPED.water, unit_weight=made.water.unit_weight, gradient=made.water.gradient
     ) and made.water.unit_weight == pytest.approx(9810)
@@ -89,11 +90,12 @@ def test_a_part_that_is_given_stands():
         numerics={"tolerance": 1e-5},
     )
     assert (made.stages.settle.ramp, made.stages.end.time, made.numerics.tolerance) == (7.0, 33.0, 1e-5)
+    # as a file without it
     assert (
         made.stages.settle.time_max == SHIPPED.stages.settle.time_max
         and made.numerics.max_iterations == 300
         and made.numerics.path is None
-    )  # as a file without it
+    )
 
 
 def test_tuples_and_arrays_are_points():

@@ -37,9 +37,8 @@ def test_a_figure_is_returned_or_written(tmp_path, series):
     # 170 dots an inch, and the picture of the figure that is returned
     assert imread(path).shape[:2] == (round(170 * 6.6), 1700)
     style.save(fig, tmp_path / "again.png")
-    assert (
-        np.mean(imread(path) != imread(tmp_path / "again.png")) < 0.01
-    )  # written outside the project's settings, where text may differ
+    # written outside the project's settings, where text may differ
+    assert np.mean(imread(path) != imread(tmp_path / "again.png")) < 0.01
     (tmp_path / "file").write_text("")
     with pytest.raises(RecordsError, match="cannot be written"):
         figures.energy(series, tmp_path / "file" / "f.png")

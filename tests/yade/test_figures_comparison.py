@@ -65,9 +65,10 @@ def test_a_deposit_in_parts_with_a_hole_and_nothing_alone():
 
 def test_courses_are_columns_times_their_factors():
     t = np.linspace(0, 1, 5)
+    # no way of soft runs
     hard, soft = [{"time_s": t, "force": 1e6 * (1 + t), "way": t}], [
         {"time_s": t, "force": 1e6 * (2 + k + t)} for k in range(2)
-    ]  # no way of soft runs
+    ]
     fig = figures.courses(
         [("hard", HARD, hard), ("soft", SOFT, soft)],
         [("force", "force [MN/m]", 1e-6), ("way", "way [m]", 1.0)],
@@ -130,9 +131,8 @@ def test_modes_of_broken_bonds():
             [k + side for k in range(4)]
         ) and group[0].get_width() == pytest.approx(0.94 * 0.4)
         (whiskers,) = group.errorbar.lines[2]
-        assert [np.ptp(s[:, 1]) / 2 for s in whiskers.get_segments()] == pytest.approx(
-            spread
-        )  # standard deviation of two values
+        # standard deviation of two values
+        assert [np.ptp(s[:, 1]) / 2 for s in whiskers.get_segments()] == pytest.approx(spread)
     (ax,) = figures.modes([("hard", HARD, counts([0.1], [0.1], [0.1], [0.1]))]).axes
     assert ax.containers[-1].errorbar is None  # one seed has no scatter
 
@@ -197,14 +197,14 @@ def test_cost_at_equal_overlap():
         assert drawn.legend(ax) == {"soft": SOFT, "hard": HARD} and ax.get_xlabel() == "mean overlap [mean diameters]"
         assert drawn.text(ax, "E = 10 MPa").xy == (1e-3, 3.0) and drawn.text(ax, "E = 100 MPa").xy == (1e-4, 9.0)
     dashed, upright = known.lines[2:]
+    # 16 times as long
     assert drawn.points(dashed).tolist() == [[1e-4, 9.0], [1e-6, 80.0]] and drawn.points(upright).tolist() == [
         [1e-6, 5.0],
         [1e-6, 80.0],
-    ]  # 16 times as long
+    ]
     words = drawn.text(known, "×")
-    assert (
-        words.get_text() == "× 16" and words.xy == (1e-6, pytest.approx(20.0)) and len(unknown.lines) == 2
-    )  # half way on a logarithm
+    # half way on a logarithm
+    assert words.get_text() == "× 16" and words.xy == (1e-6, pytest.approx(20.0)) and len(unknown.lines) == 2
 
 
 def test_work_and_precision():

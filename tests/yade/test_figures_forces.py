@@ -101,10 +101,11 @@ def test_windows_are_where_their_frames_are(chains):
             (x, y), **exact
         )
         assert box[0] < 0 < box[1] and box[2] < 0 < box[3]  # the foot is at the origin
+    # a on the left, both below
     assert (
         windows[0].get_position().x1 < windows[1].get_position().x0
         and windows[0].get_position().y1 < top.get_position().y0
-    )  # a on the left, both below
+    )
 
 
 def test_bars_of_many_disks_join_centres_and_are_as_wide_as_the_force():
@@ -228,9 +229,8 @@ def test_the_sketch_shows_what_the_walls_exert_on_the_mass(courses):
     blue, orange, green = (style.LINES[name].lower() for name in ("blue", "orange", "green"))
     # the sketch rounds the directions to three digits
     assert ways[blue] @ normal == pytest.approx(1, abs=1e-3) and ways[orange] @ -down == pytest.approx(1, abs=1e-3)
-    assert ways[green] @ -down == pytest.approx(
-        1, abs=1e-2
-    )  # the backstop leans back, its normal a little steeper than the slope
+    # the backstop leans back, its normal a little steeper than the slope
+    assert ways[green] @ -down == pytest.approx(1, abs=1e-2)
     tips = {fill: head for _, head, fill, _ in found}
     assert tips[blue] @ normal == pytest.approx(0, abs=0.01)  # on the plane
 
@@ -324,9 +324,8 @@ def test_times_that_are_not_known_are_left_out(times, columns, said):
         and any(said in words for words in drawn.texts(fig))
     )
     change = drawn.points(drawn.line(whole[1], SHEAR_CHANGE))[:, 1]
-    assert change == pytest.approx(
-        (30 if times else 0) - 3 * straight()["time_s"], abs=1e-6
-    )  # without t0 since the first row
+    # without t0 since the first row
+    assert change == pytest.approx((30 if times else 0) - 3 * straight()["time_s"], abs=1e-6)
 
 
 def test_a_single_row_and_none():
@@ -345,7 +344,6 @@ def test_labels_of_close_times_stand_apart_in_their_order():
     fig = figures.forces_against_time(straight(), {"t0": 10.0, "t1": 50.0, "t2": 50.2, "t3": 50.4, "t5": 90.0})
     ax = panels(fig)[0][0]
     at = {t.get_text(): t.get_position()[0] for t in ax.texts}
-    assert (
-        list(at) == [f"$t_{{{k}}}$" for k in (0, 1, 2, 3, 5)] and np.diff(list(at.values())).min() > 0.0219
-    )  # the gap of 0.022, nearly reached by pushing
+    # the gap of 0.022, nearly reached by pushing
+    assert list(at) == [f"$t_{{{k}}}$" for k in (0, 1, 2, 3, 5)] and np.diff(list(at.values())).min() > 0.0219
     assert at["$t_{2}$"] == pytest.approx(0.502, abs=1e-3) and at["$t_{0}$"] == pytest.approx(0.1)

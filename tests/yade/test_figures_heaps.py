@@ -32,9 +32,8 @@ def test_a_collapse_is_drawn_from_above_down_to_one_scale(fallen, width, unit):
     fig = columns.collapse(times, places, r, 1.25, width=width, gate=[5.0])
     upper, lower = fig.axes
     scale = width or 1.0
-    assert drawn.texts(upper) == ["t = 0.4 T (0.50 s)"] and drawn.texts(lower) == [
-        "at rest (2.50 s)"
-    ]  # the last is the end
+    # the last is the end
+    assert drawn.texts(upper) == ["t = 0.4 T (0.50 s)"] and drawn.texts(lower) == ["at rest (2.50 s)"]
     assert upper.get_ylabel() == lower.get_ylabel() == ("$y/L_0$" if width else "$y$ [m]")
     assert (
         lower.get_xlabel() == ("$x/L_0$" if width else "$x$ [m]") + "          $T=\\sqrt{H_0/g}=1.25$ s"

@@ -63,9 +63,10 @@ def test_stress_over_confining_pressure_and_volume_against_strain():
         (dot,) = (drawn.points(one) for one in mine if one.get_marker() == "o")
         assert dot == pytest.approx(np.array([[1.0, told["sigma1_peak_Pa"] / confining]]))
         (plateau,) = (c.get_segments()[0] for c in top.collections if drawn.hexes(c.get_color()) == [fill])
+        # cut off at the test's end
         assert plateau == pytest.approx(
             np.array([[4.0, told["sigma1_residual_Pa"] / confining], [6.0, told["sigma1_residual_Pa"] / confining]])
-        )  # cut off at the test's end
+        )
         (volume,) = (drawn.points(one) for one in bottom.lines if drawn.colour(one) == fill)
         assert volume == pytest.approx(np.column_stack([100 * series["strain"], 50 * series["strain"] - 0.2]))
     assert len(set(drawn.legend(top).values())) == 2 and bottom.get_xlim()[0] == 0 and top.get_ylim()[0] == 0
@@ -125,12 +126,12 @@ def test_circles_touch_their_envelopes_in_megapascals(campaign):
                 assert [circle[:, 0].min(), circle[:, 0].max()] == pytest.approx(
                     [1e-6 * test[f"sigma3_{kind}_Pa"], 1e-6 * test[f"sigma1_{kind}_Pa"]]
                 )
-                assert np.ptp(circle[:, 0]) == pytest.approx(
-                    2 * circle[:, 1].max(), rel=1e-4
-                )  # half of it, drawn by 181 points
+                # half of it, drawn by 181 points
+                assert np.ptp(circle[:, 0]) == pytest.approx(2 * circle[:, 1].max(), rel=1e-4)
+                # touched, by a chord of 1°
                 assert np.max(circle[:, 1] - c - slope * circle[:, 0]) == pytest.approx(
                     0, abs=1e-3 * circle[:, 1].max()
-                )  # touched, by a chord of 1°
+                )
     assert close.get_title() == "the lowest pressures, where cohesion shows"
     top = max(0.5 * (t["sigma1_peak_Pa"] - t["sigma3_peak_Pa"]) for t in campaign["tests"])
     assert whole.get_ylim() == pytest.approx((0, 1.6e-6 * top))
@@ -224,9 +225,8 @@ def test_effects_show_samples_means_and_the_usual_value():
         )
         for container, fill, base, reach in zip(ax.containers, (PEAK, PLATEAU), (41, 21), ([0.5, 1, 2], [0, 0, 0])):
             mean, _, (whiskers,) = container
-            assert drawn.colour(mean) == fill and drawn.points(mean).tolist() == [
-                [v, base + v] for v in (1, 2, 4)
-            ]  # in the order of values
+            # in the order of values
+            assert drawn.colour(mean) == fill and drawn.points(mean).tolist() == [[v, base + v] for v in (1, 2, 4)]
             assert [np.ptp(s[:, 1]) / 2 for s in whiskers.get_segments()] == pytest.approx(reach)
             dots = [
                 drawn.points(one).tolist() for one in ax.lines if one.get_alpha() == 0.35 and drawn.colour(one) == fill

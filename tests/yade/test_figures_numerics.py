@@ -126,9 +126,8 @@ def test_sweeps_residual_and_overlap_are_their_columns():
     )
     for name, rate, limit in (("worst", 2e-2, 2.0), ("mean", 1e-3, 0.1)):
         one, level = drawn.line(overlap, name), drawn.line(overlap, f"limit {limit:g} %")
-        assert drawn.points(one)[1:, 1] == pytest.approx(rate * TIME[1:]) and np.isnan(
-            one.get_ydata()[0]
-        )  # a logarithm has no 0
+        # a logarithm has no 0
+        assert drawn.points(one)[1:, 1] == pytest.approx(rate * TIME[1:]) and np.isnan(one.get_ydata()[0])
         assert level.get_ydata()[0] == limit and drawn.colour(level) == drawn.colour(one) == drawn.legend(overlap)[name]
     assert drawn.legend(overlap)["worst"] != drawn.legend(overlap)["mean"]
     assert all(set(drawn.uprights(ax)) == set(TIMES.values()) for ax in fig.axes)

@@ -11,16 +11,14 @@ records, figures, style, ground, fronts, measured = (
     for name in ("records", "figures", "figures.style", "measure.ground", "measure.fronts", "measure.surface")
 )
 SECTION = synthetic.Section()
+# 3 : 4 : 5
 WALLS = [
     ("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"),
     ("FB", [[0.0, 0.0], [3.0, 4.0]], "backstop"),
     ("SS", [[3.0, 4.0], [100.0, 4.0]], "ground"),
-]  # 3 : 4 : 5
-OCHRE, BLUE, PINK = (
-    ("#b89b6a", "#ddc99d"),
-    ("#1f5fa8", "#4a90d0"),
-    ("#e06aa6", "#f5a9cd"),
-)  # dry, wet, released, of even and odd layers
+]
+# dry, wet, released, of even and odd layers
+OCHRE, BLUE, PINK = (("#b89b6a", "#ddc99d"), ("#1f5fa8", "#4a90d0"), ("#e06aa6", "#f5a9cd"))
 
 
 # ---- at the characteristic times ------------------------------------------------------------------
@@ -135,10 +133,8 @@ def test_no_snapshot_is_an_error():
 
 # ---- deposit --------------------------------------------------------------------------------------
 
-LEVEL = [
-    ("DP", [[-100.0, 20.0], [0.0, 20.0]], "slip"),
-    ("SS", [[0.0, 20.0], [300.0, 20.0]], "ground"),
-]  # a floor at 20 m
+# a floor at 20 m
+LEVEL = [("DP", [[-100.0, 20.0], [0.0, 20.0]], "slip"), ("SS", [[0.0, 20.0], [300.0, 20.0]], "ground")]
 
 
 def steps(*blocks, **changes):
@@ -172,12 +168,13 @@ def test_the_deposit_lies_over_the_initial_surface(slid):
     ]
     (initial,) = (one for one in ax.lines if one.get_linestyle() == "--" and len(one.get_xdata()) > 2)
     x, top = drawn.points(initial).T
+    # bins of 3 m
     assert (
         top[x < -61.5] == pytest.approx(32)
         and top[x > -58.5] == pytest.approx(26)
         and -90 < x[0] < -87
         and -33 < x[-1] < -30
-    )  # bins of 3 m
+    )
     assert told["initial surface"] == drawn.colour(initial)
 
 
@@ -205,9 +202,8 @@ def test_ways_are_those_of_front_centre_and_thickness(slid):
 def test_the_centre_of_mass_weighs_disks_by_their_area():
     before, after = (synthetic.few([x, x + 10.0], [22.0, 32.0], r=[1.0, 3.0]) for x in (-80.0, 40.0))
     tail, head, _, _ = drawn.arrows(figures.deposit(after, before, LEVEL).axes[0])[2]
-    assert tail == pytest.approx([-71, 31]) and head == pytest.approx(
-        [49, 31]
-    )  # nine tenths on the way to the large one
+    # nine tenths on the way to the large one
+    assert tail == pytest.approx([-71, 31]) and head == pytest.approx([49, 31])
 
 
 def test_deposit_profile_measures_thickness_and_front():
@@ -245,9 +241,8 @@ def mirror(walls):
 
 
 def test_a_mirrored_slope_gives_the_mirrored_profile_and_front():
-    s = steps(
-        (-90, -60, 12), (-60, -31, 6)
-    )  # no whole number of bins of 3.1 m: they begin at the crown's end on both sides
+    # no whole number of bins of 3.1 m: they begin at the crown's end on both sides
+    s = steps((-90, -60, 12), (-60, -31, 6))
     walls = [("DP", [[-100.0, 8.0], [-50.0, 3.0]], "slip"), ("SS", [[-50.0, 3.0], [0.0, 4.0]], "ground")]
     here, there = measured.deposit_profile(s, walls, bin_m=3.1), measured.deposit_profile(
         synthetic.few(-s.x, s.y, r=s.r), mirror(walls), bin_m=3.1
@@ -271,9 +266,8 @@ def test_water_table_is_parallel_to_the_plane_at_its_height():
     plane = SECTION.walls[0][1]
     moved = ground.ground_of(SECTION).water_points(22.5) - plane
     assert moved == pytest.approx(22.5 * np.array([synthetic.NORMAL, synthetic.NORMAL]))
-    assert ground.ground_of([("DP", plane[::-1], "slip")]).water_points(22.5) - plane[::-1] == pytest.approx(
-        moved
-    )  # up, whichever end comes first
+    # up, whichever end comes first
+    assert ground.ground_of([("DP", plane[::-1], "slip")]).water_points(22.5) - plane[::-1] == pytest.approx(moved)
     assert ground.ground_of([("SS", plane, "ground")]).water_points(1.0) is None
 
 
@@ -296,9 +290,8 @@ def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
     x0, x1, y0, y1 = style.view([left, right], ground.ground_of(WALLS))
     # 1.2 % of 170 m on the left, 3 % on the right; 9 % of 35 m below, 3 % above
     assert (x0, x1, y0, y1) == pytest.approx((-50 - 2.04, 120 + 5.1, 5 - 3.15, 40 + 1.05))
-    assert style.view([left], ground.ground_of(WALLS))[1] == pytest.approx(
-        6 + 0.03 * 56
-    )  # 12 % of the 50 m before the foot behind it
+    # 12 % of the 50 m before the foot behind it
+    assert style.view([left], ground.ground_of(WALLS))[1] == pytest.approx(6 + 0.03 * 56)
 
 
 def test_the_view_of_a_mirrored_slope_is_the_mirrored_view():

@@ -81,11 +81,10 @@ def test_the_surface_is_a_mean_of_tops():
     at, height = measures.surface(x, y, r, np.ones(40, bool))
     assert len(at) == 20 and at[0] == pytest.approx(1.0) and at[-1] == pytest.approx(39.0)  # windows of two diameters
     assert height == pytest.approx(np.full(20, 0.5 + 0.5 * math.pi / 4), rel=0.01)  # twenty points to a window
+    # one in the air
     assert measures.surface(
         np.append(x, 20.0), np.append(y, 5.0), np.append(r, 0.5), np.append(np.ones(40, bool), False)
-    )[1] == pytest.approx(
-        height
-    )  # one in the air
+    )[1] == pytest.approx(height)
     holes = measures.surface(
         np.append(x[:10], x[30:]), np.append(y[:10], y[30:]), np.append(r[:10], r[30:]), np.ones(20, bool)
     )[1]
@@ -103,26 +102,23 @@ def test_repose_is_of_the_middle_of_each_flank():
         measures.repose(x, height) == pytest.approx((25.0, 15.0), abs=1e-6) and 0.2 * height.max() > 1.0 and scale < 1
     )
     assert measures.repose(-x[::-1], height[::-1]) == pytest.approx((15.0, 25.0), abs=1e-6)
-    assert all(
-        math.isnan(angle) for angle in measures.repose(np.arange(5.0), np.array([0.0, 5.0, 10.0, 5.0, 0.0]))
-    )  # one point to a flank
+    # one point to a flank
+    assert all(math.isnan(angle) for angle in measures.repose(np.arange(5.0), np.array([0.0, 5.0, 10.0, 5.0, 0.0])))
 
 
 def test_the_mean_overlap_counts_pairs_that_nearly_touch():
     """Gaps of 0.9 % of a diameter count as 0, of 1.1 % not at all; a wall 1 % away from a disk's edge counts no more."""
     x, r = np.array([0.0, 0.98, 1.989, 3.0]), np.full(4, 0.5)
     mean, worst = measures.overlap(x, np.zeros(4), r, [])
-    assert (mean, worst) == pytest.approx(
-        (0.02 / 2, 0.02), rel=1e-9
-    )  # 0.02, 0 (a gap of 0.009), and one of 0.011 left out
+    # 0.02, 0 (a gap of 0.009), and one of 0.011 left out
+    assert (mean, worst) == pytest.approx((0.02 / 2, 0.02), rel=1e-9)
     assert measures.overlap(x, np.zeros(4), r, [np.array([0.46, 0.509, 0.511, 9.0])]) == pytest.approx(
         ((0.02 + 0.04) / 4, 0.04), rel=1e-9
     )
     assert measures.overlap(np.array([0.0, 5.0]), np.zeros(2), np.full(2, 0.5), []) == (0.0, 0.0)
     unequal = measures.overlap(np.array([0.0, 1.44]), np.zeros(2), np.array([0.5, 1.0]), [np.array([9.0, 0.9])])
-    assert unequal == pytest.approx(
-        ((0.06 / 1.5 + 0.1 / 2) / 2, 0.05), rel=1e-9
-    )  # of the pair's mean diameter, and of the disk's
+    # of the pair's mean diameter, and of the disk's
+    assert unequal == pytest.approx(((0.06 / 1.5 + 0.1 / 2) / 2, 0.05), rel=1e-9)
 
 
 # ---- fits -------------------------------------------------------------------------------------------

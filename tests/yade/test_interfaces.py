@@ -13,9 +13,8 @@ pytestmark = pytest.mark.usefixtures("empty")
 BASE, BLOCK = 1000.0, 0.5  # radii [m]: the base is flat to a part in a thousand over what a block slides here
 LENGTH = BASE + BLOCK  # ℓ
 WEIGHT = 2500 * math.pi * BLOCK**2 * G
-STRONG = dict(
-    mu=1.5, tensileStrength=1e3, residualTensileStrength=1e3
-)  # of the rock on both sides, which must not count
+# of the rock on both sides, which must not count
+STRONG = dict(mu=1.5, tensileStrength=1e3, residualTensileStrength=1e3)
 
 
 def block(law, swapped=False, both=False):
@@ -125,12 +124,13 @@ def test_a_contact_is_as_weak_as_its_weaker_disk():
 
 def test_a_disk_with_several_contacts_slips_once_in_a_step():
     """A plank of three bonded disks that cannot turn: one that lies on two base disks slips as far as on one of them, not as on both."""
+    # so that they touch
     law = SlipWeakeningMat(
         frictionAngle=math.atan(0.1),
         criticalSlip=1.0,
         weakenedFrictionAngle=math.atan(0.05),
         residualTensileStrength=1.0,
-    )  # so that they touch
+    )
     base, rock = material(1.0, layer=0, interfaceLayers=[1], interfaceLaws=[law]), material(1.0, layer=1)
     for x in (-0.6, 0.6):
         O.bodies.append(scene.disk((x, 0), 0.5, base, fixed=True))
@@ -143,9 +143,8 @@ def test_a_disk_with_several_contacts_slips_once_in_a_step():
     # it turns on both, and sinks between them: with normals (±0.6, 0.8) it slides by 1 ∓ 0.06 m/s on them
     body.state.blockedDOFs, body.state.vel, body.state.angVel = "xyzXYZ", (0, -0.1, 0), (0, 0, -2.0)
     advance()
-    assert law.slippedCount() == 3 and 3 * law.meanSlip() == pytest.approx(
-        (0.94 + 1.06 + 1.06) * O.dt, rel=1e-9
-    )  # the farther of both is its own
+    # the farther of both is its own
+    assert law.slippedCount() == 3 and 3 * law.meanSlip() == pytest.approx((0.94 + 1.06 + 1.06) * O.dt, rel=1e-9)
     told = [i.phys for i in contacts()]
     assert {p.body for p in told} == {0, 1} and {p.other for p in told} == {top}
 

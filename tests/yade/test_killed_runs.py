@@ -56,10 +56,11 @@ def whole(section, tmp_path_factory):
     out, began = tmp_path_factory.mktemp("whole") / "out", time.monotonic()
     done = run(section, out, 0)
     assert done.returncode == 0, done.stderr
+    # something to compare
     assert (
         len((out / "breaks.csv").read_text().splitlines()) > 5
         and len((out / "series.csv").read_text().splitlines()) > 5
-    )  # something to compare
+    )
     return out, int(out.with_suffix(".looks").read_text()), time.monotonic() - began
 
 

@@ -43,9 +43,8 @@ def test_membrane_balances_and_presses_on_the_outermost_disks():
     force, area = membrane.forces(x, y, r, bottom, top, p)
     assert force.sum(axis=0)[0] == pytest.approx(0, abs=1e-9)  # rounding
     left = force[:, 0] > 0
-    assert force[left, 0].sum() == pytest.approx(
-        p * (top - bottom), rel=1e-9
-    )  # the horizontal sum does not depend on the line's shape
+    # the horizontal sum does not depend on the line's shape
+    assert force[left, 0].sum() == pytest.approx(p * (top - bottom), rel=1e-9)
     pressed = np.any(force != 0, axis=1)
     assert set(np.round(x[pressed])) <= {0.0, columns - 1.0} and pressed.sum() == 2 * rows
     assert area == pytest.approx((top - bottom) * columns, rel=0.01)  # the noise moves a side by 0.05/√rows
@@ -125,9 +124,8 @@ def test_slides_run_side_by_side_and_are_kept(tmp_path):
     assert {path: path.stat().st_mtime_ns for path in before} == before
     series = [records.read_series(tmp_path / "tests" / t.name / "series.csv") for t in tests]
     late = series[0]["slip_m"] > 0.16
-    assert series[0]["shear_Pa"][late].mean() == pytest.approx(
-        found[0].shear_residual, rel=1e-9
-    )  # sums in another order
+    # sums in another order
+    assert series[0]["shear_Pa"][late].mean() == pytest.approx(found[0].shear_residual, rel=1e-9)
     curves, strength = wall_shear_figure.slides([(wall_shear.strength_of(tests, found), series)]).axes
     for name, rows in zip(("0.5 MPa", "2 MPa"), series):
         way, share = drawn.points(drawn.line(curves, name)).T
@@ -178,9 +176,8 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
             25.0, abs=0.71
         )
     assert len(search.trials) <= 20 + len(search.names)
-    assert report["reached"] and len({trial["key"] for trial in report["trials"]}) == len(
-        search.trials
-    )  # none is made twice
+    # none is made twice
+    assert report["reached"] and len({trial["key"] for trial in report["trials"]}) == len(search.trials)
     # d ln c = d ln σ_ext + 0.2 d ln μ_s, dφ = 1.03 · 7° d ln μ_s in coarse samples, in units of 2 % and 0.7°; the logarithms are exact at any step
     tells = np.array(report["sensitivity"])
     assert tells[0, :2] == pytest.approx([50, 10], rel=1e-6) and tells[1, :2] == pytest.approx(
@@ -280,10 +277,8 @@ def test_without_a_plateau_there_is_no_residual_envelope():
         for p, end in ((1e6, 0.1), (2e6, 0.1))
     ]
     whole = campaign.summarise(SMALL.material, measured, 1.0, 1)
-    assert whole["friction_residual_deg"] == pytest.approx(30.0) and whole["fit_confining_Pa"] == [
-        1e6,
-        2e6,
-    ]  # sin φ = (3 − 1)/(3 + 1)
+    # sin φ = (3 − 1)/(3 + 1)
+    assert whole["friction_residual_deg"] == pytest.approx(30.0) and whole["fit_confining_Pa"] == [1e6, 2e6]
     short = campaign.summarise(
         SMALL.material, [{**m, "residual_between_strains": (0.015, 0.03)} for m in measured], 1.0, 1
     )
@@ -406,11 +401,10 @@ def test_a_test_is_measured_from_its_records(tmp_path):
     assert (told["sigma1_peak_Pa"], told["strain_peak"], told["sigma3_peak_Pa"]) == pytest.approx(
         (9e6, 0.006, 1e6), abs=1e-4
     )
+    # its first row is the last of the fall
     assert told["sigma1_residual_Pa"] == pytest.approx(5e6 + 1e6 / 301, rel=1e-9) and told[
         "sigma3_residual_Pa"
-    ] == pytest.approx(
-        1e6
-    )  # its first row is the last of the fall
+    ] == pytest.approx(1e6)
     assert told["dilatancy_deg"] == pytest.approx(math.degrees(math.asin(0.2)), rel=1e-9) and told[
         "volumetric_strain_end"
     ] == pytest.approx(0.03)
@@ -446,9 +440,8 @@ def test_a_row_of_a_test_by_hand(sides):
         state={"begin_time": O.time - 7, "strain": 0.02, "area": 10.0, "rate": 3.0, "unit_s": 0.5},
     )
     biaxial.Course._row(course, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, 12.0, 25.0, 1e-3, 6)
-    left, right = (
-        (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)
-    )  # a membrane's pressure is given
+    # a membrane's pressure is given
+    left, right = (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)
     known = {
         "step": O.iter,
         "time_s": 7.0,
@@ -570,9 +563,8 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
         and json.loads((tmp_path / "summary.json").read_text())["tests"] == summary["tests"]
         and leftovers.found(tmp_path) == []
     )
-    assert (
-        summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout
-    )  # the strain of 3 % ends before the plateau
+    # the strain of 3 % ends before the plateau
+    assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout
     for options, message in (
         (["--diameter", "4", "1"], "give the smallest first"),
         (["--pressing-friction", "0.1"], "add --sample pressed"),

@@ -57,9 +57,8 @@ def test_calibrate_writes_a_material_that_has_the_strengths(in_process, trials, 
     assert done.status == 0, done.err
     found = materials.load(out)
     strengths = made_up(found, 2500, bool(residual))
-    assert strengths[0] == pytest.approx(60e3, rel=0.021) and strengths[1] == pytest.approx(
-        34, abs=0.71
-    )  # the search ends within 2 % and 0.7°
+    # the search ends within 2 % and 0.7°
+    assert strengths[0] == pytest.approx(60e3, rel=0.021) and strengths[1] == pytest.approx(34, abs=0.71)
     assert (found.envelope.cohesion, found.envelope.friction_deg) == pytest.approx(strengths[:2], rel=1e-9)
     if residual:
         assert strengths[2] == pytest.approx(6e3, abs=0.02 * 60e3) and strengths[3] == pytest.approx(25, abs=0.71)
@@ -92,9 +91,10 @@ def test_calibrate_says_what_it_has_not_reached(in_process, trials, tmp_path):
         "--threads",
         1,
     )
+    # 45° + 7° ln 2 with the most friction
     assert done.status == 0 and done.last.startswith(
         "NOT REACHED: the best trial misses the wanted strengths by up to "
-    )  # 45° + 7° ln 2 with the most friction
+    )
 
 
 def test_wall_shear_measures_what_the_wall_has(in_process, tmp_path):
@@ -118,17 +118,19 @@ def test_wall_shear_measures_what_the_wall_has(in_process, tmp_path):
     assert done.status == 0, done.err
     (told,) = json.loads((tmp_path / "summary.json").read_text())["tests"]
     assert (told["material"], told["seed"], told["pressures_Pa"]) == ("ss", 1, [0.5e6, 2e6])
+    # the solver's tolerance is 1e-4
     assert told["friction_peak"] == pytest.approx(0.2, rel=1e-3) and told["friction_residual"] == pytest.approx(
         0.2, rel=1e-3
-    )  # the solver's tolerance is 1e-4
+    )
     assert told["cohesion_peak_kPa"] == pytest.approx(0.2 * 200 * told["coverage"], abs=0.5) and told[
         "cohesion_residual_kPa"
     ] == pytest.approx(0, abs=0.5)
     assert f"{'ss':10s} {1:4d} {0.2:16.3f} {math.degrees(math.atan(told['friction_peak'])):6.1f}" in done.out
     series = records.read_series(tmp_path / "tests" / "ss-2MPa-seed1" / "series.csv")
+    # 0.08 of the largest disk
     assert series["normal_Pa"].mean() == pytest.approx(2e6, rel=0.01) and series["slip_m"][-1] == pytest.approx(
         0.32, abs=1e-3
-    )  # 0.08 of the largest disk
+    )
     assert (tmp_path / "wall_shear.png").stat().st_size > 10_000
     before = (tmp_path / "tests" / "ss-2MPa-seed1" / "series.csv").stat().st_mtime_ns
     assert in_process("wall_shear.py", *words, "--resume").status == 0

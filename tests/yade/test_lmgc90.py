@@ -58,9 +58,8 @@ def test_solver_without_yade_stops_by_name_alike(tmp_path):
     again = contact.solve(problem, tolerance=e.tolerance, max_iterations=e.maxIterations, stopping="QM/16")
     assert again.iterations == e.iterations and np.array_equal(again.impulse, problem.impulse)
     assert contact.velocity_changes(problem).qm16 <= e.tolerance * (1 + 1e-6)
-    assert again.relative == pytest.approx(
-        contact.residual(problem).relative, rel=1e-9
-    )  # the independent residual all the same
+    # the independent residual all the same
+    assert again.relative == pytest.approx(contact.residual(problem).relative, rel=1e-9)
     with pytest.raises(ValueError, match="stopping = 'quad': it must be 'naturalMap', 'Quad', 'Maxm' or 'QM/16'"):
         contact.solve(problem, stopping="quad")
 

@@ -228,10 +228,8 @@ def test_launcher_refuses_bad_calls(script, tmp_path):
         ([script("", "notes.txt")], "must be a Python file"),
         ([script(""), "--threads", "none"], "--threads wants a positive number"),
         ([script(""), "--threads", "08"], "--threads wants a positive number"),
-        (
-            [script(""), "--threads", "100000"],
-            "--threads 100000 is more than this machine has a use for",
-        ),  # YADE crashed
+        # YADE crashed
+        ([script(""), "--threads", "100000"], "--threads 100000 is more than this machine has a use for"),
         ([script(""), "--threads", "9" * 30], "give at most"),
     ):
         result = run([LAUNCHER, *arguments])
@@ -320,13 +318,8 @@ def test_every_imported_module_comes_from_a_package_that_is_installed():
             os.path.join(ROOT, "scripts", "setup", "packages.sh"),
         ]
     ).stdout.split()
-    imported, own = {}, {
-        "yade",
-        "nonsmooth",
-        "_nonsmooth_contact",
-        "__main__",
-        "coverage",
-    }  # tests/coverage/run.sh asks for coverage itself
+    # tests/coverage/run.sh asks for coverage itself
+    imported, own = {}, {"yade", "nonsmooth", "_nonsmooth_contact", "__main__", "coverage"}
     for folder in ("py", "scripts", "tests", "doc", "cmake"):
         for root, _, files in os.walk(os.path.join(ROOT, folder)):
             if "__init__.py" in files:

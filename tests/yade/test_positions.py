@@ -164,9 +164,8 @@ def test_a_disk_that_slides_out_of_a_wall_keeps_its_speed():
     s = O.bodies[free_disk(0, 0.48, (3, 0, 0), stuff)].state
     e = begin(gravity=(0, 0, 0), relaxationRate=0.5, correctionSpeed=1e3)
     run(20)
-    assert (
-        s.pos[1] == pytest.approx(0.5 - SLIGHT, abs=1e-7) and tuple(s.vel) == (3, 0, 0) and e.correctionEnergy == 0
-    )  # 0.5^20
+    # 0.5^20
+    assert s.pos[1] == pytest.approx(0.5 - SLIGHT, abs=1e-7) and tuple(s.vel) == (3, 0, 0) and e.correctionEnergy == 0
 
 
 def test_a_bond_that_is_made_in_an_overlap_has_no_length():

@@ -46,9 +46,8 @@ def test_forces_are_told_as_they_act_on_the_second_body(kind, free_first, swappe
         utils.createInteraction(b, a)
     pressing, shearing, twisting = 2000.0, 700.0, 90.0
     O.forces.setPermF(disk, -pressing * n + shearing * t)
-    O.forces.setPermT(
-        disk, (0, 0, twisting - 0.5 * shearing)
-    )  # takes back the moment about the contact point that the shear has
+    # takes back the moment about the contact point that the shear has
+    O.forces.setPermT(disk, (0, 0, twisting - 0.5 * shearing))
     run(2)
     (i,) = contacts()
     on_disk = pressing * n - shearing * t  # rest: what acts from outside is taken; by 1e-12 of the solver, and rounding
@@ -59,9 +58,8 @@ def test_forces_are_told_as_they_act_on_the_second_body(kind, free_first, swappe
     # as numbers: on the body of higher id, or on the disk of a wall, along its normal turned by +90° from the other
     direct = 1 if kind == "wall" or body < disk else -1
     assert i.phys.normal == pytest.approx(pressing, rel=1e-9)
-    assert i.phys.tangential == pytest.approx(
-        -shearing, rel=1e-9
-    )  # both the normal and the body that it acts on turn round
+    # both the normal and the body that it acts on turn round
+    assert i.phys.tangential == pytest.approx(-shearing, rel=1e-9)
     assert i.phys.torque == pytest.approx(-direct * twisting, rel=1e-8)
     # and as forces on bodies; O.forces of the disk holds the push as well
     assert (O.forces.f(body) + on_disk).norm() < 1e-9 * pressing and O.forces.f(disk).norm() < 1e-9 * pressing
@@ -118,9 +116,8 @@ def test_contacts_give_no_moment_in_all():
     after, turned = momenta(pair)
     assert engine().impactLoss > 0 and engine().slidingLoss > 0
     scale = O.bodies[pair[0]].state.mass * 3
-    assert (after - linear).norm() < 1e-12 * scale and turned == pytest.approx(
-        angular, abs=1e-12 * 4 * scale
-    )  # rounding, arms of 4 m
+    # rounding, arms of 4 m
+    assert (after - linear).norm() < 1e-12 * scale and turned == pytest.approx(angular, abs=1e-12 * 4 * scale)
 
 
 @pytest.mark.parametrize("driver_first", [True, False])
@@ -168,9 +165,8 @@ def test_a_disk_bounces_step_by_step_as_the_rules_say(e):
     hits, before = [], -1.0
     for y, v, lost in bounces(e, s.mass, 0.9, -1.0, h, 900):
         O.step()
-        assert s.vel[1] == pytest.approx(v, abs=1e-10) and s.pos[1] == pytest.approx(
-            y, abs=1e-11
-        )  # m/s, m: rounding, the solver's 1e-12
+        # m/s, m: rounding, the solver's 1e-12
+        assert s.vel[1] == pytest.approx(v, abs=1e-10) and s.pos[1] == pytest.approx(y, abs=1e-11)
         assert engine().impactLoss == pytest.approx(lost, abs=1e-9 * s.mass)
         if v - before > 1.5 * G * h:
             hits.append((before, v))
@@ -282,6 +278,5 @@ def test_figures_of_a_step_by_hand():
     assert (e.contacts, e.candidates) == (2, 2) and (e.overlapWorst, e.overlapMean) == pytest.approx(
         (0.01, 0.005), rel=1e-9
     )
-    assert e.kineticEnergy == pytest.approx(
-        0.5 * (masses[0] * 9 + masses[2] * 16 + 0.5 * masses[2] * 25), rel=1e-12
-    )  # I = ½ m r²
+    # I = ½ m r²
+    assert e.kineticEnergy == pytest.approx(0.5 * (masses[0] * 9 + masses[2] * 16 + 0.5 * masses[2] * 25), rel=1e-12)

@@ -358,9 +358,8 @@ def plain_loop():
 def test_a_material_given_straight_to_a_body(kind, values, words, loop):
     disk = rests_on_a_floor()
     body = 0 if kind is SlipWeakeningMat else disk
-    O.bodies[body].material = kind(
-        **{"density": 2500.0, "frictionAngle": 0.3, **values}
-    )  # not one of O.materials, which are looked at in every step
+    # not one of O.materials, which are looked at in every step
+    O.bodies[body].material = kind(**{"density": 2500.0, "frictionAngle": 0.3, **values})
     loop()
     refused(f"body #{body}", words, "must be")
     O.bodies[body].material = O.materials[0]
@@ -443,9 +442,8 @@ def test_the_worst_overlap_is_named():
     run(1)
     e = engine()
     assert e.overlapWorst == pytest.approx(0.1, abs=1e-12)
-    assert (
-        tuple(e.overlapWorstPair) == (2, 3) and e.overlappedSteps == 1
-    )  # the first of two that are alike, in the order of ids
+    # the first of two that are alike, in the order of ids
+    assert tuple(e.overlapWorstPair) == (2, 3) and e.overlappedSteps == 1
     run(400)
     assert e.overlappedSteps < 401 and e.overlapWorst < 0.05 and e.overlapWorstEver == pytest.approx(0.1, abs=1e-12)
 

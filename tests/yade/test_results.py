@@ -39,9 +39,8 @@ def until(end):
 def test_a_mean_is_over_the_seconds_up_to_a_time():
     t = np.arange(1, 101) / 10
     series = {"time_s": t, "x": t**2}
-    assert results.mean_of(series, "x", 5.0, 1.0) == pytest.approx(
-        np.mean(np.arange(41, 51) ** 2) / 100, rel=SAME
-    )  # ten rows, 4.1 to 5.0 s
+    # ten rows, 4.1 to 5.0 s
+    assert results.mean_of(series, "x", 5.0, 1.0) == pytest.approx(np.mean(np.arange(41, 51) ** 2) / 100, rel=SAME)
     assert results.mean_of(series, "x", 5.0, 0.0) == pytest.approx(25.0) and results.mean_of(
         series, "x", 5.04, 0.1
     ) == pytest.approx(25.0)
@@ -68,14 +67,8 @@ def test_t1_is_of_the_largest_force_before_t2_and_of_the_water_alone():
     )
     assert higher["t1"] == TIMES["t1"]  # a second that begins before t0 is none
     no_weakening = times_of(changed(weakened_disks=lambda t: np.full(len(t), 7)))
-    assert no_weakening == {
-        "t0": 10.0,
-        "t1": 41.0,
-        "t2": None,
-        "t3": None,
-        "t4": None,
-        "t5": None,
-    }  # the largest force of all, 300 MN/m from 40.1 s on
+    # the largest force of all, 300 MN/m from 40.1 s on
+    assert no_weakening == {"t0": 10.0, "t1": 41.0, "t2": None, "t3": None, "t4": None, "t5": None}
 
 
 @pytest.mark.parametrize(
@@ -163,11 +156,8 @@ def test_a_slope_that_failed_dry_has_the_times_of_its_motion():
 
 # ---- the summary ------------------------------------------------------------------------------------
 PASSIVE = toe.passive(SHIPPED, 99.8e3, 39.8, 0.84)
-WATER, BACK, SHEAR = (
-    0.5 * 19.2,
-    140e6 + 3e6 * (19.2 - 0.45),
-    440e6 - 3e6 * (19.2 - 0.45),
-)  # at t1; means over a second are values half a second before
+# at t1; means over a second are values half a second before
+WATER, BACK, SHEAR = (0.5 * 19.2, 140e6 + 3e6 * (19.2 - 0.45), 440e6 - 3e6 * (19.2 - 0.45))
 DRY_BACK, DRY_SHEAR = 140e6 - 0.45e6, 440e6 + 0.9e6
 LOST = 9.5e9
 
@@ -257,9 +247,8 @@ def test_each_key_of_a_summary(tmp_path):
 
 
 def test_the_worst_overlap_is_that_of_all_steps(tmp_path):
-    assert_known(
-        summary_of(known_slope.write(tmp_path), overlap_worst_ever=0.015), overlap_worst_rel=0.02
-    )  # rows saw a larger one
+    # rows saw a larger one
+    assert_known(summary_of(known_slope.write(tmp_path), overlap_worst_ever=0.015), overlap_worst_rel=0.02)
 
 
 NOT_AT_REST = {"finished": False} | dict.fromkeys(
@@ -312,9 +301,8 @@ def test_a_run_that_waits_for_the_water_has_no_failure(tmp_path):
         "fb_force_at_failure_over_passive",
     ):
         assert not found[name], name
-    assert (
-        found["energy_correction_rel"] == found["energy_error_rel"] == found["energy_dissipated_J_per_m"] == 0
-    )  # nothing has been turned
+    # nothing has been turned
+    assert found["energy_correction_rel"] == found["energy_error_rel"] == found["energy_dissipated_J_per_m"] == 0
     assert found["water_passive_m"] == near(PASSIVE.water_m)  # of the rock, not of the run
 
 

@@ -80,9 +80,8 @@ def test_vectors_and_water(section):
 
 def test_the_water_rises_by_its_table_and_then_at_its_rate(section):
     water = dataclasses.replace(section.water, table=((0.0, 2.0), (10.0, 4.0), (20.0, 3.0)), rate=0.5)
-    assert water.height(np.array([-5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 24.0])) == pytest.approx(
-        [2, 2, 3, 4, 3.5, 3, 5]
-    )  # exact but for rounding
+    # exact but for rounding
+    assert water.height(np.array([-5.0, 0.0, 5.0, 10.0, 15.0, 20.0, 24.0])) == pytest.approx([2, 2, 3, 4, 3.5, 3, 5])
 
 
 @pytest.mark.parametrize("distribution, median", [("uniform_by_volume", 8 / 5), ("uniform_by_number", 5 / 2)])
@@ -91,9 +90,8 @@ def test_sizes_by_quantile(distribution, median):
     disks = Disks(1.0, 4.0, distribution, 0.84)
     assert disks.diameters([0.0, 0.5, 1.0]) == pytest.approx([1, median, 4])
     quantiles = (np.arange(10_000) + 0.5) / 10_000
-    assert disks.mean_square == pytest.approx(
-        np.mean(disks.diameters(quantiles) ** 2), rel=1e-6
-    )  # by the rule of midpoints
+    # by the rule of midpoints
+    assert disks.mean_square == pytest.approx(np.mean(disks.diameters(quantiles) ** 2), rel=1e-6)
 
 
 def test_table_1(section):
@@ -130,9 +128,8 @@ def test_with_rock_changes_the_layers_alone(section):
     other = section.with_rock(wwr)
     assert other.materials["rock"] == dataclasses.replace(wwr, name="rock")
     assert all(other.materials[k] == m for k, m in section.materials.items() if k != "rock")
-    assert other.key() == section.key() and other.key("settled") != section.key(
-        "settled"
-    )  # the same packing, another slope
+    # the same packing, another slope
+    assert other.key() == section.key() and other.key("settled") != section.key("settled")
     with pytest.raises(SectionError, match="no density"):
         section.with_rock(section.materials["ss"])
 
@@ -177,11 +174,10 @@ def test_numbers_as_in_yaml_1_2_and_water_variants(tmp_path):
     s = load(path)
     assert s.materials["rock"].tensile_strength == 1e5
     assert s.water.gradient == (0.0, 5.0) and s.water.wall is None and s.water.dip == 10
+    # that of the slope
     assert s.water.normal == pytest.approx(
         (math.sin(math.radians(10)), math.cos(math.radians(10)))
-    ) and s.dip == pytest.approx(
-        21, abs=1e-4
-    )  # that of the slope
+    ) and s.dip == pytest.approx(21, abs=1e-4)
     assert s.water.height(np.array([-1.0, 5.0, 99.0])).tolist() == [1.0, 3.5, 6.0]
 
 

@@ -188,11 +188,8 @@ BASE = data()
 #: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes several kinds of values.
 #: The last item, where there is one, is how far the slope is run [s], None: to its end.
 WHERE = {
-    ("name",): (
-        {("name",): "another"},
-        lambda m: m.section.name,
-        "another",
-    ),  # and in summary.json, see test_whole_slope
+    # and in summary.json, see test_whole_slope
+    ("name",): ({("name",): "another"}, lambda m: m.section.name, "another"),
     ("description",): ({("description",): "free text"}, lambda m: m.section.description, "free text"),
     ("gravity",): ({("gravity",): 3.7}, lambda m: tuple(m.of(NewtonIntegrator).gravity), (0, -3.7, 0)),
     ("seed",): (
@@ -277,11 +274,12 @@ WHERE = {
         lambda m: len(packing._borders(m.section, np.zeros(2))),
         1,
     ),
+    # half of it, less the strip at the surface
     ("layers", "*", "vertices"): (
         {("layers", 1, "vertices"): [[0.845, 1.8125], [-0.092, 3.35275], [-34.7325, 19.50585], [-35.155, 18.5995]]},
         lambda m: m.section.disk_counts()[1] / m.section.disk_counts()[0],
         pytest.approx(0.44, abs=0.03),
-    ),  # half of it, less the strip at the surface
+    ),
     ("materials", "*", "bonded"): [
         ({(*ROCK, "bonded"): False}, lambda m: m.built.solver.bonds, 0, 0.02),
         ({}, lambda m: m.run.state.bonds_initial, 5, 0.02),  # three pairs below, two above; nothing across the layers
@@ -300,11 +298,12 @@ WHERE = {
         ({(*ROCK, "residual_tensile_strength"): 70.0}, lambda m: m.disk(0).material.residualTensileStrength, 70.0),
         ({(*DP, "residual_tensile_strength"): 30.0}, lambda m: m.wall("DP").residualTensileStrength, 30.0),
     ],
+    # where no other is given
     ("materials", "*", "friction"): [
         ({(*ROCK, "friction"): 0.9}, lambda m: m.disk(0).material.frictionAngle, angle(0.9)),
         ({(*DP, "friction"): 0.7}, lambda m: m.wall("DP").frictionAngle, angle(0.7)),
         ({(*DP, "friction"): 0.7}, lambda m: m.wall("DP").residualFrictionAngle, angle(0.7)),
-    ],  # where no other is given
+    ],
     ("materials", "*", "residual_friction"): [
         ({(*ROCK, "residual_friction"): 0.15}, lambda m: m.disk(0).material.residualFrictionAngle, angle(0.15)),
         ({(*DP, "residual_friction"): 0.25}, lambda m: m.wall("DP").residualFrictionAngle, angle(0.25)),
@@ -507,6 +506,7 @@ WHERE = {
         ("done", seconds(0.4)),
         None,
     ),
+    # it loses 1.2 m/s a second of 1.7 m/s, so 0.014 of it in a row
     ("stages", "end", "rest_fraction"): [
         (
             {("stages", "end", "rest_fraction"): share},
@@ -515,7 +515,7 @@ WHERE = {
             None,
         )
         for share in (0.1, 0.5)
-    ],  # it loses 1.2 m/s a second of 1.7 m/s, so 0.014 of it in a row
+    ],
     ("stages", "end", "rest_hold"): (
         {("stages", "end", "rest_hold"): 0.5},
         lambda m: O.time - m.run.state.resting_since,
@@ -598,6 +598,5 @@ def test_a_checkpoint_belongs_to_a_value(tmp_path, key):
     """A run is not resumed with another value of any key that it depends on."""
     base = experiment.run_key(read(tmp_path))
     assert base == experiment.run_key(read(tmp_path))
-    assert any(
-        experiment.run_key(read(tmp_path, changes)) != base for k, changes, *_ in CASES if k == key
-    )  # some have the block's own value
+    # some have the block's own value
+    assert any(experiment.run_key(read(tmp_path, changes)) != base for k, changes, *_ in CASES if k == key)

@@ -69,9 +69,8 @@ def test_a_slope_that_fails_dry_is_no_failure_by_water(failed):
     assert [name for name, t in summary["times_s"].items() if t is None and name != "t5"] == ["t0", "t1", "t2", "t3"]
     assert summary["times_s"]["t4"] > summary["failed_dry_s"]
     series = records.read_series(out / "series.csv")
-    assert summary["front_travel_m"] == pytest.approx(
-        series["front_m"][-1] - series["front_m"][0]
-    )  # from the beginning
+    # from the beginning
+    assert summary["front_travel_m"] == pytest.approx(series["front_m"][-1] - series["front_m"][0])
     assert summary["centroid_travel_m"] > 5  # some seconds at some m/s
     assert summary["energy_error_rel"] < 0.02  # of the rows since gravity has grown; before, the balance means nothing
     assert not (out / "deposit.png").exists() and (out / "energy.png").stat().st_size > 1000
@@ -171,9 +170,10 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
         900,
     ) and water.times == []
     decide(8.0, 1e-3, 0.0)
+    # but for a thousandth of the area
     assert saved[1:] == [("t0.npz", True), "water"] and run.state.front0 == pytest.approx(
         np.max(table["x"] + table["r"]), abs=20
-    )  # but for a thousandth of the area
+    )
     assert (water.times, water.heights, solver.tolerance) == ([8.0, 158.0], [0.0, 150.0], 0.0)
     numerics = run.section.numerics
     decide(20.0, 0.1, 12.0)
@@ -182,10 +182,8 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
     decide(20.1, 0.3, 12.1)
     assert solver.tolerance == numerics.tolerance_moving and water.heights == [12.1]
     decide(22.1, 0.01, 12.1)
-    assert solver.tolerance == numerics.tolerance and (water.times, water.heights) == (
-        [10.0, 160.0],
-        [0.0, 150.0],
-    )  # two seconds later than before
+    # two seconds later than before
+    assert solver.tolerance == numerics.tolerance and (water.times, water.heights) == ([10.0, 160.0], [0.0, 150.0])
     run.hard, run.damping = False, (0.2, 0.04)
     run.state = course.noted(run.state, course.Seen(40.0, 1e-2, 20.0, 30.0), run.scales)
     decide(40.0, 20.0, 30.0)
@@ -234,18 +232,14 @@ def test_forces_between_rows_are_counted(loaded):
         assert found[name] == pytest.approx(wanted, rel=1e-9, abs=1e-3)  # N/m: rounding of sums of some 1e7
     assert found["DP"][2] > 1.02 * found["DP"][0] > 0  # packed just short of touching: the disks hit the plane
     O.step()
-    assert forces.take()["DP"] == pytest.approx(
-        (*by_hand(loaded, "DP"), by_hand(loaded, "DP")[0]), rel=1e-9
-    )  # what was before is forgotten
+    # what was before is forgotten
+    assert forces.take()["DP"] == pytest.approx((*by_hand(loaded, "DP"), by_hand(loaded, "DP")[0]), rel=1e-9)
 
 
 def test_rows_hold_means_and_peaks(loaded, tmp_path, monkeypatch):
     run, normal, advance = experiment.Experiment(loaded, tmp_path), [], experiment.advance
-    assert O.iter == 2 and [e.seconds for e in O.engines if isinstance(e, WallForceEngine)] == [
-        0,
-        0,
-        0,
-    ]  # steps without weight belong to no row
+    # steps without weight belong to no row
+    assert O.iter == 2 and [e.seconds for e in O.engines if isinstance(e, WallForceEngine)] == [0, 0, 0]
 
     def step_by_step(until):
         while O.time < until - 0.5 * O.dt:
@@ -286,9 +280,8 @@ def test_rows_hold_means_and_peaks(loaded, tmp_path, monkeypatch):
     ],
 )
 def test_options_without_sense(option, value, in_process, tmp_path):
-    done = in_process(
-        "jiufengershan.py", f"{option}={value}", "--out", tmp_path / "out"
-    )  # one word, so that -1 is no option
+    # one word, so that -1 is no option
+    done = in_process("jiufengershan.py", f"{option}={value}", "--out", tmp_path / "out")
     assert done.status == 2 and "Traceback" not in done.err and option in done.last
     assert not (tmp_path / "out").exists()
 

@@ -24,9 +24,8 @@ def test_forces_of_walls_water_and_weight_are_the_change_of_momentum(whole):
     w, s = whole.watch, whole.watch.steps
     gained = np.einsum("d,kad->ka", w.mass, s.after[:, 3:5] - s.before[:, 3:5])
     given = s.dt[:, None] * (w.mass.sum() * s.gravity + s.water - s.walls[:, :, :2].sum(axis=1))
-    assert (
-        np.abs(gained - given).max() < 1e-9 * w.mass.sum() * 9.81 * 5e-3
-    )  # rounding; the solver's tolerance does not come into it
+    # rounding; the solver's tolerance does not come into it
+    assert np.abs(gained - given).max() < 1e-9 * w.mass.sum() * 9.81 * 5e-3
     assert np.abs(s.water).max() > 0.05 * w.mass.sum() * 9.81  # the water was there
 
 
@@ -181,9 +180,8 @@ def test_each_loss_is_the_work_of_its_own_impulses(steps):
         normal, sliding, rolling = -0.5 * 5e-3 * np.array([n, t, torque]) * (u[0] + u[1])
         wanted = np.array([sliding.sum(), rolling.sum(), normal[n < 0].sum(), normal[n >= 0].sum()])
         scale = np.abs(normal).sum() + np.abs(sliding).sum() + np.abs(rolling).sum()
-        assert (
-            np.abs((counters - last)[:4] - wanted).max() < 1e-8 * scale
-        )  # rounding, of forces from impulses and of sums
+        # rounding, of forces from impulses and of sums
+        assert np.abs((counters - last)[:4] - wanted).max() < 1e-8 * scale
         last = counters
 
 
@@ -203,9 +201,8 @@ def bonds_add_up(series, breaks, made, begun):
 
 
 def test_bonds_that_hold_and_broken_ones_are_those_made(whole):
-    bonds_add_up(
-        whole.series, records.read_breaks(whole.folder / "breaks.csv"), whole.summary["bonds_initial"], 0
-    )  # rigid disks: the number of steps before the one in which it broke
+    # rigid disks: the number of steps before the one in which it broke
+    bonds_add_up(whole.series, records.read_breaks(whole.folder / "breaks.csv"), whole.summary["bonds_initial"], 0)
 
 
 def test_breaks_are_where_and_when_bonds_were_lost(whole):
@@ -272,9 +269,8 @@ def test_soft_forces_cancel_and_move_the_disks(damping):
         wet, _ = tables.water(built.water, built.first_disk, built.count)
         lift = wet[:, None] * math.pi * (r**2)[:, None] / 0.82 * 9810 * math.cos(math.radians(chosen.dip)) * n
         size = np.abs(f[:, :2]).sum()
-        assert (
-            np.abs(f[:, :2].sum(0) + on_walls[:, :2].sum(0) - lift.sum(0)).max() < 1e-9 * size
-        )  # actio est reactio, to rounding
+        # actio est reactio, to rounding
+        assert np.abs(f[:, :2].sum(0) + on_walls[:, :2].sum(0) - lift.sum(0)).max() < 1e-9 * size
         places, walls = np.c_[before["x"], before["y"]], np.array([tuple(O.bodies[i].state.pos)[:2] for i in pieces])
         moment = (
             cross(places, f[:, :2]).sum()

@@ -160,9 +160,8 @@ def test_a_bond_over_a_gap_is_born_without_force_and_breaks_at_the_same_load():
     for model in ("cohesion_moment", "jcfpm"):
         pair = SoftPair(parameters(model), gap=0.015)
         run(100)
-        assert O.bodies[pair.free].state.pos[0] == pytest.approx(
-            LENGTH + 0.015, abs=1e-12
-        )  # rounding of R₁ + R₂ − distance
+        # rounding of R₁ + R₂ − distance
+        assert O.bodies[pair.free].state.pos[0] == pytest.approx(LENGTH + 0.015, abs=1e-12)
         assert pair.threshold(loads, broken) == pytest.approx(1, rel=RAMP)
 
 
@@ -290,9 +289,8 @@ def test_damping_gives_the_restitution_that_is_stated():
         body.state.vel = (-0.1, 0, 0)
         O.engines, O.dt = soft.engines(e, gravity=(0, 0, 0)), 0.01 * e.step_limit
         run(3000)
-        assert body.state.vel[0] == pytest.approx(
-            0.1 * e.restitution, rel=0.01
-        )  # the spring's half period is some 300 steps
+        # the spring's half period is some 300 steps
+        assert body.state.vel[0] == pytest.approx(0.1 * e.restitution, rel=0.01)
 
 
 def test_damping_slows_a_fall_as_stated():
@@ -426,11 +424,12 @@ def test_the_description_has_every_attribute_that_the_material_sets(model):
     for name, value in e.attributes().items():
         assert getattr(made, name) == value
         shown = told[f"{kind}.{name}"]
+        # six digits
         assert (
             shown == str(value)
             if isinstance(value, bool)
             else float(shown.split()[0]) == pytest.approx(value, rel=1e-5)
-        )  # six digits
+        )
 
 
 #: Ways to move the free disk about the fixed one, by their progress x: (gap, angle of the centre, turn of the disk) [m, rad, rad] at x = 1, a
@@ -489,9 +488,8 @@ def test_a_ductile_bond_yields_and_breaks_where_the_hard_one_does(way):
             break
         borne = p.normalForce.norm(), p.shearForce.norm(), p.moment_bending.norm()
         O.step()
-    assert (
-        (k - 1) / steps - 1e-9 <= edge <= k / steps + 1e-9
-    )  # both sides: to the one step in which it leaves the ellipse
+    # both sides: to the one step in which it leaves the ellipse
+    assert (k - 1) / steps - 1e-9 <= edge <= k / steps + 1e-9
     # yield is exact in YADE's law; what is not loaded is rounding of the places, 1e-16 m times 5e8 N/m, or what is left of T and Γ when tension yields
     wanted = tension * F_A, shear * FRICTION * F_A, torque * ROLLING * LENGTH * F_A
     assert borne == pytest.approx(wanted, rel=1e-6, abs=1e-4 * F_A)

@@ -47,21 +47,23 @@ def test_forces_are_those_on_the_second_body(wall, way):
     second = ids[-1]
     O.bodies[second].state.vel = (0.3 * way, 0, 0)
     run(2)
+    # contacts are looked at at a step's begin
     depth = (
         0.5 - O.bodies[second].state.pos[1]
         if wall
         else 1.3 - (O.bodies[ids[1]].state.pos - O.bodies[ids[0]].state.pos).norm()
-    )  # contacts are looked at at a step's begin
+    )
     run(1)
     table, force = tables.contacts(seen), O.forces.f(second)
     assert len(table["id2"]) == 1 and table["id2"][0] == second
     nx, ny = table["nx"][0], table["ny"][0]
     assert ny > 0.99 and table["normal"][0] > 0
     assert table["normal"][0] == pytest.approx(force[0] * nx + force[1] * ny, **same)
+    # friction acts against the motion
     assert (
         table["tangential"][0] == pytest.approx(-force[0] * ny + force[1] * nx, **same)
         and way * table["tangential"][0] > 0
-    )  # friction acts against the motion
+    )
     assert -table["gap"][0] == pytest.approx(depth, rel=1e-9) and depth > 0
     assert (
         seen.overlapWorst == seen.overlapMean == pytest.approx(-table["gap"][0] / (1.0 if wall else 1.3), **same)

@@ -148,9 +148,8 @@ def test_a_contact_that_sticks_does_not_slip():
     O.engines, O.dt = world.engines(gravity=(1.0, -9.81, 0)), world.step_for([ROCK])
     O.run(2000, wait=True)
     assert wall.slipOf(body.id) == 0.0
-    assert tuple(O.forces.f(body.id))[:2] == pytest.approx(
-        (-1.0 * body.state.mass, 9.81 * body.state.mass), rel=0.01
-    )  # the rest of the swing
+    # the rest of the swing
+    assert tuple(O.forces.f(body.id))[:2] == pytest.approx((-1.0 * body.state.mass, 9.81 * body.state.mass), rel=0.01)
 
 
 def test_rolling_is_resisted_as_the_wall_says():

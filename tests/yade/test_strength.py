@@ -23,9 +23,8 @@ def test_envelope_finds_the_line_that_touches_all_circles():
     minor = np.array([0.25, 0.5, 1, 2, 4, 8, 16]) * 1e6
     major = minor * math.tan(math.pi / 4 + angle / 2) ** 2 + 2 * c * math.tan(math.pi / 4 + angle / 2)
     found = strength.envelope(minor, major)
-    assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(
-        38.5, rel=1e-9
-    )  # rounding
+    # rounding
+    assert found.cohesion == pytest.approx(c, rel=1e-9) and found.friction_deg == pytest.approx(38.5, rel=1e-9)
     assert np.abs(found.misses).max() < 1e-12
     assert found.strength(minor) == pytest.approx(major, rel=1e-9)
     # circles whose line would cut the axis below zero: without cohesion the best is the mean of t/s, weighed by s/t
@@ -65,9 +64,8 @@ def test_curve_measures_peak_plateau_and_dilatancy():
 def test_a_peak_is_a_mean_over_strain_and_not_over_rows():
     """Platens that take up their speed make rows that cover little strain; here the first ten cover 0.01 %, all others 0.01 % each."""
     strain = np.concatenate((np.arange(1, 11) * 1e-5, np.arange(2, 101) * 1e-4))
-    stress = np.where(
-        strain < 5.5e-4, 8.0, 2.0
-    )  # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
+    # 8 until 0.05 %, so that 0.2 % from the begin have the mean (5 * 8 + 15 * 2)/20
+    stress = np.where(strain < 5.5e-4, 8.0, 2.0)
     begin, mean = strength.running_mean(strain, stress, 2e-3)
     assert mean[0] == pytest.approx(3.5, rel=1e-12) and begin[0] == 0 and begin[-1] == pytest.approx(0.008)  # rounding
     assert mean[-1] == pytest.approx(2.0, rel=1e-12) and len(begin) == 90
@@ -102,9 +100,8 @@ def test_a_curve_without_a_plateau_is_refused():
 
 def test_confidence_over_seeds_is_students():
     e = statistics.Estimate.of([38.0, 39.0, 40.0])
-    assert e.mean == 39.0 and e.half_width == pytest.approx(
-        4.3027 / math.sqrt(3), rel=1e-4
-    )  # t(0.975, 2 degrees of freedom) has 5 digits
+    # t(0.975, 2 degrees of freedom) has 5 digits
+    assert e.mean == 39.0 and e.half_width == pytest.approx(4.3027 / math.sqrt(3), rel=1e-4)
     assert math.isnan(statistics.Estimate.of([38.0]).half_width)
 
 
@@ -115,9 +112,10 @@ def test_cohesion_and_angle_come_back_from_circles(cohesion, friction_deg):
     for minor in (np.array([1e5, 3e6]), np.geomspace(1e4, 1e7, 12)):
         major = minor * n + 2 * cohesion * math.sqrt(n)
         found = strength.envelope(minor, major)
+        # rounding
         assert found.friction_deg == pytest.approx(friction_deg, abs=1e-6) and found.cohesion == pytest.approx(
             cohesion, abs=1e-7 * major.max()
-        )  # rounding
+        )
         assert found.strength(2.5e5) == pytest.approx(2.5e5 * n + 2 * cohesion * math.sqrt(n), rel=1e-9)
         s, t = (major + minor) / 2, (major - minor) / 2  # the line is as far from each centre as the radius
         assert (cohesion + s * math.tan(math.radians(friction_deg))) * math.cos(
@@ -166,9 +164,10 @@ def test_the_plateau_is_a_mean_with_its_error():
         (0.03, 0.06),
     )
     assert found.peak == pytest.approx(40e6, rel=1e-12) and found.peak_confining == pytest.approx(5e6, rel=1e-12)
+    # 301 rows in five blocks
     assert found.residual == pytest.approx(22e6, rel=1e-3) and found.residual_confining == pytest.approx(
         6.5e6, rel=1e-12
-    )  # 301 rows in five blocks
+    )
     assert found.residual_error == pytest.approx(1e6 * math.sqrt(2.5 / 5), rel=1e-2)
     assert found.imbalance == pytest.approx(1 - 0.97 / 1.03, rel=1e-9)
     assert found.dilatancy_deg == pytest.approx(
@@ -202,9 +201,8 @@ def test_bands_are_found_with_their_angle_and_width():
         + 0.01 * rng.standard_normal(6000)
     )
     left, right = bands.find(x, y, r, rotation)
-    assert left.angle_deg == pytest.approx(60, abs=3) and right.angle_deg == pytest.approx(
-        -55, abs=3
-    )  # a strip is 2 m wide, the band 120 m long
+    # a strip is 2 m wide, the band 120 m long
+    assert left.angle_deg == pytest.approx(60, abs=3) and right.angle_deg == pytest.approx(-55, abs=3)
     assert left.width == pytest.approx(6, abs=1) and right.width == pytest.approx(5, abs=1)  # one strip
     assert left.rotation > 0.2 and right.rotation < -0.13
 
@@ -223,14 +221,11 @@ def test_bands_are_mirrored_with_their_sample():
         np.abs(-math.sin(math.radians(57)) * (x - 45) + math.cos(math.radians(57)) * (y - 90)) < 6
     ) + 0.01 * rng.standard_normal(5000)
     (right, none), (nothing, left) = bands.find(x, y, r, rotation), bands.find(-x, y, r, -rotation)
-    assert (
-        none is None and nothing is None and (right.angle_deg, left.angle_deg) == pytest.approx((57.0, -57.0), abs=3)
-    )  # a strip is 2 m wide, the band 120 m long
+    # a strip is 2 m wide, the band 120 m long
+    assert none is None and nothing is None and (right.angle_deg, left.angle_deg) == pytest.approx((57.0, -57.0), abs=3)
     wanted = (right.width, -right.rotation, right.contrast, right.offset)
-    assert (left.width, left.rotation, left.contrast, left.offset) == pytest.approx(
-        wanted, rel=0.05
-    )  # strips begin elsewhere
-    assert right.offset == pytest.approx(
-        -math.sin(math.radians(57)) * -5 + math.cos(math.radians(57)) * -10, abs=2.0
-    )  # of the band from the centre, (50, 100); a strip
+    # strips begin elsewhere
+    assert (left.width, left.rotation, left.contrast, left.offset) == pytest.approx(wanted, rel=0.05)
+    # of the band from the centre, (50, 100); a strip
+    assert right.offset == pytest.approx(-math.sin(math.radians(57)) * -5 + math.cos(math.radians(57)) * -10, abs=2.0)
     assert right.contrast > 5 and right.rotation == pytest.approx(0.3, rel=0.05)

@@ -75,9 +75,8 @@ def known(request):
     world = WORLDS[request.param]
     course = play(world)
     sliding, rolling, debonding, impact, given = np.abs(course["losses"][-1])
-    assert (
-        min(sliding, rolling, impact) > 1e-3 * course.mass * course.speed**2 and debonding == 0
-    )  # all that may happen does
+    # all that may happen does
+    assert min(sliding, rolling, impact) > 1e-3 * course.mass * course.speed**2 and debonding == 0
     assert request.param != "pressed" or (
         given > 1e-3 * course.mass * course.speed**2 and course["overlap"][0, 0] > 0.001
     )
@@ -198,9 +197,8 @@ def test_two_distant_scenes_do_not_know_of_each_other():
         # one residual for both, relative to the mean of all; 64 m take six bits of a place
         assert_same(part(both, disks, walls, x), own, SOLVED, losses=None, overlap=None)
     # energies are those of both
-    assert both["losses"] == pytest.approx(
-        alone[0]["losses"] + alone[1]["losses"], rel=1e-8, abs=1e-4
-    )  # J, of some 1e4
+    # J, of some 1e4
+    assert both["losses"] == pytest.approx(alone[0]["losses"] + alone[1]["losses"], rel=1e-8, abs=1e-4)
     assert both["overlap"][:, 0] == pytest.approx(
         np.maximum(alone[0]["overlap"][:, 0], alone[1]["overlap"][:, 0]), abs=1e-9
     )

@@ -11,10 +11,8 @@ from contact_scenes import TIGHT, material
 MIRROR = {"bottom": "bottom", "top": "top", "left": "right", "right": "left"}
 TRANSPOSED = {"bottom": "left", "left": "bottom", "right": "top", "top": "right"}
 WIDTH, HEIGHT, PRESSURE = 6.4, 4.4, 1e5
-ROUNDING, SOLVED = (
-    1e-9,
-    1e-7,
-)  # of 300 steps under load, in the scales of the walls; the solver's 1e-12 where the order of contacts is another
+# of 300 steps under load, in the scales of the walls; the solver's 1e-12 where the order of contacts is another
+ROUNDING, SOLVED = (1e-9, 1e-7)
 
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -83,9 +81,8 @@ def here():
     found = pressed()
     O.reset()
     places, walls, stresses, _ = found
-    assert (
-        walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and (stresses > 0.5).sum() == 3
-    )  # they have come in and press; rough platens keep it from the left one
+    # they have come in and press; rough platens keep it from the left one
+    assert walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and (stresses > 0.5).sum() == 3
     return found
 
 
@@ -226,9 +223,8 @@ def test_a_membrane_turns_a_sample_only_as_its_ends_do():
     # the end disks, from whose height to the platen's their arm is counted
     moment = np.sum(at[:, 0] * force[:, 1] - at[:, 1] * force[:, 0])
     lt, lb, rb, rt = at[[left[0], left[-1], right[0], right[-1]], 0]
-    lid = (
-        SIGMA * 0.5 * ((rb**2 - lb**2) - (rt**2 - lt**2))
-    )  # of the pressure on the platens, upwards below and downwards above
+    # of the pressure on the platens, upwards below and downwards above
+    lid = SIGMA * 0.5 * ((rb**2 - lb**2) - (rt**2 - lt**2))
     arm = 0.0
     for chain, sign in ((left, 1), (right, -1)):
         for k, end in ((chain[0], TOP if chain is left else BOTTOM), (chain[-1], BOTTOM if chain is left else TOP)):

@@ -77,9 +77,8 @@ def known(request):
     world = WORLDS[request.param]
     course = play(world)
     wet, slipped = course["wet"], course["slip"][-1]
-    assert (
-        wet[:, :, 0].any() and not wet[:, :, 0].all() and wet[-1, :, 1].any()
-    )  # some in the water, some not yet or no more
+    # some in the water, some not yet or no more
+    assert wet[:, :, 0].any() and not wet[:, :, 0].all() and wet[-1, :, 1].any()
     assert (
         slipped.max() > 0.05
         and (slipped > 0).sum() >= 8

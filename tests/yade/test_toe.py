@@ -17,12 +17,10 @@ BULK = 2500 * 0.84 * 9.81  # N/m³
 
 def test_push_and_resistance_of_the_dry_slab():
     found = toe.passive(SHIPPED, 88e3, 38.5, 0.84)
-    assert found.thickness_m == pytest.approx(
-        65, rel=1e-4
-    )  # of the shipped section; looked for within a hundredth of the length
-    assert found.push_dry == pytest.approx(
-        BULK * SHIPPED.area * (math.sin(BETA) - 0.3 * math.cos(BETA)), rel=1e-5
-    )  # the plane's ends are rounded
+    # of the shipped section; looked for within a hundredth of the length
+    assert found.thickness_m == pytest.approx(65, rel=1e-4)
+    # the plane's ends are rounded
+    assert found.push_dry == pytest.approx(BULK * SHIPPED.area * (math.sin(BETA) - 0.3 * math.cos(BETA)), rel=1e-5)
     k = math.tan(math.radians(45 + 38.5 / 2)) ** 2
     assert found.resistance_dry == pytest.approx(
         k * 0.5 * BULK * math.cos(BETA) * 65**2 + 2 * 88e3 * math.sqrt(k) * 65, rel=1e-4

@@ -40,9 +40,8 @@ def quick_run(tmp_path_factory):
 
 @pytest.mark.parametrize("name", QUICK)
 def test_quick_check_holds(name, quick_run):
-    (result,) = runner.run_checks(
-        [ALL[name]], quick_run[0], quick=True, resume=True
-    )  # one that stopped is run again, here
+    # one that stopped is run again, here
+    (result,) = runner.run_checks([ALL[name]], quick_run[0], quick=True, resume=True)
     assert not result.error, (quick_run[0] / "checks" / name / "error.txt").read_text()
     failed = [
         f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}"
@@ -110,9 +109,8 @@ def test_claims_are_two_sided_and_say_why():
         not near("x", 1.03, 1, relative=0.02, why="w").passed and not near("x", 0.97, 1, relative=0.02, why="w").passed
     )
     assert between("x", 2, 2, 3, why="w").passed and not between("x", 3.1, 2, 3, why="w").passed
-    assert (
-        at_most("x", 0, 1, why="w").passed and not at_most("x", -1e-9, 1, why="w").passed
-    )  # an error cannot be negative
+    # an error cannot be negative
+    assert at_most("x", 0, 1, why="w").passed and not at_most("x", -1e-9, 1, why="w").passed
     assert at_least("x", 1e300, 1, why="w").passed and not at_least("x", 0.5, 1, why="w").passed
     with pytest.raises(ValueError, match="does not say why"):
         near("x", 1, 1)

@@ -98,12 +98,8 @@ def pulled(force):
 def test_signs_and_what_is_forgotten():
     wall, found = pulled((3, 4, 0))
     run(2)
-    assert (found.seconds, found.normal, found.shear, found.peak) == (
-        1.0,
-        -4.0,
-        3.0,
-        -4.0,
-    )  # it is drawn off its ground, and along
+    # it is drawn off its ground, and along
+    assert (found.seconds, found.normal, found.shear, found.peak) == (1.0, -4.0, 3.0, -4.0)
     O.forces.setPermF(wall, (0, -8, 0))
     run(1)
     assert found.take() == (pytest.approx(0.0, abs=1e-12), pytest.approx(2.0, rel=1e-12), 8.0)

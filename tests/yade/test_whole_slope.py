@@ -31,13 +31,11 @@ def test_it_settles_gets_wet_fails_weakens_moves_and_rests(whole):
         assert s[f"bonds_broken_{mode}"][-1] > 0, mode
     assert s["speed_mean_m_per_s"][-1] < 0.03 * s["speed_mean_m_per_s"].max()
     gravity, time = whole.watch.steps.gravity[:, 1], whole.watch.steps.time - whole.watch.steps.dt
-    assert gravity[2:] == pytest.approx(
-        -9.81 * np.minimum(time[2:] / 0.3, 1), rel=1e-9
-    )  # it grows, and then it is whole
+    # it grows, and then it is whole
+    assert gravity[2:] == pytest.approx(-9.81 * np.minimum(time[2:] / 0.3, 1), rel=1e-9)
     steps = np.diff(s["step"])
-    assert (
-        set(steps[s["stage"][1:] < 2]) == {4} and steps.max() > 4
-    )  # rows of 0.02 s, steps of 5 ms and shorter ones where disks are fast
+    # rows of 0.02 s, steps of 5 ms and shorter ones where disks are fast
+    assert set(steps[s["stage"][1:] < 2]) == {4} and steps.max() > 4
 
 
 #: Relative to the column's largest value; where not rounding of sums over thousands of steps, the reason stands beside.

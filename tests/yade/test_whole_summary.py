@@ -241,10 +241,8 @@ class Summary:
 
 
 #: Where a key's value is recomputed less exactly: how much less, relative. ``wall_s`` is a clock's, ``section`` and ``finished`` stand in tests of their own.
-ROUGH = {
-    "packing_fraction": 2e-3,
-    "energy_error_rel": 1e-6,
-}  # points of a grid, 0.05 m apart; sums over thousands of steps
+# points of a grid, 0.05 m apart; sums over thousands of steps
+ROUGH = {"packing_fraction": 2e-3, "energy_error_rel": 1e-6}
 OTHERWISE = {"section", "finished", "wall_s"}
 
 

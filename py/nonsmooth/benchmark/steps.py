@@ -34,13 +34,14 @@ STAGES = (
     "integrate",
     "other",
 )
+# by the class of the engine or one it is derived from: what YADE's own timers count
 STAGE_OF = {
     ForceResetter: "reset",
     Collider: "collide",
     InteractionLoop: "interactions",
     PorePressureEngine: "pore_pressure",
     NewtonIntegrator: "integrate",
-}  # by the class of the engine or one it is derived from: what YADE's own timers count
+}
 WARM_UP = 5  # steps before the first that counts: the loaded scene has no caches yet, and its first step makes the collider's lists
 
 

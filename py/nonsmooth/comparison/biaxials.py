@@ -64,9 +64,8 @@ def test_of(case: Case) -> biaxial.Test:
         raise ComparisonError(
             f"--strain {strain:g}: give the axial strain at the end, from {strength.SHORTEST:g}, which has a peak and a plateau, to less than 1"
         )
-    shape = pressing.Shape(
-        case.disks, case.seed, friction=0.0
-    )  # pressed: soft contacts then begin without the work of bonds that were bent by the pressure
+    # pressed: soft contacts then begin without the work of bonds that were bent by the pressure
+    shape = pressing.Shape(case.disks, case.seed, friction=0.0)
     numerics = (
         dict(step=standard["step"] * case.step, tolerance=standard["tolerance"] * case.tolerance)
         if case.world == "hard"

@@ -372,9 +372,8 @@ def convergence(moduli, rows, path=None):
         ax.set_visible(False)
     for ax in axes[max(0, len(rows) - across) : len(rows)]:
         ax.set_xlabel("Young's modulus [Pa]")
-        ax.tick_params(
-            labelbottom=True
-        )  # above an empty place of the grid too, where the shared axis would leave them to that
+        # above an empty place of the grid too, where the shared axis would leave them to that
+        ax.tick_params(labelbottom=True)
     for ax in axes[::across]:
         ax.set_ylabel("relative difference")
     return style.save(fig, path)

@@ -23,10 +23,8 @@ REST_SPEED = 5e-3  # √(g d), rms; the solver creeps on at about half of it
 LIMIT = 20_000  # steps
 LOOSEST = 0.7  # packing fraction, the least that is tried
 CHUNK = 200
-ROUGH_REACH, FLOOR_REACH = (
-    6.0,
-    15.0,
-)  # heights of the box beside it: glued disks, and the floor; what falls from the top at once rolls 13 in 6.5 T
+# heights of the box beside it: glued disks, and the floor; what falls from the top at once rolls 13 in 6.5 T
+ROUGH_REACH, FLOOR_REACH = (6.0, 15.0)
 
 
 @dataclass(frozen=True, eq=False)

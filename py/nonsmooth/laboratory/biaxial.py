@@ -116,9 +116,8 @@ class Course:
             walls.remove("left", "right")
             state["area"] = course._membrane()
         elif test.platens != "smooth":
-            walls.free(
-                "left", walls.state("right").mass
-            )  # platens that drag must not load one side more than the other
+            # platens that drag must not load one side more than the other
+            walls.free("left", walls.state("right").mass)
         course.snapshot("begin")
         return course
 

@@ -218,10 +218,8 @@ class Calibration:
         scale = np.array([1 / SCALE, 1 / DEGREES, 1 / SCALE, 1 / DEGREES])[: len(self.jacobian)]
         best = [None, None]
         low, high = (np.log([BOUNDS[name][k] for name in self.names]) for k in (0, 1))
-        self.jacobian, self.last = (
-            self._first_jacobian(),
-            None,
-        )  # what another kind of samples has taught is mostly their scatter
+        # what another kind of samples has taught is mostly their scatter
+        self.jacobian, self.last = (self._first_jacobian(), None)
 
         def residuals(at):
             r = self.misfits(self.measure(at, disks, seeds))
@@ -253,9 +251,8 @@ class Calibration:
         for k in range(len(x)):
             beside = np.array(x, float)
             beside[k] += PROBE if x[k] + PROBE < high[k] else -PROBE
-            step = math.log(
-                self.parameters(beside)[self.names[k]] / self.parameters(x)[self.names[k]]
-            )  # as it was made
+            # as it was made
+            step = math.log(self.parameters(beside)[self.names[k]] / self.parameters(x)[self.names[k]])
             columns.append((self.misfits(self.measure(beside, disks, seeds)) - here) / step)
         return np.column_stack(columns)
 

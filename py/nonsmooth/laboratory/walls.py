@@ -23,12 +23,13 @@ class Walls:
     def around(cls, width, height, platen, side):
         """Adds the walls of a box with its corner at the origin; ``platen``: material of bottom and top, ``side``: of left and right, both in the scene."""
         far = 3 * (width + height)
+        # each with the disks on its left
         lines = {
             "bottom": ((-far, 0), (far, 0)),
             "right": ((width, -far), (width, far)),
             "top": ((far, height), (-far, height)),
             "left": ((0, far), (0, -far)),
-        }  # each with the disks on its left
+        }
         return cls(
             {
                 name: O.bodies.append(scene.segments(ends, platen if name in ("bottom", "top") else side, sense=1))[0]

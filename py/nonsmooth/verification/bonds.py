@@ -48,9 +48,8 @@ class Pair:
     def load(self, normal=0.0, shear=0.0, torque=0.0):
         """Compression and shear [N] at the contact point on the free disk, torque about it [N m]."""
         O.forces.setPermF(self.free.id, (-normal * self.c - shear * self.s, -normal * self.s + shear * self.c, 0))
-        O.forces.setPermT(
-            self.free.id, (0, 0, torque - RADIUS * shear)
-        )  # takes back the moment that the shear's lever makes
+        # takes back the moment that the shear's lever makes
+        O.forces.setPermT(self.free.id, (0, 0, torque - RADIUS * shear))
 
     @property
     def speed(self):

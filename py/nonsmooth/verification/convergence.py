@@ -23,9 +23,8 @@ TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7)
 TOLERANCES_MOVING = (2e-3, 2e-4, 2e-5)
 SLOPE_SEEDS = range(1, 21)  # packings to choose from
 STEP, TOLERANCE, TOLERANCE_MOVING = 10e-3, 1e-6, 2e-4  # of the shipped section
-SMALL = (
-    Path(__file__).resolve().parents[3] / "tests" / "data" / "small_slope.yaml"
-)  # of the source checkout: 320 disks that do all within ten seconds of their time
+# of the source checkout: 320 disks that do all within ten seconds of their time
+SMALL = Path(__file__).resolve().parents[3] / "tests" / "data" / "small_slope.yaml"
 WIDTH, HEIGHT = 30.0, 60.0  # m, of the bonded sample: about 500 disks of 1 to 4 m
 SPEED, RAMP = 0.05, 4.0  # m/s of the platen in compression, and seconds in which it is reached
 PULL = 0.02  # m/s in tension

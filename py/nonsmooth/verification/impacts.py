@@ -126,9 +126,8 @@ def _glance(ratio, e, friction, spin, pair, speed=1.0):
         second = disk(RADIUS, 0, stuff, velocity=(-speed / 2, slip / 2))
     else:
         wall([(0, -5), (0, 5)], stuff)
-        second = disk(
-            RADIUS, 0, stuff, velocity=(-speed, slip + RADIUS * spin), spin=spin
-        )  # the touching rim moves with slip
+        # the touching rim moves with slip
+        second = disk(RADIUS, 0, stuff, velocity=(-speed, slip + RADIUS * spin), spin=spin)
     begin(dt=1e-4)
     run(1)
     s = second.state

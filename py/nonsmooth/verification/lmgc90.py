@@ -251,9 +251,8 @@ def lmgc90_step_by_us(bench):
     rms = np.sqrt(((normal["cold"] - dump.fn)[either] ** 2).mean()) / mean
     correlation = np.corrcoef(normal["cold"][either], dump.fn[either])[0, 1]
     below = {name: float((s < 1).mean()) for name, s in share.items()}
-    decay = {
-        name: float(1 / (s[s > 2] - 2).mean()) for name, s in share.items()
-    }  # a of exp(−a N/⟨N⟩), the likeliest one for N > 2 ⟨N⟩
+    # a of exp(−a N/⟨N⟩), the likeliest one for N > 2 ⟨N⟩
+    decay = {name: float(1 / (s[s > 2] - 2).mean()) for name, s in share.items()}
     largest = float(np.abs(normal["cold"]).max())
     claims = [
         at_most(

@@ -46,12 +46,8 @@ __all__ = [
     "with_radius_levers",
 ]
 
-DISKS, FLOOR, LEFT, RIGHT = (
-    5000,
-    5000,
-    5001,
-    5002,
-)  # number of disks; ids of the walls, in our scene and, less one, in LMGC90
+# number of disks; ids of the walls, in our scene and, less one, in LMGC90
+DISKS, FLOOR, LEFT, RIGHT = (5000, 5000, 5001, 5002)
 WIDTH, HEIGHT = 409.59035, 91.2221  # of the box [m]
 TILT = (
     2.6794896585028633e-08  # of the sides about the middle of their height, outwards [rad]: LMGC90 reads rounded input

@@ -136,10 +136,8 @@ def _side_by_side(curves):
 
 def _sweeps_to_carry(problem, weight, method, step, most):
     """Sweeps from zero impulses until walls and floor first bear ``weight`` [N s]; infinite where they do not."""
-    start, goes_on = (
-        "cold",
-        method == "gaussSeidel",
-    )  # an accelerated sweep remembers those before it, so each look begins anew
+    # an accelerated sweep remembers those before it, so each look begins anew
+    start, goes_on = ("cold", method == "gaussSeidel")
     for count in range(step, most + 1, step):
         sweeps = step if goes_on else count
         s = contact.solve(

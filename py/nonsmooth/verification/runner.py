@@ -47,9 +47,8 @@ def run_checks(
         result = _read(check, folder, quick) if resume else None
         if result is None:
             if not resume:  # an interrupted check may have finished parts of its own
-                (folder / "result.json").unlink(
-                    missing_ok=True
-                )  # first: a kill on the way must not leave it with half of what it names
+                # first: a kill on the way must not leave it with half of what it names
+                (folder / "result.json").unlink(missing_ok=True)
                 shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True, exist_ok=True)
             bench = Bench(
