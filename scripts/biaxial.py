@@ -115,13 +115,7 @@ def read_arguments():
         metavar="L",
         help="largest gap that is bonded, in mean diameters, instead of the material's",
     )
-    parser.add_argument(
-        "--out", default="out/biaxial", metavar="DIR", help="folder for the results (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)"
-    )
-    parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
+    arguments.add_runs(parser, "out/biaxial", "tests")
     args = parser.parse_args()
     if args.pressing_friction is not None:
         if not args.pressing_friction >= 0:

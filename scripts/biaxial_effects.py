@@ -43,13 +43,7 @@ def read_arguments():
     parser.add_argument(
         "--only", nargs="+", choices=("disks", "diameter", "inertia", "step"), help="only these effects"
     )
-    parser.add_argument(
-        "--out", default="out/biaxial_effects", metavar="DIR", help="folder for the results (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)"
-    )
-    parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
+    arguments.add_runs(parser, "out/biaxial_effects", "tests")
     return parser.parse_args()
 
 

@@ -145,13 +145,7 @@ def read_arguments():
         metavar="T",
         help="longest course, in units of √(H/g) (default: %(default)g)",
     )
-    parser.add_argument(
-        "--out", default="out/column", metavar="DIR", help="folder for the results (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--threads", type=int, default=os.cpu_count(), metavar="T", help="runs at a time (default: all cores)"
-    )
-    parser.add_argument("--resume", action="store_true", help="keep runs in DIR that have ended")
+    arguments.add_runs(parser, "out/column", "runs")
     return parser.parse_args()
 
 

@@ -12,13 +12,14 @@ from pathlib import Path
 
 import yaml
 from tabulate import tabulate
-from tqdm import tqdm
 
 if "yade" in sys.modules:  # started by the launcher
-    from yade.nonsmooth import campaign, commands, section_arguments
+    from yade.nonsmooth import campaign, commands, section_arguments, section_reader
+    from yade.nonsmooth.laboratory import arguments
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
-    from nonsmooth import campaign, commands, section_arguments
+    from nonsmooth import campaign, commands, section_arguments, section_reader
+    from nonsmooth.laboratory import arguments
 
 SHOWN = ("times_s.t0", "water_at_failure_m", "front_travel_m", "deposit_thickness_max_m")
 
@@ -36,7 +37,7 @@ def read_arguments():
     )
     parser.add_argument(
         "--end",
-        type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"),
+        type=section_arguments.seconds,
         metavar="SECONDS",
         help="stop each run after so many seconds of simulated time",
     )
@@ -46,7 +47,7 @@ def read_arguments():
     )
     parser.add_argument(
         "--threads",
-        type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"),
+        type=section_arguments.threads,
         default=os.cpu_count(),
         metavar="T",
         help="runs at a time (default: all cores)",
@@ -70,20 +71,12 @@ def varied(text):
     """KEY=V,V,… as (key, values)."""
     key, sign, values = text.partition("=")
     try:
-        found = yaml.safe_load(f"[{values}]")
+        found = section_reader.values(values)
     except yaml.YAMLError:
         found = None
     if not sign or not key or not found:
         raise argparse.ArgumentTypeError(f"{text[:60]!r}: give KEY=VALUE,VALUE,…, as seed=1,2,3")
-    return key, [_number(value) for value in found]
-
-
-def _number(value):
-    """YAML takes 1e4 for text."""
-    try:
-        return float(value) if isinstance(value, str) else value
-    except ValueError:
-        return value
+    return key, found
 
 
 def main():
@@ -102,19 +95,12 @@ def main():
         plan.write(args.out)
         print(f"{len(plan.runs)} runs planned in {args.out}: snakemake --cores N, or sbatch array.sh, in that folder")
         return
-    with commands.closing(
-        tqdm(
-            total=1.0,
-            bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left",
-            mininterval=0.5 if sys.stderr.isatty() else 30,
-        )
-    ) as bar:
+    with arguments.bar() as progress:
 
-        def progress(share, ended):
-            bar.set_description_str(f"{ended} of {len(plan.runs)} runs", refresh=False)
-            bar.update(share - bar.n)
+        def told(share, ended):
+            progress(share, f"{ended} of {len(plan.runs)} runs")
 
-        table = plan.run(args.out, args.threads, args.resume, progress)
+        table = plan.run(args.out, args.threads, args.resume, told)
     show(table, args.out)
 
 

@@ -5,7 +5,6 @@
 """
 import argparse
 import json
-import os
 import sys
 from pathlib import Path
 
@@ -67,13 +66,7 @@ def read_arguments():
         metavar="MPA,…",
         help="normal stresses on the walls [MPa] (default: 0.25,0.5,1,2)",
     )
-    parser.add_argument(
-        "--out", default="out/table1", metavar="DIR", help="folder for the results (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)"
-    )
-    parser.add_argument("--resume", action="store_true", help="go on with what an earlier run in DIR began")
+    arguments.add_runs(parser, "out/table1", "tests")
     return parser.parse_args()
 
 

@@ -47,13 +47,7 @@ def read_arguments():
     parser.add_argument(
         "--seeds", type=int, nargs="+", default=[1, 2], metavar="S", help="seeds of the packings (default: 1 2)"
     )
-    parser.add_argument(
-        "--out", default="out/wall_shear", metavar="DIR", help="folder for the results (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--threads", type=int, default=os.cpu_count(), metavar="T", help="slides at a time (default: all cores)"
-    )
-    parser.add_argument("--resume", action="store_true", help="keep slides in DIR that have ended")
+    arguments.add_runs(parser, "out/wall_shear", "slides")
     return parser.parse_args()
 
 

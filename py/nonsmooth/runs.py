@@ -82,12 +82,16 @@ class Run:
         """One of FIGURES as a matplotlib Figure that is not written. Raises RunError for another name, and where the run has not come to what it shows."""
         if name not in FIGURES:
             raise RunError(f"{self.folder}: no figure is called {name!r}; give one of {', '.join(FIGURES)}")
-        found = run_figures.Drawing(self.folder, self.section, self.summary).figure(name)
+        found = self._drawing.figure(name)
         if found is None:
             raise RunError(
                 f"{self.folder}: the run has not come to what {name} shows, or failed before it; let it go on with --resume"
             )
         return found
+
+    @cached_property
+    def _drawing(self):
+        return run_figures.Drawing(self.folder, self.section, self.summary)
 
     def _file(self, name):
         path = self.folder / name

@@ -9,7 +9,7 @@ import sys
 from . import section, similar
 from .laboratory import materials
 
-__all__ = ["add", "number", "read"]
+__all__ = ["add", "number", "read", "seconds", "threads"]
 
 
 def number(kind, low, high, what):
@@ -25,6 +25,10 @@ def number(kind, low, high, what):
         return value
 
     return read
+
+
+seconds = number(float, 1e-9, 1e9, "seconds above 0, at most 1e9")
+threads = number(int, 1, 1024, "a whole number from 1 to 1024")
 
 
 def add(parser, default=None, needless=()):

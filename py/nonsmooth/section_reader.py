@@ -69,6 +69,11 @@ _Loader.add_implicit_resolver(
 )
 
 
+def values(text):
+    """The list that ``text`` is without its brackets, ``0.5, 1e4, [1, 2], name``, with the numbers of section files. Raises yaml.YAMLError."""
+    return yaml.load(f"[{text}]", _Loader)
+
+
 class Document:
     """Plain data of a section file (`data`), and where each key stands in it; data of Python stand nowhere."""
 

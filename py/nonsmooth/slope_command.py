@@ -31,15 +31,10 @@ def arguments(name, about, default):
         "--packing", metavar="FILE", help="a text file of `x y r [layer]` instead of a packing of our own"
     )
     parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/ and the section's name)")
-    parser.add_argument(
-        "--threads",
-        type=section_arguments.number(int, 1, 1024, "a whole number from 1 to 1024"),
-        metavar="T",
-        help="threads (default: all cores)",
-    )
+    parser.add_argument("--threads", type=section_arguments.threads, metavar="T", help="threads (default: all cores)")
     parser.add_argument(
         "--end",
-        type=section_arguments.number(float, 1e-9, 1e9, "seconds above 0, at most 1e9"),
+        type=section_arguments.seconds,
         metavar="SECONDS",
         help="stop after so many seconds of simulated time, settling included",
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 import sys
 
 
@@ -33,6 +34,17 @@ def positive(text):
     if not value > 0:
         raise argparse.ArgumentTypeError(f"{text}: it must be positive")
     return value
+
+
+def add_runs(parser, out, what):
+    """Adds what commands that run many things side by side share: ``out``: their usual folder; ``what``: the things, as "tests"."""
+    parser.add_argument("--out", default=out, metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument(
+        "--threads", type=int, default=os.cpu_count(), metavar="T", help=f"{what} at a time (default: all cores)"
+    )
+    parser.add_argument(
+        "--resume", action="store_true", help=f"keep {what} in DIR that have ended, and go on with others"
+    )
 
 
 @contextlib.contextmanager
