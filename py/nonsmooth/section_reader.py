@@ -19,7 +19,7 @@ import yaml
 
 from .errors import UserError
 
-__all__ = ["Document", "SectionError", "read", "take"]
+__all__ = ["Document", "SectionError", "read", "take", "values"]
 
 # What a file may ask for, so that reading it ends within seconds; the shipped section has 17 kB, 400 values and 6 levels.
 LARGEST_FILE = 500_000  # bytes
