@@ -33,6 +33,7 @@ from . import (
     scales,
     section_data,
     slope,
+    slope_packing,
     tables,
 )
 from .course import State
@@ -446,10 +447,10 @@ def row():
 
 
 def begin(section, folder, progress=None):
-    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises what packing.pack and slope.build raise."""
+    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises what slope_packing.of and slope.build raise."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    return Experiment(slope.build(section, packing.cached_pack(section)), folder, progress=progress)
+    return Experiment(slope.build(section, slope_packing.of(section)), folder, progress=progress)
 
 
 def run_key(section):

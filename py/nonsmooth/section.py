@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import geometry, roles
+from . import free_surface, geometry, roles
 from .section_parts import (
     Disks,
     End,
@@ -69,7 +69,7 @@ MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million ta
 
 @dataclass(frozen=True)
 class Section:
-    """A checked section. `source`: file read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are
+    """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `source`: file read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are
     then as large (see :mod:`.similar`), or None."""
 
     name: str
@@ -85,6 +85,7 @@ class Section:
     seed: int
     source: str
     interfaces: tuple[Interface, ...] = ()
+    pressed: bool = False
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
 
@@ -103,6 +104,22 @@ class Section:
     def outline(self):
         """Union of the layers, a shapely MultiPolygon."""
         return geometry.outline([layer.polygon for layer in self.layers], self.tolerance)
+
+    @cached_property
+    def packed_outline(self):
+        """What is filled with disks, a shapely MultiPolygon: the :attr:`outline`, raised where it is pressed afterwards."""
+        return free_surface.raised(self, free_surface.PRESSED) if self.pressed else self.outline
+
+    @cached_property
+    def growth(self) -> float:
+        """Area that is filled with disks by that of the layers, to six digits."""
+        if not self.pressed:
+            return 1.0
+        filled, asked = (
+            math.fsum(geometry.area(np.asarray(p.exterior.coords)[:-1]) for p in geometry.parts(region))
+            for region in (self.packed_outline, self.outline)
+        )
+        return float(f"{filled / asked:.6g}")
 
     @property
     def area(self) -> float:
@@ -208,7 +225,7 @@ class Section:
         """
         of = [self.disks_of(layer) for layer in self.layers]
         return tuple(
-            d.packing_fraction * max(layer.area - BORDER_STRIP * math.sqrt(d.mean_square) * border, 0)
+            d.packing_fraction * max(self.growth * layer.area - BORDER_STRIP * math.sqrt(d.mean_square) * border, 0)
             for d, layer, border in zip(of, self.layers, self._borders)
         )
 
@@ -248,7 +265,8 @@ class Section:
         if self.mixed:  # count = full / s² - strip / s
             of = [self.disks_of(layer) for layer in self.layers]
             inside = math.fsum(
-                d.packing_fraction * layer.area / (math.pi / 4 * d.mean_square) for d, layer in zip(of, self.layers)
+                d.packing_fraction * self.growth * layer.area / (math.pi / 4 * d.mean_square)
+                for d, layer in zip(of, self.layers)
             )
             strip = math.fsum(
                 d.packing_fraction * BORDER_STRIP * b / (math.pi / 4 * math.sqrt(d.mean_square))
@@ -258,7 +276,7 @@ class Section:
         else:
             strip = phi * BORDER_STRIP * math.sqrt(m) * math.fsum(self._borders)
             full = count * math.pi / 4 * m
-            s = (math.sqrt(strip**2 + 4 * full * phi * self.area) - strip) / (2 * full)
+            s = (math.sqrt(strip**2 + 4 * full * phi * self.growth * self.area) - strip) / (2 * full)
         disks = dataclasses.replace(self.disks.scaled(s), count=int(count))
         scaled = dataclasses.replace(
             self, disks=disks, layers=tuple(layer.with_disks(s) for layer in self.layers), scale=self.scale * s
@@ -321,6 +339,8 @@ class Section:
             content["disks"] = [
                 [d.d_min, d.d_max, d.distribution, d.packing_fraction] for d in map(self.disks_of, self.layers)
             ]
+        if self.pressed:
+            content["pressed"] = [free_surface.PRESSED, [w.vertices for w in self.walls]]
         if any(i.flat for i in self.interfaces):
             content["flat"] = [[x.tolist() for x in self.line_of(i)] for i in self.interfaces if i.flat]
         if self.like:

@@ -67,6 +67,7 @@ def build(document, source: str) -> Section:
         seed=raw["seed"],
         source=source,
         interfaces=interfaces,
+        pressed=size.get("pressed", False),
     )
     section_checks.check(section, document)
     if "water" in raw:

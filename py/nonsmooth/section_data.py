@@ -58,7 +58,7 @@ def plain(section) -> dict:
             for i in section.interfaces
         ],
         "materials": {name: _material(m) for name, m in section.materials.items()},
-        "disks": disks(section.disks),
+        "disks": disks(section.disks) | ({"pressed": True} if section.pressed else {}),
         "stages": {
             "settle": dataclasses.asdict(stages.settle),
             "dry": stages.dry,

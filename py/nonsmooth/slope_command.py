@@ -13,7 +13,17 @@ from tqdm import tqdm
 
 from yade import O
 
-from . import commands, experiment, output_folder, packing, packing_checks, section, section_arguments, slope
+from . import (
+    commands,
+    experiment,
+    output_folder,
+    packing,
+    packing_checks,
+    section,
+    section_arguments,
+    slope,
+    slope_packing,
+)
 
 __all__ = ["run"]
 
@@ -53,7 +63,7 @@ def fill(args, s):
         packing_checks.check(made, s, args.packing)
         return made, time.monotonic() - began
     with commands.closing(tqdm(total=100, desc="packing", unit="%", leave=False)) as bar:
-        made = packing.cached_pack(s, progress=lambda share: bar.update(int(100 * share) - bar.n))
+        made = slope_packing.of(s, progress=lambda share: bar.update(int(100 * share) - bar.n))
     return made, time.monotonic() - began
 
 

@@ -394,6 +394,12 @@ WHERE = {
         ),
         ({("disks", "packing_fraction"): 0.5, ("water", "volume"): "bulk"}, lambda m: m.built.water.volumeFactor, 2.0),
     ],
+    # filled higher by a share of the thickness below the surface, which is pressed down again
+    ("disks", "pressed"): (
+        {("disks", "pressed"): True},
+        lambda m: (m.section.pressed, m.section.growth),
+        (True, pytest.approx(1.011, abs=2e-3)),
+    ),
     ("disks", "count"): (
         {("disks", "count"): 120, ("disks", "packing_fraction"): 0.75},
         lambda m: (sum(m.section.disk_counts()), len(radii(m))),

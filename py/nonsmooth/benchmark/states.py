@@ -16,7 +16,7 @@ from pathlib import Path
 
 from yade import O, config
 
-from .. import checkpoints, course, experiment, keys, packing, scene, section, slope
+from .. import checkpoints, course, experiment, keys, packing, scene, section, slope, slope_packing
 from ..errors import UserError
 from ..kept_runs import Progress
 from ..packing_files import cache_folder
@@ -59,7 +59,10 @@ def section_of(source, disks):
 
 def key_of(chosen):
     """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
-    code = [Path(__file__), *(Path(m.__file__) for m in (scene, slope, experiment, course, packing, soft_contacts))]
+    code = [
+        Path(__file__),
+        *(Path(m.__file__) for m in (scene, slope, slope_packing, experiment, course, packing, soft_contacts)),
+    ]
     return keys.key_of(
         {
             "section": chosen.key("settled"),
@@ -128,7 +131,7 @@ def _settle(chosen, progress):
     dry = dataclasses.replace(
         chosen, stages=stages, water=dataclasses.replace(chosen.water, table=((0.0, 0.0),), rate=0.0)
     )
-    built = slope.build(dry, packing.cached_pack(dry))
+    built = slope.build(dry, slope_packing.of(dry))
     foreseen = chosen.stages.settle.ramp + 1.5 + REST_SECONDS
     with tempfile.TemporaryDirectory() as records:
         run = experiment.Experiment(built, records, progress=lambda stage, now, _: progress(min(1.0, now / foreseen)))

@@ -80,7 +80,7 @@ def run(folder, **plain):
     """Runs a case in the (empty) scene, its records below ``folder``; returns its course.State and counts as a dictionary."""
     from yade import O
 
-    from .. import experiment, slope, worlds
+    from .. import experiment, slope, slope_packing, worlds
 
     case = Case(**plain)
     s, note = section_of(case), Progress(folder)
@@ -95,7 +95,7 @@ def run(folder, **plain):
             fragile=case.fragile,
             verlet=-s.numerics.verlet_distance,
         )
-    built = slope.build(s, packing.cached_pack(s), world)
+    built = slope.build(s, slope_packing.of(s), world)
     if case.world == "soft":  # so that rows are those of the hard run
         row = scales.of(s).row_seconds
         O.dt = row / math.ceil(row / O.dt)

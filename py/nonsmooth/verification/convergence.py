@@ -122,7 +122,7 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving,
     """The shipped section with about so many disks, or with ``disks`` = 0 the small section of the tests, until its avalanche rests; ``slack``: errors of position
     that stay [ℓ], None: those that stay in slopes.
     """
-    from .. import experiment, packing, records, results, section, tables
+    from .. import experiment, records, results, section, slope_packing, tables
     from .. import slope as builder
 
     chosen = section.load("jiufengershan").with_disks(disks) if disks else section.load(str(SMALL))
@@ -142,7 +142,7 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving,
         residual_tensile_strength=strength * rock.residual_tensile_strength,
     )
     s = dataclasses.replace(shipped, numerics=numerics, materials={**shipped.materials, "rock": rock})
-    built = builder.build(s, packing.cached_pack(s))
+    built = builder.build(s, slope_packing.of(s))
     if slack is not None:
         built.solver.correctionSlack = slack
     run = experiment.Experiment(built, folder)

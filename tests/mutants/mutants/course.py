@@ -8,6 +8,7 @@ COURSE, RESULTS, RECORDS, TABLES = (PY + name for name in ("experiment.py", "res
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "worlds.py", "toe.py"))
 SECTION, READER, CHECKS, GEOMETRY = (PY + name for name in ("section.py", "section_reader.py", "section_checks.py", "geometry.py"))
 RULES = PY + "course.py"
+FREE_SURFACE, SLOPE_PACKING = PY + "free_surface.py", PY + "slope_packing.py"
 PACKING, PACKING_CHECKS, PACKING_FILES = (PY + name for name in ("packing.py", "packing_checks.py", "packing_files.py"))
 
 
@@ -144,7 +145,7 @@ MUTANTS = (
            "test_beds.py::test_disks_at_a_flat_interface_keep_to_their_sides"),
     mutant("section-rate", PY + "section_parts.py", "np.maximum(t - times[-1], 0)", "np.maximum(t - times[0], 0)", "the rate acts from the first point of the table on",
            "plain:test_section.py::test_the_water_rises_by_its_table_and_then_at_its_rate"),
-    mutant("section-scale", SECTION, "(math.sqrt(strip**2 + 4 * full * phi * self.area) - strip)", "(math.sqrt(strip**2 + 4 * full * phi * self.area) + strip)",
+    mutant("section-scale", SECTION, "(math.sqrt(strip**2 + 4 * full * phi * self.growth * self.area) - strip)", "(math.sqrt(strip**2 + 4 * full * phi * self.growth * self.area) + strip)",
            "diameters are scaled with the border's strip twice", "plain:test_section.py::test_with_disks_scales_diameters"),
     mutant("section-buoyancy", PY + "section_building.py", "math.cos(b) * n) for n in (math.sin(b), math.cos(b))", "math.cos(b) * n) for n in (math.cos(b), math.sin(b))",
            "buoyancy acts along the plane", "plain:test_section.py::test_vectors_and_water"),
@@ -196,4 +197,17 @@ MUTANTS = (
            "test_options.py::test_an_option_acts[wall_shear--tensile-strength]"),
     mutant("script-creep", "scripts/wedge.py", "creep_mm_per_min=60 *", "creep_mm_per_min=1 *", "creep a minute is creep a second",
            "test_examples.py::test_the_wedge_runs_what_is_not_there_and_draws_all"),
+    # ---- pressed slopes
+    mutant("pressed-thin", SECTION, "free_surface.raised(self, free_surface.PRESSED) if self.pressed", "free_surface.raised(self, 0.0) if self.pressed",
+           "layers are not filled higher before they are pressed", "test_slope_packing.py::test_it_is_as_thick_as_the_section"),
+    mutant("pressed-rough", SLOPE_PACKING, '"residual_friction",', "", "disks that are pressed keep a friction", "test_slope_packing.py::test_walls_bear_what_presses"),
+    mutant("pressed-gravity", SLOPE_PACKING, "    newton.gravity = (0, 0, 0)\n", "", "the weight pulls besides what presses", "test_slope_packing.py::test_walls_bear_what_presses"),
+    mutant("pressed-seed", SLOPE_PACKING, "section.seed if seed is None else seed}-pressed", "1}-pressed", "packings of all seeds are kept as one",
+           "test_slope_packing.py::test_it_is_kept_and_a_mirrored_and_a_similar_slope_have_it_too"),
+    mutant("free-outside", FREE_SURFACE, "sign = np.where(inside, 1.0, -1.0)", "sign = np.where(inside, 1.0, 1.0)", "a disk above the surface is deep below it",
+           "test_free_surface.py::test_the_depth_of_points_is_measured_from_the_nearest_face_and_negative_above"),
+    mutant("free-cut", FREE_SURFACE, "            if reach < along < length - reach and", "            if False and", "a wall that ends in the middle of an edge holds all of it or nothing",
+           "test_free_surface.py::test_an_edge_is_cut_where_its_wall_ends"),
+    mutant("raised-slide", FREE_SURFACE, "if is_free[e] else 0.0 for e", "if is_free[e] else 1.0 for e", "the raised surface leaves the wall that it meets",
+           "test_free_surface.py::test_a_raised_surface_is_higher_by_the_share_of_the_thickness_below_it"),
 )
