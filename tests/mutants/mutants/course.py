@@ -197,6 +197,13 @@ MUTANTS = (
            "test_options.py::test_an_option_acts[wall_shear--tensile-strength]"),
     mutant("script-creep", "scripts/wedge.py", "creep_mm_per_min=60 *", "creep_mm_per_min=1 *", "creep a minute is creep a second",
            "test_examples.py::test_the_wedge_runs_what_is_not_there_and_draws_all"),
+    # ---- the paper's section 6
+    mutant("stages-level", PY + "measure/force_stages.py", "level := t[(t >= t1) & (t <= t2)]", "level := t[(t >= t0) & (t <= t2)]", "the backstop's force is level from t0 on",
+           "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
+    mutant("stages-release", PY + "measure/force_stages.py", "at(effective, t3) / at(effective, t2)", "at(effective, t2) / at(effective, t3)", "what rises at the release falls",
+           "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
+    mutant("stages-water", PY + "measure/force_stages.py", "friction * change(water)", "friction * change(normal)", "equation 19 has the total force for the water's",
+           "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
     # ---- pressed slopes
     mutant("pressed-thin", SECTION, "free_surface.raised(self, free_surface.PRESSED) if self.pressed", "free_surface.raised(self, 0.0) if self.pressed",
            "layers are not filled higher before they are pressed", "test_slope_packing.py::test_it_is_as_thick_as_the_section"),

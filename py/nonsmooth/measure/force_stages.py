@@ -1,0 +1,101 @@
+"""What the forces on the walls do from stage to stage of an avalanche: the statements of the paper's section 6, each as one number. Needs no YADE.
+
+With N, T the total normal and the shear force on the slip surfaces (DP), N' = N − U what contacts bear of N, U the water's force, F the normal force on the backstop (FB), μ the
+friction of the slip surface, means over a second at each time:
+
+=============================  =============================================================  ==========================
+name                           number                                                         paper
+=============================  =============================================================  ==========================
+``normal_change``              N(t1) / N(t0) − 1                                              0 ([115], "constant")
+``normal_change_by_backstop``  Δ of the shear force on the backstop / ΔN from t0 to t1        not named there
+``shear_drop``                 −ΔT / (μ ΔU) from t0 to t1                                     1 (eq. 19)
+``shear_share``                mean of T / (μ N') from t0 to t1                               1 (eq. 20)
+``backstop_rise``              ΔF / −ΔT from t0 to t1                                         1 (eq. 21)
+``backstop_span``              (largest − least mean of F) / F(t1) from t1 to t2              0 ([116], "fairly constant")
+``release_rise``               N'(t3) / N'(t2)                                                above 1 ([117])
+``normal_fall``                N(t5) / N(t3)                                                  below 1 ([118], 1)
+``backstop_momentum``          correlation of F with N v, v the mean speed, from t3 to t5     above 0 ([118], 2)
+``shear_moving``               mean of T from t3 to t5, by T(t0)                              small, above 0 ([118], 3)
+``backstop_final``             F at the end / F(t1)                                           above 1 ([119])
+``shear_final``                T at the end / T(t0)                                           small, below 0 ([119])
+=============================  =============================================================  ==========================
+
+Forces normal to the slip surface are in balance. The rising push on the backstop brings friction along it, which holds the toe down on the slip surface: N grows by this force
+(where the backstop stands across the surface), and T by μ times it. Equation (19) leaves it out; T = μ N' holds all the same.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+__all__ = ["NAMES", "statements"]
+
+NAMES = (
+    "normal_change",
+    "normal_change_by_backstop",
+    "shear_drop",
+    "shear_share",
+    "backstop_rise",
+    "backstop_span",
+    "release_rise",
+    "normal_fall",
+    "backstop_momentum",
+    "shear_moving",
+    "backstop_final",
+    "shear_final",
+)
+
+
+def statements(series, times, friction, mean) -> dict[str, float | None]:
+    """The numbers of :data:`NAMES`, None for what the run has not reached.
+
+    ``series``: the rows of a run's series, name -> array; ``times``: t0 … t5 [s], None for those that did not come; ``friction``: μ of the slip surface before it weakens;
+    ``mean(name, end)``: mean of a column over the second up to a time [s].
+    """
+    found = dict.fromkeys(NAMES)
+    t0, t1, t2, t3, _, t5 = (times[f"t{k}"] for k in range(6))
+    if None in (t0, t1):
+        return found
+    t = series["time_s"]
+    at = lambda name, when: mean(f"{name}_N_per_m", when)  # noqa: E731
+    change = lambda name: at(name, t1) - at(name, t0)  # noqa: E731
+    normal, shear, water, push = ("dp_normal_total", "dp_shear", "dp_water", "fb_normal")
+    effective = "dp_normal_effective"
+    rising = (t > t0) & (t <= t1)
+    found |= {
+        "normal_change": change(normal) / at(normal, t0),
+        "normal_change_by_backstop": _ratio(change("fb_shear"), change(normal)),
+        "shear_drop": _ratio(-change(shear), friction * change(water)),
+        "shear_share": float(
+            np.mean(series[f"{shear}_N_per_m"][rising] / (friction * series[f"{effective}_N_per_m"][rising]))
+        ),
+        "backstop_rise": _ratio(change(push), -change(shear)),
+    }
+    if t2 is not None and (level := t[(t >= t1) & (t <= t2)]).size:
+        means = [at(push, when) for when in level]
+        found["backstop_span"] = (max(means) - min(means)) / at(push, t1)
+    if None not in (t2, t3):
+        found["release_rise"] = at(effective, t3) / at(effective, t2)
+    if None not in (t3, t5):
+        moving = (t >= t3) & (t <= t5)
+        force, speed = series[f"{push}_N_per_m"][moving], series["speed_mean_m_per_s"][moving]
+        found |= {
+            "normal_fall": at(normal, t5) / at(normal, t3),
+            "backstop_momentum": _correlation(force, series[f"{normal}_N_per_m"][moving] * speed),
+            "shear_moving": float(np.mean(series[f"{shear}_N_per_m"][moving])) / at(shear, t0),
+            "backstop_final": at(push, t[-1]) / at(push, t1),
+            "shear_final": at(shear, t[-1]) / at(shear, t0),
+        }
+    return found
+
+
+def _ratio(a, b):
+    return a / b if b else None
+
+
+def _correlation(a, b):
+    """Pearson's, None where one does not change."""
+    spread = math.sqrt(float(np.var(a) * np.var(b)))
+    return float(np.mean((a - a.mean()) * (b - b.mean()))) / spread if spread > 0 else None
