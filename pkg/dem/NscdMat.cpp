@@ -1,4 +1,5 @@
 #include "NscdMat.hpp"
+#include "PythonBytes.hpp"
 #include <contact/slip_weakening.hpp>
 #include <core/Omega.hpp>
 #include <lib/high-precision/Constants.hpp>
@@ -99,6 +100,11 @@ void SlipWeakeningMat::addSlip(Body::id_t id, Real distance, long step)
 	if (!(distance > most)) return;
 	addSlip(id, distance - most);
 	most = distance;
+}
+
+boost::python::object SlipWeakeningMat::slipTable() const
+{
+	return nscd::asBytes(std::vector<double>(slip.begin(), slip.end()));
 }
 
 int SlipWeakeningMat::weakenedCount() const

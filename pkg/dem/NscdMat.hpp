@@ -61,11 +61,12 @@ public:
 	Real slipOf(Body::id_t id) const { return id < (Body::id_t)slip.size() ? slip[id] : 0; }
 	void addSlip(Body::id_t id, Real distance);
 	/// The same along an interface, where a body may have several contacts: those of one `step` count as the longest of them.
-	void addSlip(Body::id_t id, Real distance, long step);
-	int  weakenedCount() const;
-	Real meanSlip() const;
-	int  slippedCount() const;
-	void forgetSlip() { slip.clear(); }
+	void                  addSlip(Body::id_t id, Real distance, long step);
+	int                   weakenedCount() const;
+	Real                  meanSlip() const;
+	int                   slippedCount() const;
+	void                  forgetSlip() { slip.clear(); }
+	boost::python::object slipTable() const;
 	std::vector<std::pair<long, Real>>
 	        ofStep; // by body: the last step in which it slipped along an interface, and how far
 	// clang-format off
@@ -83,6 +84,7 @@ leaves it.)""",
 		createIndex(); wall=true;
 		,
 		.def("slipOf",&SlipWeakeningMat::slipOf,(boost::python::arg("id")),"Distance [m] that the body has slipped along this wall.")
+		.def("slipTable",&SlipWeakeningMat::slipTable,"The same of all bodies up to the last that has slipped, by id, eight bytes each; see nonsmooth.tables.slip.")
 		.def("forgetSlip",&SlipWeakeningMat::forgetSlip,"Set the slip of all bodies to zero.")
 		.def("weakenedCount",&SlipWeakeningMat::weakenedCount,"Number of bodies that slipped further than criticalSlip.")
 		.def("slippedCount",&SlipWeakeningMat::slippedCount,"Number of bodies that have touched this wall.")

@@ -28,8 +28,8 @@ Real PorePressureEngine::heightAt(Real time) const
 boost::python::object PorePressureEngine::bodyTable() const
 {
 	std::vector<char> rows;
-	for (int id = 0; id < (int)std::max(wet.size(), released.size()); ++id)
-		rows.insert(rows.end(), { char(isWet(id)), char(isReleased(id)) });
+	for (int id = 0; id < (int)std::max(wet.size(), moved.size()); ++id)
+		rows.insert(rows.end(), { char(isWet(id)), char(isReleased(id)), char(wasWet(id)) });
 	return nscd::asBytes(rows);
 }
 
@@ -50,7 +50,8 @@ void PorePressureEngine::action()
 	nscd::Turn   turn(*this, nscd::threadsOf(*this));
 	const auto&  bodies = turn.resident().bodies;
 	const size_t size   = bodies.size();
-	released.resize(size, 0);
+	moved.resize(size, 0);
+	everWet.resize(size, 0);
 	wet.assign(size, 0);
 	for (size_t id = reference.size(); id < size; ++id)
 		reference.push_back(bodies[id].present ? bodies[id].place() : Vector3r(Vector3r::Zero()));
@@ -60,12 +61,12 @@ void PorePressureEngine::action()
 		    || (mask != 0 && !(*scene->bodies)[id]->maskOk(mask)))
 			continue;
 		const Vector3r place = b.place();
-		if (!released[id] && (place - reference[id]).dot(downhill) > releaseDistance) released[id] = 1;
-		releasedCount += released[id];
-		if (released[id] || height <= 0 || (place - planePoint).dot(normal) >= height) continue;
+		if (!moved[id] && (place - reference[id]).dot(downhill) > releaseDistance) moved[id] = 1;
+		releasedCount += isReleased(id);
+		if (moved[id] || height <= 0 || (place - planePoint).dot(normal) >= height) continue;
 		const Vector3r force = slope * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
 		scene->forces.addForce(id, force);
-		wet[id] = 1;
+		wet[id] = everWet[id] = 1;
 		++wetCount;
 		totalForce += force;
 	}

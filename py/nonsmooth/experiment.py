@@ -400,7 +400,8 @@ class Experiment:
         t = tables.bodies(built.solver)
         first, count = built.first_disk, built.count
         arrays = {name: t[name] for name in ("x", "y", "r", "angle", "vx", "vy")}
-        arrays["wet"], arrays["released"] = tables.water(water, first, count)
+        arrays["wet"], arrays["released"], arrays["ever_wet"] = tables.water(water, first, count)
+        arrays["weakened"] = self.walls.weakened()
         if contacts:
             wall_numbers = {i: k for k, ids in enumerate(built.walls.values()) for i in ids}
             arrays.update(tables.loaded_contacts(built.solver, first, wall_numbers))

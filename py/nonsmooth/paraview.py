@@ -1,7 +1,7 @@
 """Snapshots as files for ParaView: disks, contacts and walls, and the list of a run's frames. Written by meshio.
 
 In ParaView open ``avalanche.pvd``, choose the representation *Point Gaussian* (or the filter *Glyph*, sphere) with the scale array
-``radius``, and colour by ``layer``, ``speed`` or ``wet``.
+``radius``, and colour by ``layer``, ``speed``, ``wet``, ``released`` or ``weakened``.
 """
 
 from __future__ import annotations
@@ -45,11 +45,16 @@ def _write(path, points, cells, point_data=None, cell_data=None):
 
 
 def write_disks(snapshot, path):
-    """One point a disk, with ``radius`` [m], ``layer`` (0 lowest), ``velocity`` [m/s], ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``."""
+    """One point a disk, with ``radius`` [m], ``layer`` (0 lowest), ``velocity`` [m/s], ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``; and, where the snapshot has
+    them, ``ever_wet`` and ``weakened`` (on any wall or interface); see :class:`.records.Snapshot`."""
     s = snapshot
     data = {
         "radius": s.r, "layer": s.layer.astype(np.int32), "velocity": np.column_stack([s.vx, s.vy, np.zeros(len(s.x))]),
         "speed": np.hypot(s.vx, s.vy), "angle": s.angle, "wet": s.wet.astype(np.int8), "released": s.released.astype(np.int8)}  # fmt: skip
+    if s.ever_wet is not None:
+        data["ever_wet"] = s.ever_wet.astype(np.int8)
+    if s.weakened is not None:
+        data["weakened"] = s.weakened.any(axis=1).astype(np.int8)
     return _write(path, np.column_stack([s.x, s.y]), [("vertex", np.arange(len(s.x))[:, None])], point_data=data)
 
 

@@ -63,7 +63,7 @@ COLUMNS = {
     "fb_normal_peak_N_per_m": Column("N/m", "largest normal force on the backstops in a step of the row"),
     "ss_normal_peak_N_per_m": Column("N/m", "largest normal force on the walls that are ground in a step of the row"),
     "wet_disks": _count("disks that feel pore pressure"),
-    "released_disks": _count("disks whose pore pressure has been released for good"),
+    "released_disks": _count("disks that were wet and whose pore pressure has been released for good"),
     "speed_mean_m_per_s": Column("m/s", "mean speed of the disks"),
     "speed_max_m_per_s": Column("m/s", "largest speed of a disk"),
     "front_m": Column("m", "position x of the front, in the direction in which the slope falls"),
@@ -423,8 +423,10 @@ class Snapshot:
     """The slope at one instant. N disks, C contacts.
 
     Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above its plane).
-    Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest),
-    ``wet``, ``released`` (bool).
+    Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest), and bool: ``wet`` (water acts on it now),
+    ``released`` (was wet, and has moved so far downslope that water acts on it no longer), ``ever_wet``. And ``weakened``, bool of shape (N, W): the slip along each of
+    the W walls and interfaces that weaken has passed the critical slip D_c, in the order of :attr:`.section.Section.weakening`. ``ever_wet`` and ``weakened`` are None
+    where they are not known, as in files of earlier versions, whose ``released`` has disks that never were wet too.
     Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and
     tangential force [N/m], compression positive, ``cbonded`` (bool), ``cx``, ``cy`` contact point [m]. They may all
     be left out (C = 0), as for the frames of a video.
@@ -449,21 +451,26 @@ class Snapshot:
     cx: np.ndarray
     cy: np.ndarray
     water_m: float
+    ever_wet: Optional[np.ndarray] = None
+    weakened: Optional[np.ndarray] = None
 
 
 _SCALARS = ("time_s", "step", "water_m")
 _CONTACTS = ("ci", "cj", "cn", "ct", "cbonded", "cx", "cy")
+_OPTIONAL = ("ever_wet", "weakened")
 _DISKS = tuple(f.name for f in fields(Snapshot) if f.name not in _SCALARS + _CONTACTS)
-_KINDS = {"layer": np.int64, "ci": np.int64, "cj": np.int64, "wet": bool, "released": bool, "cbonded": bool}
+_KINDS = dict.fromkeys(("layer", "ci", "cj"), np.int64) | dict.fromkeys(
+    ("wet", "released", "ever_wet", "weakened", "cbonded"), bool
+)
 
 
 def _snapshot(arrays, source):
     """Check ``arrays`` and make a Snapshot of them; ``source`` names the file in messages."""
     wrong = lambda what, remedy: RecordsError(f"{source}: {what}; {remedy}")  # noqa: E731
-    arrays = dict(arrays)
+    arrays = {name: value for name, value in arrays.items() if value is not None}
     if not any(name in arrays for name in _CONTACTS):
         arrays.update({name: np.zeros(0) for name in _CONTACTS})
-    names = {f.name for f in fields(Snapshot)}
+    names = {f.name for f in fields(Snapshot) if f.name in arrays or f.name not in _OPTIONAL}
     missing, unknown = sorted(names - set(arrays)), sorted(set(arrays) - names)
     if missing or unknown:
         raise wrong(
@@ -484,10 +491,13 @@ def _snapshot(arrays, source):
             checked[name] = value.astype(_KINDS.get(name, np.float64), copy=False)
     for group, key in ((_DISKS, "x"), (_CONTACTS, "ci")):
         for name in group:
-            if checked[name].shape != (len(np.atleast_1d(checked[key])),):
+            if name not in checked:
+                continue
+            rows = checked[name].shape[:-1] if name == "weakened" else checked[name].shape
+            if rows != (len(np.atleast_1d(checked[key])),):
                 raise wrong(
                     f"{name} has shape {checked[name].shape} and {key} {checked[key].shape}",
-                    "these arrays must be flat and equally long",
+                    "these arrays must be flat (weakened: with a column for each wall) and equally long",
                 )
     count = len(checked["x"])
     if (checked["r"] <= 0).any():
@@ -506,7 +516,7 @@ def write_snapshot(path, **arrays):
     path = Path(path)
     snapshot = _snapshot(arrays, path)
     # not compressed: a fifth of the room is not worth most of the time, as coordinates hardly shrink
-    write_arrays(path, **{f.name: getattr(snapshot, f.name) for f in fields(Snapshot)})
+    write_arrays(path, **{name: value for name, value in vars(snapshot).items() if value is not None})
     return path
 
 

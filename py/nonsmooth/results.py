@@ -36,6 +36,7 @@ FIGURES = (
     "force_chains.png",
     "forces.png",
     "snapshots.png",
+    "weakening.png",
     "deposit.png",
     "energy.png",
     "solver.png",

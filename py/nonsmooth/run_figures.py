@@ -76,11 +76,20 @@ class Drawing:
         if name == "snapshots":
             cases = self.cases()
             return figures.snapshots(cases, self.section, path) if cases else None
+        if name == "weakening":
+            return self._weakening(path)
         if self.first is None:
             return None
         if name == "force_chains":
             return figures.force_chains(self.first, self.section, path)
         return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
+
+    def _weakening(self, path):
+        """Nothing where no wall weakens, or where the snapshots are of an earlier version and do not tell."""
+        if not self.section.weakening or not self.shots or records.read_snapshot(self.shots[0][1]).weakened is None:
+            return None
+        cases = (records.read_snapshot(file) for _, file in self.shots)
+        return figures.weakening(cases, self.section, path, times=self.times)
 
 
 def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:

@@ -156,6 +156,11 @@ class Section:
         """The slip surfaces: walls, then interfaces."""
         return (*self.of_role("slip"), *(i for i in self.interfaces if i.role == "slip"))
 
+    @property
+    def weakening(self) -> tuple[Wall | Interface, ...]:
+        """The walls, then the interfaces, whose material weakens with slip."""
+        return tuple(one for one in (*self.walls, *self.interfaces) if self.materials[one.material].slip_weakening)
+
     @cached_property
     def slip_surfaces(self) -> tuple[tuple[str, np.ndarray], ...]:
         """Name and line (n, 2) [m] of each slip surface, in the order of :attr:`sliding`."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts", "water"]
+__all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts", "slip", "water"]
 
 _BODY = ("id", "x", "y", "r", "angle", "vx", "vy", "omega")
 _BREAK = ("step", "time", "id1", "id2", "mode", "x", "y")
@@ -73,13 +73,22 @@ def breaks(engine) -> dict[str, np.ndarray]:
     return table
 
 
-def water(engine, first, count) -> tuple[np.ndarray, np.ndarray]:
-    """Whether water acts on the bodies ``first`` to ``first + count - 1``, and whether they have been released for good: bool arrays of shape (count,).
+def water(engine, first, count) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Whether water acts on the bodies ``first`` to ``first + count - 1``, whether they were wet and have been released for good, and whether they were ever wet: three
+    bool arrays of shape (count,).
 
     ``engine``: the PorePressureEngine; all false for bodies that it has not met yet, and where it is None.
     """
-    found = np.zeros((count, 2), bool)
+    found = np.zeros((count, 3), bool)
     if engine is not None:
-        rows = np.frombuffer(engine.bodyTable(), dtype=bool).reshape(-1, 2)[first : first + count]
+        rows = np.frombuffer(engine.bodyTable(), dtype=bool).reshape(-1, 3)[first : first + count]
         found[: len(rows)] = rows
-    return found[:, 0].copy(), found[:, 1].copy()
+    return tuple(found.T.copy())
+
+
+def slip(material, first, count) -> np.ndarray:
+    """Distance [m] that each of the bodies ``first`` to ``first + count - 1`` has slipped along the walls, or the interface, of a SlipWeakeningMat: shape (count,)."""
+    found = np.zeros(count)
+    slips = np.frombuffer(material.slipTable())[first : first + count]
+    found[: len(slips)] = slips
+    return found

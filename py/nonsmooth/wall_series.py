@@ -82,6 +82,15 @@ class WallSeries:
         laws = self._laws()
         return _slip([laws[one.name] for one in self._slope.section.sliding])
 
+    def weakened(self):
+        """Whether the disks' slip along each wall and interface that weakens has passed D_c, as :attr:`.section.Section.weakening` has them: bool (count, number of those)."""
+        laws, built = self._laws(), self._slope
+        found = [
+            tables.slip(laws[one.name], built.first_disk, built.count) >= laws[one.name].criticalSlip
+            for one in built.section.weakening
+        ]
+        return np.stack(found, axis=1) if found else np.zeros((built.count, 0), bool)
+
     def _laws(self):
         """{name: material} of all walls and interfaces."""
         return {name: self._slope.wall_material(name) for name in self._slope.walls} | {

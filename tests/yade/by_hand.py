@@ -59,7 +59,8 @@ class Known:
     def water_m(self):
         return self.heights()[self.last]
 
-    def released(self):
+    def moved(self):
+        """Whether each disk has gone further than the 3 m of the section's release_distance."""
         x, y = self.before["x"], self.before["y"]
         down = np.array(self.section.downslope)
         way = (x - x[self.settled + 1]) * down[0] + (y - y[self.settled + 1]) * down[1]
@@ -69,7 +70,13 @@ class Known:
     def wet(self):
         n = self.section.normal
         h = self.heights()[:, None]
-        return (self.before["x"] * n[0] + self.before["y"] * n[1] < h) & (h > 0) & ~self.released()
+        return (self.before["x"] * n[0] + self.before["y"] * n[1] < h) & (h > 0) & ~self.moved()
+
+    def ever_wet(self):
+        return np.maximum.accumulate(self.wet(), axis=0)
+
+    def released(self):
+        return self.moved() & self.ever_wet()
 
     def lift(self):
         """Force [N/m] of the water on each disk along the plane's normal: γ_w cos β on its share of the bulk."""
@@ -192,8 +199,11 @@ class Known:
         slip = self.slips()
         return slip.sum(1) / np.maximum((slip > 0).sum(1), 1)
 
+    def weakened(self):
+        return self.slips() >= 0.5
+
     def weakened_disks(self):
-        return (self.slips() >= 0.5).sum(1)
+        return self.weakened().sum(1)
 
     # energies
     def energy_kinetic_J(self):

@@ -150,7 +150,7 @@ def snapshot_arrays(count=3000, time=0.0, contacts=True, seed=1):
     arrays = {
         "time_s": time, "step": int(round(time / 0.005)), "water_m": water, "x": position[:, 0], "y": position[:, 1], "r": r,
         "angle": rng.uniform(-1, 1, len(s)) * share, "vx": speed * DOWN[0], "vy": speed * DOWN[1], "layer": layer,
-        "wet": under & ~released, "released": released,
+        "wet": under & ~released, "released": released, "ever_wet": under, "weakened": (mobile & (moved > 5))[:, None],
     }  # fmt: skip
     if contacts:
         arrays.update(_contacts(position[:, 0], position[:, 1], r, s, n, rng))

@@ -4,7 +4,7 @@ import math
 import pytest
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import scene
+from yade.nonsmooth import scene, tables
 from yade.wrapper import SlipWeakeningMat
 
 from contact_scenes import G, begin, contacts, material, run
@@ -260,6 +260,9 @@ def test_friction_and_cohesion_fall_by_the_law_of_their_wall(law, left):
         assert wall.weakenedCount() == sum(slip >= critical for slip in slips) and wall.meanSlip() == pytest.approx(
             sum(slips) / 2, rel=1e-12
         )
+    count = len(O.bodies)
+    assert tables.slip(wall, 0, count + 2).tolist() == [*(wall.slipOf(k) for k in range(count)), 0.0, 0.0]
+    assert tables.slip(wall, disks[1], 1).tolist() == [wall.slipOf(disks[1])] and slips[1] > 0
     assert wall.weakenedCount() == 1 and len(seen) > (1 if law == "step" else 200)
 
 

@@ -1,5 +1,6 @@
 """Files for ParaView, read back with the library that ParaView's users would use."""
 
+import dataclasses
 import xml.etree.ElementTree as ElementTree
 
 import meshio
@@ -20,6 +21,8 @@ def hand(x=(1.0, 3.0, -4.0), y=(2.0, 2.5, 7.0)):
         layer=[0, 2, 1],
         wet=[True, False, True],
         released=[False, False, True],
+        ever_wet=[True, False, True],
+        weakened=[[False, False], [False, True], [True, False]],
     )
     return synthetic.few(x, y, contacts, **fields)
 
@@ -35,6 +38,8 @@ def test_disks_are_the_snapshot_field_by_field(tmp_path):
         "angle": s.angle,
         "wet": s.wet,
         "released": s.released,
+        "ever_wet": s.ever_wet,
+        "weakened": [0, 1, 1],  # on one wall or another
     }
     assert set(disks.point_data) == set(expected)
     for name, values in expected.items():
@@ -42,6 +47,13 @@ def test_disks_are_the_snapshot_field_by_field(tmp_path):
     assert np.array_equal(disks.points, np.column_stack([s.x, s.y, np.zeros(3)]))
     (cells,) = disks.cells
     assert cells.type == "vertex" and cells.data.tolist() == [[0], [1], [2]]
+
+
+def test_what_an_earlier_version_did_not_tell_is_left_out(tmp_path):
+    disks = meshio.read(
+        paraview.write_disks(dataclasses.replace(hand(), ever_wet=None, weakened=None), tmp_path / "d.vtu")
+    )
+    assert {"wet", "released"} <= set(disks.point_data) and not {"ever_wet", "weakened"} & set(disks.point_data)
 
 
 def test_contacts_are_the_snapshot_field_by_field(tmp_path):

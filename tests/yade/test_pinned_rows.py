@@ -15,7 +15,7 @@ from slope_scenes import write_quick
 
 ROWS = 200
 PINNED = {
-    "slope": "8b1fa0b3a7e9cb841a2e837f21a7cdadd7a5e152f2ae6905c8f82f9e1afc8ec0",
+    "slope": "2095431f2d467018a5cdb6cd460d4533a4b345dea0759fe159219e3dfc18cc2d",
     "biaxial": "4bd1d6db5de3b821ea6022477011ecd8d876ebe13b7e51326ef882d2e2380634",
     "column": "2b138157e60b055d670103c4a059013bfcf7126be1be529315169dae95daa895",
 }

@@ -136,8 +136,8 @@ def test_release_is_for_good_after_the_distance_downslope():
     run(10)
     assert w.isReleased(mover) and not w.isReleased(other)
     assert w.releasedCount == 1 and w.wetCount == 1 and not w.isWet(mover)
-    wet, released = tables.water(w, mover, 2)
-    assert list(wet) == [False, True] and list(released) == [True, False]
+    wet, released, ever_wet = tables.water(w, mover, 2)
+    assert list(wet) == [False, True] and list(released) == [True, False] and list(ever_wet) == [True, True]
     assert not np.any(tables.water(w, other + 1, 2)) and not np.any(tables.water(None, mover, 2))
     O.bodies[mover].state.vel = -1.0 * DOWN
     O.bodies[other].state.vel = -1.0 * DOWN
@@ -149,9 +149,30 @@ def test_release_is_for_good_after_the_distance_downslope():
     assert w.releasedCount == 0 and w.wetCount == 2
 
 
+def test_released_are_those_alone_that_were_wet():
+    """Two disks go down the slope, one below and one above the table. The dry one stays dry, also where the table passes it later."""
+    below, above, still = disks_above_plane([5, 15, 5], releaseDistance=0.5, heights=(10, 10, 30), times=(0, 1, 2))
+    w = O.engines[3]
+    w.unitWeight = 1e-9  # a force too small to matter
+    next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity = (0, -1e-9, 0)
+    for k in (below, above):
+        O.bodies[k].state.vel = 1.0 * DOWN
+    run(600)
+    told = lambda: [tuple(map(bool, row)) for row in zip(*tables.water(w, below, 3))]  # noqa: E731
+    # wet, released, ever wet
+    dry, released, wet = (False, False, False), (False, True, True), (True, False, True)
+    assert told() == [released, dry, wet] and (w.releasedCount, w.wetCount) == (1, 1)
+    run(1500)  # the table stands above all of them
+    assert told() == [released, dry, wet] and (w.releasedCount, w.wetCount) == (1, 1)
+    assert not w.isReleased(above) and not w.wasWet(above) and w.wasWet(below) and w.isReleased(below)
+    w.forgetReleases()
+    run(1)
+    assert told() == [wet, wet, wet] and w.releasedCount == 0  # ways are counted anew
+
+
 def test_saved_and_loaded(tmp_path):
-    ids = disks_above_plane([5, 5, 20], releaseDistance=0.2, heights=(8, 12), times=(0, 10))
-    O.bodies[ids[0]].state.vel = 2.0 * DOWN
+    ids = disks_above_plane([5, 15, 20, 5], releaseDistance=0.2, heights=(8, 12), times=(0, 10))
+    O.bodies[ids[0]].state.vel = O.bodies[ids[1]].state.vel = 2.0 * DOWN
     run(150)
     saved = str(tmp_path / "water.yade.gz")
     O.save(saved)
@@ -165,6 +186,14 @@ def test_saved_and_loaded(tmp_path):
     O.load(saved)
     w = O.engines[3]
     assert w.label == "water" and w.isReleased(ids[0]) and w.heights == [8, 12]
+    w.heights = [0, 0]  # who was wet before is known from the file
+    run(1)
+    assert [w.isReleased(i) for i in ids] == [True, False, False, False] and w.releasedCount == 1
+    assert [w.wasWet(i) for i in ids] == [True, False, False, True]
+    w.heights = [8, 12]
+    O.reset()
+    O.load(saved)
+    w = O.engines[3]
     run(200)
     assert ([(O.bodies[i].state.pos, O.bodies[i].state.vel) for i in ids], w.releasedCount, w.height) == unbroken
 

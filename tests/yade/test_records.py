@@ -251,6 +251,26 @@ def test_a_snapshot_comes_back_bit_for_bit_and_equal_ones_have_equal_bytes(tmp_p
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.npz", "b.npz"]  # nothing left beside
 
 
+def test_a_file_of_an_earlier_version_does_not_tell_who_was_ever_wet_or_is_weakened(tmp_path, arrays):
+    old = {name: value for name, value in arrays.items() if name not in ("ever_wet", "weakened")}
+    np.savez(tmp_path / "old.npz", **old)
+    found = records.read_snapshot(tmp_path / "old.npz")
+    assert found.ever_wet is None and found.weakened is None and np.array_equal(found.released, old["released"])
+    again = records.read_snapshot(records.write_snapshot(tmp_path / "again.npz", **vars(found)))
+    assert again.ever_wet is None and again.weakened is None and np.array_equal(again.x, found.x)
+
+
+def test_weakened_has_a_column_for_each_wall(tmp_path, arrays):
+    count = len(arrays["x"])
+    for walls in (0, 1, 3):
+        told = np.arange(count * walls).reshape(count, walls) % 2 == 0
+        found = records.read_snapshot(records.write_snapshot(tmp_path / "a.npz", **{**arrays, "weakened": told}))
+        assert found.weakened.dtype == bool and np.array_equal(found.weakened, told)
+    for wrong in (np.zeros(count, bool), np.zeros((count - 1, 2), bool), np.zeros((2, count), bool)):
+        with pytest.raises(RecordsError, match="weakened has shape"):
+            records.write_snapshot(tmp_path / "b.npz", **{**arrays, "weakened": wrong})
+
+
 def test_contacts_may_be_left_out(tmp_path):
     records.write_snapshot(tmp_path / "a.npz", **synthetic.snapshot_arrays(300, 30.0, contacts=False))
     assert len(records.read_snapshot(tmp_path / "a.npz").ci) == 0

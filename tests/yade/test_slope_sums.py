@@ -85,7 +85,7 @@ def steps():
         before = bodies()
         experiment.advance()
         on_walls = np.array([(*tuple(O.forces.f(i))[:2], O.forces.t(i)[2]) for i in pieces])
-        wet, _ = tables.water(built.water, first, built.count)
+        wet, *_ = tables.water(built.water, first, built.count)
         lift = (
             wet[:, None]
             * math.pi
@@ -266,7 +266,7 @@ def test_soft_forces_cancel_and_move_the_disks(damping):
             np.array([(*tuple(O.forces.f(int(i)))[:2], O.forces.t(int(i))[2]) for i in which])
             for which in (ids, pieces)
         )
-        wet, _ = tables.water(built.water, built.first_disk, built.count)
+        wet, *_ = tables.water(built.water, built.first_disk, built.count)
         lift = wet[:, None] * math.pi * (r**2)[:, None] / 0.82 * 9810 * math.cos(math.radians(chosen.dip)) * n
         size = np.abs(f[:, :2]).sum()
         # actio est reactio, to rounding

@@ -66,3 +66,18 @@ def test_a_column_is_what_the_steps_say(known, name):
         assert np.abs(found - expected).max() <= CLOSE.get(name, 1e-9) * np.abs(expected).max(), np.argmax(
             np.abs(found - expected)
         )
+
+
+def test_snapshots_tell_who_is_wet_released_and_weakened(whole, known):
+    """Disk by disk, by hand from the steps; some that have gone the distance were never below the table, and are not released."""
+    by_hand = {name: getattr(known, name)()[known.last] for name in ("wet", "ever_wet", "released", "moved")}
+    weakened, seen = known.weakened(), np.zeros(3, int)
+    for path in sorted((whole.folder / "snapshots").glob("*.npz")):
+        shot = records.read_snapshot(path)
+        (row,) = np.flatnonzero(whole.series["step"] == shot.step)
+        for name in ("wet", "ever_wet", "released"):
+            assert np.array_equal(getattr(shot, name), by_hand[name][row]), (name, shot.step)
+        assert shot.weakened.shape == (315, 1) and np.array_equal(shot.weakened[:, 0], weakened[row]), shot.step
+        assert shot.weakened.sum() == whole.series["weakened_disks"][row]
+        seen += [shot.released.sum(), shot.weakened.sum(), (by_hand["moved"][row] & ~shot.ever_wet).sum()]
+    assert (seen > 0).all() and not (shot.wet & shot.released).any()

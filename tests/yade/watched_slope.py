@@ -19,7 +19,7 @@ class Watch:
 
     ``steps``: arrays with a first axis of steps: ``iter``, ``time`` (at the end), ``dt``, ``gravity`` (2), ``before`` and ``after`` (columns of
     tables.bodies: x, y, angle, vx, vy, omega; shape (6, disks)), ``walls`` (pieces, 3: force and torque on them), ``water`` (2: the force on all disks),
-    ``height``, ``wet``, ``released``, ``counters`` (:data:`COUNTERS`), ``losses`` (sliding, rolling, impact, bonds: by hand), ``slip`` (of each disk on DP).
+    ``height``, ``wet``, ``released``, ``ever_wet``, ``counters`` (:data:`COUNTERS`), ``losses`` (sliding, rolling, impact, bonds: by hand), ``slip`` (of each disk on DP).
     ``begun``, ``rows``: the contact table after two steps and at each row, see :meth:`contacts`; ``dumps``: every :data:`DUMPED` rows the number of the row and its contact problem.
     """
 
@@ -140,6 +140,7 @@ class Watch:
             "height",
             "wet",
             "released",
+            "ever_wet",
             "counters",
             "losses",
             "slip",

@@ -11,5 +11,16 @@ from .profiles import deposit, snapshots
 from .numerics import energy, solver
 from .runouts import runouts
 from .scene import draw
+from .weakening import weakening
 
-__all__ = ["force_chains", "forces_against_time", "snapshots", "deposit", "draw", "energy", "runouts", "solver"]
+__all__ = [
+    "force_chains",
+    "forces_against_time",
+    "snapshots",
+    "deposit",
+    "draw",
+    "energy",
+    "runouts",
+    "solver",
+    "weakening",
+]

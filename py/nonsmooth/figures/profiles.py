@@ -58,6 +58,7 @@ def _foot(ax, snapshot, ground, view, place, first):
         np.abs(snapshot.y - (y0 + y1) / 2) < 0.7 * (y1 - y0)
     )
     style.draw_disks(inset, snapshot, style.state_colours(snapshot), near)
+    style.draw_weakened(inset, ground, snapshot)
     if snapshot.water_m > 0:
         style.water_line(inset, ground, snapshot.water_m)
     ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, ec=INK, lw=0.8, zorder=6))
@@ -81,7 +82,8 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
     """The slope at successive times, one below the other (the paper's Figure 13).
 
     ``cases``: list of (label, :class:`~nonsmooth.records.Snapshot`), labels such as "t0". Dry disks ochre, disks that
-    feel pore pressure blue, released ones pink, shades alternating with the layers; the water table as a dashed line.
+    feel pore pressure blue, those that were wet and have been released pink, shades alternating with the layers; the water table as a dashed line; of
+    slip surfaces the part whose disks have passed D_c red, where the snapshots tell (:mod:`~nonsmooth.measure.weakening`).
     All panels have the same limits and scale; ``close_up`` adds the foot of the slope, enlarged, to each, where the
     shear bands of the failure appear.
     """
@@ -96,12 +98,13 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
     width, top, bottom = 10.5, 0.62, 0.1
     height = width * (view[3] - view[2]) / (view[1] - view[0])
     total = top + bottom + height * len(cases)
-    fig = style.figure(width, total)
+    fig, weakens = style.figure(width, total), False
     for k, (label, snapshot) in enumerate(cases):
         ax = fig.add_axes([0, (bottom + height * (len(cases) - 1 - k)) / total, 1, height / total])
         style.frame(ax, *view)
         style.draw_walls(ax, ground, named=("slip", "ground") if place else None)
         style.draw_disks(ax, snapshot, style.state_colours(snapshot))
+        weakens |= style.draw_weakened(ax, ground, snapshot)
         if snapshot.water_m > 0:
             style.water_line(ax, ground, snapshot.water_m)
         if place:
@@ -125,13 +128,19 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
         if k == len(cases) - 1:
             style.scale_bar(ax, 0.2 if ground.side > 0 else 0.95, 0.1, 0.15)
     names = ", ".join(style.plain(wall.name) for wall in ground.walls)
+    keys = [
+        ((Patch(color=style.DRY[0]), Patch(color=style.DRY[1])), "dry"),
+        ((Patch(color=style.WET[0]), Patch(color=style.WET[1])), "under pore pressure"),
+        ((Patch(color=style.RELEASED[0]), Patch(color=style.RELEASED[1])), "pore pressure released"),
+        (Line2D([], [], color=style.WATER, ls=(0, (5, 2)), lw=1.3), "water table"),
+        (Line2D([], [], color=style.WALL, lw=1.6), f"walls: {names}" if len(names) <= 24 else "walls"),
+    ]
+    if weakens:
+        keys.append((Line2D([], [], color=style.WEAKENED, lw=3.2), "weakened"))
+    handles, labels = zip(*keys)
     fig.legend(
-        handles=[
-            (Patch(color=pair[0]), Patch(color=pair[1])) for pair in (style.DRY, style.WET, style.RELEASED)
-        ] + [Line2D([], [], color=style.WATER, ls=(0, (5, 2)), lw=1.3), Line2D([], [], color=style.WALL, lw=1.6)],
-        labels=["dry", "under pore pressure", "pore pressure released", "water table", f"walls: {names}" if len(names) <= 24 else "walls"],
-        handler_map={tuple: HandlerTuple(ndivide=None, pad=0)}, loc="upper center", bbox_to_anchor=(0.5, 1 - 0.06 / total), ncol=5,
-        handlelength=2.2, columnspacing=1.8, fontsize=9.5,
+        handles=handles, labels=labels, handler_map={tuple: HandlerTuple(ndivide=None, pad=0)}, loc="upper center",
+        bbox_to_anchor=(0.5, 1 - 0.06 / total), ncol=len(keys), handlelength=2.2, columnspacing=1.8, fontsize=9.5,
     )  # fmt: skip
     return style.save(fig, path, pdf)
 

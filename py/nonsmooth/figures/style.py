@@ -9,6 +9,7 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
 
+from ..measure.weakening import stretch, stretches, weakened_share
 from ..records import RecordsError
 from ..whole_files import beside
 
@@ -19,6 +20,7 @@ WET = ("#1f5fa8", "#4a90d0")
 RELEASED = ("#e06aa6", "#f5a9cd")
 COMPRESSION, TENSION = "#1f5fa8", "#d62728"
 GROUND, WALL, WATER, INK = "#e4e4e0", "#222222", "#0b6fb8", "#222222"
+STRONG, WEAKENED = "#cdc6b4", "#b00020"  # of a slip surface: as strong as ever, and where D_c is passed
 # Okabe and Ito's palette for lines.
 LINES = {
     "blue": "#0072B2",
@@ -113,13 +115,22 @@ def symbol(letter, name):
     )
 
 
+_LENGTHS = (
+    (20, 1, "m", 0),
+    (2, 1, "m", 2),
+    (0.2, 100, "cm", 0),
+    (0, 1000, "mm", 0),
+)  # from which extent [m], in a metre, name, more digits
+
+
+def length_unit(extent):
+    """The unit of lengths in a picture ``extent`` [m] wide: (how many are a metre, its name)."""
+    return next(rest[:2] for least, *rest in _LENGTHS if extent >= least)
+
+
 def length(value, extent, digits=0):
     """A length [m] with its unit, which is that of a picture ``extent`` [m] wide: m, below 20 m with two more digits, cm or mm."""
-    factor, unit, more = next(
-        rest
-        for least, *rest in ((20, 1, "m", 0), (2, 1, "m", 2), (0.2, 100, "cm", 0), (0, 1000, "mm", 0))
-        if extent >= least
-    )
+    factor, unit, more = next(rest for least, *rest in _LENGTHS if extent >= least)
     return f"{factor * value:,.{digits + more}f} {unit}"
 
 
@@ -145,7 +156,7 @@ def layer_colours(layer):
 
 
 def state_colours(snapshot):
-    """RGBA (N, 4): ochre, wet disks blue, released ones pink, each in two shades that alternate with the layers."""
+    """RGBA (N, 4): ochre, wet disks blue, those that were wet and have been released pink, each in two shades that alternate with the layers."""
     state = np.where(snapshot.released, 2, np.where(snapshot.wet, 1, 0))
     return to_rgba_array(DRY + WET + RELEASED)[2 * state + snapshot.layer % 2]
 
@@ -203,6 +214,17 @@ def _name_wall(ax, wall, side, box, size):
         ha=("left" if side > 0 else "right") if beside else "center", va="top", fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
         bbox={"fc": "white", "ec": "none", "alpha": 0.7, "pad": 1.0} if wall.buried else None,
     )  # fmt: skip
+
+
+def draw_weakened(ax, ground, snapshot):
+    """The parts of walls and interfaces that have weakened, as thick lines; whether anything here can weaken, which a snapshot of an earlier version does not tell."""
+    if snapshot.weakened is None or not ground.weakening:
+        return False
+    for column, wall in ground.weakening.items():
+        for part in stretches(*weakened_share(snapshot, wall.vertices, column, ground.side)):
+            points = stretch(wall.vertices, *part, ground.side)
+            ax.plot(points[:, 0], points[:, 1], color=WEAKENED, lw=3.2, solid_capstyle="butt", zorder=4.5)
+    return True
 
 
 def frame(ax, x0, x1, y0, y1):

@@ -3,4 +3,5 @@
 * :mod:`.ground`: walls by their roles, the foot of the slope, where water stands
 * :mod:`.fronts`: how far a mass has come
 * :mod:`.surface`: the surface of a mass and what lies below it
+* :mod:`.weakening`: which part of a slip surface has lost its strength
 """

@@ -30,11 +30,13 @@ class Ground:
 
     ``walls``: list of Wall; ``side``: 1 for a slope that falls to the right, −1 to the left; ``water``: (points (n, 2) [m], unit normal) of the plane from which
     water is measured, or None; ``layers``: their names, empty where they have none; ``mass``: numbers of the layers that
-    are neither bed nor obstacle, None: all are mass; ``base``: name of the wall from which water is measured, None where it is measured from a plane of its own.
+    are neither bed nor obstacle, None: all are mass; ``base``: name of the wall from which water is measured, None where it is measured from a plane of its own;
+    ``weakening``: {number: Wall} of those that weaken with slip, by their column of :attr:`.records.Snapshot.weakened`.
     """
 
-    def __init__(self, walls, side, water, layers=(), mass=None, base=None):
+    def __init__(self, walls, side, water, layers=(), mass=None, base=None, weakening=None):
         self.walls, self.side, self._water, self.layers, self.mass, self.base = walls, side, water, layers, mass, base
+        self.weakening = weakening or {}
 
     def layer(self, number):
         """What a layer is called."""
@@ -105,6 +107,7 @@ def ground_of(walls):
         [layer.name for layer in layers],
         mass if len(mass) < len(layers) else None,
         walls.water.wall if getattr(walls, "water", None) else slip[0].name if slip else None,
+        {k: wall for k, one in enumerate(getattr(walls, "weakening", ())) for wall in found if wall.name == one.name},
     )
 
 

@@ -5,7 +5,7 @@ FIGURES = "py/nonsmooth/figures/"
 FORCES, STYLE, PROFILES, NUMERICS = (FIGURES + name for name in ("forces.py", "style.py", "profiles.py", "numerics.py"))
 PARAVIEW = "py/nonsmooth/paraview.py"
 
-GROUND, FRONTS, SURFACE = ("py/nonsmooth/measure/" + name for name in ("ground.py", "fronts.py", "surface.py"))
+GROUND, FRONTS, SURFACE, WEAKENING = ("py/nonsmooth/measure/" + name for name in ("ground.py", "fronts.py", "surface.py", "weakening.py"))
 
 SCENE = FIGURES + "scene.py"
 
@@ -21,6 +21,18 @@ MUTANTS = (
            "plain:test_figures_slope.py::test_a_table_over_a_plane_of_its_own_dips_with_it"),
     mutant("fronts-side", FRONTS, "ahead = side * x", "ahead = x", "a slope to the left has its front at the crown",
            "plain:test_figures_slope.py::test_a_mirrored_slope_gives_the_mirrored_profile_and_front"),
+    mutant("weakening-near", WEAKENING, "off <= snapshot.r + NEAR * diameter", "off <= 10 * diameter", "disks high above a surface are on it",
+           "plain:test_weakening.py::test_disks_off_the_surface_and_beyond_its_ends_are_not_on_it"),
+    mutant("weakening-column", WEAKENING, "snapshot.weakened[on, column]", "snapshot.weakened[on, 0]", "a disk that is weakened on one wall is so on all",
+           "plain:test_weakening.py::test_places_go_on_over_the_vertices_of_a_surface"),
+    mutant("weakening-joints", WEAKENING, "leg[:k].sum() + at[nearer]", "at[nearer]", "places begin anew at each vertex of a surface",
+           "plain:test_weakening.py::test_places_go_on_over_the_vertices_of_a_surface"),
+    mutant("weakening-side", WEAKENING, "side * line[0, 0] <= side * line[-1, 0]", "line[0, 0] <= line[-1, 0]", "a slope to the left is measured from its foot",
+           "plain:test_weakening.py::test_a_mirrored_slope_has_the_same_shares"),
+    mutant("weakening-half", WEAKENING, "np.nan_to_num(share) >= 0.5", "np.nan_to_num(share) > 0", "a surface with one weakened disk is weakened",
+           "plain:test_weakening.py::test_stretches_are_bins_of_which_half_is_weakened_joined"),
+    mutant("style-weakened", STYLE, "color=WEAKENED, lw=3.2", "color=WALL, lw=3.2", "what is weakened looks like any wall",
+           "plain:test_weakening.py::test_the_weakened_part_of_a_slip_surface_is_red_in_profile_and_close_up"),
     mutant("style-length", STYLE, "factor * value:,", "value:,", "centimetres are metres", "plain:test_figures.py::test_lengths_have_the_unit_of_the_picture"),
     mutant("style-named", STYLE, "named is None or wall.role in named", "wall.role in (named or ())", "walls have no names",
            "plain:test_figures_slope.py::test_the_close_up_shows_the_foot_from_where_its_frame_is"),
