@@ -7,7 +7,7 @@ Rules:
 * failed dry: the mean speed has reached 2 m/s before t0, or is 0.2 m/s then, or comes to that without having been below 0.02 m/s since. The water does not
   rise, or no further; the slope is followed until it rests;
 * t0: the dry rest ends, the water begins to rise;
-* moving: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
+* moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
   is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
   it falls with the speed, down to ``tolerance``. A slope that comes to rest again without having got going does not count as moving: the
   table then goes on rising;

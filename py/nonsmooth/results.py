@@ -1,17 +1,4 @@
-"""What a finished (or interrupted) run says: characteristic times and summary. Needs its records alone, no YADE.
-
-Characteristic times (paper, section 6; the rules are ours):
-
-* t0: the water table begins to rise; a slope that failed before that, by its dry weight, has neither t0 nor t1 to t3;
-* t1, failure: the mean of N_FB, the normal force on the backstops, over one second first comes within 2 % of its largest value before t2, the strength of the foot;
-  where there is no backstop, the slope begins to move (mean speed 0.2 m/s, see course.py);
-* t2: D_c is reached by one per cent of the disks that fit along the slip surfaces; without slip weakening there are neither t2 nor t3;
-* t3: the mean of T_DP, the shear force on the slip surfaces, over one second has fallen by 90 % of its value at t2;
-* t4: the largest kinetic energy;
-* t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum for good.
-
-One second, and 0.2 m/s, are those of the shipped section, and scaled for another (scales.py).
-"""
+"""What a finished (or interrupted) run says: its summary. Needs its records alone, no YADE. Characteristic times: :mod:`.characteristic_times`."""
 
 from __future__ import annotations
 
@@ -22,11 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from . import records, scales, toe
+from .characteristic_times import chosen_rows, mean_of, of_run, weakening_begins
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import WriteError, remove_parts, whole, write_atomically
 
-__all__ = ["characteristic_times", "chosen_rows", "frames", "mean_of", "nearest", "summarise", "forget", "forget_later"]
+__all__ = ["frames", "nearest", "summarise", "forget", "forget_later"]
 
 ENTRAINED = 2.0  # mean diameters
 
@@ -75,67 +63,6 @@ def _remove(paths):
             raise WriteError(
                 f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another folder"
             ) from None
-
-
-def chosen_rows(series, state):
-    """The rows that a run is told by: those since it settled, but all of a slope that failed dry. ``state``: see :func:`characteristic_times`."""
-    return series if state.get("failed_dry") is not None else records.since_settled(series)
-
-
-def mean_of(series, name, end, span):
-    """Mean of a column over the rows of the ``span`` seconds up to ``end`` [s], a row's time; 0: that row alone. NaN where there is none."""
-    t = series["time_s"]
-    row = (t[-1] - t[0]) / max(1, len(t) - 1)  # each tells of so long before its time, which it meets to half a step
-    chosen = (t > end - max(span, row) + 0.5 * row - 1e-9) & (t <= end + 1e-9)
-    return float(np.mean(series[name][chosen])) if chosen.any() else math.nan
-
-
-def characteristic_times(series, section, state) -> dict[str, float | None]:
-    """t0 … t5 [s] of a run; None for those that did not come. ``state``: the fields of course.State as a mapping."""
-    t = series["time_s"]
-    times = dict.fromkeys(("t0", "t1", "t2", "t3", "t4", "t5"))
-    if state.get("failed_dry") is not None:
-        return times | _of_motion(series, section)
-    times["t0"] = state["t0"]
-    if times["t0"] is None or state["moving"] is None:
-        return times
-    span = scales.of(section).mean_seconds
-    length = float(sum(np.hypot(*np.diff(points, axis=0).T).sum() for _, points in section.slip_surfaces))
-    enough = max(1.0, 0.01 * length / math.sqrt(section.disks.mean_square))
-    late = np.flatnonzero((series["weakened_disks"] >= enough) & (t >= times["t0"]))
-    if len(late):
-        times["t2"] = float(t[late[0]])
-    times["t1"] = _failure(series, times, state, span)
-    if not len(late):
-        weakens = any(section.materials[surface.material].slip_weakening for surface in section.sliding)
-        return times if weakens else times | _of_motion(series, section)
-    before = mean_of(series, "dp_shear_N_per_m", times["t2"], span)
-    for k in range(late[0], len(t)):
-        if mean_of(series, "dp_shear_N_per_m", t[k], span) <= 0.1 * before:
-            times["t3"] = float(t[k])
-            break
-    return times | _of_motion(series, section)
-
-
-def _of_motion(series, section):
-    """t4 and t5 [s], see above."""
-    t, speed = series["time_s"], series["speed_mean_m_per_s"]
-    times = {"t4": float(t[np.argmax(series["energy_kinetic_J"])])}
-    moving = np.flatnonzero(speed >= section.stages.end.rest_fraction * speed.max())
-    if len(moving) and moving[-1] + 1 < len(t):
-        times["t5"] = float(t[moving[-1] + 1])
-    return times
-
-
-def _failure(series, times, state, span):
-    """t1 [s], see above."""
-    t = series["time_s"]
-    until = times["t2"] if times["t2"] is not None else t[-1]
-    steps = np.flatnonzero((t >= times["t0"] + span - 1e-9) & (t <= until + 1e-9))
-    if not len(steps) or not np.any(series["fb_normal_N_per_m"]):
-        return state["moving"]
-    force = np.array([mean_of(series, "fb_normal_N_per_m", t[k], span) for k in steps])
-    return float(t[steps[np.argmax(force >= 0.98 * force.max())]])
 
 
 def _difference(a, b):
@@ -193,7 +120,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     if not len(every["step"]):
         raise records.RecordsError(f"{folder / 'series.csv'}: has no rows yet; let the run go on with --resume")
     series, balanced = chosen_rows(every, state), records.since_settled(every)  # energies begin anew then
-    times = characteristic_times(series, section, state)
+    times, begins = of_run(series, section, state), weakening_begins(series, section, state)
     last, second = float(series["time_s"][-1]), scales.of(section).mean_seconds
     leans = bool(section.of_role("backstop"))  # or its force has no meaning
     at = (
@@ -259,7 +186,9 @@ def summarise(folder, section, state, threads=None) -> dict:
         "dp_shear_dry_N_per_m": at("dp_shear_N_per_m", t0),
         "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", t1),
         "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2 * second) if finished else None,
+        "weakening_begins_s": begins,
         "triggering_s": _difference(times["t3"], times["t2"]),
+        "weakening_s": _difference(times["t3"], begins),
         "motion_s": _difference(times["t5"], times["t3"]),
         "front_travel_m": section.side * float(series["front_m"][-1] - front0) if front0 is not None else None,
         "centroid_travel_m": moved,

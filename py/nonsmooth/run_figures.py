@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 from . import figures, paraview, records, results, scales, video
+from .characteristic_times import chosen_rows
 
 __all__ = ["NAMES", "Drawing", "draw"]
 
@@ -34,7 +35,7 @@ class Drawing:
     @cached_property
     def series(self):
         """Its rows from where the slope rests, or fails dry."""
-        return results.chosen_rows(self.every, {"failed_dry": self.failed_dry})
+        return chosen_rows(self.every, {"failed_dry": self.failed_dry})
 
     @cached_property
     def shots(self):

@@ -141,6 +141,7 @@ def run(name, about, default=None):
     for name in (
         "water_at_failure_m",
         "triggering_s",
+        "weakening_s",
         "motion_s",
         "front_travel_m",
         "deposit_thickness_max_m",

@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 from yade import O
-from yade.nonsmooth import experiment, packing, records, results, section, slope
+from yade.nonsmooth import characteristic_times, experiment, packing, records, section, slope
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from deflated import deflate
@@ -52,7 +52,7 @@ def run(disks, folder):
 
     experiment_run.progress = keep
     experiment_run.run()
-    times = results.characteristic_times(
+    times = characteristic_times.of_run(
         records.since_settled(records.read_series(folder / "series.csv")),
         chosen,
         dataclasses.asdict(experiment_run.state),

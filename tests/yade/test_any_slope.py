@@ -147,7 +147,7 @@ def test_rows_of_walls_are_the_series_by_wall(whole):
     assert (
         share[0] == 0
         and 0 < share.max() <= 1
-        and (np.diff(share[series["time_s"] > whole.summary["times_s"]["t2"]]) > -0.2).all()
+        and (np.diff(share[series["time_s"] > whole.summary["weakening_begins_s"]]) > -0.2).all()
     )
     assert np.isnan(of("FB", "slip_mean_m")).all() and np.isnan(of("SS", "weakened_share")).all()
 
@@ -204,6 +204,7 @@ def test_a_slope_without_water_weakening_and_backstop(monkeypatch, tmp_path):
         "fb_force_dry_N_per_m",
         "fb_force_at_failure_N_per_m",
         "fb_force_final_N_per_m",
+        "weakening_begins_s",
         "triggering_s",
     ):
         assert told[name] is None, name

@@ -13,16 +13,19 @@ sys.path.insert(0, str(Path(__file__).parent))
 import known_slope  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
-records, results, toe = (synthetic.load(name) for name in ("records", "results", "toe"))
+records, results, toe, characteristic_times = (
+    synthetic.load(name) for name in ("records", "results", "toe", "characteristic_times")
+)
 SHIPPED, STATE = known_slope.SHIPPED, known_slope.STATE
 SAME = 1e-9  # relative: rounding of sums over a thousand rows
-TIMES = {"t0": 10.0, "t1": 29.2, "t2": 35.0, "t3": 39.1, "t4": 55.0, "t5": 84.5}
+TIMES = {"t0": 10.0, "t1": 29.1, "t2": 30.5, "t3": 39.1, "t4": 55.0, "t5": 84.5}
+WEAKENS = 35.0
 
 
 def times_of(series, **state):
     """Of the rows that a run is told by, as a summary has them."""
     state = STATE | state
-    return results.characteristic_times(results.chosen_rows(series, state), SHIPPED, state)
+    return characteristic_times.of_run(characteristic_times.chosen_rows(series, state), SHIPPED, state)
 
 
 def changed(**columns):
@@ -40,35 +43,56 @@ def test_a_mean_is_over_the_seconds_up_to_a_time():
     t = np.arange(1, 101) / 10
     series = {"time_s": t, "x": t**2}
     # ten rows, 4.1 to 5.0 s
-    assert results.mean_of(series, "x", 5.0, 1.0) == pytest.approx(np.mean(np.arange(41, 51) ** 2) / 100, rel=SAME)
-    assert results.mean_of(series, "x", 5.0, 0.0) == pytest.approx(25.0) and results.mean_of(
+    assert characteristic_times.mean_of(series, "x", 5.0, 1.0) == pytest.approx(
+        np.mean(np.arange(41, 51) ** 2) / 100, rel=SAME
+    )
+    assert characteristic_times.mean_of(series, "x", 5.0, 0.0) == pytest.approx(25.0) and characteristic_times.mean_of(
         series, "x", 5.04, 0.1
     ) == pytest.approx(25.0)
-    assert math.isnan(results.mean_of(series, "x", 0.05, 0.01))
+    assert math.isnan(characteristic_times.mean_of(series, "x", 0.05, 0.01))
     # rows end up to half a step before or after their tenths, and are ten a second all the same
     for early, late in ((0.005, 0.0), (0.0, 0.005)):
         uneven = {"time_s": t - np.where(np.arange(100) % 2 == 0, early, late), "x": np.arange(100.0)}
         for k in (49, 50):
             assert (
-                results.mean_of(uneven, "x", uneven["time_s"][k], 1.0) == k - 4.5
-                and results.mean_of(uneven, "x", uneven["time_s"][k], 0.0) == k
+                characteristic_times.mean_of(uneven, "x", uneven["time_s"][k], 1.0) == k - 4.5
+                and characteristic_times.mean_of(uneven, "x", uneven["time_s"][k], 0.0) == k
             )
 
 
 # ---- characteristic times ---------------------------------------------------------------------------
 def test_times_of_a_whole_run():
-    """t1: the mean over 1 s of 140 + 3 (t − 10) MN/m comes to 98 % of 200; t3: the mean of T_DP over 1 s, 366.35 MN/m at t2, to a tenth; t5: 85.03 − 0.02 · 28.03 s."""
+    """t1: the mean over 1 s of 140 + 3 (t − 10) MN/m comes to 98 % of that at t2, 199.7; t3: the mean of T_DP over 1 s, 379.85 MN/m at t2, to a tenth; t5: 85.03 − 0.02 · 28.03 s."""
     assert times_of(known_slope.series()) == pytest.approx(TIMES, abs=1e-9)
 
 
-def test_t1_is_of_the_largest_force_before_t2_and_of_the_water_alone():
+def test_means_of_all_rows_are_those_of_each():
+    """Rows of uneven lengths too."""
+    series = known_slope.series()
+    series["time_s"] = series["time_s"] - np.where(np.arange(len(series["time_s"])) % 3 == 0, 0.004, 0.0)
+    for span in (1.0, 0.25, 0.0):
+        found = characteristic_times._means(series, "dp_shear_N_per_m", span)
+        wanted = [characteristic_times.mean_of(series, "dp_shear_N_per_m", t, span) for t in series["time_s"]]
+        assert found == pytest.approx(wanted, rel=1e-12, abs=1e-6)  # N/m: rounding of ten numbers of 1e8
+
+
+def test_t1_is_of_the_largest_force_up_to_t2_and_of_the_water_alone():
     higher = times_of(
         changed(fb_normal_N_per_m=lambda t: known_slope.series()["fb_normal_N_per_m"] + 900e6 * ((t > 6) & (t < 10.05)))
     )
     assert higher["t1"] == TIMES["t1"]  # a second that begins before t0 is none
+    later = times_of(
+        changed(fb_normal_N_per_m=lambda t: np.where(t > 30.55, 900e6, known_slope.series()["fb_normal_N_per_m"]))
+    )
+    assert later["t1"] == TIMES["t1"]  # nor does what comes after t2 count
+    # with the slope on the move at 41 s: 98 % of the largest force of all, 300 MN/m from 40.1 s on
+    assert times_of(known_slope.series(), moving=42.0)["t1"] == 41.0
+
+
+def test_t2_is_where_the_slope_begins_to_move_whether_it_weakens_or_not():
+    assert times_of(known_slope.series(), moving=33.0)["t2"] == 33.0
     no_weakening = times_of(changed(weakened_disks=lambda t: np.full(len(t), 7)))
-    # the largest force of all, 300 MN/m from 40.1 s on
-    assert no_weakening == {"t0": 10.0, "t1": 41.0, "t2": None, "t3": None, "t4": None, "t5": None}
+    assert no_weakening == pytest.approx(TIMES | {"t3": None}, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -81,18 +105,35 @@ def test_t1_is_of_the_largest_force_before_t2_and_of_the_water_alone():
         ((90.0, 90.0), 0, 0, None),
     ],
 )
-def test_t2_wants_a_hundredth_of_the_disks_along_the_plane(diameters, before, after, found):
+def test_weakening_begins_with_a_hundredth_of_the_disks_along_the_plane(diameters, before, after, found):
     section = dataclasses.replace(
         SHIPPED, disks=dataclasses.replace(SHIPPED.disks, d_min=diameters[0], d_max=diameters[1])
     )
-    series = results.chosen_rows(
+    series = characteristic_times.chosen_rows(
         changed(weakened_disks=lambda t: np.select([t < 32 - 1e-9, t < 35 - 1e-9], [0, before], after)), STATE
     )
-    assert results.characteristic_times(series, section, STATE)["t2"] == found
+    assert characteristic_times.weakening_begins(series, section, STATE) == found
+    assert (characteristic_times.of_run(series, section, STATE)["t3"] is None) == (found is None)
+    assert characteristic_times.weakening_begins(series, section, STATE | {"failed_dry": 3.0}) is None
+
+
+def test_a_slope_that_weakened_and_stopped_has_t3_after_t2():
+    """Its shear force was nothing while it weakened, 32 to 33 s; it moved for good at 34 s."""
+    series = changed(
+        weakened_disks=lambda t: np.where(t < 32 - 1e-9, 0, 8),
+        dp_shear_N_per_m=lambda t: np.where(np.abs(t - 33) < 1.05, 0.0, known_slope.series()["dp_shear_N_per_m"]),
+    )
+    state = dict(moving=36.0)
+    found = times_of(series, **state)
+    assert (
+        characteristic_times.weakening_begins(characteristic_times.chosen_rows(series, STATE), SHIPPED, STATE) == 32.0
+    )
+    # T_DP at t2: 365 (1 − 0.55/4) = 314.8 MN/m
+    assert (found["t2"], found["t3"]) == (36.0, pytest.approx(39.1))
 
 
 def test_t3_is_a_tenth_of_the_mean_shear():
-    """It falls from 365 MN/m by a quarter a second; with a rest of 9 or of 11 % of the mean at t2, it comes to a tenth, or does not."""
+    """From 35 s on it falls from 365 MN/m by a quarter a second; with a rest of 9 or of 11 % of the mean at t2, it comes to a tenth, or does not."""
     for rest, comes in ((0.09, True), (0.11, False)):
         series = changed(
             dp_shear_N_per_m=lambda t: np.where(t <= 35, 365e6, np.maximum(365e6 * (1 - (t - 35) / 4), rest * 365e6))
@@ -102,6 +143,10 @@ def test_t3_is_a_tenth_of_the_mean_shear():
         changed(dp_shear_N_per_m=lambda t: np.where(np.abs(t - 20) < 2, 0.0, known_slope.series()["dp_shear_N_per_m"]))
     )
     assert once == pytest.approx(TIMES, abs=1e-9)  # what was before t2 does not count
+    early = times_of(
+        changed(dp_shear_N_per_m=lambda t: np.where((t > 31) & (t < 33), 0.0, known_slope.series()["dp_shear_N_per_m"]))
+    )
+    assert early == pytest.approx(TIMES, abs=1e-9)  # nor does what is before the weakening
 
 
 def test_t4_and_t5_are_the_top_and_the_last_fall():
@@ -109,13 +154,22 @@ def test_t4_and_t5_are_the_top_and_the_last_fall():
         changed(speed_mean_m_per_s=lambda t: known_slope.series()["speed_mean_m_per_s"] + (np.abs(t - 95) < 0.05))
     )
     assert stirred["t4"] == 55.0 and stirred["t5"] == pytest.approx(95.1, abs=1e-9)
+    before = times_of(
+        changed(
+            energy_kinetic_J=lambda t: np.where(t < 20, 9e9, known_slope.series()["energy_kinetic_J"]),
+            speed_mean_m_per_s=lambda t: np.where(
+                np.abs(t - 20) < 0.05, 900.0, known_slope.series()["speed_mean_m_per_s"]
+            ),
+        )
+    )
+    assert before == pytest.approx(TIMES, abs=1e-9)  # what was before t2 is not of the motion
     assert times_of(until(84.4))["t5"] is None and times_of(until(84.5))["t5"] == pytest.approx(84.5, abs=1e-9)
     late = dataclasses.replace(
         SHIPPED,
         stages=dataclasses.replace(SHIPPED.stages, end=dataclasses.replace(SHIPPED.stages.end, rest_fraction=0.1)),
     )
     # 85.03 − 0.1 · 28.03 s
-    assert results.characteristic_times(results.chosen_rows(known_slope.series(), STATE), late, STATE)[
+    assert characteristic_times.of_run(characteristic_times.chosen_rows(known_slope.series(), STATE), late, STATE)[
         "t5"
     ] == pytest.approx(82.3, abs=1e-9)
 
@@ -126,18 +180,31 @@ def test_a_slope_that_does_not_move_has_no_failure():
     assert times_of(until(9.0), t0=None, moving=None) == nothing
 
 
-def test_without_backstop_failure_is_motion():
-    assert times_of(changed(fb_normal_N_per_m=lambda t: 0 * t)) == pytest.approx(TIMES | {"t1": 30.5}, abs=1e-9)
-    assert times_of(until(10.9), moving=10.3)["t1"] == 10.3  # no second of the water yet
+def test_without_backstop_failure_is_where_it_begins_to_creep():
+    """0.02 m/s, or more, for good before t2."""
+    creeping = dict(
+        fb_normal_N_per_m=lambda t: 0 * t,
+        speed_mean_m_per_s=lambda t: np.select(
+            [np.abs(t - 22) < 1, (t > 28.95) & (t < 30.45)], [0.1, 0.021], known_slope.series()["speed_mean_m_per_s"]
+        ),
+    )
+    assert times_of(changed(**creeping)) == pytest.approx(TIMES | {"t1": 29.0}, abs=1e-9)
+    # a backstop that has borne nothing until then, and one that bears only in the second before
+    creeping["fb_normal_N_per_m"] = lambda t: np.where(t > 40, 90e6, 0.0)
+    assert times_of(changed(**creeping))["t1"] == pytest.approx(29.0)
+    creeping["fb_normal_N_per_m"] = lambda t: np.where(t > 30.45, 90e6, 0.0)
+    assert times_of(changed(**creeping))["t1"] == pytest.approx(30.5)
+    # no second of the water yet: it does not creep but stands, and moves
+    assert times_of(until(10.9), moving=10.3)["t1"] == 10.3
 
 
 def test_stopped_before_weakening():
     assert times_of(until(34.0)) == {
         "t0": 10.0,
         "t1": pytest.approx(TIMES["t1"]),
-        "t2": None,
+        "t2": 30.5,
         "t3": None,
-        "t4": None,
+        "t4": 34.0,
         "t5": None,
     }
 
@@ -157,7 +224,7 @@ def test_a_slope_that_failed_dry_has_the_times_of_its_motion():
 # ---- the summary ------------------------------------------------------------------------------------
 PASSIVE = toe.passive(SHIPPED, 99.8e3, 39.8, 0.84)
 # at t1; means over a second are values half a second before
-WATER, BACK, SHEAR = (0.5 * 19.2, 140e6 + 3e6 * (19.2 - 0.45), 440e6 - 3e6 * (19.2 - 0.45))
+WATER, BACK, SHEAR = (0.5 * 19.1, 140e6 + 3e6 * (19.1 - 0.45), 440e6 - 3e6 * (19.1 - 0.45))
 DRY_BACK, DRY_SHEAR = 140e6 - 0.45e6, 440e6 + 0.9e6
 LOST = 9.5e9
 
@@ -196,7 +263,9 @@ KNOWN = {
     "dp_shear_dry_N_per_m": (DRY_SHEAR, "force"),
     "dp_shear_at_failure_N_per_m": (SHEAR, "force"),
     "dp_shear_final_N_per_m": (-20e6 - 1e6 * 9.05, "force"),
-    "triggering_s": (4.1, "time"),
+    "weakening_begins_s": (WEAKENS, "time"),
+    "triggering_s": (8.6, "time"),
+    "weakening_s": (4.1, "time"),
     "motion_s": (45.4, "time"),
     "front_travel_m": (1000.5, "length"),
     "centroid_travel_m": (250.0, "length"),
@@ -294,7 +363,9 @@ def test_a_run_that_waits_for_the_water_has_no_failure(tmp_path):
         "fb_force_dry_N_per_m",
         "dp_shear_dry_N_per_m",
         "front_travel_m",
+        "weakening_begins_s",
         "triggering_s",
+        "weakening_s",
         "motion_s",
         *NOT_AT_REST,
         "water_at_failure_over_passive",
@@ -315,7 +386,9 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
             "fb_force_at_failure_N_per_m",
             "dp_shear_dry_N_per_m",
             "dp_shear_at_failure_N_per_m",
+            "weakening_begins_s",
             "triggering_s",
+            "weakening_s",
             "motion_s",
             "bulking_factor",
             "water_at_failure_over_passive",

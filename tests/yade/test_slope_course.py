@@ -10,7 +10,7 @@ import yaml
 from slope_scenes import SHIPPED
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import course, experiment, packing, records, results, section, slope
+from yade.nonsmooth import characteristic_times, course, experiment, packing, records, section, slope
 from yade.nonsmooth.wall_forces import WallForces
 from yade.wrapper import WallForceEngine
 
@@ -61,7 +61,9 @@ def test_a_slope_that_fails_dry_is_no_failure_by_water(failed):
         "fb_force_at_failure_N_per_m",
         "dp_shear_dry_N_per_m",
         "dp_shear_at_failure_N_per_m",
+        "weakening_begins_s",
         "triggering_s",
+        "weakening_s",
         "motion_s",
         "bulking_factor",
     ):
@@ -101,11 +103,11 @@ def test_the_failure_is_found_also_where_it_comes_at_rest_or_late():
         "weakened_disks": np.where(t > 6, 10**6, 0),
         "stage": np.where(t < 7, 0, 2),
     }
-    times = results.characteristic_times(series, slope_of, {"t0": 7.0, "moving": 6.0, "failed_dry": 6.0})
+    times = characteristic_times.of_run(series, slope_of, {"t0": 7.0, "moving": 6.0, "failed_dry": 6.0})
     assert [times[name] for name in ("t0", "t1", "t2", "t3")] == [None] * 4
     assert times["t4"] == pytest.approx(10) and times["t5"] == pytest.approx(20 - 0.02 * 10, abs=0.11)
-    assert results.chosen_rows(series, {"failed_dry": 6.0}) is series
-    assert results.chosen_rows(series, {})["time_s"][0] == pytest.approx(7.0)
+    assert characteristic_times.chosen_rows(series, {"failed_dry": 6.0}) is series
+    assert characteristic_times.chosen_rows(series, {})["time_s"][0] == pytest.approx(7.0)
 
 
 class Stub:

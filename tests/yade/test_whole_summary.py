@@ -106,24 +106,29 @@ class Summary:
     def times_s(self):
         s = self.rows
         t, (a, b) = s["time_s"], self.section.wall("DP").vertices
-        t0 = self.state["t0"]
-        t2 = t[(s["weakened_disks"] >= 0.01 * math.dist(a, b) / math.sqrt(0.5 * 1.0)) & (t >= t0)][0]
+        t0, speed = self.state["t0"], s["speed_mean_m_per_s"]
+        self.weakens = t[(s["weakened_disks"] >= 0.01 * math.dist(a, b) / math.sqrt(0.5 * 1.0)) & (t >= t0)][0]
+        t2 = t[(speed >= 0.2 * math.sqrt(self.size())) & (t >= t0)][0]  # it does not stop again
         push = {now: self.at("fb_normal_N_per_m", now, 0.2) for now in t[(t > t0 + 0.2 - 1e-6) & (t < t2 + 1e-6)]}
         t1 = min(now for now, force in push.items() if force >= 0.98 * max(push.values()))
         t3 = min(
             now
-            for now in t[t >= t2]
+            for now in t[t >= max(t2, self.weakens)]
             if self.at("dp_shear_N_per_m", now, 0.2) <= 0.1 * self.at("dp_shear_N_per_m", t2, 0.2)
         )
-        fast = t[s["speed_mean_m_per_s"] >= 0.03 * s["speed_mean_m_per_s"].max()]
+        fast = t[speed >= 0.03 * speed[t >= t2].max()]
         return {
             "t0": t0,
             "t1": t1,
             "t2": t2,
             "t3": t3,
-            "t4": t[s["energy_kinetic_J"].argmax()],
+            "t4": t[np.where(t >= t2, s["energy_kinetic_J"], 0).argmax()],
             "t5": t[t > fast[-1]][0],
         }
+
+    def size(self):
+        """Of the layers beside the shipped section's."""
+        return math.sqrt(self.section.area / 78885.30336300003)
 
     def failed_dry_s(self):
         return None
@@ -154,8 +159,14 @@ class Summary:
             self.dp_shear_dry_N_per_m() - self.dp_shear_at_failure_N_per_m()
         )
 
+    def weakening_begins_s(self):
+        return self.weakens
+
     def triggering_s(self):
         return self.times["t3"] - self.times["t2"]
+
+    def weakening_s(self):
+        return self.times["t3"] - self.weakens
 
     def motion_s(self):
         return self.times["t5"] - self.times["t3"]
@@ -263,7 +274,11 @@ def test_every_key_of_the_summary_is_recomputed(whole):
 
 @pytest.mark.parametrize(
     "name",
-    [name for name in vars(Summary) if not name.startswith("_") and name not in ("at", "profile", "turned", "toe")],
+    [
+        name
+        for name in vars(Summary)
+        if not name.startswith("_") and name not in ("at", "profile", "turned", "toe", "size")
+    ],
 )
 def test_a_key_of_the_summary_is_what_the_records_say(whole, summary, name):
     expected = getattr(summary, name)()

@@ -1,4 +1,4 @@
-"""The slope experiment in both worlds: one course (:mod:`yade.nonsmooth.experiment`), one set of rules (:mod:`yade.nonsmooth.results`)."""
+"""The slope experiment in both worlds: one course (:mod:`yade.nonsmooth.experiment`), one set of rules (:mod:`yade.nonsmooth.characteristic_times`)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from .. import packing, records, results, scales, section
+from .. import characteristic_times, packing, records, scales, section
 from ..kept_runs import Progress
 from ..measure.surface import deposit_profile
 from .cases import Case, ComparisonError
@@ -119,11 +119,14 @@ def measure(case: Case, folder, found) -> Outcome:
         raise ComparisonError(
             f"{folder}: its result.json has no simulated_s; remove the folder and go on with --resume"
         )
-    series, second = results.chosen_rows(records.read_series(folder / "series.csv"), state), scales.of(s).mean_seconds
-    times = results.characteristic_times(series, s, state)
+    series, second = (
+        characteristic_times.chosen_rows(records.read_series(folder / "series.csv"), state),
+        scales.of(s).mean_seconds,
+    )
+    times = characteristic_times.of_run(series, s, state)
     t, last = series["time_s"], float(series["time_s"][-1])
     at = (
-        lambda name, when, span=second: None if when is None else results.mean_of(series, name, when, span)
+        lambda name, when, span=second: None if when is None else characteristic_times.mean_of(series, name, when, span)
     )  # noqa: E731
     begin, end = (
         records.read_snapshot(folder / name) if (folder / name).exists() else None for name in ("t0.npz", "end.npz")

@@ -20,6 +20,7 @@ QUANTITIES = (
     ("water_at_failure_m", "water at failure", "m", 1),
     ("fb_force_at_failure_N_per_m", "force on FB at failure", "MN/m", 1e-6),
     ("triggering_s", "triggering", "s", 1),
+    ("weakening_s", "weakening", "s", 1),
     ("motion_s", "motion", "s", 1),
     ("front_travel_m", "travel of the front", "m", 1),
     ("centroid_travel_m", "travel of the centroid", "m", 1),

@@ -103,6 +103,7 @@ KEEP = (
     "speed_mean_max_m_per_s",
     "motion_s",
     "triggering_s",
+    "weakening_s",
     "bulking_factor",
     "energy_error_rel",
     "energy_correction_rel",
@@ -122,7 +123,7 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving,
     """The shipped section with about so many disks, or with ``disks`` = 0 the small section of the tests, until its avalanche rests; ``slack``: errors of position
     that stay [ℓ], None: those that stay in slopes.
     """
-    from .. import experiment, records, results, section, slope_packing, tables
+    from .. import characteristic_times, experiment, records, results, section, slope_packing, tables
     from .. import slope as builder
 
     chosen = section.load("jiufengershan").with_disks(disks) if disks else section.load(str(SMALL))
@@ -151,7 +152,7 @@ def slope(folder, disks, seed, strength, time_step, tolerance, tolerance_moving,
     summary = results.summarise(folder, s, state)
     for part in ("snapshots", "checkpoint"):
         shutil.rmtree(folder / part, ignore_errors=True)
-    series = results.chosen_rows(records.read_series(folder / "series.csv"), state)
+    series = characteristic_times.chosen_rows(records.read_series(folder / "series.csv"), state)
     return {name: summary[name] for name in KEEP} | {
         "moving_s": None if run.state.moving is None else run.state.moving - run.state.t0,
         "water_hold_m": run.state.water_hold,

@@ -5,6 +5,7 @@ PY = "py/nonsmooth/"
 CAMPAIGN = PY + "campaign/"
 WALLS = "pkg/dem/WallForceEngine.cpp"
 COURSE, RESULTS, RECORDS, TABLES = (PY + name for name in ("experiment.py", "results.py", "records.py", "tables.py"))
+TIMES = PY + "characteristic_times.py"
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "worlds.py", "toe.py"))
 SECTION, READER, CHECKS, GEOMETRY = (PY + name for name in ("section.py", "section_reader.py", "section_checks.py", "geometry.py"))
 RULES = PY + "course.py"
@@ -82,11 +83,25 @@ MUTANTS = (
     mutant("results-bulking", RESULTS, "areas[1] / areas[0]", "areas[0] / areas[1]", "bulking is compaction", "plain:test_results.py::test_each_key_of_a_summary"),
     mutant("results-thickness", RESULTS, "thickness = float(np.nanmax(height))", "thickness = float(np.nanmean(height))", "the largest thickness is the mean one",
            "plain:test_results.py::test_each_key_of_a_summary"),
-    mutant("results-t2", RESULTS, "0.01 * length", "0.1 * length", "triggering begins with ten times as many weakened disks",
+    mutant("times-weakening", TIMES, "WEAKENED * length", "10 * WEAKENED * length", "weakening begins with ten times as many weakened disks",
+           "plain:test_results.py::test_weakening_begins_with_a_hundredth_of_the_disks_along_the_plane"),
+    mutant("times-t1", TIMES, """(series["time_s"] <= until + SAME) & ~np.isnan(push)""", "~np.isnan(push)", "the strength of the foot is the largest force of all",
            "plain:test_results.py::test_times_of_a_whole_run"),
-    mutant("results-t3", RESULTS, "<= 0.1 * before", "<= 0.9 * before", "the shear has fallen by a tenth and not to a tenth",
+    mutant("times-creep", TIMES, "scale.stopped_speed", "scale.moving_speed", "a slope without a backstop fails where it moves",
+           "plain:test_results.py::test_without_backstop_failure_is_where_it_begins_to_creep"),
+    mutant("times-borne", TIMES, " & (np.cumsum(force != 0) > 0)", "", "a backstop that bears nothing has a strength",
+           "plain:test_results.py::test_without_backstop_failure_is_where_it_begins_to_creep"),
+    mutant("times-t2", TIMES, 'times["t0"], times["t2"] = state["t0"], state["moving"]', 'times["t0"], times["t2"] = state["t0"], weakening_begins(series, section, state)',
+           "triggering begins where the slip surfaces weaken", "plain:test_results.py::test_t2_is_where_the_slope_begins_to_move_whether_it_weakens_or_not"),
+    mutant("times-t3", TIMES, "FALLEN * shear[triggered]", "0.9 * shear[triggered]", "the shear has fallen by a tenth and not to a tenth",
            "plain:test_results.py::test_times_of_a_whole_run"),
-    mutant("results-t5", RESULTS, "float(t[moving[-1] + 1])", "float(t[moving[0]])", "rest is where motion begins", "plain:test_results.py::test_times_of_a_whole_run"),
+    mutant("times-t3-weakening", TIMES, 'max(times["t2"], begins) - SAME', 'times["t2"] - SAME', "t3 does not wait for the weakening",
+           "plain:test_results.py::test_t3_is_a_tenth_of_the_mean_shear"),
+    mutant("times-t3-t2", TIMES, 'max(times["t2"], begins) - SAME', "begins - SAME", "t3 comes before t2",
+           "plain:test_results.py::test_a_slope_that_weakened_and_stopped_has_t3_after_t2"),
+    mutant("times-motion", TIMES, "_of_motion(series, section, triggered)", "_of_motion(series, section)", "the motion has what was before t2",
+           "plain:test_results.py::test_t4_and_t5_are_the_top_and_the_last_fall"),
+    mutant("times-t5", TIMES, "float(t[moving[-1] + 1])", "float(t[moving[0]])", "rest is where motion begins", "plain:test_results.py::test_times_of_a_whole_run"),
     mutant("results-triggering", RESULTS, '"triggering_s": _difference(times["t3"], times["t2"])', '"triggering_s": _difference(times["t3"], times["t1"])',
            "triggering counts from failure", "plain:test_results.py::test_each_key_of_a_summary"),
     mutant("results-rise-over-drop", RESULTS, "rise / drop if drop", "drop / rise if drop", "the ratio of the walls' forces is upside down",
@@ -95,7 +110,9 @@ MUTANTS = (
            "losses are those of the first row", "plain:test_results.py::test_each_key_of_a_summary"),
     mutant("results-dry-force", RESULTS, '"fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0)', '"fb_force_dry_N_per_m": at("fb_normal_N_per_m", t1)',
            "the force before the water is that at failure", "plain:test_results.py::test_each_key_of_a_summary"),
-    mutant("results-mean", RESULTS, "max(span, row) + 0.5 * row", "2 * max(span, row) + 0.5 * row", "means are over twice their span",
+    mutant("results-weakening", RESULTS, '"weakening_s": _difference(times["t3"], begins)', '"weakening_s": _difference(times["t3"], times["t2"])',
+           "weakening counts from t2", "plain:test_results.py::test_each_key_of_a_summary"),
+    mutant("times-mean", TIMES, "max(span, row) - 0.5 * row", "2 * max(span, row) - 0.5 * row", "means are over twice their span",
            "plain:test_results.py::test_a_mean_is_over_the_seconds_up_to_a_time"),
     # ---- records
     mutant("records-order", RECORDS, "step <= self.last_step:", "step < self.last_step:", "a step may be written twice",

@@ -1,0 +1,140 @@
+"""Characteristic times of a slope's run, from its series and its state. Needs no YADE.
+
+Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
+
+* t0: the water table begins to rise; a slope that failed before that, by its dry weight, has neither t0 nor t1 to t3;
+* t1, failure: the mean of N_FB, the normal force on the backstops, over one second first comes within 2 % of its largest value up to t2, the strength of the foot,
+  and stays about there (paragraph 116); where there is no backstop, the slope begins to creep: the mean speed comes to 0.02 m/s and is not below it again before t2;
+* t2, triggering: the slope begins to accelerate (paragraph 117): the mean speed comes to 0.2 m/s, and the slope does not come to rest again before it has got going;
+  this is ``moving`` of course.py. Friction and pore pressure are whole then, but for a slope that had slipped and stopped before;
+* t3: the mean of T_DP, the shear force on the slip surfaces, over one second has fallen by 90 % of its value at t2, and weakening has begun; none without weakening;
+* t4: the largest kinetic energy since t2;
+* t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum since t2 for good.
+
+Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces. A slope that failed dry has t4 and t5 of all of its rows.
+One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another (scales.py).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from . import records, scales
+
+__all__ = ["NAMES", "chosen_rows", "mean_of", "of_run", "weakening_begins"]
+
+NAMES = ("t0", "t1", "t2", "t3", "t4", "t5")
+#: Columns of the series that the times follow from.
+COLUMNS = (
+    "step",
+    "time_s",
+    "stage",
+    "fb_normal_N_per_m",
+    "dp_shear_N_per_m",
+    "weakened_disks",
+    "speed_mean_m_per_s",
+    "energy_kinetic_J",
+)
+LEVEL = 0.98  # of the strength of the foot
+WEAKENED = 0.01  # of the disks along the slip surfaces
+FALLEN = 0.1  # of the shear force that is left at t3
+SAME = 1e-9  # s, of one row's time
+
+
+def chosen_rows(series, state):
+    """The rows that a run is told by: those since it settled, but all of a slope that failed dry. ``state``: see :func:`of_run`."""
+    return series if state.get("failed_dry") is not None else records.since_settled(series)
+
+
+def mean_of(series, name, end, span):
+    """Mean of a column over the rows of the ``span`` seconds up to ``end`` [s], a row's time; 0: that row alone. NaN where there is none."""
+    t = series["time_s"]
+    chosen = (t > end - _reach(t, span)) & (t <= end + SAME)
+    return float(np.mean(series[name][chosen])) if chosen.any() else math.nan
+
+
+def _reach(t, span):
+    """How far back from a row's time [s] the rows of ``span`` seconds go."""
+    row = (t[-1] - t[0]) / max(1, len(t) - 1)  # each tells of so long before its time, which it meets to half a step
+    return max(span, row) - 0.5 * row + SAME
+
+
+def _means(series, name, span):
+    """:func:`mean_of` for each row, shape (rows,)."""
+    t = series["time_s"]
+    first, after = np.searchsorted(t, t - _reach(t, span), side="right"), np.arange(1, len(t) + 1)
+    sums = np.add.reduceat(np.append(series[name], 0.0), np.column_stack([first, after]).ravel())[::2]
+    return sums / (after - first)
+
+
+def of_run(series, section, state) -> dict[str, float | None]:
+    """t0 … t5 [s] of a run; None for those that did not come. ``series``: its :func:`chosen_rows`; ``state``: the fields of course.State as a mapping."""
+    return _of_run(series, section, state, scales.of(section))
+
+
+def _of_run(series, section, state, scale):
+    times = dict.fromkeys(NAMES)
+    if state.get("failed_dry") is not None:
+        return times | _of_motion(series, section)
+    times["t0"], times["t2"] = state["t0"], state["moving"]
+    if times["t0"] is None or times["t2"] is None:
+        return times | {"t2": None}
+    times["t1"] = _failure(series, scale, times["t0"], times["t2"])
+    begins, triggered = weakening_begins(series, section, state), _row(series, times["t2"])
+    if begins is not None:
+        shear = _means(series, "dp_shear_N_per_m", scale.mean_seconds)
+        late = series["time_s"] >= max(times["t2"], begins) - SAME
+        fallen = np.flatnonzero(late & (shear <= FALLEN * shear[triggered]))
+        times["t3"] = float(series["time_s"][fallen[0]]) if len(fallen) else None
+    return times | _of_motion(series, section, triggered)
+
+
+def weakening_begins(series, section, state) -> float | None:
+    """When the slip surfaces begin to weaken [s], see above; None where they do not, and for a slope that failed dry. Arguments as of :func:`of_run`."""
+    if state.get("failed_dry") is not None or state["t0"] is None:
+        return None
+    length = float(sum(np.hypot(*np.diff(points, axis=0).T).sum() for _, points in section.slip_surfaces))
+    enough = max(1.0, WEAKENED * length / math.sqrt(section.disks.mean_square))
+    late = np.flatnonzero((series["weakened_disks"] >= enough) & (series["time_s"] >= state["t0"]))
+    return float(series["time_s"][late[0]]) if len(late) else None
+
+
+def _row(series, time):
+    """Number of the last row up to a time [s]."""
+    return max(0, int(np.searchsorted(series["time_s"], time + SAME)) - 1)
+
+
+def _of_motion(series, section, first=0):
+    """t4 and t5 [s] of the rows from number ``first`` on."""
+    t, speed = series["time_s"][first:], series["speed_mean_m_per_s"][first:]
+    times = {"t4": float(t[np.argmax(series["energy_kinetic_J"][first:])])}
+    moving = np.flatnonzero(speed >= section.stages.end.rest_fraction * speed.max())
+    if len(moving) and moving[-1] + 1 < len(t):
+        times["t5"] = float(t[moving[-1] + 1])
+    return times
+
+
+def _failure(series, scale, t0, until):
+    """t1 [s] of a slope that begins to accelerate at ``until`` [s]."""
+    push = _pushes(series, scale, t0)
+    rows = np.flatnonzero((series["time_s"] <= until + SAME) & ~np.isnan(push))
+    if not len(rows):
+        return float(series["time_s"][_creeps(series, scale, t0, until)])
+    return float(series["time_s"][rows[np.argmax(push[rows] >= LEVEL * push[rows].max())]])
+
+
+def _pushes(series, scale, t0):
+    """Mean force on the backstops over the second before each row [N/m]; NaN where that is not all since t0, and where they have borne nothing yet."""
+    force = series["fb_normal_N_per_m"]
+    late = (series["time_s"] >= t0 + scale.mean_seconds - SAME) & (np.cumsum(force != 0) > 0)
+    return np.where(late, _means(series, "fb_normal_N_per_m", scale.mean_seconds), np.nan)
+
+
+def _creeps(series, scale, t0, until):
+    """Number of the row from which on the mean speed has not been below that of a slope that stands, up to a time [s]."""
+    last = _row(series, until)
+    slow = (series["time_s"] < t0 - SAME) | (series["speed_mean_m_per_s"] < scale.stopped_speed)
+    slow = np.flatnonzero(slow[: last + 1])
+    return min(int(slow[-1]) + 1, last) if len(slow) else 0
