@@ -10,6 +10,7 @@ import numpy as np
 
 from . import records, scales, toe
 from .characteristic_times import chosen_rows, mean_of, of_run, weakening_begins
+from .measure import force_stages
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import WriteError, remove_parts, whole, write_atomically
@@ -89,6 +90,16 @@ def _passive(section, packing_fraction, water, force):
         if force is not None and found.push_N_per_m
         else None,
     }
+
+
+def _force_stages(series, section, times, second, leans):
+    """The numbers of :mod:`.measure.force_stages`."""
+    frictions = {section.materials[surface.material].friction for surface in section.sliding}
+    friction = frictions.pop() if len(frictions) == 1 else None
+    found = force_stages.statements(
+        series, times, friction, lambda name, end: mean_of(series, name, end, second), backstop=leans
+    )
+    return {k: v if v is not None and math.isfinite(v) else None for k, v in found.items()}
 
 
 def _of_bed(section, start, end):
@@ -180,6 +191,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "failed_dry_s": failed_dry,
         "times_s": times,
         "water_at_failure_m": at("water_m", t1, 0.0),
+        "water_highest_m": float(np.max(series["water_m"])) if t0 is not None else None,
         "fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0),
         "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", t1),
         "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2 * second) if finished else None,
@@ -202,10 +214,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "energy_error_rel": float(np.max(error)) / turned if turned > 0 else 0.0,
     }
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
-    if leans and None not in (t0, t1):
-        rise = summary["fb_force_at_failure_N_per_m"] - summary["fb_force_dry_N_per_m"]
-        drop = summary["dp_shear_dry_N_per_m"] - summary["dp_shear_at_failure_N_per_m"]
-        summary["fb_rise_over_dp_drop"] = rise / drop if drop else None
+    summary["force_stages"] = _force_stages(series, section, times, second, leans)
     summary |= _of_bed(section, start, end)
     summary |= _passive(
         section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]

@@ -19,17 +19,18 @@ def line(*points):
 
 
 def series(**columns):
-    """A slope of friction 0.4 that does as the paper says, but for the toe that FB's friction holds down by a fifth of its push."""
+    """A slope of friction 0.4 that does as the paper says, but for the toe that FB's friction holds down, and for a push on FB a quarter too large."""
     water = line((10, 0), (30, 200), (34, 200), (40, 0))
     held = line((10, 0), (30, 20), (34, 20))
     normal = 1000 + held + line((40, 0), (80, -600))
     effective = normal - water
     shear = np.where(T <= 34, 0.4 * effective, np.where(T <= 80, 16.0 + 8.0 * np.sign(np.sin(40 * T)), -12.0))
     push = np.where(
-        T <= 30, 100 + 400.0 - shear, line((30, 172), (32, 182), (34, 176), (40, 190), (55, 400), (80, 200))
+        T <= 30, 100 + 1.25 * (400.0 - shear), line((30, 190), (32, 200), (34, 194), (40, 190), (55, 400), (80, 200))
     )
     made = {
         "dp_normal_total": normal, "dp_normal_effective": effective, "dp_water": water, "dp_shear": shear, "fb_normal": push, "fb_shear": 0.5 * held,
+        "fb_normal_peak": push * np.where((T >= 30) & (T <= 34), 1.03 + 0.04 * (np.abs(T - 32) < 0.05), 9.0),
     }  # fmt: skip
     speed = line((34, 0), (40, 8), (55, 30), (80, 0))
     return {f"{k}_N_per_m": v for k, v in made.items()} | {"time_s": T, "speed_mean_m_per_s": speed} | columns
@@ -48,12 +49,13 @@ def test_each_number_is_what_the_series_says():
         "normal_change_by_backstop": 0.5,  # as made up
         "shear_drop": (400 - 0.4 * 820) / (0.4 * 200),
         "shear_share": 1.0,
-        "backstop_rise": 1.0,
-        "backstop_span": 10 / 172,
+        "backstop_rise": 1.25,
+        "backstop_span": 10 / 190,
+        "backstop_swing": 0.07,
         "release_rise": 1020 / 820,
         "normal_fall": 420 / 1020,
         "shear_moving": pytest.approx(0.04, abs=2e-3),  # about 16 of 400, to the sines' odd count
-        "backstop_final": 200 / 172,
+        "backstop_final": 200 / 190,
         "shear_final": -0.03,
     }
     for name, value in expected.items():
@@ -82,13 +84,33 @@ def test_a_slip_surface_that_keeps_its_friction_or_water_that_stays_shows():
         (("t0",), ()),
         (("t1", "t2", "t3", "t4", "t5"), ()),
         (("t2", "t3"), force_stages.NAMES[:5]),
-        (("t3",), force_stages.NAMES[:6]),
-        (("t5",), force_stages.NAMES[:7]),
+        (("t3",), force_stages.NAMES[:7]),
+        (("t5",), force_stages.NAMES[:8]),
     ],
 )
 def test_what_the_run_has_not_reached_has_no_number(missing, left):
     found = told(times=TIMES | dict.fromkeys(missing))
     assert tuple(name for name, value in found.items() if value is not None) == left
+
+
+def test_a_slope_without_a_backstop_or_with_two_frictions_has_the_other_numbers():
+    whole, free, two = (
+        told(),
+        force_stages.statements(
+            series(), TIMES, 0.4, lambda name, end: float(np.interp(end, T, series()[name])), False
+        ),
+        told(friction=None),
+    )
+    without = {
+        "normal_change_by_backstop",
+        "backstop_rise",
+        "backstop_span",
+        "backstop_swing",
+        "backstop_momentum",
+        "backstop_final",
+    }
+    assert free == {name: None if name in without else value for name, value in whole.items()}
+    assert two == {name: None if name in {"shear_drop", "shear_share"} else value for name, value in whole.items()}
 
 
 def test_nothing_is_divided_by_nothing():

@@ -16,6 +16,7 @@ import synthetic_slope as synthetic  # noqa: E402
 records, results, toe, characteristic_times = (
     synthetic.load(name) for name in ("records", "results", "toe", "characteristic_times")
 )
+force_stages = synthetic.load("measure.force_stages")
 SHIPPED, STATE = known_slope.SHIPPED, known_slope.STATE
 SAME = 1e-9  # relative: rounding of sums over a thousand rows
 TIMES = {"t0": 10.0, "t1": 29.1, "t2": 30.5, "t3": 39.1, "t4": 55.0, "t5": 84.5}
@@ -257,6 +258,7 @@ KNOWN = {
     "failed_dry_s": (None, None),
     "times_s": (TIMES, "time"),
     "water_at_failure_m": (WATER, "length"),
+    "water_highest_m": (0.5 * 20.5, "length"),
     "fb_force_dry_N_per_m": (DRY_BACK, "force"),
     "fb_force_at_failure_N_per_m": (BACK, "force"),
     "fb_force_final_N_per_m": (90e6 + 2e6 * 0.95, "force"),  # 98.1 to 100 s
@@ -280,7 +282,18 @@ KNOWN = {
         0.01 * (LOST * 40 / 55 + 2e9 + 3e9) / LOST,
         None,
     ),  # at 70 s: losses, kinetic energy and |water|
-    "fb_rise_over_dp_drop": ((BACK - DRY_BACK) / (DRY_SHEAR - SHEAR), None),
+    "force_stages": (
+        dict.fromkeys(force_stages.NAMES)  # it has no forces normal to the plane
+        | {
+            "backstop_rise": (BACK - DRY_BACK) / (DRY_SHEAR - SHEAR),
+            "backstop_span": (199.7e6 - BACK) / BACK,  # up to 30.5 s
+            "backstop_swing": -1.0,  # nor peaks
+            "shear_moving": -20e6 / DRY_SHEAR,
+            "shear_final": (-20e6 - 1e6 * 9.55) / DRY_SHEAR,
+            "backstop_final": (90e6 + 2e6 * 0.45) / BACK,
+        },
+        None,
+    ),
     "water_passive_m": (PASSIVE.water_m, "length"),
     "water_at_failure_over_passive": (WATER / PASSIVE.water_m, None),
     "passive_resistance_dry_N_per_m": (PASSIVE.resistance_dry, "force"),
@@ -339,6 +352,7 @@ def test_a_run_that_goes_on_has_no_end(tmp_path):
         **NOT_AT_REST,
         times_s=TIMES | {"t5": None},
         motion_s=None,
+        force_stages=KNOWN["force_stages"][0] | dict.fromkeys(("shear_moving", "shear_final", "backstop_final")),
         steps=34999,
         simulated_s=65.0,
         iterations_mean=(525 * 10 + 125 * 30) / 650,
@@ -356,7 +370,7 @@ def test_a_run_that_goes_on_has_no_end(tmp_path):
 def test_a_run_that_waits_for_the_water_has_no_failure(tmp_path):
     known_slope.write(tmp_path, until(9.0), start=None, stop=None)
     found = summary_of(tmp_path, stage="dry", t0=None, moving=None, front0=None)
-    assert found["times_s"] == dict.fromkeys(TIMES) and "fb_rise_over_dp_drop" not in found
+    assert found["times_s"] == dict.fromkeys(TIMES) and found["force_stages"] == dict.fromkeys(force_stages.NAMES)
     for name in (
         "disks",
         "water_at_failure_m",
@@ -386,6 +400,7 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
             "fb_force_at_failure_N_per_m",
             "dp_shear_dry_N_per_m",
             "dp_shear_at_failure_N_per_m",
+            "water_highest_m",
             "weakening_begins_s",
             "triggering_s",
             "weakening_s",
@@ -400,8 +415,8 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
     )  # noqa: E731  the percentile of a thousand rows, between the 950 since it settled and the 50 before
     assert_known(
         summary_of(tmp_path, failed_dry=3.0),
-        without=["fb_rise_over_dp_drop"],
         **gone,
+        force_stages=dict.fromkeys(force_stages.NAMES),
         failed_dry_s=3.0,
         times_s=dict.fromkeys(("t0", "t1", "t2", "t3")) | {"t4": 0.1, "t5": 84.2},
         front_travel_m=1050.5,
@@ -432,7 +447,7 @@ def test_what_is_no_number_is_null(tmp_path):
     )
     assert (
         found["residual_p95_over_tolerance"] is None
-        and found["fb_rise_over_dp_drop"] is None
+        and found["force_stages"]["backstop_rise"] is None
         and found["residual_p95"] == near(KNOWN["residual_p95"][0])
     )
 

@@ -60,6 +60,7 @@ OTHERS = (
     "ways-to-solve",
     "sweeps-by-thickness",
     "collapse-of-rounded-places",
+    "paper",
 )
 
 

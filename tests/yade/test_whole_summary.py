@@ -154,10 +154,37 @@ class Summary:
     def dp_shear_final_N_per_m(self):
         return self.at("dp_shear_N_per_m", self.rows["time_s"][-1], 0.4)
 
-    def fb_rise_over_dp_drop(self):
-        return (self.fb_force_at_failure_N_per_m() - self.fb_force_dry_N_per_m()) / (
-            self.dp_shear_dry_N_per_m() - self.dp_shear_at_failure_N_per_m()
-        )
+    def water_highest_m(self):
+        return self.at("water_m", self.times["t2"], 0)
+
+    def force_stages(self):
+        """Of means over the 0.2 s up to t0 to t3, to t5 and to the end; friction of DP is 0.45."""
+        t = self.rows["time_s"]
+        t0, t1, t2, t3, _, t5 = self.times.values()
+        at = lambda name, when: self.at(f"{name}_N_per_m", when, 0.2)  # noqa: E731
+        part = lambda name, low, high: self.rows[f"{name}_N_per_m"][(t > low) & (t < high + 1e-6)]  # noqa: E731
+        rise = {
+            name: at(name, t1) - at(name, t0)
+            for name in ("dp_normal_total", "dp_shear", "dp_water", "fb_normal", "fb_shear")
+        }
+        push = [at("fb_normal", now) for now in t[(t > t1 - 1e-6) & (t < t2 + 1e-6)]]
+        speed = self.rows["speed_mean_m_per_s"][(t > t3 - 1e-6) & (t < t5 + 1e-6)]
+        momentum = part("dp_normal_total", t3 - 1e-6, t5) * speed
+        return {
+            "normal_change": rise["dp_normal_total"] / at("dp_normal_total", t0),
+            "normal_change_by_backstop": rise["fb_shear"] / rise["dp_normal_total"],
+            "shear_drop": rise["dp_shear"] / (-0.45 * rise["dp_water"]),
+            "shear_share": part("dp_shear", t0, t1).sum() / (0.45 * part("dp_normal_effective", t0, t1).sum()),
+            "backstop_rise": -rise["fb_normal"] / rise["dp_shear"],
+            "backstop_span": np.ptp(push) / push[0],
+            "backstop_swing": (part("fb_normal_peak", t1 - 1e-6, t2) / part("fb_normal", t1 - 1e-6, t2)).max() - 1,
+            "release_rise": at("dp_normal_effective", t3) / at("dp_normal_effective", t2),
+            "normal_fall": at("dp_normal_total", t5) / at("dp_normal_total", t3),
+            "backstop_momentum": np.corrcoef(part("fb_normal", t3 - 1e-6, t5), momentum)[0, 1],
+            "shear_moving": part("dp_shear", t3 - 1e-6, t5).mean() / at("dp_shear", t0),
+            "backstop_final": at("fb_normal", t[-1]) / at("fb_normal", t1),
+            "shear_final": at("dp_shear", t[-1]) / at("dp_shear", t0),
+        }
 
     def weakening_begins_s(self):
         return self.weakens

@@ -9,9 +9,10 @@ name                           number                                           
 ``normal_change``              N(t1) / N(t0) − 1                                              0 ([115], "constant")
 ``normal_change_by_backstop``  Δ of the shear force on the backstop / ΔN from t0 to t1        not named there
 ``shear_drop``                 −ΔT / (μ ΔU) from t0 to t1                                     1 (eq. 19)
-``shear_share``                mean of T / (μ N') from t0 to t1                               1 (eq. 20)
+``shear_share``                mean of T by μ times that of N', from t0 to t1                1 (eq. 20)
 ``backstop_rise``              ΔF / −ΔT from t0 to t1                                         1 (eq. 21)
 ``backstop_span``              (largest − least mean of F) / F(t1) from t1 to t2              0 ([116], "fairly constant")
+``backstop_swing``             largest F in a step by the mean of its row, less 1, t1 to t2   0 (the same)
 ``release_rise``               N'(t3) / N'(t2)                                                above 1 ([117])
 ``normal_fall``                N(t5) / N(t3)                                                  below 1 ([118], 1)
 ``backstop_momentum``          correlation of F with N v, v the mean speed, from t3 to t5     above 0 ([118], 2)
@@ -39,6 +40,7 @@ NAMES = (
     "shear_share",
     "backstop_rise",
     "backstop_span",
+    "backstop_swing",
     "release_rise",
     "normal_fall",
     "backstop_momentum",
@@ -48,11 +50,11 @@ NAMES = (
 )
 
 
-def statements(series, times, friction, mean) -> dict[str, float | None]:
-    """The numbers of :data:`NAMES`, None for what the run has not reached.
+def statements(series, times, friction, mean, backstop=True) -> dict[str, float | None]:
+    """The numbers of :data:`NAMES`, None for what the run has not reached or the slope has not.
 
-    ``series``: the rows of a run's series, name -> array; ``times``: t0 … t5 [s], None for those that did not come; ``friction``: μ of the slip surface before it weakens;
-    ``mean(name, end)``: mean of a column over the second up to a time [s].
+    ``series``: the rows of a run's series, name -> array; ``times``: t0 … t5 [s], None for those that did not come; ``friction``: μ of the slip surface before it weakens, None
+    where there are several; ``mean(name, end)``: mean of a column over the second up to a time [s]; ``backstop``: whether there is one.
     """
     found = dict.fromkeys(NAMES)
     t0, t1, t2, t3, _, t5 = (times[f"t{k}"] for k in range(6))
@@ -61,33 +63,34 @@ def statements(series, times, friction, mean) -> dict[str, float | None]:
     t = series["time_s"]
     at = lambda name, when: mean(f"{name}_N_per_m", when)  # noqa: E731
     change = lambda name: at(name, t1) - at(name, t0)  # noqa: E731
-    normal, shear, water, push = ("dp_normal_total", "dp_shear", "dp_water", "fb_normal")
-    effective = "dp_normal_effective"
-    rising = (t > t0) & (t <= t1)
-    found |= {
-        "normal_change": change(normal) / at(normal, t0),
-        "normal_change_by_backstop": _ratio(change("fb_shear"), change(normal)),
-        "shear_drop": _ratio(-change(shear), friction * change(water)),
-        "shear_share": float(
-            np.mean(series[f"{shear}_N_per_m"][rising] / (friction * series[f"{effective}_N_per_m"][rising]))
-        ),
-        "backstop_rise": _ratio(change(push), -change(shear)),
-    }
-    if t2 is not None and (level := t[(t >= t1) & (t <= t2)]).size:
-        means = [at(push, when) for when in level]
-        found["backstop_span"] = (max(means) - min(means)) / at(push, t1)
+    normal, effective, shear, push = "dp_normal_total", "dp_normal_effective", "dp_shear", "fb_normal"
+    found["normal_change"] = _ratio(change(normal), at(normal, t0))
+    if friction:
+        rising = (t > t0) & (t <= t1)
+        found["shear_drop"] = _ratio(-change(shear), friction * change("dp_water"))
+        found["shear_share"] = _ratio(
+            float(np.mean(series[f"{shear}_N_per_m"][rising])),
+            friction * float(np.mean(series[f"{effective}_N_per_m"][rising])),
+        )
+    if backstop:
+        found["normal_change_by_backstop"] = _ratio(change("fb_shear"), change(normal))
+        found["backstop_rise"] = _ratio(change(push), -change(shear))
+        if t2 is not None and (level := (t >= t1) & (t <= t2)).any():
+            means = [at(push, when) for when in t[level]]
+            found["backstop_span"] = _ratio(max(means) - min(means), at(push, t1))
+            force, peak = series[f"{push}_N_per_m"][level], series[f"{push}_peak_N_per_m"][level]
+            found["backstop_swing"] = float(np.max(peak / force)) - 1 if force.all() else None
     if None not in (t2, t3):
-        found["release_rise"] = at(effective, t3) / at(effective, t2)
+        found["release_rise"] = _ratio(at(effective, t3), at(effective, t2))
     if None not in (t3, t5):
         moving = (t >= t3) & (t <= t5)
-        force, speed = series[f"{push}_N_per_m"][moving], series["speed_mean_m_per_s"][moving]
-        found |= {
-            "normal_fall": at(normal, t5) / at(normal, t3),
-            "backstop_momentum": _correlation(force, series[f"{normal}_N_per_m"][moving] * speed),
-            "shear_moving": float(np.mean(series[f"{shear}_N_per_m"][moving])) / at(shear, t0),
-            "backstop_final": at(push, t[-1]) / at(push, t1),
-            "shear_final": at(shear, t[-1]) / at(shear, t0),
-        }
+        found["normal_fall"] = _ratio(at(normal, t5), at(normal, t3))
+        found["shear_moving"] = _ratio(float(np.mean(series[f"{shear}_N_per_m"][moving])), at(shear, t0))
+        found["shear_final"] = _ratio(at(shear, t[-1]), at(shear, t0))
+        if backstop:
+            momentum = series[f"{normal}_N_per_m"][moving] * series["speed_mean_m_per_s"][moving]
+            found["backstop_momentum"] = _correlation(series[f"{push}_N_per_m"][moving], momentum)
+            found["backstop_final"] = _ratio(at(push, t[-1]), at(push, t1))
     return found
 
 

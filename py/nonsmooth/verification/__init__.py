@@ -37,6 +37,7 @@ MODULES = (
     "convergence",
     "collapse",
     "avalanche",
+    "paper",
 )
 
 

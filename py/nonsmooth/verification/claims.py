@@ -53,12 +53,14 @@ def at_least(what, measured, limit, **more) -> Claim:
 
 @dataclass
 class Outcome:
-    """What a check found. ``plots``: (matplotlib Figure or path of a PNG in the bench's folder, caption); ``tables``: (caption, heads, rows of text); ``remarks``: sentences."""
+    """What a check found. ``plots``: (matplotlib Figure or path of a PNG in the bench's folder, caption); ``tables``: (caption, heads, rows of text); ``remarks``: sentences;
+    ``numbers``: what documentation shows besides, plain data by name."""
 
     claims: list[Claim] = field(default_factory=list)
     plots: list = field(default_factory=list)
     tables: list = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    numbers: dict = field(default_factory=dict)
 
     @property
     def passed(self) -> bool:

@@ -28,6 +28,7 @@ class Result:
     tables: list
     remarks: list[str]
     wall_s: float
+    numbers: dict
     error: str = ""  # why it did not finish
 
     @property
@@ -78,7 +79,9 @@ def _run(check, bench):
             path = bench.folder / f"plot-{number}.png"
             figure.savefig(path, dpi=130, bbox_inches="tight")
         plots.append((str(path.relative_to(bench.folder.parent.parent)), caption))
-    return Result(check, outcome.claims, plots, outcome.tables, outcome.remarks, time.monotonic() - began, error)
+    return Result(
+        check, outcome.claims, plots, outcome.tables, outcome.remarks, time.monotonic() - began, outcome.numbers, error
+    )
 
 
 def _clear_scene():
@@ -99,6 +102,7 @@ def _write(result, folder, quick):
         "plots": result.plots,
         "tables": result.tables,
         "remarks": result.remarks,
+        "numbers": result.numbers,
     }
     write_atomically(folder / "result.json", json.dumps(plain, indent=1).encode())
 
@@ -126,7 +130,13 @@ def _read(check, folder, quick):
             missing = {"measured": math.nan, "low": -math.inf, "high": math.inf}
             claims.append(Claim(**{k: missing[k] if v is None and k in missing else v for k, v in fields.items()}))
         return Result(
-            check, claims, [tuple(p) for p in plain["plots"]], plain["tables"], plain["remarks"], plain["wall_s"]
+            check,
+            claims,
+            [tuple(p) for p in plain["plots"]],
+            plain["tables"],
+            plain["remarks"],
+            plain["wall_s"],
+            plain["numbers"],
         )
     except (OSError, ValueError, KeyError, TypeError):
         return None

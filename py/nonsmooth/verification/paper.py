@@ -1,0 +1,181 @@
+"""The statements of the paper's section 6, on slopes of its section: what forces on walls do from stage to stage of the avalanche."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from .. import figures, records, results, scales, section
+from ..characteristic_times import chosen_rows
+from ..measure.ground import ground_of
+from ..measure.weakening import weakened_share
+from ..statistics import Estimate
+from . import Outcome, between, check
+from .cases import folder_of, run_cases
+
+SUBJECT = "The paper's section 6"
+DISKS, SEEDS = 3000, (1, 2, 3, 4, 5)
+QUICK_DISKS, QUICK_SEEDS = 1500, (1, 2)
+CREATION_DISTANCE = 0.025  # ℓ
+
+
+@dataclasses.dataclass(frozen=True)
+class Statement:
+    """A number of :mod:`..measure.force_stages`: in words, what the paper says of it, the least and the largest mean over seeds, and why these."""
+
+    what: str
+    paper: str
+    low: float
+    high: float
+    why: str
+
+
+STATEMENTS = {
+    "normal_change": Statement(
+        "change of the total normal force on DP until failure, of itself", "constant [115]", -0.02, 0.02,
+        "friction along FB holds the toe down by a few per cent of the force on FB, which is a seventh of that on DP",
+    ),
+    "shear_share": Statement(
+        "shear force on DP by its friction times the effective normal force, until failure", "1, eq. (20)", 0.93, 1.0,
+        "Coulomb's limit cannot be passed; short of it are places where the packing came to rest on DP without sliding",
+    ),
+    "shear_drop": Statement(
+        "fall of the shear force on DP by its friction times the water's force, until failure", "1, eq. (19)", 0.3, 1.1,
+        "1 where DP is at its limit from the beginning on; a few per cent short of it are as much as the water lets go in metres, and only reach it as it rises",
+    ),
+    "backstop_rise": Statement(
+        "rise of the force on FB by the fall of the shear force on DP, until failure", "1, eq. (21)", 0.8, 1.2,
+        "a balance of forces, but for what the toe rests on SS with, and for means over a second of forces that change",
+    ),
+    "backstop_span": Statement(
+        "span of the force on FB from failure to the acceleration, of itself", "fairly constant [116]", 0.0, 0.05,
+        "t1 is where it comes within 2 %; after that it may rise by these and fall by little",
+    ),
+    "backstop_swing": Statement(
+        "largest force on FB in a step over the mean of its row, in the same time", "fairly constant [116]", 0.0, 0.1,
+        "single bonds break; with a correction that left velocities behind steps swung by a quarter",
+    ),
+    "release_rise": Statement(
+        "rise of the effective normal force on DP at the release: after over before", "above 1 [117]", 1.05, 1.4,
+        "the water bears a fifth of the weight before; some of the mass has left DP after",
+    ),
+    "normal_fall": Statement(
+        "normal force on DP at rest over that when the motion begins", "below 1 [118]", 0.3, 0.9, "a third of the mass leaves DP at least, and a third stays",
+    ),
+    "backstop_momentum": Statement(
+        "correlation of the force on FB with the momentum of what lies on DP, in motion", "above 0 [118]", 0.1, 0.95, "collisions make the force swing about its mean",
+    ),
+    "shear_moving": Statement(
+        "mean shear force on DP in motion, of the dry one", "small, above 0 [118]", 0.0, 0.1, "only what is not weakened near the foot bears shear",
+    ),
+    "backstop_final": Statement(
+        "force on FB at rest over that at failure", "above 1 [119]", 1.05, 4.0, "friction on DP is gone, and the deposit leans on FB",
+    ),
+    "shear_final": Statement(
+        "shear force on DP at rest, of the dry one", "small, below 0 [119]", -0.1, 0.05, "only the foot has friction left; its sense depends on how the mass came to rest",
+    ),
+}  # fmt: skip
+
+
+def slope(disks, seed):
+    """The shipped section with about so many disks, pressed, loaded and bonded then: so made, a slope of few disks does as one of many does (paper, 3.2.2)."""
+    shipped = section.load("jiufengershan").with_disks(disks)
+    materials = {
+        name: dataclasses.replace(m, bond_creation_distance=CREATION_DISTANCE) for name, m in shipped.materials.items()
+    }
+    stages = dataclasses.replace(shipped.stages, settle=dataclasses.replace(shipped.stages.settle, bond="after"))
+    return dataclasses.replace(shipped, seed=seed, materials=materials, stages=stages, pressed=True)
+
+
+def avalanche(folder, disks, seed):
+    """Runs a :func:`slope` in the (empty) scene until it rests; returns its summary, and as ``wedge_m`` how far up from the foot the end of DP is not weakened [m]."""
+    from .. import experiment, slope_packing
+    from .. import slope as builder
+
+    chosen = slope(disks, seed)
+    run = experiment.Experiment(builder.build(chosen, slope_packing.of(chosen)), folder)
+    run.run()
+    summary = run.summarise(threads=1)
+    return summary | {"wedge_m": wedge(chosen, records.read_snapshot(folder / results.END))}
+
+
+def wedge(chosen, end):
+    """Length [m] of the lowest part of the slip surface on which fewer than half of the disks are weakened."""
+    ground = ground_of(chosen)
+    (column, wall), *_ = ground.weakening.items()
+    edges, share = weakened_share(end, wall.vertices, column, ground.side)
+    whole = 0
+    while whole < len(share) and not share[::-1][whole] >= 0.5:  # NaN where no disk is
+        whole += 1
+    return float(edges[-1] - edges[-1 - whole])
+
+
+@check("What forces on the walls do until, in and after the avalanche", subject=SUBJECT, seconds=300, quick=60)
+def paper(bench):
+    """Slopes of the paper's section with 3,000 disks, five packings: pressed without friction until they carry, loaded, and bonded then.
+
+    Until failure the slope stands, and forces along DP are in balance. It is steeper than its friction angle, so its friction is fully used: T_DP = μ N'_DP (eq. 20). Water takes
+    N'_DP, and T_DP falls by μ U_DP (eq. 19), which FB takes over (eq. 21). At t1 the foot bears no more, N'_FB stays level until the slope accelerates at t2 [116]. The shear force
+    drops as slip passes D_c, water is released and N'_DP rises [117]; in motion N_DP falls as the mass leaves DP, N'_FB goes with the momentum, T_DP is small [118]. At rest N'_FB is
+    higher than at failure, T_DP small and of the other sense, for the lowest part of DP is below the slip surface and keeps its friction [119].
+
+    Each of these is one number of a run (yade.nonsmooth.measure.force_stages), and means over packings are claimed. In a quick run there are two packings of 1,500 disks.
+    """
+    disks, seeds = (QUICK_DISKS, QUICK_SEEDS) if bench.quick else (DISKS, SEEDS)
+    cases = [dict(disks=disks, seed=seed) for seed in seeds]
+    found = run_cases(bench, avalanche, cases)
+    values = {name: [run["force_stages"][name] for run in found] for name in STATEMENTS}
+    claims, rows = [], []
+    for name, said in STATEMENTS.items():
+        # what a run did not come to is no number, and no claim of it holds
+        known = [float("nan") if v is None else v for v in values[name]]
+        claims.append(
+            between(said.what, Estimate.of(known).mean, said.low, said.high, against="the paper", why=said.why)
+        )
+        rows.append([said.what, said.paper, *_shown(known)])
+    more = {
+        "water at failure, t1 [m]": ("22.5 [115]", [f["water_at_failure_m"] for f in found]),
+        "largest height of the table [m]": ("22.5 [115]", [f["water_highest_m"] for f in found]),
+        "from the acceleration to the fall of the shear force, t2 to t3 [s]": ("about 5 [117]", [f["triggering_s"] for f in found]),
+        "of these from the first weakening on [s]": ("not named", [f["weakening_s"] for f in found]),
+        "motion, t3 to t5 [s]": ("about 35 [118]", [f["motion_s"] for f in found]),
+        "lowest part of DP that is not weakened at the end [m]": ("lowermost portion [119]", [f["wedge_m"] for f in found]),
+    }  # fmt: skip
+    rows += [[what, said, *_shown([float("nan") if v is None else v for v in of])] for what, (said, of) in more.items()]
+    numbers = {name: _estimate(of) for name, of in values.items()} | {
+        name: _estimate([f[name] for f in found])
+        for name in ("water_at_failure_m", "water_highest_m", "triggering_s", "weakening_s", "motion_s", "wedge_m")
+    }
+    first = folder_of(bench, avalanche, cases[0])
+    chosen = slope(disks, seeds[0])
+    series = chosen_rows(records.read_series(first / "series.csv"), {"failed_dry": found[0]["failed_dry_s"]})
+    figures.forces_against_time(
+        series, found[0]["times_s"], bench.folder / "forces.png", window=scales.of(chosen).mean_seconds, walls=chosen
+    )
+    return Outcome(
+        claims,
+        plots=[
+            (bench.folder / "forces.png", f"Forces on the walls against time, seed {seeds[0]} (the paper's Figure 12).")
+        ],
+        tables=[
+            (
+                f"Section 6, {len(seeds)} slopes of about {found[0]['disks']:,} disks",
+                ("", "the paper", "ours, mean", "95 % interval", "each"),
+                rows,
+            )
+        ],
+        numbers=numbers,
+    )
+
+
+def _shown(values):
+    """Mean, half width of its 95 % interval and single values, as text."""
+    mean = Estimate.of(values)
+    return [f"{mean.mean:.3g}", f"± {mean.half_width:.2g}", ", ".join(f"{v:.3g}" for v in values)]
+
+
+def _estimate(values):
+    """The same as plain data; None where a value is missing."""
+    if None in values:
+        return {"mean": None, "half_width": None, "values": values}
+    mean = Estimate.of(values)
+    return {"mean": mean.mean, "half_width": mean.half_width, "values": list(map(float, values))}
