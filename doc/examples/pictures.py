@@ -1,12 +1,13 @@
-"""The end of each lesson, hard and soft, and of the README's script, as PNGs in a folder.
+"""Pictures of the documentation that take seconds, as PNGs in a folder: the law drawn, the end of each lesson, hard and soft, and of the README's script.
 
-  scripts/yade-nonsmooth doc/examples/pictures.py FOLDER [LESSON …]
+  scripts/yade-nonsmooth doc/examples/pictures.py FOLDER [law] [LESSON …]
 """
 import argparse
+import dataclasses
 import os
 import sys
 
-from yade.nonsmooth import figures
+from yade.nonsmooth import figures, section
 from yade.nonsmooth.figures import style
 
 _ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(sys.argv[0]))))
@@ -20,20 +21,32 @@ def _end_of(script):
         exec(compile(text.read(), script, "exec"), globals())
 
 
+def _the_law(folder):
+    """Of the paper's slope; its two half-axes, which are equal, are drawn as different ones."""
+    slope = section.load("jiufengershan")
+    rock = slope.materials["rock"]
+    figures.contact_law(rock, 2.0, f"{folder}/contact_law.png")
+    figures.bond_zone(dataclasses.replace(rock, bond_ellipse=(0.02, 0.03)), path=f"{folder}/bond_zone.png")
+    figures.water_forces(slope.water.dip, 2.0, rock.density, slope.water.unit_weight, slope.gravity, f"{folder}/water_forces.png")
+
+
 _parser = argparse.ArgumentParser(description=__doc__)
 _parser.add_argument("folder")
-_parser.add_argument("lessons", nargs="*", metavar="LESSON")
+_parser.add_argument("pictures", nargs="*", metavar="LESSON")
 _parser.add_argument("--threads", help="read by the launcher")
 _given = _parser.parse_args()
-for _lesson in _given.lessons or ("beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "wedge"):
-    _flat = _lesson in ("beam", "column")  # one above the other; others beside each other
+for _name in _given.pictures or ("law", "beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "wedge"):
+    if _name == "law":
+        _the_law(_given.folder)
+        continue
+    _flat = _name in ("beam", "column")  # one above the other; others beside each other
     _figure = style.figure(9.0, 4.6) if _flat else style.figure(11.0, 5.5)
     for _k, (_world, _title) in enumerate(_WORLDS):
-        _end_of(f"{_ROOT}/scripts/examples/{_world}_{_lesson}.py")
+        _end_of(f"{_ROOT}/scripts/examples/{_world}_{_name}.py")
         _axes = _figure.add_axes([0.01, 0.5 * (1 - _k), 0.98, 0.43] if _flat else [0.01 + 0.5 * _k, 0.0, 0.48, 0.93])
         figures.draw(O, ax=_axes)
         _axes.set_title(_title, fontsize=13, fontweight="bold")
-    style.save(_figure, f"{_given.folder}/lesson_{_lesson}.png", dpi=110)
-if not _given.lessons:
+    style.save(_figure, f"{_given.folder}/lesson_{_name}.png", dpi=110)
+if not _given.pictures:
     _end_of(f"{_ROOT}/doc/examples/falling_block.py")
     figures.draw(O, f"{_given.folder}/falling_block.png")

@@ -7,6 +7,7 @@ that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data that lack som
 """
 
 from .forces import force_chains, forces_against_time
+from .law import bond_zone, contact_law, water_forces
 from .profiles import deposit, snapshots
 from .numerics import energy, solver
 from .runouts import runouts
@@ -23,4 +24,7 @@ __all__ = [
     "runouts",
     "solver",
     "weakening",
+    "contact_law",
+    "bond_zone",
+    "water_forces",
 ]

@@ -8,6 +8,7 @@ PARAVIEW = "py/nonsmooth/paraview.py"
 GROUND, FRONTS, SURFACE, WEAKENING = ("py/nonsmooth/measure/" + name for name in ("ground.py", "fronts.py", "surface.py", "weakening.py"))
 
 SCENE = FIGURES + "scene.py"
+LAW = FIGURES + "law.py"
 
 MUTANTS = (
     mutant("scene-sign", SCENE, "for sign, colour in ((1, COMPRESSION), (-1, TENSION)):", "for sign, colour in ((-1, COMPRESSION), (1, TENSION)):", "tension is drawn as compression",
@@ -15,6 +16,20 @@ MUTANTS = (
     mutant("scene-bonds", SCENE, "held = (scene.cj >= 0) & scene.bonded", "held = scene.cj >= 0", "all contacts are drawn as bonds", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-turn", "py/nonsmooth/scene_arrays.py", "turn[1, k] * c[k] for k", "turn[k, 1] * c[k] for k", "walls are turned the other way", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-fixed", SCENE, "colours[scene.fixed] = to_rgba(FIXED)", "pass", "disks that are held look like others", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
+    mutant("law-graph", LAW, "threshold = slope * (adhesion + normal) / factor", "threshold = slope * normal / factor", "shear and torque are drawn without cohesion",
+           "plain:test_figures_law.py::test_shear_and_torque_are_against_their_velocities"),
+    mutant("law-sense", LAW, "[threshold, threshold, -threshold, -threshold]", "[-threshold, -threshold, threshold, threshold]", "friction is drawn along the motion",
+           "plain:test_figures_law.py::test_shear_and_torque_are_against_their_velocities"),
+    mutant("law-vertex", LAW, "apex, end = -adhesion / across", "apex, end = adhesion / across", "the cone begins at a pressure",
+           "plain:test_figures_law.py::test_cones_have_their_vertex_at_f_a_and_rise_as_the_friction"),
+    mutant("law-ellipse", LAW, "Ellipse(centre, *(2 * zone)", "Ellipse(centre, *zone", "the bond's zone is drawn with its half-axes as axes",
+           "plain:test_figures_law.py::test_the_zone_has_the_materials_half_axes_around_the_place_of_p_j"),
+    mutant("law-centre", LAW, "centre = (0.5 + gap, 0.0)", "centre = (0.5, 0.0)", "the bond's zone is drawn around the other point",
+           "plain:test_figures_law.py::test_the_zone_has_the_materials_half_axes_around_the_place_of_p_j"),
+    mutant("law-water", LAW, '"F_p": buoyancy + seepage', '"F_p": buoyancy - seepage', "the water's force leans up the slope",
+           "plain:test_figures_law.py::test_buoyancy_and_seepage_make_a_force_normal_to_the_slope"),
+    mutant("law-mirror", LAW, "return np.array([side * math.cos(beta), -math.sin(beta)])", "return np.array([math.cos(beta), -math.sin(beta)])", "the seepage on a slope to the left goes uphill",
+           "plain:test_figures_law.py::test_a_slope_to_the_left_is_the_mirrored_one"),
     mutant("ground-foot", GROUND, "np.argmax(self.side * points[:, 0])", "np.argmin(self.side * points[:, 0])", "the foot is the crown",
            "plain:test_figures.py::test_walls_in_all_their_forms"),
     mutant("ground-plane", GROUND, "water.point[1] - (x - water.point[0])", "water.point[1] + (x - water.point[0])", "a dipping table rises downslope",
