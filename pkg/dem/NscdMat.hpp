@@ -29,7 +29,7 @@ not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that 
 		((Real,bondCreationDistance,0.02,,"Bonds are made where the gap is below this distance Δ [ℓ] (Figure 2a), see :yref:`ContactDynamicsEngine.bond`."))
 		((Real,restitution,0,,"Newton's coefficient of restitution e [-], between 0 and 1; the larger of the two bodies' holds."))
 		((int,layer,0,,"Bonds and residual tensile strength exist only between bodies of the same layer; in a layer with a negative number no bonds are made. See bondsToAll for walls."))
-		((bool,bondsToAll,false,,"Make bonds with bodies of any layer (for walls, section 5.1)."))
+		((bool,bondsToAll,false,,"Make bonds with bodies of any layer: for walls, two of which have a tensile strength in Table 1. Section 2.2.2 tells of bonds between grains alone."))
 		((vector<int>,interfaceLayers,,,"Layers against which bodies of this material have a law of their own: an interface. It is enough that one of two materials says so."))
 		((vector<shared_ptr<Material>>,interfaceLaws,,,"For each of :yref:`interfaceLayers<NscdMat.interfaceLayers>` the NscdMat whose values rule such contacts alone; they are bonded if it has :yref:`bondsToAll<NscdMat.bondsToAll>`. A :yref:`SlipWeakeningMat` weakens with the slip of bodies along the interface."))
 		((bool,wall,false,,"This material's strengths alone rule a contact with it (section 3.3); otherwise the weaker of the two values holds."))

@@ -388,6 +388,14 @@ def test_what_the_report_says_of_bonds_and_losses(experiment, source):
     assert len(told) == 2 and told[0].startswith("Lost with friction") and "bonds" in told[0]
 
 
+def test_the_report_says_which_strength_is_not_the_same():
+    """σ_res, which no soft model has and which is therefore not among what one model lacks beside another."""
+    chosen = SimpleNamespace(ensemble=[(SimpleNamespace(disks=300), soft_case())])
+    told = dict(seeds=[1, 2], stiffnesses_Pa=[1e9], bonds="ductile bonds", model="cohesion_moment", model_lacks=[])
+    lead = course._lead(chosen, slopes, told | dict(runs_wall_s=1.0, wall_s=1.0, threads=1))
+    assert "300 disks, seeds 1, 2" in lead[0] and "but for the residual tensile strength σ_res" in lead[0]
+
+
 def test_columns_have_no_bonds_to_lose():
     assert losses.of_case(collapses.COLUMN, soft_case()) == ("no bonds between disks in either world", [])
     assert losses.of_case(collapses.PILE, soft_case("friction")) == ("no bonds between disks in either world", [])

@@ -55,7 +55,7 @@ def write(out, told):
         "mean overlap",
         "largest overlap",
         "over hard",
-        "touching contacts",
+        "contacts that touch or carry force",
         "mean speed",
     )
     section = report.Section(

@@ -144,8 +144,8 @@ def _lead(chosen, experiment, told):
         f"{soft.damping:g}" if constant else f"{soft.damping:g} at rest, {soft.damping_moving:g} while the mass moves"
     )
     return [
-        f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and parameters with Contact "
-        f"Dynamics (“hard”) and with YADE's "
+        f"{experiment.TITLE}, {hard.disks} disks, seeds {', '.join(map(str, told['seeds']))}: the same packings and, but for the residual tensile strength σ_res, "
+        f"which soft contacts do not have, the same parameters with Contact Dynamics (“hard”) and with YADE's "
         f"{soft.model} (“soft”). Soft contacts: Young's modulus {', '.join(f'{e:g}' for e in told['stiffnesses_Pa'])} Pa, {soft.stiffness:g} Pa "
         f"where seeds are compared; "
         f"{told['bonds']}; time step {soft.step:g} of the stability limit; non-viscous damping {rest}.",

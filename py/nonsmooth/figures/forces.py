@@ -89,8 +89,8 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     """The slope and the normal forces in its foot (the paper's Figure 8).
 
     ``snapshot``: a :class:`~nonsmooth.records.Snapshot` with contacts. ``walls``: see :mod:`nonsmooth.figures`.
-    Above the whole slope by layers; below two windows at the foot (or at the lowest disk, where none is near it), with bars between the centres of touching disks,
-    as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
+    Above the whole slope by layers; below two windows at the foot (or at the lowest disk, where none is near it), with bars between the centres of disks that
+    are in contact or bonded over a gap, as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
     a hairline outline so that small ones can be seen.
     """
     ground = ground_of(walls)
@@ -171,7 +171,7 @@ def force_chains(snapshot, walls, path=None, pdf=False):
             _force_scale(ax, reference, width, ground.side)
     fig.legend(
         handles=[Patch(color=COMPRESSION, label="compression"), Patch(color=TENSION, label="tension")]
-        + [Line2D([], [], ls="", label="bars join the centres of touching disks; width is proportional to the normal force")],
+        + [Line2D([], [], ls="", label="bars: contacts and bonds, from centre to centre; width is proportional to the normal force")],
         loc="lower center", ncol=3, bbox_to_anchor=(0.5, -0.006), handlelength=1.4, columnspacing=1.5,
     )  # fmt: skip
     return style.save(fig, path, pdf)
