@@ -1,4 +1,4 @@
-"""Figures of biaxial tests, to be put beside the paper's Figures 9 to 11."""
+"""Figures of biaxial tests: what the paper's Figures 9 to 11 show."""
 
 import math
 

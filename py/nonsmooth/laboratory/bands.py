@@ -18,8 +18,9 @@ ANGLES = np.radians(np.arange(35, 81, 1.0))  # of a band to the horizontal; the 
 
 @dataclass(frozen=True)
 class Band:
-    """``angle_deg`` to the horizontal (negative: rising to the left); ``offset`` [m] from the sample's centre along the normal; ``width`` [d];
-    ``rotation`` [rad]: mean in its core; ``contrast``: that over the mean of the rest."""
+    """``angle_deg`` to the horizontal (negative: rising to the left); ``offset`` [m] from the sample's centre along the normal; ``width`` [d],
+    with d the root of the mean square of the diameters; ``rotation`` [rad]: mean in its core; ``contrast``: that over the mean of the rest.
+    """
 
     angle_deg: float
     offset: float

@@ -1,7 +1,7 @@
 """What a biaxial test depends on besides the material: size of the sample, size of the disks, rate of loading and time step.
 
-The strength is the apparent angle of friction, sin φ = (σ₁ − σ₃)/(σ₁ + σ₃), of the peak and of the plateau under one pressure. Homothetic samples of one
-material must agree (Taboada and Estrada 2009, section 3.2.2); the rate and the step must not matter.
+The strength is the apparent angle of friction, sin φ = (σ₁ − σ₃)/(σ₁ + σ₃), of the peak and of the plateau under one pressure. Of homothetic samples of one
+material Taboada and Estrada (2009, section 3.2.2) expect similar results; what the rate and the step change is numerics.
 """
 
 from __future__ import annotations

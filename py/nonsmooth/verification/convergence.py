@@ -384,7 +384,7 @@ def _strength_claims(name, sweep, precision):
 
 
 def _half_speed(cases, found):
-    """Table of the strengths at half the platen's speed, which must not matter."""
+    """Table of the strengths at half the platen's speed, which tells how much of a difference is the rate's."""
     rows = []
     for name, kind in KINDS.items():
         at = {
