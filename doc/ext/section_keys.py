@@ -38,9 +38,11 @@ def meaning(schema, root):
 
 
 def rows(schema, root, prefix=""):
-    """(key, kind, needed, meaning) of every key below an object, depth first."""
+    """(key, kind, needed, meaning) of every key below an object but the deprecated ones, depth first."""
     found = []
     for name, below in schema.get("properties", {}).items():
+        if below.get("deprecated"):
+            continue
         path = f"{prefix}{name}"
         needed = "yes" if name in schema.get("required", ()) else ""
         found.append((f"``{path}``", kind(below), needed, meaning(below, root)))

@@ -45,12 +45,14 @@ def plugin_classes():
 
 
 def attributes(cls):
-    """(name, text, type, flags) of a class's own attributes, in the order of the source."""
+    """(name, text, type, flags) of a class's own attributes, in the order of the source, without deprecated ones."""
     found = []
     for name, value in cls.__dict__.items():
         if not isinstance(value, property) or name.startswith("_"):
             continue
         text = inspect.cleandoc(value.__doc__ or "")
+        if text.startswith("|ydeprecated|"):
+            continue
         marks = dict(_MARK.findall(text))
         kind = marks.get("yattrtype", "")
         shared = re.fullmatch(r"shared_ptr<(\w+)>", kind)

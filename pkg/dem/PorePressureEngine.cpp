@@ -9,6 +9,7 @@
 namespace yade {
 
 YADE_PLUGIN((PorePressureEngine));
+CREATE_LOGGER(PorePressureEngine);
 
 Real PorePressureEngine::heightAt(Real time) const
 {
@@ -33,19 +34,34 @@ boost::python::object PorePressureEngine::bodyTable() const
 	return nscd::asBytes(rows);
 }
 
+void PorePressureEngine::setGradient(const Vector3r& perVolume)
+{
+	LOG_WARN(
+	        "PorePressureEngine.gradient is an old name, and a force per volume: set pressureGradient=("
+	        << 0 - perVolume[0] << ", " << 0 - perVolume[1] << ", " << 0 - perVolume[2]
+	        << ") instead, which is the gradient itself and has the other sign.");
+	pressureGradient = Vector3r::Zero() - perVolume;
+}
+
+void PorePressureEngine::pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named)
+{
+	if (named.has_key("gradient")) setGradient(boost::python::extract<Vector3r>(named.attr("pop")("gradient")));
+}
+
 void PorePressureEngine::action()
 {
-	const Vector3r gravity  = nscd::gravityOf(*scene);
-	const Vector3r normal   = planeNormal.normalized();
-	const Real     cosDip   = gravity.norm() > 0 ? -gravity.normalized().dot(normal) : 1;
-	const Vector3r down     = gravity - gravity.dot(normal) * normal;
-	const Vector3r downhill = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized())
-	                                                              : Vector3r(Vector3r::Zero());
-	const Vector3r slope    = gradient != Vector3r::Zero() ? gradient : Vector3r(unitWeight * cosDip * normal);
-	height                  = heightAt(scene->time);
-	wetCount                = 0;
-	releasedCount           = 0;
-	totalForce              = Vector3r::Zero();
+	const Vector3r gravity   = nscd::gravityOf(*scene);
+	const Vector3r normal    = planeNormal.normalized();
+	const Real     cosDip    = gravity.norm() > 0 ? -gravity.normalized().dot(normal) : 1;
+	const Vector3r down      = gravity - gravity.dot(normal) * normal;
+	const Vector3r downhill  = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized())
+	                                                               : Vector3r(Vector3r::Zero());
+	const Vector3r perVolume = pressureGradient != Vector3r::Zero() ? minusPressureGradient()
+	                                                                : Vector3r(unitWeight * cosDip * normal);
+	height                   = heightAt(scene->time);
+	wetCount                 = 0;
+	releasedCount            = 0;
+	totalForce               = Vector3r::Zero();
 
 	nscd::Turn   turn(*this, nscd::threadsOf(*this));
 	const auto&  bodies = turn.resident().bodies;
@@ -64,7 +80,7 @@ void PorePressureEngine::action()
 		if (!moved[id] && (place - reference[id]).dot(downhill) > releaseDistance) moved[id] = 1;
 		releasedCount += isReleased(id);
 		if (moved[id] || height <= 0 || (place - planePoint).dot(normal) >= height) continue;
-		const Vector3r force = slope * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
+		const Vector3r force = perVolume * (volumeFactor * Mathr::PI * b.radius * b.radius * thickness);
 		scene->forces.addForce(id, force);
 		wet[id] = everWet[id] = 1;
 		++wetCount;

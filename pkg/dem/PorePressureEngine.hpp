@@ -1,7 +1,8 @@
 // Pore pressure as a body force under a water table parallel to a plane.
 //
-// Taboada and Estrada (2009), section 3.4 and eqs (7), (18):  F_p = ∇p V on every disk whose centre is below the table, with
-// ∇p = γ_w cos β normal to the plane and pointing away from it, β the plane's dip, V = π r² per metre of thickness.
+// Taboada and Estrada (2009), section 3.4 and eqs (7), (18):  F_p = -∇p V on every disk whose centre is below the table, V = π r² per
+// metre of thickness. Water that flows along a plane of dip β has -∇p = γ_w cos β along its normal: buoyancy γ_w V upwards and seepage
+// γ_w V sin β down the plane (Figure 4). The paper writes F_p = ∇p V, with ∇p for the size of the fall of pressure.
 // Section 5.4: the force ends for good once a disk has moved downslope by more than D_c. Released are those disks that it acted on before, as the paper's criterion
 // is for particles below the water table; a disk that moves so far while it is dry stays dry, wherever the table rises to.
 // Deviation: none by default. V is the disk's own volume (its sum is the packing fraction times γ_w h cos β per unit length);
@@ -15,6 +16,7 @@ namespace yade {
 class PorePressureEngine : public GlobalEngine {
 public:
 	void action() override;
+	void pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named) override;
 	Real heightAt(Real time) const;
 	void forgetReleases()
 	{
@@ -29,7 +31,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PorePressureEngine,GlobalEngine,
 R"""(Pore water as a volume force on the spheres below a water table that stays parallel to a plane (Taboada and Estrada 2009, section 3.4,
-eqs 7 and 18): :math:`F_p=\gamma_w\cos\beta\,V` along the plane's normal, with :math:`V=\pi r^2` per metre of thickness. Water no longer acts
+eqs 7 and 18): :math:`F_p=-\nabla p\,V`, with :math:`V=\pi r^2` per metre of thickness. Of water that flows along the plane it is :math:`\gamma_w\cos\beta\,V` along
+the plane's normal, the sum of buoyancy :math:`\gamma_w V` upwards and seepage :math:`\gamma_w V\sin\beta` down the plane. Water no longer acts
 on a body that has moved downslope further than :yref:`releaseDistance<PorePressureEngine.releaseDistance>` since the engine first ran: one that was wet is released for good
 (section 5.4), one that was dry stays dry.
 Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)""",
@@ -38,7 +41,7 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		((Vector3r,planeNormal,Vector3r(0,1,0),,"Normal of the plane, pointing up into the slope."))
 		((vector<Real>,times,,,"Times [s] of the table of water heights, rising; between them the height is linear, outside them constant."))
 		((vector<Real>,heights,,,"Heights [m] of the water table above the plane at these times; none: dry."))
-		((Vector3r,gradient,Vector3r::Zero(),,"Pressure gradient [N/m³] to use as it is; zero: γ_w cos β along planeNormal (eq. 18)."))
+		((Vector3r,pressureGradient,Vector3r::Zero(),,"Gradient ∇p of the pore pressure [N/m³], which grows downwards; the force is −∇p V. Zero: that of water which flows along the plane, −γ_w cos β along planeNormal (eq. 18)."))
 		((Real,releaseDistance,5,,"Distance D_c [m] downslope after which water no longer acts on a body; infinite: it always does."))
 		((Real,volumeFactor,1,,"Volume on which the pressure gradient acts, in units of the body's own."))
 		((Real,thickness,1,,"Thickness [m] of the two-dimensional model."))
@@ -58,9 +61,16 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		.def("wasWet",&PorePressureEngine::wasWet,(boost::python::arg("id")),"Has water acted on this body since :yref:`forgetReleases<PorePressureEngine.forgetReleases>`?")
 		.def("isReleased",&PorePressureEngine::isReleased,(boost::python::arg("id")),"Was this body wet, and has it been released for good?")
 		.def("bodyTable",&PorePressureEngine::bodyTable,"Three bytes a body, by id: isWet, isReleased, wasWet; see nonsmooth.tables.water.")
+		.add_property("gradient",&PorePressureEngine::minusPressureGradient,&PorePressureEngine::setGradient,"|ydeprecated| −∇p [N/m³], the force per volume: the old name of :yref:`pressureGradient<PorePressureEngine.pressureGradient>`, which has the other sign.")
 		.def("forgetReleases",&PorePressureEngine::forgetReleases,"Count ways downslope anew from the present positions, and forget who was wet.")
 	);
 	// clang-format on
+	DECLARE_LOGGER;
+
+private:
+	// `0 -` leaves no negative zeros
+	Vector3r minusPressureGradient() const { return Vector3r::Zero() - pressureGradient; }
+	void     setGradient(const Vector3r& perVolume);
 };
 REGISTER_SERIALIZABLE(PorePressureEngine);
 

@@ -1,13 +1,15 @@
-"""How a command ends: its status, and one line on a line of its own for what a user can mend and for Ctrl-C."""
+"""How a command ends, and how it warns: its status, and one line on a line of its own for what a user can mend and for Ctrl-C."""
 
 from __future__ import annotations
 
 import contextlib
 import errno
+import functools
 import signal
 import sys
+import warnings
 
-from .errors import UserError
+from .errors import OldNameWarning, UserError
 from .interrupts import Interrupted
 
 __all__ = ["closing", "run"]
@@ -18,12 +20,15 @@ INTERRUPTED = 130  # as a shell counts a process that Ctrl-C has ended
 
 
 def run(main, kept="nothing is kept: run it again"):
-    """Calls ``main()``. Ends the process with status 1 after a UserError or a file that cannot be written, and with 130 after Ctrl-C, one line on stderr each.
+    """Calls ``main()``. Ends the process with status 1 after a UserError or a file that cannot be written, and with 130 after Ctrl-C, one line on stderr each;
+    an OldNameWarning is one line too.
 
     ``kept``: what that line says where what was interrupted did not say it itself.
     """
     try:
-        main()
+        with warnings.catch_warnings():
+            warnings.showwarning = functools.partial(_warn, warnings.showwarning)
+            main()
     except UserError as error:
         _end(1, f"error: {error}")
     except OSError as error:
@@ -35,6 +40,13 @@ def run(main, kept="nothing is kept: run it again"):
         )
     except KeyboardInterrupt as stop:
         _end(INTERRUPTED, f"stopped: {str(stop) if isinstance(stop, Interrupted) else kept}")
+
+
+def _warn(usual, message, category, *where, **more):
+    if issubclass(category, OldNameWarning):
+        print(f"warning: {message}", file=sys.stderr, flush=True)
+    else:
+        usual(message, category, *where, **more)
 
 
 def _end(status, line):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from types import MappingProxyType
 
 from . import geometry, roles, section_checks, section_defaults
@@ -29,6 +28,7 @@ __all__ = ["build", "material_from"]
 def build(document, source: str) -> Section:
     """Section from a document that meets the schema; the checks that a schema cannot make."""
     section_checks.check_extent(document)
+    _take_old_names(document)
     raw = document.data = section_defaults.filled(document.data)
     walls = section_checks.walls(document)
     size = raw["disks"]
@@ -77,6 +77,26 @@ def build(document, source: str) -> Section:
     if "count" in size:
         section = section.with_disks(size["count"])
     return section
+
+
+def _take_old_names(document) -> None:
+    """Reads `water.gradient`, a force per volume where `pressure_gradient` is the gradient itself, with a warning that says what to write."""
+    water = document.data.get("water", {})
+    if "gradient" not in water:
+        return
+    if "pressure_gradient" in water:
+        document.refuse(
+            ("water", "gradient"), "is the old name of pressure_gradient, which is given too", "leave `gradient` out"
+        )
+    old = water.pop("gradient")
+    new = "parallel_seepage" if old == "buoyant" else [0.0 - float(g) for g in old]
+    document.warn(
+        ("water", "gradient"),
+        "is the old name of pressure_gradient"
+        + ("" if old == "buoyant" else ", for the force per volume, which is −∇p"),
+        f"write `pressure_gradient: {new}`",
+    )
+    water["pressure_gradient"] = new
 
 
 def _own(raw, disks: Disks) -> Disks | None:
@@ -137,10 +157,15 @@ def _water(raw: dict, section: Section, document) -> Water:
         point, dip = min(wall.vertices, key=lambda p: p[1]), roles.dip_of(dx, dy)
     else:
         point, dip = tuple(map(float, plane["point"])), float(plane["dip"])
-    gradient = raw["gradient"]
-    if gradient == "buoyant":  # eq. 18
-        b = math.radians(dip)
-        gradient = tuple(float(raw["unit_weight"] * math.cos(b) * n) for n in (math.sin(b), math.cos(b)))
+    gradient = raw["pressure_gradient"]
+    if not isinstance(gradient, str):
+        gradient = tuple(map(float, gradient))
+        if gradient == (0.0, 0.0):
+            document.refuse(
+                ("water", "pressure_gradient"),
+                "is zero, so that water bears nothing",
+                "leave the key `water` out for a dry slope",
+            )
     table = raw["table"]
     points = points_of(table.get("points", [[0.0, 0.0]]))
     for i, (before, after) in enumerate(zip(points, points[1:]), 1):
@@ -154,7 +179,7 @@ def _water(raw: dict, section: Section, document) -> Water:
         float(raw["unit_weight"]),
         point,
         dip,
-        tuple(map(float, gradient)),
+        gradient,
         raw["volume"],
         points,
         float(table.get("rate", 0.0)),

@@ -75,7 +75,11 @@ def plain(section) -> dict:
         data["water"] = {
             "unit_weight": water.unit_weight,
             "plane": water.wall or {"point": list(map(float, water.point)), "dip": float(water.dip)},
-            "gradient": [float(g) for g in water.gradient],
+            "pressure_gradient": (
+                water.pressure_gradient
+                if isinstance(water.pressure_gradient, str)
+                else [float(g) for g in water.pressure_gradient]
+            ),
             "volume": water.volume,
             "table": table,
             "release_distance": water.release_distance,

@@ -47,7 +47,7 @@ def filled(data: dict) -> dict:
     if "water" in data:
         made["water"] = {
             "unit_weight": WATER_DENSITY * gravity,
-            "gradient": "buoyant",
+            "pressure_gradient": "parallel_seepage",
             "volume": "disk",
             "release_distance": 5.0 * length,
             **data["water"],

@@ -171,16 +171,16 @@ class Disks:
 class Water:
     """Water table above a plane (paper, sections 3.4, 5.4).
 
-    `point` (x, y) [m] on the plane; `dip` β [degrees], positive down to the right; `gradient`
-    (x, y) [N/m³], force per volume on a wet disk; `volume` "disk" or "bulk"; `table`: points
-    (t, h) [s, m]; `rate` [m/s], the rise after the last point; `release_distance` [m];
-    `wall`: name of the wall the plane was given by, or None.
+    `point` (x, y) [m] on the plane; `dip` β [degrees], positive down to the right;
+    `pressure_gradient`: "parallel_seepage", "hydrostatic", or ∇p (x, y) [N/m³]; a wet disk bears
+    −∇p V; `volume` V "disk" or "bulk"; `table`: points (t, h) [s, m]; `rate` [m/s], the rise after
+    the last point; `release_distance` [m]; `wall`: name of the wall the plane was given by, or None.
     """
 
     unit_weight: float
     point: tuple[float, float]
     dip: float
-    gradient: tuple[float, float]
+    pressure_gradient: str | tuple[float, float]
     volume: str
     table: tuple[tuple[float, float], ...]
     rate: float
@@ -191,6 +191,21 @@ class Water:
     def normal(self) -> tuple[float, float]:
         """Unit vector normal to the plane, upwards."""
         return normal_of(self.dip)
+
+    @property
+    def pressure_gradient_xy(self) -> tuple[float, float]:
+        """∇p (x, y) [N/m³] itself.
+
+        Parallel seepage: the force −∇p is γ_w cos β along the normal (eq. 18), which is the sum of buoyancy, γ_w up, and seepage, γ_w sin β
+        down the plane. Hydrostatic: buoyancy alone.
+        """
+        if self.pressure_gradient == "hydrostatic":
+            return 0.0, -self.unit_weight
+        if self.pressure_gradient == "parallel_seepage":
+            cos_dip = math.cos(math.radians(self.dip))
+            # 0 - x, not -x: no negative zeros
+            return tuple(0.0 - self.unit_weight * cos_dip * n for n in self.normal)
+        return self.pressure_gradient
 
     def height(self, t):
         """Height [m] of the table above the plane at the time t [s] (scalar or array) since t0."""

@@ -9,6 +9,7 @@ import difflib
 import math
 import re
 import unicodedata
+import warnings
 from functools import cache
 from itertools import islice
 from pathlib import Path
@@ -17,7 +18,7 @@ from typing import NoReturn
 import jsonschema
 import yaml
 
-from .errors import UserError
+from .errors import OldNameWarning, UserError
 
 __all__ = ["Document", "SectionError", "read", "take", "values"]
 
@@ -117,9 +118,16 @@ class Document:
 
     def refuse(self, keys, what: str, remedy: str) -> NoReturn:
         """Raise SectionError about the key path `keys`."""
+        raise SectionError(self._said(keys, what, remedy))
+
+    def warn(self, keys, what: str, remedy: str) -> None:
+        """Warn of the key path `keys`, an old name that is still read: an OldNameWarning."""
+        warnings.warn(self._said(keys, what, remedy), OldNameWarning, stacklevel=2)
+
+    def _said(self, keys, what, remedy) -> str:
         where = f"{self.named(keys)}: " if keys else ""
         line = f"line {self.line(keys)}: " if self._root is not None else ""
-        raise SectionError(_line(f"{self.path}: {line}{where}{what}; {remedy}"))
+        return _line(f"{self.path}: {line}{where}{what}; {remedy}")
 
 
 def _line(text: str) -> str:
@@ -261,7 +269,7 @@ def _explain(error) -> tuple[tuple, str, str]:
     keys, value, schema = tuple(error.absolute_path), error.instance, error.schema
     needed = f"needed: {schema['description']}" if "description" in schema else "correct it"
     if error.validator == "additionalProperties":
-        known = list(schema["properties"])
+        known = [name for name, below in schema["properties"].items() if not below.get("deprecated")]
         key = next(k for k in value if k not in known)
         near = difflib.get_close_matches(key, known, 1)
         hint = f"did you mean {near[0]!r}? Known here" if near else "known here"

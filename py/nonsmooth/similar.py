@@ -24,8 +24,10 @@ def mirrored(section: Section) -> Section:
     layers = tuple(dataclasses.replace(layer, vertices=flipped(layer.vertices)) for layer in section.layers)
     water = section.water
     if water is not None:
-        (x, y), (gx, gy) = water.point, water.gradient
-        water = dataclasses.replace(water, point=(0.0 - x, y), dip=0.0 - water.dip, gradient=(0.0 - gx, gy))
+        (x, y), slope = water.point, water.pressure_gradient
+        if not isinstance(slope, str):
+            slope = (0.0 - slope[0], slope[1])
+        water = dataclasses.replace(water, point=(0.0 - x, y), dip=0.0 - water.dip, pressure_gradient=slope)
     like = section.like and (mirrored(section.like[0]), section.like[1])
     return dataclasses.replace(section, walls=walls, layers=layers, water=water, like=like)
 

@@ -1,10 +1,11 @@
 """Water table at which the toe of a slab reaches its passive strength, from a measured envelope of the rock. Needs no YADE.
 
 A slab of bulk weight γ, thickness H at its toe, dips by β on a plane with friction μ and is held by a backstop perpendicular to the plane. Per metre of
-thickness, with W the weight of all layers, h the height of the water table over the plane and U(h) what the water lifts (Taboada and Estrada 2009,
-eqs 7 and 18: γ_w cos β on the volume of every disk below the table, along the normal):
+thickness, with W the weight of all layers, h the height of the water table over the plane, U(h) what the water lifts along the normal and S(h) what it pushes
+down the plane, both by −∇p on the volume of every disk below the table (Taboada and Estrada 2009, eq. 7; where it flows along the plane they are γ_w cos β and
+nothing, eq. 18):
 
-    push        P(h) = W sin β − μ (W cos β − U(h))                     the plane at its limit (paper, eq. 20),
+    push        P(h) = W sin β + S(h) − μ (W cos β − U(h))              the plane at its limit (paper, eq. 20),
     resistance  R(h) = ∫₀ᴴ [ K_p σ'(z, h) + 2 c √K_p ] dz ,  K_p = tan²(45° + φ/2)     Rankine's passive state along the slab,
     σ'(z, h) = γ cos β z − w max(0, z − H + h)                            effective normal stress at the depth z, w the lift per volume of bulk.
 
@@ -56,13 +57,14 @@ def passive(section, cohesion, friction_deg, packing_fraction):
     end = x1 - SLICE * (x1 - x0) if water.dip >= 0 else x0
     thickness = slab.intersection(box(end, -1e9, end + SLICE * (x1 - x0), 1e9)).bounds[3]
     bulk = rock.density * packing_fraction * section.gravity
-    lift = water.unit_weight * math.cos(beta) * (packing_fraction if water.volume == "disk" else 1.0)
+    share = packing_fraction if water.volume == "disk" else 1.0
+    lift, along = (share * part for part in _parts(water))
     weight = bulk * section.area
     k = math.tan(math.pi / 4 + math.radians(friction_deg) / 2) ** 2
 
     def push(h):
         wet = slab.intersection(box(x0, -1e9, x1, h)).area
-        return weight * math.sin(beta) - plane.friction * (weight * math.cos(beta) - lift * wet)
+        return weight * math.sin(beta) + along * wet - plane.friction * (weight * math.cos(beta) - lift * wet)
 
     def resistance(h):
         return (
@@ -73,3 +75,13 @@ def passive(section, cohesion, friction_deg, packing_fraction):
     miss = lambda h: push(h) - resistance(h)  # noqa: E731
     height = brentq(miss, 0.0, thickness) if miss(0.0) < 0 < miss(thickness) else None
     return Toe(height, thickness, push(0.0), resistance(0.0), None if height is None else push(height))
+
+
+def _parts(water):
+    """−∇p [N/m³] along the plane's normal and down the plane."""
+    beta = math.radians(water.dip)
+    if water.pressure_gradient == "parallel_seepage":
+        return water.unit_weight * math.cos(beta), 0.0  # without what rounding leaves
+    x, y = water.pressure_gradient_xy
+    down = -x * math.cos(beta) + y * math.sin(beta)
+    return -x * math.sin(beta) - y * math.cos(beta), down if water.dip >= 0 else -down

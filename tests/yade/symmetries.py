@@ -190,8 +190,8 @@ def _engines(world, frame):
             "planePoint": (*frame.place(w.pop("planePoint", (0, 0))), 0),
             "planeNormal": (*frame.out(w.pop("planeNormal", (0, 1)), "none"), 0),
         }
-        if "gradient" in w:
-            plane["gradient"] = (*frame.out(w.pop("gradient"), "weight"), 0)
+        if "pressureGradient" in w:
+            plane["pressureGradient"] = (*frame.out(w.pop("pressureGradient"), "weight"), 0)
         before = [PorePressureEngine(**frame.scaled(w, WATER), **plane)]
     options = {"verlet": 0.1, "correctionSpeed": 1.0, **world.options}
     begin(

@@ -392,6 +392,18 @@ def test_an_error_of_ours_keeps_its_traceback():
         commands.run(lambda: 1 / 0)
 
 
+def test_an_old_name_is_told_in_one_line(in_process, tmp_path):
+    def change(data):
+        del data["water"]["pressure_gradient"]
+        data["water"]["gradient"] = "buoyant"
+
+    old = slope_scenes.write_changed(tmp_path, change)
+    done = in_process("sweep.py", "--section", old, "--over", "seed=1,2", "--plan", "--out", tmp_path / "out")
+    assert done.status == 0 and re.fullmatch(
+        rf"warning: {old}: line \d+: water\.gradient: .*; write `pressure_gradient: parallel_seepage`\n", done.err
+    )
+
+
 @pytest.mark.parametrize("leave", [True, False])
 def test_a_message_begins_a_line_after_a_bar(capfd, leave):
     import sys

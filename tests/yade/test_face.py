@@ -54,11 +54,11 @@ def test_what_is_left_out_is_the_papers_in_proportion():
         made.stages == SHIPPED.stages and made.numerics == SHIPPED.numerics and (made.gravity, made.seed) == (9.81, 1)
     )
     assert made.water == dataclasses.replace(
-        SHIPPED.water, unit_weight=made.water.unit_weight, gradient=made.water.gradient
+        SHIPPED.water, unit_weight=made.water.unit_weight
     ) and made.water.unit_weight == pytest.approx(9810)
-    assert made.water.gradient == pytest.approx(SHIPPED.water.gradient) and made.disks == dataclasses.replace(
-        SHIPPED.disks, packing_fraction=0.84
-    )
+    assert made.water.pressure_gradient_xy == pytest.approx(
+        SHIPPED.water.pressure_gradient_xy
+    ) and made.disks == dataclasses.replace(SHIPPED.disks, packing_fraction=0.84)
     # a quarter of the size: times and speeds go as its root
     quarter = similar.scaled(SHIPPED, 0.25)
     small = {k: v for k, v in data_of(quarter, "gravity", "seed", "stages", "numerics").items()}

@@ -64,15 +64,45 @@ def test_a_gradient_acts_as_it_is_on_the_bodies_of_a_mask(mask, wet):
     for k, group in zip(ids, groups):
         O.bodies[k].mask = group
     high = O.bodies.append(scene.disk((-3, 60), 0.5, stuff))
-    begin(before=[water(gradient=gradient, mask=mask, volumeFactor=factor, thickness=thickness)])
+    begin(before=[water(pressureGradient=gradient, mask=mask, volumeFactor=factor, thickness=thickness)])
     run(1)
     w, total = O.engines[3], Vector3(0, 0, 0)
     for k, r, in_it in zip(ids, radii, wet):
-        s, force = O.bodies[k].state, in_it * gradient * math.pi * r**2 * thickness * factor  # ∇p V
+        s, force = O.bodies[k].state, -in_it * gradient * math.pi * r**2 * thickness * factor  # −∇p V
         total += force
         assert (s.vel - O.dt * (force / s.mass + Vector3(0, -G, 0))).norm() < 1e-13 and w.isWet(k) == bool(in_it)
     assert (w.totalForce - total).norm() < 1e-12 * gradient.norm() and w.wetCount == sum(wet)
     assert not w.isWet(high) and O.bodies[high].state.vel[0] == 0  # above the table
+
+
+def force_of(**more):
+    """Force on a disk by the water, its components' bits and all; and the engine."""
+    O.reset()
+    disks_above_plane([5], **more)
+    run(1)
+    return [c.hex() for c in O.engines[3].totalForce], O.engines[3]
+
+
+def test_the_gradient_of_flow_along_the_plane_is_that_which_is_taken_without_one():
+    own, _ = force_of()
+    given, _ = force_of(pressureGradient=-(WATER * math.cos(DIP)) * NORMAL.normalized())
+    assert [float.fromhex(c) for c in given] == pytest.approx([float.fromhex(c) for c in own], rel=1e-14)
+    # still water lifts by the displaced weight, straight up
+    still, _ = force_of(pressureGradient=(0, -WATER, 0))
+    assert still == [c.hex() for c in (0.0, WATER * (math.pi * 0.5 * 0.5), 0.0)]
+
+
+def test_the_old_name_is_the_force_per_volume_and_warns(capfd):
+    new, w = force_of(pressureGradient=(-4000, 1500, 0))
+    assert "old name" not in capfd.readouterr().err
+    old, w = force_of(gradient=(4000, -1500, 0))
+    said = capfd.readouterr().err
+    assert old == new and "old name" in said and "pressureGradient=(-4000, 1500, 0)" in said
+    assert [c.hex() for c in w.pressureGradient] == [c.hex() for c in (-4000.0, 1500.0, 0.0)]
+    w.gradient = (0, 7, 0)
+    assert "pressureGradient=(0, -7, 0)" in capfd.readouterr().err
+    assert tuple(w.pressureGradient) == (0, -7, 0) and tuple(w.gradient) == (0, 7, 0)
+    assert "gradient" not in w.dict()  # nor is it saved
 
 
 def test_a_disk_that_may_not_move_at_all_stays_dry_and_one_that_may_turn_does_not():

@@ -136,16 +136,21 @@ def test_a_mirrored_section_is_checked_like_any_other(tmp_path):
     read = written(tmp_path, flip)
     assert (read.walls, read.layers) == (similar.mirrored(JIUFENGERSHAN).walls, similar.mirrored(JIUFENGERSHAN).layers)
     there = similar.mirrored(JIUFENGERSHAN).water
-    assert (there.point, there.dip, there.gradient, there.wall) == (
+    assert (there.point, there.dip, there.pressure_gradient, there.wall) == (
         read.water.point,
         read.water.dip,
-        read.water.gradient,
+        read.water.pressure_gradient,
         "DP",
     )
     assert (read.water.point, read.water.dip, read.side) == ((0.0, 0.0), -JIUFENGERSHAN.water.dip, -1.0)
-    assert read.water.gradient == pytest.approx(
-        (-JIUFENGERSHAN.water.gradient[0], JIUFENGERSHAN.water.gradient[1]), rel=1e-15
+    # to the last bit, as a vector too
+    x, y = JIUFENGERSHAN.water.pressure_gradient_xy
+    assert read.water.pressure_gradient_xy == (-x, y)
+    vector = dataclasses.replace(
+        JIUFENGERSHAN, water=dataclasses.replace(JIUFENGERSHAN.water, pressure_gradient=(3.0, -5.0))
     )
+    assert similar.mirrored(vector).water.pressure_gradient == (-3.0, -5.0)
+    assert similar.mirrored(similar.mirrored(vector)).water == vector.water
 
 
 def test_a_mirrored_section_has_the_mirrored_packing():
@@ -190,9 +195,9 @@ def test_a_slope_of_another_size_has_the_scales_that_go_with_it():
         0.05,
         9.81,
     )
-    assert (small.water.unit_weight, small.water.gradient, small.numerics.path) == (
+    assert (small.water.unit_weight, small.water.pressure_gradient_xy, small.numerics.path) == (
         big.water.unit_weight,
-        big.water.gradient,
+        big.water.pressure_gradient_xy,
         big.numerics.path,
     )
     of, to = scales.of(big), scales.of(small)

@@ -11,7 +11,8 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import geometry  # noqa: E402
+from nonsmooth import geometry, section_data  # noqa: E402
+from nonsmooth.errors import OldNameWarning  # noqa: E402
 from nonsmooth.section import FOLDER, Disks, SectionError, load, shipped  # noqa: E402
 
 TEXT = (FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8")
@@ -73,9 +74,48 @@ def test_vectors_and_water(section):
     b = math.radians(21)
     assert section.downslope == pytest.approx((math.cos(b), -math.sin(b)), abs=1e-6)
     assert section.normal == pytest.approx((math.sin(b), math.cos(b)), abs=1e-6)
-    assert section.water.gradient == pytest.approx([9810 * math.cos(b) * n for n in section.normal])
+    assert section.water.pressure_gradient_xy == pytest.approx([-9810 * math.cos(b) * n for n in section.normal])
     assert section.water.height(22.5) == 22.5
     assert section.water.point == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("dip", [-35.0, 0.0, 21.0, 80.0])
+def test_water_that_flows_along_the_plane_lifts_and_drags(section, dip):
+    """Paper, 3.4 and Figure 4: buoyancy, γ_w upwards, and seepage, γ_w sin β down the plane; together they are along its normal."""
+    water = dataclasses.replace(section.water, dip=dip)
+    b = math.radians(dip)
+    down, normal = np.array([math.cos(b), -math.sin(b)]), np.array(
+        water.normal
+    )  # down to the right, for dips below 0 too
+    force = -np.array(water.pressure_gradient_xy)
+    assert force == pytest.approx(np.array([0, 9810]) + 9810 * math.sin(b) * down, abs=1e-8)
+    assert (force @ down, force @ normal) == pytest.approx((0, 9810 * math.cos(b)), abs=1e-8)
+    # still water: buoyancy alone, on any plane, to the bit
+    still = dataclasses.replace(water, pressure_gradient="hydrostatic").pressure_gradient_xy
+    assert [c.hex() for c in still] == [(0.0).hex(), (-9810.0).hex()]
+
+
+@pytest.mark.parametrize(
+    "old, new, said",
+    [
+        ("buoyant", "parallel_seepage", "; write `pressure_gradient: parallel_seepage`"),
+        ([3.0, -5], (-3.0, 5.0), ", for the force per volume, which is −∇p; write `pressure_gradient: [-3.0, 5.0]`"),
+    ],
+)
+def test_the_old_name_of_the_pressure_gradient_is_read_with_one_warning(tmp_path, old, new, said):
+    path = tmp_path / "s.yaml"
+    path.write_text(changed(water__pressure_gradient=None, water__gradient=old))
+    with pytest.warns(OldNameWarning) as told:
+        read = load(path)
+    line = 1 + [line.strip() for line in path.read_text().split("\n")].index(
+        "gradient: buoyant" if old == "buoyant" else "gradient:"
+    )
+    assert [str(one.message) for one in told] == [
+        f"{path}: line {line}: water.gradient: is the old name of pressure_gradient{said}"
+    ]
+    assert read.water.pressure_gradient == new
+    # what a run keeps of it has the new name
+    assert "gradient" not in section_data.plain(read)["water"]
 
 
 def test_the_water_rises_by_its_table_and_then_at_its_rate(section):
@@ -168,12 +208,16 @@ def test_numbers_as_in_yaml_1_2_and_water_variants(tmp_path):
     path.write_text(
         TEXT.replace("100.0e3          # Pa", "1e5")
         .replace("plane: DP  ", "plane: {point: [1, 2], dip: 10}")
-        .replace("gradient: buoyant", "gradient: [0, 5]")
+        .replace("pressure_gradient: parallel_seepage", "pressure_gradient: [0, -5]")
         .replace("{rate: 1.0}", "{points: [[0, 1], [10, 6]]}")
     )
     s = load(path)
     assert s.materials["rock"].tensile_strength == 1e5
-    assert s.water.gradient == (0.0, 5.0) and s.water.wall is None and s.water.dip == 10
+    assert (
+        s.water.pressure_gradient == s.water.pressure_gradient_xy == (0.0, -5.0)
+        and s.water.wall is None
+        and s.water.dip == 10
+    )
     # that of the slope
     assert s.water.normal == pytest.approx(
         (math.sin(math.radians(10)), math.cos(math.radians(10)))
@@ -276,6 +320,13 @@ BAD = {
         "less than 0.23 s",
     ),
     "step of nothing": (dict(numerics__time_step=1e-300), "numerics.time_step: 1e-300", "1e-9 or more"),
+    "old and new name": (dict(water__gradient="buoyant"), "water.gradient: is the old name", "leave `gradient` out"),
+    "no gradient": (
+        dict(water__pressure_gradient=[0, -0.0]),
+        "water.pressure_gradient: is zero",
+        "leave the key `water` out",
+    ),
+    "no such gradient": (dict(water__pressure_gradient="buoyant"), "'buoyant' is not allowed", "hydrostatic, or"),
     "upright water": (dict(water__plane={"point": [0, 0], "dip": -90}), "water.plane.dip: -90", "above -90"),
     "no such role": (dict(walls__1__role="wall"), "walls[FB].role: 'wall'", "slip (a slip surface)"),
     "nothing slides": (

@@ -72,21 +72,30 @@ def board(dip, volume="disk", length=400.0, thick=20.0, size=1.0):
 @pytest.mark.parametrize("dip", [20.0, -20.0])
 @pytest.mark.parametrize("volume", ["disk", "bulk"])
 @pytest.mark.parametrize("size", [1.0, 0.01])
-def test_a_rectangular_slab_fails_where_a_quadratic_equation_says(dip, volume, size):
-    """Push and resistance are polynomials of the height h: ½ K u h² + μ u L h + P(0) − R(0) = 0."""
+@pytest.mark.parametrize("up, down", [(1, 0), (0.9, 0.2), (1, -0.2)])
+def test_a_rectangular_slab_fails_where_a_quadratic_equation_says(dip, volume, size, up, down):
+    """Push and resistance are polynomials of the height h: ½ K u h² + (μ u + v) L h + P(0) − R(0) = 0, with −∇p's parts u along the normal and v down the plane:
+    ``up`` times γ_w cos β and ``down`` times γ_w sin β."""
     fraction, friction_deg, mu, length, thick, cohesion = 0.8, 35.0, 0.3, 400.0 * size, 20.0 * size, 20e3 * size
     b, k = math.radians(20.0), math.tan(math.radians(45 + friction_deg / 2)) ** 2
     bulk, lift = 2500 * fraction * 9.81, 9810 * math.cos(b) * (fraction if volume == "disk" else 1.0)
     push = bulk * length * thick * (math.sin(b) - mu * math.cos(b))
     resistance = k * bulk * math.cos(b) * thick**2 / 2 + 2 * cohesion * math.sqrt(k) * thick
-    p, q = mu * length / k, 2 * (resistance - push) / (k * lift)
+    drag = down * lift * math.tan(b)
+    lift *= up
+    p, q = (mu + drag / lift) * length / k, 2 * (resistance - push) / (k * lift)
     height = -p + math.sqrt(p * p + q)
     assert 0.05 * thick < height < 0.95 * thick
-    found = toe.passive(board(dip, volume, size=size), cohesion, friction_deg, fraction)
+    made = board(dip, volume, size=size)
+    if (up, down) != (1, 0):  # of the flow along the plane, which a section has by name
+        side, u, v = math.copysign(1, dip), up * 9810 * math.cos(b), down * 9810 * math.sin(b)
+        gradient = (-side * (u * math.sin(b) + v * math.cos(b)), -(u * math.cos(b) - v * math.sin(b)))
+        made = dataclasses.replace(made, water=dataclasses.replace(made.water, pressure_gradient=gradient))
+    found = toe.passive(made, cohesion, friction_deg, fraction)
     assert found.thickness_m == pytest.approx(thick, rel=1e-9)  # rounding of turned vertices
     assert (found.push_dry, found.resistance_dry) == pytest.approx((push, resistance), rel=1e-8)
     assert found.water_m == pytest.approx(height, rel=1e-7) and found.push_N_per_m == pytest.approx(
-        push + mu * lift * length * height, rel=1e-7
+        push + (mu * lift + drag) * length * height, rel=1e-7
     )
 
 

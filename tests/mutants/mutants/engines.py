@@ -97,6 +97,10 @@ MUTANTS = (
     # ---- water
     mutant("water-dip", WATER, "Vector3r(unitWeight * cosDip * normal)", "Vector3r(unitWeight * normal)", "the pressure does not know the dip",
            "test_pore_pressure.py::test_force_acts_below_the_table_along_the_planes_normal"),
+    mutant("water-sign", WATER, "minusPressureGradient()", "Vector3r(pressureGradient)", "water is pushed to where its pressure is higher",
+           "test_pore_pressure.py::test_a_gradient_acts_as_it_is_on_the_bodies_of_a_mask"),
+    mutant("water-old-name", WATER, "pressureGradient = Vector3r::Zero() - perVolume;", "pressureGradient = perVolume;", "the old name has the new sign",
+           "test_pore_pressure.py::test_the_old_name_is_the_force_per_volume_and_warns"),
     mutant("water-release", WATER, "(place - reference[id]).dot(downhill) > releaseDistance", "(place - reference[id]).norm() > releaseDistance",
            "disks are released by any way and not by one downslope", "test_pore_pressure.py::test_release_is_for_good_after_the_distance_downslope"),
     mutant("water-table", WATER, "(time - times[k - 1])", "(times[k] - time)", "the table falls between two times where it rises",
