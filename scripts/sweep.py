@@ -21,6 +21,7 @@ else:  # YADE runs in processes of its own
     from nonsmooth import campaign, commands, section_arguments, section_reader
     from nonsmooth.laboratory import arguments
 
+NOTES = 3  # on what runs do, that are printed
 SHOWN = ("times_s.t0", "water_at_failure_m", "front_travel_m", "deposit_thickness_max_m")
 
 
@@ -91,6 +92,10 @@ def main():
     if len(over) < len(args.over):
         raise campaign.PlanError("--over: a key stands twice; give all its values at once")
     plan = campaign.sweep(section_arguments.read(args), over, end=args.end, figures=args.figures)
+    for note in plan.notes[:NOTES]:
+        print(note)
+    if len(plan.notes) > NOTES:
+        print(f"and so for {len(plan.notes) - NOTES} more of the runs")
     if args.plan:
         plan.write(args.out)
         print(f"{len(plan.runs)} runs planned in {args.out}: snakemake --cores N, or sbatch array.sh, in that folder")

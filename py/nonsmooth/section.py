@@ -166,6 +166,24 @@ class Section:
         """Name and line (n, 2) [m] of each slip surface, in the order of :attr:`sliding`."""
         return tuple((one.name, one.points if isinstance(one, Wall) else self.line_of(one)) for one in self.sliding)
 
+    @property
+    def critical_slips(self) -> dict[str, float]:
+        """Critical slip D_c [m] of each slip surface that weakens, by its name."""
+        weak = {one.name: self.materials[one.material].slip_weakening for one in self.sliding}
+        return {name: law.critical_slip for name, law in weak.items() if law}
+
+    @property
+    def release_distance(self) -> float | None:
+        """Way downslope [m] that releases a disk from water for good: the water's own, or where that is "critical_slip" the D_c of the slip surfaces that weaken
+        (paper, section 5.4: one distance for both), of the water's plane where they have several. None without water.
+        """
+        if self.water is None:
+            return None
+        if self.water.release_distance != "critical_slip":
+            return self.water.release_distance
+        slips = self.critical_slips
+        return slips.get(self.water.wall) if len(set(slips.values())) > 1 else next(iter(slips.values()), None)
+
     def line_of(self, interface: Interface) -> np.ndarray:
         """The border of an interface's two layers from left to right, (n, 2) [m]; empty where they do not touch."""
         lower, upper = (self.layer(name).polygon for name in interface.between)
@@ -306,6 +324,32 @@ class Section:
             for k, m in self.materials.items()
         }
         return dataclasses.replace(self, materials=MappingProxyType(made))
+
+    def with_critical_slip(self, distance: float) -> Section:
+        """The same slope with one critical distance D_c [m], as in the paper: of all its slip surfaces that weaken, and of the release from water.
+
+        Raises SectionError where no slip surface weakens, and for what is no distance.
+        """
+        if not 0 < distance < math.inf:
+            raise SectionError(f"{self.source}: a critical slip of {distance:g} m; give a distance above 0")
+        slips = self.critical_slips
+        if not slips:
+            raise SectionError(
+                f"{self.source}: a critical slip of {distance:g} m, and no slip surface weakens; add `slip_weakening` to the material of one"
+            )
+        weak = {one.material for one in self.sliding if one.name in slips}
+        made = {
+            k: (
+                dataclasses.replace(
+                    m, slip_weakening=dataclasses.replace(m.slip_weakening, critical_slip=float(distance))
+                )
+                if k in weak
+                else m
+            )
+            for k, m in self.materials.items()
+        }
+        water = self.water and dataclasses.replace(self.water, release_distance="critical_slip")
+        return dataclasses.replace(self, materials=MappingProxyType(made), water=water)
 
     @property
     def longest_step(self) -> float:

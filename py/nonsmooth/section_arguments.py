@@ -70,6 +70,12 @@ def add(parser, default=None, needless=()):
         type=number(float, 0, 1e6, "m/s from 0 to 1e6"),
         help="rate at which the table rises [m/s] instead of the section's; 0: dry",
     )
+    parser.add_argument(
+        "--critical-slip",
+        metavar="METRES",
+        type=number(float, 1e-9, 1e9, "m from 1e-9 to 1e9"),
+        help="critical distance D_c [m] instead of the section's: of slip on all slip surfaces that weaken, and of the release from water",
+    )
 
 
 def read(args) -> section.Section:
@@ -91,4 +97,6 @@ def read(args) -> section.Section:
         )
     if args.water is not None and s.water is not None:
         s = dataclasses.replace(s, water=dataclasses.replace(s.water, table=((0.0, 0.0),), rate=args.water))
+    if args.critical_slip is not None:
+        s = s.with_critical_slip(args.critical_slip)
     return s

@@ -74,6 +74,11 @@ def build(document, source: str) -> Section:
         section = dataclasses.replace(section, water=_water(raw["water"], section, document))
     section = dataclasses.replace(section, walls=roles.assigned(section))
     section_checks.check_roles(section, document)
+    if "water" in raw:
+        if section.water.release_distance == "critical_slip" and not section.critical_slips:
+            release = section_defaults.release_distance(section.area)
+            section = dataclasses.replace(section, water=dataclasses.replace(section.water, release_distance=release))
+        section_checks.check_release(section, document)
     if "count" in size:
         section = section.with_disks(size["count"])
     return section
@@ -183,6 +188,6 @@ def _water(raw: dict, section: Section, document) -> Water:
         raw["volume"],
         points,
         float(table.get("rate", 0.0)),
-        float(raw["release_distance"]),
+        raw["release_distance"] if isinstance(raw["release_distance"], str) else float(raw["release_distance"]),
         wall.name if wall else None,
     )

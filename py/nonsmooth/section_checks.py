@@ -11,7 +11,7 @@ from . import geometry
 from .section import Section
 from .section_parts import Layer, Wall, points_of
 
-__all__ = ["check", "check_extent", "check_roles", "walls"]
+__all__ = ["check", "check_extent", "check_release", "check_roles", "notes", "walls"]
 
 MOST_VERTICES = 10_000  # of all walls and layers: what is compared pairwise stays a matter of seconds
 
@@ -92,6 +92,30 @@ def check_roles(section: Section, document) -> None:
         "none of them has the role slip, and no interface has it",
         "give `role: slip` to the wall along which the mass may slide",
     )
+
+
+def check_release(section: Section, document) -> None:
+    """Raise SectionError for a section with water whose release goes by the critical slip, of which there are several."""
+    if section.release_distance is not None:
+        return
+    slips = ", ".join(f"{value:g} m ({name})" for name, value in section.critical_slips.items())
+    document.refuse(
+        ("water", "release_distance"),
+        f"goes by the critical slip, of which there are several, {slips}, and none of the water's plane",
+        "give a distance [m]",
+    )
+
+
+def notes(section: Section) -> list[str]:
+    """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical slip, where the paper has one for both."""
+    slips, release = section.critical_slips, section.release_distance
+    if release is None or not slips or release in slips.values():
+        return []
+    listed = ", ".join(f"{value:g} m ({name})" for name, value in slips.items())
+    return [
+        f"{section.source}: disks are released from the water after {release:g} m downslope, and the critical slip is {listed}; for one distance leave "
+        "water.release_distance out, or give --critical-slip"
+    ]
 
 
 def _check_names(section, document) -> None:

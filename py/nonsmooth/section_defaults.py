@@ -11,7 +11,7 @@ import math
 from . import geometry
 from .scales import AREA, GRAVITY
 
-__all__ = ["filled"]
+__all__ = ["filled", "release_distance"]
 
 WATER_DENSITY = 1000.0  # kg/m³
 
@@ -49,7 +49,12 @@ def filled(data: dict) -> dict:
             "unit_weight": WATER_DENSITY * gravity,
             "pressure_gradient": "parallel_seepage",
             "volume": "disk",
-            "release_distance": 5.0 * length,
+            "release_distance": "critical_slip",
             **data["water"],
         }
     return made
+
+
+def release_distance(area: float) -> float:
+    """Way downslope [m] that releases a disk from water where no slip surface weakens; ``area`` [m²]: of the layers."""
+    return 5.0 * math.sqrt(area / AREA)

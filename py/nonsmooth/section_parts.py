@@ -174,7 +174,8 @@ class Water:
     `point` (x, y) [m] on the plane; `dip` β [degrees], positive down to the right;
     `pressure_gradient`: "parallel_seepage", "hydrostatic", or ∇p (x, y) [N/m³]; a wet disk bears
     −∇p V; `volume` V "disk" or "bulk"; `table`: points (t, h) [s, m]; `rate` [m/s], the rise after
-    the last point; `release_distance` [m]; `wall`: name of the wall the plane was given by, or None.
+    the last point; `release_distance`: "critical_slip", that of the slip surface (see
+    `Section.release_distance`), or [m]; `wall`: name of the wall the plane was given by, or None.
     """
 
     unit_weight: float
@@ -184,7 +185,7 @@ class Water:
     volume: str
     table: tuple[tuple[float, float], ...]
     rate: float
-    release_distance: float
+    release_distance: str | float
     wall: str | None = None
 
     @property

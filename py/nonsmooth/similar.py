@@ -56,13 +56,14 @@ def scaled(section: Section, factor: float) -> Section:
     materials = {name: _material(m, s) for name, m in section.materials.items()}
     water, stages = section.water, section.stages
     if water is not None:
+        release = water.release_distance
         table = tuple((t * when, s * height) for when, height in water.table)
         water = dataclasses.replace(
             water,
             point=grown([water.point])[0],
             table=table,
             rate=t * water.rate,
-            release_distance=s * water.release_distance,
+            release_distance=release if isinstance(release, str) else s * release,
         )
     settle = dataclasses.replace(
         stages.settle,

@@ -114,7 +114,7 @@ def build(section, packing, world=None) -> Slope:
                 planePoint=Vector3(*w.point, 0),
                 planeNormal=Vector3(*w.normal, 0),
                 pressureGradient=Vector3(*w.pressure_gradient_xy, 0),
-                releaseDistance=w.release_distance,
+                releaseDistance=section.release_distance,
                 volumeFactor=1.0 if w.volume == "disk" else 1 / section.disks.packing_fraction,
             )
         )

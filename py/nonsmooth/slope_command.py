@@ -21,6 +21,7 @@ from . import (
     packing_checks,
     section,
     section_arguments,
+    section_checks,
     slope,
     slope_packing,
 )
@@ -106,6 +107,8 @@ def run(name, about, default=None):
         print("\n".join(section.shipped()))
         return
     s = section_arguments.read(args)
+    for note in section_checks.notes(s):
+        print(note, flush=True)
     out = Path(
         args.out or f"out/{Path(args.section).stem}{'-mirrored' * args.mirror}{f'-{args.size:g}' if args.size else ''}"
     )

@@ -65,6 +65,22 @@ def test_items_of_lists_go_by_their_names_and_lists_are_values_too():
     assert [one.name for one in long.runs] == ["0000", "0001"]
 
 
+def test_the_release_from_water_follows_a_swept_critical_slip():
+    key, values = "materials.dp.slip_weakening.critical_slip", [1, 2, 5, 10]
+    plan = campaign.sweep(section.load("jiufengershan"), {key: values})
+    assert [(of(one).materials["dp"].critical_slip, of(one).release_distance) for one in plan.runs] == [
+        (v, v) for v in values
+    ]
+    assert plan.notes == ()
+    # a number stands, and what then differs is said, for each run that it differs in
+    joint = "materials.joint.slip_weakening.critical_slip"
+    fixed = campaign.sweep(SHIPPED, {joint: [2.0, 60.0, 5.0]})
+    assert [of(one).release_distance for one in fixed.runs] == [60.0] * 3
+    assert [note.partition(":")[0] for note in fixed.notes] == ["critical_slip=2.0", "critical_slip=5.0"]
+    both = campaign.sweep(SHIPPED, {joint: [2.0, 3.0], "water.release_distance": ["critical_slip"]})
+    assert [of(one).release_distance for one in both.runs] == [2.0, 3.0] and both.notes == ()
+
+
 @pytest.mark.parametrize(
     "over, message",
     [

@@ -69,7 +69,7 @@ def test_what_is_left_out_is_the_papers_in_proportion():
         s.stages.end.time,
         s.stages.settle.speed_rest,
         s.numerics.time_step,
-        s.water.release_distance,
+        s.release_distance,
         s.stages.end.rest_fraction,
     )  # noqa: E731
     assert ask(small) == pytest.approx(ask(quarter), rel=1e-9)

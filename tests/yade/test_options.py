@@ -150,6 +150,12 @@ SLOPE = {
         lambda a: (a.words[0].water.rate, a.words[0].water.table),
         (0.25, ((0.0, 0.0),)),
     ),
+    # in metres of the slope that is run; the file's are 0.5 m of slip and 3 m of release
+    "--critical-slip": (
+        ("--section", "{files}/small.yaml", "--critical-slip", 0.25, "--size", 0.5),
+        lambda a: (a.words[0].materials["dp"].critical_slip, a.words[0].release_distance),
+        (0.25, 0.25),
+    ),
     "--resume": (
         ("--section", "{files}/small.yaml", "--resume"),
         lambda a: (a.words[0].name, a.words[1].name),
@@ -335,6 +341,11 @@ WHERE = {
         "--disks": (("--disks", 150), lambda a: sum(a.words[0].disk_counts()), pytest.approx(150, abs=2)),
         "--seed": (("--seed", 5), lambda a: a.words[0].seed, 5),
         "--water": (("--water", 0.25), lambda a: a.words[0].water.rate, 0.25),
+        "--critical-slip": (
+            ("--critical-slip", 2),
+            lambda a: (a.words[0].materials["dp"].critical_slip, a.words[0].release_distance),
+            (2.0, 2.0),
+        ),
         "--mirror": (("--mirror",), lambda a: a.words[0].side, -1.0),
         "--size": (("--size", 0.01), lambda a: a.words[0].disks.d_max, pytest.approx(0.04)),
         "--end": (("--end", 3), lambda a: a.named["end"], 3.0),

@@ -178,7 +178,7 @@ def test_a_slope_of_another_size_has_the_scales_that_go_with_it():
         small.stages.end.time,
         small.stages.settle.ramp,
     ) == pytest.approx((1e-3, 0.3, 15.0, 0.4))
-    assert (small.stages.settle.speed_rest, small.water.rate, small.water.release_distance) == pytest.approx(
+    assert (small.stages.settle.speed_rest, small.water.rate, small.release_distance) == pytest.approx(
         (5e-4, 0.1, 0.05)
     )
     rock, dp = small.materials["rock"], small.materials["dp"]

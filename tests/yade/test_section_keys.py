@@ -493,11 +493,10 @@ WHERE = {
         (pytest.approx([0, 0.5, 1.0], abs=1e-9), [0.5, 1.5, 1.0]),
         0.5,
     ),
-    ("water", "release_distance"): (
-        {("water", "release_distance"): 0.25},
-        lambda m: m.built.water.releaseDistance,
-        0.25,
-    ),
+    ("water", "release_distance"): [
+        ({("water", "release_distance"): 0.25}, lambda m: m.built.water.releaseDistance, 0.25),
+        ({("water", "release_distance"): "critical_slip"}, lambda m: m.built.water.releaseDistance, 50.0),
+    ],
     ("stages", "settle", "ramp"): (
         {("stages", "settle", "ramp"): 0.4},
         lambda m: [row[2] for row in m.rows],

@@ -14,7 +14,7 @@ import csv
 import io
 import json
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from .. import installation, kept_runs, keys, output_folder, side_by_side
@@ -50,11 +50,13 @@ class Planned:
 @dataclass(frozen=True)
 class Plan:
     """Runs of one ``function``, "module:name" of this package (see processes.call); what it returns goes into the table. It goes on from what a halted run
-    has left in its folder."""
+    has left in its folder. ``notes``: sentences on what runs are allowed and may not be meant to do, not kept in the folder.
+    """
 
     title: str
     function: str
     runs: tuple
+    notes: tuple = field(default=(), compare=False)
 
     def write(self, out):
         """Writes the plan, and its files for a cluster, into the folder ``out``."""

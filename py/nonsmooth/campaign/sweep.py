@@ -7,7 +7,7 @@ import difflib
 import itertools
 import re
 
-from .. import checkpoints, output_folder, processes, runs, section, section_data
+from .. import checkpoints, output_folder, processes, runs, section, section_checks, section_data
 from .plan import Plan, PlanError, Planned
 
 __all__ = ["run_slope", "sweep"]
@@ -38,7 +38,7 @@ def sweep(base, over, end=None, figures=False) -> Plan:
     if number > MOST:
         raise PlanError(f"{' × '.join(str(len(v)) for v in over.values())} = {number} runs; a plan has {MOST} at most")
     whole, short = section_data.plain(base), _short(over)
-    planned = []
+    planned, notes = [], []
     for k, combination in enumerate(itertools.product(*over.values())):
         values = dict(zip(over, combination))
         name = "_".join(f"{short[key]}={_text(value)}" for key, value in values.items()) or "run"
@@ -48,6 +48,7 @@ def sweep(base, over, end=None, figures=False) -> Plan:
         for key, value in values.items():
             _put(data, key, value)
         made = section.of(data, name)
+        notes += section_checks.notes(made)
         planned.append(
             Planned(
                 name,
@@ -56,7 +57,7 @@ def sweep(base, over, end=None, figures=False) -> Plan:
                 float(sum(made.disk_counts())),
             )
         )
-    return Plan(base.name, FUNCTION, tuple(planned))
+    return Plan(base.name, FUNCTION, tuple(planned), tuple(notes))
 
 
 def run_slope(made, out, end=None, figures=False, resume=False, threads=1) -> runs.Run:
