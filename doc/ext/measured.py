@@ -1,6 +1,6 @@
 """Numbers and tables of documentation pages, from files that commands wrote and that are kept as doc/measured/NAME.json.
 
-``:measured:`NAME KEY[/KEY][*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary), over another one and times FACTOR if these are given, as
+``:measured:`NAME KEY[/KEY][*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary, or to an item of a list by its number), over another one and times FACTOR if these are given, as
 Python's FORMAT writes it.
 ``.. measured-tables:: NAME`` shows the tables of a check's result.json (scripts/verify.py), or those whose title begins with the directive's text.
 A file or key that is not there is an error of the build: a page must not show what nobody measured.
@@ -25,7 +25,7 @@ def at(name, key, env):
     """The file's value at a key."""
     value = load(name, env)
     for part in key.split("."):
-        value = value[part]
+        value = value[int(part) if isinstance(value, list) else part]
     return value
 
 
@@ -40,7 +40,7 @@ def number(text, env):
         upper, _, lower = key.partition("/")
         value = at(name, upper, env) / (at(name, lower, env) if lower else 1) * float(factor or 1)
         return format(value, form)
-    except (OSError, KeyError, TypeError, ValueError, ZeroDivisionError) as error:
+    except (OSError, LookupError, TypeError, ValueError, ZeroDivisionError) as error:
         raise ValueError(f"{text!r}: {type(error).__name__} {error}") from None
 
 

@@ -3,23 +3,23 @@
 With N, T the total normal and the shear force on the slip surfaces (DP), N' = N − U what contacts bear of N, U the water's force, F the normal force on the backstop (FB), μ the
 friction of the slip surface, means over a second at each time:
 
-=============================  =============================================================  ==========================
-name                           number                                                         paper
-=============================  =============================================================  ==========================
-``normal_change``              N(t1) / N(t0) − 1                                              0 ([115], "constant")
-``normal_change_by_backstop``  Δ of the shear force on the backstop / ΔN from t0 to t1        not named there
-``shear_drop``                 −ΔT / (μ ΔU) from t0 to t1                                     1 (eq. 19)
+=============================  ============================================================  ============================
+name                           number                                                        paper
+=============================  ============================================================  ============================
+``normal_change``              N(t1) / N(t0) − 1                                             0 ([115], "constant")
+``normal_change_by_backstop``  Δ of the shear force on the backstop / ΔN from t0 to t1       not named there
+``shear_drop``                 −ΔT / (μ ΔU) from t0 to t1                                    1 (eq. 19)
 ``shear_share``                mean of T by μ times that of N', from t0 to t1                1 (eq. 20)
-``backstop_rise``              ΔF / −ΔT from t0 to t1                                         1 (eq. 21)
-``backstop_span``              (largest − least mean of F) / F(t1) from t1 to t2              0 ([116], "fairly constant")
-``backstop_swing``             largest F in a step by the mean of its row, less 1, t1 to t2   0 (the same)
-``release_rise``               N'(t3) / N'(t2)                                                above 1 ([117])
-``normal_fall``                N(t5) / N(t3)                                                  below 1 ([118], 1)
-``backstop_momentum``          correlation of F with N v, v the mean speed, from t3 to t5     above 0 ([118], 2)
-``shear_moving``               mean of T from t3 to t5, by T(t0)                              small, above 0 ([118], 3)
-``backstop_final``             F at the end / F(t1)                                           above 1 ([119])
-``shear_final``                T at the end / T(t0)                                           small, below 0 ([119])
-=============================  =============================================================  ==========================
+``backstop_rise``              ΔF / −ΔT from t0 to t1                                        1 (eq. 21)
+``backstop_span``              (largest − least mean of F) / F(t1) from t1 to t2             0 ([116], "fairly constant")
+``backstop_swing``             largest F in a step by the mean of its row, less 1, t1 to t2  0 (the same)
+``release_rise``               N'(t3) / N'(t2)                                               above 1 ([117])
+``normal_fall``                N(t5) / N(t3)                                                 below 1 ([118], 1)
+``backstop_momentum``          correlation of F with N v, v the mean speed, from t3 to t5    above 0 ([118], 2)
+``shear_moving``               mean of T from t3 to t5, by T(t0)                             small, above 0 ([118], 3)
+``backstop_final``             F at the end / F(t1)                                          above 1 ([119])
+``shear_final``                T at the end / T(t0)                                          small, below 0 ([119])
+=============================  ============================================================  ============================
 
 Forces normal to the slip surface are in balance. The rising push on the backstop brings friction along it, which holds the toe down on the slip surface: N grows by this force
 (where the backstop stands across the surface), and T by μ times it. Equation (19) leaves it out; T = μ N' holds all the same.
