@@ -196,7 +196,13 @@ def test_a_campaign_draws_its_first_seed_and_the_sample_nearest_8_megapascals(ke
         "friction_residual_deg": None,
     }
     made = laboratory_report.draw(tmp_path, {"tests": tests, "seeds": [3, 4], **envelope})
-    assert [path.name for path in made] == ["stress_strain.png", "mohr.png", "bands.png", "force_chains.png"]
+    assert [path.name for path in made] == [
+        "stress_strain.png",
+        "stress.png",
+        "mohr.png",
+        "bands.png",
+        "force_chains.png",
+    ]
     top, _ = kept["stress_strain.png"].axes
     # of seed 3
     assert list(drawn.legend(top)) == ["1", "6", "20"] and all(
@@ -239,7 +245,8 @@ def test_without_an_envelope_there_is_no_figure_of_it(kept, tmp_path, monkeypatc
                 {"step": k, "strain": 1e-3 * k, "sigma1_top_Pa": 2e6, "sigma1_bottom_Pa": 2e6, "volumetric_strain": 0.0}
             )
     assert [path.name for path in laboratory_report.draw(tmp_path, {"tests": [test], "seeds": [1]})] == [
-        "stress_strain.png"
+        "stress_strain.png",
+        "stress.png",
     ]
 
 

@@ -72,6 +72,28 @@ def test_stress_over_confining_pressure_and_volume_against_strain():
     assert len(set(drawn.legend(top).values())) == 2 and bottom.get_xlim()[0] == 0 and top.get_ylim()[0] == 0
 
 
+def test_stress_itself_of_the_papers_pressures_in_its_greys():
+    tests = [strained(p, 3 * p, 2.5 * p) for p in (2e6, 4e6, 8e6, 16e6)]
+    top, bottom = biaxial.stress(tests).axes
+    assert top.get_ylabel() == "σ₁ [MPa]" and bottom.get_xlabel() == "axial strain ε₁ [%]"
+    # as in its caption: black, dark grey, light grey
+    assert drawn.legend(top) == {
+        "4 (the paper's)": "#000000",
+        "8 (the paper's)": "#6e6e6e",
+        "16 (the paper's)": "#b4b4b4",
+    }
+    for (confining, series, _), name in zip(tests[1:], drawn.legend(top)):
+        axial = 0.5 * (series["sigma1_top_Pa"] + series["sigma1_bottom_Pa"])
+        assert drawn.points(drawn.line(top, name)) == pytest.approx(
+            np.column_stack([100 * series["strain"], 1e-6 * axial])
+        )
+        (volume,) = (drawn.points(one) for one in bottom.lines if drawn.colour(one) == drawn.legend(top)[name])
+        assert volume == pytest.approx(np.column_stack([100 * series["strain"], 100 * series["volumetric_strain"]]))
+    # where none of the paper's was tested, all of ours
+    top, _ = biaxial.stress([tests[0], strained(1e6, 3e6, 2e6)]).axes
+    assert list(drawn.legend(top)) == ["2 (ours)", "1 (ours)"] and len(set(drawn.legend(top).values())) == 2
+
+
 # ---- Mohr's circles -------------------------------------------------------------------------------
 
 

@@ -12,6 +12,7 @@ from ..laboratory import strength
 from . import forces, style
 
 MEGA = 1e6
+PAPER = {4e6: "#000000", 8e6: "#6e6e6e", 16e6: "#b4b4b4"}  # Pa, and the greys of its Figure 10
 SEQUENCE = ("#0072B2", "#D55E00", "#009E73", "#9E4F86", "#E0A100", "#4AA8DE", "#777777")
 
 
@@ -55,6 +56,28 @@ def stress_strain(tests, path=None, pdf=False):
         bottom.plot(strain, 100 * np.asarray(series["volumetric_strain"]), color=colour)
     top.set(ylabel="σ₁ / σ₃  [-]", ylim=(0, None))
     top.legend(title="σ₃ [MPa]", ncol=min(4, len(tests)), loc="lower right")
+    bottom.axhline(0, color="#999999", lw=0.7)
+    bottom.set(xlabel="axial strain ε₁ [%]", ylabel="volumetric strain [%]\n(dilation positive)", xlim=(0, None))
+    return style.save(fig, path, pdf)
+
+
+@style.styled
+def stress(tests, path=None, pdf=False):
+    """Axial stress itself and volumetric strain against axial strain, as the paper's Figure 10 has them, so that the two can be laid over each other.
+
+    ``tests``: as of :func:`stress_strain`. The paper's pressures, 4, 8 and 16 MPa, are drawn in its greys, or where none of them was tested all others, which are ours.
+    """
+    theirs = [test for test in tests if test[0] in PAPER]
+    fig = style.figure(7.6, 7.4, layout="constrained")
+    top, bottom = fig.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
+    others = iter(_colours(len(tests)))
+    for sigma3, series, _ in theirs or tests:
+        colour = PAPER.get(sigma3) or next(others)
+        strain, whose = 100 * np.asarray(series["strain"]), "the paper's" if theirs else "ours"
+        top.plot(strain, strength.axial_stress(series) / MEGA, color=colour, lw=1, label=f"{sigma3 / MEGA:g} ({whose})")
+        bottom.plot(strain, 100 * np.asarray(series["volumetric_strain"]), color=colour)
+    top.set(ylabel="σ₁ [MPa]", ylim=(0, None))
+    top.legend(title="σ₃ [MPa]", loc="lower right")
     bottom.axhline(0, color="#999999", lw=0.7)
     bottom.set(xlabel="axial strain ε₁ [%]", ylabel="volumetric strain [%]\n(dilation positive)", xlim=(0, None))
     return style.save(fig, path, pdf)

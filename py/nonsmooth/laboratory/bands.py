@@ -19,7 +19,8 @@ ANGLES = np.radians(np.arange(35, 81, 1.0))  # of a band to the horizontal; the 
 @dataclass(frozen=True)
 class Band:
     """``angle_deg`` to the horizontal (negative: rising to the left); ``offset`` [m] from the sample's centre along the normal; ``width`` [d],
-    with d the root of the mean square of the diameters; ``rotation`` [rad]: mean in its core; ``contrast``: that over the mean of the rest.
+    with d the root of the mean square of the diameters; ``rotation`` [rad]: mean in its core; ``contrast``: that over the mean of the rest; ``antithetic``: of the area of its
+    disks that have turned, the part of those that have turned against it (the paper's antithetic disks, [106]).
     """
 
     angle_deg: float
@@ -27,6 +28,7 @@ class Band:
     width: float
     rotation: float
     contrast: float
+    antithetic: float
 
 
 def find(x, y, r, rotation):
@@ -37,11 +39,11 @@ def find(x, y, r, rotation):
     """
     d = math.sqrt(np.mean((2 * r) ** 2))
     x, y, area = x - 0.5 * (x.min() + x.max()), y - 0.5 * (y.min() + y.max()), r**2
-    return tuple(_strongest(x, y, area, np.maximum(0, sign * rotation), sign, d) for sign in (1, -1))
+    return tuple(_strongest(x, y, area, sign * rotation, sign, d) for sign in (1, -1))
 
 
-def _strongest(x, y, area, turned, sign, d):
-    best = None
+def _strongest(x, y, area, rotation, sign, d):
+    best, turned = None, np.maximum(0, rotation)
     for angle in ANGLES:
         for way in (1, -1):
             profile, centres = _profile(x, y, area, turned, way * angle, d)
@@ -53,20 +55,28 @@ def _strongest(x, y, area, turned, sign, d):
     rest = float(np.median(profile))
     if not height > 2 * rest or rest < 0:
         return None
-    half = rest + 0.5 * (height - rest)
+    width = _width(profile, k, rest + 0.5 * (height - rest)) * STRIP
+    inside = np.abs(_offset(x, y, angle) - centres[k]) <= 0.5 * width * d
+    # what turns less than a tenth of the core's mean has not turned
+    against, along = (float(area[inside & (way * rotation > 0.1 * height)].sum()) for way in (-1, 1))
     return Band(
         math.degrees(angle),
         float(centres[k]),
-        _width(profile, k, half) * STRIP,
+        width,
         sign * float(height),
         float(height / rest) if rest > 0 else math.inf,
+        against / (against + along),
     )
+
+
+def _offset(x, y, angle):
+    """Distances [m] of points from the line through the origin at an ``angle`` to the horizontal, along its normal."""
+    return -math.sin(angle) * x + math.cos(angle) * y
 
 
 def _profile(x, y, area, turned, angle, d):
     """Mean rotation in strips parallel to ``angle``, and the offsets of their centres [m]; strips that the sample fills little are left out."""
-    offset = -math.sin(angle) * x + math.cos(angle) * y
-    k = np.floor(offset / (STRIP * d)).astype(int)
+    k = np.floor(_offset(x, y, angle) / (STRIP * d)).astype(int)
     low = k.min()
     filled = np.bincount(k - low, area)
     mean = np.bincount(k - low, area * turned) / np.maximum(filled, 1e-300)

@@ -13,7 +13,7 @@ import numpy as np
 from .. import processes, records, side_by_side
 from ..errors import UserError
 from ..statistics import Estimate
-from . import bands, biaxial_test, pressing, strength
+from . import bands, biaxial_test, fluctuations, pressing, strength
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}
@@ -105,6 +105,7 @@ def measure(test, folder):
         "dilatancy_deg": c.dilatancy_deg,
         "volumetric_strain_end": c.volumetric_end,
         "platen_difference_rel": c.imbalance,
+        **fluctuations.measure(series, plateau, found["height_m"] * found["width_m"], _disk_area(folder)),
         **{key: bands_of(folder, snapshot) for key, snapshot in BANDS_AT.items()},
         **{
             key: found[key]
@@ -127,6 +128,11 @@ def measure(test, folder):
     }
 
 
+def _disk_area(folder):
+    """Mean area of a test's disks [m²]."""
+    return float(np.mean(math.pi * records.read_snapshot(folder / "snapshots" / "begin.npz").r ** 2))
+
+
 def bands_of(folder, snapshot):
     """Shear bands of a test in a snapshot, by name, or at its end where it ended before; a list of two dictionaries, None where there is none (see :func:`bands.find`)."""
     begin = records.read_snapshot(folder / "snapshots" / "begin.npz")
@@ -135,7 +141,13 @@ def bands_of(folder, snapshot):
     return [
         None
         if b is None
-        else {"angle_deg": b.angle_deg, "width_d": b.width, "rotation_rad": b.rotation, "contrast": b.contrast}
+        else {
+            "angle_deg": b.angle_deg,
+            "width_d": b.width,
+            "rotation_rad": b.rotation,
+            "contrast": b.contrast,
+            "antithetic": b.antithetic,
+        }
         for b in bands.find(s.x, s.y, s.r, s.angle - begin.angle)
     ]
 

@@ -41,6 +41,7 @@ def draw(out, summary):
         (t["confining_Pa"], records.read_series(out / "tests" / name_of_result(t) / "series.csv"), t) for t in first
     ]
     made.append(figures.stress_strain(curves, out / "stress_strain.png"))
+    made.append(figures.stress(curves, out / "stress.png"))
     if "cohesion_peak_kPa" in summary:
         made.append(figures.mohr(summary, out / "mohr.png"))
     shown = min(first, key=lambda t: abs(t["confining_Pa"] - 8e6))  # the paper's Figure 9 is at 8 MPa

@@ -91,4 +91,15 @@ MUTANTS = (
            "the soft step grows with the stiffness", "test_comparison.py::test_cost_of_a_stiffness_that_was_not_run"),
     mutant("compare-overlap", COMPARE + "deposits.py", "one.intersection(other).area / whole", "one.intersection(other).area / one.area",
            "the overlap of deposits is over one of them", "test_comparison.py::test_overlap_of_deposits"),
+    # ---- fluctuations
+    mutant("fluctuations-drop", "py/nonsmooth/laboratory/fluctuations.py", "stress[b] < stress[a]", "stress[b] > stress[a]", "contractions go with a rise of the stress",
+           "plain:test_fluctuations.py::test_what_a_test_says_of_its_plateau"),
+    mutant("fluctuations-unit", "py/nonsmooth/laboratory/fluctuations.py", "* area / disk_area", "* disk_area / area", "contractions are counted in samples, not in disks",
+           "plain:test_fluctuations.py::test_what_a_test_says_of_its_plateau"),
+    mutant("fluctuations-least", "py/nonsmooth/laboratory/fluctuations.py", "elif v - volumetric[low] > least:", "elif v - volumetric[low] > 0:", "a ripple ends a contraction",
+           "plain:test_fluctuations.py::test_contractions_are_falls_of_more_than_the_least"),
+    mutant("bands-antithetic", "py/nonsmooth/laboratory/bands.py", "for way in (-1, 1))", "for way in (1, -1))", "disks that turn with the band are those against it",
+           "plain:test_strength.py::test_antithetic_disks_are_those_that_turn_against_the_band"),
+    mutant("figure-stress-ratio", "py/nonsmooth/figures/biaxial.py", "strength.axial_stress(series) / MEGA, color=colour, lw=1", "strength.axial_stress(series) / sigma3, color=colour, lw=1",
+           "stress itself is the ratio", "plain:test_figures_laboratory.py::test_stress_itself_of_the_papers_pressures_in_its_greys"),
 )
