@@ -23,7 +23,7 @@ import numpy as np
 
 from . import records, scales
 
-__all__ = ["NAMES", "chosen_rows", "mean_of", "of_run", "weakening_begins"]
+__all__ = ["COLUMNS", "NAMES", "chosen_rows", "kept_rows", "mean_of", "of_run", "weakening_begins"]
 
 NAMES = ("t0", "t1", "t2", "t3", "t4", "t5")
 #: Columns of the series that the times follow from.
@@ -138,3 +138,33 @@ def _creeps(series, scale, t0, until):
     slow = (series["time_s"] < t0 - SAME) | (series["speed_mean_m_per_s"] < scale.stopped_speed)
     slow = np.flatnonzero(slow[: last + 1])
     return min(int(slow[-1]) + 1, last) if len(slow) else 0
+
+
+# ---- while a run goes on ----------------------------------------------------------------------------
+def kept_rows(series, section, state) -> np.ndarray:
+    """Which rows so far are or may still become t1 … t5: their numbers, rising. What is not among them will not be one of these times, whatever comes.
+
+    ``series``: all rows so far, :data:`COLUMNS` at least; ``state``: the fields of course.State after the last of them as a mapping.
+    """
+    chosen, failed, scale = chosen_rows(series, state), state["failed_dry"] is not None, scales.of(section)
+    times = _of_run(chosen, section, state, scale)
+    found = {times[name] for name in NAMES[1:]}
+    if not failed and not state["stood"]:
+        # it may yet fail dry, and is then told from all rows
+        found |= set(_of_motion(series, section).values())
+    got_going = state["moving"] is not None and state["speed_max"] >= scale.going_speed
+    if not failed and state["t0"] is not None and not got_going:
+        # t2 has not come, or may be taken back (see course.py)
+        found |= _may_be_failure(chosen, scale, state["t0"])
+    return np.array(sorted(_row(series, time) for time in found - {None}), int)
+
+
+def _may_be_failure(series, scale, t0):
+    """Times [s] that t1 may have when t2 comes, a set: what is first above a share of a largest force that is yet to come was a record when it came."""
+    t, push = series["time_s"], np.nan_to_num(_pushes(series, scale, t0), nan=-np.inf)
+    best = np.maximum.accumulate(push)
+    record = push > np.append(-np.inf, best[:-1])
+    found = set(t[record & (push >= LEVEL * best[-1])].tolist())
+    if series["speed_mean_m_per_s"][-1] >= scale.stopped_speed:
+        found.add(float(t[_creeps(series, scale, t0, t[-1])]))
+    return found

@@ -24,6 +24,7 @@ from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator
 from . import (
     checkpoints,
     course,
+    frames,
     interrupts,
     keys,
     packing,
@@ -99,8 +100,12 @@ class Experiment:
         # soft steps are thousands a row, and as cheap as a look at the walls
         period = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
         self.walls = WallSeries(built, self.layers, self.folder / "walls.csv", period, mark and mark["walls"])
-        if state is not None:
+        if state is None:
+            self.frames = frames.Frames(self.folder, self.section)
+        else:
             results.forget_later(self.folder, state.stage, O.iter)
+            rows = records.read_series(self.folder / "series.csv")
+            self.frames = frames.Frames(self.folder, self.section, rows, asdict(state))
         self._clock = time.monotonic()
         self._saved, self._saving = self._clock, 0.0
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
@@ -201,10 +206,12 @@ class Experiment:
         seen = self._seen(disks)
         s = self.state = course.noted(self.state, seen, self.scales)
         s.overlap_mean_worst = max(s.overlap_mean_worst, solver.overlapMean)
-        self.series.write(self._row(disks))
-        if course.keeps_frame(s, row):
-            self.snapshot(self.folder / "snapshots" / f"{O.iter:08d}.npz")
-            s.frames += 1
+        values, regular = self._row(disks), course.keeps_frame(s, row)
+        self.series.write(values)
+        s.frames += regular
+        if self.frames.takes(values, regular, asdict(course.after(s, seen, self.section, self.scales))):
+            self.snapshot(self.frames.path(O.iter))
+        self.frames.tidy()
         self._decide(seen)
         self.progress(self.state.stage, O.time, course.foreseen(self.state, O.time, self.section))
         if time.monotonic() - self._saved > max(CHECKPOINT_SECONDS, self._saving / CHECKPOINT_SHARE):
@@ -431,6 +438,7 @@ class Experiment:
                     "wall_series": self.walls.file.mark(),
                 },
             )
+        self.frames.saved()
         self._saved = time.monotonic()
         self._saving = self._saved - now
 

@@ -8,19 +8,27 @@ from pathlib import Path
 
 import numpy as np
 
-from . import records, scales, toe
+from . import frames, records, scales, toe
 from .characteristic_times import chosen_rows, mean_of, of_run, weakening_begins
 from .measure import force_stages
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
-from .whole_files import WriteError, remove_parts, whole, write_atomically
+from .whole_files import remove, remove_parts, whole, write_atomically
 
-__all__ = ["frames", "nearest", "summarise", "forget", "forget_later"]
+__all__ = ["summarise", "forget", "forget_later"]
 
 ENTRAINED = 2.0  # mean diameters
+EARLIER = "left from an earlier run"
 
 # what a run leaves besides its series and its checkpoint
-SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = "summary.json", "breaks.csv", "t0.npz", "end.npz", "snapshots", "vtk"
+SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = (
+    "summary.json",
+    "breaks.csv",
+    "t0.npz",
+    "end.npz",
+    frames.FOLDER,
+    "vtk",
+)
 FIGURES = (
     "force_chains.png",
     "forces.png",
@@ -39,11 +47,12 @@ def forget(folder):
     Half-written files that killed runs have left go too. Raises WriteError.
     """
     folder = Path(folder)
-    _remove(
+    remove(
         [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, *FIGURES)]
         + whole(folder / SNAPSHOTS, "*.npz")
         + whole(folder / PARAVIEW, "*.vtu")
-        + [folder / PARAVIEW / "avalanche.pvd"]
+        + [folder / PARAVIEW / "avalanche.pvd"],
+        EARLIER,
     )
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW)
 
@@ -52,18 +61,8 @@ def forget_later(folder, stage, step):
     """Removes snapshots of times that a run resumed in ``stage`` (of course.State) at ``step`` has not reached yet, and half-written files."""
     folder = Path(folder)
     later = [path for path in whole(folder / SNAPSHOTS, "*.npz") if path.stem.isdecimal() and int(path.stem) > step]
-    _remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"))
+    remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"), EARLIER)
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW, folder / "checkpoint")
-
-
-def _remove(paths):
-    for path in paths:
-        try:
-            path.unlink(missing_ok=True)
-        except OSError as error:
-            raise WriteError(
-                f"{path}: left from an earlier run, and cannot be removed ({error.strerror}); remove it, or give another folder"
-            ) from None
 
 
 def _difference(a, b):
@@ -222,18 +221,3 @@ def summarise(folder, section, state, threads=None) -> dict:
     clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
     write_atomically(folder / SUMMARY, (json.dumps(clean, indent=1) + "\n").encode())
     return clean
-
-
-def frames(folder, series):
-    """The run's snapshots in the course of time: (time [s], path); ``series``: all of its rows. Other files are none of the run's."""
-    time_of = dict(zip(series["step"].astype(int).tolist(), series["time_s"].tolist()))
-    return [
-        (time_of[int(p.stem)], p)
-        for p in whole(Path(folder) / SNAPSHOTS, "*.npz")
-        if p.stem.isdecimal() and int(p.stem) in time_of
-    ]
-
-
-def nearest(frames, time):
-    """Snapshot file whose time is nearest; ``frames``: list of (time, path)."""
-    return min(frames, key=lambda item: abs(item[0] - time))[1]

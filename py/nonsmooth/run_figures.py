@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
 
-from . import figures, paraview, records, results, scales, video
+from . import figures, frames, paraview, records, results, scales, video
 from .characteristic_times import chosen_rows
 
 __all__ = ["NAMES", "Drawing", "draw"]
@@ -39,8 +39,8 @@ class Drawing:
 
     @cached_property
     def shots(self):
-        """[(time [s], path)] of the snapshots."""
-        return results.frames(self.folder, self.every)
+        """[(time [s], path)] of all snapshots: those at regular times, and of the characteristic ones."""
+        return frames.of_run(self.folder, self.every)
 
     @cached_property
     def first(self):
@@ -61,7 +61,7 @@ class Drawing:
             if name == "t0" and self.first is not None:
                 found.append((name, self.first))
             elif self.shots:
-                found.append((name, records.read_snapshot(results.nearest(self.shots, t))))
+                found.append((name, records.read_snapshot(frames.nearest(self.shots, t))))
         if self.times["t5"] is None and self.last is not None and not (found and found[-1][1].step == self.last.step):
             found.append(("end", self.last))
         return found
@@ -102,7 +102,7 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
         else []
     )
     made = [path for name in NAMES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None]
-    files = [p for _, p in drawing.shots]
+    files = [p for _, p in frames.regular(drawing.shots, drawing.every, section, drawing.failed_dry)]
     if files:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
             written = beside.submit(paraview.write_run, drawing.folder, section, drawing.shots)

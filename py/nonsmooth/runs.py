@@ -14,7 +14,7 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from . import records, results, run_figures, section, section_data
+from . import frames, records, results, run_figures, section, section_data
 from .errors import UserError
 
 __all__ = ["FIGURES", "Run", "RunError", "open_run"]
@@ -73,10 +73,10 @@ class Run:
         """The disks at "t0" or "end", with their contacts, or at a time [s], that of the nearest snapshot."""
         if isinstance(name, str):
             return records.read_snapshot(self._file(f"{name}.npz"))
-        frames = results.frames(self.folder, self.series)
-        if not frames:
+        shots = frames.of_run(self.folder, self.series)
+        if not shots:
             raise RunError(f"{self.folder}: the run has written no snapshot yet; let it go on with --resume")
-        return records.read_snapshot(results.nearest(frames, name))
+        return records.read_snapshot(frames.nearest(shots, name))
 
     def figure(self, name):
         """One of FIGURES as a matplotlib Figure that is not written. Raises RunError for another name, and where the run has not come to what it shows."""

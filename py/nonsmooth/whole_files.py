@@ -17,6 +17,7 @@ __all__ = [
     "WriteError",
     "beside",
     "empty",
+    "remove",
     "remove_parts",
     "remove_parts_below",
     "sync_folder",
@@ -53,6 +54,17 @@ def beside(path):
 def whole(folder, pattern):
     """Sorted paths of the files in ``folder`` that match a pattern, without those that are being written, or were when their process was killed."""
     return sorted(path for path in Path(folder).glob(pattern) if not path.name.startswith(PART))
+
+
+def remove(paths, what):
+    """Removes files, where they are there; ``what`` they are, for the message. Raises WriteError."""
+    for path in paths:
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise WriteError(
+                f"{path}: {what}, and cannot be removed ({error.strerror}); remove it, or give another folder"
+            ) from None
 
 
 def remove_parts(*folders):

@@ -61,7 +61,10 @@ def test_every_shipped_section_begins(name, disks, end, in_process, monkeypatch,
         return
     told = json.loads((out / "summary.json").read_text())
     assert told["times_s"]["t0"] is not None and told["failed_dry_s"] is None, told
-    assert {"force_chains.png", "forces.png", "snapshots.png", "energy.png", "solver.png"} <= set(kept)
+    assert {"force_chains.png", "forces.png", "snapshots.png", "weakening.png", "energy.png", "solver.png"} <= set(kept)
+    assert [ax.get_ylabel() for ax in kept["weakening.png"].axes] == [
+        f"along {one.name},\nfrom its upper end [m]" for one in made.weakening
+    ]
     names = [style.plain(wall.name) for wall in made.walls]
     said = " ".join(
         drawn.texts(kept["snapshots.png"].axes[0])
@@ -214,6 +217,7 @@ def test_a_slope_without_water_weakening_and_backstop(monkeypatch, tmp_path):
     assert series["dp_shear_N_per_m"].max() > 0 and series["front_m"].max() < 0
     drawn_files, notes = run_figures.draw(tmp_path / "out", made, told)
     assert {"forces.png", "snapshots.png", "energy.png", "solver.png"} <= set(kept) and len(drawn_files) >= 5
+    assert "weakening.png" not in kept  # nothing weakens
     labels = {line.get_label() for ax in kept["forces.png"].axes for line in ax.lines}
     assert not any("U" in label or "h_w" in label or "FB" in label for label in labels) and any(
         "bed of" in label for label in labels

@@ -37,15 +37,15 @@ def kept(monkeypatch):
 
 # ---- a run ----------------------------------------------------------------------------------------
 
-TIMES = {"t0": 10.0, "t1": 42.0, "t2": 51.0, "t3": 60.0, "t4": 71.0, "t5": None}
+TIMES = {"t0": 10.0, "t1": 42.1, "t2": 51.0, "t3": 60.0, "t4": 71.0, "t5": None}
 
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """A run of 100 s whose rows, one a second, settle until 10 s, with a snapshot every ten seconds; video and ParaView files are kept as their arguments."""
+    """A run of 100 s whose rows, one a second, settle until 10 s, with a snapshot every ten seconds, and one of t1; video and ParaView files are kept as their arguments."""
     rows = {name: np.zeros(101) for name in records.COLUMNS} | {
         "step": np.arange(101) * 100,
-        "time_s": np.arange(101.0),
+        "time_s": np.where(np.arange(101) == 42, 42.1, np.arange(101.0)),
         "stage": (np.arange(101) >= 10).astype(int),
     }
     rows |= {
@@ -66,6 +66,7 @@ def run(tmp_path, monkeypatch):
         records.write_snapshot(tmp_path / "snapshots" / f"{1000 * k:08d}.npz", **state(10.0 * k)) for k in range(11)
     ]
     records.write_snapshot(tmp_path / "snapshots" / "00000123.npz", **state(1.25))  # of no row: none of the run's
+    files.insert(5, records.write_snapshot(tmp_path / "snapshots" / "00004200.npz", **state(42.1)))
     records.write_snapshot(tmp_path / "t0.npz", **state(10.5))
     records.write_snapshot(tmp_path / "end.npz", **state(100.0))
     told = types.SimpleNamespace(folder=tmp_path, files=files)
@@ -92,11 +93,11 @@ def test_a_run_hands_its_records_to_its_figures(kept, run):
         "avalanche.pvd",
         "avalanche.mp4",
     ]
-    # t0 has a file of its own, the others take the nearest snapshot; t5 did not come, so that the end is shown
+    # t0 has a file of its own, t1 its exact snapshot, the others take the nearest; t5 did not come, so that the end is shown
     at = [[t.get_text() for t in ax.texts if t.get_text().endswith(" s")][0] for ax in kept["snapshots.png"].axes]
     assert at == [
         "$t_{0}$ = 10.5 s",
-        "$t_{1}$ = 40.0 s",
+        "$t_{1}$ = 42.1 s",
         "$t_{2}$ = 50.0 s",
         "$t_{3}$ = 60.0 s",
         "$t_{4}$ = 70.0 s",
@@ -124,13 +125,15 @@ def test_a_run_hands_its_records_to_its_figures(kept, run):
     assert kept["solver.png"].axes[0].get_xlim() == (10, 100)
     (files, walls, path), options = run.video
     assert (
-        files == run.files
+        files == [p for k, p in enumerate(run.files) if k not in (0, 5)]  # at equal distances, since it settled
         and walls is slope
         and path.name == "avalanche.mp4"
         and options["times"] == TIMES
         and options["series"]["time_s"][0] == 10
     )
-    assert run.paraview[0] == run.folder and run.paraview[2] == [(10.0 * k, p) for k, p in enumerate(run.files)]
+    assert run.paraview[0] == run.folder and run.paraview[2] == list(
+        zip([0.0, 10.0, 20.0, 30.0, 40.0, 42.1, *np.arange(50.0, 101, 10)], run.files)
+    )
 
 
 def test_a_slope_that_failed_dry_has_no_initial_state(kept, run):
@@ -140,7 +143,8 @@ def test_a_slope_that_failed_dry_has_no_initial_state(kept, run):
     assert "on the move already" in note and "force_chains.png" not in kept and "deposit.png" not in kept
     # forces are those of all rows, energies of those that have a balance
     assert (
-        run.video[1]["series"]["time_s"][0] == 0
+        run.video[0][0] == [p for k, p in enumerate(run.files) if k not in (0, 5)]  # from 7 s on
+        and run.video[1]["series"]["time_s"][0] == 0
         and kept["solver.png"].axes[0].get_xlim() == (0, 100)
         and kept["energy.png"].axes[0].get_xlim() == (10, 100)
     )

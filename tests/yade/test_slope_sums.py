@@ -36,7 +36,7 @@ def test_rows_of_the_series_and_snapshots_balance_by_themselves(whole):
     weight, worst, largest = mass.sum() * 9.81, 0.0, 0.0
     for one, other in zip(shots, shots[1:]):
         rows = np.flatnonzero((series["step"] > one.step) & (series["step"] <= other.step))
-        assert len(rows) == 5
+        assert 1 <= len(rows) <= 5  # one in five, and those of the characteristic times
         seconds = np.diff(series["time_s"][[rows[0] - 1, *rows]])
         given, normal = np.array([0.0, -weight * seconds.sum()]), np.array(whole.section.normal)
         lift = series["dp_water_N_per_m"]

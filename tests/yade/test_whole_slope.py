@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 from by_hand import Known
-from yade.nonsmooth import records
+from yade.nonsmooth import frames, records
 
 
 def test_it_settles_gets_wet_fails_weakens_moves_and_rests(whole):
@@ -81,3 +81,15 @@ def test_snapshots_tell_who_is_wet_released_and_weakened(whole, known):
         assert shot.weakened.sum() == whole.series["weakened_disks"][row]
         seen += [shot.released.sum(), shot.weakened.sum(), (by_hand["moved"][row] & ~shot.ever_wet).sum()]
     assert (seen > 0).all() and not (shot.wet & shot.released).any()
+
+
+def test_the_characteristic_times_have_snapshots_of_their_own(whole):
+    """To the row; besides these there are those of every fifth row alone."""
+    times = {name: t for name, t in whole.summary["times_s"].items() if name != "t0"}
+    shots = frames.of_run(whole.folder, whole.series)
+    for name, t in times.items():
+        assert abs(records.read_snapshot(frames.nearest(shots, t)).time_s - t) < 1e-9, name
+    even = frames.regular(shots, whole.series, whole.section, None)
+    assert len(shots) > len(even) and {t for t, _ in shots} == {t for t, _ in even} | set(times.values())
+    # rows of 0.02 s, met to half a step of 5 ms
+    assert np.diff([t for t, _ in even]) == pytest.approx(0.1, abs=0.0051)
