@@ -10,12 +10,12 @@ import numpy as np
 
 from . import frames, records, scales, toe
 from .characteristic_times import chosen_rows, mean_of, of_run, weakening_begins
-from .measure import force_stages
+from .measure import force_stages, toe_bands
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import remove, remove_parts, whole, write_atomically
 
-__all__ = ["summarise", "forget", "forget_later"]
+__all__ = ["summarise", "forget", "forget_later", "while_it_fails"]
 
 ENTRAINED = 2.0  # mean diameters
 EARLIER = "left from an earlier run"
@@ -34,6 +34,7 @@ FIGURES = (
     "forces.png",
     "snapshots.png",
     "weakening.png",
+    "toe.png",
     "deposit.png",
     "energy.png",
     "solver.png",
@@ -99,6 +100,33 @@ def _force_stages(series, section, times, second, leans):
         series, times, friction, lambda name, end: mean_of(series, name, end, second), backstop=leans
     )
     return {k: v if v is not None and math.isfinite(v) else None for k, v in found.items()}
+
+
+def while_it_fails(folder, every, times):
+    """Snapshots of t1 and t3, between which the toe shears; None where the run has not both. ``every``: all rows of its series; ``times``: its characteristic times."""
+    paths = {time: path for time, path in frames.of_run(folder, every)}
+    found = [paths.get(times[name]) for name in ("t1", "t3")]
+    return None if None in found else tuple(map(records.read_snapshot, found))
+
+
+def _toe_bands(folder, every, section, times):
+    """Bands in the toe (:mod:`.measure.toe_bands`) and Rankine's inclination; None where there is no backstop, or the run has not come so far."""
+    seen = while_it_fails(folder, every, times) if section.of_role("backstop") else None
+    if seen is None:
+        return None
+    envelope = section.materials[section.layers[0].material].envelope
+    plain = lambda band: band and {  # noqa: E731
+        "inclination_deg": band.inclination_deg,
+        "width_d": band.width,
+        "rotation_rad": band.rotation,
+        "contrast": band.contrast if math.isfinite(band.contrast) else None,
+    }
+    towards_foot, conjugate = map(plain, toe_bands.find(*seen, section))
+    return {
+        "towards_foot": towards_foot,
+        "conjugate": conjugate,
+        "rankine_deg": envelope and toe_bands.rankine(envelope.friction_deg),
+    }
 
 
 def _of_bed(section, start, end):
@@ -214,6 +242,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     }
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
     summary["force_stages"] = _force_stages(series, section, times, second, leans)
+    summary["toe_bands"] = _toe_bands(folder, every, section, times)
     summary |= _of_bed(section, start, end)
     summary |= _passive(
         section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]

@@ -79,11 +79,19 @@ class Drawing:
             return figures.snapshots(cases, self.section, path) if cases else None
         if name == "weakening":
             return self._weakening(path)
+        if name == "toe":
+            return self._toe(path)
         if self.first is None:
             return None
         if name == "force_chains":
             return figures.force_chains(self.first, self.section, path)
         return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
+
+    def _toe(self, path):
+        """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its failure."""
+        seen = results.while_it_fails(self.folder, self.every, self.times) if self.section.of_role("backstop") else None
+        envelope = self.section.materials[self.section.layers[0].material].envelope
+        return seen and figures.toe(*seen, self.section, path, friction_deg=envelope and envelope.friction_deg)
 
     def _weakening(self, path):
         """Nothing where no wall weakens, or where the snapshots are of an earlier version and do not tell."""

@@ -85,7 +85,7 @@ class Run:
         found = self._drawing.figure(name)
         if found is None:
             raise RunError(
-                f"{self.folder}: the run has not come to what {name} shows, or failed before it; let it go on with --resume"
+                f"{self.folder}: the run has not come to what {name} shows, failed before it, or has no wall or too few disks for it; let it go on with --resume if it has not ended"
             )
         return found
 

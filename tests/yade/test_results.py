@@ -294,6 +294,7 @@ KNOWN = {
         },
         None,
     ),
+    "toe_bands": (None, None),  # no snapshots of its failure
     "water_passive_m": (PASSIVE.water_m, "length"),
     "water_at_failure_over_passive": (WATER / PASSIVE.water_m, None),
     "passive_resistance_dry_N_per_m": (PASSIVE.resistance_dry, "force"),
@@ -363,7 +364,7 @@ def test_a_run_that_goes_on_has_no_end(tmp_path):
         energy_dissipated_J_per_m=share * LOST,
         energy_correction_rel=1.9e8 / LOST,
         energy_losses_J_per_m={name: share * value for name, value in KNOWN["energy_losses_J_per_m"][0].items()},
-        energy_error_rel=0.01 * (LOST * share + 2e9 + 3e9) / (LOST * share)
+        energy_error_rel=0.01 * (LOST * share + 2e9 + 3e9) / (LOST * share),
     )
 
 
@@ -428,7 +429,7 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
         overlap_mean_rel=0.4,
         residual_p95=between(950e-8, 1.0),
         residual_N_per_m_p95=between(2850.0, 1e9),
-        residual_p95_over_tolerance=between(4.75, 1e6)
+        residual_p95_over_tolerance=between(4.75, 1e6),
     )
     # energies are those since it settled, when they begin anew
 
@@ -483,7 +484,7 @@ def test_a_slope_of_another_size_has_the_same_summary_in_its_units(tmp_path, siz
         tmp_path,
         section,
         **{name: time * STATE[name] for name in ("settled", "t0", "moving")},
-        front0=size * STATE["front0"]
+        front0=size * STATE["front0"],
     )
     assert set(found) == set(KNOWN)
     for name, (value, unit) in KNOWN.items():
@@ -491,3 +492,21 @@ def test_a_slope_of_another_size_has_the_same_summary_in_its_units(tmp_path, siz
         assert found[name] == (
             pytest.approx(units[unit] * value, rel=1e-7) if "passive" in name else near(value, units[unit])
         ), name
+
+
+def test_a_toe_is_told_from_the_snapshots_of_t1_and_t3(tmp_path):
+    known_slope.write(tmp_path)
+    every = records.read_series(tmp_path / "series.csv")
+    (tmp_path / "snapshots").mkdir()
+    for name in ("t1", "t2", "t3"):
+        row = int(np.argmin(np.abs(every["time_s"] - TIMES[name])))
+        records.write_snapshot(
+            tmp_path / "snapshots" / f"{int(every['step'][row]):08d}.npz",
+            time_s=float(every["time_s"][row]), step=int(every["step"][row]), water_m=0.0, **known_slope.begin(),
+        )  # fmt: skip
+    seen = results.while_it_fails(tmp_path, every, TIMES)
+    assert [s.time_s for s in seen] == [TIMES["t1"], TIMES["t3"]]
+    assert results.while_it_fails(tmp_path, every, TIMES | {"t3": None}) is None
+    # the fifty stacks there are too far up the slope to be a toe
+    found = summary_of(tmp_path)["toe_bands"]
+    assert found == {"towards_foot": None, "conjugate": None, "rankine_deg": pytest.approx(45 - 39.8 / 2)}

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from yade.nonsmooth import geometry, records, toe
+from yade.nonsmooth.measure import toe_bands
 
 
 class Summary:
@@ -197,6 +198,25 @@ class Summary:
 
     def motion_s(self):
         return self.times["t5"] - self.times["t3"]
+
+    def toe_bands(self):
+        """From the snapshots of t1 and t3, by their steps; the rock's angle of friction is 35°."""
+        step = {t: s for t, s in zip(self.all["time_s"].tolist(), self.all["step"].astype(int).tolist())}
+        before, after = (
+            records.read_snapshot(self.whole.folder / "snapshots" / f"{step[self.times[name]]:08d}.npz")
+            for name in ("t1", "t3")
+        )
+        found = [
+            b
+            and {
+                "inclination_deg": b.inclination_deg,
+                "width_d": b.width,
+                "rotation_rad": b.rotation,
+                "contrast": b.contrast,
+            }
+            for b in toe_bands.find(before, after, self.section)
+        ]
+        return {"towards_foot": found[0], "conjugate": found[1], "rankine_deg": 27.5}
 
     # the motion and the deposit
     def front_travel_m(self):

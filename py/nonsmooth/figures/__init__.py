@@ -12,6 +12,7 @@ from .profiles import deposit, snapshots
 from .numerics import energy, solver
 from .runouts import runouts
 from .scene import draw
+from .toe import toe
 from .weakening import weakening
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "energy",
     "runouts",
     "solver",
+    "toe",
     "weakening",
     "contact_law",
     "bond_zone",

@@ -13,7 +13,8 @@ import numpy as np
 from .. import processes, records, side_by_side
 from ..errors import UserError
 from ..statistics import Estimate
-from . import bands, biaxial_test, fluctuations, pressing, strength
+from ..measure import bands
+from . import biaxial_test, fluctuations, pressing, strength
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}

@@ -260,6 +260,11 @@ MUTANTS = (
            "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
     mutant("stages-water", PY + "measure/force_stages.py", 'friction * change("dp_water")', "friction * change(normal)", "equation 19 has the total force for the water's",
            "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
+    mutant("toe-side", PY + "measure/toe_bands.py", "turned = section.side * (after", "turned = (after", "bands of a slope that falls to the left are looked for with the wrong sense",
+           "plain:test_toe_bands.py::test_a_mirrored_toe_has_the_mirrored_bands"),
+    mutant("toe-inclination", PY + "measure/toe_bands.py", "float(90 - abs(band.angle_deg))", "float(abs(band.angle_deg))", "bands are told by their angle to the normal",
+           "plain:test_toe_bands.py::test_both_bands_are_found_with_their_inclination_and_width"),
+    mutant("toe-times", RESULTS, 'for name in ("t1", "t3")]', 'for name in ("t2", "t3")]', "the toe is told from t2 on", "plain:test_results.py::test_a_toe_is_told_from_the_snapshots_of_t1_and_t3"),
     # ---- pressed slopes
     mutant("pressed-thin", SECTION, "free_surface.raised(self, free_surface.PRESSED) if self.pressed", "free_surface.raised(self, 0.0) if self.pressed",
            "layers are not filled higher before they are pressed", "test_slope_packing.py::test_it_is_as_thick_as_the_section"),
