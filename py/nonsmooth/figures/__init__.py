@@ -1,4 +1,4 @@
-"""Figures of a run, made from its records alone (no YADE, no display).
+"""Figures of a run, made from its records alone, and sketches of the law (no YADE, no display).
 
 Every function takes data and returns the matplotlib Figure it draws. With the ``path`` of a PNG it writes the figure
 there instead and returns the path; ``pdf=True`` writes a PDF beside it (disks and bars rasterised, text and lines as
