@@ -24,10 +24,10 @@ from .stepping import advance
 
 __all__ = ["CALM", "LONGEST", "of", "press"]
 
-VERSION = 1  # of the way slopes are pressed; a new number makes old files unused
+VERSION = 2  # of the way slopes are pressed; a new number makes old files unused
 CALM = 1e-4
 LONGEST = 12
-TOLERANCE = 1e-5
+TOLERANCE, MAX_ITERATIONS = 1e-5, 1000
 
 
 def of(section, seed: int | None = None, progress=None) -> Packing:
@@ -57,7 +57,8 @@ def of(section, seed: int | None = None, progress=None) -> Packing:
 
 def _cache_path(section, seed):
     """Where a pressed packing is kept: beside the packings. Other engines press their own, so that a run has the same bits with and without a cache from earlier builds."""
-    key = keys.key_of([section.key(), section.gravity, section.numerics.time_step, keys.engines_key()])
+    n = section.numerics
+    key = keys.key_of([section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.engines_key()])
     return cache_folder("packings") / f"{key[:32]}-{section.seed if seed is None else seed}-pressed-v{VERSION}.npz"
 
 
@@ -111,5 +112,5 @@ def _smooth(section):
         name: dataclasses.replace(m, bonded=False, slip_weakening=None, **nothing)
         for name, m in section.materials.items()
     }
-    numerics = dataclasses.replace(section.numerics, tolerance=TOLERANCE)
+    numerics = dataclasses.replace(section.numerics, tolerance=TOLERANCE, max_iterations=MAX_ITERATIONS)
     return dataclasses.replace(section, materials=materials, water=None, numerics=numerics)
