@@ -276,6 +276,17 @@ def test_phases_are_coloured_and_named(courses):
     ]
 
 
+def test_a_slope_that_does_not_weaken_moves_from_t2_on():
+    times = {"t0": 10.0, "t1": 40.0, "t2": 50.0, "t3": None, "t4": 70.0, "t5": 90.0}
+    ax = style.figure(8, 3).add_subplot()
+    ax.set_xlim(0, 100)
+    style.shade_phases(ax, times)
+    wanted = [(10, 40, "#dcebf7"), (40, 50, "#fff3c4"), (50, 90, "#efe3ee")]
+    assert drawn.bands(ax) == wanted
+    style.shade_phases(ax, times | {"t5": None})  # it goes on
+    assert drawn.bands(ax)[3:] == wanted[:2]
+
+
 def test_zero_of_the_water_table_is_that_of_the_forces_and_all_means_are_in_sight(courses):
     whole, close, water = panels(courses)
     for upper, table in zip((whole[0], close[0]), water):

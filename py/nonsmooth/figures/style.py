@@ -279,10 +279,10 @@ def water_line(ax, ground, height, **options):
 
 
 def shade_phases(ax, times, names=False):
-    """Colour the phases between the characteristic times behind the curves; optionally write their names."""
+    """Colour the phases between the characteristic times behind the curves; optionally write their names. The motion of a slope that has no t3 begins at t2."""
     t = known_times(times)
     x0, x1 = ax.get_xlim()
-    for first, last, name, colour in PHASES:
+    for first, last, name, colour in PHASES if "t3" in t else (*PHASES, ("t2", *PHASES[-1][1:])):
         if first not in t or last not in t:
             continue
         a, b = max(t[first], x0), min(t[last], x1)

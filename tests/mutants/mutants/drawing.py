@@ -76,6 +76,8 @@ MUTANTS = (
            "plain:test_figures_slope.py::test_scale_bar_is_as_long_as_it_says"),
     mutant("style-phases", STYLE, '("t1", "t2", "failure", "#fff3c4")', '("t0", "t2", "failure", "#fff3c4")', "failure begins with the water",
            "plain:test_figures_forces.py::test_phases_are_coloured_and_named"),
+    mutant("style-motion", STYLE, 'PHASES if "t3" in t else (*PHASES, ("t2", *PHASES[-1][1:]))', "PHASES", "a slope that does not weaken has no motion",
+           "plain:test_figures_forces.py::test_a_slope_that_does_not_weaken_moves_from_t2_on"),
     mutant("profiles-front", FRONTS, "float(ahead[order][at] + r[order][at])", "float(ahead[order][at] - r[order][at])", "the front is the near edge of its disk",
            "plain:test_figures_slope.py::test_ways_are_those_of_front_centre_and_thickness"),
     mutant("profiles-travel", PROFILES, "side * (b - a), extent", "side * (a - b), extent", "the front's travel is negated in the figure",
