@@ -172,3 +172,10 @@ def test_what_cannot_be_drawn_is_an_error():
     for told in (None, np.zeros((3, 2), bool)):
         with pytest.raises(records.RecordsError, match="does not tell which disks are weakened"):
             figures.weakening([dataclasses.replace(COURSE[0], weakened=told)], SLOPE)
+
+
+def test_the_foot_that_is_not_weakened_is_what_lies_below_the_lowest_weakened_bin():
+    edges = np.arange(0.0, 60.0, 10.0)  # five bins
+    assert measured.foot_length(edges, np.array([1, 1, 0.6, 0.4, np.nan])) == 20.0
+    assert measured.foot_length(edges, np.array([1, 0, 0, 0, 0.5])) == 0.0
+    assert measured.foot_length(edges, np.zeros(5)) == 50.0

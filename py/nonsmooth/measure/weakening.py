@@ -2,7 +2,7 @@
 
 import numpy as np
 
-__all__ = ["downwards", "stretches", "stretch", "weakened_share"]
+__all__ = ["downwards", "foot_length", "stretches", "stretch", "weakened_share"]
 
 BIN = 3.0  # mean diameters, as the surface's
 NEAR = 0.25  # mean diameters between a disk and the surface that it is on: in motion disks hop
@@ -53,6 +53,12 @@ def stretches(edges, share):
     weak = np.r_[False, np.nan_to_num(share) >= 0.5, False]
     begin, end = np.flatnonzero(~weak[:-1] & weak[1:]), np.flatnonzero(weak[:-1] & ~weak[1:])
     return [(float(edges[a]), float(edges[b])) for a, b in zip(begin, end)]
+
+
+def foot_length(edges, share):
+    """Length [m] of the lowest part of a surface where fewer than half of the disks are weakened, or none is; from :func:`weakened_share`."""
+    weak = np.flatnonzero(np.nan_to_num(share) >= 0.5)
+    return float(edges[-1] - edges[weak[-1] + 1 if len(weak) else 0])
 
 
 def stretch(line, begin, end, side=1.0):

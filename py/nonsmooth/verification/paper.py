@@ -7,7 +7,7 @@ import dataclasses
 from .. import figures, records, results, scales, section
 from ..characteristic_times import chosen_rows
 from ..measure.ground import ground_of
-from ..measure.weakening import weakened_share
+from ..measure.weakening import foot_length, weakened_share
 from ..statistics import Estimate
 from . import Outcome, between, check
 from .cases import folder_of, run_cases
@@ -99,14 +99,10 @@ def avalanche(folder, disks, seed):
 
 
 def wedge(chosen, end):
-    """Length [m] of the lowest part of the slip surface on which fewer than half of the disks are weakened."""
+    """Length [m] of the lowest part of the slip surface that is not weakened (paper, [119])."""
     ground = ground_of(chosen)
     (column, wall), *_ = ground.weakening.items()
-    edges, share = weakened_share(end, wall.vertices, column, ground.side)
-    whole = 0
-    while whole < len(share) and not share[::-1][whole] >= 0.5:  # NaN where no disk is
-        whole += 1
-    return float(edges[-1] - edges[-1 - whole])
+    return foot_length(*weakened_share(end, wall.vertices, column, ground.side))
 
 
 @check("What forces on the walls do until, in and after the avalanche", subject=SUBJECT, seconds=300, quick=60)

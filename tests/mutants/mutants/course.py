@@ -260,6 +260,8 @@ MUTANTS = (
            "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
     mutant("stages-water", PY + "measure/force_stages.py", 'friction * change("dp_water")', "friction * change(normal)", "equation 19 has the total force for the water's",
            "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
+    mutant("wedge-first", PY + "measure/weakening.py", "edges[weak[-1] + 1 if len(weak) else 0]", "edges[weak[0] + 1 if len(weak) else 0]", "what is not weakened begins below the highest weakened part",
+           "plain:test_weakening.py::test_the_foot_that_is_not_weakened_is_what_lies_below_the_lowest_weakened_bin"),
     mutant("toe-side", PY + "measure/toe_bands.py", "turned = section.side * (after", "turned = (after", "bands of a slope that falls to the left are looked for with the wrong sense",
            "plain:test_toe_bands.py::test_a_mirrored_toe_has_the_mirrored_bands"),
     mutant("toe-inclination", PY + "measure/toe_bands.py", "float(90 - abs(band.angle_deg))", "float(abs(band.angle_deg))", "bands are told by their angle to the normal",
