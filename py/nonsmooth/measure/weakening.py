@@ -48,16 +48,21 @@ def _projected(snapshot, line, leg):
     return along, off
 
 
+def _weak(share):
+    """Which bins count as weakened, (bins,) bool."""
+    return np.nan_to_num(share) >= 0.5
+
+
 def stretches(edges, share):
     """Where at least half of the disks are weakened: list of (begin, end) [m], from :func:`weakened_share`."""
-    weak = np.r_[False, np.nan_to_num(share) >= 0.5, False]
+    weak = np.r_[False, _weak(share), False]
     begin, end = np.flatnonzero(~weak[:-1] & weak[1:]), np.flatnonzero(weak[:-1] & ~weak[1:])
     return [(float(edges[a]), float(edges[b])) for a, b in zip(begin, end)]
 
 
 def foot_length(edges, share):
     """Length [m] of the lowest part of a surface where fewer than half of the disks are weakened, or none is; from :func:`weakened_share`."""
-    weak = np.flatnonzero(np.nan_to_num(share) >= 0.5)
+    weak = np.flatnonzero(_weak(share))
     return float(edges[-1] - edges[weak[-1] + 1 if len(weak) else 0])
 
 
