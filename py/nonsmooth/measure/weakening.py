@@ -17,7 +17,8 @@ def downwards(line, side=1.0):
 def weakened_share(snapshot, line, column, side=1.0):
     """What part of the disks on a surface is weakened there, along the surface.
 
-    ``line``: its vertices (n, 2) [m]; ``column``: its number in :attr:`.records.Snapshot.weakened`, which must be known; ``side``: see :func:`downwards`.
+    On an interface these are the disks of both its layers. ``line``: its vertices (n, 2) [m]; ``column``: its number in :attr:`.records.Snapshot.weakened`, which must be
+    known; ``side``: see :func:`downwards`.
     Returns the edges of bins of about three mean diameters, (bins + 1,) [m] along the surface from its upper end, and the share in each, (bins,), NaN where no disk is.
     """
     line = downwards(line, side)
