@@ -19,7 +19,7 @@ __all__ = ["FEWEST", "REACH", "ToeBand", "find", "rankine", "toe"]
 # thicknesses of the mass at the foot, up the slope from there: where the first band is looked for, which leaves the toe near the foot, and where its conjugate, which rises from
 # where the first one meets the slip surface
 REACH = (1.6, 3.0)
-FEWEST = 100  # disks that tell of bands
+FEWEST = 500  # disks that tell of bands: their width is five to eight disks
 
 
 @dataclass(frozen=True)
