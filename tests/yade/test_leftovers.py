@@ -70,8 +70,9 @@ def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
     )
     summary = results.summarise(broken, small, dataclasses.asdict(resumed.state))
     made, notes = run_figures.draw(broken, small, summary)
+    # those half a second apart, 50 steps; between them are rows that may still become a characteristic time
     assert [path.name for path in shown] == [
-        name.split("/")[1] for name in sorted(wanted) if name.startswith("snapshots/")
+        name.split("/")[1] for name in sorted(wanted) if name.startswith("snapshots/") and int(name[10:18]) % 50 == 0
     ] and notes == ["no video"]
     assert {"forces.png", "snapshots.png", "avalanche.pvd"} <= {path.name for path in made}
     O.reset()
@@ -89,6 +90,7 @@ def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
             "section.yaml",
             "series.csv",
             "walls.csv",
+            "00000020.npz",  # its fastest row, which would be t4 if it failed dry
             *(path.name for path in broken.glob("checkpoint/scene-*")),
             *(path.name for path in broken.glob("vtk/*")),
         ]
