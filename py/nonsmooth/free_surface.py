@@ -39,8 +39,7 @@ def faces(section) -> geometry.Edges:
 def inward(section, x, y):
     """Unit vectors (n, 2) along which the depth grows at points (arrays x, y [m], shape (n,)), and their depths [m] below the nearest free face, negative outside the layers."""
     free, points = faces(section), np.column_stack((x, y))
-    ends = free.start + free.length[:, None] * free.direction
-    away, way, which = _nearest(points, free.start, ends)
+    away, way, which = _nearest(points, *_ends(free))
     inside = np.zeros(len(points), bool)
     for polygon in geometry.parts(section.outline):
         inside |= geometry.contains(polygon, *points.T)
@@ -59,13 +58,13 @@ def raised(section, share):
     The thickness at a vertex is the distance to the walls, along the face's normal, from a point of the face a largest diameter away, and no more than the greatest depth of
     the part that it belongs to; where the surface meets a wall it slides along it.
     """
-    free, walls, step = faces(section), _segments(section.walls), section.largest
+    free, walls, step = _ends(faces(section)), _segments(section.walls), section.largest
     polygons = []
     for polygon in geometry.parts(section.outline):
         table = geometry.edges(polygon)
         middle = table.start + 0.5 * table.length[:, None] * table.direction
-        is_free = np.array([_is_among(m, free, section.tolerance) for m in middle])
-        rings, first, deepest = [], 0, _greatest_depth(section, table)
+        is_free = _nearest(middle, *free)[0] <= 3 * section.tolerance
+        rings, first, deepest = [], 0, _greatest_depth(table, free)
         for ring in (polygon.exterior, *polygon.interiors):
             n = len(ring.coords) - 1
             rings.append(
@@ -90,16 +89,11 @@ def lifted(section, line, share):
     return line + up * [[share * _thickness(point, -n, walls)] for point, n in zip(line, up)]
 
 
-def _greatest_depth(section, table):
+def _greatest_depth(table, free):
     """Of the points of a part's rim below its free surface [m]."""
     shares = np.linspace(0, 1, 9)[:-1, None, None]
     rim = (table.start + shares * table.length[:, None] * table.direction).reshape(-1, 2)
-    free = faces(section)
-    return (
-        float(_nearest(rim, free.start, free.start + free.length[:, None] * free.direction)[0].max())
-        if len(free.length)
-        else 0.0
-    )
+    return float(_nearest(rim, *free)[0].max())
 
 
 def _moved(table, is_free, first, count, rise, step):
@@ -130,12 +124,9 @@ def _thickness(point, direction, walls):
     return float(way[hit].min()) if hit.any() else 0.0
 
 
-def _is_among(point, free, tolerance):
-    """Whether a point lies on one of the free edges."""
-    if not len(free.length):
-        return False
-    ends = free.start + free.length[:, None] * free.direction
-    return bool(_nearest(point[None, :], free.start, ends)[0][0] <= 3 * tolerance)
+def _ends(table):
+    """Starts and ends of edges, two arrays (n, 2)."""
+    return table.start, table.start + table.length[:, None] * table.direction
 
 
 def _segments(walls):

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 from .. import figures, records, results, scales, section
 from ..characteristic_times import chosen_rows
+from ..laboratory.campaign import number
 from ..measure.ground import ground_of
 from ..measure.weakening import foot_length, weakened_share
 from ..statistics import Estimate
@@ -76,8 +78,19 @@ STATEMENTS = {
 }  # fmt: skip
 
 
+#: Other numbers of a run's summary: what they are, and what the paper says.
+NUMBERS = {
+    "water_at_failure_m": ("water at failure, t1 [m]", "22.5 [115]"),
+    "water_highest_m": ("largest height of the table [m]", "22.5 [115]"),
+    "triggering_s": ("from the acceleration to the fall of the shear force, t2 to t3 [s]", "about 5 [117]"),
+    "weakening_s": ("of these from the first weakening on [s]", "not named"),
+    "motion_s": ("motion, t3 to t5 [s]", "about 35 [118]"),
+    "wedge_m": ("lowest part of DP that is not weakened at the end [m]", "lowermost portion [119]"),
+}
+
+
 def slope(disks, seed):
-    """The shipped section with about so many disks, pressed, loaded and bonded then: so made, a slope of few disks does as one of many does (paper, 3.2.2)."""
+    """The shipped section with about so many disks, pressed, loaded and bonded then."""
     shipped = section.load("jiufengershan").with_disks(disks)
     materials = {
         name: dataclasses.replace(m, bond_creation_distance=CREATION_DISTANCE) for name, m in shipped.materials.items()
@@ -119,28 +132,14 @@ def paper(bench):
     seeds = QUICK_SEEDS if bench.quick else SEEDS
     cases = [dict(disks=DISKS, seed=seed) for seed in seeds]
     found = run_cases(bench, avalanche, cases)
-    values = {name: [run["force_stages"][name] for run in found] for name in STATEMENTS}
-    claims, rows = [], []
-    for name, said in STATEMENTS.items():
-        # what a run did not come to is no number, and no claim of it holds
-        known = [float("nan") if v is None else v for v in values[name]]
-        claims.append(
-            between(said.what, Estimate.of(known).mean, said.low, said.high, against="the paper", why=said.why)
-        )
-        rows.append([said.what, said.paper, *_shown(known)])
-    more = {
-        "water at failure, t1 [m]": ("22.5 [115]", [f["water_at_failure_m"] for f in found]),
-        "largest height of the table [m]": ("22.5 [115]", [f["water_highest_m"] for f in found]),
-        "from the acceleration to the fall of the shear force, t2 to t3 [s]": ("about 5 [117]", [f["triggering_s"] for f in found]),
-        "of these from the first weakening on [s]": ("not named", [f["weakening_s"] for f in found]),
-        "motion, t3 to t5 [s]": ("about 35 [118]", [f["motion_s"] for f in found]),
-        "lowest part of DP that is not weakened at the end [m]": ("lowermost portion [119]", [f["wedge_m"] for f in found]),
-    }  # fmt: skip
-    rows += [[what, said, *_shown([float("nan") if v is None else v for v in of])] for what, (said, of) in more.items()]
-    numbers = {name: _estimate(of) for name, of in values.items()} | {
-        name: _estimate([f[name] for f in found])
-        for name in ("water_at_failure_m", "water_highest_m", "triggering_s", "weakening_s", "motion_s", "wedge_m")
-    }
+    stages = {name: [run["force_stages"][name] for run in found] for name in STATEMENTS}
+    others = {name: [run[name] for run in found] for name in NUMBERS}
+    claims = [
+        between(said.what, _mean(stages[name]).mean, said.low, said.high, against="the paper", why=said.why)
+        for name, said in STATEMENTS.items()
+    ]
+    rows = [[said.what, said.paper, *_shown(stages[name])] for name, said in STATEMENTS.items()]
+    rows += [[*told, *_shown(others[name])] for name, told in NUMBERS.items()]
     first = folder_of(bench, avalanche, cases[0])
     chosen = slope(DISKS, seeds[0])
     series = chosen_rows(records.read_series(first / "series.csv"), {"failed_dry": found[0]["failed_dry_s"]})
@@ -159,19 +158,23 @@ def paper(bench):
                 rows,
             )
         ],
-        numbers=numbers,
+        numbers={name: _plain(values) for name, values in (stages | others).items()},
     )
+
+
+def _mean(values):
+    """Over seeds; what a run did not come to is no number, and no claim of it holds."""
+    return Estimate.of([math.nan if v is None else v for v in values])
 
 
 def _shown(values):
     """Mean, half width of its 95 % interval and single values, as text."""
-    mean = Estimate.of(values)
-    return [f"{mean.mean:.3g}", f"± {mean.half_width:.2g}", ", ".join(f"{v:.3g}" for v in values)]
+    mean = _mean(values)
+    each = ", ".join("-" if v is None else f"{v:.3g}" for v in values)
+    return [f"{mean.mean:.3g}", f"± {mean.half_width:.2g}", each]
 
 
-def _estimate(values):
-    """The same as plain data; None where a value is missing."""
-    if None in values:
-        return {"mean": None, "half_width": None, "values": values}
-    mean = Estimate.of(values)
-    return {"mean": mean.mean, "half_width": mean.half_width, "values": list(map(float, values))}
+def _plain(values):
+    """The same as JSON can hold it: None where a value is missing."""
+    mean = _mean(values)
+    return {"mean": number(mean.mean), "half_width": number(mean.half_width), "values": values}
