@@ -75,7 +75,7 @@ def _passive(section, packing_fraction, water, force):
 
     ``water`` [m], ``force`` [N/m]: height of the table and normal force on the backstop at failure, None where there was none.
     """
-    envelope = section.materials[section.layers[0].material].envelope
+    envelope = section.envelope
     if envelope is None or section.water is None or section.water.wall is None or not section.of_role("backstop"):
         return {}
     found = toe.passive(
@@ -114,7 +114,7 @@ def _toe_bands(folder, every, section, times):
     seen = while_it_fails(folder, every, times) if section.of_role("backstop") else None
     if seen is None:
         return None
-    envelope = section.materials[section.layers[0].material].envelope
+    envelope = section.envelope
     plain = lambda band: band and {  # noqa: E731
         "inclination_deg": band.inclination_deg,
         "width_d": band.width,

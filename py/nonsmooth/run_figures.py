@@ -90,7 +90,7 @@ class Drawing:
     def _toe(self, path):
         """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its failure."""
         seen = results.while_it_fails(self.folder, self.every, self.times) if self.section.of_role("backstop") else None
-        envelope = self.section.materials[self.section.layers[0].material].envelope
+        envelope = self.section.envelope
         return seen and figures.toe(*seen, self.section, path, friction_deg=envelope and envelope.friction_deg)
 
     def _weakening(self, path):

@@ -198,6 +198,11 @@ class Section:
         names = [layer.name for layer in self.layers]
         return names.index(interface.between[0]), names.index(interface.between[1])
 
+    @property
+    def envelope(self) -> Envelope | None:
+        """Measured strength of the rock of the lowest layer, which the report sets beside the toe's; None where the section has none."""
+        return self.materials[self.layers[0].material].envelope
+
     def disks_of(self, layer: Layer) -> Disks:
         """The disks of a layer: its own, or those of the section."""
         return layer.disks or self.disks
