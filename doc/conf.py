@@ -1,4 +1,5 @@
 """Sphinx of yade-nonsmooth. Built inside YADE (the target "doc"), so that the reference can ask the classes themselves."""
+import glob
 import os
 import re
 import sys
@@ -51,3 +52,13 @@ html_css_files = ["pages.css"]
 html_show_sourcelink = False
 html_show_copyright = False
 html_theme_options = {"sidebar_hide_name": False}
+
+
+def forget_copied_notebooks(app):
+    """Removes the notebooks that a build before copied here: nbsphinx copies without force, and Sphinx 8 does not overwrite."""
+    for copy in glob.glob(os.path.join(app.outdir, "**", "*.ipynb"), recursive=True):
+        os.remove(copy)
+
+
+def setup(app):
+    app.connect("builder-inited", forget_copied_notebooks)
