@@ -99,9 +99,9 @@ def read_arguments():
     )
     parser.add_argument(
         "--sample",
-        choices=("packed", "pressed"),
-        help="packed: bond the disks as they were packed, as a slope is made, then let the pressure grow (default of bonded "
-        "materials); pressed: press them until they carry, then bond",
+        choices=("pressed", "packed"),
+        default="pressed",
+        help="pressed: press the disks until they carry, then bond them (default); packed: bond them as they were packed, then let the pressure grow",
     )
     parser.add_argument(
         "--pressing-friction",
@@ -120,9 +120,9 @@ def read_arguments():
     if args.pressing_friction is not None:
         if not args.pressing_friction >= 0:
             parser.error(f"--pressing-friction {args.pressing_friction:g}: it must be 0 or more")
-        if args.sample != "pressed":
+        if args.sample == "packed":
             parser.error(
-                f"--pressing-friction {args.pressing_friction:g}: only a sample that is pressed has it; add --sample pressed, or leave it out"
+                f"--pressing-friction {args.pressing_friction:g}: a sample that stays as it was packed has none; leave out --sample packed, or this"
             )
     if args.diameter[0] > args.diameter[1]:
         parser.error(f"--diameter {args.diameter[0]:g} {args.diameter[1]:g}: give the smallest first")
@@ -135,8 +135,7 @@ def main():
     output_folder.claim(out, "biaxial.py", args.resume)
     if args.bond_distance is not None:
         material = dataclasses.replace(material, bond_creation_distance=args.bond_distance)
-    pressed = args.sample == "pressed" or args.sample is None and not material.bonded
-    friction = args.pressing_friction or 0.0 if pressed else None
+    friction = None if args.sample == "packed" else args.pressing_friction or 0.0
     tests = [
         biaxial.Test(
             material,

@@ -13,6 +13,8 @@ import argparse
 import json
 from pathlib import Path
 
+from tabulate import tabulate
+
 from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.figures import biaxial as figures
 from yade.nonsmooth.laboratory import arguments, effects, materials
@@ -59,19 +61,11 @@ def main():
     ]
     with arguments.bar() as progress:
         rows = effects.run(chosen, out, args.threads, args.resume, progress)
-    write_atomically(
-        out / "summary.json", json.dumps({"confining_Pa": 1e6 * args.confining, "rows": rows}, indent=1).encode()
-    )
+    heads, lines = effects.table(rows)
+    told = {"confining_Pa": 1e6 * args.confining, "rows": rows, "tables": [["Effects", heads, lines]]}
+    write_atomically(out / "summary.json", json.dumps(told, indent=1).encode())
     figures.effects(rows, out / "effects.png")
-    print("                                  peak φ [°]   change of σ₁ [%]   plateau φ [°]   change of σ₁ [%]")
-    for r in rows:
-        within = (
-            lambda kind: "" if r[f"{kind}_change_95_rel"] is None else f" ± {100 * r[f'{kind}_change_95_rel']:.1f}"
-        )  # noqa: E731
-        print(
-            f"{r['label']:28s}{r['value']:8.4g} {r['peak_mean_deg']:8.2f} {100 * r['peak_change_rel']:+12.1f}{within('peak'):7s} {r['residual_mean_deg']:12.2f} "
-            f"{100 * r['residual_change_rel']:+12.1f}{within('residual'):7s}{'  usual' if r['usual'] else ''}"
-        )
+    print(tabulate(lines, heads))
     print(f"results: {out}/summary.json, effects.png")
 
 

@@ -6,6 +6,7 @@
   scripts/sweep.py --out DIR --collect                               the table of runs that a cluster has done
 """
 import argparse
+import difflib
 import os
 import sys
 from pathlib import Path
@@ -14,11 +15,11 @@ import yaml
 from tabulate import tabulate
 
 if "yade" in sys.modules:  # started by the launcher
-    from yade.nonsmooth import campaign, commands, section_arguments, section_reader
+    from yade.nonsmooth import campaign, commands, figures, section_arguments, section_reader
     from yade.nonsmooth.laboratory import arguments
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
-    from nonsmooth import campaign, commands, section_arguments, section_reader
+    from nonsmooth import campaign, commands, figures, section_arguments, section_reader
     from nonsmooth.laboratory import arguments
 
 NOTES = 3  # on what runs do, that are printed
@@ -56,6 +57,12 @@ def read_arguments():
     parser.add_argument(
         "--resume", action="store_true", help="keep what has ended in DIR, and go on with what was halted"
     )
+    parser.add_argument(
+        "--draw",
+        type=lambda text: text.split(","),
+        metavar="NAME,…",
+        help="draw these results against the first key that is varied besides the seed, with means over seeds: means.png",
+    )
     parser.add_argument("--plan", action="store_true", help="only write the plan, with a Snakefile and a job for Slurm")
     parser.add_argument("--run", metavar="NAME", help="do one run of the plan in DIR")
     parser.add_argument(
@@ -86,7 +93,7 @@ def main():
         campaign.run_one(args.out, args.run if args.run is not None else args.number)
         return
     if args.collect:
-        show(campaign.collect(args.out), args.out)
+        show(campaign.collect(args.out), args.out, args.draw)
         return
     over = dict(args.over)
     if len(over) < len(args.over):
@@ -106,14 +113,29 @@ def main():
             progress(share, f"{ended} of {len(plan.runs)} runs")
 
         table = plan.run(args.out, args.threads, args.resume, told)
-    show(table, args.out)
+    show(table, args.out, args.draw)
 
 
-def show(table, out):
-    """The varied values and some results; all are in the file."""
-    names = [*campaign.read(out).runs[0].values, *(name for name in SHOWN if name in table)]
+def show(table, out, drawn):
+    """The varied values and some results, and a figure of those that are ``drawn``; all are in the file."""
+    varied = list(campaign.read(out).runs[0].values)
+    names = [*varied, *(name for name in SHOWN if name in table)]
     print(tabulate({name: table[name] for name in names}, headers="keys", floatfmt=".4g"))
-    print(f"results: {out}/table.csv, runs/*/summary.json")
+    made = f"results: {out}/table.csv, runs/*/summary.json"
+    if drawn:
+        key = next((key for key in varied if key != campaign.SEED), None)
+        if key is None:
+            raise campaign.PlanError("--draw: only the seed was varied; give another key with --over")
+        for name in drawn:
+            if name not in table:
+                near = difflib.get_close_matches(name, table, 1)
+                raise campaign.PlanError(
+                    f"--draw {name}: no result is called so; "
+                    + (f"did you mean {near[0]!r}?" if near else f"they stand in {out}/table.csv")
+                )
+        figures.means(campaign.means(table, varied), key, drawn, Path(out) / "means.png")
+        made += ", means.png"
+    print(made)
 
 
 commands.run(main, "what has ended is kept, go on with --resume")

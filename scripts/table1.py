@@ -12,12 +12,12 @@ from tabulate import tabulate
 
 if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth import commands, output_folder
-    from yade.nonsmooth.laboratory import arguments, biaxial_test, table1
+    from yade.nonsmooth.laboratory import arguments, biaxial_test, report, table1
     from yade.nonsmooth.whole_files import write_atomically
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import commands, output_folder
-    from nonsmooth.laboratory import arguments, biaxial_test, table1
+    from nonsmooth.laboratory import arguments, biaxial_test, report, table1
     from nonsmooth.whole_files import write_atomically
 
 
@@ -90,7 +90,8 @@ def main():
         )
     heads, rows = table1.table(told["rows"])
     caption = f"Table 1: {args.disks} disks, seeds {', '.join(map(str, args.seeds))}; means with half of their 95 % interval, the paper's values in brackets"
-    write_atomically(out / "table1.json", json.dumps({**told, "tables": [[caption, heads, rows]]}, indent=1).encode())
+    tables = [[caption, heads, rows], ["Tests of the rock by pressure", *report.pressures(told["rock"])]]
+    write_atomically(out / "table1.json", json.dumps({**told, "tables": tables}, indent=1).encode())
     print(tabulate(rows, heads, disable_numparse=True))
     print(f"results: {out}/table1.json, rock/tests/*/series.csv, walls/tests/*/series.csv")
 

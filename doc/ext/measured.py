@@ -1,7 +1,7 @@
 """Numbers and tables of documentation pages, from files that commands wrote and that are kept as doc/measured/NAME.json.
 
 ``:measured:`NAME KEY[/KEY][*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary, or to an item of a list by its number), over another one and times FACTOR if these are given, as
-Python's FORMAT writes it.
+Python's FORMAT writes it. Names that have dots themselves, as those of a sweep's means, are found too.
 ``.. measured-tables:: NAME`` shows the tables of a check's result.json (scripts/verify.py), or those whose title begins with the directive's text.
 A file or key that is not there is an error of the build: a page must not show what nobody measured.
 """
@@ -23,8 +23,12 @@ def load(name, env):
 
 def at(name, key, env):
     """The file's value at a key."""
-    value = load(name, env)
-    for part in key.split("."):
+    value, parts = load(name, env), key.split(".")
+    while parts:
+        taken = 1
+        if isinstance(value, dict):
+            taken = next((n for n in range(len(parts), 1, -1) if ".".join(parts[:n]) in value), 1)
+        part, parts = ".".join(parts[:taken]), parts[taken:]
         value = value[int(part) if isinstance(value, list) else part]
     return value
 

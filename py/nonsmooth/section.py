@@ -53,6 +53,7 @@ __all__ = [
     "Stages",
     "Wall",
     "Water",
+    "block",
     "load",
     "of",
     "shipped",
@@ -421,6 +422,14 @@ class Section:
 def shipped() -> list[str]:
     """Names of the sections that come with the package."""
     return sorted(p.stem for p in FOLDER.glob("*.yaml") if not p.stem.endswith(".schema"))
+
+
+def block(width: float, height: float, **fields) -> Section:
+    """The shipped section with one layer, a block of its rock with a corner at the origin [m], that is not pressed: what samples are packed from. ``fields``: others of the Section."""
+    corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
+    return dataclasses.replace(
+        load("jiufengershan"), layers=(Layer("block", "rock", corners),), pressed=False, **fields
+    )
 
 
 def load(path_or_name) -> Section:

@@ -50,7 +50,7 @@ def add(parser, default=None, needless=()):
     parser.add_argument(
         "--rock",
         metavar="NAME|FILE",
-        help="material of the layers instead of the section's: wwr-sparse, bonded over small gaps only, or a material file, as calibrate.py writes it",
+        help="material of the layers instead of the section's: a material file, as calibrate.py writes it, or wwr, the paper's rock",
     )
     parser.add_argument(
         "--disks",

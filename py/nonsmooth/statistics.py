@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["Estimate", "half_width", "spread", "standard_error"]
+__all__ = ["Estimate", "half_width", "over_seeds", "spread", "standard_error"]
 
 
 def standard_error(values) -> float:
@@ -35,6 +35,14 @@ class Estimate:
         """Of one value a seed, a sequence of one or more."""
         values = np.asarray(values, float)
         return cls(float(values.mean()), half_width(standard_error(values), len(values) - 1))
+
+
+def over_seeds(values) -> dict:
+    """``mean``, ``half_width`` of its 95 % interval and the ``values`` themselves, one a seed, as JSON can hold them: the first two None where a value is (a run that did not come to
+    it), ``half_width`` also for one seed."""
+    mean = Estimate.of([math.nan if v is None else v for v in values])
+    plain = lambda v: None if math.isnan(v) else v  # noqa: E731
+    return {"mean": plain(mean.mean), "half_width": plain(mean.half_width), "values": list(values)}
 
 
 def spread(values) -> dict:

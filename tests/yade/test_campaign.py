@@ -11,7 +11,7 @@ import oracles
 import pytest
 import shell
 from shell import ROOT
-from yade.nonsmooth import campaign, kept_runs, keys, output_folder, processes, section, section_data
+from yade.nonsmooth import campaign, figures, kept_runs, keys, output_folder, processes, section, section_data
 
 SHIPPED = section.load("interface")
 PYTHON = "/usr/bin/python3"
@@ -175,6 +175,37 @@ def test_the_table_has_values_and_numbers_of_each_run(tmp_path, called):
     )
     again = campaign.read(tmp_path)
     assert again == planned() and campaign.collect(tmp_path)["twice"] == [2, 4, 2, 4]
+
+
+def test_the_means_are_over_seeds_alone(tmp_path, called):
+    planned().run(tmp_path, 2)
+    told = json.loads((tmp_path / "means.json").read_text())
+    assert told["varied"] == ["materials.rock.friction"]
+    assert [row["values"] for row in told["rows"]] == [{"materials.rock.friction": f} for f in (0.3, 0.6)]
+    for row in told["rows"]:
+        assert row["seeds"] == [1, 2] and set(row["numbers"]) > {"twice", "rest", "times.t0"}
+        twice = row["numbers"]["twice"]
+        # 1 to both sides of 3 is a standard error of 1, and Student's t of one degree of freedom 12.706
+        assert twice == {"mean": 3.0, "half_width": pytest.approx(12.706, abs=1e-3), "values": [2, 4]}
+        assert row["numbers"]["rest"] == {"mean": None, "half_width": None, "values": [None, None]}
+    campaign.sweep(SHIPPED, {"materials.rock.friction": [0.3]}).run(tmp_path / "one", 1)
+    assert not (tmp_path / "one" / "means.json").exists()  # no seed was varied
+
+
+def test_results_are_drawn_against_what_was_varied(tmp_path, called):
+    table = planned((0.3, 0.5, 0.6)).run(tmp_path, 2)
+    done = shell.run("sweep.py", "--out", tmp_path, "--collect", "--draw", "twice,times.t0")
+    assert done.returncode == 0 and "means.png" in done.stdout and (tmp_path / "means.png").stat().st_size > 1e4
+    done = shell.run("sweep.py", "--out", tmp_path, "--collect", "--draw", "twicce")
+    assert done.returncode != 0 and "did you mean 'twice'?" in done.stderr
+    rows = campaign.means(table, ["materials.rock.friction", "seed"])
+    (ax,) = figures.means(rows, "materials.rock.friction", ["twice"]).axes
+    *dots, bars = (
+        line.get_xydata().tolist()
+        for line in ax.lines
+        if len(line.get_xydata()) in (2, 3) and line.get_marker() in "os"
+    )
+    assert dots == [[[f, 2], [f, 4]] for f in (0.3, 0.5, 0.6)] and bars == [[f, 3] for f in (0.3, 0.5, 0.6)]
 
 
 def test_a_plan_holds_its_folder_while_it_runs_and_no_longer(tmp_path, called, monkeypatch):

@@ -376,7 +376,7 @@ def soft_case(model="cohesion_moment", source="", disks=300, **more):
     )
 
 
-@pytest.mark.parametrize("experiment, source", [(slopes, "jiufengershan"), (biaxials, "wwr-sparse")])
+@pytest.mark.parametrize("experiment, source", [(slopes, "jiufengershan"), (biaxials, "wwr")])
 def test_what_the_report_says_of_bonds_and_losses(experiment, source):
     assert losses.of_case(experiment, soft_case(source=source)) == ("ductile bonds", [])
     assert losses.of_case(experiment, soft_case(source=source, fragile=True)) == ("fragile bonds", [])

@@ -22,6 +22,7 @@ from yade.nonsmooth.laboratory import (
     materials,
     membrane,
     pressing,
+    report,
     sample,
     wall_shear,
 )
@@ -325,6 +326,15 @@ def test_a_campaign_sums_up_its_seeds():
         and (told["wall_s"], told["threads"]) == (5.0, 2)
     )
     assert told["misses_peak_rel"] == pytest.approx([0.0] * 3, abs=1e-9)
+    rows = {row["confining_Pa"]: row for row in told["by_pressure"]}
+    assert list(rows) == [1e6, 2e6, 4e6] and rows[2e6]["residual_deg"]["values"] == pytest.approx(angles)
+    assert rows[2e6]["residual_deg"]["half_width"] == pytest.approx(expected["friction_residual_95_deg"], rel=1e-5)
+    assert rows[4e6]["strain_peak"] == {"mean": None, "half_width": None, "values": [None, None]}  # they had none
+    heads, lines = report.pressures(told)
+    assert [line[0] for line in lines] == ["1", "2", "4"] and lines[1][
+        3
+    ] == f"{sum(angles) / 2:.1f} ± {expected['friction_residual_95_deg']:.1f}"
+    assert all(len(line) == len(heads) and line[2] == "–" for line in lines)
     alone = campaign.summarise(SMALL.material, measured[:3], 5.0, 2)
     assert (
         alone["cohesion_peak_kPa"] == pytest.approx(100.0)
@@ -416,6 +426,10 @@ def test_a_test_is_measured_from_its_records(tmp_path):
         and rising["angle_deg"] == pytest.approx(60, abs=3)
     )
     assert falling["rotation_rad"] == pytest.approx(-0.3, rel=0.1) and falling["angle_deg"] == pytest.approx(60, abs=3)
+    two = told | {"bands": [rising, {**falling, "width_d": rising["width_d"] + 2.0}]}
+    assert [row["band_width_d"]["values"] for row in (campaign.by_pressure([told, two]))] == [
+        [None, pytest.approx(rising["width_d"] + 1.0)]
+    ]
 
 
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
@@ -567,8 +581,8 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     assert summary["friction_residual_deg"] is None and "no residual envelope" in done.stdout
     for options, message in (
         (["--diameter", "4", "1"], "give the smallest first"),
-        (["--pressing-friction", "0.1"], "add --sample pressed"),
-        (["--sample", "packed", "--pressing-friction", "0.1"], "add --sample pressed"),
+        (["--pressing-friction", "-0.1"], "must be 0 or more"),
+        (["--sample", "packed", "--pressing-friction", "0.1"], "leave out --sample packed"),
     ):
         refused = shell.run("biaxial.py", *options, limit=100)
         assert refused.returncode != 0 and message in refused.stderr + refused.stdout
@@ -594,6 +608,7 @@ def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path
                 "sigma1_peak_Pa": strong(t),
                 "sigma3_residual_Pa": 8e6,
                 "sigma1_residual_Pa": 24e6,
+                "stress_fluctuation_rel": None if t.inertia < 8e-5 else 0.01 * t.shape.seed,
             }
             for t in tests
         ]
@@ -609,3 +624,7 @@ def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path
             and row["residual_change_rel"] == 0.0
         )
         assert row["residual_mean_deg"] == pytest.approx(30.0)  # sin φ = (24 − 8)/(24 + 8)
+        assert row["fluctuation_rel"] == (None if row["value"] == 5e-5 else pytest.approx(0.015))
+    heads, lines = effects.table(rows)
+    assert all(len(line) == len(heads) for line in lines) and sum(line[-1] == "–" for line in lines) == 1
+    assert lines[0][-1] == "1.5 ± 6.4"  # 0.5 % to both sides of the mean of two, times 12.7 of Student's t

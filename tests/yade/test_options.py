@@ -15,7 +15,7 @@ from yade.nonsmooth import errors, experiment, packing, section, slope
 from yade.nonsmooth.benchmark import scale, suite
 from yade.nonsmooth.comparison import cost, course
 from yade.nonsmooth.heaps import study
-from yade.nonsmooth.laboratory import calibration, campaign, effects, table1, wall_shear
+from yade.nonsmooth.laboratory import calibration, campaign, effects, readings, table1, wall_shear
 from yade.nonsmooth.verification import runner, soak
 
 COMMANDS = sorted(path.name for path in SCRIPTS.glob("*.py"))
@@ -81,6 +81,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
     "benchmark.py": (suite, "run"),
     "soak.py": (soak, "run"),
     "sweep.py": (campaigns, "sweep"),
+    "readings.py": (readings, "run"),
     "table1.py": (table1, "run"),
     "verify.py": (runner, "run_checks"),
     "wedge.py": (subprocess, "run"),
@@ -193,17 +194,13 @@ WHERE = {
         "--aspect": (("--aspect", 1.5), lambda a: first(a).shape.aspect, 1.5),
         "--seeds": (("--seeds", 3, 4, "--confining", "1"), lambda a: [t.shape.seed for t in ran_by(a)], [3, 4]),
         "--platens": (("--platens", "glued"), lambda a: first(a).platens, "glued"),
-        "--sides": (("--sides", "rigid"), lambda a: first(a).sides, "rigid"),
+        "--sides": (("--sides", "flexible"), lambda a: first(a).sides, "flexible"),
         "--strain": (("--strain", 0.03), lambda a: first(a).strain, 0.03),
         "--inertia": (("--inertia", 3e-4), lambda a: first(a).inertia, 3e-4),
         "--step": (("--step", 0.2), lambda a: first(a).step, 0.2),
         "--tolerance": (("--tolerance", 1e-3), lambda a: first(a).tolerance, 1e-3),
-        "--sample": (("--sample", "pressed"), lambda a: first(a).shape.friction, 0.0),
-        "--pressing-friction": (
-            ("--sample", "pressed", "--pressing-friction", 0.4),
-            lambda a: first(a).shape.friction,
-            0.4,
-        ),
+        "--sample": (("--sample", "packed"), lambda a: first(a).shape.friction, None),
+        "--pressing-friction": (("--pressing-friction", 0.4), lambda a: first(a).shape.friction, 0.4),
         "--bond-distance": (("--bond-distance", 0.013), lambda a: first(a).material.bond_creation_distance, 0.013),
         "--out": ((), lambda a: str(a.words[1]), "{out}"),
         "--threads": (("--threads", 7), lambda a: a.words[2], 7),
@@ -358,6 +355,15 @@ WHERE = {
         "--number": (("--number", 1), lambda a: a.words[1], 1),
         "--collect": (("--collect",), lambda a: str(a.words[0]), "{out}"),
     },
+    "readings.py": {
+        "--only": (("--only", "packed", "half"), lambda a: sorted(a.words[0]), ["half", "packed"]),
+        "--disks": (("--disks", 66), lambda a: a.words[2], 66),
+        "--samples": (("--samples", 77), lambda a: a.words[3], 77),
+        "--seeds": (("--seeds", 7, 8), lambda a: a.words[4], [7, 8]),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.named["threads"], 7),
+        "--resume": (("--resume",), lambda a: a.named["resume"], True),
+    },
     "table1.py": {
         "--material": (("--material", "{files}/stone.yaml"), lambda a: Path(a.words[7]).name, "stone.yaml"),
         "--disks": (("--disks", 88), lambda a: a.words[1], 88),
@@ -404,6 +410,7 @@ RUN = {
         "--no-figures": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits",
         "--list": "test_any_slope.py::test_shipped_sections_are_listed",
     },
+    "sweep.py": {"--draw": "test_campaign.py::test_results_are_drawn_against_what_was_varied"},
     "soak.py": {"--out": "test_soak.py::test_a_short_soak", "--threads": "test_soak.py::test_a_short_soak"},
     "verify.py": {"--list": "test_options.py::test_checks_are_listed"},
     "wedge.py": {"--resume": "test_examples.py::test_the_wedge_runs_what_is_not_there_and_draws_all"},
@@ -516,6 +523,7 @@ def test_checks_are_listed(in_process):
         ("wall_shear.py", ("--pressures", "1,1"), "each once"),
         ("biaxial_effects.py", ("--confining", -1), "it must be positive"),
         ("biaxial_effects.py", ("--only", "colour"), "colour"),
+        ("readings.py", ("--only", "default", "colour"), "colour"),
         ("wedge.py", ("--seconds", 0.5), "--seconds: 0.5 is too short"),
         ("benchmark.py", ("--threads", 0), "--threads 0"),
         ("benchmark.py", ("--scale", "10,10"), "each once"),

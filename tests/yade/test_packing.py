@@ -18,7 +18,7 @@ from nonsmooth.whole_files import WriteError  # noqa: E402
 
 @pytest.fixture(scope="module")
 def section():
-    return load("jiufengershan").with_disks(3000)
+    return dataclasses.replace(load("jiufengershan"), pressed=False).with_disks(3000)
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def small():
     """A looser packing in a bent region with a reflex corner, quick to make."""
     data = yaml.safe_load((FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8"))
     del data["water"]
-    data["disks"] |= {"diameter": [0.5, 1.5], "packing_fraction": 0.8}
+    data["disks"] = {"diameter": [0.5, 1.5], "packing_fraction": 0.8}
     data["walls"] = [{"name": "floor", "material": "ss", "vertices": [[-30, 20], [0, 0], [30, 5]]}]
     data["layers"] = [
         {"name": "a", "material": "rock", "vertices": [[-24, 16], [0, 0], [0, 10], [-20, 30]]},

@@ -192,7 +192,7 @@ def test_a_slope_of_another_size_has_the_scales_that_go_with_it():
         0.3,
         2500.0,
         (0.02, 0.02),
-        0.05,
+        0.025,
         9.81,
     )
     assert (small.water.unit_weight, small.water.pressure_gradient_xy, small.numerics.path) == (

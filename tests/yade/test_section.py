@@ -164,7 +164,7 @@ def test_with_disks_scales_diameters(section, count):
 
 
 def test_with_rock_changes_the_layers_alone(section):
-    wwr = section.materials["wwr-sparse"]
+    wwr = dataclasses.replace(section.materials["rock"], name="wwr", bond_creation_distance=0.015)
     other = section.with_rock(wwr)
     assert other.materials["rock"] == dataclasses.replace(wwr, name="rock")
     assert all(other.materials[k] == m for k, m in section.materials.items() if k != "rock")
@@ -256,7 +256,7 @@ BAD = {
     "unknown material": (
         dict(walls__1__material="steel"),
         "walls[FB].material: 'steel' is not defined",
-        "rock, wwr-sparse, dp, fb, ss",
+        "rock, dp, fb, ss",
     ),
     "name taken": (dict(layers__2__name="L1"), "layers[L1].name: 'L1' is taken", "own name"),
     "no density": (dict(materials__rock__density=None), "no density", "kg/m³"),
@@ -391,9 +391,10 @@ def test_bad_values(case, refused):
 
 
 def test_line_of_a_number_that_replaces_a_borrowed_one(refused):
-    text = TEXT.replace("bond_creation_distance: 0.015", "bond_creation_distance: much")
+    borrowing = "  stone:\n    <<: *rock\n    bond_creation_distance: much\n"
+    text = TEXT.replace("  rock: ", "  rock: &rock ", 1).replace("  ss: ", borrowing + "  ss: ", 1)
     assert (
-        f"line {1 + text[:text.index('distance: much')].count(chr(10))}: materials.wwr-sparse.bond_creation_distance"
+        f"line {1 + text[:text.index('distance: much')].count(chr(10))}: materials.stone.bond_creation_distance"
         in refused(text)
     )
 

@@ -9,7 +9,7 @@ from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import free_surface, geometry, packing, section, similar, slope_packing, tables
 
-SHIPPED = dataclasses.replace(section.load("jiufengershan"), pressed=True).with_disks(1500)
+SHIPPED = section.load("jiufengershan").with_disks(1500)
 
 
 @pytest.fixture(scope="module")

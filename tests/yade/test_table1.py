@@ -79,7 +79,7 @@ def test_tests_are_those_that_were_asked_for(told):
     _, asked, out = told
     tests, where, threads, resume = asked["tests"]
     assert [(t.confining, t.shape.seed, t.shape.count, t.strain, t.shape.friction) for t in tests] == [
-        (p, seed, 77, 0.1, None) for seed in SEEDS for p in (1e6, 4e6)
+        (p, seed, 77, 0.1, 0.0) for seed in SEEDS for p in (1e6, 4e6)
     ]
     assert (
         (where, threads, resume) == (out / "rock", 5, True)

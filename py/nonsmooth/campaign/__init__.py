@@ -12,7 +12,7 @@ Like this::
     table = plan.run("out/sweep", threads=2)      # a dictionary of columns; pandas.DataFrame(table) where one likes
 """
 
-from .plan import Plan, PlanError, Planned, collect, read, run_one
+from .plan import SEED, Plan, PlanError, Planned, collect, means, read, run_one
 from .sweep import run_slope, sweep
 
-__all__ = ["Plan", "PlanError", "Planned", "collect", "read", "run_one", "run_slope", "sweep"]
+__all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "read", "run_one", "run_slope", "sweep"]

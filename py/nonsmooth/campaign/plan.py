@@ -4,6 +4,7 @@
     Snakefile, array.sh    the same for a cluster, see :mod:`cluster`
     runs/NAME/             a run: its request, its records, and result.json once it has ended
     table.csv              a row for each run: its values and its results
+    means.json             where seeds were varied: the results' means over them, for each combination of the other values
 
 A result is kept with the key of its input, the engines and this package's code; another's is made anew, and never collected.
 """
@@ -19,12 +20,14 @@ from pathlib import Path
 
 from .. import installation, kept_runs, keys, output_folder, side_by_side
 from ..errors import UserError
+from ..statistics import over_seeds
 from ..whole_files import write_atomically
 from . import cluster
 
-__all__ = ["Plan", "PlanError", "Planned", "collect", "read", "run_one"]
+__all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "read", "run_one"]
 
-FILE, TABLE, FORMAT = "plan.json", "table.csv", 1
+FILE, TABLE, MEANS, FORMAT = "plan.json", "table.csv", "means.json", 1
+SEED = "seed"  # the key whose values are packings of one slope
 
 
 class PlanError(UserError, RuntimeError):
@@ -144,7 +147,29 @@ def collect(out) -> dict:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerows([columns, *zip(*table.values())])
     write_atomically(Path(out) / TABLE, text.getvalue().encode())
+    varied = list(plan.runs[0].values)
+    if SEED in varied:
+        content = {"title": plan.title, "varied": [key for key in varied if key != SEED], "rows": means(table, varied)}
+        write_atomically(Path(out) / MEANS, json.dumps(content, indent=1).encode())
     return table
+
+
+def means(table, varied) -> list:
+    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys: dictionaries with ``values`` of these keys, ``seeds``, and
+    ``numbers``, {name: see statistics.over_seeds}."""
+    others = [key for key in varied if key != SEED]
+    rows = {}
+    for k in range(len(table["run"])):
+        rows.setdefault(repr([table[key][k] for key in others]), []).append(k)
+    results = [name for name in table if name not in ("run", *varied)]
+    return [
+        {
+            "values": {key: table[key][found[0]] for key in others},
+            "seeds": [table[SEED][k] for k in found],
+            "numbers": {name: over_seeds([table[name][k] for k in found]) for name in results},
+        }
+        for found in rows.values()
+    ]
 
 
 def _numbers(result, prefix=""):

@@ -10,7 +10,7 @@ import re
 from .. import checkpoints, output_folder, processes, runs, section, section_checks, section_data
 from .plan import Plan, PlanError, Planned
 
-__all__ = ["run_slope", "sweep"]
+__all__ = ["FUNCTION", "put", "run_slope", "sweep"]
 
 MOST = 10_000  # runs of a plan
 LONGEST = 150  # characters of a folder's name; longer ones become numbers
@@ -46,7 +46,7 @@ def sweep(base, over, end=None, figures=False) -> Plan:
             name = f"{k:04d}"
         data = copy.deepcopy(whole)
         for key, value in values.items():
-            _put(data, key, value)
+            put(data, key, value)
         made = section.of(data, name)
         notes += section_checks.notes(made)
         planned.append(
@@ -92,8 +92,8 @@ def _text(value):
     return re.sub(r"[^\w.+-]", "-", str(value))
 
 
-def _put(data, key, value):
-    """Puts a value into the plain data of a section, where the key leads."""
+def put(data, key, value):
+    """Puts a value into the plain data of a section, where the key leads (see :func:`sweep`). Raises PlanError where there is no such key."""
     place, way = data, key.split(".")
     for k, word in enumerate(way):
         last, so_far = k == len(way) - 1, ".".join(way[:k])

@@ -20,7 +20,7 @@ from .slopes import forces_of
 __all__ = ["CURVES", "DEFAULT_STIFFNESSES", "KEYS", "QUANTITIES", "disks_of", "measure", "prepare", "run", "test_of"]
 
 NAME, TITLE = "biaxial", "Biaxial test"
-SOURCE, DISKS = "wwr-sparse", 1000
+SOURCE, DISKS = "wwr", 1000
 #: Young's moduli [Pa]: with stresses of some MPa, contacts overlap by a tenth at the softest; one more decade would cost as much as all others together.
 DEFAULT_STIFFNESSES = (1e7, 1e8, 1e9, 1e10)
 ENSEMBLE_STIFFNESS = 1e10  # Pa, for all seeds: below it the sample's elastic strain up to the peak is no longer small

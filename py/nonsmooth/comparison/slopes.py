@@ -8,7 +8,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from .. import characteristic_times, packing, records, scales, section
+from .. import characteristic_times, records, scales, section
 from ..kept_runs import Progress
 from ..measure.surface import deposit_profile
 from .cases import Case, ComparisonError
@@ -72,8 +72,10 @@ def disks_of(case: Case):
 
 
 def prepare(case: Case):
-    """Makes the packing of a case, unless it is in the cache."""
-    packing.cached_pack(section_of(case))
+    """Makes the packing of a case, unless it is in the cache; one that is pressed is made in the running scene, which it empties."""
+    from .. import slope_packing
+
+    slope_packing.of(section_of(case))
 
 
 def run(folder, **plain):

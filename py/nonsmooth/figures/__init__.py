@@ -12,6 +12,7 @@ from .profiles import deposit, snapshots
 from .numerics import energy, solver
 from .runouts import runouts
 from .scene import draw
+from .sweep import means
 from .toe import toe
 from .weakening import weakening
 
@@ -22,6 +23,7 @@ __all__ = [
     "deposit",
     "draw",
     "energy",
+    "means",
     "runouts",
     "solver",
     "toe",

@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import processes, records, side_by_side
 from ..errors import UserError
-from ..statistics import Estimate
+from ..statistics import Estimate, over_seeds
 from ..measure import bands
 from . import biaxial_test, fluctuations, pressing, strength
 
@@ -153,6 +153,52 @@ def bands_of(folder, snapshot):
     ]
 
 
+#: Numbers of a test that :func:`by_pressure` has means of, besides those of its bands and breaks.
+OF_TEST = (
+    "strain_peak",
+    "dilatancy_deg",
+    "volumetric_strain_end",
+    "stress_fluctuation_rel",
+    "contractions_per_percent",
+    "contraction_with_drop",
+)
+
+
+def _numbers_of(t):
+    """Numbers of a test, by name; None where it has none."""
+    shares = t.get("broken_shares") or {}
+    return {
+        **{
+            f"{kind}_deg": strength.apparent_deg(t[f"sigma3_{kind}_Pa"], t[f"sigma1_{kind}_Pa"])
+            for kind in ("peak", "residual")
+        },
+        **{name: t.get(name) for name in OF_TEST},
+        "band_width_d": _of_bands(t.get("bands"), "width_d"),
+        "band_width_late_d": _of_bands(t.get("bands_late"), "width_d"),
+        "antithetic": _of_bands(t.get("bands"), "antithetic"),
+        **{f"broken_{mode}": shares.get(mode) for mode in fluctuations.MODES},
+    }
+
+
+def _of_bands(found, name):
+    """Mean over the two bands of a test; None where one was not found."""
+    values = [band and band[name] for band in found or (None,)]
+    return None if None in values else float(np.mean(values))
+
+
+def by_pressure(measured):
+    """Means over seeds of tests under the same pressure: dictionaries with ``confining_Pa`` and by name, see statistics.over_seeds: apparent angles of friction of peak and plateau [°],
+    the numbers of :data:`OF_TEST`, widths of bands at 1 % and at 4 % of strain and the share of disks that turn against them at 1 %, and the shares of bonds by what broke them.
+    """
+    found = {}
+    for t in sorted(measured, key=lambda t: t["confining_Pa"]):
+        found.setdefault(t["confining_Pa"], []).append(_numbers_of(t))
+    return [
+        {"confining_Pa": p} | {name: over_seeds([one[name] for one in tests]) for name in tests[0]}
+        for p, tests in found.items()
+    ]
+
+
 def summarise(material, measured, wall_s=None, threads=None):
     """``summary.json``: per test, and per material with the mean and the 95 % confidence interval over seeds (null for one seed).
 
@@ -164,6 +210,7 @@ def summarise(material, measured, wall_s=None, threads=None):
     whole = {
         "material": asdict(material),
         "tests": measured,
+        "by_pressure": by_pressure(measured),
         "seeds": sorted(by_seed),
         "threads": threads,
         "wall_s": wall_s,

@@ -7,12 +7,11 @@ material Taboada and Estrada (2009, section 3.2.2) expect similar results; what 
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..statistics import Estimate
-from . import biaxial_test, campaign
+from ..statistics import Estimate, over_seeds
+from . import biaxial_test, campaign, strength
 from .pressing import Shape
 
 PRESSURE = 8e6  # Pa, of the paper's Figures 9 and 10
@@ -78,7 +77,7 @@ def run(chosen, out, threads, resume=False, progress=lambda share, doing: None):
 
     A row has ``effect``, ``label``, ``value``, ``usual`` (bool), and for "peak" and "residual" ``…_deg`` (a list, one a seed), its ``…_mean_deg`` with
     ``…_95_deg`` (half of the 95 % interval over seeds, None for one seed), and ``…_change_rel``: mean relative change of σ₁ from the usual value, seed by
-    seed, with half of its 95 % interval, ``…_change_95_rel``.
+    seed, with half of its 95 % interval, ``…_change_95_rel``. ``fluctuation_rel``, ``fluctuation_95_rel`` and ``fluctuation_each_rel``: of the stress on the plateau (:mod:`fluctuations`), None where it is too short.
     """
     wanted = [(effect, value, group) for effect in chosen for value, group in effect.tests.items()]
     whole, done, known, rows = sum(_work(g) for _, _, g in wanted), 0.0, {}, []
@@ -108,11 +107,6 @@ def _work(group):
     return sum(t.shape.count * t.strain / (t.inertia * t.step) for t in group)
 
 
-def _angle(test, kind):
-    major, minor = test[f"sigma1_{kind}_Pa"], test[f"sigma3_{kind}_Pa"]
-    return math.degrees(math.asin((major - minor) / (major + minor)))
-
-
 def _row(effect, value, measured, usual):
     row = {
         "effect": effect.name,
@@ -123,7 +117,7 @@ def _row(effect, value, measured, usual):
         "wall_s": [m["wall_s"] for m in measured],
     }
     for kind in ("peak", "residual"):
-        angles = [_angle(m, kind) for m in measured]
+        angles = [strength.apparent_deg(m[f"sigma3_{kind}_Pa"], m[f"sigma1_{kind}_Pa"]) for m in measured]
         change = [a[f"sigma1_{kind}_Pa"] / b[f"sigma1_{kind}_Pa"] - 1 for a, b in zip(measured, usual)]
         of_angle, of_change = Estimate.of(angles), Estimate.of(change)
         row |= {
@@ -133,4 +127,38 @@ def _row(effect, value, measured, usual):
             f"{kind}_change_rel": of_change.mean,
             f"{kind}_change_95_rel": campaign.number(of_change.half_width),
         }
-    return row
+    swings = [m["stress_fluctuation_rel"] for m in measured]
+    mean = over_seeds(swings)
+    return row | {
+        "fluctuation_each_rel": swings,
+        "fluctuation_rel": mean["mean"],
+        "fluctuation_95_rel": mean["half_width"],
+    }
+
+
+def table(rows):
+    """(heads, lines) of texts for what :func:`run` returned: a line for each value."""
+
+    def text(row, name, half, factor, digits, sign=""):
+        if row[name] is None:
+            return "–"
+        within = "" if row[half] is None else f" ± {factor * row[half]:.{digits}f}"
+        return f"{factor * row[name]:{sign}.{digits}f}{within}"
+
+    heads = [
+        "",
+        "value",
+        "peak φ [°]",
+        "change of σ₁ [%]",
+        "plateau φ [°]",
+        "change of σ₁ [%]",
+        "fluctuation of σ₁ [%]",
+    ]
+    lines = []
+    for row in rows:
+        line = [row["label"], f"{row['value']:g}" + (" (usual)" if row["usual"] else "")]
+        for kind in ("peak", "residual"):
+            line.append(text(row, f"{kind}_mean_deg", f"{kind}_95_deg", 1, 1))
+            line.append("" if row["usual"] else text(row, f"{kind}_change_rel", f"{kind}_change_95_rel", 100, 1, "+"))
+        lines.append([*line, text(row, "fluctuation_rel", "fluctuation_95_rel", 100, 1)])
+    return heads, lines

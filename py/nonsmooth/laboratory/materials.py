@@ -14,8 +14,8 @@ from .. import section, section_building
 from ..whole_files import write_atomically
 from ..section_reader import SectionError, read
 
-#: Names of the paper's Table 1, and of a sparsely bonded rock, with the materials of the shipped section that hold their parameters.
-SHIPPED = {"wwr": "rock", "wwr-sparse": "wwr-sparse", "dp": "dp", "fb": "fb", "ss": "ss"}
+#: Names of the paper's Table 1, with the materials of the shipped section that hold their parameters.
+SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
 
 
 def load(name_or_path):

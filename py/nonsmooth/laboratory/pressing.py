@@ -1,9 +1,8 @@
-"""Samples as they are before a test: disks packed dense, and where it is asked for pressed on all sides until they carry.
+"""Samples as they are before a test: disks packed dense, and pressed on all sides until they carry.
 
-The sample is packed just short of touching, uniform by volume as the slope is (Taboada and Estrada 2009, sections 3.2.2 and 5.1). Left so, it is bonded as
-it was packed, like the slope. To be bonded under pressure instead, it is pressed between
+The sample is packed just short of touching, uniform by volume as the slope is (Taboada and Estrada 2009, sections 3.2.2 and 5.1). Then it is pressed between
 four smooth walls without gravity and without rolling resistance; without friction too, unless it is asked for, which gives the densest isotropic state
-that the packing allows. Rigid disks without cohesion know no stress of their own: under any pressure they come to rest in the same places. So a
+that the packing allows, as the slope is pressed (:mod:`..slope_packing`). Where it is asked for the sample stays as it was packed. Rigid disks without cohesion know no stress of their own: under any pressure they come to rest in the same places. So a
 sample is pressed once, under a pressure whose value sets the unit of time only, and kept in the cache beside the packings.
 
 Times are counted in t_i = √(m/p), with m the mean mass of a disk per metre and p the pressure.
@@ -46,7 +45,7 @@ class SampleError(UserError, RuntimeError):
 class Shape:
     """A sample: about ``count`` disks of ``d_min`` to ``d_max`` [m], packed to ``fraction``, ``aspect`` times as high as wide.
 
-    ``friction``: of the disks while they are pressed; None (the default): not pressed at all, the disks stay as they were packed, just short of touching.
+    ``friction``: of the disks while they are pressed; None: not pressed at all, the disks stay as they were packed, just short of touching.
     """
 
     count: int
@@ -55,7 +54,7 @@ class Shape:
     d_max: float = 4.0
     fraction: float = 0.848
     aspect: float = 2.0
-    friction: float | None = None
+    friction: float | None = 0.0
 
     @property
     def mean_square(self):
@@ -64,18 +63,10 @@ class Shape:
 
     def section(self):
         """A section with one layer, the sample: what `packing.pack` fills."""
-        shipped = section.load("jiufengershan")
         disks = section.Disks(self.d_min, self.d_max, "uniform_by_volume", self.fraction)
         width = math.sqrt(self.count * math.pi / 4 * self.mean_square / self.fraction / self.aspect)
         for _ in range(4):  # the packing is looser along its border, so the box is a little larger
-            corners = ((0.0, 0.0), (width, 0.0), (width, self.aspect * width), (0.0, self.aspect * width))
-            made = dataclasses.replace(
-                shipped,
-                layers=(section.Layer("sample", "rock", corners),),
-                disks=disks,
-                seed=self.seed,
-                source="the sample",
-            )
+            made = section.block(width, self.aspect * width, disks=disks, seed=self.seed, source="the sample")
             width *= math.sqrt(self.count / max(1, sum(made.disk_counts())))
         if width < 4 * self.d_max:
             raise SampleError(

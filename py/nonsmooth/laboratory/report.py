@@ -33,6 +33,38 @@ def table(summary):
     return "\n".join(lines + [summary["note"]] if "note" in summary else lines)
 
 
+#: {number of campaign.by_pressure: (its head in a table, its factor, digits)}.
+BY_PRESSURE = {
+    "peak_deg": ("peak φ [°]", 1, 1),
+    "strain_peak": ("at strain [%]", 100, 2),
+    "residual_deg": ("plateau φ [°]", 1, 1),
+    "dilatancy_deg": ("ψ [°]", 1, 0),
+    "band_width_d": ("bands at 1 % [d]", 1, 1),
+    "band_width_late_d": ("at 4 % [d]", 1, 1),
+    "antithetic": ("antithetic [%]", 100, 0),
+    "stress_fluctuation_rel": ("σ₁ fluctuates by [%]", 100, 1),
+    "contraction_with_drop": ("contractions with a stress drop [%]", 100, 0),
+}
+
+
+def pressures(summary):
+    """(heads, lines) of texts: what was measured under each pressure, mean over seeds and half of its 95 % interval."""
+
+    def text(one, factor, digits):
+        if one["mean"] is None:
+            return "–"
+        half = one["half_width"]
+        return f"{factor * one['mean']:.{digits}f}" + ("" if half is None else f" ± {factor * half:.{digits}f}")
+
+    return ["σ₃ [MPa]", *(head for head, _, _ in BY_PRESSURE.values())], [
+        [
+            f"{row['confining_Pa'] / 1e6:g}",
+            *(text(row[name], f, digits) for name, (_, f, digits) in BY_PRESSURE.items()),
+        ]
+        for row in summary["by_pressure"]
+    ]
+
+
 def draw(out, summary):
     """Figures and ParaView files of a campaign in ``out``; returns the figures' paths."""
     out, made = Path(out), []

@@ -32,7 +32,7 @@ class Sample:
     def build(cls, shape, rock, platen, pressure, **solver):
         """Fills the (empty) scene; the sample is bonded and rests under ``pressure`` [Pa].
 
-        A pressed sample takes up the pressure and is then bonded. One that was not pressed is bonded first, as a slope is, and the pressure then grows.
+        A pressed sample takes up the pressure and is then bonded. One that was not pressed is bonded first, and the pressure then grows.
 
         ``shape``: of a sample that `pressing.prepare` made; ``rock``, ``platen``: section.Material of disks and of platens, sides have no friction;
         ``solver``: attributes of ContactDynamicsEngine.

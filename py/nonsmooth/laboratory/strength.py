@@ -101,6 +101,11 @@ def running_mean(strain, values, window):
     return begin, (np.interp(begin + window, edges, work) - np.interp(begin, edges, work)) / window
 
 
+def apparent_deg(minor, major) -> float:
+    """Angle of friction [°] of a rock without cohesion that fails under σ₃ = ``minor`` at σ₁ = ``major`` [Pa]: sin φ = (σ₁ − σ₃)/(σ₁ + σ₃)."""
+    return math.degrees(math.asin((major - minor) / (major + minor)))
+
+
 @dataclass(frozen=True)
 class Envelope:
     """Cohesion [Pa], angle of friction [°], and the relative miss of each circle."""

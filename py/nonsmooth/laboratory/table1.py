@@ -62,11 +62,8 @@ def run(
     share done and what is being done. Raises what campaign.run and wall_shear.run raise.
     """
     out, rock = Path(out), materials.load(material)
-    friction = None if rock.bonded else 0.0  # as biaxial.py makes its samples
     tests = [
-        biaxial_test.Test(rock, p, pressing.Shape(disks, seed, friction=friction), strain)
-        for seed in seeds
-        for p in sorted(pressures)
+        biaxial_test.Test(rock, p, pressing.Shape(disks, seed), strain) for seed in seeds for p in sorted(pressures)
     ]
     measured = campaign.run(tests, out / "rock", threads, resume, lambda share, doing: progress(0.9 * share, doing))
     groups = {

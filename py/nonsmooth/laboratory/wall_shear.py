@@ -75,15 +75,9 @@ class Test:
 
     def block(self):
         """A section with one layer, the block: what `packing.pack` fills."""
-        shipped, (width, height) = section.load("jiufengershan"), self.extent
-        corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
-        return replace(
-            shipped,
-            layers=(section.Layer("block", "rock", corners),),
-            seed=self.seed,
-            source="the block",
-            disks=section.Disks(self.d_min, self.d_max, "uniform_by_volume", shipped.disks.packing_fraction),
-        )
+        fraction = section.load("jiufengershan").disks.packing_fraction
+        disks = section.Disks(self.d_min, self.d_max, "uniform_by_volume", fraction)
+        return section.block(*self.extent, disks=disks, seed=self.seed, source="the block")
 
 
 @dataclass(frozen=True)

@@ -44,10 +44,8 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
 
     from .. import packing, scene, section
 
-    shipped = section.load("jiufengershan")
-    corners = ((0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT))
-    sample = dataclasses.replace(shipped, layers=(section.Layer("sample", "rock", corners),), seed=seed)
-    made, m = packing.cached_pack(sample), shipped.materials["rock"]
+    sample = section.block(WIDTH, HEIGHT, seed=seed)
+    made, m = packing.cached_pack(sample), sample.materials["rock"]
     rock = scene.material(m)
     glue = dict(tensileStrength=1e7, bondsToAll=True, bondCreationDistance=m.bond_creation_distance) if pull else {}
     platen = NscdMat(frictionAngle=math.atan(0.3), wall=True, **glue)

@@ -7,17 +7,15 @@ import math
 
 from .. import figures, records, results, scales, section
 from ..characteristic_times import chosen_rows
-from ..laboratory.campaign import number
 from ..measure.ground import ground_of
 from ..measure.weakening import foot_length, weakened_share
-from ..statistics import Estimate
+from ..statistics import Estimate, over_seeds
 from . import Outcome, between, check
 from .cases import folder_of, run_cases
 
 SUBJECT = "The paper's section 6"
 DISKS, SEEDS = 3000, (1, 2, 3, 4, 5)
 QUICK_SEEDS = SEEDS[:2]  # of the same size: slopes of 1,500 disks scatter twice as much
-CREATION_DISTANCE = 0.025  # ℓ
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,13 +88,8 @@ NUMBERS = {
 
 
 def slope(disks, seed):
-    """The shipped section with about so many disks, pressed, loaded and bonded then."""
-    shipped = section.load("jiufengershan").with_disks(disks)
-    materials = {
-        name: dataclasses.replace(m, bond_creation_distance=CREATION_DISTANCE) for name, m in shipped.materials.items()
-    }
-    stages = dataclasses.replace(shipped.stages, settle=dataclasses.replace(shipped.stages.settle, bond="after"))
-    return dataclasses.replace(shipped, seed=seed, materials=materials, stages=stages, pressed=True)
+    """The shipped section with about so many disks."""
+    return dataclasses.replace(section.load("jiufengershan").with_disks(disks), seed=seed)
 
 
 def avalanche(folder, disks, seed):
@@ -120,7 +113,7 @@ def wedge(chosen, end):
 
 @check("What forces on the walls do until, in and after the avalanche", subject=SUBJECT, seconds=300, quick=60)
 def paper(bench):
-    """Slopes of the paper's section with 3,000 disks, five packings: pressed without friction until they carry, loaded, and bonded then.
+    """Slopes of the paper's section with 3,000 disks, five packings.
 
     Until failure the slope stands, and forces along DP are in balance. It is steeper than its friction angle, so its friction is fully used: T_DP = μ N'_DP (eq. 20). Water takes
     N'_DP, and T_DP falls by μ U_DP (eq. 19), which FB takes over (eq. 21). At t1 the foot bears no more, N'_FB stays level until the slope accelerates at t2 [116]. The shear force
@@ -158,7 +151,7 @@ def paper(bench):
                 rows,
             )
         ],
-        numbers={name: _plain(values) for name, values in (stages | others).items()},
+        numbers={name: over_seeds(values) for name, values in (stages | others).items()},
     )
 
 
@@ -172,9 +165,3 @@ def _shown(values):
     mean = _mean(values)
     each = ", ".join("-" if v is None else f"{v:.3g}" for v in values)
     return [f"{mean.mean:.3g}", f"± {mean.half_width:.2g}", each]
-
-
-def _plain(values):
-    """The same as JSON can hold it: None where a value is missing."""
-    mean = _mean(values)
-    return {"mean": number(mean.mean), "half_width": number(mean.half_width), "values": values}

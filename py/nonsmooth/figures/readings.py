@@ -1,0 +1,62 @@
+"""Figure of readings of what the paper leaves open: the strain of the peak in biaxial tests against the water that the slope bears."""
+
+import numpy as np
+from matplotlib.patches import Rectangle
+
+from . import style
+
+PEAK = (0.005, 0.02)  # strains of the peak that count as the paper's
+WATER = (18.5, 26.5)  # m of water that do
+
+
+@style.styled
+def tradeoff(rows, path=None, pdf=False):
+    """Each row (see `laboratory.readings.run`) a numbered point with its 95 % intervals, the paper's range a box; the numbers' names and distances stand beside it, nearest first."""
+    rows = sorted(rows, key=lambda row: np.inf if row["distance"] is None else row["distance"])
+    fig = style.figure(10.2, 0.24 * len(rows) + 2.2 if len(rows) > 14 else 5.6, layout="constrained")
+    ax, names = fig.subplots(1, 2, width_ratios=(1.6, 1.0))
+    ax.add_patch(
+        Rectangle((100 * PEAK[0], WATER[0]), 100 * (PEAK[1] - PEAK[0]), WATER[1] - WATER[0], color="#dcebf7", zorder=0)
+    )
+    ax.text(100 * PEAK[1] * 0.97, WATER[1] - 0.2, "the paper", ha="right", va="top", color=style.WATER)
+    for k, row in enumerate(rows):
+        x, y = row["strain_peak"], row["water_highest_m"]
+        if x is None or y is None:
+            continue
+        colour = style.LINES["orange"] if row["name"] == "default" else style.INK
+        ax.errorbar(
+            100 * x,
+            y,
+            xerr=None
+            if row["strain_peak_95"] is None
+            else [[100 * min(row["strain_peak_95"], 0.9 * x)], [100 * row["strain_peak_95"]]],
+            yerr=row["water_highest_m_95"],
+            fmt="o",
+            ms=4,
+            lw=0.6,
+            color=colour,
+            ecolor="#bbbbbb",
+            zorder=3,
+        )
+        ax.annotate(
+            str(k + 1), (100 * x, y), xytext=(4, 4), textcoords="offset points", color=colour, fontsize=8.5, zorder=4
+        )
+    ax.set_xscale("log")
+    ticks = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+    ax.set_xticks(ticks, [f"{t:g}" for t in ticks])
+    ax.minorticks_off()
+    ax.set(
+        xlabel="strain of the peak under 4, 8 and 16 MPa [%]",
+        ylabel="highest water table of the slope [m]",
+        ylim=(0, None),
+    )
+    names.axis("off")
+    for k, row in enumerate(rows):
+        told = "–" if row["distance"] is None else f"{row['distance']:.2f}"
+        bold = "bold" if row["name"] == "default" else "normal"
+        y = 1 - (k + 1.5) / (len(rows) + 1.5)
+        names.text(0.0, y, f"{k + 1}", ha="right", va="center", fontsize=9, fontweight=bold)
+        names.text(0.04, y, style.plain(row["label"]), va="center", fontsize=9, fontweight=bold)
+        names.text(1.0, y, told, ha="right", va="center", fontsize=9, fontweight=bold)
+    names.text(1.0, 1.0, "distance", ha="right", va="top", fontsize=9, color="#777777")
+    return style.save(fig, path, pdf)
