@@ -23,7 +23,7 @@ def faces(section) -> geometry.Edges:
     for k, (a, t, length) in enumerate(zip(table.start, table.direction, table.length)):
         cuts = {0.0, float(length)}
         for end in np.concatenate(walls):
-            along = float((end - a) @ t)
+            along = float(_dot(end - a, t))
             if reach < along < length - reach and geometry.distance(*(end - a - along * t)) <= reach:
                 cuts.add(along)
         cuts = sorted(cuts)
@@ -106,7 +106,8 @@ def _moved(table, is_free, first, count, rise, step):
         offsets = [rise(vertex + b, -n) if is_free[e] else 0.0 for e, n, b in zip(edges, normals, beside)]
         turn = normals[0, 0] * normals[1, 1] - normals[0, 1] * normals[1, 0]
         if abs(turn) > 0.05:  # 3°
-            moved.append(vertex + np.linalg.solve(normals, offsets))
+            (p, q), ((a, b), (c, d)) = offsets, normals
+            moved.append(vertex + np.array([p * d - b * q, a * q - p * c]) / turn)
         else:
             moved.append(vertex + max(offsets) * normals[int(np.argmax(offsets))])
     return moved
@@ -122,6 +123,11 @@ def _thickness(point, direction, walls):
         share = (off[:, 0] * direction[1] - off[:, 1] * direction[0]) / turn
     hit = (np.abs(turn) > 0) & (way > 0) & (share >= -1e-9) & (share <= 1 + 1e-9)
     return float(way[hit].min()) if hit.any() else 0.0
+
+
+def _dot(points, way):
+    """Scalar products of vectors (…, 2) with one (2,); unlike those of BLAS they have the same bits with every library."""
+    return points[..., 0] * way[0] + points[..., 1] * way[1]
 
 
 def _ends(table):
@@ -140,7 +146,7 @@ def _nearest(points, start, end):
     least, way, which = np.full(len(points), np.inf), np.zeros((len(points), 2)), np.zeros(len(points), int)
     for k, (a, b) in enumerate(zip(start, end)):
         along = b - a
-        share = np.clip((points - a) @ along / (along @ along), 0, 1)
+        share = np.clip(_dot(points - a, along) / _dot(along, along), 0, 1)
         off = points - a - share[:, None] * along
         away = geometry.distance(*off.T)
         nearer = away < least

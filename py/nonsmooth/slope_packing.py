@@ -24,7 +24,7 @@ from .stepping import advance
 
 __all__ = ["CALM", "LONGEST", "of", "press"]
 
-VERSION = 2  # of the way slopes are pressed; a new number makes old files unused
+VERSION = 3  # of the way slopes are pressed; a new number makes old files unused
 CALM = 1e-4
 LONGEST = 12
 TOLERANCE, MAX_ITERATIONS = 1e-5, 1000
@@ -66,17 +66,17 @@ def press(section, made, progress=None) -> Packing:
     """A Packing of the Section, pressed in the running scene, which is emptied before and after."""
     built = slope.build(_smooth(section), made)
     order = slope.order_of(section, made)
-    weight = made.r[order] ** 2 / float(np.sum(made.r**2))
+    weight = made.r[order] ** 2 / math.fsum(made.r**2)
     newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
     newton.gravity = (0, 0, 0)
     way, depth = free_surface.inward(section, made.x[order], made.y[order])
-    mean, span = float(weight @ depth), math.sqrt(float(depth.max()) / section.gravity)
+    mean, span = math.fsum(weight * depth), math.sqrt(float(depth.max()) / section.gravity)
     for k in range(LONGEST):
         _pull(built, section.gravity, way)
         advance(until=(k + 1) * span)
         t = tables.bodies(built.solver)
         way, depth = free_surface.inward(section, t["x"], t["y"])
-        before, mean = mean, float(weight @ depth)
+        before, mean = mean, math.fsum(weight * depth)
         if progress:
             progress((k + 1) / LONGEST)
         if mean - before < CALM * mean:

@@ -8,7 +8,7 @@ import signal
 import sys
 from pathlib import Path
 
-from yade.nonsmooth import commands, experiment, packing, section, slope
+from yade.nonsmooth import commands, experiment, section, slope, slope_packing
 
 source, disks, out, end, look = (
     sys.argv[1],
@@ -36,7 +36,7 @@ def main():
     if "--resume" in sys.argv:
         run = experiment.resume(chosen, out)
     else:
-        run = experiment.Experiment(slope.build(chosen, packing.cached_pack(chosen)), out)
+        run = experiment.Experiment(slope.build(chosen, slope_packing.of(chosen)), out)
     run.run(end)
     if not look:
         out.with_suffix(".looks").write_text(str(seen))

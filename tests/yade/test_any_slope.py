@@ -7,7 +7,7 @@ import pytest
 import shell
 from slope_scenes import SMALL, write_changed
 from yade import O
-from yade.nonsmooth import experiment, packing, records, results, run_figures, section, similar, slope, tables
+from yade.nonsmooth import experiment, records, results, run_figures, section, similar, slope, slope_packing, tables
 from yade.nonsmooth.figures import style
 from yade.nonsmooth.stepping import advance
 
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 def run(made, out, end=None):
     """A section's run in this process, its summary and the names of its figures; nothing is drawn."""
     out.mkdir()
-    course = experiment.Experiment(slope.build(made, packing.cached_pack(made)), out)
+    course = experiment.Experiment(slope.build(made, slope_packing.of(made)), out)
     course.run(end)
     state = vars(course.state)
     return records.read_series(out / "series.csv"), results.summarise(out, made, state)
@@ -120,7 +120,7 @@ def test_strips_of_a_mirrored_slope_are_mirrored():
     here = section.load("jiufengershan").with_disks(1200)
     found = []
     for made in (here, similar.mirrored(here)):
-        built = slope.build(made, packing.cached_pack(made))
+        built = slope.build(made, slope_packing.of(made))
         advance()
         built.solver.bond()
         advance(30)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import shell
 
-from yade.nonsmooth import output_folder, packing, section, slope, worlds
+from yade.nonsmooth import output_folder, section, slope, slope_packing, worlds
 from yade.nonsmooth.benchmark import machine
 from yade.nonsmooth.comparison import (
     answers,
@@ -502,7 +502,7 @@ def source(tmp_path_factory):
 
 def test_the_same_disks_and_bonds_in_both_worlds(source):
     s = dataclasses.replace(section.load(source).with_disks(300), seed=1)
-    made = packing.cached_pack(s)
+    made = slope_packing.of(s)
     found = {}
     for world in (None, worlds.Soft(1e8, (s.disks.d_min, s.disks.d_max))):
         from yade import O

@@ -6,7 +6,7 @@ import leftovers
 import pytest
 import slope_scenes
 from yade import O
-from yade.nonsmooth import experiment, packing, results, run_figures, section, slope
+from yade.nonsmooth import experiment, results, run_figures, section, slope, slope_packing
 
 FILES = (
     "summary.json",
@@ -34,7 +34,7 @@ def small(tmp_path_factory):
 
 def run(s, folder, end):
     O.reset()
-    made = experiment.Experiment(slope.build(s, packing.cached_pack(s)), folder)
+    made = experiment.Experiment(slope.build(s, slope_packing.of(s)), folder)
     made.run(end=end)
     return made
 

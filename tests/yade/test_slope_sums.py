@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from slope_scenes import SMALL
 from yade import O
-from yade.nonsmooth import experiment, packing, records, section, slope, tables, worlds
+from yade.nonsmooth import experiment, records, section, slope, slope_packing, tables, worlds
 from yade.nonsmooth.slope import hard
 
 MODES = ("tension", "shear", "torque", "mixed")
@@ -66,7 +66,7 @@ def steps():
     O.reset()
     world = hard(chosen)
     built = slope.build(
-        chosen, packing.cached_pack(chosen), replace(world, options={**world.options, "relaxationRate": 0.0})
+        chosen, slope_packing.of(chosen), replace(world, options={**world.options, "relaxationRate": 0.0})
     )
     solver, first = built.solver, built.first_disk
     experiment.advance()
@@ -233,7 +233,7 @@ def soft_run(tmp_path_factory):
     """The small slope of springs while it settles, gets wet and fails: its series, its breaks, and what it held."""
     folder, chosen = tmp_path_factory.mktemp("soft"), section.load(str(SMALL))
     O.reset()
-    built = slope.build(chosen, packing.cached_pack(chosen), worlds.Soft(**SOFT))
+    built = slope.build(chosen, slope_packing.of(chosen), worlds.Soft(**SOFT))
     run = experiment.Experiment(built, folder)
     run.run(end=3.0)
     made = run.state.bonds_initial
@@ -250,7 +250,7 @@ def test_soft_forces_cancel_and_move_the_disks(damping):
     """Forces on disks and walls add up to the water's, moments too; each disk's change of momentum is its force, damped as YADE does it, weight included."""
     chosen = section.load(str(SMALL))
     O.reset()
-    built = slope.build(chosen, packing.cached_pack(chosen), worlds.Soft(**SOFT, damping=damping))
+    built = slope.build(chosen, slope_packing.of(chosen), worlds.Soft(**SOFT, damping=damping))
     built.solver.bond()
     built.water.times, built.water.heights = [0.0], [2.0]
     experiment.advance(300)

@@ -9,7 +9,7 @@ import numpy as np
 from slope_scenes import SMALL
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import experiment, packing, records, results, section, slope, tables
+from yade.nonsmooth import experiment, records, results, section, slope, slope_packing, tables
 
 DUMPED = 40  # rows between two contact problems that are kept
 
@@ -180,7 +180,7 @@ def run(folder, watched=True, **changes):
     folder.mkdir(parents=True)
 
     chosen = section.load(str(SMALL))
-    built = slope.build(chosen, packing.cached_pack(chosen))
+    built = slope.build(chosen, slope_packing.of(chosen))
     with pytest.MonkeyPatch.context() as patch:
         watch = Watch(built, folder.parent) if watched else None
         if watched:
