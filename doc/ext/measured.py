@@ -1,7 +1,7 @@
 """Numbers and tables of documentation pages, from files that commands wrote and that are kept as doc/measured/NAME.json.
 
 ``:measured:`NAME KEY[/KEY][*FACTOR] FORMAT``` is one number: KEY of the file (a dot goes into a dictionary, or to an item of a list by its number), over another one and times FACTOR if these are given, as
-Python's FORMAT writes it. Names that have dots themselves, as those of a sweep's means, are found too.
+Python's FORMAT writes it. Names that have dots themselves, as those of a sweep's means, are found too. A mean over seeds, a dictionary with ``mean`` and ``half_width``, is written with its interval, as 1.2 ± 0.3.
 ``.. measured-tables:: NAME`` shows the tables of a check's result.json (scripts/verify.py), or those whose title begins with the directive's text.
 A file or key that is not there is an error of the build: a page must not show what nobody measured.
 """
@@ -42,8 +42,11 @@ def number(text, env):
     key, _, factor = key.partition("*")
     try:
         upper, _, lower = key.partition("/")
-        value = at(name, upper, env) / (at(name, lower, env) if lower else 1) * float(factor or 1)
-        return format(value, form)
+        value, unit = at(name, upper, env), float(factor or 1) / (at(name, lower, env) if lower else 1)
+        if not isinstance(value, dict):
+            return format(value * unit, form)
+        half = "" if value["half_width"] is None else f" ± {format(value['half_width'] * unit, form)}"
+        return format(value["mean"] * unit, form) + half
     except (OSError, LookupError, TypeError, ValueError, ZeroDivisionError) as error:
         raise ValueError(f"{text!r}: {type(error).__name__} {error}") from None
 

@@ -13,7 +13,7 @@ import yaml
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 from nonsmooth import geometry, section_data  # noqa: E402
 from nonsmooth.errors import OldNameWarning  # noqa: E402
-from nonsmooth.section import FOLDER, Disks, SectionError, load, shipped  # noqa: E402
+from nonsmooth.section import FOLDER, Disks, SectionError, block, load, shipped  # noqa: E402
 
 TEXT = (FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8")
 
@@ -161,6 +161,13 @@ def test_with_disks_scales_diameters(section, count):
     assert other.disks.d_max / other.disks.d_min == pytest.approx(4)
     assert other.disks.d_min == pytest.approx(other.scale)
     assert other.layers == section.layers
+
+
+def test_a_block_of_rock_is_filled_as_high_as_it_is(section):
+    """Samples are pressed between walls, or not at all: never raised as the layers of a pressed slope are."""
+    made = block(30.0, 60.0, seed=4)
+    assert made.area == 1800.0 and made.growth == 1.0 and made.seed == 4
+    assert made.materials["rock"] == section.materials["rock"] and not made.pressed and section.growth > 1.005
 
 
 def test_with_rock_changes_the_layers_alone(section):
