@@ -88,12 +88,13 @@ def main():
             args.resume,
             progress,
         )
+    report.draw(out / "rock", told["rock"])
     heads, rows = table1.table(told["rows"])
     caption = f"Table 1: {args.disks} disks, seeds {', '.join(map(str, args.seeds))}; means with half of their 95 % interval, the paper's values in brackets"
     tables = [[caption, heads, rows], ["Tests of the rock by pressure", *report.pressures(told["rock"])]]
     write_atomically(out / "table1.json", json.dumps({**told, "tables": tables}, indent=1).encode())
     print(tabulate(rows, heads, disable_numparse=True))
-    print(f"results: {out}/table1.json, rock/tests/*/series.csv, walls/tests/*/series.csv")
+    print(f"results: {out}/table1.json, rock/*.png, rock/tests/*/series.csv, walls/tests/*/series.csv")
 
 
 commands.run(main, "what has ended is kept, go on with --resume")
