@@ -126,6 +126,10 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	externalWork += s.external;
 	wallWork += s.wallWork;
 	slidingLoss += s.sliding;
+	for (const auto& [wall, energy] : s.slidingOnWalls) {
+		if (size_t(wall) >= wallSlidingLoss.size()) wallSlidingLoss.resize(wall + 1, 0);
+		wallSlidingLoss[wall] += energy;
+	}
 	rollingLoss += s.rolling;
 	debondingLoss += s.debonding;
 	impactLoss += s.impact;
@@ -280,6 +284,7 @@ void ContactDynamicsEngine::forgetEnergies()
 	for (Real* value :
 	     { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss, &correctionEnergy })
 		*value = 0;
+	wallSlidingLoss.clear();
 }
 
 boost::python::dict ContactDynamicsEngine::energies() const

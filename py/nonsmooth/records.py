@@ -119,6 +119,9 @@ WALL_COLUMNS = {
     ),
     "weakened_disks": _count("disks whose slip on it has passed the critical slip D_c"),
     "weakened_share": Column("1", "the same as a share of the disks that have touched it"),
+    "energy_sliding_J": Column(
+        "J/m", "energy dissipated by sliding on the wall since the balance began, after settling"
+    ),
 }
 
 #: The four ways in which contacts dissipate energy.

@@ -129,6 +129,15 @@ def _toe_bands(folder, every, section, times):
     }
 
 
+def _sliding_on_walls(path):
+    """{name: energy dissipated by sliding on a wall so far [J/m]}; empty where no world told it."""
+    if not path.exists():
+        return {}
+    walls = records.read_walls(path)
+    last = dict(zip(walls["wall"].tolist(), walls["energy_sliding_J"].tolist()))  # the last row of each
+    return {name: value for name, value in last.items() if math.isfinite(value)}
+
+
 def _of_bed(section, start, end):
     """Masses [kg/m] that were entrained from a bed and that came to lie beyond the foot; nothing for a section without a bed, None before the end.
 
@@ -237,6 +246,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "bulking_factor": bulking,
         "energy_dissipated_J_per_m": dissipated,
         "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES},
+        "sliding_on_walls_J_per_m": _sliding_on_walls(folder / "walls.csv"),
         "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,
         "energy_error_rel": float(np.max(error)) / turned if turned > 0 else 0.0,
     }

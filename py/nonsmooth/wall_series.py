@@ -5,6 +5,7 @@ Forces on walls are means over the steps since the row before; those between dis
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -63,10 +64,13 @@ class WallSeries:
             name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()
         }
         inside = self._between_disks()
-        laws = self._laws()
+        laws, slid = self._laws(), self._slid()
         rows = {name: forces[name] for name in self._slope.walls} | inside
         self.file.write(
-            *(self._row(name, *force, _slip([laws[name]] if name in laws else [])) for name, force in rows.items())
+            *(
+                self._row(name, *force, _slip([laws[name]] if name in laws else []), slid.get(name))
+                for name, force in rows.items()
+            )
         )
         found = {
             role: forces[names[0] if len(names) == 1 else (role,)] if names else (0.0, 0.0, 0.0)
@@ -122,13 +126,20 @@ class WallSeries:
             found[name] = (push, -float(on_it[1]), push)
         return found
 
-    def _row(self, name, normal, shear, peak, slip):
+    def _slid(self):
+        """{name: energy dissipated by sliding on a wall [J/m]}; empty in a world that does not tell it."""
+        losses = getattr(self._slope.solver, "wallSlidingLoss", None)
+        if losses is None:
+            return {}
+        return {name: math.fsum(losses[i] for i in ids if i < len(losses)) for name, ids in self._slope.walls.items()}
+
+    def _row(self, name, normal, shear, peak, slip, slid):
         told = (
             (slip.mean, slip.weakened, slip.weakened / slip.touched if slip.touched else 0.0)
             if slip.counts
             else (None, None, None)
         )
-        return dict(zip(records.WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told), strict=True))
+        return dict(zip(records.WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told, slid), strict=True))
 
 
 def _slip(materials):

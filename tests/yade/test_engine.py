@@ -239,6 +239,35 @@ def test_energy_of_a_block_that_slides_to_rest():
     assert dict(O.energy.items())["contactSliding"] == pytest.approx(kinetic, rel=1e-9)
 
 
+def test_energy_by_the_wall_that_was_slid_on():
+    """Two blocks on floors of their own, one of two pieces that it passes from one to the other, and one on a disk that is held, which is no wall."""
+    stuff = material(0.3)
+    pieces, upper = (
+        [O.bodies.append(b) for b in scene.segments(ends, stuff, sense=1)]
+        for ends in (((-5, 0), (0.5, 0), (50, 0)), ((-5, 20), (50, 20)))
+    )
+    held = O.bodies.append(scene.disk((0, 40), 5.0, stuff))
+    O.bodies[held].state.blockedDOFs = "xyzXYZ"
+    blocks = [free_disk(0, y, (v, 0, 0), stuff) for y, v in ((0.5, 2), (20.5, 1), (45.5, 1))]
+    for block in blocks:
+        O.bodies[block].state.blockedDOFs = "zXYZ"
+    begin()
+    run(1000)  # all rest, after 0.68 s at most
+    e, mass = engine(), O.bodies[blocks[0]].state.mass
+    slid = list(e.wallSlidingLoss)
+    assert len(slid) == max(upper) + 1 and all(slid[k] > 0 for k in pieces)
+    # the way to the change of pieces costs μ m g of force along 0.5 m, but for the step in which it is passed
+    assert slid[pieces[0]] == pytest.approx(0.3 * mass * G * 0.5, rel=0.03)
+    assert slid[pieces[0]] + slid[pieces[1]] == pytest.approx(0.5 * mass * 4, rel=1e-9)
+    assert slid[upper[0]] == pytest.approx(0.5 * mass, rel=1e-9)
+    assert e.slidingLoss > sum(slid) + 0.01 * mass  # the third one has slid too
+    O.saveTmp("walls")
+    O.loadTmp("walls")
+    assert list(engine().wallSlidingLoss) == slid
+    engine().forgetEnergies()
+    assert len(engine().wallSlidingLoss) == 0
+
+
 def test_energy_of_a_collapse_closes():
     stuff = material(0.3, 0.1)
     box(stuff, 9.5, 12)

@@ -87,6 +87,16 @@ def test_a_bad_material_is_one_message(tmp_path, text, message):
         materials.load("granite")
 
 
+def test_samples_are_of_the_slopes_rock_and_made_as_the_slope_is():
+    """Table 1 and the water at failure are of one reading: the same contacts, the same packing fraction, pressed without friction, loaded and bonded then."""
+    shipped, test = section.load("jiufengershan"), biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(300, 1))
+    assert dataclasses.replace(test.material, name="rock") == materials.bare(shipped.materials["rock"])
+    assert {layer.material for layer in shipped.layers} == {"rock"}
+    assert (shipped.pressed, shipped.stages.settle.bond) == (True, "after") and test.shape.friction == 0.0
+    assert test.shape.fraction == shipped.disks.packing_fraction
+    assert (test.shape.d_min, test.shape.d_max) == (shipped.disks.d_min, shipped.disks.d_max)
+
+
 def test_samples_that_other_engines_have_pressed_are_not_taken(monkeypatch):
     shape = pressing.Shape(300, 1)
     here = pressing.cache_path(shape)

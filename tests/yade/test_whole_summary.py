@@ -265,6 +265,11 @@ class Summary:
             for name in ("energy_sliding_J", "energy_rolling_J", "energy_impact_J", "energy_bonds_J")
         }
 
+    def sliding_on_walls_J_per_m(self):
+        header, *rows = (line.split(",") for line in (self.whole.folder / "walls.csv").read_text().splitlines())
+        names, slid = (header.index(name) for name in ("wall", "energy_sliding_J"))
+        return {row[names]: float(row[slid]) for row in rows[-3:]}  # DP, FB and SS of the last time
+
     def energy_dissipated_J_per_m(self):
         return sum(self.energy_losses_J_per_m().values())
 

@@ -30,10 +30,12 @@ struct Link {
 struct StepSums {
 	// contacts
 	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
-	Real overlap = 0, worstOverlap = 0; // sum and maximum over contacts, in units of ℓ
-	int  worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
-	Real contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
-	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
+	std::vector<std::pair<int, Real>>
+	        slidingOnWalls; // of sliding, contact by contact: id of the wall and energy [J]
+	Real    overlap = 0, worstOverlap = 0; // sum and maximum over contacts, in units of ℓ
+	int     worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
+	Real    contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
+	int     touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 	// bodies
 	Real     kinetic = 0, potential = 0, external = 0, wallWork = 0; // [J]; external and wallWork during the step
 	Real     correction = 0; // energy that bodies got by taking back errors of position [J]

@@ -14,6 +14,7 @@ using contact::Twist;
 void StepSums::add(const StepSums& other)
 {
 	sliding += other.sliding;
+	slidingOnWalls.insert(slidingOnWalls.end(), other.slidingOnWalls.begin(), other.slidingOnWalls.end());
 	rolling += other.rolling;
 	debonding += other.debonding;
 	impact += other.impact;
@@ -67,7 +68,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 				sumContact(k, u, sums);
 				if (rates) rateContact(k, u, sums);
 			}
-			parts[part] = sums;
+			parts[part] = std::move(sums);
 			slip[part]  = slips;
 		}
 #pragma omp for schedule(static)
@@ -191,7 +192,10 @@ inline void ContactSeam::sumContact(size_t k, const Impulse& u1, StepSums& sums)
 	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
 	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
 	(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
-	sums.sliding -= 0.5 * p.t * (u0.t + u1.t);
+	const Real shearWork = 0.5 * p.t * (u0.t + u1.t);
+	sums.sliding -= shearWork;
+	if (shearWork != 0 && (radius[c.i] < 0 || radius[c.j] < 0))
+		sums.slidingOnWalls.emplace_back(radius[c.i] < 0 ? c.i : c.j, -shearWork);
 	sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
 	// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
 	const bool held    = r.gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();

@@ -84,6 +84,10 @@ NUMBERS = {
     "weakening_s": ("of these from the first weakening on [s]", "not named"),
     "motion_s": ("motion, t3 to t5 [s]", "about 35 [118]"),
     "wedge_m": ("lowest part of DP that is not weakened at the end [m]", "lowermost portion [119]"),
+    **{
+        f"friction_{wall}_rel": (f"work of friction on {wall}, of all that is dissipated", "not named")
+        for wall in ("DP", "FB", "SS")
+    },
 }
 
 
@@ -93,7 +97,8 @@ def slope(disks, seed):
 
 
 def avalanche(folder, disks, seed):
-    """Runs a :func:`slope` in the (empty) scene until it rests; returns its summary, and as ``wedge_m`` how far up from the foot the end of DP is not weakened [m]."""
+    """Runs a :func:`slope` in the (empty) scene until it rests; returns its summary, as ``wedge_m`` how far up from the foot the end of DP is not weakened [m], and as ``friction_WALL_rel``
+    the work of friction on each wall by all that is dissipated."""
     from .. import experiment, slope_packing
     from .. import slope as builder
 
@@ -101,7 +106,12 @@ def avalanche(folder, disks, seed):
     run = experiment.Experiment(builder.build(chosen, slope_packing.of(chosen)), folder)
     run.run()
     summary = run.summarise(threads=1)
-    return summary | {"wedge_m": wedge(chosen, records.read_snapshot(folder / results.END))}
+    slid, lost = summary["sliding_on_walls_J_per_m"], summary["energy_dissipated_J_per_m"]
+    return (
+        summary
+        | {"wedge_m": wedge(chosen, records.read_snapshot(folder / results.END))}
+        | {f"friction_{wall}_rel": work / lost for wall, work in slid.items()}
+    )
 
 
 def wedge(chosen, end):
