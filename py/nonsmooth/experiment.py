@@ -459,7 +459,12 @@ def begin(section, folder, progress=None):
     """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises what slope_packing.of and slope.build raise."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    return Experiment(slope.build(section, slope_packing.of(section)), folder, progress=progress)
+    began = time.monotonic()
+    packed = slope_packing.of(section)
+    seconds = time.monotonic() - began
+    course = Experiment(slope.build(section, packed), folder, progress=progress)
+    course.state.wall_packing_s = seconds
+    return course
 
 
 def run_key(section):
