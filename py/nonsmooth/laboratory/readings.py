@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import keys, processes, section, section_data, side_by_side
+from .. import keys, section, section_data, side_by_side
 from ..campaign.sweep import FUNCTION, put
 from ..statistics import over_seeds
 from . import biaxial_test, campaign, pressing
@@ -102,26 +102,31 @@ READINGS = {
 }
 
 
-def slope_of(reading, disks, seed):
-    """The shipped section as a Reading has it, with about so many disks."""
+def section_of(reading):
+    """The shipped section as a Reading has it."""
     data = section_data.plain(section.load("jiufengershan"))
-    for key, value in {**reading.keys, "seed": seed}.items():
+    for key, value in reading.keys.items():
         put(data, key, value)
     if reading.shape:
         reading.shape(data)
-    return section.of(data, reading.label).with_disks(disks)
+    return section.of(data, reading.label)
 
 
-def tests_of(reading, disks, seeds, pressures=PRESSURES, strain=biaxial_test.Test.strain):
-    """The biaxial Tests of a Reading: of its rock, one for each seed and pressure [Pa]."""
+def slope_of(reading, disks, seed):
+    """The Section of a Reading with about so many disks."""
+    return dataclasses.replace(section_of(reading), seed=seed).with_disks(disks)
+
+
+def tests_of(reading, disks, seeds, strain=biaxial_test.Test.strain):
+    """The biaxial Tests of a Reading: of its rock, one for each seed and for each of :data:`PRESSURES`."""
     fields = dict(reading.test)
     count = round(disks * fields.pop("count", 1.0))
     shape = {"friction": fields.pop("friction")} if "friction" in fields else {}
-    rock = slope_of(dataclasses.replace(reading, shape=None), 3000, 1).materials[LAYERS_ROCK]
+    rock = section_of(reading).materials[LAYERS_ROCK]
     return [
         biaxial_test.Test(rock, p, pressing.Shape(count, seed, **shape), strain, **fields)
         for seed in seeds
-        for p in sorted(pressures)
+        for p in PRESSURES
     ]
 
 
@@ -141,18 +146,19 @@ def run(
     A row has ``name``, ``label``, for each number of :data:`PAPER` its mean over seeds, ``…_95`` (half of the 95 % interval, None for one seed) and ``…_each``, ``misses`` (see :func:`misses`)
     and their root mean square ``distance``. ``progress``: called with the share done and what is being done. Raises what campaign.run raises, and processes.RunError.
     """
-    out, tested, sloped = Path(out), {}, {}
+    out, wanted = Path(out), {}
     for name, reading in chosen.items():
-        tests = tests_of(reading, sample_disks, seeds, strain=strain)
-        tested.setdefault(tuple(map(biaxial_test.key_of, tests)), (name, tests))
-        sections = [slope_of(reading, slope_disks, seed) for seed in seeds]
-        data = [section_data.plain(s) for s in sections]
-        sloped.setdefault(keys.key_of(data), (name, data))
-    groups, measured = len(tested), {}
+        tests = tests_of(reading, sample_disks, seeds, strain)
+        data = [section_data.plain(slope_of(reading, slope_disks, seed)) for seed in seeds]
+        wanted[name] = tests, data, tuple(map(biaxial_test.key_of, tests)), keys.key_of(data)
+    # the first of those that share a key is run
+    tested = {key: (name, tests) for name, (tests, _, key, _) in reversed(wanted.items())}
+    sloped = {key: (name, data) for name, (_, data, _, key) in reversed(wanted.items())}
+    measured, failed = {}, {}
     for k, (key, (name, tests)) in enumerate(tested.items()):
-        told = lambda share, doing, k=k, name=name: progress(
-            0.6 * (k + share) / groups, f"{name}: {doing}"
-        )  # noqa: E731
+        told = lambda share, doing, k=k, name=name: progress(  # noqa: E731
+            0.6 * (k + share) / len(tested), f"{name}: {doing}"
+        )
         found = campaign.run(tests, out / "samples" / name, threads, resume, told)
         measured[key] = campaign.summarise(tests[0].material, found, threads=threads)
     made = [
@@ -166,26 +172,14 @@ def run(
         for name, data in sloped.values()
         for seed, one in zip(seeds, data)
     ]
-    found = iter(
-        side_by_side.run(
-            made,
-            threads,
-            resume,
-            processes.RunError,
-            progress=lambda share, ended: progress(0.6 + 0.4 * share, f"{ended} of {len(made)} slopes"),
-            go_on=True,
-        )
-    )
-    failed = {key: [next(found) for _ in seeds] for key in sloped}
-    rows = []
-    for name, reading in chosen.items():
-        tests = tests_of(reading, sample_disks, seeds, strain=strain)
-        slopes = failed[keys.key_of([section_data.plain(slope_of(reading, slope_disks, s)) for s in seeds])]
-        rows.append(
-            {"name": name, "label": reading.label}
-            | _row(measured[tuple(map(biaxial_test.key_of, tests))], slopes, seeds)
-        )
-    return rows
+    told = lambda share, ended: progress(0.6 + 0.4 * share, f"{ended} of {len(made)} slopes")  # noqa: E731
+    found = iter(side_by_side.run(made, threads, resume, progress=told, go_on=True))
+    for key in sloped:
+        failed[key] = [next(found) for _ in seeds]
+    return [
+        {"name": name, "label": chosen[name].label} | _row(measured[tested_key], failed[sloped_key], seeds)
+        for name, (_, _, tested_key, sloped_key) in wanted.items()
+    ]
 
 
 def _row(samples, slopes, seeds):
