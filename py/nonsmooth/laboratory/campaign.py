@@ -98,6 +98,7 @@ def measure(test, folder):
         "packing_fraction": found["packing_fraction"],
         "sigma1_peak_Pa": c.peak,
         "strain_peak": c.peak_strain,
+        "later_share": strength.later_share(series),
         "sigma3_peak_Pa": c.peak_confining,
         "sigma1_residual_Pa": c.residual,
         "sigma1_residual_error_Pa": c.residual_error,
@@ -156,6 +157,7 @@ def bands_of(folder, snapshot):
 #: Numbers of a test that :func:`by_pressure` has means of, besides those of its bands and breaks.
 OF_TEST = (
     "strain_peak",
+    "later_share",
     "dilatancy_deg",
     "volumetric_strain_end",
     "stress_fluctuation_rel",

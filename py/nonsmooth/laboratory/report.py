@@ -37,6 +37,7 @@ def table(summary):
 BY_PRESSURE = {
     "peak_deg": ("peak φ [°]", 1, 1),
     "strain_peak": ("at strain [%]", 100, 2),
+    "later_share": ("largest at 0.5 to 2 %, of the peak [%]", 100, 0),
     "residual_deg": ("plateau φ [°]", 1, 1),
     "dilatancy_deg": ("ψ [°]", 1, 0),
     "band_width_d": ("bands at 1 % [d]", 1, 1),

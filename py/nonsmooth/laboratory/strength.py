@@ -23,6 +23,7 @@ PEAK_WINDOW = 2e-3  # strain over which the stress is averaged before its maximu
 DILATANCY_WINDOW = 5e-3  # strain around the peak over which the slope of the volume is taken
 PLATEAU = 0.5  # share of a test's strain from which on the residual strength is the mean
 SOFTENED = 0.04  # strain from which on the paper's tests are on their plateau (section 5.2); a mean that begins before is no residual strength
+FIGURE_10 = (0.005, 0.02)  # strains between which the paper's curves have their peak, or a little more (Figure 10)
 SHORTEST = PEAK_WINDOW / (1 - PLATEAU)  # strain of a test that has both a peak and a plateau to measure
 
 
@@ -99,6 +100,14 @@ def running_mean(strain, values, window):
     work = np.concatenate(([0.0], np.cumsum(values * np.diff(edges))))
     begin = edges[edges <= edges[-1] - window + 1e-12]
     return begin, (np.interp(begin + window, edges, work) - np.interp(begin, edges, work)) / window
+
+
+def later_share(series) -> float | None:
+    """The largest stress, in means as peaks are, between the strains of :data:`FIGURE_10` over the largest of all: 1 where the peak lies there; None for a test that ends before."""
+    begin, mean = running_mean(series["strain"], axial_stress(series), PEAK_WINDOW)
+    middle = begin + PEAK_WINDOW / 2
+    there = (middle >= FIGURE_10[0]) & (middle <= FIGURE_10[1])
+    return float(mean[there].max() / mean.max()) if there.any() else None
 
 
 def apparent_deg(minor, major) -> float:
