@@ -77,7 +77,7 @@ def stress(tests, path=None, pdf=False):
         top.plot(strain, strength.axial_stress(series) / MEGA, color=colour, lw=1, label=f"{sigma3 / MEGA:g} ({whose})")
         bottom.plot(strain, 100 * np.asarray(series["volumetric_strain"]), color=colour)
     top.set(ylabel="σ₁ [MPa]", ylim=(0, None))
-    top.legend(title="σ₃ [MPa]", loc="lower right")
+    top.legend(title="σ₃ [MPa]", loc="upper right")
     bottom.axhline(0, color="#999999", lw=0.7)
     bottom.set(xlabel="axial strain ε₁ [%]", ylabel="volumetric strain [%]\n(dilation positive)", xlim=(0, None))
     return style.save(fig, path, pdf)
