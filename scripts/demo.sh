@@ -4,7 +4,7 @@
 # Usage: scripts/demo.sh [--out DIR] [--disks N] [--full] [--threads T]
 #   --out DIR      where the results go (out/jiufengershan of the checkout)
 #   --disks N      about how many disks (3000: one or two minutes once built)
-#   --full         disks of the paper's sizes, about 21,000 (3 to 7 minutes)
+#   --full         disks of the paper's sizes, about 21,000 (4 to 9 minutes)
 #   --threads T    how many threads (all cores)
 set -euo pipefail
 
