@@ -11,7 +11,7 @@ WATER = (18.5, 26.5)  # m of water that do
 
 @style.styled
 def tradeoff(rows, path=None, pdf=False):
-    """Each row (see `laboratory.readings.run`) a numbered point with its 95 % intervals, the paper's range a box; the numbers' names and distances stand beside it, nearest first."""
+    """Each row (see `laboratory.readings.run`) a numbered point, lines from its lowest to its highest packing, the paper's range a box; the numbers' names and distances stand beside it, nearest first."""
     rows = sorted(rows, key=lambda row: np.inf if row["distance"] is None else row["distance"])
     fig = style.figure(10.2, 0.24 * len(rows) + 2.2 if len(rows) > 14 else 5.6, layout="constrained")
     ax, names = fig.subplots(1, 2, width_ratios=(1.6, 1.0))
@@ -24,22 +24,21 @@ def tradeoff(rows, path=None, pdf=False):
         if x is None or y is None:
             continue
         colour = style.LINES["orange"] if row["name"] == "default" else style.INK
-        ax.errorbar(
-            100 * x,
-            y,
-            xerr=None
-            if row["strain_peak_95"] is None
-            else [[100 * min(row["strain_peak_95"], 0.9 * x)], [100 * row["strain_peak_95"]]],
-            yerr=row["water_highest_m_95"],
-            fmt="o",
-            ms=4,
-            lw=0.6,
-            color=colour,
-            ecolor="#bbbbbb",
-            zorder=3,
-        )
+        # from the lowest to the highest packing
+        for values, at, across in ((row["strain_peak_each"], y, True), (row["water_highest_m_each"], x, False)):
+            known = [v for v in values if v is not None]
+            ends = [100 * v for v in (min(known), max(known))] if across else [min(known), max(known)]
+            line = (ends, [at, at]) if across else ([100 * at] * 2, ends)
+            ax.plot(*line, "-", color=colour, lw=0.8, alpha=0.4, zorder=2)
+        ax.plot(100 * x, y, "o", ms=4.5, color=colour, zorder=3)
         ax.annotate(
-            str(k + 1), (100 * x, y), xytext=(4, 4), textcoords="offset points", color=colour, fontsize=8.5, zorder=4
+            str(k + 1),
+            (100 * x, y),
+            xytext=(4, 4) if k % 2 else (-9, -11),
+            textcoords="offset points",
+            color=colour,
+            fontsize=8.5,
+            zorder=4,
         )
     ax.set_xscale("log")
     ticks = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
