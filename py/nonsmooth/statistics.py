@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["Estimate", "half_width", "over_seeds", "spread", "standard_error"]
+__all__ = ["Estimate", "half_width", "over_seeds", "spread", "standard_error", "told"]
 
 
 def standard_error(values) -> float:
@@ -43,6 +43,13 @@ def over_seeds(values) -> dict:
     mean = Estimate.of([math.nan if v is None else v for v in values])
     plain = lambda v: None if math.isnan(v) else v  # noqa: E731
     return {"mean": plain(mean.mean), "half_width": plain(mean.half_width), "values": list(values)}
+
+
+def told(mean, half_width, digits, factor=1.0, sign="") -> str:
+    """A mean and half of its interval times a ``factor``, as 1.2 ± 0.3; a dash where there is no mean, and the mean alone where it has no interval. ``sign``: "+" to write that of positive means."""
+    if mean is None:
+        return "–"
+    return f"{factor * mean:{sign}.{digits}f}" + ("" if half_width is None else f" ± {factor * half_width:.{digits}f}")
 
 
 def spread(values) -> dict:

@@ -10,7 +10,7 @@ import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..statistics import Estimate, over_seeds
+from ..statistics import Estimate, over_seeds, told
 from . import biaxial_test, campaign, strength
 from .pressing import Shape
 
@@ -139,12 +139,6 @@ def _row(effect, value, measured, usual):
 def table(rows):
     """(heads, lines) of texts for what :func:`run` returned: a line for each value."""
 
-    def text(row, name, half, factor, digits, sign=""):
-        if row[name] is None:
-            return "–"
-        within = "" if row[half] is None else f" ± {factor * row[half]:.{digits}f}"
-        return f"{factor * row[name]:{sign}.{digits}f}{within}"
-
     heads = [
         "",
         "value",
@@ -158,7 +152,9 @@ def table(rows):
     for row in rows:
         line = [row["label"], f"{row['value']:g}" + (" (usual)" if row["usual"] else "")]
         for kind in ("peak", "residual"):
-            line.append(text(row, f"{kind}_mean_deg", f"{kind}_95_deg", 1, 1))
-            line.append("" if row["usual"] else text(row, f"{kind}_change_rel", f"{kind}_change_95_rel", 100, 1, "+"))
-        lines.append([*line, text(row, "fluctuation_rel", "fluctuation_95_rel", 100, 1)])
+            line.append(told(row[f"{kind}_mean_deg"], row[f"{kind}_95_deg"], 1))
+            line.append(
+                "" if row["usual"] else told(row[f"{kind}_change_rel"], row[f"{kind}_change_95_rel"], 1, 100, "+")
+            )
+        lines.append([*line, told(row["fluctuation_rel"], row["fluctuation_95_rel"], 1, 100)])
     return heads, lines

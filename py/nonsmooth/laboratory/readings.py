@@ -17,7 +17,7 @@ import numpy as np
 
 from .. import keys, section, section_data, side_by_side
 from ..campaign.sweep import FUNCTION, put
-from ..statistics import over_seeds
+from ..statistics import over_seeds, told
 from . import biaxial_test, campaign, pressing
 
 __all__ = ["PAPER", "PRESSURES", "READINGS", "Reading", "misses", "run", "slope_of", "tests_of"]
@@ -156,10 +156,10 @@ def run(
     sloped = {key: (name, data) for name, (_, data, _, key) in reversed(wanted.items())}
     measured, failed = {}, {}
     for k, (key, (name, tests)) in enumerate(tested.items()):
-        told = lambda share, doing, k=k, name=name: progress(  # noqa: E731
+        shown = lambda share, doing, k=k, name=name: progress(  # noqa: E731
             0.6 * (k + share) / len(tested), f"{name}: {doing}"
         )
-        found = campaign.run(tests, out / "samples" / name, threads, resume, told)
+        found = campaign.run(tests, out / "samples" / name, threads, resume, shown)
         measured[key] = campaign.summarise(tests[0].material, found, threads=threads)
     made = [
         side_by_side.Run(
@@ -172,8 +172,8 @@ def run(
         for name, data in sloped.values()
         for seed, one in zip(seeds, data)
     ]
-    told = lambda share, ended: progress(0.6 + 0.4 * share, f"{ended} of {len(made)} slopes")  # noqa: E731
-    found = iter(side_by_side.run(made, threads, resume, progress=told, go_on=True))
+    shown = lambda share, ended: progress(0.6 + 0.4 * share, f"{ended} of {len(made)} slopes")  # noqa: E731
+    found = iter(side_by_side.run(made, threads, resume, progress=shown, go_on=True))
     for key in sloped:
         failed[key] = [next(found) for _ in seeds]
     return [
@@ -233,10 +233,7 @@ def table(rows):
 
     def text(row, name):
         _, factor, digits = SHOWN[name]
-        value, half = row[name], row.get(f"{name}_95")
-        if value is None:
-            return "–"
-        return f"{factor * value:.{digits}f}" + ("" if half is None else f" ± {factor * half:.{digits}f}")
+        return told(row[name], row.get(f"{name}_95"), digits, factor)
 
     paper = {name: wanted for name, (wanted, _) in PAPER.items()}
     ordered = sorted(rows, key=lambda row: math.inf if row["distance"] is None else row["distance"])

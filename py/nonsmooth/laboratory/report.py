@@ -6,6 +6,7 @@ from pathlib import Path
 
 from .. import paraview, records
 from ..figures import biaxial as figures
+from ..statistics import told
 from ..whole_files import whole
 from .campaign import name_of_result
 
@@ -51,16 +52,13 @@ BY_PRESSURE = {
 def pressures(summary):
     """(heads, lines) of texts: what was measured under each pressure, mean over seeds and half of its 95 % interval."""
 
-    def text(one, factor, digits):
-        if one["mean"] is None:
-            return "–"
-        half = one["half_width"]
-        return f"{factor * one['mean']:.{digits}f}" + ("" if half is None else f" ± {factor * half:.{digits}f}")
-
     return ["σ₃ [MPa]", *(head for head, _, _ in BY_PRESSURE.values())], [
         [
             f"{row['confining_Pa'] / 1e6:g}",
-            *(text(row[name], f, digits) for name, (_, f, digits) in BY_PRESSURE.items()),
+            *(
+                told(row[name]["mean"], row[name]["half_width"], digits, f)
+                for name, (_, f, digits) in BY_PRESSURE.items()
+            ),
         ]
         for row in summary["by_pressure"]
     ]
