@@ -61,17 +61,17 @@ def main():
             resume=args.resume,
             progress=progress,
         )
+    heads, lines = readings.table(rows)
     told = {
         "disks": args.disks,
         "samples": args.samples,
         "seeds": args.seeds,
         "paper": readings.PAPER,
         "rows": rows,
-        "tables": [["Readings", *readings.table(rows)]],
+        "tables": [["Readings", heads, lines]],
     }
     write_atomically(out / "readings.json", json.dumps(told, indent=1).encode())
     picture = figures.tradeoff(rows, out / "readings.png")
-    heads, lines = readings.table(rows)
     print(tabulate(lines, heads))
     print(f"results: {out}/readings.json, {picture.name}")
 

@@ -98,6 +98,8 @@ def main():
     over = dict(args.over)
     if len(over) < len(args.over):
         raise campaign.PlanError("--over: a key stands twice; give all its values at once")
+    if args.draw:
+        key_of(over)  # before anything runs
     plan = campaign.sweep(section_arguments.read(args), over, end=args.end, figures=args.figures)
     for note in plan.notes[:NOTES]:
         print(note)
@@ -116,6 +118,14 @@ def main():
     show(table, args.out, args.draw)
 
 
+def key_of(varied):
+    """The first varied key besides the seed, against which results are drawn."""
+    key = next((key for key in varied if key != campaign.SEED), None)
+    if key is None:
+        raise campaign.PlanError("--draw: only the seed was varied; give another key with --over")
+    return key
+
+
 def show(table, out, drawn):
     """The varied values and some results, and a figure of those that are ``drawn``; all are in the file."""
     varied = list(campaign.read(out).runs[0].values)
@@ -123,17 +133,15 @@ def show(table, out, drawn):
     print(tabulate({name: table[name] for name in names}, headers="keys", floatfmt=".4g"))
     made = f"results: {out}/table.csv, runs/*/summary.json"
     if drawn:
-        key = next((key for key in varied if key != campaign.SEED), None)
-        if key is None:
-            raise campaign.PlanError("--draw: only the seed was varied; give another key with --over")
+        rows = campaign.means(table, varied)
         for name in drawn:
-            if name not in table:
-                near = difflib.get_close_matches(name, table, 1)
+            if name not in rows[0]["numbers"]:
+                near = difflib.get_close_matches(name, rows[0]["numbers"], 1)
                 raise campaign.PlanError(
                     f"--draw {name}: no result is called so; "
                     + (f"did you mean {near[0]!r}?" if near else f"they stand in {out}/table.csv")
                 )
-        figures.means(campaign.means(table, varied), key, drawn, Path(out) / "means.png")
+        figures.means(rows, key_of(varied), drawn, Path(out) / "means.png")
         made += ", means.png"
     print(made)
 

@@ -198,6 +198,16 @@ def test_results_are_drawn_against_what_was_varied(tmp_path, called):
     assert done.returncode == 0 and "means.png" in done.stdout and (tmp_path / "means.png").stat().st_size > 1e4
     done = shell.run("sweep.py", "--out", tmp_path, "--collect", "--draw", "twicce")
     assert done.returncode != 0 and "did you mean 'twice'?" in done.stderr
+    for name in ("run", "seed"):  # columns that are no results
+        assert shell.run("sweep.py", "--out", tmp_path, "--collect", "--draw", name).returncode != 0
+    # without seeds each run is a mean of one
+    alone = campaign.sweep(SHIPPED, {"materials.rock.friction": [0.3, 0.6]}).run(tmp_path / "alone", 1)
+    one = campaign.means(alone, ["materials.rock.friction"])
+    assert [(row["seeds"], row["numbers"]["twice"]["half_width"]) for row in one] == [([], None)] * 2
+    done = shell.run(
+        "sweep.py", "--section", "interface", "--over", "seed=1,2", "--draw", "twice", "--out", tmp_path / "no"
+    )
+    assert done.returncode != 0 and "only the seed was varied" in done.stderr and not (tmp_path / "no").exists()
     rows = campaign.means(table, ["materials.rock.friction", "seed"])
     (ax,) = figures.means(rows, "materials.rock.friction", ["twice"]).axes
     *dots, bars = (

@@ -156,7 +156,7 @@ def collect(out) -> dict:
 
 def means(table, varied) -> list:
     """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys: dictionaries with ``values`` of these keys, ``seeds``, and
-    ``numbers``, {name: see statistics.over_seeds}."""
+    ``numbers``, {name: see statistics.over_seeds}. Where no seed was varied each run is a row of its own."""
     others = [key for key in varied if key != SEED]
     rows = {}
     for k in range(len(table["run"])):
@@ -165,7 +165,7 @@ def means(table, varied) -> list:
     return [
         {
             "values": {key: table[key][found[0]] for key in others},
-            "seeds": [table[SEED][k] for k in found],
+            "seeds": [table[SEED][k] for k in found] if SEED in varied else [],
             "numbers": {name: over_seeds([table[name][k] for k in found]) for name in results},
         }
         for found in rows.values()

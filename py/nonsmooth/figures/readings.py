@@ -3,10 +3,13 @@
 import numpy as np
 from matplotlib.patches import Rectangle
 
+from ..laboratory.readings import PAPER
 from . import style
 
-PEAK = (0.005, 0.02)  # strains of the peak that count as the paper's
-WATER = (18.5, 26.5)  # m of water that do
+_strain, _octaves = PAPER["strain_peak"]
+_water, _metres = PAPER["water_highest_m"]
+PEAK = (_strain / 2**_octaves, _strain * 2**_octaves)  # strains of the peak that count as the paper's
+WATER = (_water - _metres, _water + _metres)  # m of water that do
 
 
 @style.styled

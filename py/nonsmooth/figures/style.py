@@ -101,6 +101,12 @@ def need(series, *names):
     return [np.asarray(series[name], dtype=float) for name in names]
 
 
+def line_colours(count):
+    """So many colours for lines, from the first again where there are more than :data:`LINES` has."""
+    colours = list(LINES.values())
+    return [colours[k % len(colours)] for k in range(count)]
+
+
 def plain(text):
     """A name as text that is no formula, whatever it holds."""
     return str(text).replace("$", r"\$")

@@ -18,7 +18,7 @@ def means(rows, key, names, path=None, pdf=False):
     values = list(dict.fromkeys(str(row["values"][key]) for row in rows))
     numeric = all(isinstance(row["values"][key], (int, float)) for row in rows)
     for ax, name in zip(fig.subplots(1, len(names), squeeze=False)[0], names):
-        for colour, (label, chosen) in zip(_cycle(len(groups)), groups.items()):
+        for colour, (label, chosen) in zip(style.line_colours(len(groups)), groups.items()):
             x = [row["values"][key] if numeric else values.index(str(row["values"][key])) for row in chosen]
             found = [row["numbers"][name] for row in chosen]
             for at, one in zip(x, found):
@@ -48,8 +48,3 @@ def means(rows, key, names, path=None, pdf=False):
     if any(groups):
         fig.axes[0].legend()
     return style.save(fig, path, pdf)
-
-
-def _cycle(count):
-    colours = list(style.LINES.values())
-    return [colours[k % len(colours)] for k in range(count)]

@@ -17,8 +17,7 @@ def slides(walls, path=None, pdf=False):
     names = list(dict.fromkeys(found["material"] for found, _ in walls))
     fig = style.figure(2.6 * len(names) + 6.4, 3.6, layout="constrained")
     axes = fig.subplots(1, len(names) + 1, squeeze=False, width_ratios=[1.0] * len(names) + [1.3])[0]
-    colours = list(style.LINES.values())
-    for ax, name, colour in zip(axes, names, _cycle(colours, len(names))):
+    for ax, name, colour in zip(axes, names, style.line_colours(len(names))):
         ax.sharey(axes[0])
         found, series = next((f, s) for f, s in walls if f["material"] == name)
         for k, (pressure, rows) in enumerate(zip(found["pressures_Pa"], series)):
@@ -37,7 +36,7 @@ def slides(walls, path=None, pdf=False):
     axes[0].legend(title="normal stress", loc="upper right")
     axes[0].set_ylabel("shear stress over normal stress")
     last = axes[-1]
-    for name, colour in zip(names, _cycle(colours, len(names))):
+    for name, colour in zip(names, style.line_colours(len(names))):
         mine = [f for f, _ in walls if f["material"] == name]
         for kind, mark, line in (("peak", "o", "-"), ("residual", "s", "--")):
             normal, shear = (
@@ -67,7 +66,3 @@ def slides(walls, path=None, pdf=False):
     )
     last.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return style.save(fig, path, pdf)
-
-
-def _cycle(colours, count):
-    return [colours[k % len(colours)] for k in range(count)]

@@ -138,7 +138,6 @@ def _row(effect, value, measured, usual):
 
 def table(rows):
     """(heads, lines) of texts for what :func:`run` returned: a line for each value."""
-
     heads = [
         "",
         "value",
