@@ -90,7 +90,8 @@ private:
 	void                        scatterContact(size_t k, const nonsmooth::contact::Impulse& u);
 	void                        sumReactions();
 	void                        scatterForces(Scene& scene, size_t begin, size_t end);
-	void                        turnBack(long k);
+	void                        turnBack();
+	void                        turnBack(size_t k);
 	void                        displace(size_t begin, size_t end);
 	bool                        yieldsInTension(size_t k, const nonsmooth::contact::Impulse& u) const;
 	void                        rateContact(size_t k, const nonsmooth::contact::Impulse& u, StepSums& sums) const;

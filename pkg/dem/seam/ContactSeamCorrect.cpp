@@ -27,7 +27,6 @@ bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
 void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
 {
 	correction.displacements.clear();
-	turning.assign(before.size(), {});
 	if (sweeps == 0 || relaxation.rate == 0) return;
 	const Real h = relaxation.step, most = h * relaxation.largestSpeed;
 	const long count = (long)links.size();
@@ -51,13 +50,11 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 	}
 	if (!any) return;
 	contact::correctPositions(problem, settings, workspace, errors, sweeps, correction);
-	for (long k = 0; k < count; ++k)
-		if (correction.impulses[k] != 0) turnBack(k);
 }
 
 /// Two bodies that are drawn together or apart while they pass each other would change their angular momentum, Σ m D × v: a pair of tangential impulses takes
 /// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step.
-void ContactSeam::turnBack(long k)
+void ContactSeam::turnBack(size_t k)
 {
 	const Contact& c    = problem.contacts[k];
 	const auto     free = [this](int body) {
@@ -75,6 +72,15 @@ void ContactSeam::turnBack(long k)
 	turning[c.i].y -= c.nx * p;
 	turning[c.j].x -= c.ny * p;
 	turning[c.j].y += c.nx * p;
+}
+
+/// All of them, in the order of contacts.
+void ContactSeam::turnBack()
+{
+	turning.assign(before.size(), {});
+	if (correction.displacements.empty()) return;
+	for (size_t k = 0; k < links.size(); ++k)
+		if (correction.impulses[k] != 0) turnBack(k);
 }
 
 /// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.

@@ -51,9 +51,11 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	std::vector<char>     slip(chunksC, 0);
 #pragma omp parallel num_threads(threads)
 	{
-		// by one thread, since a sum depends on its order; the others go on, and take more of what follows
+		// each by one thread, since a sum depends on its order; the others go on, and take more of what follows
 #pragma omp single nowait
 		sumReactions();
+#pragma omp single nowait
+		turnBack();
 #pragma omp for schedule(dynamic, 1)
 		for (long part = 0; part < (long)chunksC; ++part) {
 			const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
