@@ -190,7 +190,7 @@ def few(x, y, contacts=(), **changes):
             "cx": np.array(points, float)[:, 0],
             "cy": np.array(points, float)[:, 1],
         }
-    return load("records")._snapshot(arrays, "made up")
+    return load("records.snapshots").checked(arrays, "made up")
 
 
 def series(columns, rows=4000, seed=2):

@@ -109,7 +109,7 @@ def test_windows_are_where_their_frames_are(chains):
 
 
 def test_bars_of_many_disks_join_centres_and_are_as_wide_as_the_force():
-    s = records._snapshot(synthetic.snapshot_arrays(600), "made up")
+    s = records.Snapshot(**synthetic.snapshot_arrays(600))
     pairs, wall = np.flatnonzero(s.cj >= 0)[:50], np.flatnonzero(s.cj < 0)[:20]
     bars = forces.force_bars(s, pairs, reference=2e6, width=3.0)
     assert np.hypot(*(bars[:, 0] - bars[:, 3]).T) == pytest.approx(3.0 * np.abs(s.cn[pairs]) / 2e6)

@@ -4,7 +4,8 @@ from mutant import mutant
 PY = "py/nonsmooth/"
 CAMPAIGN = PY + "campaign/"
 WALLS = "pkg/dem/WallForceEngine.cpp"
-COURSE, RESULTS, RECORDS, TABLES = (PY + name for name in ("experiment.py", "results.py", "records.py", "tables.py"))
+COURSE, RESULTS, TABLES = (PY + name for name in ("experiment.py", "results.py", "tables.py"))
+SERIES, BREAKS = (PY + f"records/{name}.py" for name in ("series", "breaks"))
 TIMES = PY + "characteristic_times.py"
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "worlds.py", "toe.py"))
 SECTION, READER, CHECKS, GEOMETRY = (PY + name for name in ("section.py", "section_reader.py", "section_checks.py", "geometry.py"))
@@ -136,13 +137,13 @@ MUTANTS = (
     mutant("times-mean", TIMES, "max(span, row) - 0.5 * row", "2 * max(span, row) - 0.5 * row", "means are over twice their span",
            "plain:test_results.py::test_a_mean_is_over_the_seconds_up_to_a_time"),
     # ---- records
-    mutant("records-order", RECORDS, "step <= self.last_step:", "step < self.last_step:", "a step may be written twice",
+    mutant("records-order", SERIES, "step <= self.last_step:", "step < self.last_step:", "a step may be written twice",
            "plain:test_records.py::test_a_bad_row_is_refused_and_nothing_written"),
-    mutant("records-settled", RECORDS, '{name: values[series["stage"] > 0]', '{name: values[series["stage"] > 1]', "the dry rest is left out",
+    mutant("records-settled", SERIES, '{name: values[series["stage"] > 0]', '{name: values[series["stage"] > 1]', "the dry rest is left out",
            "test_slope_course.py::test_rows_begin_with_the_run_and_name_their_stage"),
-    mutant("records-breaks", RECORDS, "{b - first_disk},{BREAK_MODES[mode]}", "{b},{BREAK_MODES[mode]}", "the second disk of a broken bond is a body's id",
+    mutant("records-breaks", BREAKS, "{b - first_disk},{BREAK_MODES[mode]}", "{b},{BREAK_MODES[mode]}", "the second disk of a broken bond is a body's id",
            "test_paraview.py::test_breaks"),
-    mutant("records-bits", RECORDS, "return repr(float(value))", 'return f"{float(value):.15g}"', "numbers lose their last bits",
+    mutant("records-bits", SERIES, "return repr(float(value))", 'return f"{float(value):.15g}"', "numbers lose their last bits",
            "plain:test_records.py::test_numbers_come_back_bit_for_bit"),
     mutant("tables-tangential", TABLES, '"ct": c["tangential"]', '"ct": c["torque"]', "the tangential force of a snapshot is a torque",
            "test_tables.py::test_loaded_contacts_name_disks_and_walls"),

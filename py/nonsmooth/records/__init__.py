@@ -1,0 +1,31 @@
+"""Records of a run: the time series (``series.csv``, ``walls.csv``), the bonds that broke (``breaks.csv``) and the snapshots (``.npz``).
+
+All can be read and written without YADE. All quantities are in SI units, forces and energies per metre of
+thickness (the model is two-dimensional). Every failure is a :class:`RecordsError` that names the file, what is
+wrong with it and what to do.
+"""
+
+from .breaks import BREAK_COLUMNS, read_breaks, write_breaks
+from .columns import COLUMNS, LOSSES, WALL_COLUMNS, Column
+from .error import RecordsError
+from .series import SeriesWriter, kept, read_series, read_walls, since_settled
+from .snapshots import Snapshot, read_snapshot, write_snapshot
+
+__all__ = [
+    "BREAK_COLUMNS",
+    "COLUMNS",
+    "LOSSES",
+    "WALL_COLUMNS",
+    "Column",
+    "RecordsError",
+    "SeriesWriter",
+    "Snapshot",
+    "kept",
+    "read_breaks",
+    "read_series",
+    "read_snapshot",
+    "read_walls",
+    "since_settled",
+    "write_breaks",
+    "write_snapshot",
+]

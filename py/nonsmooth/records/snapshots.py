@@ -1,0 +1,130 @@
+"""Disks and contacts at one instant, ``.npz``."""
+
+import zipfile
+import zlib
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Optional
+
+import numpy as np
+
+from ..whole_files import write_arrays
+from .error import RecordsError
+
+
+@dataclass
+class Snapshot:
+    """The slope at one instant. N disks, C contacts.
+
+    Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above its plane).
+    Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest), and bool: ``wet`` (water acts on it now),
+    ``released`` (was wet, and has moved so far downslope that water acts on it no longer), ``ever_wet``. And ``weakened``, bool of shape (N, W): the slip along each of
+    the W walls and interfaces that weaken has passed the critical slip D_c, in the order of :attr:`.section.Section.weakening`. ``ever_wet`` and ``weakened`` are None
+    where they are not known, as in files of earlier versions, whose ``released`` has disks that never were wet too.
+    Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and
+    tangential force [N/m], compression positive, ``cbonded`` (bool), ``cx``, ``cy`` contact point [m]. They may all
+    be left out (C = 0), as for the frames of a video.
+    """
+
+    time_s: float
+    step: int
+    x: np.ndarray
+    y: np.ndarray
+    r: np.ndarray
+    angle: np.ndarray
+    vx: np.ndarray
+    vy: np.ndarray
+    layer: np.ndarray
+    wet: np.ndarray
+    released: np.ndarray
+    ci: np.ndarray
+    cj: np.ndarray
+    cn: np.ndarray
+    ct: np.ndarray
+    cbonded: np.ndarray
+    cx: np.ndarray
+    cy: np.ndarray
+    water_m: float
+    ever_wet: Optional[np.ndarray] = None
+    weakened: Optional[np.ndarray] = None
+
+
+_SCALARS = ("time_s", "step", "water_m")
+_CONTACTS = ("ci", "cj", "cn", "ct", "cbonded", "cx", "cy")
+_OPTIONAL = ("ever_wet", "weakened")
+_DISKS = tuple(f.name for f in fields(Snapshot) if f.name not in _SCALARS + _CONTACTS)
+_KINDS = dict.fromkeys(("layer", "ci", "cj"), np.int64) | dict.fromkeys(
+    ("wet", "released", "ever_wet", "weakened", "cbonded"), bool
+)
+
+
+def checked(arrays, source):
+    """Check ``arrays`` and make a Snapshot of them; ``source`` names the file in messages."""
+    wrong = lambda what, remedy: RecordsError(f"{source}: {what}; {remedy}")  # noqa: E731
+    arrays = {name: value for name, value in arrays.items() if value is not None}
+    if not any(name in arrays for name in _CONTACTS):
+        arrays.update({name: np.zeros(0) for name in _CONTACTS})
+    names = {f.name for f in fields(Snapshot) if f.name in arrays or f.name not in _OPTIONAL}
+    missing, unknown = sorted(names - set(arrays)), sorted(set(arrays) - names)
+    if missing or unknown:
+        raise wrong(
+            f"snapshot lacks {missing or 'nothing'} and has unknown {unknown or 'nothing'}",
+            "give the arrays of nonsmooth.records.Snapshot",
+        )
+    found = {}
+    for name in names:
+        value = np.asarray(arrays[name])
+        if not np.isfinite(value).all():
+            at = int(np.flatnonzero(~np.isfinite(value))[0]) if value.ndim else 0
+            raise wrong(f"{name}[{at}] is not a finite number", "go back to an earlier snapshot or checkpoint")
+        if name in _SCALARS:
+            if value.ndim:
+                raise wrong(f"{name} has shape {value.shape} instead of being one number", "give one number")
+            found[name] = int(value) if name == "step" else float(value)
+        else:
+            found[name] = value.astype(_KINDS.get(name, np.float64), copy=False)
+    for group, key in ((_DISKS, "x"), (_CONTACTS, "ci")):
+        for name in group:
+            if name not in found:
+                continue
+            rows = found[name].shape[:-1] if name == "weakened" else found[name].shape
+            if rows != (len(np.atleast_1d(found[key])),):
+                raise wrong(
+                    f"{name} has shape {found[name].shape} and {key} {found[key].shape}",
+                    "these arrays must be flat (weakened: with a column for each wall) and equally long",
+                )
+    count = len(found["x"])
+    if (found["r"] <= 0).any():
+        raise wrong(f"radius of disk {int(np.argmin(found['r']))} is {found['r'].min()}", "radii are positive")
+    if ((found["ci"] < 0) | (found["ci"] >= count) | (found["cj"] >= count)).any():
+        raise wrong(f"a contact names a disk beyond the {count} there are", "check how indices are made")
+    return Snapshot(**found)
+
+
+def write_snapshot(path, **arrays):
+    """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as ``.npz``; returns its path.
+
+    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN or a bad index, and
+    :class:`~yade.nonsmooth.whole_files.WriteError` for a file that cannot be written.
+    """
+    path = Path(path)
+    snapshot = checked(arrays, path)
+    # not compressed: a fifth of the room is not worth most of the time, as coordinates hardly shrink
+    write_arrays(path, **{name: value for name, value in vars(snapshot).items() if value is not None})
+    return path
+
+
+def read_snapshot(path):
+    """Read a :class:`Snapshot`. Raises :class:`RecordsError` if it is missing, truncated or inconsistent."""
+    path = Path(path)
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            arrays = {name: data[name] for name in data.files}
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise RecordsError(f"{path}: cannot be read ({reason}); check the folder given") from error
+    except (zipfile.BadZipFile, zlib.error, ValueError, EOFError, KeyError, AttributeError) as error:
+        raise RecordsError(
+            f"{path}: not a snapshot, or truncated ({error}); delete it and use another, or run again"
+        ) from error
+    return checked(arrays, path)
