@@ -17,7 +17,7 @@ PRESSED = 0.011  # of the thickness: what a packing of the shipped density and g
 
 def faces(section) -> geometry.Edges:
     """The free edges of the layers' outline, the mass on their left; those of a ring follow each other as they do there. Edges are cut where walls end."""
-    table, walls = geometry.edges(section.outline), _segments(section.walls)
+    table, walls = geometry.edges(section.outline), geometry.pieces([w.points for w in section.walls])
     reach = 3 * section.tolerance
     found = []
     for k, (a, t, length) in enumerate(zip(table.start, table.direction, table.length)):
@@ -29,7 +29,7 @@ def faces(section) -> geometry.Edges:
         cuts = sorted(cuts)
         for begin, end in zip(cuts, cuts[1:]):
             middle = a + 0.5 * (begin + end) * t
-            if _nearest(middle[None, :], *walls)[0][0] > reach:
+            if geometry.nearest(middle[None, :], *walls)[0][0] > reach:
                 found.append((a + begin * t, t, end - begin, bool(table.convex_start[k]), bool(table.convex_end[k])))
     if not found:
         return geometry.Edges(np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0), np.zeros(0, bool), np.zeros(0, bool))
@@ -39,7 +39,7 @@ def faces(section) -> geometry.Edges:
 def inward(section, x, y):
     """Unit vectors (n, 2) along which the depth grows at points (arrays x, y [m], shape (n,)), and their depths [m] below the nearest free face, negative outside the layers."""
     free, points = faces(section), np.column_stack((x, y))
-    away, way, which = _nearest(points, *_ends(free))
+    away, way, which = geometry.nearest(points, *_ends(free))
     inside = np.zeros(len(points), bool)
     for polygon in geometry.parts(section.outline):
         inside |= geometry.contains(polygon, *points.T)
@@ -58,12 +58,12 @@ def raised(section, share):
     The thickness at a vertex is the distance to the walls, along the face's normal, from a point of the face a largest diameter away, and no more than the greatest depth of
     the part that it belongs to; where the surface meets a wall it slides along it.
     """
-    free, walls, step = _ends(faces(section)), _segments(section.walls), section.largest
+    free, walls, step = _ends(faces(section)), geometry.pieces([w.points for w in section.walls]), section.largest
     polygons = []
     for polygon in geometry.parts(section.outline):
         table = geometry.edges(polygon)
         middle = table.start + 0.5 * table.length[:, None] * table.direction
-        is_free = _nearest(middle, *free)[0] <= 3 * section.tolerance
+        is_free = geometry.nearest(middle, *free)[0] <= 3 * section.tolerance
         rings, first, deepest = [], 0, _greatest_depth(table, free)
         for ring in (polygon.exterior, *polygon.interiors):
             n = len(ring.coords) - 1
@@ -84,7 +84,7 @@ def raised(section, share):
 
 def lifted(section, line, share):
     """A polyline (n, 2) from left to right within the layers, moved up by a ``share`` of the thickness between it and the walls below."""
-    walls, along = _segments(section.walls), np.gradient(line, axis=0)
+    walls, along = geometry.pieces([w.points for w in section.walls]), np.gradient(line, axis=0)
     up = np.column_stack((-along[:, 1], along[:, 0])) / geometry.distance(*along.T)[:, None]
     return line + up * [[share * _thickness(point, -n, walls)] for point, n in zip(line, up)]
 
@@ -93,7 +93,7 @@ def _greatest_depth(table, free):
     """Of the points of a part's rim below its free surface [m]."""
     shares = np.linspace(0, 1, 9)[:-1, None, None]
     rim = (table.start + shares * table.length[:, None] * table.direction).reshape(-1, 2)
-    return float(_nearest(rim, *free)[0].max())
+    return float(geometry.nearest(rim, *free)[0].max())
 
 
 def _moved(table, is_free, first, count, rise, step):
@@ -133,22 +133,3 @@ def _dot(points, way):
 def _ends(table):
     """Starts and ends of edges, two arrays (n, 2)."""
     return table.start, table.start + table.length[:, None] * table.direction
-
-
-def _segments(walls):
-    """Starts and ends of all pieces of the walls, two arrays (n, 2)."""
-    points = [w.points for w in walls]
-    return np.concatenate([p[:-1] for p in points]), np.concatenate([p[1:] for p in points])
-
-
-def _nearest(points, start, end):
-    """Distance [m] of points (n, 2) from the nearest of segments, the vector from there to the point, (n, 2), and the segment's number."""
-    least, way, which = np.full(len(points), np.inf), np.zeros((len(points), 2)), np.zeros(len(points), int)
-    for k, (a, b) in enumerate(zip(start, end)):
-        along = b - a
-        share = np.clip(_dot(points - a, along) / _dot(along, along), 0, 1)
-        off = points - a - share[:, None] * along
-        away = geometry.distance(*off.T)
-        nearer = away < least
-        least[nearer], way[nearer], which[nearer] = away[nearer], off[nearer], k
-    return least, way, which

@@ -27,8 +27,10 @@ __all__ = [
     "distance",
     "edges",
     "invalid_reason",
+    "nearest",
     "outline",
     "parts",
+    "pieces",
     "sides",
     "straight",
     "together",
@@ -54,6 +56,25 @@ def parts(shape) -> list[Polygon]:
 def distance(x, y):
     """√(x² + y²) of arrays."""
     return np.sqrt(np.square(x) + np.square(y))
+
+
+def pieces(polylines):
+    """Starts and ends of the pieces of polylines, each of vertices (n, 2): two arrays (m, 2)."""
+    lines = [np.asarray(p, float) for p in polylines]
+    return np.concatenate([p[:-1] for p in lines]), np.concatenate([p[1:] for p in lines])
+
+
+def nearest(points, start, end):
+    """Distance [m] of points (n, 2) from the nearest of segments, the vector from there to the point, (n, 2), and the segment's number."""
+    least, way, which = np.full(len(points), np.inf), np.zeros((len(points), 2)), np.zeros(len(points), int)
+    for k, (a, b) in enumerate(zip(start, end)):
+        along = b - a
+        share = np.clip(np.sum((points - a) * along, axis=1) / np.sum(along * along), 0, 1)
+        off = points - a - share[:, None] * along
+        away = distance(*off.T)
+        nearer = away < least
+        least[nearer], way[nearer], which[nearer] = away[nearer], off[nearer], k
+    return least, way, which
 
 
 def area(vertices) -> float:

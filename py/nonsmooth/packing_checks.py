@@ -88,9 +88,10 @@ def _check_places(packing, section, refuse, at):
     inside = np.zeros(len(packing), bool)
     for polygon in geometry.parts(section.outline):
         inside |= geometry.contains(polygon, x, y)
-    away = _distance(x, y, [_closed(layer) for layer in section.layers])
+    places = np.column_stack((x, y))
+    away = _distance(places, [_closed(layer) for layer in section.layers])
     for wall in section.walls:
-        gap = _distance(x, y, [wall.points])
+        gap = _distance(places, [wall.points])
         # outside, and the way back to the layers is through the wall
         behind = ~inside & (gap <= away + 3 * section.tolerance)
         bad = np.flatnonzero((gap < (1 - most) * r) | behind)
@@ -110,7 +111,7 @@ def _check_places(packing, section, refuse, at):
                 "give lines of x y r layer, with the layers' numbers from 0",
             )
         strays = mine[~geometry.contains(layer.polygon, x[mine], y[mine])]
-        gap = _distance(x[strays], y[strays], [_closed(layer)])
+        gap = _distance(places[strays], [_closed(layer)])
         far = np.flatnonzero(gap > AWAY * section.largest)
         if len(far):
             raise refuse(
@@ -123,12 +124,6 @@ def _closed(layer):
     return np.vstack((layer.points, layer.points[:1]))
 
 
-def _distance(x, y, lines):
-    """Distance [m] of points (arrays x, y) from the nearest of polylines (n, 2)."""
-    least = np.full(np.shape(x), np.inf)
-    for points in lines:
-        for a, b in zip(points, points[1:]):
-            along = b - a
-            share = np.clip(((x - a[0]) * along[0] + (y - a[1]) * along[1]) / (along[0] ** 2 + along[1] ** 2), 0, 1)
-            least = np.minimum(least, geometry.distance(x - a[0] - share * along[0], y - a[1] - share * along[1]))
-    return least
+def _distance(places, lines):
+    """Distance [m] of places (n, 2) from the nearest of polylines (n, 2)."""
+    return geometry.nearest(places, *geometry.pieces(lines))[0]
