@@ -1,6 +1,7 @@
 """Hard against soft: the mathematics of errors, work and rates on made-up data; tiny slopes in both worlds; a resume that keeps what has finished."""
 
 import dataclasses
+import html
 import json
 import math
 import shutil
@@ -570,6 +571,12 @@ def test_summary_and_report(compared):
     # and the stable step goes with 1/√E: √10 times as many steps, rounded to rows
     assert soft["cost"]["steps"] / softer["cost"]["steps"] == pytest.approx(math.sqrt(10), rel=0.1)
     page = (out / "report.html").read_text()
+    tables = {title: (heads, rows) for title, heads, rows in told["tables"]}
+    heads, rows = tables["All quantities"]
+    assert heads[:3] == ["quantity", "hard", "soft"] and len(rows) == len(told["quantities"])
+    for row, quantity in zip(rows, told["quantities"].values()):
+        assert row[0] == quantity["means"] and all(html.escape(cell) in page for cell in row)
+    assert len(tables["All runs"][1]) == len(told["runs"])
     assert (
         "ductile bonds; time step" in page
         and "this sitting took" in page
