@@ -306,10 +306,7 @@ class Experiment:
     def _fraction(self):
         """Packing fraction of the settled bulk; None where the layers are too thin to have one."""
         x, y, r = (tables.bodies(self.slope.solver)[name] for name in ("x", "y", "r"))
-        try:
-            return packing.packing_fraction(packing.Packing(x, y, r, self.layers), self.section.outline)
-        except packing.PackingError:
-            return None
+        return packing.packing_fraction(packing.Packing(x, y, r, self.layers), self.section.outline)
 
     # ---- records ------------------------------------------------------------------------------
     def _inside(self, t):

@@ -309,17 +309,19 @@ def overlaps(packing: Packing, region=None) -> Overlaps:
     return Overlaps(float(worst), float(near.mean()) if len(near) else 0.0, len(near))
 
 
-def packing_fraction(packing: Packing, polygon, margin: float | None = None) -> float:
+def packing_fraction(packing: Packing, polygon, margin: float | None = None) -> float | None:
     """Share of the bulk's area that disks cover.
 
     `polygon`: shapely (multi-)polygon, or vertices (n, 2) [m]; the bulk is what is left of it
     without a border of `margin` [m], by default the largest diameter, so a surface that has
     settled by less than that does no harm. Circles across the border are cut by area; accurate
-    to 1e-4. Raises PackingError where nothing is left within the margin.
+    to 1e-4. None where layers of a few disks have no bulk; raises PackingError where nothing is
+    left within a margin that is given.
     """
     region = polygon if hasattr(polygon, "buffer") else geometry.Polygon(polygon)
-    margin = 2 * float(packing.r.max()) if margin is None else float(margin)
-    bulk = region.buffer(-margin, join_style=2)
+    bulk = region.buffer(-(2 * float(packing.r.max()) if margin is None else float(margin)), join_style=2)
+    if bulk.is_empty and margin is None:
+        return None
     if bulk.is_empty:
         raise PackingError(f"nothing of the layers is left within a margin of {margin:.4g} m; give a smaller margin")
     return geometry.area_inside(packing.x, packing.y, packing.r, bulk) / bulk.area

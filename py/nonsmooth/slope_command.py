@@ -120,10 +120,9 @@ def run(name, about, default=None):
         built = slope.build(s, made)
         course = experiment.Experiment(built, out)
         course.state.wall_packing_s = seconds
-        print(
-            f"{len(made)} disks, packing fraction {packing.packing_fraction(made, s.outline):.3f}, results go to {out}",
-            flush=True,
-        )
+        fraction = packing.packing_fraction(made, s.outline)
+        bulk = "no bulk between their edges" if fraction is None else f"packing fraction {fraction:.3f}"
+        print(f"{len(made)} disks, {bulk}, results go to {out}", flush=True)
         for sentence in packing_checks.sparse_layers(made, s):
             print(sentence, flush=True)
     course.progress = Bar()

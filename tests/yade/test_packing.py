@@ -317,3 +317,4 @@ def test_packing_fraction_of_a_known_lattice():
     assert packing.packing_fraction(square, box, 1.3) == pytest.approx(math.pi / 4, abs=0.01)
     with pytest.raises(PackingError, match="smaller margin"):
         packing.packing_fraction(square, box, 30)
+    assert packing.packing_fraction(square, [(0, 0), (n, 0), (n, 1.9), (0, 1.9)]) is None  # no two disks thick
