@@ -319,7 +319,8 @@ def packing_fraction(packing: Packing, polygon, margin: float | None = None) -> 
     left within a margin that is given.
     """
     region = polygon if hasattr(polygon, "buffer") else geometry.Polygon(polygon)
-    bulk = region.buffer(-(2 * float(packing.r.max()) if margin is None else float(margin)), join_style=2)
+    border = 2 * float(packing.r.max()) if margin is None else float(margin)
+    bulk = region.buffer(-border, join_style=2)
     if bulk.is_empty and margin is None:
         return None
     if bulk.is_empty:

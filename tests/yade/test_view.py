@@ -486,11 +486,17 @@ def test_engines_that_look_now_and_then_see_the_truth(tmp_path):
         assert all(every[step] == row for step, row in some.items()), period
 
 
-def test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment(tmp_path):
-    """Falling freely all disks have the same speed, that of the step that the file names or of the two after it, since its number is written first; each file can be gone on with."""
+@pytest.mark.parametrize("shown", ["now and then", "in every step"])
+def test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment(shown, tmp_path):
+    """Falling freely all disks have the same speed, that of the step that the file names or of the two after it, since its number is written first; each file can be gone on with.
+
+    Where a foreign engine has the bodies shown in every step, each step that went on meanwhile would be seen in the file.
+    """
     stuff = material(0.5)
     O.bodies.append([scene.disk((3 * (k % 60), 3 * (k // 60)), 0.5, stuff) for k in range(3000)])
     begin(dt=1e-4, reach=0.4)
+    if shown == "in every step":
+        O.engines = O.engines + [ForceEngine(ids=[0], force=(0, 0, 0))]
     O.run()
     try:
         files = [str(tmp_path / f"{k}.yade.gz") for k in range(6)]

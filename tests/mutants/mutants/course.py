@@ -220,8 +220,10 @@ MUTANTS = (
     # ---- packings
     mutant("packing-layers", PACKING, "gain &= self.layer[small] == self.layer[large]", "pass", "disks change places with those of other layers",
            "plain:test_packing.py::test_sizes_are_uniform_by_volume", "plain:test_packing.py::test_is_even_along_the_slope"),
-    mutant("packing-bulk", PACKING, "region.buffer(-margin, join_style=2)", "region.buffer(margin, join_style=2)", "the bulk is larger than the layers",
+    mutant("packing-bulk", PACKING, "region.buffer(-border, join_style=2)", "region.buffer(border, join_style=2)", "the bulk is larger than the layers",
            "plain:test_packing.py::test_packing_fraction_of_a_known_lattice"),
+    mutant("packing-thin", PACKING, "if bulk.is_empty and margin is None:", "if bulk.is_empty and margin is not None:", "layers that are two disks thick are an error",
+           "test_packing.py::test_packing_fraction_of_a_known_lattice", "test_any_slope.py::test_every_shipped_section_begins"),
     mutant("packing-wall", PACKING, "overlap = r[disks] - off", "overlap = r[disks] - 2 * off", "disks stand half in the walls",
            "plain:test_packing.py::test_is_dense_without_overlap"),
     mutant("packing-check-wall", PACKING_CHECKS, "(gap < (1 - most) * r)", "(gap < most * r)", "disks may lie in a wall up to their centres",

@@ -210,7 +210,7 @@ MUTANTS = (
     mutant("view-foreign", RESIDENT, "!isAs(*body->state, asShown[id])", "false", "what another thread writes into a body is overwritten",
            "test_view.py::test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost"),
     mutant("view-saved", RESIDENT, "beingSaved = PyGILState_Check();", "beingSaved = false;", "steps go on in the background while the scene is being saved",
-           "test_view.py::test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment"),
+           "test_view.py::test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment[in every step]"),
     mutant("take-refresh", LOOP, "r.phys->updateThresholds(r.gap, ours.law->adhesionRange);", ";", "strengths that a script has changed are not taken up",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]", "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[residualRollingArm]"),
     mutant("take-yield", SCATTER, "r.yielded        = opens;", "r.yielded = false;", "bonds that opened do not keep their length in the arrays",
