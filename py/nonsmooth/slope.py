@@ -67,14 +67,15 @@ def hard(section) -> worlds.Hard:
     # bonds are made where contacts are known, so these must reach further than Δ
     reach = max(REACH, 0.01 + max(m.bond_creation_distance for m in section.materials.values()))
     # known early enough for disks that approach each other at such a speed; the fastest of the paper's slope reach 50 m/s
-    far = scales.of(section).approach_speed * n.time_step / section.smallest
+    speeds = scales.of(section)
+    far = speeds.approach_speed * n.time_step / section.smallest
     return worlds.Hard(
         n.time_step,
         n.tolerance,
         reach,
         far,
         -n.verlet_distance,
-        {"maxIterations": n.max_iterations, "correctionSlack": SLACK},
+        {"maxIterations": n.max_iterations, "correctionSlack": SLACK, "correctionSpeed": speeds.correction_speed},
     )
 
 

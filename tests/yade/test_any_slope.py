@@ -9,6 +9,7 @@ from slope_scenes import SMALL, write_changed
 from yade import O
 from yade.nonsmooth import experiment, records, results, run_figures, section, similar, slope, slope_packing, tables
 from yade.nonsmooth.figures import style
+from yade.nonsmooth.packing_files import Packing
 from yade.nonsmooth.stepping import advance
 
 import drawn
@@ -246,3 +247,40 @@ def test_a_slope_of_another_size_does_the_same_until_it_fails(whole, tmp_path):
         assert 10 * told["times_s"][name] == pytest.approx(big["times_s"][name], rel=0.01)
     # measured: 6 % here; 4 to 7 % on a slope of 2,000 disks that were shifted by 1e-11 m
     assert 100 * told["front_travel_m"] == pytest.approx(big["front_travel_m"], rel=0.25)
+
+
+# powers of the size with which numbers of a scene grow (Froude); all others have no unit, or one that does not depend on it
+POWERS = {
+    "dt": 0.5,
+    "NonsmoothTimeStepper.smallest": 0.5,
+    "NonsmoothTimeStepper.largest": 0.5,
+    "ContactDynamicsEngine.correctionSpeed": 0.5,
+    "PorePressureEngine.releaseDistance": 1.0,
+    "NscdMat.tensileStrength": 1.0,
+    "NscdMat.residualTensileStrength": 1.0,
+    "SlipWeakeningMat.tensileStrength": 1.0,
+    "SlipWeakeningMat.criticalSlip": 1.0,
+}
+
+
+def numbers_of_the_scene(chosen):
+    """(class and attribute, which one of the class, value) of all numbers that engines, their functors and materials have."""
+    x, y = chosen.layers[0].polygon.representative_point().coords[0]
+    slope.build(chosen, Packing([x], [y], [1e-3 * chosen.smallest], [0]))
+    dispatchers = ("lawDispatcher", "geomDispatcher", "physDispatcher", "boundDispatcher")
+    things = [*O.engines, *O.materials]
+    things += [f for e in O.engines for name in dispatchers for f in getattr(getattr(e, name, None), "functors", ())]
+    return [("dt", 0, O.dt)] + [
+        (f"{type(one).__name__}.{name}", k, value)
+        for k, one in enumerate(things)
+        for name, value in one.dict().items()
+        if isinstance(value, (int, float))
+    ]
+
+
+def test_every_number_of_a_scene_goes_with_its_size():
+    big = section.load("jiufengershan")
+    found, grown = numbers_of_the_scene(similar.scaled(big, 0.0625)), numbers_of_the_scene(big)
+    assert [row[:2] for row in found] == [row[:2] for row in grown] and {row[0] for row in found} >= set(POWERS)
+    for (name, _, small), (_, _, large) in zip(found, grown):
+        assert small == pytest.approx(large * 0.0625 ** POWERS.get(name, 0), rel=1e-12, nan_ok=True), name

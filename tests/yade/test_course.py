@@ -356,7 +356,7 @@ def test_snapshots_are_every_fifth_row_once_it_counts():
 # ---- other sizes ------------------------------------------------------------------------------------
 def test_the_shipped_section_has_the_scales_that_it_had():
     for s in (SHIPPED, SHIPPED.with_disks(3000)):
-        assert dataclasses.astuple(scales.of(s)) == (0.1, 1.0, 5.0, 0.2, 0.02, 2.0, 60.0)  # to the last bit
+        assert dataclasses.astuple(scales.of(s)) == (0.1, 1.0, 5.0, 0.2, 0.02, 2.0, 60.0, 1.0)  # to the last bit
 
 
 @pytest.mark.parametrize(
@@ -374,9 +374,13 @@ def test_scales_of_other_slopes(size, gravity, row, mean):
     """Rows and means are the nearest of 1, 2 and 5 times a power of ten, by ratio: √12 = 3.46 is 1.45 times less than 5 and 1.73 times more than 2."""
     other, speed, time = scaled(slope(), size, gravity)
     found = scales.of(dataclasses.replace(other, numerics=dataclasses.replace(SHIPPED.numerics, time_step=1e-5)))
-    assert (found.moving_speed, found.stopped_speed, found.going_speed, found.approach_speed) == pytest.approx(
-        (0.2 * speed, 0.02 * speed, 2 * speed, 60 * speed), rel=1e-12
-    )
+    assert (
+        found.moving_speed,
+        found.stopped_speed,
+        found.going_speed,
+        found.approach_speed,
+        found.correction_speed,
+    ) == pytest.approx((0.2 * speed, 0.02 * speed, 2 * speed, 60 * speed, speed), rel=1e-12)
     assert found.still_seconds == pytest.approx(5 * time, rel=1e-12) and (found.row_seconds, found.mean_seconds) == (
         row,
         mean,
