@@ -19,7 +19,7 @@ GRAVITY = 9.81  # m/s²
 class Scales:
     """``row_seconds``: between two rows of the series; ``mean_seconds``: over which forces are averaged for characteristic times; ``still_seconds``: without
     change, after which a solve is tighter; ``moving_speed``, ``stopped_speed``, ``going_speed``, ``approach_speed`` [m/s]: see :mod:`yade.nonsmooth.course`, :mod:`.slope`;
-    ``correction_speed`` [m/s]: with which errors of position are taken back at most.
+    ``correction_speed`` [m/s]: with which errors of position are taken back at most, the solver's own but for a similar section.
 
     The first two are rounded to 1, 2 or 5 times a power of ten (but for a similar section), and no shorter than a time step.
     """
@@ -42,8 +42,8 @@ def of(section) -> Scales:
     size, gravity = math.sqrt(section.area / AREA), section.gravity / GRAVITY
     speed, time = math.sqrt(size * gravity), math.sqrt(size / gravity)
     row = max(_round(0.1 * time), section.numerics.time_step)
-    speeds = (0.2 * speed, 0.02 * speed, 2.0 * speed, 60.0 * speed, 1.0 * speed)
-    return Scales(row, max(_round(1.0 * time), row), 5.0 * time, *speeds)
+    speeds = (0.2 * speed, 0.02 * speed, 2.0 * speed, 60.0 * speed)
+    return Scales(row, max(_round(1.0 * time), row), 5.0 * time, *speeds, correction_speed=1.0)
 
 
 def _round(seconds):

@@ -380,7 +380,7 @@ def test_scales_of_other_slopes(size, gravity, row, mean):
         found.going_speed,
         found.approach_speed,
         found.correction_speed,
-    ) == pytest.approx((0.2 * speed, 0.02 * speed, 2 * speed, 60 * speed, speed), rel=1e-12)
+    ) == pytest.approx((0.2 * speed, 0.02 * speed, 2 * speed, 60 * speed, 1.0), rel=1e-12)
     assert found.still_seconds == pytest.approx(5 * time, rel=1e-12) and (found.row_seconds, found.mean_seconds) == (
         row,
         mean,

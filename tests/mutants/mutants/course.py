@@ -54,7 +54,7 @@ MUTANTS = (
            "a slope counts as still although its table rises", "plain:test_course.py::test_still_is_five_seconds_at_one_height"),
     mutant("course-ramp", RULES, "min(1.0, time / settle.ramp)", "time / settle.ramp", "gravity goes on growing after its ramp",
            "plain:test_course.py::test_gravity_grows_in_proportion"),
-    mutant("slope-correction", SLOPE, '"correctionSpeed": speeds.correction_speed', '"correctionSpeed": 1.0', "errors of position are taken back as fast in a flume as on a mountain",
+    mutant("slope-correction", SLOPE, '"correctionSpeed": speeds.correction_speed', '"correctionSpeed": 1.0', "errors of position are taken back as fast at another size",
            "test_any_slope.py::test_every_number_of_a_scene_goes_with_its_size"),
     mutant("course-going", RULES, "seen.speed >= scales.going_speed", "seen.speed >= scales.moving_speed", "a slope that stirs while it settles has failed dry",
            "plain:test_course.py::test_a_slope_that_has_stood_fails_by_water"),
