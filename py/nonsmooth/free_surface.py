@@ -17,7 +17,7 @@ PRESSED = 0.011  # of the thickness: what a packing of the shipped density and g
 
 def faces(section) -> geometry.Edges:
     """The free edges of the layers' outline, the mass on their left; those of a ring follow each other as they do there. Edges are cut where walls end."""
-    table, walls = geometry.edges(section.outline), geometry.pieces([w.points for w in section.walls])
+    table, walls = geometry.edges(section.outline), _walls(section)
     reach = 3 * section.tolerance
     found = []
     for k, (a, t, length) in enumerate(zip(table.start, table.direction, table.length)):
@@ -58,7 +58,7 @@ def raised(section, share):
     The thickness at a vertex is the distance to the walls, along the face's normal, from a point of the face a largest diameter away, and no more than the greatest depth of
     the part that it belongs to; where the surface meets a wall it slides along it.
     """
-    free, walls, step = _ends(faces(section)), geometry.pieces([w.points for w in section.walls]), section.largest
+    free, walls, step = _ends(faces(section)), _walls(section), section.largest
     polygons = []
     for polygon in geometry.parts(section.outline):
         table = geometry.edges(polygon)
@@ -84,7 +84,7 @@ def raised(section, share):
 
 def lifted(section, line, share):
     """A polyline (n, 2) from left to right within the layers, moved up by a ``share`` of the thickness between it and the walls below."""
-    walls, along = geometry.pieces([w.points for w in section.walls]), np.gradient(line, axis=0)
+    walls, along = _walls(section), np.gradient(line, axis=0)
     up = np.column_stack((-along[:, 1], along[:, 0])) / geometry.distance(*along.T)[:, None]
     return line + up * [[share * _thickness(point, -n, walls)] for point, n in zip(line, up)]
 
@@ -128,6 +128,11 @@ def _thickness(point, direction, walls):
 def _dot(points, way):
     """Scalar products of vectors (…, 2) with one (2,); unlike those of BLAS they have the same bits with every library."""
     return points[..., 0] * way[0] + points[..., 1] * way[1]
+
+
+def _walls(section):
+    """Starts and ends of all pieces of the walls, two arrays (n, 2)."""
+    return geometry.pieces([w.points for w in section.walls])
 
 
 def _ends(table):
