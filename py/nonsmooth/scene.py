@@ -78,9 +78,9 @@ def disk(centre, radius, material, fixed=False, color=None):
     """
     body = utils.sphere((centre[0], centre[1], 0), radius, material=material, fixed=fixed, color=color)
     density = body.material.density
-    mass = density * math.pi * radius**2
+    mass = density * math.pi * (radius * radius)  # pow() may round sizes 1:4 differently
     body.state.mass = mass
-    body.state.inertia = Vector3(1, 1, 1) * (0.5 * mass * radius**2)
+    body.state.inertia = Vector3(1, 1, 1) * (0.5 * mass * (radius * radius))
     body.state.blockedDOFs = "xyzXYZ" if fixed else "zXY"
     return body
 

@@ -7,7 +7,18 @@ import pytest
 import shell
 from slope_scenes import SMALL, write_changed
 from yade import O
-from yade.nonsmooth import experiment, records, results, run_figures, section, similar, slope, slope_packing, tables
+from yade.nonsmooth import (
+    experiment,
+    records,
+    results,
+    run_figures,
+    scene,
+    section,
+    similar,
+    slope,
+    slope_packing,
+    tables,
+)
 from yade.nonsmooth.figures import style
 from yade.nonsmooth.packing_files import Packing
 from yade.nonsmooth.stepping import advance
@@ -247,6 +258,38 @@ def test_a_slope_of_another_size_does_the_same_until_it_fails(whole, tmp_path):
         assert 10 * told["times_s"][name] == pytest.approx(big["times_s"][name], rel=0.01)
     # measured: 6 % here; 4 to 7 % on a slope of 2,000 disks that were shifted by 1e-11 m
     assert 100 * told["front_travel_m"] == pytest.approx(big["front_travel_m"], rel=0.25)
+
+
+# powers of the size with which what a run tells grows, by the unit in its name
+GROWS = {"N_per_m": 2, "m_per_s": 0.5, "J": 3, "s": 0.5, "m": 1}
+
+
+def power_of(name):
+    return next((power for unit, power in GROWS.items() if name.endswith("_" + unit)), 0)
+
+
+def test_a_slope_of_a_64th_of_the_size_has_its_bits_in_proportion(whole, tmp_path):
+    """From its packing to its rest. Lengths in the ratio of a power of four, times and speeds then of a power of two, are the only ones that rounding leaves in
+    proportion: a number with a unit that does not go along is seen, at whatever time it acts."""
+    size = 1 / 64
+    O.reset()
+    series, told = run(similar.scaled(section.load(str(SMALL)), size), tmp_path / "out")
+    for name, values in whole.series.items():
+        assert np.array_equal(series[name], values * size ** power_of(name)), name
+    one, other = (records.read_snapshot(folder / "end.npz") for folder in (whole.folder, tmp_path / "out"))
+    for name, power in {"x": 1, "y": 1, "r": 1, "vx": 0.5, "vy": 0.5, "angle": 0, "cn": 2, "ct": 2}.items():
+        assert np.array_equal(getattr(other, name), getattr(one, name) * size**power), name
+    for name in ("front_travel_m", "deposit_thickness_max_m", "water_at_failure_m", "dp_shear_dry_N_per_m"):
+        assert told[name] == pytest.approx(whole.summary[name] * size ** power_of(name), rel=1e-12), name
+    assert told["front_travel_m"] > 1 * size
+
+
+def test_disks_have_mass_and_inertia_in_proportion_to_the_bit():
+    """Some in ten thousand had not, with a power function that rounds in its own way."""
+    rock = scene.material(section.load("jiufengershan").materials["rock"])
+    for radius in np.random.default_rng(1).uniform(0.1, 10, 10_000):
+        big, small = (scene.disk((0, 0), r, rock).state for r in (float(radius), float(radius) / 64))
+        assert small.mass == big.mass / 64**2 and small.inertia[2] == big.inertia[2] / 64**4
 
 
 # powers of the size with which numbers of a scene grow (Froude); all others have no unit, or one that does not depend on it
