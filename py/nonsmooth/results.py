@@ -10,7 +10,7 @@ import numpy as np
 
 from . import frames, records, scales, toe
 from .characteristic_times import chosen_rows, mean_of, of_run, weakening_begins
-from .measure import force_stages, toe_bands
+from .measure import energy, force_stages, toe_bands
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import remove, remove_parts, whole, write_atomically
@@ -196,12 +196,7 @@ def summarise(folder, section, state, threads=None) -> dict:
             series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
             series["centroid_y_m"][-1] - series["centroid_y_m"][after][0],
         )
-    losses = sum(balanced[name] for name in records.LOSSES)
-    dissipated = float(losses[-1])
-    turned = max(dissipated, float(np.max(balanced["energy_kinetic_J"])))
-    error = np.abs(balanced["energy_error_rel"]) * (
-        losses + balanced["energy_kinetic_J"] + np.abs(balanced["energy_water_J"])
-    )
+    turned = energy.turned_over(balanced)
     summary = {
         "section": section.name,
         "finished": finished,
@@ -244,11 +239,11 @@ def summarise(folder, section, state, threads=None) -> dict:
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
         "deposit_thickness_max_m": thickness,
         "bulking_factor": bulking,
-        "energy_dissipated_J_per_m": dissipated,
+        "energy_dissipated_J_per_m": float(sum(series[name][-1] for name in records.LOSSES)),
         "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES},
         "sliding_on_walls_J_per_m": _sliding_on_walls(folder / "walls.csv"),
         "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,
-        "energy_error_rel": float(np.max(error)) / turned if turned > 0 else 0.0,
+        "energy_error_rel": float(np.max(np.abs(energy.balance_error(balanced)))),
     }
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
     summary["force_stages"] = _force_stages(series, section, times, second, leans)

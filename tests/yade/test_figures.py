@@ -127,10 +127,13 @@ def test_names_are_no_formulae():
     "value, extent, digits, told",
     [
         (1234.4, 3000, 0, "1,234 m"),
+        (22.51, 2010, 1, "22.5 m"),
+        (27.34, 100, 0, "27.3 m"),
+        (7.238, 20.1, 0, "7.24 m"),  # as many digits as of a slope a hundred times as large, or one more
+        (0.2251, 20.1, 1, "0.225 m"),
         (0.3456, 6, 0, "0.35 m"),
-        (0.35, 1, 1, "35.0 cm"),
-        (0.0123, 0.1, 1, "12.3 mm"),
-        (2.0, 20, 1, "2.0 m"),
+        (0.35, 1, 0, "35.0 cm"),
+        (0.0123, 0.1, 0, "12.3 mm"),
     ],
 )
 def test_lengths_have_the_unit_of_the_picture(value, extent, digits, told):

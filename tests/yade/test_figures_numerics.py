@@ -8,8 +8,9 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-figures, style, scale, convergence = (
-    synthetic.load(name) for name in ("figures", "figures.style", "figures.scale", "verification.convergence")
+figures, style, scale, convergence, energy = (
+    synthetic.load(name)
+    for name in ("figures", "figures.style", "figures.scale", "verification.convergence", "measure.energy")
 )
 TIMES = {"t0": 10.0, "t1": 40.0, "t2": 50.0, "t3": 60.0, "t4": 70.0, "t5": 90.0}
 TIME = np.linspace(0, 100, 101)
@@ -65,7 +66,7 @@ def test_energies_are_told_apart_and_named():
     assert same("lost by sliding", "lost by rolling", "lost in impacts") and not same("kinetic", "potential")
     assert [ax.get_title(loc="left") for ax in (above, below)] == [
         "Energy since the start",
-        "Error of the energy balance",
+        "Error of the balance, of all that is turned over",
     ]
     assert set(drawn.uprights(above)) == set(drawn.uprights(below)) == set(TIMES.values()) and above.get_xlim() == (
         0,
@@ -77,16 +78,33 @@ def test_energies_are_told_apart_and_named():
     assert below.get_xlabel() == "time [s]" and (0, "#555555") in drawn.levels(above)
 
 
-@pytest.mark.parametrize("error, limit, limits", [(1e-4 * TIME, 0.02, (-0.13, 2.6)), (-5e-4 * TIME, 0.01, (-6.5, 6.5))])
-def test_the_error_is_in_per_cent_with_its_limit(error, limit, limits):
+# of the balance above: what was turned over until a row, and by the last one, the losses of which are the larger [GJ/m]
+UNTIL = (1 + 2 + 3 + 6) + 4 + (2 + 1 + 0.7 + 0.3 + 0.6) * TIME + abs(5 - 0.2 * TIME)
+IN_ALL = (1 + 2 + 3 + 6) + (2 + 1 + 0.7 + 0.3) * TIME[-1]
+
+
+@pytest.mark.parametrize("error, limit", [(1e-4 * TIME, 0.02), (-5e-4 * TIME, 0.01)])
+def test_the_error_is_in_per_cent_with_its_limit(error, limit):
     _, below = figures.energy(balance(error=error), limit=limit).axes
     (curve,) = (one for one in below.lines if len(one.get_xdata()) == len(TIME))
-    assert drawn.points(curve)[:, 1] == pytest.approx(100 * error) and below.get_ylabel() == "error [%]"
+    shown = 100 * error * UNTIL / IN_ALL
+    assert drawn.points(curve)[:, 1] == pytest.approx(shown) and below.get_ylabel() == "error [%]"
     orange = style.LINES["orange"].lower()
     assert sorted(drawn.levels(below)) == [(-100 * limit, orange), (0, "#555555"), (100 * limit, orange)]
     words = drawn.text(below, "limit")
     assert words.get_text() == f"limit {100 * limit:g} %" and words.get_position()[1] == 100 * limit
-    assert below.get_ylim() == pytest.approx(limits)  # 1.3 times the larger of limit and error
+    reach = 1.3 * max(100 * limit, abs(shown).max())
+    assert below.get_ylim() == pytest.approx((-0.05 * reach if error[-1] > 0 else -reach, reach))
+
+
+def test_an_error_of_next_to_nothing_is_small():
+    """A slope that stands has turned over a joule when its balance is half a joule off, and an avalanche's gigajoule later: half a billionth."""
+    rest = {name: np.zeros(3) for name in balance()} | {"time_s": np.arange(3.0)}
+    rest |= {"energy_sliding_J": np.array([0.0, 1.0, 1e9]), "energy_error_rel": np.array([0.0, 0.5, 0.0])}
+    assert energy.balance_error(rest) == pytest.approx([0, 0.5e-9, 0]) and energy.turned_over(rest) == 1e9
+    falling = rest | {"energy_kinetic_J": np.array([0.0, 4e9, 0.0])}
+    assert energy.turned_over(falling) == 4e9  # what moves now has been turned over, lost or not
+    assert energy.balance_error(falling)[1] == pytest.approx(0.5 * (1 + 4e9) / 4e9)
 
 
 def solved(**changes):

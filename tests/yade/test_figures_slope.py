@@ -1,5 +1,7 @@
 """Figures of the slope in profile, read from their artists: states at the characteristic times, deposit. Needs no YADE."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -62,7 +64,7 @@ def test_panels_follow_in_time_from_the_top_with_one_scale(two):
     assert (upper.get_xlim(), upper.get_ylim()) == (lower.get_xlim(), lower.get_ylim())
     # wet is who is not released: 2 of 8
     assert drawn.texts(upper)[-2:] == ["$t_{0}$ = 5.0 s", "water begins to rise\nno water\nwet 25 %, released 25 %"]
-    assert "on the way: 61.3 s" in drawn.texts(lower) and "water table 12.0 m\nwet 25 %, released 25 %" in drawn.texts(
+    assert "on the way: 61.3 s" in drawn.texts(lower) and "water table 12.00 m\nwet 25 %, released 25 %" in drawn.texts(
         lower
     )
 
@@ -183,7 +185,10 @@ def test_ways_are_those_of_front_centre_and_thickness(slid):
     (ax,) = fig.axes
     words = [t for t in drawn.texts(ax) if ":" in t]
     # the centre: (12 · -75 + 6 · -45)/18 = -65 before, (6 · 25 + 12 · 55)/18 = 45 after
-    assert words == ["thickest: 12 m", "front: 100 m", "centre of mass: 110 m"]
+    assert words == ["thickest: 12.0 m", "front: 100.0 m", "centre of mass: 110.0 m"]
+    fig.canvas.draw()
+    boxes = [one.get_window_extent() for one in ax.texts if ":" in one.get_text()]
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
     (low, high, _, both), (start, end, _, on), (tail, head, _, way) = drawn.arrows(ax)
     assert both == "<|-|>" and low[0] == high[0] and 40 < low[0] < 70 and (low[1], high[1]) == pytest.approx((20, 32))
     # the front is 0.1 % of the area behind the last disk, which is in the last row
@@ -328,7 +333,7 @@ def test_runouts_are_drawn_with_the_way_of_their_fronts():
     before, near, far = steps((-60, -30, 6)), steps((0, 40, 4)), steps((20, 90, 3))
     fig = figures.runouts([("loose", before, near), ("rigid", before, far)], LEVEL)
     for ax, last, words, ends in zip(
-        fig.axes, (near, far), ("loose: front 70 m", "rigid: front 120 m"), ((-30, 40), (-30, 90))
+        fig.axes, (near, far), ("loose: front 70.0 m", "rigid: front 120.0 m"), ((-30, 40), (-30, 90))
     ):
         centres, _, fills = drawn.disks(ax)
         assert (

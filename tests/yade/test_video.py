@@ -106,9 +106,9 @@ def test_each_frame_shows_its_snapshot(shown, files):
     assert told.options["fps"] == 10 and len(told.frames) == 3
     first, wet, moving = told.frames
     assert [f.words for f in told.frames] == [
-        ["t = 0.0 s", "water table 0.0 m    mean speed 0.0 m/s"],
-        ["t = 55.0 s", "water table 10.0 m    mean speed 0.0 m/s"],
-        ["t = 80.0 s", "water table 20.0 m    mean speed 10.0 m/s"],
+        ["t = 0.0 s", "water table 0.00 m    mean speed 0.0 m/s"],
+        ["t = 55.0 s", "water table 10.00 m    mean speed 0.0 m/s"],
+        ["t = 80.0 s", "water table 20.00 m    mean speed 10.0 m/s"],
     ]
     (d0, d1), (w0, w1), (r0, r1) = style.DRY, style.WET, style.RELEASED
     assert [f.fills for f in told.frames] == [

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..measure.energy import balance_error
 from . import style
 from .style import INK, LINES
 
@@ -23,8 +24,8 @@ def energy(series, path=None, times=None, pdf=False, limit=0.02):
     """Where the energy goes, against time, and what the balance leaves over.
 
     ``series``: dict of columns. Above: changes since the first row of kinetic and potential energy, work of the water,
-    losses and correction energy per metre of width; below: the relative error of the balance in per cent with ``limit`` as a
-    dashed line. ``times``: t0 to t5 to mark.
+    losses and correction energy per metre of width; below: the error of the balance in per cent of all that the run turns over
+    (:func:`~nonsmooth.measure.energy.balance_error`) with ``limit`` as a dashed line. ``times``: t0 to t5 to mark.
     """
     lines = (
         ("energy_potential_J", "potential", "blue", "-"),
@@ -36,13 +37,18 @@ def energy(series, path=None, times=None, pdf=False, limit=0.02):
         ("energy_bonds_J", "lost on bonds", "purple", (0, (1, 1))),
         ("energy_correction_J", "overlap correction", "grey", (0, (3, 1, 1, 1))),
     )
-    time, error, *values = style.need(series, "time_s", "energy_error_rel", *(name for name, *_ in lines))
+    time, _, *values = style.need(series, "time_s", "energy_error_rel", *(name for name, *_ in lines))
+    error = balance_error(series)
     values = [v - v[0] for v in values]
     largest = max(max(np.abs(v).max() for v in values), 1e-300)
     factor, unit = next(((f, u) for f, u in ((1e9, "GJ"), (1e6, "MJ"), (1e3, "kJ")) if largest >= f), (1.0, "J"))
     fig = style.figure(10, 6.6, layout="constrained")
     above, below = _row(
-        fig, 2, ("Energy since the start", "Error of the energy balance"), time, style.known_times(times)
+        fig,
+        2,
+        ("Energy since the start", "Error of the balance, of all that is turned over"),
+        time,
+        style.known_times(times),
     )
     above.get_gridspec().set_height_ratios((2.4, 1))
     for (_, label, colour, dash), v in zip(lines, values):

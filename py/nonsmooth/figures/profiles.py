@@ -206,8 +206,9 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
     )
     along = np.hypot(*(centres[1] - centres[0]))
     ax.annotate(
-        f"centre of mass: {style.length(along, extent)}", centres[0] + 0.12 * (centres[1] - centres[0]), xytext=(6 * side, 6),
-        textcoords="offset points", ha="left" if side > 0 else "right", va="bottom", **note,
+        # upslope of where it was: what is written at the deposit is downslope
+        f"centre of mass: {style.length(along, extent)}", centres[0], xytext=(-9 * side, 6),
+        textcoords="offset points", ha="right" if side > 0 else "left", va="bottom", **note,
     )  # fmt: skip
     style.scale_bar(ax, 0.985 if side > 0 else 0.165, 0.93, 0.15)
     layers = np.unique(snapshot.layer)[::-1]

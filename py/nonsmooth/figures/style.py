@@ -1,5 +1,6 @@
 """What the figures share: colours, drawing of disks and walls, time marks, saving."""
 
+import math
 from pathlib import Path
 
 import matplotlib
@@ -121,23 +122,20 @@ def symbol(letter, name):
     )
 
 
-_LENGTHS = (
-    (20, 1, "m", 0),
-    (2, 1, "m", 2),
-    (0.2, 100, "cm", 0),
-    (0, 1000, "mm", 0),
-)  # from which extent [m], in a metre, name, more digits
+_LENGTHS = ((2, 1, "m"), (0.2, 100, "cm"), (0, 1000, "mm"))  # from which extent [m], in a metre, name
+_TOLD_APART = 300  # lengths in a picture, at least
 
 
 def length_unit(extent):
     """The unit of lengths in a picture ``extent`` [m] wide: (how many are a metre, its name)."""
-    return next(rest[:2] for least, *rest in _LENGTHS if extent >= least)
+    return next(rest for least, *rest in _LENGTHS if extent >= least)
 
 
 def length(value, extent, digits=0):
-    """A length [m] with its unit, which is that of a picture ``extent`` [m] wide: m, below 20 m with two more digits, cm or mm."""
-    factor, unit, more = next(rest for least, *rest in _LENGTHS if extent >= least)
-    return f"{factor * value:,.{digits + more}f} {unit}"
+    """A length [m] with the unit of a picture ``extent`` [m] wide, to a three-hundredth of its width and ``digits`` more."""
+    factor, unit = length_unit(extent)
+    needed = math.ceil(math.log10(_TOLD_APART / max(factor * extent, 1e-9)))
+    return f"{factor * value:,.{digits + max(0, needed)}f} {unit}"
 
 
 def seconds(value, longest):

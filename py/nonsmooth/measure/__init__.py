@@ -3,6 +3,7 @@
 * :mod:`.ground`: walls by their roles, the foot of the slope, where water stands
 * :mod:`.fronts`: how far a mass has come
 * :mod:`.surface`: the surface of a mass and what lies below it
+* :mod:`.energy`: what the balance of energy leaves over
 * :mod:`.force_stages`: what the forces on walls do from stage to stage
 * :mod:`.bands`, :mod:`.toe_bands`: shear bands, of a sample and in the toe of a slope
 * :mod:`.weakening`: which part of a slip surface has lost its strength
