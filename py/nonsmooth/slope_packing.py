@@ -24,7 +24,7 @@ from .stepping import advance
 
 __all__ = ["CALM", "LONGEST", "of", "press"]
 
-VERSION = 3  # of the way slopes are pressed; a new number makes old files unused
+VERSION = 4  # of the way slopes are pressed; a new number makes old files unused
 CALM = 1e-4
 LONGEST = 12
 TOLERANCE, MAX_ITERATIONS = 1e-5, 1000

@@ -23,7 +23,7 @@ from ..errors import UserError
 from ..packing_files import cache_folder
 from ..whole_files import write_arrays
 
-VERSION = 2  # of the way samples are made; a new number makes old files unused
+VERSION = 3  # of the way samples are made; a new number makes old files unused
 PRESSURE = 1e6  # Pa
 DENSITY = 2500.0  # kg/m³
 WALL_MASS = 0.02  # of the sample's mass, of a wall that follows the pressure
