@@ -239,7 +239,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
         "deposit_thickness_max_m": thickness,
         "bulking_factor": bulking,
-        "energy_dissipated_J_per_m": float(sum(series[name][-1] for name in records.LOSSES)),
+        "energy_dissipated_J_per_m": energy.dissipated(series),
         "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES},
         "sliding_on_walls_J_per_m": _sliding_on_walls(folder / "walls.csv"),
         "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,

@@ -6,12 +6,17 @@ import numpy as np
 
 from ..records import LOSSES
 
-__all__ = ["balance_error", "turned_over"]
+__all__ = ["balance_error", "dissipated", "turned_over"]
+
+
+def dissipated(series):
+    """All that was dissipated by the last row of the ``series``, a dict of columns [J/m]."""
+    return float(sum(series[name][-1] for name in LOSSES))
 
 
 def turned_over(series):
-    """The larger of all that was dissipated by the last row and the largest kinetic energy [J/m]; ``series``: dict of columns from the row on in which the balance begins."""
-    return max(float(sum(series[name][-1] for name in LOSSES)), float(np.max(series["energy_kinetic_J"])))
+    """The larger of all that was dissipated and the largest kinetic energy [J/m]; ``series``: dict of columns from the row on in which the balance begins."""
+    return max(dissipated(series), float(np.max(series["energy_kinetic_J"])))
 
 
 def balance_error(series):

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from .. import figures, records
+from ..measure.energy import dissipated, turned_over
 from . import Outcome, at_most, check, near
 from .cases import folder_of, run_cases
 from .convergence import QUICK, STEP, TOLERANCE, TOLERANCE_MOVING, slope
@@ -35,7 +36,7 @@ QUANTITIES = (
 def losses_of(series):
     """Table of where the energy of a run went: rows (name, J/m, share of the losses)."""
     losses = {name: series[name][-1] for name in records.LOSSES}
-    total = sum(losses.values())
+    total = dissipated(series)
     return [(name.split("_")[1], f"{v:.4g}", f"{100 * v / total:.2f} %") for name, v in losses.items()] + [
         ("all losses", f"{total:.4g}", "100 %"),
         ("potential energy released", f"{series['energy_potential_J'][0] - series['energy_potential_J'][-1]:.4g}", ""),
@@ -52,8 +53,7 @@ def losses_of(series):
 def _falls(series):
     """The largest fall of a loss that should only grow, as a share of the energy turned over."""
     losses = [series[name] for name in records.LOSSES]
-    turned = max(sum(losses)[-1], series["energy_kinetic_J"].max())
-    return max(float(np.max(np.maximum.accumulate(v) - v)) for v in losses) / turned
+    return max(float(np.max(np.maximum.accumulate(v) - v)) for v in losses) / turned_over(series)
 
 
 def _row(name, unit, values):

@@ -90,7 +90,7 @@ MUTANTS = (
            "plain:test_figures_numerics.py::test_energies_are_changes_of_their_columns_in_a_fitting_unit"),
     mutant("energy-of-all", "py/nonsmooth/measure/energy.py", "* until / turned", "* until / until", "the error of the balance refers to what was turned over so far",
            "plain:test_figures_numerics.py::test_an_error_of_next_to_nothing_is_small"),
-    mutant("energy-turned", "py/nonsmooth/measure/energy.py", "return max(float(", "return min(float(", "a run turns over the smaller of losses and motion",
+    mutant("energy-turned", "py/nonsmooth/measure/energy.py", "return max(dissipated(", "return min(dissipated(", "a run turns over the smaller of losses and motion",
            "plain:test_figures_numerics.py::test_an_error_of_next_to_nothing_is_small"),
     mutant("style-digits", STYLE, "_TOLD_APART / max(", "1 / max(", "lengths in a small picture have no digits", "plain:test_figures.py::test_lengths_have_the_unit_of_the_picture"),
     mutant("energy-per-cent", NUMERICS, "below.plot(time, 100 * error", "below.plot(time, error", "the error in per cent is a fraction",
