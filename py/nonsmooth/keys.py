@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import functools
 import hashlib
 import json
@@ -9,7 +10,9 @@ from pathlib import Path
 
 from . import installation
 
-__all__ = ["code_key", "digest", "engines_key", "key_of", "run_key"]
+__all__ = ["code_key", "digest", "engines_key", "key_of", "making_key", "run_key", "statements"]
+
+HOME = Path(__file__).resolve().parent
 
 
 def key_of(plain) -> str:
@@ -31,9 +34,27 @@ def engines_key() -> str:
 @functools.cache
 def code_key() -> str:
     """Key of this package as it is: all of its Python and its schemas. The shipped sections are input."""
-    home = Path(__file__).resolve().parent
-    files = sorted(path for pattern in ("*.py", "*.schema.yaml") for path in home.rglob(pattern))
-    return key_of([[str(path.relative_to(home)), digest(path)] for path in files])
+    files = sorted(path for pattern in ("*.py", "*.schema.yaml") for path in HOME.rglob(pattern))
+    return key_of([[str(path.relative_to(HOME)), digest(path)] for path in files])
+
+
+@functools.cache
+def statements(path) -> str:
+    """SHA-256 of what a Python file does: of its syntax tree without docstrings, so that neither comments nor layout count. A Path is read once in a process."""
+    tree = ast.parse(path.read_bytes())
+    for node in ast.walk(tree):
+        if (
+            isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef))
+            and ast.get_docstring(node, clean=False) is not None
+        ):
+            del node.body[0]
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest()
+
+
+def making_key(*modules) -> str:
+    """Key of what makes the disks that a cache keeps: the engines, and the statements of modules of this package, named from its top ("laboratory.pressing")."""
+    files = (HOME.joinpath(*name.split(".")).with_suffix(".py") for name in modules)
+    return key_of([engines_key(), *map(statements, files)])
 
 
 def run_key(key) -> str:

@@ -22,9 +22,10 @@ from . import free_surface, keys, packing, similar, slope, tables
 from .packing_files import Packing, cache_folder, load, save
 from .stepping import advance
 
-__all__ = ["CALM", "LONGEST", "of", "press"]
+__all__ = ["CALM", "LONGEST", "cache_path", "of", "press"]
 
-VERSION = 4  # of the way slopes are pressed; a new number makes old files unused
+# modules that decide the bits of what is kept; see keys.making_key
+MADE_BY = ("slope_packing", "slope", "free_surface", "packing", "scene", "stepping", "tables", "worlds")
 CALM = 1e-4
 LONGEST = 12
 TOLERANCE, MAX_ITERATIONS = 1e-5, 1000
@@ -42,7 +43,7 @@ def of(section, seed: int | None = None, progress=None) -> Packing:
         return similar.scaled_packing(of(original, section.seed if seed is None else seed, progress), factor)
     if section.side < 0:
         return similar.mirrored_packing(of(similar.mirrored(section), seed, progress))
-    path = _cache_path(section, seed)
+    path = cache_path(section, seed)
     if path.exists():
         return load(path)
     progress = progress or (lambda share: None)
@@ -55,11 +56,14 @@ def of(section, seed: int | None = None, progress=None) -> Packing:
     return made
 
 
-def _cache_path(section, seed):
-    """Where a pressed packing is kept: beside the packings. Other engines press their own, so that a run has the same bits with and without a cache from earlier builds."""
+def cache_path(section, seed: int | None = None):
+    """Where a pressed packing is kept: beside the packings. Other engines and other code press their own, so that a run has the same bits with and without
+    a cache from earlier ones."""
     n = section.numerics
-    key = keys.key_of([section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.engines_key()])
-    return cache_folder("packings") / f"{key[:32]}-{section.seed if seed is None else seed}-pressed-v{VERSION}.npz"
+    key = keys.key_of(
+        [section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.making_key(*MADE_BY)]
+    )
+    return cache_folder("packings") / f"{key[:32]}-{section.seed if seed is None else seed}-pressed.npz"
 
 
 def press(section, made, progress=None) -> Packing:

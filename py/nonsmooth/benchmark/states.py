@@ -16,7 +16,7 @@ from pathlib import Path
 
 from yade import O, config
 
-from .. import checkpoints, course, experiment, keys, packing, scene, section, slope, slope_packing
+from .. import checkpoints, course, experiment, keys, section, slope, slope_packing
 from ..errors import UserError
 from ..kept_runs import Progress
 from ..packing_files import cache_folder
@@ -26,6 +26,11 @@ from . import soft_contacts
 __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
 
 NAMES = ("rest", "moving", "soft")
+# modules that decide the bits of a state; see keys.making_key
+MADE_BY = (
+    *("benchmark.states", "benchmark.soft_contacts", "course", "experiment", "packing", "scene", "slope"),
+    *("slope_packing", "stepping", "tables", "worlds"),
+)
 REST_SECONDS = 1.0  # of simulation after the settling ...
 REST_SPEED = 0.05  # ... and the largest mean speed that counts as rest then [m/s]
 WEAKENED = ("DP", "FB")  # walls, see above
@@ -61,18 +66,13 @@ def section_of(source, disks):
 
 def key_of(chosen):
     """What a saved state depends on: section, water, seed, YADE, the engines, and the code that builds and runs the scene."""
-    code = [
-        Path(__file__),
-        *(Path(m.__file__) for m in (scene, slope, slope_packing, experiment, course, packing, soft_contacts)),
-    ]
     return keys.key_of(
         {
             "section": chosen.key("settled"),
             "water": dataclasses.asdict(chosen.water),
             "seed": chosen.seed,
             "yade": config.version,
-            "engines": keys.engines_key(),
-            "code": [keys.digest(path) for path in code],
+            "made by": keys.making_key(*MADE_BY),
         }
     )
 

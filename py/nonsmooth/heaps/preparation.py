@@ -15,7 +15,8 @@ from .grains import HeapError, sizes_along
 
 __all__ = ["Prepared", "Stand", "cache_path", "disk_table", "prepared", "put"]
 
-VERSION = 2  # of the way disks are prepared; a new number makes old files unused
+# modules that decide the bits of what is kept; see keys.making_key
+MADE_BY = ("heaps.preparation", "heaps.grains", "packing", "scene", "stepping", "tables", "worlds")
 STEP = 0.05  # √(d/g)
 TOLERANCE = 1e-5
 SLACK = 1e-5  # ℓ, overlaps that stay; ten times as large ones would push springs, which begin with these places
@@ -53,11 +54,9 @@ class Stand:
 
 def cache_path(heap):
     """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them;
-    the engines do, so that a run has the same bits with and without a cache from earlier builds."""
-    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")} | {
-        "engines": keys.engines_key()
-    }
-    return packing_files.cache_folder("heaps") / f"{keys.key_of(plain)[:32]}-v{VERSION}.npz"
+    engines and code do, so that a run has the same bits with and without a cache from earlier ones."""
+    plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")}
+    return packing_files.cache_folder("heaps") / f"{keys.key_of([plain, keys.making_key(*MADE_BY)])[:32]}.npz"
 
 
 def prepared(heap):
