@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from yade.nonsmooth import section, section_data
 from yade.nonsmooth.figures import readings as figures
-from yade.nonsmooth.laboratory import readings
+from yade.nonsmooth.laboratory import biaxial_test, readings
 
-DEFAULT = readings.READINGS["default"]
+SHIPPED = readings.READINGS[readings.SHIPPED]
 
 
 def all_of(reading):
@@ -16,10 +16,11 @@ def all_of(reading):
 
 
 def test_the_default_is_the_shipped_section_and_its_rock():
-    slope, tests = all_of(DEFAULT)
+    slope, tests = all_of(SHIPPED)
     assert slope == section_data.plain(section.load("jiufengershan").with_disks(3000))
     assert {t.material.bond_creation_distance for t in tests} == {slope["materials"]["rock"]["bond_creation_distance"]}
     assert [t.confining for t in tests] == list(readings.PRESSURES)
+    assert {t.platens for t in tests} == {biaxial_test.Test.platens}
 
 
 def test_each_reading_is_another_one():
@@ -70,19 +71,19 @@ def test_misses_are_in_units_of_what_is_allowed():
 def test_small_runs_and_what_is_shared(tmp_path, monkeypatch):
     """Sides rule samples alone, the backstop slopes alone: of three readings there are two kinds of samples and two of slopes."""
     monkeypatch.setattr(readings, "END", 45.0)  # the water begins by 40 s, wherever it rests
-    chosen = {name: readings.READINGS[name] for name in ("default", "membrane", "backstop-loose")}
+    chosen = {name: readings.READINGS[name] for name in ("rough", "membrane", "backstop-loose")}
     rows = readings.run(chosen, tmp_path, 300, 150, [1], strain=0.01, threads=2)
-    assert sorted(p.name for p in (tmp_path / "samples").iterdir()) == ["default", "membrane"]
-    assert sorted(p.name for p in (tmp_path / "slopes").iterdir()) == ["backstop-loose", "default"]
+    assert sorted(p.name for p in (tmp_path / "samples").iterdir()) == ["rough", "membrane"]
+    assert sorted(p.name for p in (tmp_path / "slopes").iterdir()) == ["backstop-loose", "rough"]
     rows = {row["name"]: row for row in rows}
     peak, water = ({name: row[key] for name, row in rows.items()} for key in ("friction_peak_deg", "water_highest_m"))
-    assert peak["default"] == peak["backstop-loose"] != peak["membrane"]
-    assert water["default"] == water["membrane"] is not None
+    assert peak["rough"] == peak["backstop-loose"] != peak["membrane"]
+    assert water["rough"] == water["membrane"] is not None
     # one seed has no interval; a test of 1 % has no residual strength, so nobody says how near it is
     assert (
-        rows["default"]["friction_peak_deg_95"] is None and rows["default"]["misses"]["friction_residual_deg"] is None
+        rows["rough"]["friction_peak_deg_95"] is None and rows["rough"]["misses"]["friction_residual_deg"] is None
     )
-    assert rows["default"]["distance"] is None
+    assert rows["rough"]["distance"] is None
     heads, lines = readings.table(list(rows.values()))
     assert lines[0][0] == "the paper" and {len(line) for line in lines} == {len(heads)}
     assert figures.tradeoff(list(rows.values()), tmp_path / "readings.png").stat().st_size > 1e4

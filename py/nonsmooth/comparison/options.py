@@ -132,7 +132,7 @@ def _parser(about):
     add("--confining", type=arguments.positive, metavar="MPA", help="biaxial: confining pressure [MPa] (default: 1)")
     add("--strain", type=arguments.positive, help="biaxial: axial strain at the end (default: 0.06)")
     add("--sides", choices=("rigid", "flexible"), help="biaxial: lateral boundaries (default: flexible)")
-    add("--platens", choices=("smooth", "rough"), help="biaxial: friction of the platens (default: rough)")
+    add("--platens", choices=("smooth", "rough"), help="biaxial: friction of the platens (default: smooth)")
     add("--aspect", type=arguments.positive, help="column, pile: height over width (pile: over half of it)")
     add("--friction", type=float, metavar="MU", help="column, pile: friction of contacts")
     add("--base", choices=("smooth", "rough"), help="column, pile: the floor")

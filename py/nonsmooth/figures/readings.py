@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.patches import Rectangle
 
-from ..laboratory.readings import PAPER
+from ..laboratory.readings import PAPER, SHIPPED
 from . import style
 
 _strain, _octaves = PAPER["strain_peak"]
@@ -26,7 +26,7 @@ def tradeoff(rows, path=None, pdf=False):
         x, y = row["strain_peak"], row["water_highest_m"]
         if x is None or y is None:
             continue
-        colour = style.LINES["orange"] if row["name"] == "default" else style.INK
+        colour = style.LINES["orange"] if row["name"] == SHIPPED else style.INK
         # from the lowest to the highest packing
         for values, at, across in ((row["strain_peak_each"], y, True), (row["water_highest_m_each"], x, False)):
             known = [v for v in values if v is not None]
@@ -55,7 +55,7 @@ def tradeoff(rows, path=None, pdf=False):
     names.axis("off")
     for k, row in enumerate(rows):
         told = "–" if row["distance"] is None else f"{row['distance']:.2f}"
-        bold = "bold" if row["name"] == "default" else "normal"
+        bold = "bold" if row["name"] == SHIPPED else "normal"
         y = 1 - (k + 1.5) / (len(rows) + 1.5)
         names.text(0.0, y, f"{k + 1}", ha="right", va="center", fontsize=9, fontweight=bold)
         names.text(0.04, y, style.plain(row["label"]), va="center", fontsize=9, fontweight=bold)

@@ -24,7 +24,7 @@ class Test:
     confining: float
     shape: pressing.Shape
     strain: float = 0.1  # the plateau is the second half
-    platens: str = "rough"
+    platens: str = "smooth"
     sides: str = "rigid"
     inertia: float = 1e-4
     step: float = 0.1
