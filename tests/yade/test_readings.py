@@ -68,21 +68,39 @@ def test_misses_are_in_units_of_what_is_allowed():
     )
 
 
+def test_points_that_coincide_share_a_label():
+    """Two near each other, one beside them in strain, one in water; labels are the places in the list, by distance."""
+    places = [(0.010, 20.0), (0.0105, 20.5), (0.0116, 20.0), (0.010, 21.0)]
+    rows = [
+        {
+            "name": f"{k}",
+            "label": f"{k}",
+            "distance": float(k),
+            "strain_peak": x,
+            "strain_peak_each": [x],
+            "water_highest_m": y,
+            "water_highest_m_each": [y],
+        }
+        for k, (x, y) in enumerate(places)
+    ]
+    ax, names = figures.tradeoff(rows).axes
+    assert [t.get_text() for t in ax.texts if t.get_text() != "the paper"] == ["1, 2", "3", "4"]
+    assert [tuple(t.xy) for t in ax.texts[1:]] == [(1.0, 20.0), (1.16, 20.0), (1.0, 21.0)]
+
+
 def test_small_runs_and_what_is_shared(tmp_path, monkeypatch):
     """Sides rule samples alone, the backstop slopes alone: of three readings there are two kinds of samples and two of slopes."""
     monkeypatch.setattr(readings, "END", 45.0)  # the water begins by 40 s, wherever it rests
     chosen = {name: readings.READINGS[name] for name in ("rough", "membrane", "backstop-loose")}
     rows = readings.run(chosen, tmp_path, 300, 150, [1], strain=0.01, threads=2)
-    assert sorted(p.name for p in (tmp_path / "samples").iterdir()) == ["rough", "membrane"]
+    assert sorted(p.name for p in (tmp_path / "samples").iterdir()) == ["membrane", "rough"]
     assert sorted(p.name for p in (tmp_path / "slopes").iterdir()) == ["backstop-loose", "rough"]
     rows = {row["name"]: row for row in rows}
     peak, water = ({name: row[key] for name, row in rows.items()} for key in ("friction_peak_deg", "water_highest_m"))
     assert peak["rough"] == peak["backstop-loose"] != peak["membrane"]
     assert water["rough"] == water["membrane"] is not None
     # one seed has no interval; a test of 1 % has no residual strength, so nobody says how near it is
-    assert (
-        rows["rough"]["friction_peak_deg_95"] is None and rows["rough"]["misses"]["friction_residual_deg"] is None
-    )
+    assert rows["rough"]["friction_peak_deg_95"] is None and rows["rough"]["misses"]["friction_residual_deg"] is None
     assert rows["rough"]["distance"] is None
     heads, lines = readings.table(list(rows.values()))
     assert lines[0][0] == "the paper" and {len(line) for line in lines} == {len(heads)}

@@ -1,5 +1,7 @@
 """Figure of readings of what the paper leaves open: the strain of the peak in biaxial tests against the water that the slope bears."""
 
+import math
+
 import numpy as np
 from matplotlib.patches import Rectangle
 
@@ -9,6 +11,7 @@ from . import style
 _strain, _octaves = PAPER["strain_peak"]
 _water, _metres = PAPER["water_highest_m"]
 PEAK = (_strain / 2**_octaves, _strain * 2**_octaves)  # strains of the peak that count as the paper's
+NEAR = (0.1, 0.7)  # within which two points share a label: logarithm of the strain, and m of water
 WATER = (_water - _metres, _water + _metres)  # m of water that do
 
 
@@ -22,6 +25,7 @@ def tradeoff(rows, path=None, pdf=False):
         Rectangle((100 * PEAK[0], WATER[0]), 100 * (PEAK[1] - PEAK[0]), WATER[1] - WATER[0], color="#dcebf7", zorder=0)
     )
     ax.text(100 * PEAK[1] * 0.97, WATER[1] - 0.2, "the paper", ha="right", va="top", color=style.WATER)
+    places = {}  # of points: those too near for a number each share one label
     for k, row in enumerate(rows):
         x, y = row["strain_peak"], row["water_highest_m"]
         if x is None or y is None:
@@ -34,24 +38,24 @@ def tradeoff(rows, path=None, pdf=False):
             line = (ends, [at, at]) if across else ([100 * at] * 2, ends)
             ax.plot(*line, "-", color=colour, lw=0.8, alpha=0.4, zorder=2)
         ax.plot(100 * x, y, "o", ms=4.5, color=colour, zorder=3)
+        near = (p for p in places if abs(math.log(p[0] / x)) < NEAR[0] and abs(p[1] - y) < NEAR[1])
+        places.setdefault(next(near, (x, y)), []).append((k + 1, colour))
+    for (x, y), numbers in places.items():
         ax.annotate(
-            str(k + 1),
+            ", ".join(str(number) for number, _ in numbers),
             (100 * x, y),
-            xytext=(4, 4) if k % 2 else (-9, -11),
+            xytext=(5, 4),
             textcoords="offset points",
-            color=colour,
+            color=numbers[0][1],
             fontsize=8.5,
             zorder=4,
+            path_effects=style.EDGE,
         )
     ax.set_xscale("log")
     ticks = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
     ax.set_xticks(ticks, [f"{t:g}" for t in ticks])
     ax.minorticks_off()
-    ax.set(
-        xlabel="strain of the peak under 4, 8 and 16 MPa [%]",
-        ylabel="highest water table of the slope [m]",
-        ylim=(0, None),
-    )
+    ax.set(xlabel="strain of the peak under 4, 8 and 16 MPa [%]", ylabel="highest water table of the slope [m]")
     names.axis("off")
     for k, row in enumerate(rows):
         told = "–" if row["distance"] is None else f"{row['distance']:.2f}"

@@ -9,6 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from ..measure.weakening import stretch, stretches, weakened_share
 from ..records import RecordsError
@@ -21,6 +22,7 @@ WET = ("#1f5fa8", "#4a90d0")
 RELEASED = ("#e06aa6", "#f5a9cd")
 COMPRESSION, TENSION = "#1f5fa8", "#d62728"
 GROUND, WALL, WATER, INK = "#e4e4e0", "#222222", "#0b6fb8", "#222222"
+EDGE = [withStroke(linewidth=2, foreground="white")]  # of letters that lie over what is drawn
 STRONG, WEAKENED = "#cdc6b4", "#b00020"  # of a slip surface: as strong as ever, and where D_c is passed
 # Okabe and Ito's palette for lines.
 LINES = {
@@ -216,7 +218,7 @@ def _name_wall(ax, wall, side, box, size):
     ax.annotate(
         plain(wall.name), seen[len(seen) // 2], xytext=(9 * side, -5) if beside else (-3 * side, -6), textcoords="offset points",
         ha=("left" if side > 0 else "right") if beside else "center", va="top", fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
-        bbox={"fc": "white", "ec": "none", "alpha": 0.7, "pad": 1.0} if wall.buried else None,
+        path_effects=EDGE, bbox={"fc": "white", "ec": "none", "alpha": 0.7, "pad": 1.0} if wall.buried else None,
     )  # fmt: skip
 
 

@@ -62,6 +62,8 @@ MUTANTS = (
            "test_readings.py::test_the_toe_has_its_thickness_and_the_backstop_its_inclination"),
     mutant("readings-strain", LAB + "readings.py", "math.log2(value / wanted)", "value - wanted", "the strain of a peak counts next to nothing in how near a reading is",
            "test_readings.py::test_misses_are_in_units_of_what_is_allowed"),
+    mutant("readings-label", "py/nonsmooth/figures/readings.py", "abs(math.log(p[0] / x)) < NEAR[0] and", "", "readings with the same water share a label, whatever their strain",
+           "test_readings.py::test_points_that_coincide_share_a_label"),
     mutant("readings-packed", LAB + "readings.py", '"not pressed", _PACKED, {"friction": None}', '"not pressed", _PACKED, {}', "the sample of a reading that is not pressed is pressed",
            "test_readings.py::test_what_is_not_pressed_is_so_in_both"),
     mutant("block-pressed", "py/nonsmooth/section.py", "pressed=False, **fields", "**fields", "samples are filled higher, as slopes are that will be pressed",
