@@ -16,7 +16,7 @@ from slope_scenes import write_quick
 ROWS = 200
 PINNED = {
     "slope": "8e99936f92c246f538727b95efb81bc2dd6330df468274c0c8a72f09e9946803",
-    "biaxial": "46c99b12a365065489fb07e07b605438fbe7bfbdc7be366470b6023048e6217e",
+    "biaxial": "affe9e8429cf3c21def498760e8a7f9990757c89ea451bf51b2f54d674a401a5",
     "column": "2b138157e60b055d670103c4a059013bfcf7126be1be529315169dae95daa895",
 }
 
