@@ -15,7 +15,7 @@ from .cases import folder_of, run_cases
 
 SUBJECT = "Convergence"
 WHEN = 0.66  # √(H/g), as the profile in the middle of a published collapse
-OVERLAP = 0.01  # ℓ, the largest to begin with
+OVERLAP = 0.1  # ℓ, the largest to begin with; with 0.01 a bias on the velocity cannot be told from chance
 ASPECT = 2.0
 TOLERANCE = 1e-5
 POINTS = 2000  # at which two profiles are compared
@@ -82,7 +82,7 @@ def collapse_of_rounded_places(bench):
     column falls wider and taller, and the more so the smaller the step. Displacements leave no velocity behind, and the profile during the fall
     must not depend on the step, nor on κ.
 
-    A column of aspect ratio 2 rests in its box; its disks are moved to the points of a grid of 0.01 mean diameters, released, and looked at after 0.66 √(H/g),
+    A column of aspect ratio 2 rests in its box; its disks are moved to the points of a grid, so that they overlap by up to 0.1 mean diameters, released, and looked at after 0.66 √(H/g),
     with the usual step h (a tenth of a mean diameter at the speed of a fall from the top) and with h/4. Compared are surfaces averaged over two diameters: the area between them, as a
     share of the area below. Two runs with anything else between them show how far chance goes: the same column without overlaps.
     """
@@ -118,15 +118,15 @@ def collapse_of_rounded_places(bench):
         at_most(
             f"seed {s}: area between the profiles with h and h/4, of the area",
             v,
-            0.01,
+            0.05,
             against="the finer step",
-            why="profiles printed with four digits agree to 0.7 %; a bias on the velocity gave 3 to 17 %",
+            why="five columns of 1,000 disks: 0.5 to 1.7 %, as without overlaps; a bias of a fifth of the overlap a step on the velocity gives 26 to 29 %",
         )
         for s, v in zip(seeds, share["h", "h/4"])
     ]
     claims.append(
         at_most(
-            "largest overlap to begin with over 0.01 ℓ, off by",
+            f"largest overlap to begin with over {OVERLAP} ℓ, off by",
             abs(max(f["overlap_first_rel"] for f in found) / OVERLAP - 1),
             0.5,
             why="a column without overlaps would prove nothing",
