@@ -442,6 +442,12 @@ def test_a_test_is_measured_from_its_records(tmp_path):
     assert [row["band_width_d"]["values"] for row in (campaign.by_pressure([told, two]))] == [
         [None, pytest.approx(rising["width_d"] + 1.0)]
     ]
+    lean = [(60, -50), (60, -70.1), (-55, 64), (60, 60), (60, None), None]
+    bands = [a and [None if d is None else {**rising, "angle_deg": d} for d in a] for a in lean]
+    (row,) = campaign.by_pressure([told | {"bands": b} for b in bands])
+    assert row["bands_conjugate"]["values"] == [1, 0, 1, 0, 0, 0] and row["bands_conjugate"]["mean"] == pytest.approx(
+        1 / 3
+    )
 
 
 def test_the_stress_in_the_papers_range_beside_an_early_peak():

@@ -18,6 +18,7 @@ from . import biaxial_test, fluctuations, pressing, strength
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}
+CONJUGATE = 10.0  # ° by which the inclinations of two bands that cross may differ; they are known to 3°
 
 
 class CampaignError(UserError, RuntimeError):
@@ -177,9 +178,16 @@ def _numbers_of(t):
         **{name: t.get(name) for name in OF_TEST},
         "band_width_d": _of_bands(t.get("bands"), "width_d"),
         "band_width_late_d": _of_bands(t.get("bands_late"), "width_d"),
+        "bands_conjugate": float(_conjugate(t.get("bands"))),
         "antithetic": _of_bands(t.get("bands"), "antithetic"),
         **{f"broken_{mode}": shares.get(mode) for mode in fluctuations.MODES},
     }
+
+
+def _conjugate(found):
+    """Whether two bands lean to opposite sides, equally steep."""
+    left, right = (band and band["angle_deg"] for band in found or (None, None))
+    return None not in (left, right) and left * right < 0 and abs(left + right) <= CONJUGATE
 
 
 def _of_bands(found, name):
@@ -190,7 +198,8 @@ def _of_bands(found, name):
 
 def by_pressure(measured):
     """Means over seeds of tests under the same pressure: dictionaries with ``confining_Pa`` and by name, see statistics.over_seeds: apparent angles of friction of peak and plateau [°],
-    the numbers of :data:`OF_TEST`, widths of bands at 1 % and at 4 % of strain and the share of disks that turn against them at 1 %, and the shares of bonds by what broke them.
+    the numbers of :data:`OF_TEST`, widths of bands at 1 % and at 4 % of strain, at 1 % too the
+    share of tests with two conjugate bands and that of disks that turn against them, and the shares of bonds by what broke them.
     """
     found = {}
     for t in sorted(measured, key=lambda t: t["confining_Pa"]):
