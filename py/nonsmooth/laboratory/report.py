@@ -43,7 +43,7 @@ BY_PRESSURE = {
     "dilatancy_deg": ("ψ [°]", 1, 0),
     "band_width_d": ("bands at 1 % [d]", 1, 1),
     "band_width_late_d": ("at 4 % [d]", 1, 1),
-    "bands_conjugate": ("two conjugate ones [% of samples]", 100, 0),
+    "bands_conjugate": ("two conjugate ones at 1 % [% of samples]", 100, 0),
     "antithetic": ("antithetic [%]", 100, 0),
     "stress_fluctuation_rel": ("σ₁ fluctuates by [%]", 100, 1),
     "contraction_with_drop": ("contractions with a stress drop [%]", 100, 0),
