@@ -67,8 +67,8 @@ MUTANTS = (
     mutant("scatter-bond-rate", SCATTER, "std::abs(u.t) / across", "std::abs(u.t) / along", "the rate of bonds has one half-axis for both",
            "test_time_stepper.py::test_the_rate_of_a_bond_is_that_at_which_it_crosses_its_ellipse"),
     # ---- errors of position
-    mutant("gather-push", SEAM, "if (!reading.bonded && gap > 0) c.biasN = gap / h;", "if (!reading.bonded) c.biasN = (gap > 0 ? 1 : 0.2) * gap / h;", "overlaps are taken back by a bias on the velocity, which pushes",
-           "test_verification.py::test_quick_form_of_a_long_check_holds[collapse-of-rounded-places]"),
+    mutant("gather-push", SEAM, "c.length     = reading.length;", "c.length = reading.length; if (!reading.bonded && gap < 0) c.biasN += 0.2 * gap / h;", "overlaps are taken back by a bias on the velocity, which pushes",
+           "test_verification.py::test_quick_form_of_a_long_check_holds[collapse-of-rounded-places]", slow=True),
     mutant("correct-share", CORRECT, "(1 - relaxation.rate) * std::min(Real(0), off + slack)", "relaxation.rate * std::min(Real(0), off + slack)",
            "what one step takes back and what it leaves are exchanged", "test_positions.py::test_an_overlap_shrinks_by_its_share_a_step_and_the_centre_stays"),
     mutant("correct-limit", CORRECT, "std::max(-most, std::min(most, e.error))", "std::min(most, e.error)", "the speed of a correction is limited for gaps only",
