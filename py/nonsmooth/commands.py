@@ -10,7 +10,7 @@ import sys
 import warnings
 
 from .errors import OldNameWarning, UserError
-from .interrupts import Interrupted
+from .interrupts import Interrupted, never_lost
 
 __all__ = ["closing", "run"]
 
@@ -26,7 +26,7 @@ def run(main, kept="nothing is kept: run it again"):
     ``kept``: what that line says where what was interrupted did not say it itself.
     """
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), never_lost():
             warnings.showwarning = functools.partial(_warn, warnings.showwarning)
             main()
     except UserError as error:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import signal
+import sys
 import threading
 
-__all__ = ["Interrupted", "be_patient", "noted"]
+__all__ = ["Interrupted", "be_patient", "never_lost", "noted"]
+
+AGAIN = 0.05  # s until an interrupt that was lost comes again
 
 
 class Interrupted(KeyboardInterrupt):
@@ -20,6 +23,26 @@ def be_patient():
     """From now on a second Ctrl-C within :func:`noted` is as good as one: for a process that may hear it from the terminal and from the command that started it."""
     global _patient
     _patient = True
+
+
+@contextlib.contextmanager
+def never_lost():
+    """Within the block a Ctrl-C that comes while Python is done with an object (in a ``__del__``), where an exception is told and forgotten, comes again a moment later."""
+    before = sys.unraisablehook
+
+    def again(lost):
+        if issubclass(lost.exc_type, KeyboardInterrupt):
+            late = threading.Timer(AGAIN, signal.pthread_kill, (threading.main_thread().ident, signal.SIGINT))
+            late.daemon = True
+            late.start()
+        else:
+            before(lost)
+
+    sys.unraisablehook = again
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
 
 
 @contextlib.contextmanager

@@ -6,6 +6,7 @@ import re
 import resource
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -242,6 +243,38 @@ def test_a_note_of_ctrl_c_is_never_lost(heard):
     with pytest.raises(KeyboardInterrupt):  # and afterwards everything is as it was
         os.kill(os.getpid(), signal.SIGINT)
         time.sleep(1)
+
+
+def test_ctrl_c_that_comes_while_an_object_ends_is_not_lost(heard):
+    """Python tells an exception of ``__del__`` and forgets it: a command would go on to its end."""
+
+    class Ends:
+        def __del__(self):
+            os.kill(os.getpid(), signal.SIGINT)
+            for _ in range(10):
+                pass
+
+    def main():
+        Ends()
+        time.sleep(20)
+        raise AssertionError("it was lost")
+
+    with pytest.raises(SystemExit) as end:
+        commands.run(main)
+    assert end.value.code == 130
+
+
+def test_what_else_is_lost_while_an_object_ends_is_told(monkeypatch):
+    class Ends:
+        def __del__(self):
+            raise ValueError("beside the point")
+
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda lost: told.append(str(lost.exc_value)))
+    with interrupts.never_lost():
+        Ends()
+    Ends()
+    assert told == ["beside the point"] * 2
 
 
 def test_a_killed_command_leaves_no_run_behind(tmp_path):

@@ -238,6 +238,8 @@ MUTANTS = (
            "test_side_by_side.py::test_the_costly_ones_run_first_and_results_keep_their_order"),
     mutant("runs-others", PY + "keys.py", "return key_of([key, engines_key(), code_key()])", "return key_of([key, engines_key()])", "results of other code are taken for a run's own",
            "test_side_by_side.py::test_a_resume_takes_nothing_of_other_engines_or_code"),
+    mutant("interrupt-lost", PY + "commands.py", "with warnings.catch_warnings(), never_lost():", "with warnings.catch_warnings():", "Ctrl-C is forgotten where it comes while an object ends",
+           "test_commands.py::test_ctrl_c_that_comes_while_an_object_ends_is_not_lost"),
     mutant("cache-code", PY + "keys.py", "return key_of([engines_key(), *map(statements, files)])", "return key_of([engines_key()])", "a cache gives what other code has made",
            "test_keys.py::test_other_code_or_engines_make_their_own"),
     mutant("cache-slopes", PY + "slope_packing.py", "n.verlet_distance, keys.making_key(*MADE_BY)]", "n.verlet_distance]", "pressed slopes are taken from other code and engines",
