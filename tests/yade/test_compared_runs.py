@@ -60,22 +60,25 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
     assert found[False][1:] == found[True][1:] and 0.9 * found[False][0] <= found[True][0] <= found[False][0]
 
 
-@pytest.fixture(scope="module")
-def compared(source, tmp_path_factory):
-    """Two seeds, two stiffnesses, a few seconds of simulation each."""
-    out = tmp_path_factory.mktemp("compared")
-    told, questions = course.compare(
+def compare(source, out, **how):
+    """Two seeds, two stiffnesses, a second of simulation each."""
+    return course.compare(
         "slope",
         out,
         [1, 2],
         disks=300,
         source=str(source),
         stiffnesses=[1e7, 1e8],
-        threads=2,
         without=course.PARTS,
         options={"end": 1.0},
+        **how,
     )
-    return out, told, questions
+
+
+@pytest.fixture(scope="module")
+def compared(source, tmp_path_factory):
+    out = tmp_path_factory.mktemp("compared")
+    return out, *compare(source, out, threads=2)
 
 
 def test_summary_and_report(compared):
@@ -163,18 +166,7 @@ def test_resume_keeps_what_has_finished(compared, source, tmp_path):
     )
     output_folder.claim(copy, "compare_hard_soft.py", resume=True)  # as the command does
     assert leftovers.found(copy) == []
-    again, _ = course.compare(
-        "slope",
-        copy,
-        [1, 2],
-        disks=300,
-        source=str(source),
-        stiffnesses=[1e7, 1e8],
-        threads=1,
-        without=course.PARTS,
-        options={"end": 1.0},
-        resume=True,
-    )
+    again, _ = compare(source, copy, threads=1, resume=True)
     assert {path: path.stat().st_mtime_ns for path in before} == before and gone.exists()
     values = {run["name"]: run["values"] for run in told["runs"]}
     assert {

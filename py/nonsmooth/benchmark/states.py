@@ -27,10 +27,7 @@ __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
 
 NAMES = ("rest", "moving", "soft")
 # modules that decide the bits of a state; see keys.making_key
-MADE_BY = (
-    *("benchmark.states", "benchmark.soft_contacts", "course", "experiment", "packing", "scene", "slope"),
-    *("slope_packing", "stepping", "tables", "worlds"),
-)
+MADE_BY = (*slope_packing.MADE_BY, "benchmark.states", "benchmark.soft_contacts", "course", "experiment")
 REST_SECONDS = 1.0  # of simulation after the settling ...
 REST_SPEED = 0.05  # ... and the largest mean speed that counts as rest then [m/s]
 WEAKENED = ("DP", "FB")  # walls, see above
