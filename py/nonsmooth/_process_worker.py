@@ -23,8 +23,11 @@ if os.getppid() != request["parent"]:
     sys.exit(1)
 interrupts.be_patient()
 try:
-    module, name = request["function"].split(":")
-    found = getattr(importlib.import_module(f"yade.nonsmooth.{module}"), name)(folder, **request["arguments"])
+    with interrupts.never_lost():
+        module, name = request["function"].split(":")
+        function = getattr(importlib.import_module(f"yade.nonsmooth.{module}"), name)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # one that came while this process began waits
+        found = function(folder, **request["arguments"])
 except UserError as error:
     traceback.print_exc()
     write_atomically(folder / "refused.txt", str(error).encode())

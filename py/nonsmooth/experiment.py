@@ -30,7 +30,6 @@ from . import (
     packing,
     records,
     results,
-    run_figures,
     scales,
     section_data,
     slope,
@@ -155,6 +154,8 @@ class Experiment:
 
     def draw(self):
         """Draws all figures that the records allow, and the video; returns their paths and notes. After :meth:`summarise`."""
+        from . import run_figures  # brings matplotlib, which a run that draws nothing need not wait for
+
         return run_figures.draw(self.folder, self.section, json.loads((self.folder / results.SUMMARY).read_text()))
 
     def attach(self):

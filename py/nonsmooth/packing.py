@@ -17,7 +17,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
-from scipy.stats import qmc
 
 from . import free_surface, geometry, similar
 from .packing_files import FORMAT, Packing, PackingError, cache_path, load, read_text, save, write_text
@@ -93,6 +92,8 @@ def pack(section, seed: int | None = None, progress=None) -> Packing:
 
 def _draw(section, rng):
     """Places (uniform in each layer), radii and layer numbers, before overlaps are removed."""
+    from scipy.stats import qmc  # as much as the rest of a start costs, and most starts pack nothing
+
     counts = section.disk_counts()
     polygons = [layer.polygon for layer in section.layers]
     origin, u, v, box = _box(section.outline)

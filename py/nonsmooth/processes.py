@@ -77,11 +77,15 @@ def named(function):
 
 
 def _run(command, **options):
-    """Status of a process, which hears of a Ctrl-C that comes meanwhile."""
+    """Status of a process, which hears of a Ctrl-C that comes meanwhile: one that comes while it begins, when YADE would forget it, waits until the worker asks for it."""
     with _guard:
         if _halted:
             raise RunError("stopped before it began")
-        process = subprocess.Popen(command, **options)
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # of this thread; a process begins with it
+        try:
+            process = subprocess.Popen(command, **options)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         _running.add(process)
     try:
         return process.wait()

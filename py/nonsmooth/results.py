@@ -40,6 +40,8 @@ FIGURES = (
     "solver.png",
     "avalanche.mp4",
 )
+#: Names of the figures in the order in which they are drawn; of their files with ".png".
+PICTURES = tuple(name.removesuffix(".png") for name in FIGURES if name.endswith(".png"))
 
 
 def forget(folder):

@@ -9,10 +9,7 @@ from pathlib import Path
 from . import figures, frames, paraview, records, results, scales, video
 from .characteristic_times import chosen_rows
 
-__all__ = ["NAMES", "Drawing", "draw"]
-
-#: Names of the figures, in the order in which they are drawn; of their files with ".png".
-NAMES = tuple(name.removesuffix(".png") for name in results.FIGURES if name.endswith(".png"))
+__all__ = ["Drawing", "draw"]
 
 
 class Drawing:
@@ -67,7 +64,7 @@ class Drawing:
         return found
 
     def figure(self, name, path=None):
-        """One of :data:`NAMES`: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it."""
+        """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it."""
         if name == "forces":
             return figures.forces_against_time(self.series, self.times, path, window=self.window, walls=self.section)
         if name == "energy":
@@ -109,7 +106,9 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
         if drawing.failed_dry is not None
         else []
     )
-    made = [path for name in NAMES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None]
+    made = [
+        path for name in results.PICTURES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None
+    ]
     files = [p for _, p in frames.regular(drawing.shots, drawing.every, section, drawing.failed_dry)]
     if files:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn

@@ -14,12 +14,12 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from . import frames, records, results, run_figures, section, section_data
+from . import frames, records, results, section, section_data
 from .errors import UserError
 
 __all__ = ["FIGURES", "Run", "RunError", "open_run"]
 
-FIGURES = run_figures.NAMES
+FIGURES = results.PICTURES
 
 
 class RunError(UserError, ValueError):
@@ -91,6 +91,8 @@ class Run:
 
     @cached_property
     def _drawing(self):
+        from . import run_figures  # brings matplotlib, which a reader of numbers need not wait for
+
         return run_figures.Drawing(self.folder, self.section, self.summary)
 
     def _file(self, name):

@@ -1,4 +1,5 @@
 """What several test files share: an empty scene, commands called in this process, and the small slope's one run."""
+import json
 import runpy
 import signal
 import sys
@@ -42,6 +43,25 @@ def in_process(monkeypatch, capsys):
         return SimpleNamespace(status=status, out=out, err=err, last=err.strip().split("\n")[-1])
 
     return call
+
+
+@pytest.fixture
+def cases_here(monkeypatch):
+    """Cases of checks are called in this process, one after the other, and not in processes of their own, which test_laboratory and others are for."""
+    from yade.nonsmooth.verification import cases
+
+    known = {}
+
+    def run(runs, threads, **options):
+        for one in runs:
+            if one.folder not in known:
+                O.reset()
+                one.folder.mkdir(parents=True)
+                known[one.folder] = json.loads(json.dumps(one.function(one.folder, **one.arguments)))
+        O.reset()
+        return [known[one.folder] for one in runs]
+
+    monkeypatch.setattr(cases.side_by_side, "run", run)
 
 
 @pytest.fixture(scope="session")

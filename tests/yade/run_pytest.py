@@ -1,8 +1,9 @@
-"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [--threads N] [--share DIR] [PYTEST ARGUMENTS].
+"""Runs pytest inside YADE: scripts/yade-nonsmooth tests/yade/run_pytest.py [--threads N] [--share DIR] [--started FILE] [PYTEST ARGUMENTS].
 
 --threads N: as the launcher takes it; programs that tests start have as many unless the test says otherwise.
 --share DIR: several of these commands at a time share the tests, file by file, by what they write into DIR, which is empty before the first of them. Give each
 one thread: a thread that waits for another one at each loop's end, while others' have the cores, makes steps of small scenes forty times longer.
+--started FILE: writes down which tests started a process or sent a signal: see started.py.
 """
 import os
 import sys
@@ -65,6 +66,13 @@ if "--threads" in arguments:
 if "--share" in arguments:
     k = arguments.index("--share")
     plugins.append(Shared(arguments[k + 1]))
+    del arguments[k : k + 2]
+if "--started" in arguments:
+    sys.path.insert(0, here)
+    from started import Started
+
+    k = arguments.index("--started")
+    plugins.append(Started(arguments[k + 1]))
     del arguments[k : k + 2]
 if not any(os.path.exists(a.split("::")[0]) for a in arguments):
     arguments.append(here)

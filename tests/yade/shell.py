@@ -1,6 +1,9 @@
 """Programs of the project as processes of their own, as a user starts them from a shell."""
 import os
+import resource
+import signal
 import subprocess
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,3 +31,35 @@ def run(program, *arguments, limit=600, cwd=None, **changes):
         capture_output=True,
         timeout=limit,
     )
+
+
+def start(name, *arguments, limit=None, **changes):
+    """A command that goes on beside the test; ``limit``: of the size of its files [bytes]; ``changes``: of the environment."""
+
+    def prepare():
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # tests in the background ignore it, and so would what they start
+        if limit:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    return subprocess.Popen(
+        [SCRIPTS / name, *map(str, arguments)],
+        env=environment(**changes),
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=prepare,
+    )
+
+
+def ended(process):
+    """Status, output and lines on stderr as a file holds them: a progress bar goes back to the begin of its line."""
+    out, said = process.communicate(timeout=600)
+    assert "Traceback" not in said and "Traceback" not in out, said
+    return process.returncode, out, said.split("\n")
+
+
+def wait_for(found, process):
+    """Until ``found()`` is true; a process that ends before is a failure."""
+    while not found():
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.05)

@@ -1,16 +1,20 @@
 """The pairs of example scripts: a soft YADE script and its Contact Dynamics twin, and what each lesson shows."""
+import contextlib
+import io
 import json
 import math
 import os
 import re
 import subprocess
+import sys
 
 import pytest
 import shell
 from shell import PREFIX, ROOT, SCRIPTS
-from yade import utils
+from yade import O, utils
 from yade.nonsmooth import keys
 
+pytestmark = pytest.mark.filterwarnings("ignore:Overwriting yade.params")  # one call after another
 EXAMPLES = os.path.join(SCRIPTS, "examples")
 #: lesson: titles of its marked blocks
 LESSONS = {
@@ -77,13 +81,29 @@ def launched(name, folder, line):
     return done.stdout
 
 
-def output(name, folder, **parameters):
-    """What an example prints with these parameters, given as yade-batch gives them: a line of a table."""
-    table = folder / "one.table"
-    table.write_text(
-        "{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(str, parameters.values())]))
-    )
-    return launched(name, folder, f"{table}:2")
+@pytest.fixture
+def output(empty, monkeypatch, tmp_path):
+    """Runs an example in this process, among the names that YADE gives its scripts: ``output("hard_pile.py", seconds=2.5)`` is what it prints with these parameters, given as yade-batch gives them: a line of a table."""
+
+    def call(name, **parameters):
+        table = tmp_path / "one.table"
+        table.write_text(
+            "{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(str, parameters.values())]))
+        )
+        monkeypatch.setenv("YADE_BATCH", f"{table}:2")
+        monkeypatch.chdir(tmp_path)
+        path, names, said = os.path.join(EXAMPLES, name), vars(sys.modules["__main__"]), io.StringIO()
+        before = dict(names)
+        O.reset()
+        try:
+            with contextlib.redirect_stdout(said):
+                exec(compile(source(name), path, "exec"), names)
+        finally:
+            names.clear()
+            names.update(before)
+        return said.getvalue()
+
+    return call
 
 
 def number(text, key):
@@ -111,16 +131,16 @@ def test_a_line_of_a_shipped_table_rules_a_run(tmp_path):
         assert blocks[0][4] == pytest.approx(9.81 * math.sin(math.radians(degrees)), abs=1e-4)
 
 
-def test_numerics_of_the_pile_come_from_a_table(tmp_path):
+def test_numerics_of_the_pile_come_from_a_table(output):
     steps = {
-        (world, dt): number(output(f"{world}_pile.py", tmp_path, seconds=0.1, dt=dt, **more), "steps")
+        (world, dt): number(output(f"{world}_pile.py", seconds=0.1, dt=dt, **more), "steps")
         for world, dt, more in (("hard", 4e-3, dict(tolerance=1e-3)), ("soft", 1e-4, dict(young=1e8, damping=0.1)))
     }
     assert steps == {("hard", 4e-3): 25, ("soft", 1e-4): 1000}
 
 
-def test_restitution_of_the_hard_column_comes_from_a_table(tmp_path):
-    runs = [output("hard_column.py", tmp_path, aspect=0.4, seconds=0.3, restitution=e) for e in (0, 0.5)]
+def test_restitution_of_the_hard_column_comes_from_a_table(output):
+    runs = [output("hard_column.py", aspect=0.4, seconds=0.3, restitution=e) for e in (0, 0.5)]
     assert len({re.search(r"0\.10 s.*", text).group() for text in runs}) == 2  # the collapse is another one
 
 
@@ -144,10 +164,10 @@ def test_yade_batch_runs_the_lines_of_a_table(tmp_path):
         assert rows(text, "friction/tan")[0][4] == pytest.approx(9.81 * math.sin(math.radians(degrees)), abs=1e-4)
 
 
-def test_twins_make_the_same_pile(tmp_path):
+def test_twins_make_the_same_pile(output):
     soft, hard = (
         {key: number(text, key) for key in ("steps", "pile height [m]", "kinetic energy [J]", "lowest disk [m]")}
-        for text in (output(f"{world}_pile.py", tmp_path, seconds=2.5) for world in ("soft", "hard"))
+        for text in (output(f"{world}_pile.py", seconds=2.5) for world in ("soft", "hard"))
     )
     # Two random packings of 204 disks: between loose (0.80) and dense (0.84) lie 5 %, seeds differ by about 1 %, and the soft
     # disks overlap by some 0.3 % of a diameter
@@ -160,8 +180,8 @@ def test_twins_make_the_same_pile(tmp_path):
     assert hard["steps"] == soft["steps"] / 10
 
 
-def test_hard_blocks_slide_as_coulomb_says_and_stand_below_the_friction_angle(tmp_path):
-    blocks = rows(output("hard_incline.py", tmp_path, slope=25, seconds=1), "friction/tan")
+def test_hard_blocks_slide_as_coulomb_says_and_stand_below_the_friction_angle(output):
+    blocks = rows(output("hard_incline.py", slope=25, seconds=1), "friction/tan")
     assert [ratio for ratio, *_ in blocks] == [0, 0.5, 0.9, 0.99, 1.01, 1.1]
     for ratio, slid, speed, acceleration, coulomb in blocks:
         # one step after another with the same force: exact, but for the solver's tolerance of 1e-6 of the weight and the digits printed
@@ -171,10 +191,9 @@ def test_hard_blocks_slide_as_coulomb_says_and_stand_below_the_friction_angle(tm
         assert slid == pytest.approx(0.5 * coulomb * 1 * 1.005, abs=1e-4)
 
 
-def test_soft_blocks_slide_slower_by_the_damping(tmp_path):
+def test_soft_blocks_slide_slower_by_the_damping(output):
     damped, free = (
-        rows(output("soft_incline.py", tmp_path, slope=25, seconds=2, damping=damping), "friction/tan")
-        for damping in (0.2, 0)
+        rows(output("soft_incline.py", slope=25, seconds=2, damping=damping), "friction/tan") for damping in (0.2, 0)
     )
     # Without damping the contact swings for ever and the friction follows it, after a start without any: 1 % of g sin θ. With it a smooth
     # block, whose contact swings too, loses λ of each component of the force and more: between 1 − λ and 1 − 2 λ of Coulomb's value.
@@ -186,9 +205,9 @@ def test_soft_blocks_slide_slower_by_the_damping(tmp_path):
     assert 1e-3 < damped[-1][1] < 0.1
 
 
-def test_hard_wedge_stands_still_for_a_minute_dry_and_in_changing_water(tmp_path):
+def test_hard_wedge_stands_still_for_a_minute_dry_and_in_changing_water(output):
     for friction, water in ((0.6, 0), (0.65, 0.5)):
-        text = output("hard_wedge.py", tmp_path, friction=friction, water=water, seconds=60)
+        text = output("hard_wedge.py", friction=friction, water=water, seconds=60)
         path = rows(text, "time [s]")
         assert path[-1][0] == pytest.approx(60)
         # mm; 1 mm is asked for, a tolerance of 1e-6 leaves 4e-4
@@ -196,36 +215,36 @@ def test_hard_wedge_stands_still_for_a_minute_dry_and_in_changing_water(tmp_path
         assert number(text, "steps") == 12000
 
 
-def test_hard_wedge_slides_where_statics_says(tmp_path):
-    text = output("hard_wedge.py", tmp_path, friction=0.55, water=0, seconds=2)
+def test_hard_wedge_slides_where_statics_says(output):
+    text = output("hard_wedge.py", friction=0.55, water=0, seconds=2)
     slid = rows(text, "time [s]")[-1][1]
     # a t²/2, a = g (sin 30° − 0.55 cos 30°); speeds of a step's end make it longer by h/t = 0.25 %, and bonds yield a little at the start
     assert slid == pytest.approx(1e3 * 0.5 * 9.81 * (0.5 - 0.55 * math.cos(math.pi / 6)) * 4, rel=0.01)
 
 
-def test_soft_wedge_slides_when_its_weight_comes_and_creeps_as_the_water_changes(tmp_path):
-    text = output("soft_wedge.py", tmp_path, young=1e8, dt=1e-3, friction=0.65, water=0.5, seconds=12)
+def test_soft_wedge_slides_when_its_weight_comes_and_creeps_as_the_water_changes(output):
+    text = output("soft_wedge.py", young=1e8, dt=1e-3, friction=0.65, water=0.5, seconds=12)
     path = {time: way for time, way, _ in rows(text, "time [s]")}
     assert 10 < path[1] < 40  # mm: springs that are loaded at once swing through twice their load, and the joint slips
     assert 0.2 < path[10] - path[5] < 0.6  # mm: 3.5 mm a minute in 60 s
 
 
-def test_beams_break_at_the_root_at_the_load_of_statics(tmp_path):
+def test_beams_break_at_the_root_at_the_load_of_statics(output):
     # hard: the root yields at 1 and turns until its bond leaves its zone of 1e-3 diameters, 8 % of load later at this rate; soft: it snaps
     for world, seconds, most in (("hard", 20, 1.10), ("soft", 3, 1.03)):
-        text = output(f"{world}_beam.py", tmp_path, seconds=seconds)
+        text = output(f"{world}_beam.py", seconds=seconds)
         assert 0.99 < number(text, "broken at the load [of that of statics]") < most
         assert number(text, "broken bonds, counted from the root") == 1
         assert number(text, "gravity at which statics breaks the row [m/s2]") == pytest.approx(
             2 * 0.125 * 2.5e6 * 0.5 / (64 * 2500 * math.pi * 0.25**2), abs=1e-4
         )
-        assert "the row holds" in output(f"{world}_beam.py", tmp_path, seconds=seconds, load=0.97)
+        assert "the row holds" in output(f"{world}_beam.py", seconds=seconds, load=0.97)
 
 
-def test_columns_run_out_alike_and_farther_the_higher_they_are(tmp_path):
+def test_columns_run_out_alike_and_farther_the_higher_they_are(output):
     runs = {
         (world, aspect): number(
-            output(f"{world}_column.py", tmp_path, aspect=aspect, seconds=1.8), "run-out, by the column's width"
+            output(f"{world}_column.py", aspect=aspect, seconds=1.8), "run-out, by the column's width"
         )
         for world, aspect in (("hard", 0.7), ("hard", 2.0), ("soft", 0.7))
     }
@@ -236,29 +255,29 @@ def test_columns_run_out_alike_and_farther_the_higher_they_are(tmp_path):
     assert runs["soft", 0.7] == pytest.approx(runs["hard", 0.7], rel=0.35)
 
 
-def test_hard_slope_fails_at_the_water_of_statics_and_stands_where_it_is_rough(tmp_path):
-    text = output("hard_slope.py", tmp_path, seconds=10)
+def test_hard_slope_fails_at_the_water_of_statics_and_stands_where_it_is_rough(output):
+    text = output("hard_slope.py", seconds=10)
     asked = number(text, "water at failure by statics [m]")
     # it moves when the third row is wet, and takes a second or less, 0.3 m of water, to move by 2 cm
     assert asked < number(text, "water at failure [m]") < asked + 0.3
     assert number(text, "broken bonds") == 0  # it slides as one piece until it reaches the valley
-    dry = output("hard_slope.py", tmp_path, seconds=3, friction=1.0)
+    dry = output("hard_slope.py", seconds=3, friction=1.0)
     assert "statics: the slab stands even" in dry and "\nthe slab stands\n" in dry
     assert abs(number(dry, "travel of the front [m]")) < 1e-3
 
 
-def test_soft_slope_fails_at_the_water_of_statics_too(tmp_path):
-    text = output("soft_slope.py", tmp_path, young=1e8, dt=1e-3, rate=1.5, seconds=3)
+def test_soft_slope_fails_at_the_water_of_statics_too(output):
+    text = output("soft_slope.py", young=1e8, dt=1e-3, rate=1.5, seconds=3)
     asked, failed = number(text, "water at failure by statics [m]"), number(text, "water at failure [m]")
     # it moves when the third row is wet, and water that rises at 1.5 m/s takes half a second or less, 0.8 m, until it has moved by 2 cm
     assert asked < failed < asked + 0.8
     assert number(text, "travel of the front [m]") > 0.02
 
 
-def test_a_floor_bears_the_lid_and_the_disks(tmp_path):
+def test_a_floor_bears_the_lid_and_the_disks(output):
     """Exactly, since the sides have no friction: the solver's tolerance, the springs' last swing."""
     for world in ("hard", "soft"):
-        said = output(f"{world}_press.py", tmp_path, seconds=1)
+        said = output(f"{world}_press.py", seconds=1)
         floor, lid, weight = (
             number(said, name) for name in ("floor [N]", "load on the lid [N]", "weight of the disks [N]")
         )
@@ -269,15 +288,15 @@ def test_a_floor_bears_the_lid_and_the_disks(tmp_path):
         assert 1.1 < number(said, "height under the lid [m]") < 1.4
 
 
-def test_a_shear_box_resists_alike_in_both_worlds(tmp_path):
+def test_a_shear_box_resists_alike_in_both_worlds(output):
     """Disks with μ = 0.5 slide over each other at about 0.3 of the normal stress. Means over half of the way scatter by some 0.05 from packing to packing."""
-    hard, soft = (number(output(f"{world}_shear.py", tmp_path), "second half") for world in ("hard", "soft"))
+    hard, soft = (number(output(f"{world}_shear.py"), "second half") for world in ("hard", "soft"))
     assert 0.22 < hard < 0.45 and 0.22 < soft < 0.45 and abs(hard - soft) < 0.1
 
 
-def test_a_drum_carries_its_disks_up_alike_in_both_worlds(tmp_path):
+def test_a_drum_carries_its_disks_up_alike_in_both_worlds(output):
     """The centre of mass hangs at an angle near that of repose. With 136 disks avalanches move it by ± 8°, and means of the hard and the soft run differ by 2°."""
-    said = {world: output(f"{world}_drum.py", tmp_path) for world in ("hard", "soft")}
+    said = {world: output(f"{world}_drum.py") for world in ("hard", "soft")}
     angles = [number(text, "mean angle [degrees]") for text in said.values()]
     assert (
         all("disks 136, in the drum 136" in text for text in said.values())

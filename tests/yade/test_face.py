@@ -202,10 +202,9 @@ PURE = (
 )
 
 
-@pytest.mark.parametrize("module", PURE.split())
-def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
-    """Read from its source, with all that it imports of the package (doc/house.rst)."""
-    package, seen, waiting = ROOT / "py" / "nonsmooth", set(), [module]
+def imported_with(module):
+    """[(module of the package, package of others that it imports)], for ``module`` and all that is imported with it; read from the sources."""
+    package, seen, waiting, found = ROOT / "py" / "nonsmooth", set(), [module], []
     while waiting:
         name = waiting.pop()
         if name in seen:
@@ -215,12 +214,14 @@ def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
         at = name.split(".")[:-1]
         if not path.exists():
             path, at = package / name.replace(".", "/") / "__init__.py", name.split(".")
+        if at:  # a package's own module comes with each of its modules
+            waiting.append(".".join(at))
         for node in ast.parse(path.read_text()).body:  # what is imported when the module is
             if isinstance(node, ast.Import):
-                assert not any(one.name.split(".")[0] == "yade" for one in node.names), f"{name}, by {module}"
+                found += [(name, one.name) for one in node.names]
             if isinstance(node, ast.ImportFrom):
                 if node.level == 0:
-                    assert node.module.split(".")[0] != "yade", f"{name}, by {module}"
+                    found += [(name, f"{node.module}.{one.name}") for one in node.names]
                     continue
                 base = at[: len(at) - node.level + 1] + (node.module.split(".") if node.module else [])
                 for one in node.names:
@@ -230,6 +231,23 @@ def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
                     ).exists()
                     waiting.append(".".join(inner if is_module else base))
     assert module in seen
+    return found
+
+
+@pytest.mark.parametrize("module", PURE.split())
+def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
+    """Read from its source, with all that it imports of the package (doc/house.rst)."""
+    assert not [(by, what) for by, what in imported_with(module) if what.split(".")[0] == "yade"]
+
+
+@pytest.mark.parametrize(
+    "module",
+    "experiment campaign campaign.slope_run laboratory.biaxial comparison.slopes heaps.column benchmark.steps".split(),
+)
+def test_a_process_that_draws_nothing_waits_for_no_library_that_draws(module):
+    """They take as long as the rest of a start, and a sweep starts hundreds."""
+    slow = ("matplotlib", "meshio", "docutils", "pandas", "scipy.stats")
+    assert not [(by, what) for by, what in imported_with(module) if what.startswith(slow)]
 
 
 def test_a_slope_of_ones_own_in_some_lines(tmp_path):

@@ -9,8 +9,8 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 
 @pytest.mark.parametrize("check", [packings.frictionless_packing, packings.force_network])
-def test_quick_check_holds(check, tmp_path):
-    outcome = check(Bench(folder=tmp_path, quick=True, threads=2))
+def test_quick_check_holds(check, tmp_path, cases_here):
+    outcome = check(Bench(folder=tmp_path, quick=True, threads=1))
     for claim in outcome.claims:
         print(f"{claim.what}: {claim.measured:.6g} {claim.unit}, allowed {claim.low:.6g} to {claim.high:.6g}")
     assert outcome.claims and all(claim.passed for claim in outcome.claims)

@@ -65,9 +65,9 @@ OTHERS = (
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_quick_form_of_a_long_check_holds(name, tmp_path):
+def test_quick_form_of_a_long_check_holds(name, tmp_path, cases_here):
     assert ALL[name].quick_seconds is not None
-    (result,) = runner.run_checks([ALL[name]], tmp_path, quick=True, threads=2)
+    (result,) = runner.run_checks([ALL[name]], tmp_path, quick=True)
     assert not result.error, (tmp_path / "checks" / name / "error.txt").read_text()
     failed = [
         f"{c.what}: {c.measured:.9g} {c.unit}, allowed {c.low:.9g} to {c.high:.9g}"
@@ -85,7 +85,7 @@ def test_every_other_check_has_a_quick_form():
     ]
 
 
-def test_strength_of_a_bonded_sample_converges(tmp_path):
+def test_strength_of_a_bonded_sample_converges(tmp_path, cases_here):
     (result,) = runner.run_checks([ALL["strength-convergence"]], tmp_path, quick=True)
     assert not result.error
     assert len(result.claims) == 6 and all(c.passed for c in result.claims), [
