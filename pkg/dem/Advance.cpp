@@ -1,9 +1,12 @@
 #include "Advance.hpp"
 #include "seam/Resident.hpp"
 #include <atomic>
+#include <boost/python/stl_iterator.hpp>
 #include <chrono>
+#include <exception>
 #include <core/Omega.hpp>
 #include <limits>
+#include <optional>
 
 namespace yade::nscd {
 
@@ -70,9 +73,18 @@ namespace {
 		PyThreadState* state = PyEval_SaveThread();
 	};
 
+	/// What is up to date in the end: all, or some bodies alone; all where an exception ends it.
 	struct Shown {
-		Scene& scene;
-		~Shown() { Resident::of(scene)->show("the end of advance()", true); }
+		Scene&                                 scene;
+		const std::optional<std::vector<int>>& some;
+		const int                              exceptions = std::uncaught_exceptions();
+		~Shown()
+		{
+			const auto resident = Resident::of(scene);
+			if (some && std::uncaught_exceptions() == exceptions) resident->showOnly(*some);
+			else
+				resident->show("the end of advance()", true);
+		}
 	};
 
 	[[noreturn]] void refuse(const string& why)
@@ -105,6 +117,24 @@ namespace {
 		return time;
 	}
 
+	/// Bodies that are to be up to date in the end; none where all are.
+	std::optional<std::vector<int>> bodiesOf(const py::object& view, const Scene& scene)
+	{
+		if (view.ptr() == Py_True) return {};
+		std::vector<int> ids;
+		if (view.ptr() == Py_False) return ids;
+		const py::object all(py::handle<>(PyObject_GetIter(view.ptr()))); // TypeError for what is no list
+		for (py::stl_input_iterator<py::object> at(all), end; at != end; ++at) {
+			const py::object whole(py::handle<>(PyNumber_Index(py::object(*at).ptr())));
+			const long       id = PyLong_AsLong(whole.ptr());
+			if (id == -1 && PyErr_Occurred()) py::throw_error_already_set();
+			if (id < 0 || size_t(id) >= scene.bodies->size() || !(*scene.bodies)[id])
+				refuseValue("view: there is no body #" + std::to_string(id) + ": give ids of O.bodies");
+			ids.push_back(int(id));
+		}
+		return ids;
+	}
+
 	/// Whether the time has come, to half a step, at the end of a step of a scene.
 	bool hasCome(Real until, Real time, Real step) { return !(time < until - 0.5 * step); }
 
@@ -128,7 +158,7 @@ long stepsLeft(const Scene& scene)
 	return hasCome(present.until, scene.time + scene.dt, scene.dt) ? 1 : present.left.load();
 }
 
-long advance(const py::object& steps, const py::object& until)
+long advance(const py::object& steps, const py::object& until, const py::object& view)
 {
 	const long count = countOf(steps);
 	const Real end   = timeOf(until);
@@ -136,6 +166,7 @@ long advance(const py::object& steps, const py::object& until)
 	const shared_ptr<Scene> scene = Omega::instance()
 	                                        .getScene(); // held: an engine may end it, and its step goes on
 	check(*scene);
+	const auto some = bodiesOf(view, *scene);
 	if (count == 0) return 0;
 	const Entered entered(*scene, count, end);
 	Unlocked      unlocked;
@@ -143,7 +174,7 @@ long advance(const py::object& steps, const py::object& until)
 	constexpr auto betweenLooks = std::chrono::milliseconds(20);
 	auto           looked       = Steady::now();
 	long           made         = 0;
-	const Shown    shown { *scene }; // its bodies and interactions are up to date in the end, whatever ends it
+	const Shown    shown { *scene, some };
 	while (made < count && !hasCome(end, scene->time, scene->dt)) {
 		broken = {};
 		try {

@@ -6,8 +6,8 @@
 
 namespace yade::nscd {
 
-/// See ContactDynamicsEngine.advance; `steps` and `until` may be None.
-long advance(const boost::python::object& steps, const boost::python::object& until);
+/// See ContactDynamicsEngine.advance; `steps` and `until` may be None, `view` is True, False, or ids of bodies.
+long advance(const boost::python::object& steps, const boost::python::object& until, const boost::python::object& view);
 
 /// Steps that an advance() of this scene has yet to make, the present one included: 1 in the last, 0 where none is under way. It looks at `until` with the
 /// present length of the step, so ask after NonsmoothTimeStepper. An exception or a signal may end an advance() before.

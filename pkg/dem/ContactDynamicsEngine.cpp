@@ -321,18 +321,7 @@ nscd::StageClock* nscd::StageClock::of(const Scene& scene)
 
 boost::python::object ContactDynamicsEngine::bodyTable() const
 {
-	view();
-	std::vector<double> rows;
-	for (const auto& b : *Omega::instance().getScene()->bodies) {
-		const auto* sphere = b ? dynamic_cast<const Sphere*>(b->shape.get()) : nullptr;
-		if (!sphere) continue;
-		const State& s = *b->state;
-		for (const double v : { double(b->getId()), double(s.pos[0]), double(s.pos[1]), double(sphere->radius),
-		                        double(2 * std::atan2(s.ori.z(), s.ori.w())), double(s.vel[0]),
-		                        double(s.vel[1]), double(s.angVel[2]) })
-			rows.push_back(v);
-	}
-	return nscd::asBytes(rows);
+	return nscd::asBytes(nscd::Resident::of(*Omega::instance().getScene())->disks());
 }
 
 boost::python::object ContactDynamicsEngine::breakTable() const

@@ -153,7 +153,10 @@ void NscdInteractionLoop::action()
 			if (r.keeper == Reading::Unknown || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]))
 				r.keeper = keeperOf(r);
 			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
-			else if (!follow(resident, r, resident.bonds[slot], ours))
+			else if (follow(resident, r, resident.bonds[slot], ours))
+				resident.surelySolved[slot] = r.active && r.usable
+				        && (r.bonded || r.broken != NscdPhys::None || r.gap <= 0);
+			else
 				part.gone.push_back(int(k));
 		}
 	}

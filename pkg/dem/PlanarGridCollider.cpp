@@ -326,8 +326,11 @@ void PlanarGridCollider::findNear()
 				           square = x * x + y * y;
 				if (square <= std::min(speed[i], speed[j]) || apart > reach * reach) continue;
 				// by itself it must be wanted, so that it does not matter when pairs were looked up
-				const Real wanted = wantedWithin(int(i), j, std::sqrt(square));
-				if (apart > wanted * wanted) continue;
+				const Real sure = wantedWithin(int(i), j, 0); // most are within it, which needs no root
+				if (apart > sure * sure) {
+					const Real wanted = wantedWithin(int(i), j, std::sqrt(square));
+					if (apart > wanted * wanted) continue;
+				}
 				speed[i] = std::max(speed[i], square);
 				speed[j] = std::max(speed[j], square);
 			}

@@ -116,10 +116,15 @@ class Experiment:
     def run(self, end=None):
         """Runs until the experiment is over, or until ``end`` [s] of simulated time.
 
-        Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted.
+        Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted. O.bodies and O.interactions are up to date when it ends; within ``progress``
+        they are after the engine's ``view()``.
         """
         with interrupts.noted() as interrupted:
-            self._run(end, interrupted)
+            try:
+                self._run(end, interrupted)
+            finally:
+                if self.hard:
+                    self.slope.solver.view()
 
     def _run(self, end, interrupted):
         while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
@@ -128,7 +133,7 @@ class Experiment:
             while self.state.stage == "settle" and not self.hard and O.time < ends - 0.5 * O.dt:
                 self.newton.gravity = self._gravity(O.time)
                 advance()
-            advance(until=ends)
+            advance(until=ends, view=False)
             self._count(O.time - first, time.perf_counter() - began)
             self._advance(row)
             if interrupted():

@@ -14,9 +14,10 @@ class StepError(UserError, RuntimeError):
     """A step that an engine refused; the message is the engine's."""
 
 
-def advance(steps=None, until=None):
+def advance(steps=None, until=None, view=True):
     """Makes ``steps`` steps, none if that is 0 or less, or as many as end before less than half a step is missing to the time ``until`` [s], or no more of
-    either; one if nothing is said. Returns how many. Raises StepError where an engine refuses one.
+    either; one if nothing is said. Returns how many. ``view``: what of O.bodies and O.interactions is up to date afterwards, all of it, the states of some bodies
+    (their ids), or nothing (False) until ``ContactDynamicsEngine.view()``. Raises StepError where an engine refuses one.
 
     This is ``ContactDynamicsEngine.advance`` in scenes of any engines. ``O.run(steps, wait=True)`` makes them in a thread of YADE's own. A refusal there is lost
     where it comes before the waiting begins, and the script goes on with a scene that has stopped; 0 steps never end; and Ctrl-C is not heard before the last.
@@ -24,7 +25,7 @@ def advance(steps=None, until=None):
     if steps is None and until is None:
         steps = 1
     try:
-        return ContactDynamicsEngine.advance(steps if steps is None else max(0, steps), until)
+        return ContactDynamicsEngine.advance(steps if steps is None else max(0, steps), until, view)
     except (RuntimeError, ValueError) as refusal:
         raise StepError(f"step {O.iter}: {refusal}") from None
 

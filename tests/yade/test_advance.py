@@ -324,3 +324,127 @@ def test_it_ends_where_an_engine_puts_another_scene_in_the_place_of_this_one():
 def test_arguments_without_sense(arguments, kind, words):
     positional, *named = arguments
     refusal(words, *positional, kind=kind, **dict(named))
+
+
+# ---- what is up to date afterwards ----------------------------------------------------------------
+
+
+def truth(steps):
+    """Table of the disks after so many steps, all of them seen."""
+    O.reset()
+    heap()
+    engine().advance(steps)
+    return engine().bodyTable()
+
+
+def places():
+    return [tuple(b.state.pos) for b in O.bodies]
+
+
+def test_without_a_view_tables_are_true_and_bodies_wait():
+    whole = truth(60)
+    O.reset()
+    heap()
+    e = engine()
+    e.advance(20)
+    before, views = places(), e.views
+    e.advance(20, view=False)
+    e.advance(until=O.time + 20 * O.dt, view=())
+    assert e.bodyTable() == whole and O.iter == 60
+    # 0.05 s have not gone by, for others who may look; functors look at disks that have come near each other
+    assert e.views == views and sum(a == b for a, b in zip(before, places())) > 10
+    e.view()
+    table = np.frombuffer(whole).reshape(-1, 8)
+    assert e.views == views + 1 and [places()[int(row[0])][:2] for row in table] == [tuple(row[1:3]) for row in table]
+
+
+def test_bodies_that_are_asked_for_are_up_to_date_and_what_is_made_of_them_counts():
+    """One disk is looked at and driven in every step, as a platen is; all others wait. The same as where all is seen."""
+    ends = []
+    for alone in (True, False):
+        O.reset()
+        heap()
+        e, which = engine(), O.bodies[-1]
+        e.advance(5)
+        other, path = O.bodies[-2].state.pos, []
+        for k in range(60):
+            which.state.vel = (0.1 * k, which.state.vel[1], 0)
+            if k == 30:
+                which.state.mass *= 3
+            e.advance(1, view=[which.id, which.id] if alone else True)
+            path.append((tuple(which.state.pos), tuple(which.state.vel)))
+        assert (O.bodies[-2].state.pos == other) is alone
+        ends.append((path, e.bodyTable()))
+    assert ends[0] == ends[1] and len(set(ends[0][0])) == 60
+
+
+@pytest.mark.parametrize("change", ["radius", "erased", "shape"])
+def test_a_body_that_is_another_one_now_is_taken_anew(change):
+    ends = []
+    for alone in (True, False):
+        O.reset()
+        heap()
+        e = engine()
+        e.advance(40, view=[len(O.bodies) - 1] if alone else True)
+        if alone and change != "radius":
+            e.view()  # what is not a state of those bodies
+        if change == "radius":
+            O.bodies[-1].shape.radius *= 0.9
+        elif change == "erased":
+            O.bodies.erase(len(O.bodies) - 1)
+        else:
+            O.bodies[-1].shape = type(O.bodies[-1].shape)(radius=0.3)
+        e.advance(40)
+        ends.append(e.bodyTable())
+    assert ends[0] == ends[1] != truth(80)
+
+
+def test_what_is_written_elsewhere_is_taken_up_once_all_has_been_seen():
+    heap()
+    e = engine()
+    e.advance(20, view=False)
+    O.bodies[-1].state.vel = (3, 0, 0)
+    e.advance(1, view=False)
+    assert O.bodies[-1].state.vel == (3, 0, 0)
+    e.view()
+    assert O.bodies[-1].state.vel == (3, 0, 0)
+    x = O.bodies[-1].state.pos[0]
+    e.advance(1)
+    assert O.bodies[-1].state.pos[0] > x + 0.9 * 3 * O.dt
+
+
+def test_an_exception_leaves_all_up_to_date():
+    heap()
+    e = engine()
+    e.advance(5)
+    before = places()
+    O.engines = [*O.engines, looking("1 / 0", firstIterRun=30)]
+    with pytest.raises(RuntimeError):
+        e.advance(100, view=False)
+    table = np.frombuffer(e.bodyTable()).reshape(-1, 8)
+    now = places()
+    assert now != before and [now[int(row[0])][:2] for row in table] == [tuple(row[1:3]) for row in table]
+
+
+def test_what_is_saved_without_a_view_is_true(tmp_path):
+    whole = truth(60)
+    O.reset()
+    heap()
+    engine().advance(60, view=False)
+    O.save(str(tmp_path / "now.yade.gz"))
+    O.load(str(tmp_path / "now.yade.gz"))
+    assert engine().bodyTable() == whole
+
+
+@pytest.mark.parametrize(
+    "view, kind, words",
+    [
+        ([10**6], ValueError, "view: there is no body #1000000: give ids of O.bodies"),
+        ([-1], ValueError, "view: there is no body #-1"),
+        ([0.5], TypeError, "integer"),
+        (3, TypeError, "not iterable"),
+    ],
+)
+def test_bodies_that_are_none_are_refused(view, kind, words):
+    heap()
+    refusal(words, 2, view=view, kind=kind)

@@ -243,7 +243,7 @@ def test_rows_hold_means_and_peaks(loaded, tmp_path, monkeypatch):
     # steps without weight belong to no row
     assert O.iter == 2 and [e.seconds for e in O.engines if isinstance(e, WallForceEngine)] == [0, 0, 0]
 
-    def step_by_step(until):
+    def step_by_step(until, view):
         while O.time < until - 0.5 * O.dt:
             before = O.time
             advance()

@@ -199,6 +199,14 @@ def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines
         for leg in range(10):
             if way == "advanced":
                 engine().advance(200)
+            elif way == "unseen":
+                for _ in range(20):
+                    engine().advance(10, view=False)
+                engine().view()
+            elif way == "one seen":
+                for _ in range(200):
+                    engine().advance(1, view=[driven])
+                engine().view()
             else:
                 advance(way, 200)
             walls = [plain(m) for m in O.materials if isinstance(m, SlipWeakeningMat)]
@@ -229,7 +237,7 @@ def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines
 
     expected = end("run")
     assert engine().steps > 2000 and engine().bonds > 0 and engine().brokenShear > 5
-    for way in ("advanced", "watched", "stepped", "beside others", "own engines"):
+    for way in ("advanced", "unseen", "one seen", "watched", "stepped", "beside others", "own engines"):
         for leg, (a, b) in enumerate(zip(expected, end(way))):
             for what, x, y in zip(("bodies", "walls", "counts", "contacts"), a, b):
                 assert x == y, (way, leg, what)

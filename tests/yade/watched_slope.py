@@ -56,7 +56,7 @@ class Watch:
         t = tables.bodies(self.solver)
         return np.array([t[name] for name in self.BODY])
 
-    def advance(self, steps=1, until=None):
+    def advance(self, steps=1, until=None, view=True):
         """Steps of the experiment, as stepping.advance makes them, each written down."""
         while steps > 0 if until is None else O.time < until - 0.5 * O.dt:
             self._step()

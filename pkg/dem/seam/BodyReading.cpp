@@ -5,6 +5,29 @@
 
 namespace yade::nscd {
 
+BodyReading readBody(const Body* body)
+{
+	BodyReading r {};
+	r.radius  = -1;
+	r.present = body;
+	if (!body || !body->state) return r;
+	const State& s = *body->state;
+	r.clumped      = body->isClump() || body->isClumpMember();
+	if (const Shape* shape = body->shape.get()) {
+		const bool exactly = typeid(*shape) == typeid(Sphere);
+		if (exactly || dynamic_cast<const Sphere*>(shape)) r.radius = static_cast<const Sphere*>(shape)->radius;
+		r.plain = exactly && !body->isClump();
+	}
+	readMotion(s, r);
+	r.mass       = s.mass;
+	r.inertia    = s.inertia[2];
+	r.blocked    = s.blockedDOFs;
+	r.planar     = staysInPlane(s);
+	r.aspherical = body->isAspherical() && !(s.blockedDOFs & State::DOF_RXRYRZ);
+	r.bounded    = (bool)body->bound;
+	return r;
+}
+
 void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 {
 	const auto& bodies = *scene.bodies;
@@ -18,31 +41,9 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 			fetch<sizeof(State)>(bodies[id + soon]->state.get());
 			fetch<sizeof(Sphere)>(bodies[id + soon]->shape.get());
 		}
-		const auto&  body = bodies[id];
-		BodyReading& r    = readings[id];
-		r.radius          = -1;
-		r.present         = (bool)body;
-		r.clumped = r.plain = r.aspherical = r.bounded = r.planar = r.moved = false;
-		if (!body) continue;
-		if (!body->state) {
-			stateless = std::max(stateless, id);
-			continue;
-		}
-		const State& s = *body->state;
-		r.clumped      = body->isClump() || body->isClumpMember();
-		if (const Shape* shape = body->shape.get()) {
-			const bool exactly = typeid(*shape) == typeid(Sphere);
-			if (exactly || dynamic_cast<const Sphere*>(shape))
-				r.radius = static_cast<const Sphere*>(shape)->radius;
-			r.plain = exactly && !body->isClump();
-		}
-		readMotion(s, r);
-		r.mass       = s.mass;
-		r.inertia    = s.inertia[2];
-		r.blocked    = s.blockedDOFs;
-		r.planar     = staysInPlane(s);
-		r.aspherical = body->isAspherical() && !(s.blockedDOFs & State::DOF_RXRYRZ);
-		r.bounded    = (bool)body->bound;
+		const auto& body = bodies[id];
+		if (body && !body->state) stateless = std::max(stateless, id);
+		readings[id] = readBody(body.get());
 	}
 	if (stateless >= 0)
 		throw std::runtime_error(

@@ -23,6 +23,9 @@ struct BodyReading {
 	Vector3r place() const { return Vector3r(motion.position.x, motion.position.y, z); }
 };
 
+/// Reads a body, null where there is none; one without a state has nothing else set, as where there is none.
+BodyReading readBody(const Body* body);
+
 /// Reads all bodies of a scene, by id.
 void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings);
 

@@ -50,7 +50,13 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 		size_t       in = solvedBefore[part], left = leftBefore[part];
 		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k) {
 			const int slot = order[k].slot;
+			if (k + later < count) fetch<commonOfReading>(&resident->readings[order[k + later].slot]);
 			if (partOf[k] == Solved) {
+				if (in + later < solved) {
+					fetch<sizeof(Contact)>(&problem.contacts[in + later]);
+					fetch<1>(&problem.impulses[in + later]);
+					fetch<1>(&warmStart[in + later]);
+				}
 				problem.impulses[in] = warmStart[in] = gatherContact(
 				        slot, problem.contacts[in], links[in]);
 				++in;
@@ -189,6 +195,11 @@ void ContactSeam::divide(const Scene& scene)
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
 	for (long part = 0; part < (long)chunksOf(count); ++part)
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
+			if (resident->surelySolved[order[k].slot]) {
+				partOf[k] = Solved;
+				++solvedBefore[part + 1];
+				continue;
+			}
 			const Reading& reading = resident->readings[order[k].slot];
 			partOf[k]              = None;
 			if (!reading.active || !present[reading.first] || !present[reading.second]) continue;

@@ -1,5 +1,6 @@
 // What a step's solution means for YADE: reactions and forces written back, and the sums over contacts and bodies.
 #include "ContactSeam.hpp"
+#include "Prefetch.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
 #include <contact/plane/bond.hpp>
@@ -62,6 +63,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 			StepSums     sums; // by themselves, since `parts` and `slip` share cache lines between threads
 			bool         slips = false;
 			for (size_t k = begin; k < end; ++k) {
+				if (k + later < count) fetch<commonOfReading>(&readingOf(links[k + later]));
 				const Contact& c = problem.contacts[k];
 				const Impulse  u = contact::relativeVelocity(
 				         c, problem.velocities[c.i], problem.velocities[c.j]);

@@ -106,6 +106,7 @@ void Resident::takeContacts(Scene& scene)
 	const long count = (long)order.size();
 	readings.resize(count);
 	bonds.resize(count);
+	surelySolved.resize(count);
 	holders.clear();
 	freeSlots.clear();
 	strewn = 0;
@@ -134,6 +135,7 @@ void Resident::readSlot(const Found& found, int slot)
 {
 	Reading& r = readings[slot];
 	read(found, r, bonds[slot]);
+	surelySolved[slot] = false;
 	if (r.phys && r.phys->touched) r.phys->touched = false;
 }
 
@@ -166,6 +168,7 @@ bool Resident::takeKnown(Scene& scene)
 		else {
 			r.active = i.isActive;
 			r.reacts = r.leftOut = false;
+			surelySolved[slot]   = false;
 		}
 	}
 	if (other) return false;
@@ -312,12 +315,58 @@ void Resident::showForSaving()
 	beingSaved = PyGILState_Check();
 }
 
+void Resident::showOnly(const std::vector<int>& ids)
+{
+	const auto guard = betweenTurns();
+	if (!bodiesOwned) return;
+	showBodies(ids);
+	shownAlone = ids;
+}
+
+/// Takes the bodies again that were shown alone; all where one of them is another body now.
+void Resident::takeShown(Scene& scene)
+{
+	const auto known = std::exchange(shownAlone, {});
+	for (const int id : known) {
+		BodyReading&      b   = bodies[id];
+		const BodyReading now = readBody((*scene.bodies)[id].get());
+		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped
+		    || now.radius != b.radius) {
+			show();
+			takeBodies(scene);
+			return;
+		}
+		b = now;
+		if (size_t(id) < asShown.size()) asShown[id] = now;
+	}
+}
+
+std::vector<double> Resident::disks()
+{
+	const auto          guard = betweenTurns();
+	const auto          kept  = container.lock();
+	std::vector<double> rows;
+	const size_t        count = bodiesOwned ? bodies.size() : kept->size();
+	rows.reserve(8 * count);
+	for (size_t id = 0; id < count; ++id) {
+		const BodyReading b = bodiesOwned ? bodies[id] : readBody((*kept)[id].get());
+		if (!b.present || !(b.radius > 0)) continue;
+		const auto& m = b.motion;
+		rows.insert(
+		        rows.end(),
+		        { double(id), m.position.x, m.position.y, double(b.radius),
+		          2 * std::atan2(m.rotation.z, m.rotation.w), m.velocity.x, m.velocity.y, m.velocity.w });
+	}
+	return rows;
+}
+
 int Resident::slotOf(const shared_ptr<Interaction>& interaction)
 {
 	int slot = int(readings.size());
 	if (freeSlots.empty()) {
 		readings.emplace_back();
 		bonds.emplace_back();
+		surelySolved.push_back(false);
 		if (held) holders.emplace_back();
 	} else {
 		slot = freeSlots.back();
@@ -390,6 +439,7 @@ void Resident::repack()
 	};
 	pack(readings);
 	pack(bonds);
+	pack(surelySolved);
 	if (held) pack(holders);
 	for (long k = 0; k < count; ++k)
 		order[k].slot = int(k);
@@ -432,6 +482,8 @@ Turn::Turn(Engine& engine_, int threads)
 		data->contactsKnown = false;
 	}
 	if (!data->bodiesOwned) data->takeBodies(scene);
+	else if (!data->shownAlone.empty())
+		data->takeShown(scene);
 	if (data->contactsKnown && onlyPythonBefore(scene, engine)) data->takeKnown(scene);
 	data->contactsKnown = false;
 }

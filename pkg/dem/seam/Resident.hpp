@@ -57,6 +57,11 @@ public:
 	void showBetweenTurns();
 	/// The same where the scene is about to be saved; steps that another thread makes wait until it is, so that what is written is of one moment.
 	void showForSaving();
+	/// Brings these bodies' states up to date and no more: the arrays stay right, and take what a script has made of these states when the next turn begins. What it
+	/// has written elsewhere stays, and is taken up when all has been shown.
+	void showOnly(const std::vector<int>& ids);
+	/// Rows (id, x, y, r, angle, vx, vy, ω) of all spheres as they are now.
+	std::vector<double> disks();
 	/// Makes sure that what it points to stays, whatever other threads erase.
 	void hold();
 
@@ -85,8 +90,10 @@ public:
 	std::vector<int>         shaped; // those that are no disks and of no clump
 	std::vector<Reading>     readings; // by slot
 	std::vector<BondReading> bonds; // by slot, of contacts that the arrays keep
-	std::vector<Place>       order;
-	std::vector<int>         gone; // places in the order of contacts that are to be left out
+	std::vector<char>
+	                   surelySolved; // by slot: touches or is bonded, so that it is solved whatever its velocity; so much of a reading is asked first
+	std::vector<Place> order;
+	std::vector<int>   gone; // places in the order of contacts that are to be left out
 	/// Interactions that are not real, in the order of their list after the last loop; and the step of that loop.
 	std::vector<Potential> potential;
 	long                   potentialOf = never;
@@ -106,6 +113,7 @@ private:
 	};
 	std::unique_lock<std::recursive_mutex> betweenTurns();
 	bool                                   takeKnown(Scene& scene);
+	void                                   takeShown(Scene& scene);
 	int                                    slotOf(const shared_ptr<Interaction>& interaction);
 	void                                   showContact(int slot) const;
 	void                                   repack();
@@ -119,8 +127,9 @@ private:
 	bool beingSaved = false; // by a thread that holds Python's lock until it has written all
 	boost::weak_ptr<BodyContainer> container;
 	bool                           bodiesOwned = false, contactsOwned = false, held = false;
-	bool   contactsKnown    = false; // not owned, but as they were shown unless Python has changed them
-	size_t interactionsSeen = 0; // at the end of the last turn
+	bool             contactsKnown    = false; // not owned, but as they were shown unless Python has changed them
+	size_t           interactionsSeen = 0; // at the end of the last turn
+	std::vector<int> shownAlone; // bodies that a script may have changed since, see showOnly
 	std::vector<BodyReading>
 	        asShown; // during a run in the background: what the states had when they were last written or read
 	std::vector<Holder> holders; // by slot

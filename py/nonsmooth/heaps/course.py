@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 from yade import O
-from yade.wrapper import NewtonIntegrator
+from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 
 from .. import course as stages
 from ..stepping import advance, until
@@ -289,8 +289,9 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
             break
         adapt()
         started = time.perf_counter()
-        advance(every)
+        advance(every, view=False)
         wall += time.perf_counter() - started
+    ContactDynamicsEngine().view()  # the scene's, whoever asks
     t = preparation.disk_table(scene.stand)
     half = 0.5 if "left" in heap.gates() else 1.0
     series = {name: np.array([row[name] for row in rows]) for name in COLUMNS}

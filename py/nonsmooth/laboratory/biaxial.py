@@ -140,7 +140,10 @@ class Course:
     def run(self, progress=None):
         """Shears the sample to the end; ``progress``: called with the share done. Ctrl-C ends it after the next row, with a checkpoint."""
         with interrupts.noted() as interrupted:
-            self._run(progress, interrupted)
+            try:
+                self._run(progress, interrupted)
+            finally:
+                self.sample.engine.view()
 
     def _run(self, progress, interrupted):
         s, test, engine, walls = self.state, self.test, self.sample.engine, self.sample.walls

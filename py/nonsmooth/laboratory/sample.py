@@ -58,6 +58,7 @@ class Sample:
         else:
             made._load_and_bond(pressure)
         walls.step()
+        made.engine.view()
         return made
 
     def _load_and_bond(self, pressure):

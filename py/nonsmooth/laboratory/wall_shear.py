@@ -134,13 +134,14 @@ def slide(test, record=lambda row: None):
 
     def step(share):
         O.forces.setPermF(plate, (0, -share * load, 0))
-        advance()
+        advance(1, view=[plate, base])
 
     engine = scene.contact_dynamics()
     advance()  # finds the contacts
     engine.bond()
     for k in range(PRESSING):
         step((k + 1) / PRESSING)
+    engine.view()
     bonded = [2 * _radius(O, i, base) for i in O.interactions if base in (i.id1, i.id2) and i.isReal and i.phys.bonded]
     pulled, peak, late = 0.0, (0.0, 0.0), []
     while pulled < test.way:

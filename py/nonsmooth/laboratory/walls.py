@@ -75,13 +75,13 @@ class Walls:
         return self.place("right")[0] - self.place("left")[0]
 
     def step(self):
-        """One step of the scene, with the pressure on the walls that are free."""
+        """One step of the scene, with the pressure on the walls that are free. Of the bodies the walls alone are up to date after it, until the engine's ``view()``."""
         for wall in FREE_STATES:
             if self.is_free(wall):
                 axis, sign = OUTWARDS[wall]
                 self._pushes[wall] = push = self.pressure * (self.height() if axis == 0 else self.width())
                 O.forces.setPermF(self.ids[wall], (-sign * push, 0, 0) if axis == 0 else (0, -sign * push, 0))
-        advance()
+        advance(1, view=list(self.ids.values()))
 
     def forces(self):
         """Force of the disks on each wall in the last step [N/m], positive outwards."""
