@@ -129,6 +129,33 @@ def test_gaps_that_stay_open_are_left_out():
 # ---- walls that move, blocked directions, other engines -------------------------------------------
 
 
+@pytest.mark.parametrize(
+    "make", [lambda e, n: run(n), lambda e, n: e.advance(n), lambda e, n: e.advance(n, view=False)]
+)
+def test_an_interaction_that_is_silenced_bears_nothing(make):
+    """Of two disks on one that is held, one is silenced and falls freely through it, until it is heard again."""
+    stuff = material(0.5)
+    held, rests = free_disk(0, 0, stuff=stuff), free_disk(0, 1, stuff=stuff)
+    other, falls = free_disk(5, 0, stuff=stuff), free_disk(5, 1, stuff=stuff)
+    for i in (held, other):
+        O.bodies[i].state.blockedDOFs = "xyzXYZ"
+    e = begin()
+    make(e, 20)
+    e.view()
+    contact = O.interactions[other, falls]
+    contact.isActive = False
+    make(e, 100)
+    e.view()
+    # semi-implicit Euler: speeds are exact, and a path of n steps is g h² n (n + 1) / 2
+    assert O.bodies[falls].state.vel[1] == pytest.approx(-0.1 * G, rel=1e-12)
+    assert O.bodies[falls].state.pos[1] == pytest.approx(1 - G * 1e-6 * 100 * 101 / 2, abs=1e-12)
+    assert abs(O.bodies[rests].state.vel[1]) < 1e-9
+    contact.isActive = True
+    make(e, 1)
+    e.view()
+    assert abs(O.bodies[falls].state.vel[1]) < 1e-9  # an impact without restitution
+
+
 def test_driven_wall_pushes_and_works():
     stuff = material(0.3)
     wall = O.bodies.append(scene.segments([(0, 5), (0, -5)], stuff))[0]

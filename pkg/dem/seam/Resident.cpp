@@ -330,8 +330,7 @@ void Resident::takeShown(Scene& scene)
 	for (const int id : known) {
 		BodyReading&      b   = bodies[id];
 		const BodyReading now = readBody((*scene.bodies)[id].get());
-		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped
-		    || now.radius != b.radius) {
+		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped) {
 			show();
 			takeBodies(scene);
 			return;
