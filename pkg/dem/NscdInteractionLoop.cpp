@@ -117,6 +117,8 @@ void NscdInteractionLoop::action()
                          exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
 	if (now.spheres != ours.spheres || now.law != ours.law) resident.show();
 	ours = now;
+	// what a script erases beside the arrays is no longer real, and the collider has taken it out of the list
+	if (resident.hasContacts() && list.size() != resident.order.size() + resident.potential.size()) resident.show();
 	if (!resident.hasBodies()) resident.takeBodies(*scene);
 	if (resident.hasContacts()) resident.hold();
 	else

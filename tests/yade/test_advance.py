@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from contact_scenes import begin, bits, box, engine, floor, free_disk, loose_heap, material
 from yade import O
-from yade.wrapper import ContactDynamicsEngine, ForceResetter, NonsmoothTimeStepper, PyRunner
+from yade.wrapper import Collider, ContactDynamicsEngine, ForceResetter, NonsmoothTimeStepper, PyRunner
 
 pytestmark = pytest.mark.usefixtures("empty")
 seen = []  # by engines
@@ -397,6 +397,36 @@ def test_a_body_that_is_another_one_now_is_taken_anew(change):
         e.advance(40)
         ends.append(e.bodyTable())
     assert ends[0] == ends[1] != truth(80)
+
+
+@pytest.mark.parametrize("steps", [1, 40])
+@pytest.mark.parametrize("viewed", [True, False])
+def test_interactions_that_are_erased_meanwhile_end(steps, viewed):
+    """At once where all was brought up to date before, and otherwise once it is, or once the collider looks for pairs anew; nothing points to what is gone."""
+    ends = []
+    for view in (False, True):
+        O.reset()
+        stuff = material(0.3)
+        for k in range(400):
+            free_disk(1.0 * (k % 20), 0.999 * (k // 20), stuff=stuff)
+        e = begin(dt=2e-3, tolerance=1e-4, maxIterations=300)
+        collider = next(one for one in O.engines if isinstance(one, Collider))
+        e.advance(steps, view=view)
+        if viewed:
+            e.view()
+        real = [(i.id1, i.id2) for i in O.interactions if i.isReal]
+        for pair in real[::2]:
+            O.interactions.erase(*pair)
+        e.advance(5, view=view)
+        collider.verletDist *= 1.01  # it forgets what it knows
+        e.advance(2, view=view)
+        assert e.candidates <= 1.1 * len(real)  # no pair twice
+        e.advance(40, view=view)
+        ends.append(e.bodyTable())
+        assert sum(i.isReal for i in O.interactions) > 0.9 * len(real) > 300
+    if viewed:
+        assert ends[0] == ends[1]
+    assert np.all(np.isfinite(np.frombuffer(ends[0])))
 
 
 def test_what_is_written_elsewhere_is_taken_up_once_all_has_been_seen():

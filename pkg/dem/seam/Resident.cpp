@@ -318,9 +318,12 @@ void Resident::showForSaving()
 void Resident::showOnly(const std::vector<int>& ids)
 {
 	const auto guard = betweenTurns();
+	if (contactsOwned) hold(); // a script may erase what the arrays point to
 	if (!bodiesOwned) return;
-	showBodies(ids);
-	shownAlone = ids;
+	shownAlone.clear();
+	for (const int id : ids)
+		if (size_t(id) < bodies.size()) shownAlone.push_back(id);
+	showBodies(shownAlone);
 }
 
 /// Takes the bodies again that were shown alone; all where one of them is another body now.
