@@ -9,7 +9,9 @@ came of each round stands in BUILD/rounds/rounds.csv, what a round that failed h
 command can be stopped, and given again. The status is 1 where a round has failed.
 """
 import argparse
+import contextlib
 import csv
+import io
 import os
 import shutil
 import signal
@@ -21,6 +23,10 @@ from pathlib import Path
 from threading import Event, Lock
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "py"))
+from nonsmooth.whole_files import write_atomically
+
+RUNNING, STOPPED = set(), Event()  # leaders of groups of processes; whether no more may begin
 COLUMNS = ("commit", "round", "tests", "seconds", "status", "failed")
 
 
@@ -74,12 +80,25 @@ def pytest(build, log, *arguments):
             stdin=subprocess.DEVNULL,
             stdout=out,
             stderr=subprocess.STDOUT,
-            start_new_session=True,  # signals of the tests, and of this command's end, reach all that they start
+            start_new_session=True,  # so that all that it starts can be ended with it
         )
+    RUNNING.add(process.pid)
+    try:
+        return process.wait()
+    finally:
+        RUNNING.discard(process.pid)
+
+
+@contextlib.contextmanager
+def pool(workers):
+    """A ThreadPoolExecutor; what its calls of pytest have started is killed where this command is ended before them."""
+    with ThreadPoolExecutor(workers) as made:
         try:
-            return process.wait()
+            yield made
         except BaseException:
-            os.killpg(process.pid, signal.SIGKILL)
+            STOPPED.set()
+            for leader in list(RUNNING):
+                os.killpg(leader, signal.SIGKILL)
             raise
 
 
@@ -94,8 +113,8 @@ def tests_of(folder, build, workers):
         def part(k):
             return pytest(build, folder / f"all{k}.log", "-q", "--share", taken, "--started", folder / f"part{k}.csv")
 
-        with ThreadPoolExecutor(workers) as pool:
-            if any(pool.map(part, range(workers))):
+        with pool(workers) as parts:
+            if any(parts.map(part, range(workers))):
                 sys.exit(f"a test fails at once: see {folder}/all*.log")
         rows = [row for k in range(workers) for row in read(folder / f"part{k}.csv")]
         write(file, ("test", "seconds", "events"), sorted(rows, key=lambda row: row["test"].split("::")[0]))
@@ -110,12 +129,11 @@ def read(file):
 
 
 def write(file, columns, rows):
-    part = file.with_name(file.name + ".part")
-    with open(part, "w", newline="") as out:
-        writer = csv.DictWriter(out, columns)
-        writer.writeheader()
-        writer.writerows(rows)
-    part.rename(file)
+    text = io.StringIO(newline="")
+    writer = csv.DictWriter(text, columns)
+    writer.writeheader()
+    writer.writerows(rows)
+    write_atomically(file, text.getvalue().encode())
 
 
 class Rounds:
@@ -123,18 +141,18 @@ class Rounds:
 
     def __init__(self, folder, build, tests, at):
         self._folder, self._build, self._tests, self._at = folder, build, tests, at
-        self._file, self._lock, self._stopped = folder / "rounds.csv", Lock(), Event()
+        self._file, self._lock = folder / "rounds.csv", Lock()
 
     def done(self):
         return [row for row in read(self._file) if row["commit"] == self._at and int(row["tests"]) == len(self._tests)]
 
     def run(self, number):
-        if self._stopped.is_set():
+        if STOPPED.is_set():
             return
         log, scratch = self._folder / f"round{number}.log", self._folder / f"scratch{number}"
         begun = time.monotonic()
         status = pytest(self._build, log, "-q", "--basetemp", scratch, *self._tests)
-        if self._stopped.is_set():
+        if STOPPED.is_set():
             return
         lines = log.read_text(errors="replace").splitlines()
         failed = [line.split(" ")[1] for line in lines if line.startswith(("FAILED ", "ERROR "))]
@@ -156,9 +174,6 @@ class Rounds:
         if not status:
             log.unlink()
 
-    def stop(self):
-        self._stopped.set()
-
 
 def main():
     args = read_arguments()
@@ -173,12 +188,8 @@ def main():
     rounds = Rounds(folder, build, tests, commit())
     begun = len(rounds.done())
     print(f"{len(tests)} tests, {begun} of {args.rounds} rounds done", flush=True)
-    with ThreadPoolExecutor(args.workers) as pool:
-        try:
-            list(pool.map(rounds.run, range(begun + 1, args.rounds + 1)))
-        except BaseException:
-            rounds.stop()
-            raise
+    with pool(args.workers) as side_by_side:
+        list(side_by_side.map(rounds.run, range(begun + 1, args.rounds + 1)))
     done = rounds.done()
     failed = [row for row in done if row["status"] != "0"]
     print(f"{len(done)} rounds of {len(tests)} tests: {len(failed)} failed")
@@ -186,4 +197,7 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit("stopped: what has ended is kept, give the command again to go on")

@@ -156,6 +156,7 @@ def slide(test, record=lambda row: None):
             peak = (normal, shear)
         if pulled > 0.5 * test.way:
             late.append((normal, shear))
+    engine.view()
     residual = np.mean(late, axis=0)
     return Slide(
         peak[0] / width,
