@@ -1,5 +1,6 @@
 """Hard against soft: the mathematics of errors, work and rates on made-up data; plans, options and what reports say."""
 
+import json
 import math
 from types import SimpleNamespace
 
@@ -237,6 +238,14 @@ def test_the_report_of_cost_names_bonds_and_losses(tmp_path):
         "friction, no bonds, 0.8 of the stable" in page
         and "Lost with friction, beside what cohesion_moment loses: moments: none." in page
     )
+    # the page's table, for whoever quotes it
+    ((title, heads, rows),) = json.loads((tmp_path / "summary.json").read_text())["tables"]
+    assert title == "Cost and overlap" and [row[:2] for row in rows] == [
+        [state, contacts]
+        for state in ("during the avalanche", "at rest")
+        for contacts in ("hard", "soft, 100 MPa", "soft, 1 GPa")
+    ]
+    assert dict(zip(heads, rows[2]))["mean overlap"] == "0.001"
 
 
 def test_cost_of_a_stiffness_that_was_not_run():

@@ -21,7 +21,6 @@ def write(out, told):
     out = Path(out)
     folder = out / "figures"
     folder.mkdir(parents=True, exist_ok=True)
-    write_atomically(out / "summary.json", (json.dumps(told, indent=1) + "\n").encode())
     sentences = [_sentence(state, s) for state, s in told["states"].items()]
     factor = told["soft_over_hard_wall_equal_overlap"]
     verdict = "not known" if factor is None else f"{number(factor)} times"
@@ -85,6 +84,8 @@ def write(out, told):
             )
         ],
     )
+    told = {**told, "tables": report.tables_of([section])}
+    write_atomically(out / "summary.json", (json.dumps(told, indent=1) + "\n").encode())
     lead = [
         f"The slope of {told['disks']} disks with the same places and velocities in both worlds, every process alone on {told['threads']} "
         f"thread{'s' if told['threads'] > 1 else ''}. Soft: "

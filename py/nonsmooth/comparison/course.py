@@ -107,11 +107,7 @@ def compare(
         *pages.sections(out, experiment, chosen, outcomes, told),
         *report.common_sections(out, experiment, chosen, outcomes, told),
     ]
-    told["tables"] = [
-        [s.title, list(heads), [[str(cell) for cell in row] for row in rows]]
-        for s in sections
-        for _, heads, rows in s.tables
-    ]
+    told["tables"] = report.tables_of(sections)
     told["wall_s"] = time.monotonic() - began
     write_atomically(out / "summary.json", (json.dumps(told, indent=1) + "\n").encode())
     report.write(

@@ -10,7 +10,7 @@ from . import answers, figures
 from .answers import number, spread
 from .cases import modulus_label
 
-__all__ = ["Section", "common_sections", "write"]
+__all__ = ["Section", "common_sections", "tables_of", "write"]
 
 TEMPLATE = Path(__file__).with_name("report.html.j2")
 
@@ -34,6 +34,15 @@ def write(path, title, lead, questions, sections, machine):
     ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as benchmark.machine.describe tells.
     """
     return report.write(path, TEMPLATE, title=title, lead=lead, questions=questions, sections=sections, machine=machine)
+
+
+def tables_of(sections):
+    """Title, heads and rows of each table of ``sections``, as ``summary.json`` holds them: cells are words."""
+    return [
+        [s.title, list(heads), [[str(cell) for cell in row] for row in rows]]
+        for s in sections
+        for _, heads, rows in s.tables
+    ]
 
 
 def _percent(value):

@@ -205,11 +205,6 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
         "", centres[1], centres[0], arrowprops={**arrow, "arrowstyle": "-|>", "shrinkA": 5, "shrinkB": 5}, zorder=7
     )
     along = np.hypot(*(centres[1] - centres[0]))
-    ax.annotate(
-        # upslope of where it was: what is written at the deposit is downslope
-        f"centre of mass: {style.length(along, extent)}", centres[0], xytext=(-9 * side, 6),
-        textcoords="offset points", ha="right" if side > 0 else "left", va="bottom", **note,
-    )  # fmt: skip
     style.scale_bar(ax, 0.985 if side > 0 else 0.165, 0.93, 0.15)
     layers = np.unique(snapshot.layer)[::-1]
     handles = [
@@ -223,6 +218,8 @@ def deposit(snapshot, initial, walls, path=None, pdf=False):
     handles.append(
         Line2D([], [], ls="", marker="o", mfc="white", mec=INK, mew=1.5, ms=6, label="centre of mass before")
     )
-    handles.append(Line2D([], [], ls="", marker="o", color=INK, ms=6, label="and after"))
+    # not beside the arrow, where the names of walls stand
+    away = f"and after: {style.length(along, extent)} away"
+    handles.append(Line2D([], [], ls="", marker="o", color=INK, ms=6, label=away))
     fig.legend(handles=handles, loc="upper center", ncol=len(handles), handlelength=1.6, columnspacing=1.4)
     return style.save(fig, path, pdf)
