@@ -243,7 +243,7 @@ def test_the_report_of_cost_names_bonds_and_losses(tmp_path):
     assert title == "Cost and overlap" and [row[:2] for row in rows] == [
         [state, contacts]
         for state in ("during the avalanche", "at rest")
-        for contacts in ("hard", "soft, 100 MPa", "soft, 1 GPa")
+        for contacts in ("hard", "soft, E = 100 MPa", "soft, E = 1 GPa")
     ]
     assert dict(zip(heads, rows[2]))["mean overlap"] == "0.001"
 
