@@ -587,7 +587,15 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     done = shell.run("biaxial.py", *options)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     summary = json.loads((tmp_path / "summary.json").read_text())
-    assert len(summary["tests"]) == 2 and 20 < summary["friction_peak_deg"] < 55  # a sample of 150 disks is no material
+    # two circles have one tangent: σ₁ = 2 c √N + N σ₃ with sin φ = (N - 1)/(N + 1)
+    minor, major = (np.array([t[f"sigma{k}_peak_Pa"] for t in summary["tests"]]) for k in (3, 1))
+    slope, begin = np.polyfit(minor, major, 1)
+    assert begin > 0 and math.sin(math.radians(summary["friction_peak_deg"])) == pytest.approx(
+        (slope - 1) / (slope + 1)
+    )
+    # of a difference of megapascals
+    assert 1e3 * summary["cohesion_peak_kPa"] == pytest.approx(begin / (2 * math.sqrt(slope)), rel=1e-6)
+    assert minor == pytest.approx([0.5e6, 4e6], rel=0.01)
     assert all(len(t[key]) == 2 for t in summary["tests"] for key in ("bands", "bands_late"))
     for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
         assert (tmp_path / name).stat().st_size > 300
