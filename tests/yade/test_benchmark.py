@@ -5,7 +5,6 @@ import math
 import os
 import time
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -205,41 +204,6 @@ def test_a_section_without_the_walls_that_are_weakened_is_refused_at_once(tmp_pa
     done = run("--section", tmp_path / "other.yaml", "--out", tmp_path / "out")
     assert done.returncode != 0 and "there is no wall FB" in done.stdout + done.stderr
     assert not (tmp_path / "out" / "runs").exists()
-
-
-def test_what_is_said_of_sweeps_follows_from_their_times(monkeypatch):
-    """Made-up times: half a second once, then 40, 20, 10 and 5 ms a sweep of 1000 contacts; memory that gives 2 GB/s, and 8 GB/s what fits a cache."""
-    import _nonsmooth_contact
-
-    cost = {("reference", 1): 0.040, ("portable", 1): 0.020, ("best", 1): 0.010, ("best", 2): 0.005}
-    size = _nonsmooth_contact.bytes_per_contact
-    problem = SimpleNamespace(length=np.ones(1000))
-
-    def solve(asked, max_iterations, threads, path, **others):
-        assert asked is problem
-        return SimpleNamespace(iterations=max_iterations, seconds=0.5 + cost[path, threads] * max_iterations)
-
-    def stream(bytes_each, passes):
-        return [bytes_each / (8e9 if bytes_each == 1000 * size else 2e9)] * passes
-
-    monkeypatch.setattr(contact, "load", lambda path: problem)
-    monkeypatch.setattr(contact, "solve", solve)
-    monkeypatch.setattr(_nonsmooth_contact, "stream_seconds", stream)
-    found = sweeps.measure("", "problem.h5", 3)
-    middle = lambda spread: spread["median"]  # noqa: E731
-    assert found["contacts"] == 1000 and found["working_set_MB"] == pytest.approx(1e-3 * size)
-    assert {name: middle(one) for name, one in found["ns_per_contact"].items()} == pytest.approx(
-        dict(reference=40_000, portable=20_000, best=10_000, best_two_threads=5_000)
-    )
-    assert {name: middle(one) for name, one in found["speedup_over_reference"].items()} == pytest.approx(
-        dict(portable=2, best=4, best_two_threads=8)
-    )
-    assert middle(found["speedup_two_threads"]) == pytest.approx(2)
-    assert found["bandwidth_GB_per_s"] == pytest.approx(dict(working_set=8, memory=2))
-    # 1000 contacts in 10 ms, where memory would bring them in 1000 size / (2 GB/s)
-    assert found["fraction_of_bandwidth_bound"] == pytest.approx(
-        dict(working_set=1000 * size / 8e9 / 0.010, memory=1000 * size / 2e9 / 0.010)
-    )
 
 
 def test_a_sweep_is_timed_only_where_every_sweep_is_made():

@@ -2,6 +2,7 @@
 from mutant import mutant
 
 HEAPS, LAB, SOFT, COMPARE = "py/nonsmooth/heaps/", "py/nonsmooth/laboratory/", "py/nonsmooth/soft/", "py/nonsmooth/comparison/"
+BENCH = "py/nonsmooth/benchmark/"
 
 MUTANTS = (
     # ---- heaps
@@ -116,4 +117,19 @@ MUTANTS = (
            "plain:test_strength.py::test_antithetic_disks_are_those_that_turn_against_the_band"),
     mutant("figure-stress-ratio", "py/nonsmooth/figures/biaxial.py", "strength.axial_stress(series) / MEGA, color=colour, lw=1", "strength.axial_stress(series) / sigma3, color=colour, lw=1",
            "stress itself is the ratio", "plain:test_figures_laboratory.py::test_stress_itself_of_the_papers_pressures_in_its_greys"),
+    # ---- benchmark
+    mutant("bench-sweep", BENCH + "sweeps.py", "/ (MANY - FEW)", "/ MANY", "what a solve does once counts as sweeps",
+           "test_benchmark_numbers.py::test_what_is_said_of_sweeps_follows_from_their_times"),
+    mutant("bench-threads", BENCH + "sweeps.py", 'spread(seconds["best"] / seconds["best_two_threads"])', 'spread(seconds["best_two_threads"] / seconds["best"])', "the gain of two threads is upside down",
+           "test_benchmark_numbers.py::test_what_is_said_of_sweeps_follows_from_their_times"),
+    mutant("bench-bound", BENCH + "sweeps.py", '"working_set": size * count / cached / best', '"working_set": size * count / memory / best', "blocks that fit the cache are held against slow memory",
+           "test_benchmark_numbers.py::test_what_is_said_of_sweeps_follows_from_their_times"),
+    mutant("bench-size", BENCH + "scale.py", '"best", n) / len(problem.length)', '"best", n) / len(loaded[0].length)', "all sizes are told for contacts of the first",
+           "test_benchmark_numbers.py::test_sweeps_by_size_are_told_for_each_contact"),
+    mutant("bench-second", BENCH + "report.py", 'step / rest["time_step_s"] / (soft_step / soft["time_step_s"])', 'step / rest["time_step_s"] / (soft_step / rest["time_step_s"])', "soft contacts are given the steps of hard ones",
+           "test_benchmark_numbers.py::test_headlines_follow_from_their_parts"),
+    mutant("bench-outside", BENCH + "report.py", '(measured["step_ms"]["mean"] - solve) / solve', '(measured["step_ms"]["mean"] - solve) / measured["step_ms"]["mean"]', "what is outside the solve stands over the step",
+           "test_benchmark_numbers.py::test_headlines_follow_from_their_parts"),
+    mutant("bench-block", BENCH + "steps.py", "step = (time.perf_counter() - begin) / count", "step = (time.perf_counter() - begin) / BLOCK", "the last steps count as a whole block",
+           "test_benchmark_numbers.py::test_a_block_of_steps_is_divided_by_their_number"),
 )

@@ -1,0 +1,144 @@
+"""What the benchmark says follows from made-up times, whose answers are known. No scene, no clock."""
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from yade.nonsmooth import contact
+from yade.nonsmooth.benchmark import report, scale, steps, sweeps
+
+_nonsmooth_contact = pytest.importorskip("_nonsmooth_contact")
+ONE = 1000  # contacts of the problem
+#: Seconds of a sweep over ONE contacts, by path and threads.
+COST = {("reference", 1): 0.040, ("portable", 1): 0.020, ("best", 1): 0.010, ("best", 2): 0.005}
+
+
+@pytest.fixture
+def made_up(monkeypatch):
+    """Solves that take half a second once, and COST for each sweep and ONE contacts; memory that gives 2 GB/s, and 8 GB/s what fits a cache."""
+    size = _nonsmooth_contact.bytes_per_contact
+
+    def solve(problem, max_iterations, threads, path, **others):
+        seconds = 0.5 + COST[path, threads] * max_iterations * len(problem.length) / ONE
+        return SimpleNamespace(iterations=max_iterations, seconds=seconds)
+
+    def stream(bytes_each, passes):
+        return [bytes_each / (8e9 if bytes_each == ONE * size else 2e9)] * passes
+
+    monkeypatch.setattr(contact, "load", lambda path: SimpleNamespace(length=np.ones(int(path))))
+    monkeypatch.setattr(contact, "solve", solve)
+    monkeypatch.setattr(_nonsmooth_contact, "stream_seconds", stream)
+    return size
+
+
+def medians(spreads):
+    return {name: one["median"] for name, one in spreads.items()}
+
+
+def test_what_is_said_of_sweeps_follows_from_their_times(made_up):
+    found = sweeps.measure("", str(ONE), 3)
+    assert found["contacts"] == ONE and found["working_set_MB"] == pytest.approx(1e-6 * ONE * made_up)
+    assert medians(found["ns_per_contact"]) == pytest.approx(
+        dict(reference=40_000, portable=20_000, best=10_000, best_two_threads=5_000)
+    )
+    assert medians(found["speedup_over_reference"]) == pytest.approx(dict(portable=2, best=4, best_two_threads=8))
+    assert found["speedup_two_threads"]["median"] == pytest.approx(2)
+    assert found["bandwidth_GB_per_s"] == pytest.approx(dict(working_set=8, memory=2))
+    # memory would bring the blocks in ONE size / rate, where a sweep takes 10 ms
+    assert found["fraction_of_bandwidth_bound"] == pytest.approx(
+        dict(working_set=ONE * made_up / 8e9 / 0.010, memory=ONE * made_up / 2e9 / 0.010)
+    )
+
+
+def test_sweeps_by_size_are_told_for_each_contact(made_up):
+    found = scale.measure_sweeps("", ["1000", "4000"], 2)["sweeps"]
+    # the same for each contact, so the larger one took four times as long
+    assert [medians(one) for one in found] == [pytest.approx({"1": 10_000, "2": 5_000})] * 2
+
+
+def steps_of(state, threads, step_ms, time_step_s, **stages):
+    """One measurement, as suite.run has it: a step's median and mean differ, its stages' means add up."""
+    return {
+        "state": state,
+        "threads": threads,
+        "step_ms": {"median": step_ms, "quartiles": [0.9 * step_ms, 1.2 * step_ms], "mean": sum(stages.values())},
+        "stage_ms": {name: {"median": 0.0, "quartiles": [0.0, 0.0], "mean": ms} for name, ms in stages.items()},
+        "time_step_s": time_step_s,
+        "sweeps_mean": 12.0 + step_ms,
+        "contacts": 100,
+    }
+
+
+@pytest.fixture
+def found(made_up):
+    return {
+        "threads": 2,
+        "steps": [
+            # what one thread takes is not what is asked for
+            steps_of("rest", 1, 50.0, 5e-3, solve=30.0, correct=10.0, collide=20.0),
+            steps_of("moving", 1, 60.0, 5e-3, solve=30.0, correct=10.0, collide=20.0),
+            steps_of("soft", 1, 5.0, 1e-3, collide=5.0),
+            steps_of("rest", 2, 6.0, 5e-3, solve=2.0, correct=0.5, collide=4.0),
+            steps_of("moving", 2, 9.0, 5e-3, solve=6.0, correct=2.0, collide=2.0),
+            steps_of("soft", 2, 2.0, 1e-3, collide=2.5),
+        ],
+        "sweeps": sweeps.measure("", str(ONE), 3),
+        "cold_start": {
+            name: dict(contacts=7, sweeps=n, share_of_weight=0.98, sweeps_tight=900, residual_tight=1e-8)
+            for name, n in (("slope", 230), ("lmgc90", 330))
+        },
+        "machine": dict(cpu="made up", cores=2, compiler="c", best_path="avx", load_average=[0.5], date="today"),
+    }
+
+
+def test_headlines_follow_from_their_parts(found):
+    told = report.summarise(found)
+    assert told["step_ms"] == 6.0 and told["soft_step_ms"] == 2.0 and told["step_over_soft_step"] == 3.0
+    # 1.2 s of wall time for a second of simulation, against 2 s
+    assert told["simulated_second_over_soft"] == pytest.approx(0.6)
+    # (6.5 - 2.5)/2.5 and (10 - 8)/8
+    assert told["outside_solve_over_solve"] == pytest.approx(dict(rest=1.6, moving=0.25))
+    assert told["correction_over_step"] == pytest.approx(0.5 / 6.5)
+    assert told["correction_over_step_moving"] == pytest.approx(0.2)
+    assert told["stage_ms"]["moving"] == dict(solve=6.0, correct=2.0, collide=2.0)
+    assert told["cold_sweeps_to_1e-4"] == 230 and told["warm_sweeps_mean"] == 18.0
+    assert told["sweep_ns_per_contact"] == pytest.approx(10_000)
+    assert told["sweep_speedup_over_scalar"] == pytest.approx(4)
+    assert told["fraction_of_bandwidth_bound"] == pytest.approx(
+        found["sweeps"]["fraction_of_bandwidth_bound"]["working_set"]
+    )
+    assert told["quartiles"]["step_ms"] == pytest.approx([5.4, 7.2])
+    assert set(told["quartiles"]) <= set(report.HEADLINES)
+
+
+def test_the_printed_table_says_the_headlines_with_their_words(found):
+    told = report.summarise(found)
+    rows = report.table(told).splitlines()[2:]
+    for (name, what), row in zip(report.HEADLINES.items(), rows):
+        value = told
+        for key in name.split("/"):
+            value = value[key]
+        assert row.startswith(what + "  ") and row[len(what) :].split()[0] == f"{value:.4g}", name
+    (step,) = (row for row in rows if row.startswith("step  "))
+    # with their quartiles, by state and threads in the order measured
+    assert re.split(r"\s{2,}", step)[1:] == [f"{ms} ({0.9 * ms:.3g} … {1.2 * ms:.3g})" for ms in (50, 60, 5, 6, 9, 2)]
+
+
+def test_a_block_of_steps_is_divided_by_their_number(monkeypatch):
+    """Blocks of ten steps and the rest of them; every call of the clock is a second later, every step gives its engine 1 ms."""
+    clock = iter(range(100))
+    monkeypatch.setattr(steps.time, "perf_counter", lambda: float(next(clock)))
+    timed = object.__new__(steps.TimedSteps)
+    engine = SimpleNamespace(execTime=0)
+    timed.engines, timed.solver, timed.rows = [(engine, "collide")], None, []
+
+    def advance(count, **others):
+        engine.execTime += 1_000_000 * count
+
+    monkeypatch.setattr(steps, "advance", advance)
+    timed.run(25, warm_up=3)
+    assert [row["step"] for row in timed.rows] == [0.1, 0.1, 0.2]  # a second for ten, ten and five
+    assert [row["collide"] for row in timed.rows] == pytest.approx([1e-3] * 3)
+    assert [row["other"] for row in timed.rows] == pytest.approx([0.099, 0.099, 0.199])
+    assert timed.summary()["stage_ms"]["collide"]["mean"] == pytest.approx(1.0)
+    assert timed.summary()["step_ms"]["median"] == pytest.approx(100.0)
