@@ -11,9 +11,10 @@ import leftovers
 import numpy as np
 import pytest
 import shell
-
-from yade.nonsmooth import output_folder, section, slope, slope_packing, worlds
-from yade.nonsmooth.comparison import cases, collapses, course, runs, slopes
+from yade import O
+from yade.nonsmooth import output_folder, records, section, slope, slope_packing, worlds
+from yade.nonsmooth.comparison import biaxials, cases, collapses, course, runs, slopes
+from yade.nonsmooth.laboratory import biaxial as laboratory_test
 
 SHIPPED = Path(slopes.section.__file__).parent / "sections" / "jiufengershan.yaml"
 # The shipped section with short stages and a looser solve, so that a run takes seconds.
@@ -44,8 +45,6 @@ def test_the_same_disks_and_bonds_in_both_worlds(source):
     made = slope_packing.of(s)
     found = {}
     for world in (None, worlds.Soft(1e8, (s.disks.d_min, s.disks.d_max))):
-        from yade import O
-
         built = slope.build(s, made, world)
         layers = slope.layers_of(built)
         table = built.solver.disks if world else None
@@ -267,6 +266,52 @@ def test_a_collapse_is_measured_from_its_records(tmp_path):
         and restless.values["repose_deg"] is None
         and restless.notes == ["stopped before it was at rest"]
     )
+
+
+@pytest.fixture(scope="module", params=["rigid", "flexible"])
+def sheared(request, tmp_path_factory):
+    """One sample between smooth platens, hard and soft: {world: (folder, what the run returned, Outcome)}."""
+    found = {}
+    options = {"strain": 0.01, "sides": request.param, "platens": "smooth", "inertia": 4e-4}
+    for world, soft in (("hard", {}), ("soft", dict(stiffness=1e10, damping=0.2, model="cohesion_moment"))):
+        case = cases.Case(world, "wwr", 150, 1, 0.8 if soft else 1.0, options=options, **soft)
+        folder = tmp_path_factory.mktemp(world)
+        biaxials.prepare(case)
+        O.reset()
+        ran = biaxials.run(folder, **dataclasses.asdict(case))
+        found[world] = folder, ran, biaxials.measure(case, folder, ran)
+    return found
+
+
+def test_a_biaxial_test_in_both_worlds(sheared):
+    (_, ran, hard), (folder, soft_ran, soft) = sheared["hard"], sheared["soft"]
+    rigid = hard.case.options["sides"] == "rigid"
+    # the same disks, whose gaps springs under pressure have changed by a ten-thousandth
+    assert ran["disks"] == soft_ran["disks"] and soft_ran["bonds"] == pytest.approx(ran["bonds"], rel=0.05)
+    assert soft_ran["rate_per_s"] == ran["rate_per_s"]
+    series = records.read_series(folder / "series.csv")
+    # the platens take up their speed during RAMP of strain, and lose half of it; a row is a hundredth of the whole
+    assert series["strain"][-1] == pytest.approx(
+        soft_ran["simulated_s"] * soft_ran["rate_per_s"] - laboratory_test.RAMP, rel=1e-3
+    )
+    late = series["strain"] > 0.004
+    for name in ("left", "right"):
+        # a membrane of some ten disks presses on them, and is as high as the highest of them
+        assert np.mean(series[f"sigma3_{name}_Pa"][late]) == pytest.approx(1e6, rel=0.01 if rigid else 0.05)
+    # quasi-static; a membrane whose ends stand at different x pushes up or down too, as in the hard test
+    top, bottom = (series[f"sigma1_{name}_Pa"][late].mean() for name in ("top", "bottom"))
+    assert top == pytest.approx(bottom, rel=0.01 if rigid else 0.06)
+    # 10 GPa under 1 MPa: an overlap of p/E = 1e-4, more or less by the number of contacts
+    assert soft.overlap_rest == pytest.approx(1e-4, rel=0.3) and hard.overlap < 0.1 * soft.overlap
+    # rigid and nearly rigid: strengths of one sample differ by 2 to 8 % here, those of two samples by twice that and more
+    for name in ("sigma1_peak_Pa", "sigma1_residual_Pa"):
+        assert soft.values[name] == pytest.approx(hard.values[name], rel=0.15), name
+    assert soft.values["strain_peak"] == pytest.approx(hard.values["strain_peak"], rel=0.15)
+    assert soft.values["dilatancy_deg"] == pytest.approx(hard.values["dilatancy_deg"], abs=5)
+    assert soft.values["bonds_broken_share"] == pytest.approx(hard.values["bonds_broken_share"], rel=0.3)
+    cost = soft.cost
+    assert (cost.steps, cost.simulated_s) == (soft_ran["steps"], soft_ran["simulated_s"])
+    assert cost.rate == pytest.approx(soft_ran["wall_steps_s"] / (cost.steps * cost.step_s), rel=1e-6)
 
 
 def test_the_script_refuses_in_one_line(tmp_path):

@@ -141,7 +141,8 @@ def _layer(label):
 
 
 def _without_strength(chosen, walls):
-    """The section with walls that bear neither shear nor tension, as benchmark.states leaves them on the move."""
+    """The section with walls that bear neither shear nor tension, as benchmark.states leaves them on the move. Their critical slip stays: the release of the water
+    may be told by it."""
     made = dict(chosen.materials)
     changed = []
     for wall in chosen.walls:
@@ -155,7 +156,6 @@ def _without_strength(chosen, walls):
                 tensile_strength=0.0,
                 residual_tensile_strength=0.0,
                 bonded=False,
-                slip_weakening=None,
             )
             wall = dataclasses.replace(wall, material=name)
         changed.append(wall)
