@@ -205,6 +205,13 @@ def test_cost_at_equal_overlap():
     )
 
 
+def test_a_second_of_simulation_costs_the_median_of_the_blocks():
+    found = cost._found(0.01, 50, [2e-3, 1e-3, 9e-3], [(1e-4, 1e-3), (3e-4, 5e-3), (2e-4, 2e-3)], 7, 0.1)
+    assert found["wall_s_per_step"] == 2e-3 and found["rate"] == pytest.approx(0.2)  # 100 steps
+    assert found["overlap_mean_rel"] == pytest.approx(2e-4) and found["overlap_worst_rel"] == 5e-3
+    assert (found["steps"], found["contacts"], found["mean_speed_m_per_s"]) == (50, 7, 0.1)
+
+
 def test_the_report_of_cost_names_bonds_and_losses(tmp_path):
     one = {
         "time_step_s": 1e-3,

@@ -151,7 +151,7 @@ MUTANTS = (
     mutant("cost-release", COMPARE + "cost.py", '                bonded=False,\n', '                bonded=False,\n                slip_weakening=None,\n', "a section whose water is released by the critical slip has none",
            "test_benchmark.py::test_soft_contacts_are_put_into_the_state", slow=True),
     mutant("cost-rate", COMPARE + "cost.py", '"rate": wall / dt', '"rate": wall / (2 * dt)', "a second of simulation is half of one",
-           "test_benchmark.py::test_steps_of_both_worlds_are_timed_alike", slow=True),
+           "test_comparison.py::test_a_second_of_simulation_costs_the_median_of_the_blocks"),
     # ---- benchmark
     mutant("bench-sweep", BENCH + "sweeps.py", "/ (MANY - FEW)", "/ MANY", "what a solve does once counts as sweeps",
            "test_benchmark_numbers.py::test_what_is_said_of_sweeps_follows_from_their_times"),
