@@ -295,12 +295,13 @@ def test_a_biaxial_test_in_both_worlds(sheared):
         soft_ran["simulated_s"] * soft_ran["rate_per_s"] - laboratory_test.RAMP, rel=1e-3
     )
     late = series["strain"] > 0.004
-    for name in ("left", "right"):
-        # a membrane of some ten disks presses on them, and is as high as the highest of them
-        assert np.mean(series[f"sigma3_{name}_Pa"][late]) == pytest.approx(1e6, rel=0.01 if rigid else 0.05)
-    # quasi-static; a membrane whose ends stand at different x pushes up or down too, as in the hard test
-    top, bottom = (series[f"sigma1_{name}_Pa"][late].mean() for name in ("top", "bottom"))
-    assert top == pytest.approx(bottom, rel=0.01 if rigid else 0.06)
+    mean = {name: series[name][late].mean() for name in series if name.startswith("sigma")}
+    # what presses is 1 MPa: the wall's own inertia is a thousandth
+    assert mean["sigma3_right_Pa"] == pytest.approx(1e6, rel=3e-3)
+    # damping holds disks back that go outwards, and so the wall that stands bears more: 3.4 % at this rate, 1.8 % at half of it; nothing with a membrane on both sides
+    assert mean["sigma3_left_Pa"] == pytest.approx(1e6, rel=0.05 if rigid else 3e-3)
+    # 1.5 and 1.7 % for the same reason
+    assert mean["sigma1_top_Pa"] == pytest.approx(mean["sigma1_bottom_Pa"], rel=0.03)
     # 10 GPa under 1 MPa: an overlap of p/E = 1e-4, more or less by the number of contacts
     assert soft.overlap_rest == pytest.approx(1e-4, rel=0.3) and hard.overlap < 0.1 * soft.overlap
     # rigid and nearly rigid: strengths of one sample differ by 2 to 8 % here, those of two samples by twice that and more
