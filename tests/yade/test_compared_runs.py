@@ -304,7 +304,7 @@ def test_a_biaxial_test_in_both_worlds(sheared):
     assert mean["sigma1_top_Pa"] == pytest.approx(mean["sigma1_bottom_Pa"], rel=0.03)
     # 10 GPa under 1 MPa: an overlap of p/E = 1e-4, more or less by the number of contacts
     assert soft.overlap_rest == pytest.approx(1e-4, rel=0.3) and hard.overlap < 0.1 * soft.overlap
-    # rigid and nearly rigid: strengths of one sample differ by 2 to 8 % here, those of two samples by twice that and more
+    # rigid and nearly rigid: the strengths of this sample differ by 2 to 8 %
     for name in ("sigma1_peak_Pa", "sigma1_residual_Pa"):
         assert soft.values[name] == pytest.approx(hard.values[name], rel=0.15), name
     assert soft.values["strain_peak"] == pytest.approx(hard.values["strain_peak"], rel=0.15)
