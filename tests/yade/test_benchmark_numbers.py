@@ -2,12 +2,12 @@
 import re
 from types import SimpleNamespace
 
+import _nonsmooth_contact
 import numpy as np
 import pytest
 from yade.nonsmooth import contact
 from yade.nonsmooth.benchmark import report, scale, steps, sweeps
 
-_nonsmooth_contact = pytest.importorskip("_nonsmooth_contact")
 ONE = 1000  # contacts of the problem
 #: Seconds of a sweep over ONE contacts, by path and threads.
 COST = {("reference", 1): 0.040, ("portable", 1): 0.020, ("best", 1): 0.010, ("best", 2): 0.005}
