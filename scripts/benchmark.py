@@ -11,7 +11,6 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 import argparse
-import json
 import time
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.benchmark import report, scale, states, suite
 from yade.nonsmooth.figures.scale import cost_by_size
 from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -75,7 +74,7 @@ def measure_scale(args, out):
         states.section_of(args.section, disks)
     with arguments.bar() as progress:
         found = scale.run(out, args.section, args.scale, args.threads, progress)
-    write_atomically(out / "scale.json", json.dumps(found, indent=1).encode())
+    write_json(out / "scale.json", found)
     print(report.scale_table(found))
     print(f"results: {out}/scale.json, {cost_by_size(found['sizes'], out / 'scale.png').name}")
 
@@ -92,7 +91,7 @@ def main():
             out, args.section, args.disks, args.threads, suite.QUICK if args.quick else suite.FULL, progress
         )
     summary = {**report.summarise(found), "quick": args.quick, "wall_s": time.monotonic() - began}
-    write_atomically(out / "benchmark.json", json.dumps(summary, indent=1).encode())
+    write_json(out / "benchmark.json", summary)
     print(report.table(summary))
     print(f"{summary['wall_s']:.0f} s of wall time; results: {out}/benchmark.json")
 

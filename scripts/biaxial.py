@@ -11,13 +11,12 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 
 import argparse
 import dataclasses
-import json
 import time
 from pathlib import Path
 
 from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -154,7 +153,7 @@ def main():
     with arguments.bar() as progress:
         measured = campaign.run(tests, out, args.threads, args.resume, progress)
     summary = campaign.summarise(material, measured, time.monotonic() - began, args.threads)
-    write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())
+    write_json(out / "summary.json", summary)
     made = report.draw(out, summary)
     print(report.table(summary))
     print(

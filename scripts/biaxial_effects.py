@@ -10,7 +10,6 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 import argparse
-import json
 from pathlib import Path
 
 from tabulate import tabulate
@@ -18,7 +17,7 @@ from tabulate import tabulate
 from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.figures import biaxial as figures
 from yade.nonsmooth.laboratory import arguments, effects, materials
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -63,7 +62,7 @@ def main():
         rows = effects.run(chosen, out, args.threads, args.resume, progress)
     heads, lines = effects.table(rows)
     told = {"confining_Pa": 1e6 * args.confining, "rows": rows, "tables": [["Effects", heads, lines]]}
-    write_atomically(out / "summary.json", json.dumps(told, indent=1).encode())
+    write_json(out / "summary.json", told)
     figures.effects(rows, out / "effects.png")
     print(tabulate(lines, heads))
     print(f"results: {out}/summary.json, effects.png")

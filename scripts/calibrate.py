@@ -11,13 +11,12 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 
 import argparse
 import dataclasses
-import json
 import time
 from pathlib import Path
 
 from yade.nonsmooth import commands, output_folder, section
 from yade.nonsmooth.laboratory import arguments, calibration, materials
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -82,9 +81,7 @@ def main():
             wanted, materials.load(args.start), work, args.threads, say, args.resume, progress
         )
         best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds))
-    write_atomically(
-        work / "report.json", json.dumps({**report, "wall_s": time.monotonic() - began}, indent=1).encode()
-    )
+    write_json(work / "report.json", {**report, "wall_s": time.monotonic() - began})
     c, angle = report["found"][:2]
     measured = section.Envelope(*map(float, (c, angle)))
     materials.save(

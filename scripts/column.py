@@ -11,14 +11,13 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 import argparse
-import json
 from pathlib import Path
 
 from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.figures import columns as figures
 from yade.nonsmooth.heaps import grains, report, study
 from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_json
 
 ASPECTS = "0.5,0.7,1,1.4,2,2.8,4,5.6,8,10"
 
@@ -199,7 +198,7 @@ def main():
     summary = report.summarise(found)
     if args.kind == "column":
         summary["exponents_by_front"] = report.by_front(found, {name: out / "runs" / name for name in found})
-    write_atomically(out / "summary.json", json.dumps(summary, indent=1).encode())
+    write_json(out / "summary.json", summary)
     print(report.table(found, summary))
     drawn = [report.draw_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
     if any(summary["fits"].values()) and args.kind == "column":

@@ -4,7 +4,6 @@
   scripts/readings.py [--only NAME …] [--disks N] [--samples N] [--seeds S …] [--out DIR] [--threads T] [--resume]
 """
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -14,13 +13,13 @@ if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth import commands, output_folder
     from yade.nonsmooth.figures import readings as figures
     from yade.nonsmooth.laboratory import arguments, readings
-    from yade.nonsmooth.whole_files import write_atomically
+    from yade.nonsmooth.whole_files import write_json
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import commands, output_folder
     from nonsmooth.figures import readings as figures
     from nonsmooth.laboratory import arguments, readings
-    from nonsmooth.whole_files import write_atomically
+    from nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -70,7 +69,7 @@ def main():
         "rows": rows,
         "tables": [["Readings", heads, lines]],
     }
-    write_atomically(out / "readings.json", json.dumps(told, indent=1).encode())
+    write_json(out / "readings.json", told)
     picture = figures.tradeoff(rows, out / "readings.png")
     print(tabulate(lines, heads))
     print(f"results: {out}/readings.json, {picture.name}")

@@ -10,14 +10,13 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 import argparse
-import json
 from pathlib import Path
 
 from yade.nonsmooth import commands, output_folder
 from yade.nonsmooth.benchmark import machine
 from yade.nonsmooth.laboratory import arguments
 from yade.nonsmooth.verification import soak
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -64,7 +63,7 @@ def main():
     output_folder.claim(out.parent, "soak.py")
     with arguments.bar() as progress:
         found = soak.run(args.disks, args.steps, args.seed, progress, args.way)
-    write_atomically(out, json.dumps({"machine": machine.describe(), **found}, indent=1).encode())
+    write_json(out, {"machine": machine.describe(), **found})
     rows = found["rows"]
     first, last = rows[len(rows) // 10], rows[-1]
     print(

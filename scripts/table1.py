@@ -4,7 +4,6 @@
   scripts/table1.py [--disks N] [--seeds S …] [--confining MPA,…] [--material NAME|FILE] [--out DIR] [--threads T] [--resume]
 """
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -13,12 +12,12 @@ from tabulate import tabulate
 if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth import commands, output_folder
     from yade.nonsmooth.laboratory import arguments, biaxial_test, report, table1
-    from yade.nonsmooth.whole_files import write_atomically
+    from yade.nonsmooth.whole_files import write_json
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import commands, output_folder
     from nonsmooth.laboratory import arguments, biaxial_test, report, table1
-    from nonsmooth.whole_files import write_atomically
+    from nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -92,7 +91,7 @@ def main():
     heads, rows = table1.table(told["rows"])
     caption = f"Table 1: {args.disks} disks, seeds {', '.join(map(str, args.seeds))}; means with half of their 95 % interval, the paper's values in brackets"
     tables = [[caption, heads, rows], ["Tests of the rock by pressure", *report.pressures(told["rock"])]]
-    write_atomically(out / "table1.json", json.dumps({**told, "tables": tables}, indent=1).encode())
+    write_json(out / "table1.json", {**told, "tables": tables})
     print(tabulate(rows, heads, disable_numparse=True))
     print(f"results: {out}/table1.json, rock/*.png, rock/tests/*/series.csv, walls/tests/*/series.csv")
 

@@ -11,13 +11,12 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 
 import argparse
 import dataclasses
-import json
 from pathlib import Path
 
 from yade.nonsmooth import commands, errors, output_folder, records
 from yade.nonsmooth.figures import wall_shear as figures
 from yade.nonsmooth.laboratory import arguments, materials, wall_shear
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_json
 
 
 def read_arguments():
@@ -72,7 +71,7 @@ def main():
         slides = wall_shear.run([t for group in groups for t in group], out, args.threads, args.resume, progress)
     n = len(args.pressures)
     found = [wall_shear.strength_of(group, slides[k * n : (k + 1) * n]) for k, group in enumerate(groups)]
-    write_atomically(out / "summary.json", json.dumps({"tests": found}, indent=1).encode())
+    write_json(out / "summary.json", {"tests": found})
     print(
         "wall       seed   peak: friction  φ [°]   cohesion [kPa]   residual: friction  φ [°]   cohesion [kPa]   covered"
     )

@@ -10,7 +10,6 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
 import argparse
-import json
 import subprocess
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from tqdm import tqdm
 from yade.nonsmooth import commands, errors, keys, output_folder
 from yade.nonsmooth.figures.creep import creep
 from yade.nonsmooth.figures.style import LINES
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically, write_json
 
 EXAMPLES = Path(sys.argv[0]).resolve().with_name("examples")
 # (key, title of the panel, the joint and its water)
@@ -112,7 +111,7 @@ def main():
                 bar.update()
             panels.append((title, curves))
     creep(panels, out / "wedge.png")
-    write_atomically(out / "summary.json", json.dumps({"seconds": args.seconds, "runs": rows}, indent=1).encode())
+    write_json(out / "summary.json", {"seconds": args.seconds, "runs": rows})
     print("case    model                displacement [mm]   largest of a disk [mm]   creep after 5 s [mm/min]")
     for r in rows:
         print("{case:7s} {model:20s} {displacement_mm:17.4f} {largest_mm:24.4f} {creep_mm_per_min:26.4f}".format(**r))

@@ -7,6 +7,12 @@
 
 namespace yade::nscd {
 
+/// By a clock that nobody sets [s].
+inline double steadySeconds()
+{
+	return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// In the order of a step.
 enum class Stage { Collide, Interactions, Gather, Solve, Correct, Scatter, Integrate };
 

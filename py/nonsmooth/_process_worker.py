@@ -10,7 +10,7 @@ from pathlib import Path
 
 from yade.nonsmooth import interrupts, servers
 from yade.nonsmooth.errors import UserError
-from yade.nonsmooth.whole_files import write_atomically
+from yade.nonsmooth.whole_files import write_atomically, write_json
 
 PR_SET_PDEATHSIG = 1  # <sys/prctl.h>
 
@@ -35,4 +35,4 @@ except UserError as error:
 except KeyboardInterrupt as stop:
     print(f"stopped: {stop}")
     sys.exit(130)
-write_atomically(folder / "found.json", json.dumps(found, indent=1).encode())
+write_json(folder / "found.json", found)

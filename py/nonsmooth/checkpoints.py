@@ -14,7 +14,7 @@ import os
 from pathlib import Path
 
 from .keys import engines_key, key_of
-from .whole_files import WriteError, remove_parts, sync_folder, whole, write_atomically
+from .whole_files import WriteError, remove_parts, sync_folder, whole, write_atomically, write_json
 
 __all__ = ["exists", "forget", "read", "write"]
 
@@ -64,9 +64,7 @@ def write(folder, key, content):
         "engines": _engines(),
     }
     told = {**content, **head}
-    write_atomically(
-        folder / "checkpoint.json", json.dumps({**told, "sum": key_of(told)}, indent=1, allow_nan=False).encode()
-    )
+    write_json(folder / "checkpoint.json", {**told, "sum": key_of(told)}, allow_nan=False)
     for old in whole(folder, "scene-*.yade*"):
         if old.name != name:
             old.unlink(missing_ok=True)

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from . import keys
-from .whole_files import WriteError, write_atomically
+from .whole_files import WriteError, write_atomically, write_json
 
 __all__ = ["Progress", "begin", "begun", "forget", "keep", "kept", "share"]
 
@@ -52,9 +52,7 @@ def begun(folder, key):
 
 def keep(folder, key, found):
     """Writes the result of a run; ``key``: of its input, see keys.key_of. What it is of stands beside it: input, engines and code."""
-    write_atomically(
-        Path(folder) / "result.json", json.dumps({"key": keys.run_key(key), "found": found}, indent=1).encode()
-    )
+    write_json(Path(folder) / "result.json", {"key": keys.run_key(key), "found": found})
 
 
 def forget(folder):

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from . import installation
 from .errors import UserError
-from .whole_files import write_atomically
+from .whole_files import write_json
 
 __all__ = ["RunError", "call", "named", "pool"]
 
@@ -37,9 +37,7 @@ def call(function, folder, arguments, threads=1):
     """
     folder, began = Path(folder), time.monotonic()
     request = folder / "request.json"
-    write_atomically(
-        request, json.dumps({"function": named(function), "arguments": arguments, "parent": os.getpid()}).encode()
-    )
+    write_json(request, {"function": named(function), "arguments": arguments, "parent": os.getpid()})
     for name in ("found.json", "refused.txt"):
         (folder / name).unlink(missing_ok=True)
     # the log's last line is to be the last that was said: standard output unbuffered, as errors are

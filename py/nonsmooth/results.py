@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from .characteristic_times import chosen_rows, mean_of, of_run, weakening_begins
 from .measure import energy, force_stages, toe_bands
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
-from .whole_files import remove, remove_parts, whole, write_atomically
+from .whole_files import remove, remove_parts, whole, write_json
 
 __all__ = ["summarise", "forget", "forget_later", "while_it_fails"]
 
@@ -255,5 +254,5 @@ def summarise(folder, section, state, threads=None) -> dict:
         section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]
     )
     clean = {k: (None if isinstance(v, float) and not math.isfinite(v) else v) for k, v in summary.items()}
-    write_atomically(folder / SUMMARY, (json.dumps(clean, indent=1) + "\n").encode())
+    write_json(folder / SUMMARY, clean)
     return clean

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import os
 import secrets
 import shutil
@@ -24,6 +25,7 @@ __all__ = [
     "whole",
     "write_arrays",
     "write_atomically",
+    "write_json",
 ]
 
 PART = ".part-"  # begins the names of files that are being written
@@ -122,3 +124,8 @@ def write_arrays(path, /, compressed=False, **arrays) -> None:
     content = io.BytesIO()
     (np.savez_compressed if compressed else np.savez)(content, **arrays)
     write_atomically(path, content.getvalue())
+
+
+def write_json(path, plain, **how) -> None:
+    """Writes plain data as JSON, one value a line, see write_atomically; ``how``: of json.dumps. Raises WriteError, and TypeError where JSON cannot hold the data."""
+    write_atomically(path, (json.dumps(plain, indent=1, **how) + "\n").encode())

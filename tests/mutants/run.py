@@ -9,7 +9,6 @@ where a mutant survives that is not among those known to, where the copy without
 BUILD/mutants/verdicts.json too.
 """
 import argparse
-import json
 import random
 import subprocess
 import sys
@@ -24,7 +23,7 @@ from mutants import KNOWN, MUTANTS
 from workplace import ROOT, BuildError, Place, build, mutated_sources
 
 sys.path.insert(0, str(ROOT / "py"))
-from nonsmooth.whole_files import write_atomically
+from nonsmooth.whole_files import write_json
 
 COUNT = 30  # mutants of the quick part
 OUTCOMES = (judging.CAUGHT, judging.CRASHED, judging.TIMEOUT, judging.SURVIVED, judging.BROKEN)
@@ -185,7 +184,7 @@ def write(path, verdicts, counts, seconds):
             for m, v in verdicts.items()
         ],
     }
-    write_atomically(path, (json.dumps(found, indent=1) + "\n").encode())
+    write_json(path, found)
 
 
 def main():

@@ -1,7 +1,9 @@
 """Hard against soft: the mathematics of errors, work and rates on made-up data; plans, options and what reports say."""
 
+import base64
 import json
 import math
+from pathlib import Path
 from types import SimpleNamespace
 
 import drawn
@@ -212,7 +214,7 @@ def test_a_second_of_simulation_costs_the_median_of_the_blocks():
     assert (found["steps"], found["contacts"], found["mean_speed_m_per_s"]) == (50, 7, 0.1)
 
 
-def test_the_report_of_cost_names_bonds_and_losses(tmp_path):
+def test_the_report_of_cost_names_bonds_and_losses(tmp_path, monkeypatch):
     one = {
         "time_step_s": 1e-3,
         "wall_s_per_step": 1e-3,
@@ -239,14 +241,17 @@ def test_the_report_of_cost_names_bonds_and_losses(tmp_path):
             "machine": machine.describe(),
         }
     )
-    cost_report.write(tmp_path, told)
-    page = (tmp_path / "report.html").read_text()
+    monkeypatch.chdir(tmp_path)
+    cost_report.write(Path("out/cost"), told)  # as the command has it
+    out = tmp_path / "out" / "cost"
+    page = (out / "report.html").read_text()
+    assert base64.b64encode((out / "figures" / "cost_and_overlap.png").read_bytes()).decode() in page
     assert (
         "friction, no bonds, 0.8 of the stable" in page
         and "Lost with friction, beside what cohesion_moment loses: moments: none." in page
     )
     # the page's table, for whoever quotes it
-    ((title, heads, rows),) = json.loads((tmp_path / "summary.json").read_text())["tables"]
+    ((title, heads, rows),) = json.loads((out / "summary.json").read_text())["tables"]
     assert title == "Cost and overlap" and [row[:2] for row in rows] == [
         [state, contacts]
         for state in ("during the avalanche", "at rest")

@@ -75,7 +75,7 @@ def test_slopes_that_do_not_fail_by_water_are_told(tmp_path, monkeypatch):
     known_slope.write(tmp_path)
     dry = measured(tmp_path, monkeypatch, failed_dry=3.0)
     assert (
-        dry.values["water_at_failure_m"] is None
+        dry.values["water_at_failure_m"] == 0
         and dry.values["front_travel_m"] == pytest.approx(1050.5)
         and dry.notes == ["the slope failed dry, at 3.0 s"]
     )

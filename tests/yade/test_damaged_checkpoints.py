@@ -304,7 +304,7 @@ def test_a_checkpoint_of_the_same_step_does_not_take_the_place_of_the_last(saved
             raise KeyboardInterrupt
         real(path, content)
 
-    monkeypatch.setattr(checkpoints, "write_atomically", killed)
+    monkeypatch.setattr(whole_files, "write_atomically", killed)
     with pytest.raises(KeyboardInterrupt):
         checkpoints.write(tmp_path / "out", key, {"state": {}})
     monkeypatch.undo()

@@ -1,50 +1,12 @@
+// How the arrays get what YADE's objects have, and how contacts come and go; what is written back: ResidentShow.cpp.
 #include "Resident.hpp"
-#include "PlaneMotion.hpp"
-#include "Prefetch.hpp"
+#include "../StageClock.hpp"
 #include "Audience.hpp"
-#include <chrono>
-#include <lib/pyutil/gil.hpp>
+#include "Prefetch.hpp"
 #include <map>
 #include <neighbours/bucket_sort.hpp>
-#include <thread>
 
 namespace yade::nscd {
-
-namespace {
-	double clockNow()
-	{
-		return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-	}
-
-	/// Shows what a thread leaves when it ends: YADE starts one for each O.run, and O.pause() may end it behind our last look.
-	struct ThreadEnd {
-		std::weak_ptr<Resident> last;
-		~ThreadEnd()
-		{
-			if (const auto resident = last.lock()) resident->show();
-		}
-	};
-	thread_local ThreadEnd threadEnd;
-
-	/// Whether a state has what was written into it, or read from it, the last time.
-	bool isAs(const State& s, const BodyReading& known)
-	{
-		const auto& m = known.motion;
-		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x
-		        && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w && s.ori.z() == m.rotation.z
-		        && s.ori.w() == m.rotation.w;
-	}
-
-	/// Brings the state of the body of that id up to date, but for one that is gone, or was changed by somebody else since it was as in `asShown`.
-	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<BodyReading>& asShown)
-	{
-		if (!b.moved) return;
-		b.moved = false;
-		if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return;
-		setMotion(*body->state, b.motion);
-		if (id < asShown.size()) asShown[id] = b;
-	}
-}
 
 std::shared_ptr<Resident> Resident::of(Scene& scene)
 {
@@ -63,7 +25,7 @@ std::shared_ptr<Resident> Resident::of(Scene& scene)
 
 void Resident::takeBodies(Scene& scene)
 {
-	const double begin = clockNow();
+	const double begin = steadySeconds();
 	readBodies(scene, threads, bodies);
 	shaped.clear();
 	for (size_t id = 0; id < bodies.size(); ++id)
@@ -73,12 +35,12 @@ void Resident::takeBodies(Scene& scene)
 	else
 		asShown.clear();
 	bodiesOwned = true;
-	costOfLook += clockNow() - begin;
+	costOfLook += steadySeconds() - begin;
 }
 
 void Resident::takeContacts(Scene& scene)
 {
-	const double begin = clockNow();
+	const double begin = steadySeconds();
 	auto&        list  = *scene.interactions;
 	const int    size  = int(bodies.size());
 	const long   all   = (long)list.size();
@@ -128,7 +90,7 @@ void Resident::takeContacts(Scene& scene)
 	for (long k = 0; unreal > 0 && k < all; ++k)
 		if (!found[k].geom) addPotential(list[k]);
 	contactsOwned = true;
-	costOfLook += clockNow() - begin;
+	costOfLook += steadySeconds() - begin;
 }
 
 void Resident::readSlot(const Found& found, int slot)
@@ -142,7 +104,7 @@ void Resident::readSlot(const Found& found, int slot)
 /// Takes contacts again that only Python can have changed since they were shown; returns false where all interactions have to be gone through.
 bool Resident::takeKnown(Scene& scene)
 {
-	const double begin = clockNow();
+	const double begin = steadySeconds();
 	auto&        list  = *scene.interactions;
 	if (list.size() != order.size() + potential.size()) return false;
 	const auto isThere = [&](const shared_ptr<Interaction>& i) {
@@ -173,7 +135,7 @@ bool Resident::takeKnown(Scene& scene)
 	}
 	if (other) return false;
 	contactsOwned = true;
-	costOfLook += clockNow() - begin;
+	costOfLook += steadySeconds() - begin;
 	return true;
 }
 
@@ -188,178 +150,6 @@ void Resident::hold()
 		if (Interaction* i = readings[k].interaction)
 			holders[k] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()), i->geom,
 				       i->phys };
-}
-
-void Resident::displace(size_t id, const nonsmooth::contact::Twist& d)
-{
-	BodyReading& b = bodies[id];
-	if (b.planar) {
-		nonsmooth::contact::plane::displace(b.motion, d);
-		b.moved = true;
-		return;
-	}
-	State& s = *(*container.lock())[id]->state;
-	s.pos += Vector3r(d.x, d.y, 0);
-	if (d.w != 0) s.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * s.ori).normalized();
-	readMotion(s, b);
-}
-
-void Resident::showBody(size_t id)
-{
-	if (bodies[id].moved) write(bodies[id], (*container.lock())[id], id, asShown);
-}
-
-void Resident::showBodies(const std::vector<int>& ids)
-{
-	std::vector<int> behind;
-	for (const int id : ids)
-		if (std::exchange(bodies[id].moved, false)) behind.push_back(id);
-	const auto kept  = container.lock();
-	const long count = (long)behind.size();
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < count; ++k) {
-		bodies[behind[k]].moved = true;
-		write(bodies[behind[k]], (*kept)[behind[k]], behind[k], asShown);
-	}
-}
-
-Vector3r Resident::contactPoint(const Reading& r) const
-{
-	if (r.wasRead || r.keeper != Reading::Arrays) return r.geom->contactPoint;
-	const Vector3r at(places[r.first].x, places[r.first].y, bodies[r.first].z), normal(r.nx, r.ny, r.nz);
-	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
-}
-
-/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor.
-void Resident::showContact(int slot) const
-{
-	const Reading& r = readings[slot];
-	if (r.keeper != Reading::Arrays || !r.phys || r.phys->touched) return;
-	ScGeom&   geom = *r.geom;
-	NscdPhys& phys = *r.phys;
-	if (!r.wasRead) {
-		geom.contactPoint     = contactPoint(r);
-		geom.penetrationDepth = -r.gap;
-		geom.radius1          = bodies[r.first].radius;
-		geom.radius2          = bodies[r.second].radius;
-		geom.normal           = Vector3r(r.nx, r.ny, r.nz);
-		phys.adhesion         = r.adhesion;
-		phys.currentFriction = phys.tangensOfFrictionAngle = r.friction;
-		phys.currentRollingArm                             = r.rollingArm;
-	}
-	if (r.bonded) {
-		phys.restGap   = r.restGap;
-		phys.yieldPath = vectorOf(r.path);
-		phys.yielded   = r.yielded;
-	}
-	if (r.reacts) writeReactions(r);
-}
-
-void Resident::show(const string& who, bool staysKnown)
-{
-	const std::lock_guard<std::recursive_mutex> guard(lock);
-	const double                                begin = clockNow();
-	const auto                                  kept  = container.lock();
-	if (kept && contactsOwned) {
-		const long count = (long)order.size();
-#pragma omp parallel for schedule(static) num_threads(threads)
-		for (long k = 0; k < count; ++k) {
-			if (k + (long)soon < count) {
-				const Reading& ahead = readings[order[k + soon].slot];
-				if (ahead.geom) fetch<partOfGeometry>(ahead.geom);
-				if (ahead.phys) fetch<partOfPhysics>(ahead.phys);
-			}
-			showContact(order[k].slot);
-		}
-		if (staysKnown) hold();
-	}
-	contactsKnown = staysKnown && (contactsOwned || contactsKnown);
-	if (kept && bodiesOwned) {
-		const long count = (long)std::min(bodies.size(), kept->size());
-#pragma omp parallel for schedule(static) num_threads(threads)
-		for (long id = 0; id < count; ++id) {
-			if (id + (long)later < count) fetch<sizeof(Body)>((*kept)[id + later].get());
-			if (id + (long)soon < count && (*kept)[id + soon])
-				fetch<sizeof(State)>((*kept)[id + soon]->state.get());
-			write(bodies[id], (*kept)[id], id,
-			      asShown); // threads would wait for each other if each body asked for the container
-		}
-	}
-	if (bodiesOwned || contactsOwned) {
-		++shown;
-		shownTo = who;
-	}
-	bodiesOwned = contactsOwned = false;
-	lastShown                   = clockNow();
-	costOfLook                  = lastShown - begin;
-}
-
-std::unique_lock<std::recursive_mutex> Resident::betweenTurns()
-{
-	++waiting;
-	std::unique_lock<std::recursive_mutex> guard(lock);
-	--waiting;
-	return guard;
-}
-
-void Resident::showBetweenTurns()
-{
-	const auto guard = betweenTurns();
-	show();
-}
-
-void Resident::showForSaving()
-{
-	const auto guard = betweenTurns();
-	show("whoever saves");
-	beingSaved = PyGILState_Check();
-}
-
-void Resident::showOnly(const std::vector<int>& ids)
-{
-	const auto guard = betweenTurns();
-	if (contactsOwned) hold(); // a script may erase what the arrays point to
-	if (!bodiesOwned) return;
-	shownAlone.clear();
-	for (const int id : ids)
-		if (size_t(id) < bodies.size()) shownAlone.push_back(id);
-	showBodies(shownAlone);
-}
-
-/// Takes the bodies again that were shown alone; all where one of them is another body now.
-void Resident::takeShown(Scene& scene)
-{
-	const auto known = std::exchange(shownAlone, {});
-	for (const int id : known) {
-		BodyReading&      b   = bodies[id];
-		const BodyReading now = readBody((*scene.bodies)[id].get());
-		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped) {
-			show();
-			takeBodies(scene);
-			return;
-		}
-		b = now;
-		if (size_t(id) < asShown.size()) asShown[id] = now;
-	}
-}
-
-std::vector<double> Resident::disks()
-{
-	const auto          guard = betweenTurns();
-	const auto          kept  = container.lock();
-	std::vector<double> rows;
-	const size_t        count = bodiesOwned ? bodies.size() : kept->size();
-	rows.reserve(8 * count);
-	for (size_t id = 0; id < count; ++id) {
-		const BodyReading b = bodiesOwned ? bodies[id] : readBody((*kept)[id].get());
-		if (!b.present || !(b.radius > 0)) continue;
-		const auto& m = b.motion;
-		rows.insert(
-		        rows.end(),
-		        { double(id), m.position.x, m.position.y, double(b.radius),
-		          2 * std::atan2(m.rotation.z, m.rotation.w), m.velocity.x, m.velocity.y, m.velocity.w });
-	}
-	return rows;
 }
 
 int Resident::slotOf(const shared_ptr<Interaction>& interaction)
@@ -461,53 +251,6 @@ bool Resident::isBehind(const Scene& scene) const
 	auto& list = *scene.interactions;
 	return bodies.size() != scene.bodies->size() || !scene.bodies->checkedByCollider || list.dirty
 	        || list.size() != interactionsSeen;
-}
-
-Turn::Turn(Engine& engine_, int threads)
-        : engine(engine_)
-        , data(Resident::of(*engine_.scene))
-        , locked(data->lock, std::defer_lock)
-{
-	while (data->waiting > 0)
-		std::this_thread::yield();
-	locked.lock();
-	while (data->beingSaved) {
-		locked.unlock(); // whoever saves may look again
-		const gilLock saved;
-		locked.lock();
-		data->beingSaved = false;
-	}
-	Scene& scene  = *engine.scene;
-	data->threads = threads;
-	if (data->isBehind(scene)) {
-		if (data->bodiesOwned || data->contactsOwned) data->show();
-		data->contactsKnown = false;
-	}
-	if (!data->bodiesOwned) data->takeBodies(scene);
-	else if (!data->shownAlone.empty())
-		data->takeShown(scene);
-	if (data->contactsKnown && onlyPythonBefore(scene, engine)) data->takeKnown(scene);
-	data->contactsKnown = false;
-}
-
-void Turn::end()
-{
-	Scene& scene  = *engine.scene;
-	Viewer viewer = whoLooksAfter(scene, engine);
-	if (viewer.name.empty() && othersMayLook(scene)) {
-		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
-		threadEnd.last = data;
-		if (clockNow() - data->lastShown > std::max(0.05, 50 * data->costOfLook))
-			viewer = { "others, now and then", true };
-	}
-	if (!viewer.name.empty()) data->show(viewer.name, viewer.isPython);
-	data->interactionsSeen = scene.interactions->size();
-	ended                  = true;
-}
-
-Turn::~Turn()
-{
-	if (!ended) data->show();
 }
 
 } // namespace yade::nscd

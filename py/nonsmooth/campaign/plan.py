@@ -21,7 +21,7 @@ from pathlib import Path
 from .. import installation, kept_runs, keys, output_folder, side_by_side
 from ..errors import UserError
 from ..statistics import over_seeds
-from ..whole_files import write_atomically
+from ..whole_files import write_atomically, write_json
 from . import cluster
 
 __all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "read", "run_one"]
@@ -70,7 +70,7 @@ class Plan:
             "function": self.function,
             "runs": [asdict(one) for one in self.runs],
         }
-        write_atomically(out / FILE, json.dumps(content, indent=1).encode())
+        write_json(out / FILE, content)
         cluster.write(out, self.title, {one.name: keys.run_key(one.key) for one in self.runs})
 
     def run(self, out, threads=1, resume=False, progress=lambda share, ended: None) -> dict:
@@ -150,7 +150,7 @@ def collect(out) -> dict:
     varied = list(plan.runs[0].values)
     if SEED in varied:
         content = {"title": plan.title, "varied": [key for key in varied if key != SEED], "rows": means(table, varied)}
-        write_atomically(Path(out) / MEANS, json.dumps(content, indent=1).encode())
+        write_json(Path(out) / MEANS, content)
     return table
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
-from ..whole_files import write_atomically
+from ..whole_files import write_json
 from . import figures, report
 from .answers import number
 from .cases import modulus_label
@@ -85,7 +84,7 @@ def write(out, told):
         ],
     )
     told = {**told, "tables": report.tables_of([section])}
-    write_atomically(out / "summary.json", (json.dumps(told, indent=1) + "\n").encode())
+    write_json(out / "summary.json", told)
     lead = [
         f"The slope of {told['disks']} disks with the same places and velocities in both worlds, every process alone on {told['threads']} "
         f"thread{'s' if told['threads'] > 1 else ''}. Soft: "

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import time
 from pathlib import Path
 
 from ..benchmark import machine
-from ..whole_files import write_atomically
+from ..whole_files import write_json
 from . import (
     answers,
     biaxial_report,
@@ -109,7 +108,7 @@ def compare(
     ]
     told["tables"] = report.tables_of(sections)
     told["wall_s"] = time.monotonic() - began
-    write_atomically(out / "summary.json", (json.dumps(told, indent=1) + "\n").encode())
+    write_json(out / "summary.json", told)
     report.write(
         out / "report.html",
         f"Hard against soft: {scenario}",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from .. import report
@@ -20,7 +20,7 @@ SHOWN = ("error", "overlap", "front_travel_m")  # of the convergence, in the fig
 
 @dataclass
 class Section:
-    """A part of the page: ``text`` (sentences), ``plots`` [(path, caption)], ``tables`` [(caption, heads, rows)]."""
+    """A part of the page: ``text`` (sentences), ``plots`` [(path of a PNG, caption)], ``tables`` [(caption, heads, rows)]."""
 
     title: str
     text: list = field(default_factory=list)
@@ -33,7 +33,9 @@ def write(path, title, lead, questions, sections, machine):
 
     ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as benchmark.machine.describe tells.
     """
-    return report.write(path, TEMPLATE, title=title, lead=lead, questions=questions, sections=sections, machine=machine)
+    # from the working folder, and not from the page's
+    found = [replace(s, plots=[(Path(plot).absolute(), caption) for plot, caption in s.plots]) for s in sections]
+    return report.write(path, TEMPLATE, title=title, lead=lead, questions=questions, sections=found, machine=machine)
 
 
 def tables_of(sections):

@@ -143,7 +143,8 @@ def measure(case: Case, folder, found) -> Outcome:
     )
     broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
     values = {
-        "water_at_failure_m": at("water_m", times["t1"], 0.0),
+        # a slope that does not stand dry bears none
+        "water_at_failure_m": at("water_m", times["t1"], 0.0) if failed_dry is None else 0.0,
         "front_travel_m": None if front0 is None else float(series["front_m"][-1] - front0),
         "centroid_travel_m": float(moved[-1]),
         "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", times["t1"]),

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from .. import keys
-from ..whole_files import write_atomically
+from ..whole_files import write_json
 from . import biaxial_test, campaign, pressing
 
 # σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15 % of c; under half of it, 5 %.
@@ -157,7 +157,7 @@ class Calibration:
         self.trials.append(
             {"key": key, "parameters": self.parameters(x), "disks": disks, "seeds": list(seeds), "found": found}
         )
-        write_atomically(self.out / "trials.json", json.dumps(self.trials, indent=1).encode())
+        write_json(self.out / "trials.json", self.trials)
         named = ", ".join(f"{name} {value:g}" for name, value in self.parameters(x).items())
         residual = f", c_res {1e-3 * found[2]:.1f} kPa, φ_res {found[3]:.2f}°" if len(found) > 2 else ""
         self.say(

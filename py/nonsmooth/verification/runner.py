@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from .. import keys
-from ..whole_files import write_atomically
+from ..whole_files import write_json
 from .claims import Claim, Outcome
 from .registry import Bench, Check
 
@@ -104,7 +104,7 @@ def _write(result, folder, quick):
         "remarks": result.remarks,
         "numbers": result.numbers,
     }
-    write_atomically(folder / "result.json", json.dumps(plain, indent=1).encode())
+    write_json(folder / "result.json", plain)
 
 
 def _key(check, quick):

@@ -4,7 +4,8 @@ from mutant import mutant
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
 TO_PLANE = "pkg/dem/seam/PlaneMotion.hpp"
-RESIDENT, AUDIENCE, READING = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
+RESIDENT, SHOW = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp"
+AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
@@ -82,7 +83,7 @@ MUTANTS = (
            "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
     mutant("engine-overlap-mean", ENGINE, "s.touching > 0 ? s.overlap / s.touching : 0", "candidates > 0 ? s.overlap / candidates : 0",
            "the mean overlap is over all candidates", "test_whole_slope.py::test_a_column_is_what_the_steps_say[overlap_mean_rel]", slow=True),
-    mutant("engine-angle", RESIDENT, "2 * std::atan2(m.rotation.z, m.rotation.w)", "std::atan2(m.rotation.z, m.rotation.w)", "angles of disks are half of what they are",
+    mutant("engine-angle", SHOW, "2 * std::atan2(m.rotation.z, m.rotation.w)", "std::atan2(m.rotation.z, m.rotation.w)", "angles of disks are half of what they are",
            "test_tables.py::test_bodies_are_those_of_the_scene"),
     mutant("engine-gap", ENGINE, "double(-g.penetrationDepth)", "double(g.penetrationDepth)", "the table of contacts has overlaps for gaps",
            "test_tables.py::test_contacts_are_those_of_the_scene"),
@@ -204,14 +205,14 @@ MUTANTS = (
     mutant("bond-mode", BONDS, "plane::breakMode({ yieldPath[0], yieldPath[1], yieldPath[2] })", "plane::breakMode({ yieldPath[2], yieldPath[1], yieldPath[0] })",
            "broken in tension and by torque are exchanged", "test_bonds.py::test_bond_breaks_just_above_its_threshold_and_records_how"),
     # ---- what stays in arrays, and who looks at it
-    mutant("view-motion", RESIDENT, "setMotion(*body->state, b.motion);", ";", "bodies do not follow when somebody looks", SAME),
-    mutant("view-geometry", RESIDENT, "geom.normal           = Vector3r(r.nx, r.ny, r.nz);", ";", "normals of contacts do not follow", OWN),
-    mutant("view-point", RESIDENT, "bodies[r.first].radius - 0.5 * -r.gap", "bodies[r.first].radius + 0.5 * -r.gap", "contact points lie beyond the gap", OWN),
-    mutant("view-thresholds", RESIDENT, "phys.currentRollingArm                             = r.rollingArm;", "phys.currentRollingArm = 0;", "rolling thresholds do not follow", OWN),
+    mutant("view-motion", SHOW, "setMotion(*body->state, b.motion);", ";", "bodies do not follow when somebody looks", SAME),
+    mutant("view-geometry", SHOW, "geom.normal           = Vector3r(r.nx, r.ny, r.nz);", ";", "normals of contacts do not follow", OWN),
+    mutant("view-point", SHOW, "bodies[r.first].radius - 0.5 * -r.gap", "bodies[r.first].radius + 0.5 * -r.gap", "contact points lie beyond the gap", OWN),
+    mutant("view-thresholds", SHOW, "phys.currentRollingArm                             = r.rollingArm;", "phys.currentRollingArm = 0;", "rolling thresholds do not follow", OWN),
     mutant("view-reactions", READING, "phys.torque      = r.torque;", ";", "rolling reactions do not follow", SAME),
-    mutant("view-foreign", RESIDENT, "!isAs(*body->state, asShown[id])", "false", "what another thread writes into a body is overwritten",
+    mutant("view-foreign", SHOW, "!isAs(*body->state, asShown[id])", "false", "what another thread writes into a body is overwritten",
            "test_view.py::test_others_see_a_run_in_the_background_and_what_they_write_is_not_lost"),
-    mutant("view-saved", RESIDENT, "beingSaved = PyGILState_Check();", "beingSaved = false;", "steps go on in the background while the scene is being saved",
+    mutant("view-saved", SHOW, "beingSaved = PyGILState_Check();", "beingSaved = false;", "steps go on in the background while the scene is being saved",
            "test_view.py::test_what_is_saved_beside_a_run_in_the_background_is_of_one_moment[in every step]"),
     mutant("take-refresh", LOOP, "r.phys->updateThresholds(r.gap, ours.law->adhesionRange);", ";", "strengths that a script has changed are not taken up",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[friction]", "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[residualRollingArm]"),
@@ -225,9 +226,9 @@ MUTANTS = (
            "test_collider.py::test_potential_interactions_with_walls_end_when_disks_have_left"),
     mutant("take-breaks", SCATTER, "parts[part].anyBroken()", "(part > 0 && parts[part].anyBroken())", "breaks among the first contacts are not recorded",
            "test_bonds.py"),
-    mutant("alone-shown", RESIDENT, "showBodies(shownAlone);", ";", "bodies that are asked for stay as they were",
+    mutant("alone-shown", SHOW, "showBodies(shownAlone);", ";", "bodies that are asked for stay as they were",
            "test_advance.py::test_bodies_that_are_asked_for_are_up_to_date_and_what_is_made_of_them_counts"),
-    mutant("alone-taken", RESIDENT, "b = now;", ";", "what is made of bodies that were shown alone is lost",
+    mutant("alone-taken", SHOW, "b = now;", ";", "what is made of bodies that were shown alone is lost",
            "test_advance.py::test_bodies_that_are_asked_for_are_up_to_date_and_what_is_made_of_them_counts"),
     mutant("alone-exception", ADVANCE, "some && std::uncaught_exceptions() == exceptions", "some.has_value()", "an exception leaves bodies as they were at the last look",
            "test_advance.py::test_an_exception_leaves_all_up_to_date"),

@@ -106,6 +106,10 @@ MUTANTS = (
            "the soft step grows with the stiffness", "test_comparison.py::test_cost_of_a_stiffness_that_was_not_run"),
     mutant("compare-overlap", COMPARE + "deposits.py", "one.intersection(other).area / whole", "one.intersection(other).area / one.area",
            "the overlap of deposits is over one of them", "test_comparison.py::test_overlap_of_deposits"),
+    mutant("compare-dry", COMPARE + "slopes.py", 'if failed_dry is None else 0.0', 'if failed_dry is None else None', "a slope that fails dry has no error in its water",
+           "plain:test_comparison_numbers.py::test_slopes_that_do_not_fail_by_water_are_told"),
+    mutant("compare-pages", COMPARE + "report.py", "Path(plot).absolute()", "Path(plot)", "pages in a folder that is named from here do not find their pictures",
+           "test_comparison.py::test_the_report_of_cost_names_bonds_and_losses"),
     # ---- fluctuations
     mutant("fluctuations-drop", "py/nonsmooth/laboratory/fluctuations.py", "stress[b] < stress[a]", "stress[b] > stress[a]", "contractions go with a rise of the stress",
            "plain:test_fluctuations.py::test_what_a_test_says_of_its_plateau"),

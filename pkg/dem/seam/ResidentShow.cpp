@@ -1,0 +1,203 @@
+// How YADE's objects get what the arrays have, all of them or some.
+#include "../StageClock.hpp"
+#include "PlaneMotion.hpp"
+#include "Prefetch.hpp"
+#include "Resident.hpp"
+#include <lib/pyutil/gil.hpp>
+
+namespace yade::nscd {
+
+namespace {
+	/// Whether a state has what was written into it, or read from it, the last time.
+	bool isAs(const State& s, const BodyReading& known)
+	{
+		const auto& m = known.motion;
+		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x
+		        && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w && s.ori.z() == m.rotation.z
+		        && s.ori.w() == m.rotation.w;
+	}
+
+	/// Brings the state of the body of that id up to date, but for one that is gone, or was changed by somebody else since it was as in `asShown`.
+	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<BodyReading>& asShown)
+	{
+		if (!b.moved) return;
+		b.moved = false;
+		if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return;
+		setMotion(*body->state, b.motion);
+		if (id < asShown.size()) asShown[id] = b;
+	}
+}
+
+void Resident::displace(size_t id, const nonsmooth::contact::Twist& d)
+{
+	BodyReading& b = bodies[id];
+	if (b.planar) {
+		nonsmooth::contact::plane::displace(b.motion, d);
+		b.moved = true;
+		return;
+	}
+	State& s = *(*container.lock())[id]->state;
+	s.pos += Vector3r(d.x, d.y, 0);
+	if (d.w != 0) s.ori = (Quaternionr(AngleAxisr(d.w, Vector3r::UnitZ())) * s.ori).normalized();
+	readMotion(s, b);
+}
+
+void Resident::showBody(size_t id)
+{
+	if (bodies[id].moved) write(bodies[id], (*container.lock())[id], id, asShown);
+}
+
+void Resident::showBodies(const std::vector<int>& ids)
+{
+	std::vector<int> behind;
+	for (const int id : ids)
+		if (std::exchange(bodies[id].moved, false)) behind.push_back(id);
+	const auto kept  = container.lock();
+	const long count = (long)behind.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = 0; k < count; ++k) {
+		bodies[behind[k]].moved = true;
+		write(bodies[behind[k]], (*kept)[behind[k]], behind[k], asShown);
+	}
+}
+
+Vector3r Resident::contactPoint(const Reading& r) const
+{
+	if (r.wasRead || r.keeper != Reading::Arrays) return r.geom->contactPoint;
+	const Vector3r at(places[r.first].x, places[r.first].y, bodies[r.first].z), normal(r.nx, r.ny, r.nz);
+	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
+}
+
+/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor.
+void Resident::showContact(int slot) const
+{
+	const Reading& r = readings[slot];
+	if (r.keeper != Reading::Arrays || !r.phys || r.phys->touched) return;
+	ScGeom&   geom = *r.geom;
+	NscdPhys& phys = *r.phys;
+	if (!r.wasRead) {
+		geom.contactPoint     = contactPoint(r);
+		geom.penetrationDepth = -r.gap;
+		geom.radius1          = bodies[r.first].radius;
+		geom.radius2          = bodies[r.second].radius;
+		geom.normal           = Vector3r(r.nx, r.ny, r.nz);
+		phys.adhesion         = r.adhesion;
+		phys.currentFriction = phys.tangensOfFrictionAngle = r.friction;
+		phys.currentRollingArm                             = r.rollingArm;
+	}
+	if (r.bonded) {
+		phys.restGap   = r.restGap;
+		phys.yieldPath = vectorOf(r.path);
+		phys.yielded   = r.yielded;
+	}
+	if (r.reacts) writeReactions(r);
+}
+
+void Resident::show(const string& who, bool staysKnown)
+{
+	const std::lock_guard<std::recursive_mutex> guard(lock);
+	const double                                begin = steadySeconds();
+	const auto                                  kept  = container.lock();
+	if (kept && contactsOwned) {
+		const long count = (long)order.size();
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k) {
+			if (k + (long)soon < count) {
+				const Reading& ahead = readings[order[k + soon].slot];
+				if (ahead.geom) fetch<partOfGeometry>(ahead.geom);
+				if (ahead.phys) fetch<partOfPhysics>(ahead.phys);
+			}
+			showContact(order[k].slot);
+		}
+		if (staysKnown) hold();
+	}
+	contactsKnown = staysKnown && (contactsOwned || contactsKnown);
+	if (kept && bodiesOwned) {
+		const long count = (long)std::min(bodies.size(), kept->size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long id = 0; id < count; ++id) {
+			if (id + (long)later < count) fetch<sizeof(Body)>((*kept)[id + later].get());
+			if (id + (long)soon < count && (*kept)[id + soon])
+				fetch<sizeof(State)>((*kept)[id + soon]->state.get());
+			write(bodies[id], (*kept)[id], id,
+			      asShown); // threads would wait for each other if each body asked for the container
+		}
+	}
+	if (bodiesOwned || contactsOwned) {
+		++shown;
+		shownTo = who;
+	}
+	bodiesOwned = contactsOwned = false;
+	lastShown                   = steadySeconds();
+	costOfLook                  = lastShown - begin;
+}
+
+std::unique_lock<std::recursive_mutex> Resident::betweenTurns()
+{
+	++waiting;
+	std::unique_lock<std::recursive_mutex> guard(lock);
+	--waiting;
+	return guard;
+}
+
+void Resident::showBetweenTurns()
+{
+	const auto guard = betweenTurns();
+	show();
+}
+
+void Resident::showForSaving()
+{
+	const auto guard = betweenTurns();
+	show("whoever saves");
+	beingSaved = PyGILState_Check();
+}
+
+void Resident::showOnly(const std::vector<int>& ids)
+{
+	const auto guard = betweenTurns();
+	if (contactsOwned) hold(); // a script may erase what the arrays point to
+	if (!bodiesOwned) return;
+	shownAlone.clear();
+	for (const int id : ids)
+		if (size_t(id) < bodies.size()) shownAlone.push_back(id);
+	showBodies(shownAlone);
+}
+
+/// Takes the bodies again that were shown alone; all where one of them is another body now.
+void Resident::takeShown(Scene& scene)
+{
+	const auto known = std::exchange(shownAlone, {});
+	for (const int id : known) {
+		BodyReading&      b   = bodies[id];
+		const BodyReading now = readBody((*scene.bodies)[id].get());
+		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped) {
+			show();
+			takeBodies(scene);
+			return;
+		}
+		b = now;
+		if (size_t(id) < asShown.size()) asShown[id] = now;
+	}
+}
+
+std::vector<double> Resident::disks()
+{
+	const auto          guard = betweenTurns();
+	const auto          kept  = container.lock();
+	std::vector<double> rows;
+	const size_t        count = bodiesOwned ? bodies.size() : kept->size();
+	rows.reserve(8 * count);
+	for (size_t id = 0; id < count; ++id) {
+		const BodyReading b = bodiesOwned ? bodies[id] : readBody((*kept)[id].get());
+		if (!b.present || !(b.radius > 0)) continue;
+		const auto& m = b.motion;
+		rows.insert(
+		        rows.end(),
+		        { double(id), m.position.x, m.position.y, double(b.radius),
+		          2 * std::atan2(m.rotation.z, m.rotation.w), m.velocity.x, m.velocity.y, m.velocity.w });
+	}
+	return rows;
+}
+
+} // namespace yade::nscd

@@ -1,0 +1,69 @@
+// An engine's turn: what it takes when it begins, and to whom it shows what it has done when it ends.
+#include "../StageClock.hpp"
+#include "Audience.hpp"
+#include "Resident.hpp"
+#include <lib/pyutil/gil.hpp>
+#include <thread>
+
+namespace yade::nscd {
+
+namespace {
+	/// Shows what a thread leaves when it ends: YADE starts one for each O.run, and O.pause() may end it behind our last look.
+	struct ThreadEnd {
+		std::weak_ptr<Resident> last;
+		~ThreadEnd()
+		{
+			if (const auto resident = last.lock()) resident->show();
+		}
+	};
+	thread_local ThreadEnd threadEnd;
+}
+
+Turn::Turn(Engine& engine_, int threads)
+        : engine(engine_)
+        , data(Resident::of(*engine_.scene))
+        , locked(data->lock, std::defer_lock)
+{
+	while (data->waiting > 0)
+		std::this_thread::yield();
+	locked.lock();
+	while (data->beingSaved) {
+		locked.unlock(); // whoever saves may look again
+		const gilLock saved;
+		locked.lock();
+		data->beingSaved = false;
+	}
+	Scene& scene  = *engine.scene;
+	data->threads = threads;
+	if (data->isBehind(scene)) {
+		if (data->bodiesOwned || data->contactsOwned) data->show();
+		data->contactsKnown = false;
+	}
+	if (!data->bodiesOwned) data->takeBodies(scene);
+	else if (!data->shownAlone.empty())
+		data->takeShown(scene);
+	if (data->contactsKnown && onlyPythonBefore(scene, engine)) data->takeKnown(scene);
+	data->contactsKnown = false;
+}
+
+void Turn::end()
+{
+	Scene& scene  = *engine.scene;
+	Viewer viewer = whoLooksAfter(scene, engine);
+	if (viewer.name.empty() && othersMayLook(scene)) {
+		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
+		threadEnd.last = data;
+		if (steadySeconds() - data->lastShown > std::max(0.05, 50 * data->costOfLook))
+			viewer = { "others, now and then", true };
+	}
+	if (!viewer.name.empty()) data->show(viewer.name, viewer.isPython);
+	data->interactionsSeen = scene.interactions->size();
+	ended                  = true;
+}
+
+Turn::~Turn()
+{
+	if (!ended) data->show();
+}
+
+} // namespace yade::nscd
