@@ -252,6 +252,18 @@ def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):
         ) and ax.get_ylim() == pytest.approx((-36, 36))
 
 
+def test_changes_are_over_the_mean_of_the_reference_and_of_the_same_seeds():
+    """A slope that does not stand counts with the 0 m of water that it bears."""
+    values = {1.0: {1: 10.0, 2: 0.0}, 10.0: {1: 13.0, 2: 4.0, 3: 99.0}, 20.0: {1: 14.0, 2: 5.0}}
+    swept = convergence.Sweep("tolerance", "-", 1.0, values)
+    # 3 and 4 m over a mean of 5 m: 0.7, and half their difference as its standard error
+    assert swept.change(10.0, 1.0) == pytest.approx((0.7, 0.1))
+    # 20 is coarser than ten times the default
+    assert swept.largest_step() == pytest.approx((0.7, 0.1))
+    steep = convergence.Sweep("tolerance", "-", 2.0, values | {20.0: {1: 40.0, 2: 40.0}})
+    assert steep.largest_step() == pytest.approx((((40 - 13) + (40 - 4)) / 17, abs(36 - 27) / 17))
+
+
 def test_time_is_that_of_the_series():
     """A series that begins at 20 s, as one since the dry rest does."""
     late = lambda series: {

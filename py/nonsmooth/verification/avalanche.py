@@ -92,7 +92,7 @@ def whole_avalanche(bench):
     )
     looser = 5 * tight
     case = lambda seed, moving, **more: dict(
-        disks=disks, seed=seed, strength=1.0, time_step=step, tolerance=tolerance, tolerance_moving=moving, **more
+        disks=disks, seed=seed, time_step=step, tolerance=tolerance, tolerance_moving=moving, **more
     )  # noqa: E731
     kinds = {
         f"tolerance in motion {tight:g}": [case(seed, tight) for seed in seeds],
