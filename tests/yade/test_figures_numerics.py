@@ -244,12 +244,12 @@ def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):
     )
     for ax in relative.axes:
         assert [drawn.points(one)[:, 1] for one in ax.lines if one.get_alpha() == 0.5] == [
-            pytest.approx([0, 10, 30]),
-            pytest.approx([0, 5, 20]),
+            pytest.approx([0, 10 / 1.5, 20]),  # over the mean of the finest, 150
+            pytest.approx([0, 10 / 1.5, 40 / 1.5]),
         ]
         assert drawn.points(ax.containers[0][0])[:, 1] == pytest.approx(
-            [0, 7.5, 25]
-        ) and ax.get_ylim() == pytest.approx((-36, 36))
+            [0, 10 / 1.5, 35 / 1.5]
+        ) and ax.get_ylim() == pytest.approx((-32, 32))
 
 
 def test_changes_are_over_the_mean_of_the_reference_and_of_the_same_seeds():

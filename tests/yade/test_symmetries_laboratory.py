@@ -61,6 +61,7 @@ def pressed(names=None, order=None, length=1.0, pressure=1.0, density=1.0, steps
     walls.pressure = PRESSURE * pressure
     for _ in range(steps):
         walls.step()
+    scene.contact_dynamics().view()
     found = np.array([np.array(O.bodies[ids[k]].state.pos)[:2] for k in range(24)]) / length
     at = {name: np.array(walls.place(names[name]))[:2] / length for name in SIDES}
     if names == MIRROR:
@@ -81,7 +82,8 @@ def here():
     found = pressed()
     O.reset()
     places, walls, stresses, _ = found
-    # they have come in and press; rough platens keep it from the left one
+    # all disks are up to date, and above their first places or beside them; the walls have come in and press; rough platens keep it from the left one
+    assert np.abs(places - disks()[0]).max(axis=1).min() > 1e-3
     assert walls[0] < WIDTH - 0.1 and walls[1] < HEIGHT - 0.1 and (stresses > 0.5).sum() == 3
     return found
 

@@ -203,17 +203,18 @@ class Sweep:
     def draw(self, ax, scale, relative):
         """Every seed as a thin line, the mean with its standard error as a thick one; the default as a dashed vertical.
 
-        ``relative``: changes from the finest value in per cent instead of the quantity times ``scale``.
+        ``relative``: changes from the finest value in per cent of its mean (see :meth:`change`) instead of the quantity times ``scale``.
         """
         order, points = sorted(self.values), {}
         for v in order:
             for seed, x in self.values[v].items():
                 points.setdefault(seed, {})[v] = x * scale
         if relative:
+            points = {seed: line for seed, line in points.items() if self.finest in line}
+            mean = np.mean([line[self.finest] for line in points.values()])
             points = {
-                seed: {v: 100 * (x / line[self.finest] - 1) for v, x in line.items()}
+                seed: {v: 100 * (x - line[self.finest]) / mean for v, x in line.items()}
                 for seed, line in points.items()
-                if self.finest in line
             }
         for line in points.values():
             ax.plot(line.keys(), line.values(), color="#0072B2", lw=0.8, alpha=0.5)
@@ -412,8 +413,7 @@ PRECISION = {
     "compression": (
         0.02,
         0.05,
-        "the sample fails along one of several paths, and anything that differs can lead to another one: half the "
-        "platen's speed by 2 to 4 %",
+        "the sample fails along one of several paths, and anything that differs can lead to another one, whose strength is another by some per cent",
     ),
     "tension": (0.005, 0.01, "the first crack's load; a bond's yield force does not depend on the step"),
 }
