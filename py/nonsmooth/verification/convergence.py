@@ -445,7 +445,7 @@ FULL = Slopes(
 QUICK = Slopes(0, (5e-3, 2.5e-3), 5e-3, (1e-4, 1e-5), 1e-4, (2e-3, 5e-4), 2e-3, 2, 2, 0.2, (0.15, 0.5))
 
 
-@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=2400, quick=15)
+@check("Failure and runout of the slope against time step and tolerance", subject=SUBJECT, seconds=3000, quick=15)
 def slope_convergence(bench):
     """The whole experiment of the shipped section, with 3,000 disks instead of 21,000. The packing is made once, with the section's own numbers, and bonded before
     gravity grows on it, so that all runs of a packing begin with the same disks and the same bonds: a packing that is bonded where it rests has other bonds with every
