@@ -497,7 +497,7 @@ def slope_convergence(bench):
             "water at failure",
             failure,
             k.limits[0],
-            "which bond breaks first differs with anything that differs, by up to 6 % of the height in one packing",
+            "which bond breaks first differs with anything that differs, by a few per cent of the height in most packings, by a quarter in one of ten",
         ),
         (
             "front_travel_m",
