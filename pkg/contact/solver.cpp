@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <contact/active_strips.hpp>
 #include <contact/contact_blocks.hpp>
+#include <contact/extrapolation.hpp>
 #include <contact/law.hpp>
 #include <contact/problem_check.hpp>
 #include <contact/solver.hpp>
@@ -12,74 +14,6 @@
 namespace nonsmooth::contact {
 namespace {
 
-	/// Whether the extrapolation should begin anew, asked at every look at the residual.
-	class RestartRule {
-	public:
-		RestartRule(double residual, int sweepsPerLook)
-		        : last(residual)
-		        , beforeLast(residual)
-		        , least(residual)
-		        , mostPatience(std::max(1, 40 / sweepsPerLook))
-		{
-		}
-
-		bool asks(double residual)
-		{
-			least = std::min(least, residual);
-			if (residual > 2 * least) { // it runs away
-				patience = std::max(1, patience / 2);
-				begin(residual);
-				return true;
-			}
-			if (++looks < patience) return false;
-			const bool grown = residual > beforeLast;
-			if (grown) {
-				patience = std::min(2 * patience, mostPatience);
-				begin(residual);
-			} else {
-				beforeLast = last;
-				last       = residual;
-				looks      = 0;
-			}
-			return grown;
-		}
-
-	private:
-		void begin(double residual)
-		{
-			last = beforeLast = least = residual;
-			looks                     = 0;
-		}
-
-		double last, beforeLast; // at the last two comparisons
-		double least; // since the last restart
-		int    looks = 0, patience = 1, mostPatience; // looks since and between comparisons
-	};
-
-	/// The β of one sweep after the other; all 0 for plain Gauss-Seidel.
-	class Extrapolation {
-	public:
-		explicit Extrapolation(Method method)
-		        : accelerated(method == Method::Accelerated)
-		{
-		}
-
-		double next()
-		{
-			const double now = beta;
-			if (accelerated) {
-				const double after = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
-				beta               = (theta - 1) / after;
-				theta              = after;
-			}
-			return now;
-		}
-
-	private:
-		bool   accelerated;
-		double theta = 1, beta = 0;
-	};
-
 	/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
 	struct Row {
 		Contact     contact; // names bodies by their places
@@ -89,6 +23,8 @@ namespace {
 	};
 
 	constexpr std::size_t lastCache = 32 << 20; // bytes; of a common processor, and no more than a hint
+	// Sweeps for which a choice of strips holds at least, since each one takes momentum away; and at most: where looks at the residual are further apart, none rests.
+	constexpr int shortestRest = 10, longestRest = 15;
 
 	/// Few contacts are not worth waking threads for.
 	int threadsFor(const Problem& problem, const SolverSettings& settings)
@@ -119,6 +55,8 @@ namespace {
 		void                       begin();
 		void                       iterate();
 		void                       sweep(const std::vector<double>& betas);
+		void                       chooseStrips();
+		void                       loseMomentum(std::size_t strip);
 		void                       extrapolate(std::size_t strip, double beta);
 		void                       takeErrors(std::size_t strip, const std::vector<PositionError>& errors);
 		void                       sweepRow(std::size_t row, double beta);
@@ -134,8 +72,8 @@ namespace {
 		{
 			return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] };
 		}
-		Twist twist(std::int32_t body) const { return twistAt(laidOut.placeOf[body]); }
-		void  setTwists(const Row& row, const Twist& vi, const Twist& vj);
+		Twist       twist(std::int32_t body) const { return twistAt(laidOut.placeOf[body]); }
+		static void setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion>& in);
 
 		Problem&                  problem;
 		const SolverSettings&     settings;
@@ -144,6 +82,7 @@ namespace {
 		ContactBlocks&            laidOut;
 		bool                      outgrowsCache; // whether blocks have to be fetched from memory in every sweep
 		StripSchedule             schedule;
+		ActiveStrips              strips;
 		std::vector<Row>          rows;
 		std::vector<Motion>&      bodies; // by place; the last one is nobody
 		std::vector<Motion>&      bodiesBefore;
@@ -180,15 +119,16 @@ namespace {
 		}
 		bodies.back() = Motion {};
 		problem.velocities.resize(problem.bodyCount());
+		strips.reset(laidOut.order.partBegin, laidOut.order.evenStrips);
 		statistics.strips = static_cast<int>(laidOut.order.stripCount());
 	}
 
 	/// Leaves fixed bodies alone, which several threads may visit.
-	void Sweeper::setTwists(const Row& row, const Twist& vi, const Twist& vj)
+	void Sweeper::setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion>& in)
 	{
-		const auto set = [this](std::int32_t place, const InverseMass& mass, const Twist& v) {
+		const auto set = [&in](std::int32_t place, const InverseMass& mass, const Twist& v) {
 			if (mass.isFixed()) return;
-			Lanes& motion = bodies[place].v;
+			Lanes& motion = in[place].v;
 			motion[0]     = v.x;
 			motion[1]     = v.y;
 			motion[2]     = v.w;
@@ -245,7 +185,7 @@ namespace {
 			const Row& row = rows[k];
 			Twist      vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
 			applyImpulse(row.contact, row.p, row.mi, row.mj, vi, vj);
-			setTwists(row, vi, vj);
+			setTwists(row, vi, vj, bodies);
 		}
 	}
 
@@ -284,7 +224,65 @@ namespace {
 		Twist         vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
 		row.before = row.p;
 		row.p      = visit(row.contact, y, row.inverse, row.mi, row.mj, vi, vj);
-		setTwists(row, vi, vj);
+		setTwists(row, vi, vj, bodies);
+	}
+
+	/// Chooses the strips that are visited until the next choice.
+	void Sweeper::chooseStrips()
+	{
+		const auto& begin = laidOut.order.partBegin;
+		if (settings.method != Method::Accelerated || settings.checkEvery > longestRest
+		    || settings.stopping != StoppingTest::NaturalMap)
+			return;
+		if (begin.back() > begin[begin.size() - 2]) return; // what is left over moves bodies of any strip
+#pragma omp barrier
+#pragma omp single
+		if (strips.choose(sums)) schedule.plan(strips.work(), laidOut.order.evenStrips, omp_get_num_threads());
+		if (!strips.anyComesToRest()) return;
+		schedule.pass(omp_get_thread_num(), [this](std::size_t s) {
+			if (strips.comesToRest(s)) loseMomentum(s);
+		});
+#pragma omp barrier
+	}
+
+	/// A strip that comes to rest keeps its impulses P_k, so that P_k − P_{k−1} goes out of what its bodies' velocities are extrapolated by.
+	void Sweeper::loseMomentum(std::size_t s)
+	{
+		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
+			Block& k = laidOut.blocks[b];
+			for (std::size_t l = 0; l < lanes; ++l) {
+				if (laidOut.contactOf[b * lanes + l] == ContactBlocks::none) continue;
+				const double n = k.n[l] - k.beforeN[l], t = k.t[l] - k.beforeT[l],
+				             r  = k.r[l] - k.beforeR[l];
+				const double fx = k.nx[l] * n - k.ny[l] * t, fy = k.ny[l] * n + k.nx[l] * t;
+				Lanes &      vi = bodiesBefore[k.i[l]].v, &vj = bodiesBefore[k.j[l]].v;
+				if (k.movesI >> l & 1) {
+					vi[0] -= vi[3] * fx;
+					vi[1] -= vi[3] * fy;
+					vi[2] -= k.inverseInertiaI[l] * (k.leverTi[l] * t + r);
+				}
+				if (k.movesJ >> l & 1) {
+					vj[0] += vj[3] * fx;
+					vj[1] += vj[3] * fy;
+					vj[2] += k.inverseInertiaJ[l] * (k.leverTj[l] * t + r);
+				}
+				k.beforeN[l] = k.n[l];
+				k.beforeT[l] = k.t[l];
+				k.beforeR[l] = k.r[l];
+			}
+		}
+		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+			Row&       row    = rows[k];
+			const auto before = [this](std::int32_t place) {
+				const Lanes& v = bodiesBefore[place].v;
+				return Twist { v[0], v[1], v[2] };
+			};
+			Twist         vi = before(row.contact.i), vj = before(row.contact.j);
+			const Impulse lost { row.p.n - row.before.n, row.p.t - row.before.t, row.p.r - row.before.r };
+			applyImpulse(row.contact, lost, row.mi, row.mj, vi, vj);
+			setTwists(row, vi, vj, bodiesBefore);
+			row.before = row.p;
+		}
 	}
 
 	void Sweeper::extrapolate(std::size_t s, double beta)
@@ -296,8 +294,8 @@ namespace {
 		        beta);
 	}
 
-	/// One sweep for each beta, from what impulses and velocities become when they are extrapolated by it, and the residual after the last one, strip by strip
-	/// while it is at hand.
+	/// One sweep of the active strips for each beta, from what impulses and velocities become when they are extrapolated by it, and the residual after the last
+	/// one, strip by strip while it is at hand.
 	void Sweeper::sweep(const std::vector<double>& betas)
 	{
 		const int sweeps = static_cast<int>(betas.size());
@@ -305,11 +303,12 @@ namespace {
 		        omp_get_thread_num(), sweeps + 1,
 		        [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
 			        if (pass == sweeps) {
-				        measureStrip(s);
+				        if (strips.changes(s)) measureStrip(s);
 				        return;
 			        }
 			        const double beta = betas[pass];
-			        extrapolate(s, beta);
+			        if (s < laidOut.order.evenStrips && strips.moves(s)) extrapolate(s, beta);
+			        if (!strips.isActive(s)) return;
 			        Block* const      blocks = laidOut.blocks.data() + laidOut.blockBegin[s];
 			        const std::size_t count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
 			        if (ahead.parts > 0 && outgrowsCache) {
@@ -411,24 +410,39 @@ namespace {
 	void Sweeper::iterate()
 	{
 		Extrapolation       extrapolation(settings.method);
-		int                 restarts = 0, iteration = 0;
+		int                 restarts = 0;
+		const double        all      = std::max<std::size_t>(problem.contactCount(), 1);
+		double              made     = 0; // visits
+		int                 chosen   = shortestRest; // sweeps since the last choice of strips
 		RestartRule         rule(residual.rms, settings.checkEvery);
 		std::vector<double> betas; // of the sweeps until the next look at the residual
-		while (!solved(1) && iteration < settings.maxIterations) {
-			betas.resize(std::min(settings.checkEvery, settings.maxIterations - iteration));
+		while (!solved(1)) {
+			if (chosen >= shortestRest) {
+				chooseStrips();
+				chosen = 0;
+			}
+			// what a sweep counts for; threads wait for each other in short ones too
+			const double one = std::max(static_cast<double>(strips.contacts()), all / 4);
+			betas.resize(
+			        std::min<double>(settings.checkEvery, (settings.maxIterations * all - made) / one));
+			if (betas.empty()) break;
 			for (double& b : betas)
 				b = extrapolation.next();
 			sweep(betas);
-			iteration += static_cast<int>(betas.size());
+			made += static_cast<double>(betas.size()) * one;
+			chosen += static_cast<int>(betas.size());
 			sumUp();
 			if (!rule.asks(residual.rms) || settings.method != Method::Accelerated) continue;
 			++restarts;
 			extrapolation = Extrapolation(settings.method);
 		}
+#pragma omp barrier // others may still look at what is active
 #pragma omp single
 		{
-			statistics.iterations = iteration;
+			statistics.iterations = static_cast<int>(std::ceil(made / all));
 			statistics.restarts   = restarts;
+			if (strips.wakeAll())
+				schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
 		}
 	}
 

@@ -8,6 +8,7 @@
 // function scheme; over one it would restart too often where contacts change their status). Comparisons are checkEvery sweeps apart at
 // first; every restart doubles that, up to 40, because late in a solve the residual rises and falls over tens of sweeps, and needless
 // restarts cost most there. A residual of twice the smallest one since the last restart restarts at once, and halves the distance.
+// Strips that hold next to nothing of the residual rest until the next look at it (active_strips.hpp). Sweeps are counted by visits: one is as many as there are contacts, and one of few strips a quarter.
 // Contacts lie in blocks of four (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result
 // independent of the number of threads and of the processor; sums are added in a fixed order.
 //
@@ -39,7 +40,7 @@ struct SolverSettings {
 };
 
 struct SolverStatistics {
-	int  iterations = 0;
+	int  iterations = 0; // visits over contacts, a sweep of few strips being a quarter at least, rounded up
 	int  restarts   = 0;
 	int  strips     = 0;
 	bool converged  = true;

@@ -60,9 +60,9 @@ The solve ends when the natural-map residual (rms over contacts, relative to the
 and contactImpact. The same scene gives the same bits on any number of threads.)""",
 		((Real,tolerance,1e-4,,"Residual below which a step is solved [-], or the figures of another stoppingTest."))
 		((string,stoppingTest,"naturalMap",,"What tolerance is compared with: 'naturalMap' (the residual), or one of LMGC90's tests of the change of relative velocity that one more visit of a contact would make: 'Quad' (rms over active contacts), 'Maxm' (largest) or 'QM/16' (rms, and largest below 16.666 tolerances). The residual is measured and reported in any case."))
-		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning."))
+		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning; one is as many visits as there are contacts."))
 		((string,method,"accelerated",,"'accelerated' (Gauss-Seidel inside Nesterov's extrapolation) or 'gaussSeidel' (plain)."))
-		((int,checkEvery,10,,"Sweeps between two residuals."))
+		((int,checkEvery,10,,"Sweeps between two residuals. Up to 15, parts of the packing that hold next to nothing of the residual rest until the next one."))
 		((Real,relaxationRate,0.2,,"Share κ of an overlap or of a bond's error of length that one step takes back, by displacements that leave no velocity behind [-]; 0: no error of position is taken back at all."))
 		((Real,correctionSpeed,1,,"Largest speed of that correction [m/s]."))
 		((Real,correctionSlack,1e-4,,"Overlaps and errors of bonds' lengths up to this [ℓ] stay as they are; a packing whose least errors are taken back in every step does not come to rest."))

@@ -73,6 +73,10 @@ def ways_to_solve(bench):
                 )
         for method, way in ((SHIPPED, "accelerated"), (PLAIN, "gaussSeidel")):
             own = [contact.solve(problem, way, start=start, tolerance=t, max_iterations=most) for t in TOLERANCES]
+            # looks too seldom for strips to rest, which the prototype does not know
+            whole = contact.solve(
+                problem, way, start=start, tolerance=1e-3, max_iterations=most, check_every=2 * sweep_methods.LOOK
+            )
             rows.append(
                 [
                     name,
@@ -85,11 +89,11 @@ def ways_to_solve(bench):
                 near(
                     f"{name}: sweeps of {method} to 1e-3",
                     _work(curves[name, method], 1e-3),
-                    own[0].iterations,
-                    absolute=10,
+                    whole.iterations,
+                    absolute=20,
                     relative=0.02,
                     against="the solver in C++",
-                    why="one look; it visits strip by strip, the prototype the whole. No restart has decided by then",
+                    why="one of its looks, while no strip rests; it visits strip by strip, the prototype the whole. No restart has decided by then",
                 )
             )
         gain = min(_work(curves[name, PLAIN], 1e-4), most) / _work(curves[name, SHIPPED], 1e-4)

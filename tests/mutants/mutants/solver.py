@@ -5,6 +5,7 @@ LAW, KERNELS, PROBLEM, SLIP = ("pkg/contact/law.hpp", "pkg/contact/block_kernels
 SOLVER, BLOCKS, RESIDUAL, STOPPING = ("pkg/contact/solver.cpp", "pkg/contact/contact_blocks.cpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
 ORDER, CUT, SCHEDULE = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cpp", "pkg/contact/strip_schedule.cpp")
 WAVES = "pkg/contact/strip_schedule.hpp"
+STRIPS, EXTRAPOLATION = "pkg/contact/active_strips.cpp", "pkg/contact/extrapolation.hpp"
 CHECK, SURVEY = "pkg/contact/problem_check.hpp", "pkg/contact/problem_survey.cpp"
 GRID, NEAR, REGIONS = "pkg/neighbours/disk_grid.cpp", "pkg/neighbours/disk_grid.hpp", "pkg/neighbours/regions.cpp"
 CUT_KEPT = "survey.pairsKept && !moved && bins == binsBefore && scratch.width == widthBefore"  # of strip_cut.cpp
@@ -35,10 +36,23 @@ MUTANTS = (
            "gtest:Blocks.Reference*:OneContact*"),
     mutant("largest-of-lanes", KERNELS, "sums.largest < largest[l]", "sums.largest > largest[l]", "the largest residual is the smallest of the lanes",
            "gtest:Blocks.Reported*:Residual.*"),
-    mutant("restart-rule", SOLVER, "residual > beforeLast", "residual < beforeLast", "the extrapolation begins anew where the residual falls",
+    mutant("restart-rule", EXTRAPOLATION, "residual > beforeLast", "residual < beforeLast", "the extrapolation begins anew where the residual falls",
            "gtest:Reference.*:Pinned.*"),
-    mutant("nesterov-theta", SOLVER, "0.5 * (1 + std::sqrt(1 + 4 * theta * theta))", "0.5 * (1 + std::sqrt(1 + 2 * theta * theta))", "a factor in Nesterov's sequence",
+    mutant("nesterov-theta", EXTRAPOLATION, "0.5 * (1 + std::sqrt(1 + 4 * theta * theta))", "0.5 * (1 + std::sqrt(1 + 2 * theta * theta))", "a factor in Nesterov's sequence",
            "gtest:Pinned.*:Reference.*"),
+    # ---- strips that rest
+    mutant("strips-share", STRIPS, "!(sums[s].square <= bound)", "!(sums[s].square <= 0 * bound)", "no strip rests", "gtest:ActiveStrips.*"),
+    mutant("strips-beside", STRIPS, "return active[even] || (even > 0 && active[before]) || (after < active.size() && active[after]);",
+           "return active[even] || (after < active.size() && active[after]);", "bodies of a strip are not extrapolated where the strip before it moves them",
+           "gtest:ActiveStrips.*"),
+    mutant("strips-measured", STRIPS, "return active[before] || (after < evenStrips && active[after]);", "return active[before];",
+           "a strip's residual stays though the strip after it is active", "gtest:ActiveStrips.*"),
+    mutant("strips-momentum", SOLVER, "vj[0] += vj[3] * fx;", "vj[0] -= vj[3] * fx;", "a strip that comes to rest leaves momentum in velocities",
+           "gtest:ActiveStrips.*"),
+    mutant("strips-momentum-rows", SOLVER, "setTwists(row, vi, vj, bodiesBefore);", "setTwists(row, vi, vj, bodies);",
+           "contacts outside blocks push bodies when they come to rest", "gtest:ActiveStrips.*"),
+    mutant("strips-left-over", SOLVER, "begin.back() > begin[begin.size() - 2]", "false", "strips rest though contacts of no strip move their bodies",
+           "gtest:Threads.*"),
     mutant("residual-mean", SOLVER, "std::sqrt(all.square / n)", "std::sqrt(all.square)", "the residual is a sum and no mean over contacts",
            "gtest:Residual.*:Blocks.Reported*"),
     mutant("position-held", SOLVER, "errors[index].held ? without : 0", "errors[index].held ? 0 : without",
