@@ -111,7 +111,7 @@ TEST(ActiveStrips, SolveTheSameProblemWithFewerVisits)
 			const auto whole = solve(all, s);
 			EXPECT_TRUE(rest.converged && whole.converged) << mixed << reference;
 			EXPECT_LE(naturalMapResidual(p).relative(), 1e-8 * (1 + 1e-6)) << mixed << reference;
-			// three of 300 columns are hit: most of it has nothing to do
+			// four disks of 300 columns are hit: most of it has nothing to do
 			EXPECT_LT(rest.iterations, 0.7 * whole.iterations) << mixed << reference;
 		}
 }
