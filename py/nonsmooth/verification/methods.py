@@ -90,10 +90,10 @@ def ways_to_solve(bench):
                     f"{name}: sweeps of {method} to 1e-3",
                     _work(curves[name, method], 1e-3),
                     whole.iterations,
-                    absolute=20,
+                    absolute=10,
                     relative=0.02,
                     against="the solver in C++",
-                    why="one of its looks, while no strip rests; it visits strip by strip, the prototype the whole. No restart has decided by then",
+                    why="one look, while no strip rests; it visits strip by strip, the prototype the whole. No restart has decided by then",
                 )
             )
         gain = min(_work(curves[name, PLAIN], 1e-4), most) / _work(curves[name, SHIPPED], 1e-4)
