@@ -74,6 +74,8 @@ struct BlockKernels {
 	/// Both for normal impulses alone, as if neither friction nor rolling resistance nor impulses of theirs were there: the same bits.
 	void (*sweepNormals)(Block* blocks, std::size_t count, Motion* bodies, double beta);
 	void (*applyNormals)(const Block* blocks, std::size_t count, Motion* bodies);
+	/// before += M⁻¹ Hᵀ (P_k − P_{k−1}), P_{k−1} ← P_k: what is extrapolated next is zero.
+	void (*rest)(Block* blocks, std::size_t count, Motion* before);
 	/// Natural-map residual; one `inverseLength` a block.
 	ResidualSums (*measure)(
 	        const Block* blocks, const InverseLength* inverseLength, std::size_t count, const Motion* bodies);

@@ -10,6 +10,7 @@
 #include <omp.h>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace nonsmooth::contact {
 namespace {
@@ -239,38 +240,22 @@ namespace {
 #pragma omp single
 		if (strips.choose(sums)) schedule.plan(strips.work(), laidOut.order.evenStrips, omp_get_num_threads());
 		if (!strips.anyComesToRest()) return;
-		schedule.pass(omp_get_thread_num(), [this](std::size_t s) {
-			if (strips.comesToRest(s)) loseMomentum(s);
-		});
-#pragma omp barrier
+		// one worker's stretch may have most of them, so each takes what comes next; no two even strips share bodies, nor do two odd ones
+		const long even = static_cast<long>(laidOut.order.evenStrips),
+		           all  = static_cast<long>(begin.size()) - 2;
+		for (const auto& [first, end] : { std::pair(0L, even), std::pair(even, all) }) {
+#pragma omp for schedule(dynamic, 1)
+			for (long s = first; s < end; ++s)
+				if (strips.comesToRest(s)) loseMomentum(s);
+		}
 	}
 
 	/// A strip that comes to rest keeps its impulses P_k, so that P_k − P_{k−1} goes out of what its bodies' velocities are extrapolated by.
 	void Sweeper::loseMomentum(std::size_t s)
 	{
-		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
-			Block& k = laidOut.blocks[b];
-			for (std::size_t l = 0; l < lanes; ++l) {
-				if (laidOut.contactOf[b * lanes + l] == ContactBlocks::none) continue;
-				const double n = k.n[l] - k.beforeN[l], t = k.t[l] - k.beforeT[l],
-				             r  = k.r[l] - k.beforeR[l];
-				const double fx = k.nx[l] * n - k.ny[l] * t, fy = k.ny[l] * n + k.nx[l] * t;
-				Lanes &      vi = bodiesBefore[k.i[l]].v, &vj = bodiesBefore[k.j[l]].v;
-				if (k.movesI >> l & 1) {
-					vi[0] -= vi[3] * fx;
-					vi[1] -= vi[3] * fy;
-					vi[2] -= k.inverseInertiaI[l] * (k.leverTi[l] * t + r);
-				}
-				if (k.movesJ >> l & 1) {
-					vj[0] += vj[3] * fx;
-					vj[1] += vj[3] * fy;
-					vj[2] += k.inverseInertiaJ[l] * (k.leverTj[l] * t + r);
-				}
-				k.beforeN[l] = k.n[l];
-				k.beforeT[l] = k.t[l];
-				k.beforeR[l] = k.r[l];
-			}
-		}
+		kernels.rest(
+		        laidOut.blocks.data() + laidOut.blockBegin[s],
+		        laidOut.blockBegin[s + 1] - laidOut.blockBegin[s], bodiesBefore.data());
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 			Row&       row    = rows[k];
 			const auto before = [this](std::int32_t place) {

@@ -50,6 +50,23 @@ namespace {
 		        + ": add one to the list";
 	}
 
+	/// Asks for what functors will look at of a contact that comes soon, and of one that comes later.
+	void fetchAhead(const nscd::Resident& resident, const Scene& scene, int nextSlot, int laterSlot)
+	{
+		const Reading &next = resident.readings[nextSlot], &later = resident.readings[laterSlot];
+		fetch<sizeof(Interaction)>(later.interaction);
+		fetch<sizeof(SegmentGeom)>(later.geom);
+		fetch<sizeof(SlipWeakeningPhys)>(later.phys);
+		for (const int id : { later.first, later.second })
+			fetch<sizeof(Body)>((*scene.bodies)[id].get());
+		for (const int id : { next.first, next.second }) {
+			const auto& body = (*scene.bodies)[id];
+			if (!body) continue;
+			fetch<sizeof(State)>(body->state.get());
+			fetch<sizeof(Segment)>(body->shape.get());
+		}
+	}
+
 	/// One interaction as YADE's loop treats it; returns false where it should be erased.
 	bool visit(const shared_ptr<Interaction>& I, Scene& scene, InteractionLoop& loop)
 	{
@@ -246,26 +263,25 @@ void NscdInteractionLoop::visitOthers(
 		        reach * (1 + 1e-6), static_cast<const Segment&>(*(*scene->bodies)[i.getId1()]->shape),
 		        p1.motion, p2.motion.position);
 	};
-	std::vector<char> near(resident.potential.size(), 1);
+	std::vector<char> isNear(resident.potential.size(), 1);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (long)near.size(); ++k) {
-		if (k + (long)soon < (long)near.size())
+	for (long k = 0; k < (long)isNear.size(); ++k) {
+		if (k + (long)soon < (long)isNear.size())
 			fetch<sizeof(Interaction)>(resident.potential[k + soon].interaction.get());
-		near[k] = !isOutOfReach(*resident.potential[k].interaction);
+		isNear[k] = !isOutOfReach(*resident.potential[k].interaction);
 	}
+	std::vector<int> near; // places among the potential ones
+	for (size_t k = 0; k < isNear.size(); ++k)
+		if (isNear[k]) near.push_back(int(k));
 	std::vector<int> looked; // bodies that functors will look at
-	const auto       look = [&](int id) {
-                if (isThere(id)) looked.push_back(id);
+	const auto       look = [&](const auto& pair) {
+                for (const int id : { pair.low, pair.high })
+                        if (isThere(id)) looked.push_back(id);
 	};
-	for (const int k : others) {
-		look(resident.order[k].low);
-		look(resident.order[k].high);
-	}
-	for (size_t k = 0; k < near.size(); ++k)
-		if (near[k]) {
-			look(resident.potential[k].low);
-			look(resident.potential[k].high);
-		}
+	for (const int k : others)
+		look(resident.order[k]);
+	for (const int k : near)
+		look(resident.potential[k]);
 	resident.showBodies(looked);
 
 	std::string       error; // thrown after the loop, since threads may not
@@ -273,10 +289,13 @@ void NscdInteractionLoop::visitOthers(
 	std::vector<char> ends(known, 0);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < all; ++k) {
-		if (k >= known && !near[k - known]) continue;
+		if (k + (long)soon < known)
+			fetchAhead(
+			        resident, *scene, resident.order[others[k + soon / 2]].slot,
+			        resident.order[others[k + soon]].slot);
 		const int                      slot  = k < known ? resident.order[others[k]].slot : -1;
 		const shared_ptr<Interaction>& I     = k < known ? list[resident.readings[slot].interaction->linIx]
-		                                                 : resident.potential[k - known].interaction;
+		                                                 : resident.potential[near[k - known]].interaction;
 		bool                           stays = false;
 		try {
 			stays = visit(I, *scene, *this);
@@ -295,10 +314,11 @@ void NscdInteractionLoop::visitOthers(
 	}
 	if (!error.empty()) throw std::runtime_error(error);
 	size_t left = 0;
-	for (auto& p : resident.potential) {
-		if (p.interaction->isReal()) resident.add(p.interaction);
+	for (size_t k = 0; k < isNear.size(); ++k) {
+		auto& p = resident.potential[k];
+		if (isNear[k] && p.interaction->isReal()) resident.add(p.interaction);
 		else {
-			if (&resident.potential[left] != &p) resident.potential[left] = std::move(p);
+			if (left != k) resident.potential[left] = std::move(p);
 			++left;
 		}
 	}

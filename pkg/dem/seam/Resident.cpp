@@ -184,33 +184,40 @@ void Resident::add(const shared_ptr<Interaction>& interaction)
 void Resident::merge(InteractionContainer& list)
 {
 	if (come.empty() && gone.empty()) return;
-	const auto before = [](const Place& a, const Place& b) {
+	const auto isBefore = [](const Place& a, const Place& b) {
 		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
 	};
-	std::sort(come.begin(), come.end(), before);
+	std::sort(come.begin(), come.end(), isBefore);
 	std::sort(gone.begin(), gone.end());
 	merged.clear();
 	merged.reserve(order.size() + come.size());
-	auto next    = come.begin();
-	auto leaving = gone.begin();
-	for (size_t k = 0; k < order.size(); ++k) {
-		const Place& place = order[k];
-		if (leaving != gone.end() && size_t(*leaving) == k) {
+	const auto leave = [&](const Place& place) {
+		Reading&   r           = readings[place.slot];
+		const auto interaction = list[r.interaction->linIx];
+		list.requestErase(interaction);
+		addPotential(interaction);
+		r = Reading {};
+		if (held) holders[place.slot] = {};
+		freeSlots.push_back(place.slot);
+	};
+	auto       at = order.begin(), next = come.begin();
+	auto       leaving  = gone.begin();
+	const auto takeUpTo = [&](auto end) { // of those that stay, which are almost all
+		merged.insert(merged.end(), at, end);
+		at = end;
+	};
+	while (next != come.end() || leaving != gone.end()) {
+		const auto left   = leaving == gone.end() ? order.end() : order.begin() + *leaving;
+		const auto before = next == come.end() ? order.end()
+		                                       : std::lower_bound(at, order.end(), *next, isBefore);
+		takeUpTo(std::min(left, before));
+		if (leaving != gone.end() && at == left) {
+			leave(*at++);
 			++leaving;
-			Reading&   r           = readings[place.slot];
-			const auto interaction = list[r.interaction->linIx];
-			list.requestErase(interaction);
-			addPotential(interaction);
-			r = Reading {};
-			if (held) holders[place.slot] = {};
-			freeSlots.push_back(place.slot);
-			continue;
-		}
-		for (; next != come.end() && before(*next, place); ++next)
-			merged.push_back(*next);
-		merged.push_back(place);
+		} else
+			merged.push_back(*next++);
 	}
-	merged.insert(merged.end(), next, come.end());
+	takeUpTo(order.end());
 	strewn += come.size();
 	come.clear();
 	gone.clear();

@@ -50,12 +50,17 @@ void Resident::showBody(size_t id)
 void Resident::showBodies(const std::vector<int>& ids)
 {
 	std::vector<int> behind;
-	for (const int id : ids)
-		if (std::exchange(bodies[id].moved, false)) behind.push_back(id);
+	for (size_t k = 0; k < ids.size(); ++k) {
+		if (k + later < ids.size()) fetch<1>(&bodies[ids[k + later]].moved);
+		if (std::exchange(bodies[ids[k]].moved, false)) behind.push_back(ids[k]);
+	}
 	const auto kept  = container.lock();
 	const long count = (long)behind.size();
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
+		if (k + (long)later < count) fetch<sizeof(Body)>((*kept)[behind[k + later]].get());
+		if (k + (long)soon < count)
+			if (const auto& body = (*kept)[behind[k + soon]]) fetch<sizeof(State)>(body->state.get());
 		bodies[behind[k]].moved = true;
 		write(bodies[behind[k]], (*kept)[behind[k]], behind[k], asShown);
 	}

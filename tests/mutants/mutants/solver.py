@@ -47,7 +47,7 @@ MUTANTS = (
            "gtest:ActiveStrips.*"),
     mutant("strips-measured", STRIPS, "return active[before] || (after < evenStrips && active[after]);", "return active[before];",
            "a strip's residual stays though the strip after it is active", "gtest:ActiveStrips.*"),
-    mutant("strips-momentum", SOLVER, "vj[0] += vj[3] * fx;", "vj[0] -= vj[3] * fx;", "a strip that comes to rest leaves momentum in velocities",
+    mutant("strips-momentum", KERNELS, "push<Access>(k, at, n - at.get(k, &Block::beforeN)", "push<Access>(k, at, at.get(k, &Block::beforeN) - n", "a strip that comes to rest leaves momentum in velocities",
            "gtest:ActiveStrips.*"),
     mutant("strips-momentum-rows", SOLVER, "setTwists(row, vi, vj, bodiesBefore);", "setTwists(row, vi, vj, bodies);",
            "contacts outside blocks push bodies when they come to rest", "gtest:ActiveStrips.*"),
