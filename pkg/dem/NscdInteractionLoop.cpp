@@ -50,16 +50,26 @@ namespace {
 		        + ": add one to the list";
 	}
 
-	/// Asks for what functors will look at of a contact that comes soon, and of one that comes later.
-	void fetchAhead(const nscd::Resident& resident, const Scene& scene, int nextSlot, int laterSlot)
+	/// What functors will look at of a contact. Noted before the loop: in it other threads write readings.
+	struct Ahead {
+		const void *interaction, *geom, *phys;
+		int         low, high;
+	};
+
+	/// Asks for the contact's objects and its bodies.
+	void fetchObjects(const Ahead& a, const Scene& scene)
 	{
-		const Reading &next = resident.readings[nextSlot], &later = resident.readings[laterSlot];
-		fetch<sizeof(Interaction)>(later.interaction);
-		fetch<sizeof(SegmentGeom)>(later.geom);
-		fetch<sizeof(SlipWeakeningPhys)>(later.phys);
-		for (const int id : { later.first, later.second })
+		fetch<sizeof(Interaction)>(a.interaction);
+		fetch<sizeof(SegmentGeom)>(a.geom);
+		fetch<sizeof(SlipWeakeningPhys)>(a.phys);
+		for (const int id : { a.low, a.high })
 			fetch<sizeof(Body)>((*scene.bodies)[id].get());
-		for (const int id : { next.first, next.second }) {
+	}
+
+	/// Asks for what its bodies point to, once these are at hand.
+	void fetchBodies(const Ahead& a, const Scene& scene)
+	{
+		for (const int id : { a.low, a.high }) {
 			const auto& body = (*scene.bodies)[id];
 			if (!body) continue;
 			fetch<sizeof(State)>(body->state.get());
@@ -278,8 +288,16 @@ void NscdInteractionLoop::visitOthers(
                 for (const int id : { pair.low, pair.high })
                         if (isThere(id)) looked.push_back(id);
 	};
-	for (const int k : others)
-		look(resident.order[k]);
+	std::vector<Ahead> ahead;
+	ahead.reserve(others.size());
+	for (size_t k = 0; k < others.size(); ++k) {
+		if (k + soon < others.size())
+			fetch<sizeof(Reading)>(&resident.readings[resident.order[others[k + soon]].slot]);
+		const auto&    place = resident.order[others[k]];
+		const Reading& r     = resident.readings[place.slot];
+		look(place);
+		ahead.push_back({ r.interaction, r.geom, r.phys, place.low, place.high });
+	}
 	for (const int k : near)
 		look(resident.potential[k]);
 	resident.showBodies(looked);
@@ -289,10 +307,10 @@ void NscdInteractionLoop::visitOthers(
 	std::vector<char> ends(known, 0);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < all; ++k) {
-		if (k + (long)soon < known)
-			fetchAhead(
-			        resident, *scene, resident.order[others[k + soon / 2]].slot,
-			        resident.order[others[k + soon]].slot);
+		if (k + (long)soon < known) {
+			fetchObjects(ahead[k + soon], *scene);
+			fetchBodies(ahead[k + soon / 2], *scene);
+		}
 		const int                      slot  = k < known ? resident.order[others[k]].slot : -1;
 		const shared_ptr<Interaction>& I     = k < known ? list[resident.readings[slot].interaction->linIx]
 		                                                 : resident.potential[near[k - known]].interaction;
