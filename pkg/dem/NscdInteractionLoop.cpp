@@ -20,7 +20,7 @@ namespace yade {
 YADE_PLUGIN((NscdInteractionLoop));
 
 namespace {
-	using nscd::fetch, nscd::soon, nscd::Reading;
+	using nscd::fetch, nscd::soon, nscd::later, nscd::Reading;
 	namespace plane = nonsmooth::contact::plane;
 
 	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just now, some steps ago, or loaded.
@@ -177,7 +177,12 @@ void NscdInteractionLoop::action()
 #pragma omp for schedule(static)
 		for (long k = 0; k < count; ++k) {
 			const int slot = resident.order[k].slot;
-			Reading&  r    = resident.readings[slot];
+			if (k + (long)later < count) {
+				const int ahead = resident.order[k + later].slot;
+				fetch<nscd::commonOfReading>(&resident.readings[ahead]);
+				fetch<sizeof(nscd::BondReading)>(&resident.bonds[ahead]);
+			}
+			Reading& r = resident.readings[slot];
 			// functors in use and the contact's own are what they were, or it was read anew; its bodies may have changed
 			if (r.keeper == Reading::Unknown || !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]))
 				r.keeper = keeperOf(r);
@@ -213,7 +218,7 @@ bool NscdInteractionLoop::follow(
 	const auto  at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius, dz);
 	r.nx           = at.nx;
 	r.ny           = at.ny;
-	r.nz           = dz / at.distance;
+	r.nz           = dz == 0 && at.distance > 0 ? dz : dz / at.distance;
 	r.gap          = at.gap;
 	if (r.broken != NscdPhys::None && !r.phys->breaks) r.broken = NscdPhys::None; // that was the step before
 	bool       refresh = r.wasRead; // a script may have changed its strengths

@@ -312,28 +312,34 @@ void PlanarGridCollider::findNear()
 		auto& comes = partOfThread(near);
 		auto& speed = partOfThread(fastestOf);
 #pragma omp for schedule(static)
-		for (long i = 0; i < size; ++i)
+		for (long i = 0; i < size; ++i) {
+			const Disk a    = disks[i];
+			const auto v    = velocities[i];
+			Real       most = decides ? speed[i] : 0;
 			for (int k = pairs.begin[i]; k < pairs.begin[i + 1]; ++k) {
-				const int  j     = pairs.second[k];
-				const Real reach = factor * (disks[i].r + disks[j].r), dx = disks[j].x - disks[i].x,
-				           dy = disks[j].y - disks[i].y, apart = dx * dx + dy * dy;
-				if (!(apart <= reach * reach * (1 + 1e-9)))
+				const int   j     = pairs.second[k];
+				const Disk& b     = disks[j];
+				const Real  reach = factor * (a.r + b.r), dx = b.x - a.x, dy = b.y - a.y,
+				           apart = dx * dx + dy * dy;
+				if (!(apart <= reach * reach * (1 + 1e-9))) {
 					known[k] = 0; // the functor decides, with rounding of its own
-				else if (!known[k])
+					if (apart > reach * reach) continue;
+				} else if (!known[k])
 					comes.emplace_back(int(i), k);
 				if (!decides) continue;
-				const Real x = velocities[j].x - velocities[i].x, y = velocities[j].y - velocities[i].y,
-				           square = x * x + y * y;
-				if (square <= std::min(speed[i], speed[j]) || apart > reach * reach) continue;
+				const Real x = velocities[j].x - v.x, y = velocities[j].y - v.y, square = x * x + y * y;
+				if (square <= std::min(most, speed[j]) || apart > reach * reach) continue;
 				// by itself it must be wanted, so that it does not matter when pairs were looked up
 				const Real sure = wantedWithin(int(i), j, 0); // most are within it, which needs no root
 				if (apart > sure * sure) {
 					const Real wanted = wantedWithin(int(i), j, std::sqrt(square));
 					if (apart > wanted * wanted) continue;
 				}
-				speed[i] = std::max(speed[i], square);
+				most     = std::max(most, square);
 				speed[j] = std::max(speed[j], square);
 			}
+			if (decides) speed[i] = most;
+		}
 		if (decides) {
 #pragma omp for schedule(static)
 			for (long i = 0; i < size; ++i) {

@@ -136,7 +136,8 @@ TEST(PlaneDisks, LeversAreThoseFromTheCentresToTheContact)
 {
 	const Point       x1 { 0.2, -0.1 }, x2 { 1.1, 1.3 };
 	const DiskContact d = diskContact(x1, x2, 0.9, 0.7);
-	const Contact     c = diskFrame(3, 8, d.nx, d.ny, 0.9, 0.7, d.gap);
+	Contact           c;
+	setDiskFrame(c, 3, 8, d.nx, d.ny, 0.9, 0.7, d.gap);
 	EXPECT_EQ(c.i, 3);
 	EXPECT_EQ(c.j, 8);
 	EXPECT_NEAR(c.leverTi, (d.point.x - x1.x) * d.nx + (d.point.y - x1.y) * d.ny, 4e-16); // ρ·n, rounding
@@ -219,6 +220,12 @@ TEST(PlaneBond, LivesInsideItsEllipse)
 	EXPECT_FALSE(bondLives({ 0, 0.05 }, zone));
 	EXPECT_TRUE(bondLives({ 0.012 - 1e-6, 0.04 }, zone)); // 0.6² + 0.8² = 1
 	EXPECT_FALSE(bondLives({ 0.012 + 1e-6, 0.04 }, zone));
+	for (int k = 0; k < 360; ++k) { // all around; 1e-9 is much more than rounding
+		const double x = zone.normal * std::cos(k * 0.0174532925),
+		             y = zone.tangential * std::sin(k * 0.0174532925);
+		EXPECT_TRUE(bondLives({ (1 - 1e-9) * x, (1 - 1e-9) * y }, zone)) << k << "°";
+		EXPECT_FALSE(bondLives({ (1 + 1e-9) * x, (1 + 1e-9) * y }, zone)) << k << "°";
+	}
 }
 
 TEST(PlaneBond, KeepsTheLongestGapItHasHad)

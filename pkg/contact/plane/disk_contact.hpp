@@ -27,17 +27,16 @@ inline DiskContact diskContact(const Point& x1, const Point& x2, double r1, doub
 	return { nx, ny, -overlap, distance, { x1.x + arm * nx, x1.y + arm * ny } };
 }
 
-/// Bodies, directions and levers of a contact from disk i to disk j, whose radii are ri and rj [m]; the rest is left as it is in a new Contact.
-inline Contact diskFrame(int i, int j, double nx, double ny, double ri, double rj, double gap)
+/// Sets the bodies, directions and levers of a contact from disk i to disk j, whose radii are ri and rj [m]; the rest is left as it is.
+inline void setDiskFrame(Contact& c, int i, int j, double nx, double ny, double ri, double rj, double gap)
 {
-	Contact c;
 	c.i       = i;
 	c.j       = j;
 	c.nx      = nx;
 	c.ny      = ny;
-	c.leverTi = ri + 0.5 * gap;
-	c.leverTj = -(rj + 0.5 * gap);
-	return c;
+	c.leverNi = c.leverNj = 0;
+	c.leverTi             = ri + 0.5 * gap;
+	c.leverTj             = -(rj + 0.5 * gap);
 }
 
 } // namespace nonsmooth::contact::plane

@@ -26,6 +26,58 @@ namespace {
 	}
 }
 
+/// Sets bodies, directions and levers: from the lower id to the higher, from a wall to a sphere.
+[[gnu::always_inline]] inline void ContactSeam::setFrame(const Reading& reading, Contact& c) const
+{
+	const int  id1 = reading.first, id2 = reading.second;
+	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
+	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? id1 > id2 : s1 && !s2;
+	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
+	const int  i = swapped ? id2 : id1, j = swapped ? id1 : id2;
+	if (s1 && s2) {
+		contact::plane::setDiskFrame(c, i, j, nx, ny, radius[i], radius[j], reading.gap);
+		return;
+	}
+	c.i              = i;
+	c.j              = j;
+	c.nx             = nx;
+	c.ny             = ny;
+	const auto lever = [&](int id) {
+		return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x,
+			                reading.geom->contactPoint[1] - problem.positions[id].y };
+	};
+	const auto ri = lever(i), rj = lever(j);
+	c.leverNi = ny * ri.x - nx * ri.y;
+	c.leverTi = ri.x * nx + ri.y * ny;
+	// exactly none through a sphere's centre
+	c.leverNj = s1 || s2 ? 0 : ny * rj.x - nx * rj.y;
+	c.leverTj = rj.x * nx + rj.y * ny;
+}
+
+/// Fills in a contact and its link, number by number: to copy a contact that was just put together would wait for each of its parts. Returns the impulses of
+/// the step before.
+[[gnu::always_inline]] inline Impulse ContactSeam::gatherContact(int slot, Contact& c, Link& link) const
+{
+	const Reading& reading = resident->readings[slot];
+	const Real     gap = reading.gap, h = relaxation.step;
+	setFrame(reading, c);
+	link    = { slot, reading.correction };
+	c.biasN = !reading.bonded && gap > 0 ? gap / h : 0;
+	c.biasT = c.biasR = 0;
+	c.adhesion        = h * reading.adhesion;
+	c.friction        = reading.friction;
+	c.rollingArm      = reading.rollingArm;
+	c.length          = reading.length;
+	if (reading.bounces && !reading.bonded) {
+		// an impact within the step counts at its full speed; one that does not happen yet is left alone
+		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
+		if (approach < 0 && gap + h * approach <= 0) c.biasN = reading.restitution * approach;
+	}
+	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed())
+		return {}; // no reaction is found, so none may stay
+	return { h * reading.normal, h * reading.tangential, h * reading.torque };
+}
+
 void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, const Relaxation& how, int threadCount)
 {
 	relaxation = how;
@@ -193,21 +245,25 @@ void ContactSeam::divide(const Scene& scene)
 	solvedBefore.assign(chunksOf(count) + 1, 0);
 	leftBefore.assign(chunksOf(count) + 1, 0);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad)
-	for (long part = 0; part < (long)chunksOf(count); ++part)
+	for (long part = 0; part < (long)chunksOf(count); ++part) {
+		size_t solved = 0, left = 0;
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
-			if (resident->surelySolved[order[k].slot]) {
-				partOf[k] = Solved;
-				++solvedBefore[part + 1];
-				continue;
+			if (k + later < count && !resident->surelySolved[order[k + later].slot])
+				fetch<1>(&resident->readings[order[k + later].slot]);
+			partOf[k] = None;
+			if (resident->surelySolved[order[k].slot]) partOf[k] = Solved;
+			else {
+				const Reading& reading = resident->readings[order[k].slot];
+				if (!reading.active || !present[reading.first] || !present[reading.second]) continue;
+				if (!reading.usable) bad = std::min(bad, (long)k);
+				if (!reading.cohesive) continue;
+				partOf[k] = mustBeSolved(reading) ? Solved : Left;
 			}
-			const Reading& reading = resident->readings[order[k].slot];
-			partOf[k]              = None;
-			if (!reading.active || !present[reading.first] || !present[reading.second]) continue;
-			if (!reading.usable) bad = std::min(bad, (long)k);
-			if (!reading.cohesive) continue;
-			partOf[k] = mustBeSolved(reading) ? Solved : Left;
-			++(partOf[k] == Solved ? solvedBefore : leftBefore)[part + 1];
+			++(partOf[k] == Solved ? solved : left);
 		}
+		solvedBefore[part + 1] = solved;
+		leftBefore[part + 1]   = left;
+	}
 	if (bad < (long)count) refuseContact(scene, resident->readings[order[bad].slot]);
 	for (size_t part = 1; part < solvedBefore.size(); ++part) {
 		solvedBefore[part] += solvedBefore[part - 1];
@@ -220,9 +276,10 @@ bool ContactSeam::mustBeSolved(const Reading& reading) const
 {
 	const Real widest = relaxation.openGap * reading.length;
 	if (reading.bonded || reading.broken != NscdPhys::None || reading.gap <= widest) return true;
-	const Contact c       = frameOf(reading);
-	const Real    closing = std::min(
-	           Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
+	Contact c;
+	setFrame(reading, c);
+	const Real closing = std::min(
+	        Real(0), contact::relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]).n);
 	return reading.gap + 1.2 * relaxation.step * closing <= widest;
 }
 
@@ -277,56 +334,6 @@ size_t ContactSeam::recall()
 	leftLinks.resize(left);
 	leftContacts.resize(left);
 	return taken.size();
-}
-
-/// Bodies, directions and levers: from the lower id to the higher, from a wall to a sphere.
-Contact ContactSeam::frameOf(const Reading& reading) const
-{
-	const int  id1 = reading.first, id2 = reading.second;
-	const Real r1 = radius[id1], r2 = radius[id2]; // negative: not a sphere
-	const bool s1 = r1 > 0, s2 = r2 > 0, swapped = s1 && s2 ? id1 > id2 : s1 && !s2;
-	const Real nx = swapped ? -reading.nx : reading.nx, ny = swapped ? -reading.ny : reading.ny;
-	const int  i = swapped ? id2 : id1, j = swapped ? id1 : id2;
-	if (s1 && s2) return contact::plane::diskFrame(i, j, nx, ny, radius[i], radius[j], reading.gap);
-	Contact c;
-	c.i              = i;
-	c.j              = j;
-	c.nx             = nx;
-	c.ny             = ny;
-	const auto lever = [&](int id) {
-		return contact::Point { reading.geom->contactPoint[0] - problem.positions[id].x,
-			                reading.geom->contactPoint[1] - problem.positions[id].y };
-	};
-	const auto ri = lever(i), rj = lever(j);
-	c.leverNi = ny * ri.x - nx * ri.y;
-	c.leverTi = ri.x * nx + ri.y * ny;
-	// exactly none through a sphere's centre
-	c.leverNj = s1 || s2 ? 0 : ny * rj.x - nx * rj.y;
-	c.leverTj = rj.x * nx + rj.y * ny;
-	return c;
-}
-
-/// Fills in a contact and its link; returns the impulses of the step before.
-Impulse ContactSeam::gatherContact(int slot, Contact& result, Link& link) const
-{
-	const Reading& reading = resident->readings[slot];
-	const Real     gap = reading.gap, h = relaxation.step;
-	Contact        c = frameOf(reading);
-	link             = { slot, reading.correction };
-	if (!reading.bonded && gap > 0) c.biasN = gap / h;
-	if (reading.bounces && !reading.bonded) {
-		// an impact within the step counts at its full speed; one that does not happen yet is left alone
-		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
-		if (approach < 0 && gap + h * approach <= 0) c.biasN = reading.restitution * approach;
-	}
-	c.adhesion   = h * reading.adhesion;
-	c.friction   = reading.friction;
-	c.rollingArm = reading.rollingArm;
-	c.length     = reading.length;
-	result       = c;
-	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed())
-		return {}; // no reaction is found, so none may stay
-	return { h * reading.normal, h * reading.tangential, h * reading.torque };
 }
 
 } // namespace yade::nscd

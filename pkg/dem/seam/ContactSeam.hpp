@@ -26,16 +26,24 @@ struct Link {
 	Real correction = 0; // pseudo-impulse of the step before [kg m]
 };
 
-/// What a step did, summed in a fixed order.
-struct StepSums {
-	// contacts
+/// What a step did, summed over contacts in a fixed order.
+struct ContactSums {
 	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
+	Real overlap = 0, worstOverlap = 0; // sum and maximum, in units of ℓ
+	int  worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
+	Real contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
+	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
+
+	bool anyBroken() const
+	{
+		return std::any_of(std::begin(broken), std::end(broken), [](int count) { return count > 0; });
+	}
+};
+
+/// The same with what cannot be kept in registers, and with what is summed over bodies.
+struct StepSums : ContactSums {
 	std::vector<std::pair<int, Real>>
 	        slidingOnWalls; // of sliding, contact by contact: id of the wall and energy [J]
-	Real    overlap = 0, worstOverlap = 0; // sum and maximum over contacts, in units of ℓ
-	int     worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
-	Real    contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
-	int     touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 	// bodies
 	Real     kinetic = 0, potential = 0, external = 0, wallWork = 0; // [J]; external and wallWork during the step
 	Real     correction = 0; // energy that bodies got by taking back errors of position [J]
@@ -44,10 +52,6 @@ struct StepSums {
 	int      bodies = 0;
 
 	void add(const StepSums& other);
-	bool anyBroken() const
-	{
-		return std::any_of(std::begin(broken), std::end(broken), [](int count) { return count > 0; });
-	}
 };
 
 class ContactSeam {
@@ -84,19 +88,21 @@ private:
 	void                        tidy(Scene& scene);
 	void                        divide(const Scene& scene);
 	bool                        mustBeSolved(const Reading& reading) const;
-	nonsmooth::contact::Contact frameOf(const Reading& reading) const;
+	void                        setFrame(const Reading& reading, nonsmooth::contact::Contact& result) const;
 	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
 	void                        forgetReactions(int slot);
-	void                        scatterContact(size_t k, const nonsmooth::contact::Impulse& u);
-	void                        sumReactions();
-	void                        scatterForces(Scene& scene, size_t begin, size_t end);
-	void                        turnBack();
-	void                        turnBack(size_t k);
-	void                        displace(size_t begin, size_t end);
-	bool                        yieldsInTension(size_t k, const nonsmooth::contact::Impulse& u) const;
-	void                        rateContact(size_t k, const nonsmooth::contact::Impulse& u, StepSums& sums) const;
-	void                        sumContact(size_t k, const nonsmooth::contact::Impulse& u1, StepSums& sums) const;
-	void                        sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
+	void scatterContacts(size_t begin, size_t end, bool rates, StepSums& result, char& slips);
+	void scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
+	void sumReactions();
+	void scatterForces(Scene& scene, size_t begin, size_t end);
+	void turnBack();
+	void turnBack(size_t k);
+	void displace(size_t begin, size_t end);
+	void
+	rateContact(size_t k, const nonsmooth::contact::Impulse& u, const Reading& reading, ContactSums& sums) const;
+	Real
+	sumContact(size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, ContactSums& sums) const;
+	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	Relaxation                                     relaxation { 1, 0, 0, 0, 0 };
 	std::vector<nonsmooth::contact::Contact>       leftContacts; // left out of the solve, with

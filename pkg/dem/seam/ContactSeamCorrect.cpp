@@ -1,6 +1,7 @@
 // Errors of position, overlaps and bonds' errors of length, taken back by displacements after the solve of a step: what they are, and what they do to bodies.
 // The equations stand in contact/solver.hpp (correctPositions) and doc/theory/stepping.rst.
 #include "ContactSeam.hpp"
+#include "Prefetch.hpp"
 #include <algorithm>
 #include <cmath>
 #include <contact/plane/bond.hpp>
@@ -17,13 +18,6 @@ namespace {
 	Real beyond(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
 }
 
-/// Whether a bond has reached its tensile threshold and opens: it keeps its new length.
-bool ContactSeam::yieldsInTension(size_t k, const Impulse& u) const
-{
-	return readingOf(links[k]).bonded
-	        && contact::plane::yieldsInTension(problem.contacts[k], problem.impulses[k], u);
-}
-
 void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
 {
 	correction.displacements.clear();
@@ -34,12 +28,14 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 	errors.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
 	for (long k = 0; k < count; ++k) {
+		if (k + (long)later < count) fetch<1>(&readingOf(links[k + later]));
 		const Contact& c = problem.contacts[k];
 		const Impulse  u = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
 		auto&          e = errors[k];
 		const Reading& r = readingOf(links[k]);
 		e.impulse        = links[k].correction;
-		e.held           = r.bonded && !yieldsInTension(k, u);
+		// a bond that opens keeps its new length
+		e.held = r.bonded && !contact::plane::yieldsInTension(c, problem.impulses[k], u);
 		// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
 		const Real slack = relaxation.slack * c.length, off = r.gap - (e.held ? r.restGap : 0);
 		e.error = e.held ? beyond(off + h * u.n, slack) - (1 - relaxation.rate) * beyond(off, slack)

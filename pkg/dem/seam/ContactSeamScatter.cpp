@@ -43,6 +43,109 @@ void StepSums::add(const StepSums& other)
 	bodies += other.bodies;
 }
 
+/// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the step.
+[[gnu::always_inline]] inline void ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
+{
+	const Real     h    = relaxation.step;
+	const Contact& c    = problem.contacts[k];
+	const Impulse& p    = problem.impulses[k];
+	r.normal            = p.n / h;
+	r.tangential        = p.t / h;
+	r.torque            = p.r / h;
+	r.correction        = correction.displacements.empty() ? 0 : correction.impulses[k];
+	r.reacts            = true;
+	r.leftOut           = false;
+	const bool inArrays = r.keeper == Reading::Arrays;
+	if (!inArrays) writeReactions(r);
+	if (!inArrays || r.broken != NscdPhys::None) r.phys->yielded = false;
+	if (r.broken != NscdPhys::None) r.phys->breaks = false; // it is counted now
+	if (!r.bonded) return;
+	const auto path  = contact::plane::yieldOfStep(c, p, u, h);
+	const bool opens = contact::plane::yieldsInTension(c, p, u);
+	r.yielded        = opens;
+	if (path.any()) r.path.add(path); // seldom, and what is not written need not go back to memory
+	if (inArrays) return;
+	r.phys->yielded = opens;
+	r.phys->yieldPath += vectorOf(path);
+}
+
+/// How fast a contact turns and its bond crosses its ellipse at the end of the step. What divisions and roots give, which are slow, is found only where it may
+/// be the largest.
+[[gnu::always_inline]] inline void
+ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSums& sums) const
+{
+	constexpr Real nearly = 1 - 1e-9; // more than rounding takes away
+	const Contact& c      = problem.contacts[k];
+	const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+	const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
+	const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
+	if (wall) sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
+	else if (!(dx * dx + dy * dy < nearly * most * most))
+		sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
+	if (!r.bonded) return;
+	const bool  inArrays = r.keeper == Reading::Arrays;
+	const auto& zone     = resident->bonds[links[k].slot].zone;
+	const Real  along    = inArrays ? zone.normal : r.phys->ellipseNormal,
+	           across    = inArrays ? zone.tangential : r.phys->ellipseTangential;
+	if (std::abs(u.n) < nearly * sums.bondRate * along && std::abs(u.t) < nearly * sums.bondRate * across) return;
+	sums.bondRate = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
+}
+
+/// Returns what it has slid on a wall [J].
+[[gnu::always_inline]] inline Real
+ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, ContactSums& sums) const
+{
+	const Contact& c  = problem.contacts[k];
+	const Impulse& p  = problem.impulses[k];
+	const Impulse  u0 = contact::relativeVelocity(c, before[c.i], before[c.j]);
+	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
+	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
+	// both, since which one it is cannot be told ahead
+	sums.debonding -= p.n < 0 ? normalWork : 0;
+	sums.impact -= p.n < 0 ? 0 : normalWork;
+	const Real shearWork = 0.5 * p.t * (u0.t + u1.t);
+	sums.sliding -= shearWork;
+	sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
+	// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
+	const bool held    = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed() && r.gap < 0;
+	const Real overlap = held ? 0 : std::max(Real(0), -r.gap) / c.length;
+	sums.overlap += overlap;
+	if (overlap > sums.worstOverlap) {
+		sums.worstOverlap = overlap;
+		sums.worstIds[0]  = std::min(c.i, c.j);
+		sums.worstIds[1]  = std::max(c.i, c.j);
+	}
+	sums.touching += (p.n != 0) | (r.gap <= 0);
+	sums.bonds += r.bonded;
+	if (r.broken != NscdPhys::None) ++sums.broken[r.broken];
+	return radius[c.i] < 0 || radius[c.j] < 0 ? -shearWork : 0;
+}
+
+/// Reactions and sums of some contacts; `slips`: whether any of them counts the path of its slip.
+void ContactSeam::scatterContacts(size_t begin, size_t end, bool rates, StepSums& result, char& slips)
+{
+	const size_t count = links.size();
+	ContactSums
+	        sums; // by themselves, since what lies in `result` shares cache lines with other threads', and no register may hold it
+	bool anySlips = false;
+	for (size_t k = begin; k < end; ++k) {
+		if (k + later < count) {
+			fetch<commonOfReading>(&readingOf(links[k + later]));
+			if (rates) fetch<1>(&resident->bonds[links[k + later].slot].zone);
+		}
+		const Contact& c = problem.contacts[k];
+		Reading&       r = resident->readings[links[k].slot];
+		const Impulse  u = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		scatterContact(k, u, r);
+		anySlips |= r.slips;
+		if (const Real slid = sumContact(k, u, r, sums); slid != 0)
+			result.slidingOnWalls.emplace_back(radius[c.i] < 0 ? c.i : c.j, slid);
+		if (rates) rateContact(k, u, r, sums);
+	}
+	static_cast<ContactSums&>(result) = sums;
+	slips                             = anySlips;
+}
+
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
 {
 	threads                     = threadCount;
@@ -58,23 +161,10 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 #pragma omp single nowait
 		turnBack();
 #pragma omp for schedule(dynamic, 1)
-		for (long part = 0; part < (long)chunksC; ++part) {
-			const size_t begin = part * sumChunk, end = std::min(begin + sumChunk, count);
-			StepSums     sums; // by themselves, since `parts` and `slip` share cache lines between threads
-			bool         slips = false;
-			for (size_t k = begin; k < end; ++k) {
-				if (k + later < count) fetch<commonOfReading>(&readingOf(links[k + later]));
-				const Contact& c = problem.contacts[k];
-				const Impulse  u = contact::relativeVelocity(
-				         c, problem.velocities[c.i], problem.velocities[c.j]);
-				scatterContact(k, u);
-				slips |= readingOf(links[k]).slips;
-				sumContact(k, u, sums);
-				if (rates) rateContact(k, u, sums);
-			}
-			parts[part] = std::move(sums);
-			slip[part]  = slips;
-		}
+		for (long part = 0; part < (long)chunksC; ++part)
+			scatterContacts(
+			        part * sumChunk, std::min((part + 1) * sumChunk, count), rates, parts[part],
+			        slip[part]);
 #pragma omp for schedule(static)
 		for (long k = 0; k < (long)chunksB; ++k) {
 			const size_t begin = k * sumChunk, end = std::min(begin + sumChunk, before.size());
@@ -107,34 +197,6 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 	return total;
 }
 
-/// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the step.
-inline void ContactSeam::scatterContact(size_t k, const Impulse& u)
-{
-	const Real     h    = relaxation.step;
-	const Contact& c    = problem.contacts[k];
-	const Impulse& p    = problem.impulses[k];
-	Reading&       r    = resident->readings[links[k].slot];
-	r.normal            = p.n / h;
-	r.tangential        = p.t / h;
-	r.torque            = p.r / h;
-	r.correction        = correction.displacements.empty() ? 0 : correction.impulses[k];
-	r.reacts            = true;
-	r.leftOut           = false;
-	const bool inArrays = r.keeper == Reading::Arrays;
-	NscdPhys&  phys     = *r.phys;
-	if (!inArrays) writeReactions(r);
-	if (!inArrays || r.broken != NscdPhys::None) phys.yielded = false;
-	if (r.broken != NscdPhys::None) phys.breaks = false; // it is counted now
-	if (!r.bonded) return;
-	const auto path  = contact::plane::yieldOfStep(c, p, u, h);
-	const bool opens = contact::plane::yieldsInTension(c, p, u);
-	r.yielded        = opens;
-	if (path.any()) r.path.add(path); // seldom, and what is not written need not go back to memory
-	if (inArrays) return;
-	phys.yielded = opens;
-	phys.yieldPath += vectorOf(path);
-}
-
 /// The sum of the contacts' impulses on every body, walls included.
 void ContactSeam::sumReactions()
 {
@@ -165,54 +227,6 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 		scene.forces.addForceUnsynced(id, Vector3r(r.x / h, r.y / h, 0)); // into the sums, see gatherBodies
 		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, r.w / h));
 	}
-}
-
-/// How fast a contact turns and its bond crosses its ellipse at the end of the step.
-inline void ContactSeam::rateContact(size_t k, const Impulse& u, StepSums& sums) const
-{
-	const Contact& c  = problem.contacts[k];
-	const Twist &  vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
-	const bool     wall = radius[c.i] < 0 || radius[c.j] < 0;
-	const Real     dx = vj.x - vi.x, dy = vj.y - vi.y, most = sums.contactRate * c.length;
-	if (wall) sums.contactRate = std::max(sums.contactRate, std::abs(u.n) / c.length);
-	else if (!(dx * dx + dy * dy
-	           < (1 - 1e-9) * most * most)) // the root, which is slow, only where it may be the largest
-		sums.contactRate = std::max(sums.contactRate, std::sqrt(dx * dx + dy * dy) / c.length);
-	const Reading& r = readingOf(links[k]);
-	if (!r.bonded) return;
-	const bool  inArrays = r.keeper == Reading::Arrays;
-	const auto& zone     = resident->bonds[links[k].slot].zone;
-	const Real  along    = inArrays ? zone.normal : r.phys->ellipseNormal,
-	           across    = inArrays ? zone.tangential : r.phys->ellipseTangential;
-	sums.bondRate        = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
-}
-
-inline void ContactSeam::sumContact(size_t k, const Impulse& u1, StepSums& sums) const
-{
-	const Contact& c  = problem.contacts[k];
-	const Impulse& p  = problem.impulses[k];
-	const Reading& r  = readingOf(links[k]);
-	const Impulse  u0 = contact::relativeVelocity(c, before[c.i], before[c.j]);
-	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
-	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
-	(p.n < 0 ? sums.debonding : sums.impact) -= normalWork;
-	const Real shearWork = 0.5 * p.t * (u0.t + u1.t);
-	sums.sliding -= shearWork;
-	if (shearWork != 0 && (radius[c.i] < 0 || radius[c.j] < 0))
-		sums.slidingOnWalls.emplace_back(radius[c.i] < 0 ? c.i : c.j, -shearWork);
-	sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
-	// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
-	const bool held    = r.gap < 0 && problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed();
-	const Real overlap = held ? 0 : std::max(Real(0), -r.gap) / c.length;
-	sums.overlap += overlap;
-	if (overlap > sums.worstOverlap) {
-		sums.worstOverlap = overlap;
-		sums.worstIds[0]  = std::min(c.i, c.j);
-		sums.worstIds[1]  = std::max(c.i, c.j);
-	}
-	sums.touching += (p.n != 0 || r.gap <= 0);
-	sums.bonds += r.bonded;
-	if (r.broken != NscdPhys::None) ++sums.broken[r.broken];
 }
 
 void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const

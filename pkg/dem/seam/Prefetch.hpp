@@ -18,6 +18,6 @@ constexpr std::size_t partOfGeometry = 128, partOfPhysics = 256;
 // Of a Reading: all but what few contacts ask for, those that break, yield, or have an impact.
 constexpr std::size_t commonOfReading = 128;
 
-constexpr std::size_t soon = 8, later = 16; // items ahead: what an item points to, and the item itself
+constexpr std::size_t soon = 8, later = 32; // items ahead: what an item points to, and the item itself
 
 } // namespace yade::nscd

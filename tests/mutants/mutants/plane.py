@@ -24,6 +24,8 @@ MUTANTS = (
     # ---- bonds
     mutant("plane-mark", BOND, "x2.y - secondRadius * normal.y", "x2.y + secondRadius * normal.y", "a bond is marked on the far side of its second disk", "gtest:PlaneBond.*"),
     mutant("plane-tangent", BOND, "n.x * dy - n.y * dx", "n.y * dx - n.x * dy", "a bond's shear has the other sign", "gtest:PlaneBond.*"),
+    mutant("plane-well-inside", BOND, "std::abs(d.normal) <= 0.5 * zone.normal && std::abs(d.tangential) <= 0.5 * zone.tangential",
+           "std::abs(d.normal) <= 0.75 * zone.normal && std::abs(d.tangential) <= 0.75 * zone.tangential", "the corners of a square inside the ellipse lie outside of it", "gtest:PlaneBond.*"),
     mutant("plane-ellipse", BOND, "d.tangential / zone.tangential", "d.tangential / zone.normal", "the ellipse of a bond is a circle", "gtest:PlaneBond.*"),
     mutant("plane-first-gap", BOND, "std::max(gap, 0.0)", "gap", "a bond keeps an overlap", "gtest:PlaneBond.*"),
     mutant("plane-rest-gap", BOND, "std::max(restGap, gap)", "gap", "a bond that was pulled out springs back", "gtest:PlaneBond.*"),
