@@ -5,14 +5,14 @@
 namespace nonsmooth::contact {
 namespace {
 
-	/// A block that is still being filled, and the bodies in it that can move.
+	/// Half a block that is still being filled, and the bodies in it that can move.
 	struct Open {
 		static constexpr std::int32_t nobody = -1,
 		                              other
-		        = -2; // in place of the others: in the block, and in a contact that may join it
+		        = -2; // in place of the others: in the half, and in a contact that may join it
 		using Ids = std::int32_t __attribute__((vector_size(16)));
 
-		std::size_t block;
+		std::size_t half;
 		int         filled = 0;
 		Ids         first { nobody, nobody, nobody, nobody }, second { nobody, nobody, nobody, nobody };
 
@@ -31,7 +31,7 @@ namespace {
 		}
 	};
 
-	/// Fills blocks in the order of the contacts, which is one of colours: whole colours give full blocks, their rests share some.
+	/// Fills halves of blocks in the order of the contacts, which is one of colours: whole colours give full ones, their rests share some.
 	void distribute(const ContactBlocks& all, std::size_t part, ContactBlocks::Part& result)
 	{
 		constexpr std::size_t mostOpen = 16;
@@ -53,23 +53,42 @@ namespace {
 			if (at == count) {
 				if (count == mostOpen) close(0);
 				at       = count++;
-				open[at] = Open { result.contactOf.size() / lanes };
-				result.contactOf.resize(result.contactOf.size() + lanes, ContactBlocks::none);
+				open[at] = Open { result.contactOf.size() / halfLanes };
+				result.contactOf.resize(result.contactOf.size() + halfLanes, ContactBlocks::none);
 			}
-			Open& o                                      = open[at];
-			result.contactOf[o.block * lanes + o.filled] = index;
+			Open& o                                         = open[at];
+			result.contactOf[o.half * halfLanes + o.filled] = index;
 			o.take(pair);
-			if (o.filled == int(lanes)) close(at);
+			if (o.filled == int(halfLanes)) close(at);
 		}
+		if (result.contactOf.size() % lanes > 0)
+			result.contactOf.resize(result.contactOf.size() + halfLanes, ContactBlocks::none);
+	}
+
+	bool hasEmptyLane(const std::int32_t* contactOf)
+	{
+		return std::find(contactOf, contactOf + lanes, ContactBlocks::none) != contactOf + lanes;
+	}
+
+	/// Whether no body is in both halves, see Block::together.
+	bool goTogether(const Block& block)
+	{
+		if ((block.movesI & block.movesJ) != (1u << lanes) - 1) return false;
+		using Ids        = std::int32_t __attribute__((vector_size(16)));
+		const auto idsOf = [](const std::int32_t* id) { return Ids { id[0], id[1], id[2], id[3] }; };
+		const Ids  i = idsOf(block.i), j = idsOf(block.j);
+		Ids        shared {};
+		for (std::size_t l = halfLanes; l < lanes; ++l)
+			shared |= (i == block.i[l]) | (j == block.i[l]) | (i == block.j[l]) | (j == block.j[l]);
+		return !(shared[0] | shared[1] | shared[2] | shared[3]);
 	}
 
 	/// Names the bodies of a block by their places; its numbers are left alone where all its lanes will have some.
 	void name(Block& block, const std::int32_t* contactOf, const ContactBlocks& all)
 	{
 		const auto nobody = static_cast<std::int32_t>(all.placeOf.size());
-		if (contactOf[lanes - 1] == ContactBlocks::none) block = Block {};
+		if (hasEmptyLane(contactOf)) block = Block {};
 		block.movesI = block.movesJ = 0;
-		block.withNext              = false;
 		for (std::size_t l = 0; l < lanes; ++l) {
 			block.i[l] = block.j[l] = nobody;
 			if (contactOf[l] == ContactBlocks::none) continue;
@@ -79,27 +98,7 @@ namespace {
 			block.movesI |= (MovablePair::moves(pair.i) ? 1u : 0u) << l;
 			block.movesJ |= (MovablePair::moves(pair.j) ? 1u : 0u) << l;
 		}
-	}
-
-	/// Whether two blocks may be visited at once, see Block::withNext.
-	bool goTogether(const Block& a, const Block& b)
-	{
-		constexpr unsigned all = (1u << lanes) - 1;
-		if ((a.movesI & a.movesJ & b.movesI & b.movesJ) != all) return false;
-		using Ids        = std::int32_t __attribute__((vector_size(16)));
-		const auto idsOf = [](const std::int32_t* id) { return Ids { id[0], id[1], id[2], id[3] }; };
-		const Ids  i = idsOf(a.i), j = idsOf(a.j);
-		Ids        shared {};
-		for (std::size_t l = 0; l < lanes; ++l)
-			shared |= (i == b.i[l]) | (j == b.i[l]) | (i == b.j[l]) | (j == b.j[l]);
-		return !(shared[0] | shared[1] | shared[2] | shared[3]);
-	}
-
-	/// Marks neighbours that may be visited at once, from the first on.
-	void markTogether(Block* blocks, std::size_t count)
-	{
-		for (std::size_t k = 0; k + 1 < count; ++k)
-			if ((blocks[k].withNext = goTogether(blocks[k], blocks[k + 1]))) ++k;
+		block.together = goTogether(block);
 	}
 
 } // namespace
@@ -148,10 +147,8 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + begin * lanes);
 		for (std::size_t b = begin; b < end; ++b) {
 			name(result.blocks[b], &result.contactOf[b * lanes], result);
-			if (result.contactOf[b * lanes + lanes - 1] == ContactBlocks::none)
-				result.inverseLength[b] = InverseLength {};
+			if (hasEmptyLane(&result.contactOf[b * lanes])) result.inverseLength[b] = Numbers {};
 		}
-		markTogether(result.blocks.data() + begin, end - begin);
 	}
 	result.complete = true;
 }

@@ -1,5 +1,5 @@
-// A contact problem laid out for sweeping: in strips (and what they leave over, as one more part), and inside a part in blocks of four contacts that share no movable body (nor do most blocks
-// with the next one, which Block::withNext says), followed by the few contacts that do not fit into blocks.
+// A contact problem laid out for sweeping: in strips (and what they leave over, as one more part), and inside a part in blocks of eight contacts (block_kernels.hpp), followed by the few that
+// do not fit into blocks.
 //
 // Which contacts lie where rests on who touches whom, on strips, and on which contacts fit into blocks. While these stay, so does it, and a solve only fills in new numbers.
 #pragma once
@@ -15,15 +15,15 @@ namespace nonsmooth::contact {
 struct ContactBlocks {
 	static constexpr std::int32_t none = BlockNumbers::none; // an empty lane
 
-	std::vector<Block>         blocks;
-	std::vector<std::int32_t>  contactOf; // of every lane of every block, in Problem::contacts
-	std::vector<std::int32_t>  others; // contacts outside blocks
-	std::vector<std::size_t>   blockBegin, otherBegin; // of every part of the order; one more than there are parts
-	std::vector<InverseLength> inverseLength; // of every block; apart, since only the residual needs it
-	std::vector<std::int32_t>  placeOf; // of the problem's bodies in order.bodies
-	Survey                     survey;
-	SweepOrder                 order;
-	std::size_t                partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
+	std::vector<Block>        blocks;
+	std::vector<std::int32_t> contactOf; // of every lane of every block, in Problem::contacts
+	std::vector<std::int32_t> others; // contacts outside blocks
+	std::vector<std::size_t>  blockBegin, otherBegin; // of every part of the order; one more than there are parts
+	std::vector<Numbers>      inverseLength; // 1/ℓ; apart, since only the residual needs it
+	std::vector<std::int32_t> placeOf; // of the problem's bodies in order.bodies
+	Survey                    survey;
+	SweepOrder                order;
+	std::size_t               partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
 
 	/// What one part consists of, before its place in the whole is known.
 	struct Part {

@@ -370,7 +370,7 @@ namespace {
 				for (std::size_t l = 0; l < lanes; ++l)
 					if (const auto index = laidOut.contactOf[b * lanes + l];
 					    index != ContactBlocks::none)
-						add(index, { k.n[l], k.t[l], k.r[l] });
+						add(index, { k.n.v[l], k.t.v[l], k.r.v[l] });
 			}
 			for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 				add(laidOut.others[k], rows[k].p);
@@ -438,7 +438,7 @@ namespace {
 			for (std::size_t l = 0; l < lanes; ++l)
 				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
 					const Block& k = laidOut.blocks[b];
-					take(index, Impulse { k.n[l], k.t[l], k.r[l] });
+					take(index, Impulse { k.n.v[l], k.t.v[l], k.r.v[l] });
 				}
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 			take(laidOut.others[k], rows[k].p);
@@ -497,9 +497,10 @@ namespace {
 			Block& k = laidOut.blocks[b];
 			for (std::size_t l = 0; l < lanes; ++l)
 				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
-					k.biasN[l]    = errors[index].error;
-					k.adhesion[l] = errors[index].held ? without : 0;
-					k.n[l] = k.beforeN[l] = projectNormal(errors[index].impulse, k.adhesion[l]);
+					k.biasN.v[l]    = errors[index].error;
+					k.adhesion.v[l] = errors[index].held ? without : 0;
+					k.n.v[l] = k.beforeN.v[l] = projectNormal(
+					        errors[index].impulse, k.adhesion.v[l]);
 				}
 		}
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {

@@ -9,7 +9,7 @@
 // first; every restart doubles that, up to 40, because late in a solve the residual rises and falls over tens of sweeps, and needless
 // restarts cost most there. A residual of twice the smallest one since the last restart restarts at once, and halves the distance.
 // Strips that hold next to nothing of the residual rest until the next look at it (active_strips.hpp). Sweeps are counted by visits: one is as many as there are contacts, and one of few strips a quarter.
-// Contacts lie in blocks of four (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result
+// Contacts lie in blocks of eight (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result
 // independent of the number of threads and of the processor; sums are added in a fixed order.
 //
 // Errors of position are taken back by displacements that leave no velocity behind (split impulses). For bodies'
