@@ -2,6 +2,7 @@
 #include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <core/Scene.hpp>
 #include <neighbours/thread_part.hpp>
@@ -295,7 +296,7 @@ void PlanarGridCollider::searchSides()
 	resident->forgetErased(*scene->interactions);
 }
 
-/// Finds the pairs of disks within reach that O.interactions has not, and, where that decides which of them are wanted, how fast each disk is against those near it.
+/// Finds the pairs of disks within reach that are wanted and that O.interactions has not; and, where that decides it, how fast each disk is against those near it.
 void PlanarGridCollider::findNear()
 {
 	const long size    = (long)disks.size();
@@ -348,17 +349,28 @@ void PlanarGridCollider::findNear()
 				fastest[i] = std::sqrt(fastest[i]);
 			}
 		}
+		comes.erase(
+		        std::remove_if(
+		                comes.begin(), comes.end(),
+		                [this](const auto& pair) { return !isWanted(pair.first, pair.second); }),
+		        comes.end());
 	}
 }
 
-/// Gives O.interactions the pairs of disks that have come within reach and are wanted.
+/// Whether the pair at that place of its first disk is wanted now.
+bool PlanarGridCollider::isWanted(int i, int place) const
+{
+	const int   j = pairs.second[place];
+	const Disk &a = disks[i], &b = disks[j];
+	const Real  x = b.x - a.x, y = b.y - a.y;
+	return wants(i, j, std::sqrt(x * x + y * y));
+}
+
+/// Gives O.interactions the pairs of disks that were found.
 void PlanarGridCollider::takeDisks()
 {
 	for (const auto& part : near) // threads have stretches of the list, one after the other
 		for (const auto& [i, k] : part) {
-			const Disk &a = disks[i], &b = disks[pairs.second[k]];
-			const Real  x = b.x - a.x, y = b.y - a.y;
-			if (!wants(i, pairs.second[k], std::sqrt(x * x + y * y))) continue;
 			insert(i, pairs.second[k]);
 			known[k] = 1;
 		}

@@ -84,6 +84,7 @@ private:
 	void searchSides();
 	void boundSpeeds();
 	void findNear();
+	bool isWanted(int i, int place) const;
 	void takeDisks();
 	void takeSides();
 	void insert(Body::id_t a, Body::id_t b);
@@ -114,7 +115,7 @@ private:
 	std::vector<Side>                          sides;
 	std::vector<SidePair>                      sidePairs; // by side, then disk
 	std::vector<std::vector<std::pair<int, int>>>
-	        near; // by thread: pairs within reach that O.interactions has not, the lower body and the pair
+	        near; // by thread: wanted pairs that O.interactions has not, the lower body and the place of the pair
 };
 REGISTER_SERIALIZABLE(PlanarGridCollider);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <neighbours/thread_part.hpp>
+#include <utility>
 
 namespace nonsmooth::neighbours {
 
@@ -35,13 +36,16 @@ template <class F> void DiskGrid::Level::visit(const Box& box, F&& each) const
 			each(e);
 		return;
 	}
-	for (std::int32_t y = low.y; y <= high.y; ++y)
-		for (std::int32_t x = low.x; x <= high.x; ++x) {
-			const Cell          c { x, y };
-			const std::uint32_t b = bucketOf(c);
-			for (int k = bucket[b]; k < bucket[b + 1]; ++k)
-				if (entries[k].cell == c) each(entries[k]);
-		}
+	if (high.x < low.x) return;
+	for (std::int32_t y = low.y; y <= high.y; ++y) {
+		// a row, from where it begins to where the table ends, and on from where that begins
+		const std::uint32_t first  = bucketOf({ low.x, y }),
+		                    length = std::uint32_t(high.x) - std::uint32_t(low.x) + 1,
+		                    inOne  = std::min(length, mask + 1 - first);
+		for (const auto& [begin, end] : { std::pair(first, first + inOne), std::pair(0u, length - inOne) })
+			for (int k = bucket[begin]; k < bucket[end]; ++k)
+				if (entries[k].cell.y == y) each(entries[k]);
+	}
 }
 
 /// Puts the entries into the order of their buckets, and by index within each.
@@ -100,37 +104,73 @@ void DiskGrid::pairs(int threads, Pairs& found)
 #pragma omp parallel num_threads(threads)
 		{
 			auto& part = partOfThread(parts);
-#pragma omp for schedule(static)
+#pragma omp for schedule(dynamic, 256)
 			for (long k = 0; k < n; ++k) {
 				const Entry& e = own.entries[k];
 				for (size_t b = a; b < levels.size(); ++b) {
 					const Level& other = levels[b];
 					if (other.entries.empty()) continue;
-					const double out = factor * (e.r + other.largest) + e.margin;
-					other.visit(
-					        { e.x - out, e.y - out, e.x + out, e.y + out }, [&](const Entry& o) {
-						        if (b == a && o.disk <= e.disk) return;
-						        const double x = o.x - e.x, y = o.y - e.y,
-						                     far = factor * (e.r + o.r)
-						                + std::min(e.margin, o.margin);
-						        if (x * x + y * y < far * far)
-							        part.emplace_back(
-							                std::min(e.disk, o.disk),
-							                std::max(e.disk, o.disk));
-					        });
+					const double out  = factor * (e.r + other.largest) + e.margin;
+					const auto   take = [&](const Entry& o, bool isAfter) {
+                                                const double x = o.x - e.x, y = o.y - e.y,
+                                                             far = factor * (e.r + o.r) + std::min(e.margin, o.margin);
+                                                // both, since neither can be told ahead
+                                                if (isAfter & (x * x + y * y < far * far))
+                                                        part.emplace_back(
+							          std::min(e.disk, o.disk), std::max(e.disk, o.disk));
+					};
+					// of its own level, those in the rows below find it
+					if (b == a)
+						other.visit(
+						        { e.x - out, e.y, e.x + out, e.y + out }, [&](const Entry& o) {
+							        const bool above  = o.cell.y > e.cell.y,
+							                   beside = o.cell.y == e.cell.y;
+							        take(o, above | (beside & (o.disk > e.disk)));
+						        });
+					else
+						other.visit(
+						        { e.x - out, e.y - out, e.x + out, e.y + out },
+						        [&](const Entry& o) { take(o, true); });
 				}
 			}
 		}
 	}
-	const auto each = [&](auto take) {
-		for (const auto& part : parts)
-			for (const auto& [low, high] : part)
-				take(low, high);
-	};
-	sortIntoBuckets(count, each, found.begin, found.second);
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (int i = 0; i < count; ++i)
-		std::sort(found.second.begin() + found.begin[i], found.second.begin() + found.begin[i + 1]);
+	sortPairs(threads, found);
+}
+
+/// Puts the pairs that threads have found into the order of their first disks, then of their second ones.
+void DiskGrid::sortPairs(int threads, Pairs& found)
+{
+	const long all = (long)parts.size();
+	next.resize(all);
+	found.begin.resize(count + 1);
+#pragma omp parallel num_threads(threads)
+	{
+#pragma omp for schedule(static, 1)
+		for (long p = 0; p < all; ++p) {
+			next[p].assign(count, 0);
+			for (const auto& pair : parts[p])
+				++next[p][pair.first];
+		}
+#pragma omp single
+		{
+			int place = 0;
+			for (int i = 0; i < count; ++i) {
+				found.begin[i] = place;
+				for (auto& n : next)
+					place += std::exchange(n[i], place);
+			}
+			found.begin[count] = place;
+			found.second.resize(place);
+		}
+#pragma omp for schedule(static, 1)
+		for (long p = 0; p < all; ++p)
+			for (const auto& [low, high] : parts[p])
+				found.second[next[p][low]++] = high;
+#pragma omp for schedule(static)
+		for (int i = 0; i < count; ++i)
+			std::sort(found.second.begin() + found.begin[i], found.second.begin() + found.begin[i + 1]);
+	}
 }
 
 void DiskGrid::near(const Box& box, double reach, double margin, std::vector<int>& found) const

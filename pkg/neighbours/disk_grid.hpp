@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace nonsmooth::neighbours {
@@ -47,7 +48,6 @@ public:
 private:
 	struct Cell {
 		std::int32_t x, y;
-		bool         operator==(const Cell& o) const { return x == o.x && y == o.y; }
 	};
 	struct Entry {
 		double x, y, r, margin;
@@ -67,9 +67,11 @@ private:
 	};
 	std::vector<Level>                            levels;
 	std::vector<Entry>                            spare;
+	void                                          sortPairs(int threads, Pairs& found);
 	std::vector<std::vector<std::pair<int, int>>> parts; // found by each thread
-	double                                        factor = 1;
-	int                                           count  = 0;
+	std::vector<std::vector<int>> next; // by thread and first disk: where the next pair of theirs goes
+	double                        factor = 1;
+	int                           count  = 0;
 };
 
 } // namespace nonsmooth::neighbours

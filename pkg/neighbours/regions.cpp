@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 namespace nonsmooth::neighbours {
 
@@ -14,18 +13,30 @@ namespace {
 void Regions::build(const std::vector<Disk>& disks, double width)
 {
 	const auto index = [width](double v) {
-		return std::int64_t(std::clamp(std::floor(v / width), -farthest, farthest));
+		return std::int32_t(std::clamp(std::floor(v / width), -farthest, farthest));
 	};
-	const auto keyOf = [](std::int64_t x, std::int64_t y) { return (std::int64_t(1) << 32) * x + y; };
-	std::unordered_map<std::int64_t, int>              numbers;
-	std::vector<std::pair<std::int64_t, std::int64_t>> places;
+	// numbers of squares by a hash, each in the first free place from there on
+	std::uint32_t size = 16;
+	while (size < 2 * disks.size())
+		size *= 2;
+	table.assign(size, -1);
+	places.clear();
+	const auto numberOf = [&](Place p) -> int& {
+		std::uint32_t at = std::uint32_t(p.x) + 73856093u * std::uint32_t(p.y);
+		while (table[at & (size - 1)] >= 0 && !(places[table[at & (size - 1)]] == p))
+			++at;
+		return table[at & (size - 1)];
+	};
 	square.assign(disks.size(), -1);
 	for (std::size_t k = 0; k < disks.size(); ++k) {
 		if (!isThere(disks[k])) continue;
-		const std::int64_t x = index(disks[k].x), y = index(disks[k].y);
-		const auto [at, isNew] = numbers.try_emplace(keyOf(x, y), int(places.size()));
-		if (isNew) places.emplace_back(x, y);
-		square[k] = at->second;
+		const Place p { index(disks[k].x), index(disks[k].y) };
+		int&        number = numberOf(p);
+		if (number < 0) {
+			number = int(places.size());
+			places.push_back(p);
+		}
+		square[k] = number;
 	}
 	const auto each = [this](auto take) {
 		for (std::size_t k = 0; k < square.size(); ++k)
@@ -35,8 +46,8 @@ void Regions::build(const std::vector<Disk>& disks, double width)
 	around.resize(places.size());
 	for (std::size_t s = 0; s < places.size(); ++s)
 		for (int k = 0; k < 9; ++k) {
-			const auto at = numbers.find(keyOf(places[s].first + k % 3 - 1, places[s].second + k / 3 - 1));
-			around[s][k]  = at == numbers.end() ? int(s) : at->second;
+			const int other = numberOf({ places[s].x + k % 3 - 1, places[s].y + k / 3 - 1 });
+			around[s][k]    = other < 0 ? int(s) : other;
 		}
 }
 

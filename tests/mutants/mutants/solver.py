@@ -126,7 +126,12 @@ MUTANTS = (
     mutant("grid-margin", GRID, "std::min(e.margin, o.margin)", "std::max(e.margin, o.margin)", "pairs are looked for within the larger margin", "gtest:DiskGrid.*"),
     mutant("grid-reach", GRID, "factor * (e.r + other.largest) + e.margin", "factor * e.r + e.margin",
            "the other disk's radius is forgotten in the cells that are looked at", "gtest:DiskGrid.*"),
+    mutant("grid-row-goes-on", GRID, "std::pair(0u, length - inOne)", "std::pair(0u, 0u)", "rows of cells end where the table does", "gtest:DiskGrid.*"),
+    mutant("grid-row", GRID, "if (entries[k].cell.y == y) each(entries[k]);", "each(entries[k]);", "disks of other rows in the same bucket are found with each of them", "gtest:DiskGrid.*"),
+    mutant("grid-below", GRID, "above | (beside & (o.disk > e.disk))", "o.disk > e.disk",
+           "pairs are not found by the lower of two where it comes second", "gtest:DiskGrid.*"),
     mutant("grid-box", NEAR, "y <= box.yMax + out", "y <= box.yMax", "disks above a box are not near it", "gtest:DiskGrid.*"),
+    mutant("regions-place", REGIONS, "places[table[at & (size - 1)]] == p", "true", "squares are one where a hash of theirs is", "gtest:Regions.*"),
     mutant("regions-extent", REGIONS, "std::max(e.yMax, o.yMax)", "e.yMax", "differences of velocities do not know the squares around, upwards", "gtest:Regions.*"),
-    mutant("regions-around", REGIONS, "places[s].second + k / 3 - 1", "places[s].second + k / 3 - 2", "the squares around are two below", "gtest:Regions.*"),
+    mutant("regions-around", REGIONS, "places[s].y + k / 3 - 1", "places[s].y + k / 3 - 2", "the squares around are two below", "gtest:Regions.*"),
 )
