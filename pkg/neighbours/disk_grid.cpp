@@ -8,28 +8,13 @@
 namespace nonsmooth::neighbours {
 
 namespace {
-	constexpr int    mostLevels = 40; // sizes up to 1e12 apart
-	constexpr double farthest   = 1 << 29; // cells from the origin; disks beyond share the last ones
-}
-
-DiskGrid::Cell DiskGrid::Level::cellOf(double x, double y) const
-{
-	const auto index = [this](double v) {
-		return std::int32_t(std::clamp(std::floor(v / width), -farthest, farthest));
-	};
-	return { index(x), index(y) };
-}
-
-/// Cells of a row stand side by side, so that three neighbours are one stretch of memory.
-std::uint32_t DiskGrid::Level::bucketOf(Cell c) const
-{
-	return (std::uint32_t(c.x) + 73856093u * std::uint32_t(c.y)) & mask;
+	constexpr int mostLevels = 40; // sizes up to 1e12 apart
 }
 
 /// Calls `each` with the entries of all cells that a box touches, and perhaps with others.
 template <class F> void DiskGrid::Level::visit(const Box& box, F&& each) const
 {
-	const Cell   low = cellOf(box.xMin, box.yMin), high = cellOf(box.xMax, box.yMax);
+	const Cell   low = cellAt(box.xMin, box.yMin, width), high = cellAt(box.xMax, box.yMax, width);
 	const double cells = (double(high.x) - low.x + 1) * (double(high.y) - low.y + 1);
 	if (!(cells < double(entries.size()))) { // or something is not a number
 		for (const Entry& e : entries)
@@ -39,7 +24,7 @@ template <class F> void DiskGrid::Level::visit(const Box& box, F&& each) const
 	if (high.x < low.x) return;
 	for (std::int32_t y = low.y; y <= high.y; ++y) {
 		// a row, from where it begins to where the table ends, and on from where that begins
-		const std::uint32_t first  = bucketOf({ low.x, y }),
+		const std::uint32_t first  = hashOf({ low.x, y }) & mask,
 		                    length = std::uint32_t(high.x) - std::uint32_t(low.x) + 1,
 		                    inOne  = std::min(length, mask + 1 - first);
 		for (const auto& [begin, end] : { std::pair(first, first + inOne), std::pair(0u, length - inOne) })
@@ -51,16 +36,14 @@ template <class F> void DiskGrid::Level::visit(const Box& box, F&& each) const
 /// Puts the entries into the order of their buckets, and by index within each.
 void DiskGrid::Level::sort(std::vector<Entry>& from)
 {
-	std::uint32_t size = 16;
-	while (size < 2 * entries.size())
-		size *= 2;
-	mask = size - 1;
+	const std::uint32_t size = tableSize(entries.size());
+	mask                     = size - 1;
 	for (Entry& e : entries)
-		e.cell = cellOf(e.x, e.y);
+		e.cell = cellAt(e.x, e.y, width);
 	from.swap(entries);
 	const auto each = [&](auto take) {
 		for (const Entry& e : from)
-			take(bucketOf(e.cell), e);
+			take(hashOf(e.cell) & mask, e);
 	};
 	sortIntoBuckets(size, each, bucket, entries);
 }

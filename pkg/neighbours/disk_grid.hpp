@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <neighbours/cell.hpp>
 #include <utility>
 #include <vector>
 
@@ -46,9 +47,6 @@ public:
 	void near(const Box& box, double factor, double margin, std::vector<int>& found) const;
 
 private:
-	struct Cell {
-		std::int32_t x, y;
-	};
 	struct Entry {
 		double x, y, r, margin;
 		Cell   cell;
@@ -60,8 +58,6 @@ private:
 		std::vector<Entry>      entries;
 		std::vector<int>        bucket;
 		std::uint32_t           mask = 0;
-		Cell                    cellOf(double x, double y) const;
-		std::uint32_t           bucketOf(Cell c) const;
 		template <class F> void visit(const Box& box, F&& each) const;
 		void                    sort(std::vector<Entry>& spare);
 	};

@@ -6,35 +6,26 @@
 
 namespace nonsmooth::neighbours {
 
-namespace {
-	constexpr double farthest = 1 << 29; // squares from the origin; disks beyond share the last ones
-}
-
 void Regions::build(const std::vector<Disk>& disks, double width)
 {
-	const auto index = [width](double v) {
-		return std::int32_t(std::clamp(std::floor(v / width), -farthest, farthest));
-	};
 	// numbers of squares by a hash, each in the first free place from there on
-	std::uint32_t size = 16;
-	while (size < 2 * disks.size())
-		size *= 2;
-	table.assign(size, -1);
+	const std::uint32_t mask = tableSize(disks.size()) - 1;
+	table.assign(mask + 1, -1);
 	places.clear();
-	const auto numberOf = [&](Place p) -> int& {
-		std::uint32_t at = std::uint32_t(p.x) + 73856093u * std::uint32_t(p.y);
-		while (table[at & (size - 1)] >= 0 && !(places[table[at & (size - 1)]] == p))
-			++at;
-		return table[at & (size - 1)];
+	const auto numberOf = [&](Cell place) -> int& {
+		std::uint32_t at = hashOf(place) & mask;
+		while (table[at] >= 0 && !(places[table[at]] == place))
+			at = (at + 1) & mask;
+		return table[at];
 	};
 	square.assign(disks.size(), -1);
 	for (std::size_t k = 0; k < disks.size(); ++k) {
 		if (!isThere(disks[k])) continue;
-		const Place p { index(disks[k].x), index(disks[k].y) };
-		int&        number = numberOf(p);
+		const Cell place  = cellAt(disks[k].x, disks[k].y, width);
+		int&       number = numberOf(place);
 		if (number < 0) {
 			number = int(places.size());
-			places.push_back(p);
+			places.push_back(place);
 		}
 		square[k] = number;
 	}

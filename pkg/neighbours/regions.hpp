@@ -5,7 +5,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <neighbours/cell.hpp>
 #include <neighbours/disk_grid.hpp>
 
 namespace nonsmooth::neighbours {
@@ -27,17 +27,13 @@ public:
 	void largestAround(const std::vector<double>& values, std::vector<double>& found) const;
 
 private:
-	struct Place {
-		std::int32_t x, y;
-		bool         operator==(const Place& o) const { return x == o.x && y == o.y; }
-	};
 	struct Extent {
 		double xMin, yMin, xMax, yMax;
 	};
-	std::vector<Place> places; // of squares
-	std::vector<int>   table; // squares by a hash of their places; negative where there is none
-	std::vector<int>   square; // by disk
-	std::vector<int>   begin, member; // disks of square s from member[begin[s]] to member[begin[s + 1]]
+	std::vector<Cell> places; // of squares
+	std::vector<int>  table; // squares by a hash of their places; negative where there is none
+	std::vector<int>  square; // by disk
+	std::vector<int>  begin, member; // disks of square s from member[begin[s]] to member[begin[s + 1]]
 	std::vector<std::array<int, 9>> around; // squares, itself among them; itself again where there is none
 	std::vector<Extent>             extents; // of the vectors in each
 };

@@ -131,7 +131,7 @@ MUTANTS = (
     mutant("grid-below", GRID, "above | (beside & (o.disk > e.disk))", "o.disk > e.disk",
            "pairs are not found by the lower of two where it comes second", "gtest:DiskGrid.*"),
     mutant("grid-box", NEAR, "y <= box.yMax + out", "y <= box.yMax", "disks above a box are not near it", "gtest:DiskGrid.*"),
-    mutant("regions-place", REGIONS, "places[table[at & (size - 1)]] == p", "true", "squares are one where a hash of theirs is", "gtest:Regions.*"),
+    mutant("regions-place", REGIONS, "places[table[at]] == place", "true", "squares are one where a hash of theirs is", "gtest:Regions.*"),
     mutant("regions-extent", REGIONS, "std::max(e.yMax, o.yMax)", "e.yMax", "differences of velocities do not know the squares around, upwards", "gtest:Regions.*"),
     mutant("regions-around", REGIONS, "places[s].y + k / 3 - 1", "places[s].y + k / 3 - 2", "the squares around are two below", "gtest:Regions.*"),
 )
