@@ -18,7 +18,7 @@ cement = dict(bonded=True, bond_creation_distance=0.05)
 BEDS = {
     "loose": (gravel, base),
     "cemented": ({**gravel, **cement, "tensile_strength": 0.3 * rock["tensile_strength"]}, base),
-    "rigid": ({**gravel, **cement, "tensile_strength": 1e10}, {**base, "tensile_strength": 1e10}),
+    "rigid": ({**gravel, **cement, "tensile_strength": 1e10}, {**base, **cement, "tensile_strength": 1e10}),
 }
 
 cases = []
