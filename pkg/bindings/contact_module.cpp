@@ -192,7 +192,7 @@ std::vector<std::string> kernelNames()
 
 py::dict solveArrays(
         const py::dict& problem, const std::string& method, double tolerance, int maxIterations, int checkEvery,
-        int threads, const std::string& stopping, const std::string& path)
+        int threads, const std::string& stopping, const std::string& path, const std::string& precision)
 {
 	Problem        p = problemOf(problem);
 	SolverSettings s;
@@ -207,6 +207,9 @@ py::dict solveArrays(
 			names += "'" + name + "', ";
 		throw py::value_error("path = '" + path + "': it must be 'best', " + names + "or 'reference'");
 	}
+	if (precision != "mixed" && precision != "double")
+		throw py::value_error("precision = '" + precision + "': it must be 'mixed' or 'double'");
+	s.precision     = precision == "double" ? Precision::Double : Precision::Mixed;
 	s.method        = method == "gaussSeidel" ? Method::GaussSeidel : Method::Accelerated;
 	s.tolerance     = tolerance;
 	s.maxIterations = maxIterations;
@@ -229,6 +232,7 @@ py::dict solveArrays(
 	d["impulse"]    = array(p.impulses);
 	d["velocity"]   = array(p.velocities);
 	d["iterations"] = statistics.iterations;
+	d["in_single"]  = statistics.inSingle;
 	d["restarts"]   = statistics.restarts;
 	d["converged"]  = statistics.converged;
 	d["seconds"]    = seconds;
@@ -252,7 +256,7 @@ py::dict changesOf(const py::dict& problem) { return dictOf(velocityChanges(prob
 /// Wall time [s] of each of `passes` over `bytes` of memory, by one thread.
 std::vector<double> streamSeconds(std::size_t bytes, int passes)
 {
-	if (bytes < sizeof(Motion) || passes < 1) throw py::value_error("bytes and passes must be positive");
+	if (bytes < sizeof(Motion<double>) || passes < 1) throw py::value_error("bytes and passes must be positive");
 	MemoryStream stream(bytes);
 	stream.pass();
 	std::vector<double> seconds;
@@ -275,7 +279,7 @@ PYBIND11_MODULE(_nonsmooth_contact, m)
 	m.def("residual", &residualOf);
 	m.def("velocity_changes", &changesOf);
 	m.def("stream_seconds", &streamSeconds);
-	m.attr("bytes_per_contact") = double(sizeof(Block)) / lanes;
+	m.attr("bytes_per_contact") = double(sizeof(Block<float>)) / lanes;
 	m.attr("kernels")           = kernelNames();
 	m.attr("most_threads")      = mostThreads;
 	m.attr("most_check_every")  = mostCheckEvery;

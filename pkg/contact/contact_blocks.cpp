@@ -71,7 +71,7 @@ namespace {
 	}
 
 	/// Whether no body is in both halves, see Block::together.
-	bool goTogether(const Block& block)
+	bool goTogether(const BlockBodies& block)
 	{
 		if ((block.movesI & block.movesJ) != (1u << lanes) - 1) return false;
 		using Ids        = std::int32_t __attribute__((vector_size(16)));
@@ -84,10 +84,10 @@ namespace {
 	}
 
 	/// Names the bodies of a block by their places; its numbers are left alone where all its lanes will have some.
-	void name(Block& block, const std::int32_t* contactOf, const ContactBlocks& all)
+	void name(Block<double>& block, const std::int32_t* contactOf, const ContactBlocks& all)
 	{
 		const auto nobody = static_cast<std::int32_t>(all.placeOf.size());
-		if (hasEmptyLane(contactOf)) block = Block {};
+		if (hasEmptyLane(contactOf)) block = {};
 		block.movesI = block.movesJ = 0;
 		for (std::size_t l = 0; l < lanes; ++l) {
 			block.i[l] = block.j[l] = nobody;
@@ -135,9 +135,9 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 		result.blockBegin.push_back(result.blockBegin.back() + part.contactOf.size() / lanes);
 		result.otherBegin.push_back(result.otherBegin.back() + part.others.size());
 	}
-	result.blocks.resize(result.blockBegin.back());
-	result.contactOf.resize(result.blocks.size() * lanes);
-	result.inverseLength.resize(result.blocks.size());
+	result.inDouble.blocks.resize(result.blockBegin.back());
+	result.contactOf.resize(result.inDouble.blocks.size() * lanes);
+	result.inDouble.inverseLength.resize(result.inDouble.blocks.size());
 	result.others.resize(result.otherBegin.back());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(partCount); ++s) {
@@ -146,8 +146,8 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 		std::copy(part.others.begin(), part.others.end(), result.others.begin() + result.otherBegin[s]);
 		std::copy(part.contactOf.begin(), part.contactOf.end(), result.contactOf.begin() + begin * lanes);
 		for (std::size_t b = begin; b < end; ++b) {
-			name(result.blocks[b], &result.contactOf[b * lanes], result);
-			if (hasEmptyLane(&result.contactOf[b * lanes])) result.inverseLength[b] = Numbers {};
+			name(result.inDouble.blocks[b], &result.contactOf[b * lanes], result);
+			if (hasEmptyLane(&result.contactOf[b * lanes])) result.inDouble.inverseLength[b] = {};
 		}
 	}
 	result.complete = true;
@@ -157,9 +157,10 @@ void fillIn(const Problem& problem, const BlockKernels& kernels, std::size_t par
 {
 	const std::size_t begin = result.blockBegin[part];
 	kernels.fill(
-	        result.blocks.data() + begin, result.inverseLength.data() + begin,
+	        result.inDouble.blocks.data() + begin, result.inDouble.inverseLength.data() + begin,
 	        result.contactOf.data() + begin * lanes, result.blockBegin[part + 1] - begin,
-	        { problem.contacts.data(), problem.impulses.data(), problem.inverseMass.data() });
+	        { problem.contacts.data(), problem.impulses.data(), problem.inverseMass.data(),
+	          problem.freeVelocity.data() });
 }
 
 } // namespace nonsmooth::contact

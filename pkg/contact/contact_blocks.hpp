@@ -12,18 +12,25 @@
 
 namespace nonsmooth::contact {
 
+template <class Number> struct BlocksOf {
+	std::vector<Block<Number>>   blocks;
+	std::vector<Numbers<Number>> inverseLength; // 1/ℓ; apart, since only the residual needs it
+};
+
 struct ContactBlocks {
 	static constexpr std::int32_t none = BlockNumbers::none; // an empty lane
 
-	std::vector<Block>        blocks;
+	BlocksOf<double>          inDouble;
+	BlocksOf<float>           inSingle; // rounded from them where sweeps ask for it
 	std::vector<std::int32_t> contactOf; // of every lane of every block, in Problem::contacts
 	std::vector<std::int32_t> others; // contacts outside blocks
 	std::vector<std::size_t>  blockBegin, otherBegin; // of every part of the order; one more than there are parts
-	std::vector<Numbers>      inverseLength; // 1/ℓ; apart, since only the residual needs it
 	std::vector<std::int32_t> placeOf; // of the problem's bodies in order.bodies
 	Survey                    survey;
 	SweepOrder                order;
 	std::size_t               partCount() const { return blockBegin.empty() ? 0 : blockBegin.size() - 1; }
+
+	template <class Number> BlocksOf<Number>& with();
 
 	/// What one part consists of, before its place in the whole is known.
 	struct Part {
@@ -33,6 +40,9 @@ struct ContactBlocks {
 	bool              complete = false; // whether the last layout came to its end, so that what it left can be kept
 	bool              kept     = false; // whether it kept what stood there
 };
+
+template <> inline BlocksOf<double>& ContactBlocks::with() { return inDouble; }
+template <> inline BlocksOf<float>&  ContactBlocks::with() { return inSingle; }
 
 /// Looks at the problem (problem_survey.hpp, whose refusals it throws) and lays out which contacts lie where in `result`, whose memory is used again. Numbers are
 /// left to fillIn(). Blocks name bodies by their places; an empty lane names the place problem.bodyCount(), which the caller provides and which cannot move.

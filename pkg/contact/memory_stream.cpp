@@ -9,7 +9,7 @@ __attribute__((target_clones("avx2", "default")))
 void MemoryStream::pass()
 {
 	// tends to 2: no number becomes too small for fast arithmetic, however many passes there are
-	for (Motion& m : numbers)
+	for (Motion<double>& m : numbers)
 		m.v = 0.5 * m.v + 1.0;
 }
 

@@ -10,15 +10,15 @@ class MemoryStream {
 public:
 	/// Takes the memory, and touches it so that the first pass finds it there; a part of a Motion is left out.
 	explicit MemoryStream(std::size_t bytes)
-	        : numbers(bytes / sizeof(Motion))
+	        : numbers(bytes / sizeof(Motion<double>))
 	{
 	}
 	/// Reads, changes and writes every number once, in the order of memory.
 	void        pass();
-	std::size_t bytes() const { return numbers.size() * sizeof(Motion); }
+	std::size_t bytes() const { return numbers.size() * sizeof(Motion<double>); }
 
 private:
-	std::vector<Motion> numbers;
+	std::vector<Motion<double>> numbers;
 };
 
 } // namespace nonsmooth::contact

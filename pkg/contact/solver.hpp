@@ -9,6 +9,10 @@
 // first; every restart doubles that, up to 40, because late in a solve the residual rises and falls over tens of sweeps, and needless
 // restarts cost most there. A residual of twice the smallest one since the last restart restarts at once, and halves the distance.
 // Strips that hold next to nothing of the residual rest until the next look at it (active_strips.hpp). Sweeps are counted by visits: one is as many as there are contacts, and one of few strips a quarter.
+// Sweeps are made in single precision first: half the bytes, and twice the contacts to an instruction. Impulses need no more digits than the tolerance
+// asks for, and velocities are those that impulses have changed (block_kernels.hpp). From there the same is done in double precision: velocities and residual
+// anew, and more sweeps if the residual asks for any, so that what is returned is held against the law in doubles. Tolerances below
+// finestInSingle are left to doubles alone.
 // Contacts lie in blocks of eight (contact_blocks.hpp) and strips (sweep_order.hpp), which make the result
 // independent of the number of threads and of the processor; sums are added in a fixed order.
 //
@@ -27,6 +31,13 @@ namespace nonsmooth::contact {
 
 enum class Method { GaussSeidel, Accelerated };
 
+/// What sweeps compute with: floats as far as the tolerance allows and doubles from there, or doubles alone.
+enum class Precision { Mixed, Double };
+
+/// The least tolerance that sweeps in single precision are for. Impulses in floats miss the law by some 1e-7 of their size, which beside this changes a residual by
+/// one part in ten thousand.
+constexpr double finestInSingle = 1e-5;
+
 struct SolverSettings {
 	Method              method        = Method::Accelerated;
 	double              tolerance     = 1e-4; // on Residual::relative(), or on the figures of another stopping test
@@ -34,6 +45,7 @@ struct SolverSettings {
 	int                 checkEvery    = 10; // sweeps between two residuals
 	int                 threads       = 1;
 	StoppingTest        stopping      = StoppingTest::NaturalMap;
+	Precision           precision     = Precision::Mixed;
 	const BlockKernels* kernels       = nullptr; // of availableKernels(); null: the first; the bits are the same
 	bool                reference
 	        = false; // contact after contact as law.hpp has it, none in blocks: what blocks are measured against
@@ -41,6 +53,7 @@ struct SolverSettings {
 
 struct SolverStatistics {
 	int  iterations = 0; // visits over contacts, a sweep of few strips being a quarter at least, rounded up
+	int  inSingle   = 0; // those of them in single precision
 	int  restarts   = 0;
 	int  strips     = 0;
 	bool converged  = true;
@@ -50,10 +63,18 @@ struct SolverStatistics {
 };
 
 /// Memory that one solve leaves to the next, and the layout in it, which is kept where it fits; what it holds changes no bit.
-struct Workspace {
-	ContactBlocks       laidOut;
-	std::vector<Motion> bodies, bodiesBefore;
+template <class Number> struct BodiesOf {
+	std::vector<Motion<Number>> now, before; // by place; the last one is nobody
 };
+struct Workspace {
+	ContactBlocks    laidOut;
+	BodiesOf<double> inDouble;
+	BodiesOf<float>  inSingle;
+
+	template <class Number> BodiesOf<Number>& with();
+};
+template <> inline BodiesOf<double>& Workspace::with() { return inDouble; }
+template <> inline BodiesOf<float>&  Workspace::with() { return inSingle; }
 
 /// What one contact asks of the positions at the end of a step [m]: its bodies draw apart by −error where that is negative, and by no more than they
 /// must; they may draw together by `error` where it is positive. With `held` they do so in any case.

@@ -96,6 +96,8 @@ void ContactDynamicsEngine::validate() const
 	if (!(openGap >= 0)) refuse("openGap", openGap, "0 or more [ℓ]");
 	if (method != "accelerated" && method != "gaussSeidel")
 		fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
+	if (precision != "mixed" && precision != "double")
+		fail("precision = '" + precision + "': it must be 'mixed' or 'double'");
 	try {
 		contact::stoppingTestOf(stoppingTest.c_str());
 	} catch (const std::invalid_argument& error) {
@@ -107,6 +109,7 @@ contact::SolverSettings ContactDynamicsEngine::settings() const
 {
 	contact::SolverSettings s;
 	s.method        = method == "gaussSeidel" ? contact::Method::GaussSeidel : contact::Method::Accelerated;
+	s.precision     = precision == "double" ? contact::Precision::Double : contact::Precision::Mixed;
 	s.tolerance     = tolerance;
 	s.maxIterations = maxIterations;
 	s.checkEvery    = checkEvery;

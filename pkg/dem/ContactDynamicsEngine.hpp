@@ -60,6 +60,7 @@ The solve ends when the natural-map residual (rms over contacts, relative to the
 and contactImpact. The same scene gives the same bits on any number of threads.)""",
 		((Real,tolerance,1e-4,,"Residual below which a step is solved [-], or the figures of another stoppingTest."))
 		((string,stoppingTest,"naturalMap",,"What tolerance is compared with: 'naturalMap' (the residual), or one of LMGC90's tests of the change of relative velocity that one more visit of a contact would make: 'Quad' (rms over active contacts), 'Maxm' (largest) or 'QM/16' (rms, and largest below 16.666 tolerances). The residual is measured and reported in any case."))
+		((string,precision,"mixed",,"What sweeps compute with: 'mixed' (floats as far as a tolerance of 1e-5 or more allows, and from there doubles, in which velocities, residual and what is left to do are found anew) or 'double'. For another stoppingTest doubles sweep alone."))
 		((int,maxIterations,2000,,"Sweeps after which a step is left as it is, with a warning; one is as many visits as there are contacts."))
 		((string,method,"accelerated",,"'accelerated' (Gauss-Seidel inside Nesterov's extrapolation) or 'gaussSeidel' (plain)."))
 		((int,checkEvery,10,,"Sweeps between two residuals. Up to 15, parts of the packing that hold next to nothing of the residual rest until the next one."))

@@ -93,6 +93,7 @@ class Solution:
     impulse: np.ndarray  # (c, 3)
     velocity: np.ndarray  # (b, 3)
     iterations: int
+    in_single: int  # those of them in single precision
     restarts: int
     converged: bool
     relative: float  # residual (natural map) of what is returned, whatever test stopped the solver
@@ -220,6 +221,7 @@ def solve(
     start="warm",
     stopping="naturalMap",
     path="best",
+    precision="mixed",
 ) -> Solution:
     """Solves the problem with the project's solver.
 
@@ -227,6 +229,8 @@ def solve(
     ``stopping``: what ``tolerance`` is compared with: "naturalMap" (the residual) or one of LMGC90's tests, "Quad", "Maxm", "QM/16".
     ``path``: the loops of the sweep: "best" (four or eight contacts at a time, by the fastest instructions of this processor), one of :func:`paths`
     with the same bits, or "reference" (contact after contact, by the general formulas; the same solution to within the tolerance).
+    ``precision``: "mixed" (sweeps in single precision where ``tolerance`` is 1e-5 or more and ``stopping`` "naturalMap"; what they find is held against the law,
+    and swept on, in double precision) or "double".
     Raises ProblemError for settings without sense, and for numbers that are not finite or must not be negative, naming the body or contact.
     """
     import _nonsmooth_contact
@@ -241,7 +245,7 @@ def solve(
         or not (np.isfinite(tolerance) and tolerance > 0)
     ):
         raise ProblemError(f"tolerance = {tolerance!r}: it must be a positive, finite number")
-    for name, value in (("method", method), ("stopping", stopping), ("path", path)):
+    for name, value in (("method", method), ("stopping", stopping), ("path", path), ("precision", precision)):
         if not isinstance(value, str):
             raise ProblemError(f"{name} = {value!r}: it must be a string")
     sweeps = _whole("max_iterations", max_iterations, 0, 2**31 - 1), _whole(
@@ -250,14 +254,23 @@ def solve(
     threads = _whole("threads", threads, 1, _nonsmooth_contact.most_threads)
     try:
         found = _nonsmooth_contact.solve(
-            _arrays(check(problem), start), method, float(tolerance), *sweeps, threads, stopping, path
+            _arrays(check(problem), start), method, float(tolerance), *sweeps, threads, stopping, path, precision
         )
     except ValueError as error:
         raise ProblemError(str(error)) from None
     return Solution(
         **{
             name: found[name]
-            for name in ("impulse", "velocity", "iterations", "restarts", "converged", "relative", "seconds")
+            for name in (
+                "impulse",
+                "velocity",
+                "iterations",
+                "in_single",
+                "restarts",
+                "converged",
+                "relative",
+                "seconds",
+            )
         }
     )
 

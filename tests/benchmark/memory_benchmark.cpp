@@ -23,7 +23,7 @@ void stream(benchmark::State& state, std::size_t bytes)
 void blocks(benchmark::State& state)
 {
 	try {
-		stream(state, benchmarks::problem().contactCount() * sizeof(Block) / lanes);
+		stream(state, benchmarks::problem().contactCount() * sizeof(Block<float>) / lanes);
 	} catch (const std::exception& error) {
 		state.SkipWithError(error.what());
 	}

@@ -42,14 +42,21 @@ def test_a_link_is_replaced_and_not_followed(problem, tmp_path):
 
 
 def test_every_path_and_any_threads_give_the_same_bits(problem):
-    one = contact.solve(problem, max_iterations=50, tolerance=1e-9)
-    for path in contact.paths()[:-1]:
-        for threads in (1, 2):
-            other = contact.solve(problem, max_iterations=50, tolerance=1e-9, path=path, threads=threads)
-            assert np.array_equal(one.impulse, other.impulse) and np.array_equal(one.velocity, other.velocity), (
-                path,
-                threads,
-            )
+    for tolerance in (1e-5, 1e-9):  # in single precision and not
+        one = contact.solve(problem, max_iterations=50, tolerance=tolerance)
+        for path in contact.paths()[:-1]:
+            for threads in (1, 2):
+                other = contact.solve(problem, max_iterations=50, tolerance=tolerance, path=path, threads=threads)
+                told = (tolerance, path, threads)
+                assert np.array_equal(one.impulse, other.impulse) and np.array_equal(one.velocity, other.velocity), told
+
+
+def test_precision_is_what_was_asked_for(problem):
+    for precision, tolerance, single in (("mixed", 1e-4, True), ("mixed", 1e-9, False), ("double", 1e-4, False)):
+        found = contact.solve(problem, start="cold", tolerance=tolerance, precision=precision)
+        assert found.in_single == (found.iterations if single else 0) and found.iterations > 0
+        # the same formula by other code
+        assert contact.residual(problem, found.impulse).relative == pytest.approx(found.relative, rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -122,6 +129,7 @@ def test_arrays_of_another_kind_are_refused(problem, name, value, words):
         ({"method": 3}, "method = 3: it must be a string"),
         ({"method": "newton"}, "method = 'newton': it must be 'accelerated' or 'gaussSeidel'"),
         ({"stopping": "soon"}, "stopping = 'soon': it must be 'naturalMap'"),
+        ({"precision": "half"}, "precision = 'half': it must be 'mixed' or 'double'"),
         ({"path": "fast"}, "path = 'fast': it must be 'best'"),
         ({"start": "hot"}, "start = 'hot': it must be 'warm', 'cold' or an array"),
         ({"start": np.zeros((3, 3))}, r"impulse has the shape \(3, 3\) and must have \(2589, 3\)"),

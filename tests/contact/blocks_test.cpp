@@ -69,7 +69,7 @@ std::size_t expectWhole(const Problem& p, const ContactBlocks& b)
 		if (index == ContactBlocks::none) ++empty;
 		else
 			++seen[index];
-	for (std::size_t k = 0; k < b.blocks.size(); ++k)
+	for (std::size_t k = 0; k < b.inDouble.blocks.size(); ++k)
 		for (const std::size_t first : { std::size_t(0), halfLanes })
 			EXPECT_FALSE(anyTwice(movingBodies(p, b, k, first, first + halfLanes))) << "block " << k;
 	for (const auto index : b.others)
@@ -82,10 +82,11 @@ std::size_t expectWhole(const Problem& p, const ContactBlocks& b)
 std::size_t expectApart(const Problem& p, const ContactBlocks& b)
 {
 	std::size_t together = 0;
-	for (std::size_t k = 0; k < b.blocks.size(); ++k) {
+	for (std::size_t k = 0; k < b.inDouble.blocks.size(); ++k) {
 		const auto moving = movingBodies(p, b, k, 0, lanes);
-		EXPECT_EQ(b.blocks[k].together, moving.size() == 2 * lanes && !anyTwice(moving)) << "block " << k;
-		together += b.blocks[k].together;
+		EXPECT_EQ(b.inDouble.blocks[k].together, moving.size() == 2 * lanes && !anyTwice(moving))
+		        << "block " << k;
+		together += b.inDouble.blocks[k].together;
 	}
 	return together;
 }
@@ -106,7 +107,7 @@ TEST(Blocks, AreVisitedAtOnceWhereNoBodyIsInBothHalves)
 	ContactBlocks b;
 	layOut(p, 2, b);
 	// colours of some ten blocks each: all but their ends, and the contacts with walls
-	EXPECT_EQ(b.blocks.size(), 438u);
+	EXPECT_EQ(b.inDouble.blocks.size(), 438u);
 	EXPECT_EQ(expectApart(p, b), 419u);
 }
 
@@ -169,7 +170,7 @@ TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
 			const Contact& c     = p.contacts[b.contactOf[k]];
 			const Impulse &start = p.impulses[b.contactOf[k]], wanted = project(c, start);
 			const Impulse  inverse = inverseDelassus(c, p.inverseMass[c.i], p.inverseMass[c.j]);
-			const Block&   block   = b.blocks[k / lanes];
+			const auto&    block   = b.inDouble.blocks[k / lanes];
 			const auto     l       = k % lanes;
 			const Impulse  now { block.n.v[l], block.t.v[l], block.r.v[l] },
 			        before { block.beforeN.v[l], block.beforeT.v[l], block.beforeR.v[l] };
@@ -180,7 +181,7 @@ TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
 			                { block.inverseN.v[l], block.inverseT.v[l], block.inverseR.v[l] } },
 			        { inverse }))
 			        << kernels->name;
-			ASSERT_EQ(b.inverseLength[k / lanes].v[l], 1 / c.length);
+			ASSERT_EQ(b.inDouble.inverseLength[k / lanes].v[l], 1 / c.length);
 			++(wanted.n == start.n ? free : cut)[0];
 			++(wanted.t == start.t ? free : cut)[1];
 			++(wanted.r == start.r ? free : cut)[2];
@@ -200,12 +201,14 @@ TEST(Blocks, FetchingAheadChangesNoBit)
 		layOut(p, 1, one);
 		for (std::size_t part = 0; part < one.partCount(); ++part)
 			fillIn(p, *kernels, part, one);
-		ContactBlocks       other = one;
-		std::vector<Motion> bodies(mixed().bodyCount() + 1), same(bodies.size());
+		ContactBlocks               other = one;
+		std::vector<Motion<double>> bodies(mixed().bodyCount() + 1), same(bodies.size());
 		for (std::size_t b = 0; b + 1 < bodies.size(); ++b)
-			bodies[b].v = same[b].v = Lanes { 0.01 * double(b % 7), -0.02 * double(b % 5), 0, 1e-4 };
-		kernels->sweep(one.blocks.data(), one.blocks.size(), bodies.data(), 0);
-		kernels->sweepAndFetch(other.blocks.data(), other.blocks.size(), same.data(), 0, one.blocks.data());
+			bodies[b].v = same[b].v = Four<double> { 0.01 * double(b % 7), -0.02 * double(b % 5), 0, 1e-4 };
+		kernels->inDouble.sweep(one.inDouble.blocks.data(), one.inDouble.blocks.size(), bodies.data(), 0);
+		kernels->inDouble.sweepAndFetch(
+		        other.inDouble.blocks.data(), other.inDouble.blocks.size(), same.data(), 0,
+		        one.inDouble.blocks.data());
 		EXPECT_TRUE(sameBits(bodies, same)) << kernels->name;
 	}
 }
@@ -215,7 +218,7 @@ TEST(Blocks, ReferencePutsNoContactIntoABlock)
 	const Problem p = mixed();
 	ContactBlocks b;
 	layOut(p, 2, b, false);
-	EXPECT_TRUE(b.blocks.empty());
+	EXPECT_TRUE(b.inDouble.blocks.empty());
 	std::vector<int> seen(p.contactCount(), 0);
 	for (const auto index : b.others)
 		++seen[index];

@@ -214,7 +214,7 @@ def test_a_section_without_the_walls_that_are_weakened_is_refused_at_once(tmp_pa
 
 def test_a_sweep_is_timed_only_where_every_sweep_is_made():
     problem = contact.load(ROOT / "tests" / "data" / "slope_t1.h5")
-    assert all(math.isfinite(sweeps.sweep_seconds(problem, path, 1)) for path in ("reference", "best"))
+    assert all(math.isfinite(sweeps.sweep_seconds(problem, path, 1, "mixed")) for path in ("reference", "best"))
     contacts = (
         "body",
         "normal",
@@ -229,7 +229,7 @@ def test_a_sweep_is_timed_only_where_every_sweep_is_made():
     )
     nothing = {name: getattr(problem, name)[:0] for name in contacts}
     with pytest.raises(RuntimeError, match="cannot be timed"):
-        sweeps.sweep_seconds(dataclasses.replace(problem, **nothing), "best", 1)
+        sweeps.sweep_seconds(dataclasses.replace(problem, **nothing), "best", 1, "mixed")
 
 
 def test_the_converged_solution_carries_the_weight():

@@ -9,8 +9,14 @@ from yade.nonsmooth import contact
 from yade.nonsmooth.benchmark import report, scale, steps, sweeps
 
 ONE = 1000  # contacts of the problem
-#: Seconds of a sweep over ONE contacts, by path and threads.
-COST = {("reference", 1): 0.040, ("portable", 1): 0.020, ("best", 1): 0.010, ("best", 2): 0.005}
+#: Seconds of a sweep over ONE contacts, by path, threads and precision.
+COST = {
+    ("reference", 1, "double"): 0.040,
+    ("portable", 1, "mixed"): 0.020,
+    ("best", 1, "double"): 0.016,
+    ("best", 1, "mixed"): 0.010,
+    ("best", 2, "mixed"): 0.005,
+}
 
 
 @pytest.fixture
@@ -18,8 +24,8 @@ def made_up(monkeypatch):
     """Solves that take half a second once, and COST for each sweep and ONE contacts; memory that gives 2 GB/s, and 8 GB/s what fits a cache."""
     size = _nonsmooth_contact.bytes_per_contact
 
-    def solve(problem, max_iterations, threads, path, **others):
-        seconds = 0.5 + COST[path, threads] * max_iterations * len(problem.length) / ONE
+    def solve(problem, max_iterations, threads, path, precision, **others):
+        seconds = 0.5 + COST[path, threads, precision] * max_iterations * len(problem.length) / ONE
         return SimpleNamespace(iterations=max_iterations, seconds=seconds)
 
     def stream(bytes_each, passes):
@@ -39,9 +45,11 @@ def test_what_is_said_of_sweeps_follows_from_their_times(made_up):
     found = sweeps.measure("", str(ONE), 3)
     assert found["contacts"] == ONE and found["working_set_MB"] == pytest.approx(1e-6 * ONE * made_up)
     assert medians(found["ns_per_contact"]) == pytest.approx(
-        dict(reference=40_000, portable=20_000, best=10_000, best_two_threads=5_000)
+        dict(reference=40_000, portable=20_000, double=16_000, best=10_000, best_two_threads=5_000)
     )
-    assert medians(found["speedup_over_reference"]) == pytest.approx(dict(portable=2, best=4, best_two_threads=8))
+    assert medians(found["speedup_over_reference"]) == pytest.approx(
+        dict(portable=2, double=2.5, best=4, best_two_threads=8)
+    )
     assert found["speedup_two_threads"]["median"] == pytest.approx(2)
     assert found["bandwidth_GB_per_s"] == pytest.approx(dict(working_set=8, memory=2))
     # memory would bring the blocks in ONE size / rate, where a sweep takes 10 ms

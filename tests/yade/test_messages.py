@@ -62,6 +62,7 @@ def plain_loop(e, physics=None, laws=None):
         ("correctionSlack", (0.0, 1 - 1e-9), (-1e-9, 1.0, math.nan), "from 0 to less than 1"),
         ("openGap", (0.0, 10.0), (-1e-9, math.nan), "0 or more"),
         ("method", ("accelerated", "gaussSeidel"), ("GaussSeidel", ""), "'accelerated' or 'gaussSeidel'"),
+        ("precision", ("mixed", "double"), ("single", ""), "'mixed' or 'double'"),
         (
             "stoppingTest",
             ("naturalMap", "Quad", "Maxm", "QM/16"),

@@ -15,9 +15,9 @@ from slope_scenes import write_quick
 
 ROWS = 200
 PINNED = {
-    "slope": "8e99936f92c246f538727b95efb81bc2dd6330df468274c0c8a72f09e9946803",
-    "biaxial": "affe9e8429cf3c21def498760e8a7f9990757c89ea451bf51b2f54d674a401a5",
-    "column": "2b138157e60b055d670103c4a059013bfcf7126be1be529315169dae95daa895",
+    "slope": "d222b30253905319a0c59dcf8be3b1551e22b1978e60991a4469830dd66ee804",
+    "biaxial": "ac38a697832695760e58a61b52aed5dfc462e43296f6045c810f714a4a99d68d",
+    "column": "215126531ffbbe444eedfc466c76a76dd48e8ab220dfb85ed297fd5ade5d0831",
 }
 
 

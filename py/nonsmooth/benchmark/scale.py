@@ -128,7 +128,7 @@ def measure_sweeps(folder, problems, threads):
     for _ in range(REPEATS):
         for problem, times in zip(loaded, found):
             for n in counts:
-                times[str(n)].append(1e9 * sweeps.sweep_seconds(problem, "best", n) / len(problem.length))
+                times[str(n)].append(1e9 * sweeps.sweep_seconds(problem, "best", n, "mixed") / len(problem.length))
     return {"sweeps": [{n: spread(values) for n, values in times.items()} for times in found]}
 
 

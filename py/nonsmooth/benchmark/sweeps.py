@@ -1,7 +1,7 @@
 """Sweeps alone: wall time for each contact and sweep by every path of the solver, and the bound that memory sets.
 
 Timed is a sweep of the accelerated method, extrapolation included and residuals not: the difference between two solves of one problem that make
-20 and 120 sweeps and look at the residual at their ends only. What a solve does once (layout, velocities anew) cancels. The paths take
+20 and 120 sweeps from no impulses and look at the residual at their ends only. By all paths but "reference" and "double" they are sweeps in single precision. What a solve does once (layout, velocities anew) cancels. The paths take
 turns, so that whatever else the machine does hits all of them.
 
 The bound: a sweep reads every number of every block once and writes the impulses. Memory is streamed through by one thread, which reads, changes
@@ -18,23 +18,32 @@ from ..statistics import spread
 __all__ = ["FEW", "MANY", "PATHS", "bandwidth", "measure", "sweep_seconds"]
 
 FEW, MANY = 20, 120  # sweeps of the two solves
-#: Ways through the solver that are timed: name -> (path, threads), see contact.solve.
+TOLERANCE = 1e-5  # the finest of single precision, and not met from no impulses in so few sweeps
+#: Ways through the solver that are timed: name -> (path, threads, precision), see contact.solve.
 PATHS = {
-    "reference": ("reference", 1),
-    "portable": ("portable", 1),
-    "best": ("best", 1),
-    "best_two_threads": ("best", 2),
+    "reference": ("reference", 1, "double"),
+    "portable": ("portable", 1, "mixed"),
+    "double": ("best", 1, "double"),
+    "best": ("best", 1, "mixed"),
+    "best_two_threads": ("best", 2, "mixed"),
 }
 MEMORY_BYTES = 256_000_000  # more than any cache
 STREAM_BYTES = 1_000_000_000  # passed over in all, for each size of working set
 
 
-def sweep_seconds(problem, path, threads):
+def sweep_seconds(problem, path, threads, precision):
     """Wall time of one sweep over the ContactProblem [s]. Raises RuntimeError where one of the solves ended early."""
 
     def solve(sweeps):
         solved = contact.solve(
-            problem, tolerance=1e-300, max_iterations=sweeps, check_every=sweeps, threads=threads, path=path
+            problem,
+            start="cold",
+            tolerance=TOLERANCE,
+            max_iterations=sweeps,
+            check_every=sweeps,
+            threads=threads,
+            path=path,
+            precision=precision,
         )
         if solved.iterations != sweeps:
             raise RuntimeError(
@@ -62,8 +71,8 @@ def measure(folder, problem, repeats):
     count, size = len(loaded.length), _nonsmooth_contact.bytes_per_contact
     seconds = {name: np.empty(repeats) for name in PATHS}
     for k in range(repeats):
-        for name, (path, threads) in PATHS.items():
-            seconds[name][k] = sweep_seconds(loaded, path, threads)
+        for name, way in PATHS.items():
+            seconds[name][k] = sweep_seconds(loaded, *way)
     best = np.median(seconds["best"])
     cached, memory = (float(np.median(bandwidth(b))) for b in (max(size * count, 1e4), MEMORY_BYTES))
     return {

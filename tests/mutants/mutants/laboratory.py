@@ -163,7 +163,7 @@ MUTANTS = (
            "test_benchmark_numbers.py::test_what_is_said_of_sweeps_follows_from_their_times"),
     mutant("bench-bound", BENCH + "sweeps.py", '"working_set": size * count / cached / best', '"working_set": size * count / memory / best', "blocks that fit the cache are held against slow memory",
            "test_benchmark_numbers.py::test_what_is_said_of_sweeps_follows_from_their_times"),
-    mutant("bench-size", BENCH + "scale.py", '"best", n) / len(problem.length)', '"best", n) / len(loaded[0].length)', "all sizes are told for contacts of the first",
+    mutant("bench-size", BENCH + "scale.py", '"best", n, "mixed") / len(problem.length)', '"best", n) / len(loaded[0].length)', "all sizes are told for contacts of the first",
            "test_benchmark_numbers.py::test_sweeps_by_size_are_told_for_each_contact"),
     mutant("bench-second", BENCH + "report.py", 'step / rest["time_step_s"] / (soft_step / soft["time_step_s"])', 'step / rest["time_step_s"] / (soft_step / rest["time_step_s"])', "soft contacts are given the steps of hard ones",
            "test_benchmark_numbers.py::test_headlines_follow_from_their_parts"),

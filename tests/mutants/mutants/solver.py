@@ -2,7 +2,9 @@
 from mutant import mutant
 
 LAW, KERNELS, PROBLEM, SLIP = ("pkg/contact/law.hpp", "pkg/contact/block_kernels.inc", "pkg/contact/problem.hpp", "pkg/contact/slip_weakening.hpp")
-SOLVER, BLOCKS, RESIDUAL, STOPPING = ("pkg/contact/solver.cpp", "pkg/contact/contact_blocks.cpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
+SOLVER, SWEEPER, CORRECTION = ("pkg/contact/solver.cpp", "pkg/contact/sweeper.cpp", "pkg/contact/position_correction.cpp")
+ACCESS = "pkg/contact/lane_access.inc"
+BLOCKS, RESIDUAL, STOPPING = ( "pkg/contact/contact_blocks.cpp", "pkg/contact/residual.cpp", "pkg/contact/stopping.cpp")
 ORDER, CUT, SCHEDULE = ("pkg/contact/sweep_order.cpp", "pkg/contact/strip_cut.cpp", "pkg/contact/strip_schedule.cpp")
 WAVES = "pkg/contact/strip_schedule.hpp"
 STRIPS, EXTRAPOLATION = "pkg/contact/active_strips.cpp", "pkg/contact/extrapolation.hpp"
@@ -28,7 +30,7 @@ MUTANTS = (
     mutant("impulse-components", PROBLEM, "c.ny * p.n + c.nx * p.t", "c.ny * p.n - c.nx * p.t", "the y component of a tangential impulse has the wrong sign",
            "gtest:Residual.*:Momentum.*"),
     # ---- sweeps
-    mutant("extrapolation-back", KERNELS, "now + beta * (now - before[b].v)", "now + beta * (before[b].v - now)",
+    mutant("extrapolation-back", KERNELS, "last + beta * (last - before)", "last + beta * (before - last)",
            "velocities are extrapolated backwards, impulses forwards", "gtest:Reference.*:Blocks.Reference*"),
     mutant("extrapolation-row", KERNELS, "pr + beta * (pr - at.get(k->beforeR))", "pr + beta * (pr - at.get(k->beforeT))",
            "rolling is extrapolated from the tangential impulse before", "gtest:Reference.*:Blocks.Reference*"),
@@ -48,18 +50,18 @@ MUTANTS = (
     mutant("strips-measured", STRIPS, "return active[before] || (after < evenStrips && active[after]);", "return active[before];",
            "a strip's residual stays though the strip after it is active", "gtest:ActiveStrips.*"),
     mutant("strips-momentum", KERNELS,
-           "push<Access>(k, at, n - at.get(k->beforeN), t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
-           "push<Access>(k, at, at.get(k->beforeN) - n, t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
+           "push<Number, Access>(k, at, n - at.get(k->beforeN), t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
+           "push<Number, Access>(k, at, at.get(k->beforeN) - n, t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
            "a strip that comes to rest leaves momentum in velocities", "gtest:ActiveStrips.*"),
-    mutant("strips-momentum-rows", SOLVER, "setTwists(row, vi, vj, bodiesBefore);", "setTwists(row, vi, vj, bodies);",
+    mutant("strips-momentum-rows", SWEEPER, "setTwists(row, vi, vj, bodiesBefore);", "setTwists(row, vi, vj, bodies);",
            "contacts outside blocks push bodies when they come to rest", "gtest:ActiveStrips.*"),
-    mutant("strips-left-over", SOLVER, "begin.back() > begin[begin.size() - 2]", "false", "strips rest though contacts of no strip move their bodies",
+    mutant("strips-left-over", SWEEPER, "begin.back() > begin[begin.size() - 2]", "false", "strips rest though contacts of no strip move their bodies",
            "gtest:Threads.*"),
-    mutant("residual-mean", SOLVER, "std::sqrt(all.square / n)", "std::sqrt(all.square)", "the residual is a sum and no mean over contacts",
+    mutant("residual-mean", SWEEPER, "std::sqrt(all.square / n)", "std::sqrt(all.square)", "the residual is a sum and no mean over contacts",
            "gtest:Residual.*:Blocks.Reported*"),
-    mutant("position-held", SOLVER, "errors[index].held ? without : 0", "errors[index].held ? 0 : without",
+    mutant("position-held", CORRECTION, "errors[index].held ? without : 0", "errors[index].held ? 0 : without",
            "contacts pull and bonds do not, where errors of position are taken back", "gtest:Positions.*"),
-    mutant("position-friction", SOLVER, "c.biasT = c.biasR = c.friction = c.rollingArm = 0;", "c.biasT = c.biasR = 0;",
+    mutant("position-friction", CORRECTION, "c.biasT = c.biasR = c.friction = c.rollingArm = 0;", "c.biasT = c.biasR = 0;",
            "displacements of contacts outside the blocks know friction", "gtest:Positions.*"),
     mutant("blocks-bias", SURVEY, "c.biasT == 0 && c.biasR == 0", "c.biasT == 0", "contacts with a rolling bias go into blocks, whose formulas have none",
            "gtest:*/OneContact.*"),
@@ -87,12 +89,30 @@ MUTANTS = (
     mutant("kept-uncut", CUT, CUT_KEPT, "survey.pairsKept && !moved", "one strip is kept though positions are there again", "gtest:Kept.*"),
     mutant("kept-after-refusal", BLOCKS, "if (!whole) seen.pairsKept = seen.simpleKept = false;", "if (false) seen.pairsKept = seen.simpleKept = false;",
            "what a refused problem left counts as the last one", "gtest:Kept.*"),
-    mutant("kept-numbers", SOLVER, "fillIn(problem, kernels, s, laidOut);", "if (!laidOut.kept) fillIn(problem, kernels, s, laidOut);",
+    mutant("kept-numbers", SOLVER, "fillIn(problem, kernels, s, exact.laidOut);", "if (!laidOut.kept) fillIn(problem, kernels, s, exact.laidOut);",
            "a kept layout keeps its numbers too", "gtest:Kept.*"),
-    mutant("fill-bias", KERNELS, "at.set(k->biasN, contact(&Contact::biasN));", "at.set(k->biasN, contact(&Contact::biasT));",
+    mutant("fill-bias", KERNELS, "nx * dx + ny * dy + contact(&Contact::biasN)", "nx * dx + ny * dy + contact(&Contact::biasT)",
            "blocks take the tangential bias for the normal one", "gtest:Blocks.*:Momentum.*:Pinned.*"),
     mutant("fill-threshold", KERNELS, "clamp<V>(impulse(&Impulse::t), maxOf<V>(zero, friction * pressed))",
            "clamp<V>(impulse(&Impulse::t), maxOf<V>(zero, friction * n))", "a warm start loses the friction of bonds that pull", "gtest:Blocks.*"),
+    # ---- single precision
+    mutant("single-slides", KERNELS, "__builtin_convertvector(x >= thresholdF, Mask) ? threshold : inside", "__builtin_convertvector(x >= thresholdF, Mask) ? inside : inside",
+           "contacts that slide are beside their threshold by a rounding of floats", "gtest:Precision.*"),
+    mutant("single-opens", KERNELS, "nF <= -adhesionF", "nF < -adhesionF",
+           "bonds that open are beside their threshold by a rounding of floats", "gtest:Precision.*"),
+    mutant("single-halves", ACCESS, "bodies[id[l + halfLanes]].v = high(v);", "bodies[id[l + halfLanes]].v = low(v);",
+           "bodies of a block's second half get what those of the first got", "gtest:Precision.*"),
+    mutant("single-anew", SOLVER, "if (written) finish(true);", "if (written) exact.residual = rounded->residual;",
+           "what floats have found is not held against the law in doubles", "gtest:Precision.*"),
+    mutant("single-not-finite", SOLVER, "rounded->iterations > 0 && std::isfinite(rounded->residual.rms)", "rounded->iterations > 0",
+           "impulses that are too large for floats are taken from them", "gtest:Precision.*"),
+    mutant("single-bonds", KERNELS, "minOf<double>(from[k].adhesion.v[l], most)", "from[k].adhesion.v[l]", "bonds that hold whatever it costs have no threshold in floats",
+           "gtest:Precision.*"),
+    mutant("single-rows", SOLVER, "exact.rows[k].p = exact.rows[k].before = rounded->rows[k].p;", ";", "contacts outside blocks keep the impulses they began with",
+           "gtest:Precision.*"),
+    mutant("single-tolerance", SOLVER, "settings.tolerance >= finestInSingle", "true", "floats sweep for tolerances that they do not reach", "gtest:Precision.*"),
+    mutant("single-free", KERNELS, "at.set(k->biasT, nx * dy - ny * dx + leverTj * spinJ - leverTi * spinI);", "at.set(k->biasT, nx * dy - ny * dx);",
+           "contacts do not know how free bodies spin", "gtest:Precision.*:Blocks.Reported*"),
     mutant("position-normals", KERNELS, "at.get(k->ny) * n", "at.get(k->nx) * n",
            "normal impulses of displacements push along x and y alike", "gtest:Positions.*"),
     # ---- order of the sweep

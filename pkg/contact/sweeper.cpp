@@ -1,0 +1,315 @@
+#include <algorithm>
+#include <cmath>
+#include <contact/extrapolation.hpp>
+#include <contact/law.hpp>
+#include <contact/sweeper.hpp>
+
+namespace nonsmooth::contact {
+namespace {
+
+	constexpr std::size_t lastCache = 32 << 20; // bytes; of a common processor, and no more than a hint
+	// Sweeps for which a choice of strips holds at least, since each one takes momentum away; and at most: where looks at the residual are further apart, none rests.
+	constexpr int shortestRest = 10, longestRest = 15;
+
+} // namespace
+
+template <class Number>
+Sweeper<Number>::Sweeper(Problem& problem_, const SolverSettings& settings_, Workspace& workspace)
+        : problem(problem_)
+        , settings(settings_)
+        , kernels(kernelsFor(settings_).template with<Number>())
+        , threads(threadsFor(problem_, settings_))
+        , laidOut(workspace.laidOut)
+        , own(laidOut.with<Number>())
+        , bodies(workspace.with<Number>().now)
+        , bodiesBefore(workspace.with<Number>().before)
+{
+	own.blocks.resize(laidOut.blockBegin.back());
+	own.inverseLength.resize(laidOut.blockBegin.back());
+	outgrowsCache = own.blocks.size() * sizeof(Block<Number>) > lastCache;
+	rows.resize(laidOut.others.size());
+	sums.resize(laidOut.partCount());
+	if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.partCount());
+	bodies.resize(problem.bodyCount() + 1);
+	bodiesBefore.resize(problem.bodyCount() + 1);
+	for (std::size_t k = 0; k < rows.size(); ++k) {
+		Contact           c  = problem.contacts[laidOut.others[k]];
+		const InverseMass mi = problem.inverseMass[c.i], mj = problem.inverseMass[c.j];
+		const Impulse     p = project(c, problem.impulses[laidOut.others[k]]);
+		const Impulse     u = relativeVelocity(c, problem.freeVelocity[c.i], problem.freeVelocity[c.j]);
+		c.biasN += u.n;
+		c.biasT += u.t;
+		c.biasR += u.r;
+		c.i     = laidOut.placeOf[c.i];
+		c.j     = laidOut.placeOf[c.j];
+		rows[k] = { c, mi, mj, p, p, inverseDelassus(c, mi, mj) };
+	}
+	bodies.back() = Motion<Number> {};
+	strips.reset(laidOut.order.partBegin, laidOut.order.evenStrips);
+}
+
+/// Leaves fixed bodies alone, which several threads may visit.
+template <class Number>
+void Sweeper<Number>::setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion<Number>>& in)
+{
+	const auto set = [&in](std::int32_t place, const InverseMass& mass, const Twist& v) {
+		if (mass.isFixed()) return;
+		auto& motion = in[place].v;
+		motion[0]    = static_cast<Number>(v.x);
+		motion[1]    = static_cast<Number>(v.y);
+		motion[2]    = static_cast<Number>(v.w);
+	};
+	set(row.contact.i, row.mi, vi);
+	set(row.contact.j, row.mj, vj);
+}
+
+template <class Number> void Sweeper<Number>::plan()
+{
+#pragma omp single
+	schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
+}
+
+/// A strip of the first half is the first to touch its own bodies and those of the next one.
+template <class Number> typename Sweeper<Number>::Places Sweeper<Number>::newIn(std::size_t s) const
+{
+	const SweepOrder& order = laidOut.order;
+	if (s >= order.evenStrips) return { 0, 0 };
+	return { order.bodyBegin[2 * s], order.bodyBegin[std::min(2 * s + 2, order.stripCount())] };
+}
+
+template <class Number> void Sweeper<Number>::setOut(std::size_t place, std::int32_t body)
+{
+	bodies[place].v = Four<Number> { 0, 0, 0, static_cast<Number>(problem.inverseMass[body].x) };
+}
+
+template <class Number> void Sweeper<Number>::setOut(std::size_t s)
+{
+	const Places places = newIn(s);
+	for (std::size_t k = places.begin; k < places.end; ++k)
+		setOut(k, laidOut.order.bodies[k]);
+}
+
+template <class Number> void Sweeper<Number>::applyRows(std::size_t s)
+{
+	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+		const Row& row = rows[k];
+		Twist      vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
+		applyImpulse(row.contact, row.p, row.mi, row.mj, vi, vj);
+		setTwists(row, vi, vj, bodies);
+	}
+}
+
+template <class Number> void Sweeper<Number>::keepBodies(std::size_t s)
+{
+	const Places places = newIn(s);
+	std::copy(bodies.begin() + places.begin, bodies.begin() + places.end, bodiesBefore.begin() + places.begin);
+}
+
+template <class Number> void Sweeper<Number>::sweepRow(std::size_t k, double beta)
+{
+	Row&          row = rows[k];
+	const Impulse y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
+		          row.p.r + beta * (row.p.r - row.before.r) };
+	Twist         vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
+	row.before = row.p;
+	row.p      = visit(row.contact, y, row.inverse, row.mi, row.mj, vi, vj);
+	setTwists(row, vi, vj, bodies);
+}
+
+/// Chooses the strips that are visited until the next choice.
+template <class Number> void Sweeper<Number>::chooseStrips()
+{
+	const auto& begin = laidOut.order.partBegin;
+	if (settings.method != Method::Accelerated || settings.checkEvery > longestRest
+	    || settings.stopping != StoppingTest::NaturalMap)
+		return;
+	if (begin.back() > begin[begin.size() - 2]) return; // what is left over moves bodies of any strip
+#pragma omp barrier
+#pragma omp single
+	if (strips.choose(sums)) schedule.plan(strips.work(), laidOut.order.evenStrips, omp_get_num_threads());
+	if (!strips.anyComesToRest()) return;
+	// one worker's stretch may have most of them, so each takes what comes next; no two even strips share bodies, nor do two odd ones
+	const long even = static_cast<long>(laidOut.order.evenStrips), all = static_cast<long>(begin.size()) - 2;
+	for (const auto& [first, end] : { std::pair(0L, even), std::pair(even, all) }) {
+#pragma omp for schedule(dynamic, 1)
+		for (long s = first; s < end; ++s)
+			if (strips.comesToRest(s)) loseMomentum(s);
+	}
+}
+
+/// A strip that comes to rest keeps its impulses P_k, so that P_k − P_{k−1} goes out of what its bodies' velocities are extrapolated by.
+template <class Number> void Sweeper<Number>::loseMomentum(std::size_t s)
+{
+	kernels.rest(
+	        own.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s],
+	        bodiesBefore.data());
+	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+		Row&       row    = rows[k];
+		const auto before = [this](std::int32_t place) {
+			const auto& v = bodiesBefore[place].v;
+			return Twist { v[0], v[1], v[2] };
+		};
+		Twist         vi = before(row.contact.i), vj = before(row.contact.j);
+		const Impulse lost { row.p.n - row.before.n, row.p.t - row.before.t, row.p.r - row.before.r };
+		applyImpulse(row.contact, lost, row.mi, row.mj, vi, vj);
+		setTwists(row, vi, vj, bodiesBefore);
+		row.before = row.p;
+	}
+}
+
+template <class Number> void Sweeper<Number>::extrapolate(std::size_t s, double beta)
+{
+	if (settings.method != Method::Accelerated) return;
+	const Places places = newIn(s);
+	kernels.extrapolate(
+	        bodies.data() + places.begin, bodiesBefore.data() + places.begin, places.end - places.begin, beta);
+}
+
+/// One sweep of the active strips for each beta, from what impulses and velocities become when they are extrapolated by it, and the residual after the last
+/// one, strip by strip while it is at hand.
+template <class Number> void Sweeper<Number>::sweep(const std::vector<double>& betas)
+{
+	const int sweeps = static_cast<int>(betas.size());
+	schedule.passes(
+	        omp_get_thread_num(), sweeps + 1,
+	        [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
+		        if (pass == sweeps) {
+			        if (strips.changes(s)) measureStrip(s);
+			        return;
+		        }
+		        const double beta = betas[pass];
+		        if (s < laidOut.order.evenStrips && strips.moves(s)) extrapolate(s, beta);
+		        if (!strips.isActive(s)) return;
+		        Block<Number>* const blocks = own.blocks.data() + laidOut.blockBegin[s];
+		        const std::size_t    count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
+		        if (ahead.parts > 0 && outgrowsCache) {
+			        const std::size_t begin = laidOut.blockBegin[ahead.strip],
+			                          next  = laidOut.blockBegin[ahead.strip + 1] - begin;
+			        kernels.sweepAndFetch(
+			                blocks, count, bodies.data(), beta,
+			                own.blocks.data() + begin + next * ahead.part / ahead.parts);
+		        } else
+			        kernels.sweep(blocks, count, bodies.data(), beta);
+		        for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+			        sweepRow(k, beta);
+	        });
+}
+
+template <class Number> void Sweeper<Number>::measureRows(std::size_t s, ResidualSums& sums) const
+{
+	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+		const Contact& c   = rows[k].contact;
+		const Impulse& p   = rows[k].p;
+		const double   one = squareNorm(
+		          c, naturalMapDefect(c, p, relativeVelocity(c, twistAt(c.i), twistAt(c.j)), rows[k].inverse));
+		sums.square += one;
+		sums.largest = std::max(sums.largest, one);
+		sums.scale += squareNorm(c, p);
+	}
+}
+
+template <class Number> void Sweeper<Number>::measureStrip(std::size_t s)
+{
+	const std::size_t begin = laidOut.blockBegin[s];
+	sums[s]                 = kernels.measure(
+	                        own.blocks.data() + begin, own.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin,
+	                        bodies.data());
+	measureRows(s, sums[s]);
+}
+
+template <class Number> void Sweeper<Number>::sumUp()
+{
+#pragma omp barrier
+#pragma omp single
+	{
+		ResidualSums all;
+		for (const ResidualSums& s : sums) {
+			all.square += s.square;
+			all.scale += s.scale;
+			all.largest = std::max(all.largest, s.largest);
+		}
+		const double n = std::max<std::size_t>(problem.contactCount(), 1);
+		residual       = { std::sqrt(all.square / n), std::sqrt(all.largest), std::sqrt(all.scale / n) };
+	}
+	if (settings.stopping != StoppingTest::NaturalMap) measureChanges();
+}
+
+/// The figures of LMGC90's tests with the present velocities, summed strip by strip.
+template <class Number> void Sweeper<Number>::measureChanges()
+{
+	const long count = static_cast<long>(changeSums.size());
+#pragma omp for schedule(static)
+	for (long s = 0; s < count; ++s) {
+		changeSums[s]  = {};
+		const auto add = [this, s](std::int32_t index, const Impulse& p) {
+			const Contact& c = problem.contacts[index];
+			changeSums[s].add(
+			        c, p, problem.inverseMass[c.i], problem.inverseMass[c.j], twist(c.i), twist(c.j));
+		};
+		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
+			const auto& k = own.blocks[b];
+			for (std::size_t l = 0; l < lanes; ++l)
+				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none)
+					add(index, { k.n.v[l], k.t.v[l], k.r.v[l] });
+		}
+		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+			add(laidOut.others[k], rows[k].p);
+	}
+#pragma omp single
+	{
+		ChangeSums all;
+		for (const ChangeSums& s : changeSums)
+			all.add(s);
+		changes = all.changes();
+	}
+}
+
+template <class Number> bool Sweeper<Number>::solved(double tolerance) const
+{
+	const double figure = settings.stopping == StoppingTest::NaturalMap ? residual.relative()
+	                                                                    : changes.figure(settings.stopping);
+	return figure <= tolerance;
+}
+
+template <class Number> void Sweeper<Number>::iterate(const Goal& goal)
+{
+	Extrapolation       extrapolation(settings.method);
+	int                 begunAnew = 0;
+	const double        all       = std::max<std::size_t>(problem.contactCount(), 1);
+	double              made      = 0; // visits
+	int                 chosen    = shortestRest; // sweeps since the last choice of strips
+	RestartRule         rule(residual.rms, settings.checkEvery);
+	std::vector<double> betas; // of the sweeps until the next look at the residual
+	while (!solved(goal.tolerance) && std::isfinite(residual.rms)) {
+		if (chosen >= shortestRest) {
+			chooseStrips();
+			chosen = 0;
+		}
+		// what a sweep counts for; threads wait for each other in short ones too
+		const double one = std::max(static_cast<double>(strips.contacts()), all / 4);
+		betas.resize(std::min<double>(settings.checkEvery, (goal.sweeps * all - made) / one));
+		if (betas.empty()) break;
+		for (double& b : betas)
+			b = extrapolation.next();
+		sweep(betas);
+		made += static_cast<double>(betas.size()) * one;
+		chosen += static_cast<int>(betas.size());
+		sumUp();
+		if (!rule.asks(residual.rms) || settings.method != Method::Accelerated) continue;
+		++begunAnew;
+		extrapolation = Extrapolation(settings.method);
+	}
+#pragma omp barrier // others may still look at what is active
+#pragma omp single
+	{
+		iterations = static_cast<int>(std::ceil(made / all));
+		restarts   = begunAnew;
+		if (strips.wakeAll())
+			schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
+	}
+}
+
+template class Sweeper<double>;
+template class Sweeper<float>;
+
+} // namespace nonsmooth::contact

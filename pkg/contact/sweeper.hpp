@@ -1,0 +1,140 @@
+// Sweeps over one contact problem that is laid out in blocks, in doubles or in floats: what solving it and correcting positions have in common.
+//
+// Every function but the constructor is run through by all threads of a parallel region, each with its own copies of the scalars; those that go by strips are called
+// for the strips of a thread's own stretch (strip_schedule.hpp).
+#pragma once
+
+#include <contact/active_strips.hpp>
+#include <contact/solver.hpp>
+#include <contact/strip_schedule.hpp>
+#include <omp.h>
+
+namespace nonsmooth::contact {
+
+/// A contact outside the blocks, swept row by row; with its data beside it, so that memory is gone through in the order of the sweep.
+struct Row {
+	Contact contact; // names bodies by their places, and has in its biases what the free velocities make of them
+	InverseMass mi, mj;
+	Impulse     p, before; // P_k, P_{k−1}
+	Impulse     inverse; // 1/W_nn, 1/W_tt, 1/W_rr
+};
+
+/// What is to be reached, and what that may cost.
+struct Goal {
+	double tolerance;
+	int    sweeps;
+};
+
+/// Few contacts are not worth waking threads for.
+inline int threadsFor(const Problem& problem, const SolverSettings& settings)
+{
+	return problem.contactCount() < 1000 ? 1 : settings.threads;
+}
+
+inline const BlockKernels& kernelsFor(const SolverSettings& settings)
+{
+	return settings.kernels ? *settings.kernels : *availableKernels().front();
+}
+
+template <class Number> class Sweeper {
+public:
+	/// The problem's layout must be in the workspace.
+	Sweeper(Problem& problem, const SolverSettings& settings, Workspace& workspace);
+
+	void plan();
+	/// Sweeps until the residual holds.
+	void iterate(const Goal& goal);
+	bool solved(double tolerance) const;
+	/// The residual from those of the strips.
+	void sumUp();
+
+	/// Places of the bodies that a part of the order is the first to touch in a pass.
+	struct Places {
+		std::size_t begin, end;
+	};
+	Places                     newIn(std::size_t strip) const;
+	template <class With> void forFixed(With with);
+	template <class Take> void forImpulses(std::size_t strip, Take take) const;
+	/// No impulse has changed a body's velocity yet.
+	void setOut(std::size_t place, std::int32_t body);
+	/// The same for a part's bodies.
+	void setOut(std::size_t strip);
+	/// Adds M⁻¹ Hᵀ P of the contacts outside the blocks.
+	void applyRows(std::size_t strip);
+	/// For the first extrapolation, which has nothing to go by.
+	void keepBodies(std::size_t strip);
+	/// v ← v + β (v − before), before ← v for a part's bodies.
+	void extrapolate(std::size_t strip, double beta);
+	/// Any contact, one after the other of its three graphs.
+	void sweepRow(std::size_t row, double beta);
+	/// Natural-map residual of a strip with the present velocities.
+	void measureStrip(std::size_t strip);
+
+	Block<Number>* blocksOf(std::size_t strip) { return own.blocks.data() + laidOut.blockBegin[strip]; }
+	std::size_t    countOf(std::size_t strip) const
+	{
+		return laidOut.blockBegin[strip + 1] - laidOut.blockBegin[strip];
+	}
+	Twist twistAt(std::int32_t place) const
+	{
+		return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] };
+	}
+	/// Its velocity; at its place stands what impulses have changed of the free one.
+	Twist twist(std::int32_t body) const
+	{
+		const Twist &free = problem.freeVelocity[body], changed = twistAt(laidOut.placeOf[body]);
+		return { free.x + changed.x, free.y + changed.y, free.w + changed.w };
+	}
+
+	Problem&                     problem;
+	const SolverSettings&        settings;
+	const KernelsOf<Number>&     kernels;
+	const int                    threads;
+	ContactBlocks&               laidOut;
+	BlocksOf<Number>&            own;
+	std::vector<Motion<Number>>& bodies;
+	std::vector<Motion<Number>>& bodiesBefore;
+	StripSchedule                schedule;
+	std::vector<Row>             rows;
+	std::vector<ResidualSums>    sums; // one a part of the order
+	Residual                     residual;
+	VelocityChanges              changes;
+	int                          iterations = 0, restarts = 0; // of iterate()
+
+private:
+	void        sweep(const std::vector<double>& betas);
+	void        chooseStrips();
+	void        loseMomentum(std::size_t strip);
+	void        measureRows(std::size_t strip, ResidualSums& sums) const;
+	void        measureChanges();
+	static void setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion<Number>>& in);
+
+	bool                    outgrowsCache; // whether blocks have to be fetched from memory in every sweep
+	ActiveStrips            strips;
+	std::vector<ChangeSums> changeSums; // one a part of the order
+};
+
+/// Calls with(place, body) for the bodies that no strip has, and waits until all is done.
+template <class Number> template <class With> void Sweeper<Number>::forFixed(With with)
+{
+	const long first = static_cast<long>(laidOut.order.bodyBegin.back()),
+	           count = static_cast<long>(problem.bodyCount());
+#pragma omp for schedule(static)
+	for (long k = first; k < count; ++k)
+		with(k, laidOut.order.bodies[k]);
+}
+
+/// Calls take(contact, impulse) for every contact of a part.
+template <class Number> template <class Take> void Sweeper<Number>::forImpulses(std::size_t s, Take take) const
+{
+	for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b)
+		for (std::size_t l = 0; l < lanes; ++l)
+			if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
+				const auto& k = own.blocks[b];
+				take(index, Impulse { k.n.v[l], k.t.v[l], k.r.v[l] });
+			}
+	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+		take(laidOut.others[k], rows[k].p);
+}
+
+} // namespace nonsmooth::contact
