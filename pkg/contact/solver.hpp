@@ -62,10 +62,11 @@ struct SolverStatistics {
 	VelocityChanges changes; // the same, in the figures of LMGC90's tests; only where one of them was asked for
 };
 
-/// Memory that one solve leaves to the next, and the layout in it, which is kept where it fits; what it holds changes no bit.
 template <class Number> struct BodiesOf {
 	std::vector<Motion<Number>> now, before; // by place; the last one is nobody
 };
+
+/// Memory that one solve leaves to the next, and the layout in it, which is kept where it fits; what it holds changes no bit.
 struct Workspace {
 	ContactBlocks    laidOut;
 	BodiesOf<double> inDouble;

@@ -140,9 +140,7 @@ template <class Number> void Sweeper<Number>::chooseStrips()
 /// A strip that comes to rest keeps its impulses P_k, so that P_k − P_{k−1} goes out of what its bodies' velocities are extrapolated by.
 template <class Number> void Sweeper<Number>::loseMomentum(std::size_t s)
 {
-	kernels.rest(
-	        own.blocks.data() + laidOut.blockBegin[s], laidOut.blockBegin[s + 1] - laidOut.blockBegin[s],
-	        bodiesBefore.data());
+	kernels.rest(blocksOf(s), countOf(s), bodiesBefore.data());
 	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 		Row&       row    = rows[k];
 		const auto before = [this](std::int32_t place) {
@@ -180,16 +178,12 @@ template <class Number> void Sweeper<Number>::sweep(const std::vector<double>& b
 		        const double beta = betas[pass];
 		        if (s < laidOut.order.evenStrips && strips.moves(s)) extrapolate(s, beta);
 		        if (!strips.isActive(s)) return;
-		        Block<Number>* const blocks = own.blocks.data() + laidOut.blockBegin[s];
-		        const std::size_t    count  = laidOut.blockBegin[s + 1] - laidOut.blockBegin[s];
-		        if (ahead.parts > 0 && outgrowsCache) {
-			        const std::size_t begin = laidOut.blockBegin[ahead.strip],
-			                          next  = laidOut.blockBegin[ahead.strip + 1] - begin;
+		        if (ahead.parts > 0 && outgrowsCache)
 			        kernels.sweepAndFetch(
-			                blocks, count, bodies.data(), beta,
-			                own.blocks.data() + begin + next * ahead.part / ahead.parts);
-		        } else
-			        kernels.sweep(blocks, count, bodies.data(), beta);
+			                blocksOf(s), countOf(s), bodies.data(), beta,
+			                blocksOf(ahead.strip) + countOf(ahead.strip) * ahead.part / ahead.parts);
+		        else
+			        kernels.sweep(blocksOf(s), countOf(s), bodies.data(), beta);
 		        for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
 			        sweepRow(k, beta);
 	        });
@@ -210,10 +204,8 @@ template <class Number> void Sweeper<Number>::measureRows(std::size_t s, Residua
 
 template <class Number> void Sweeper<Number>::measureStrip(std::size_t s)
 {
-	const std::size_t begin = laidOut.blockBegin[s];
-	sums[s]                 = kernels.measure(
-	                        own.blocks.data() + begin, own.inverseLength.data() + begin, laidOut.blockBegin[s + 1] - begin,
-	                        bodies.data());
+	sums[s] = kernels.measure(
+	        blocksOf(s), own.inverseLength.data() + laidOut.blockBegin[s], countOf(s), bodies.data());
 	measureRows(s, sums[s]);
 }
 
@@ -240,20 +232,12 @@ template <class Number> void Sweeper<Number>::measureChanges()
 	const long count = static_cast<long>(changeSums.size());
 #pragma omp for schedule(static)
 	for (long s = 0; s < count; ++s) {
-		changeSums[s]  = {};
-		const auto add = [this, s](std::int32_t index, const Impulse& p) {
+		changeSums[s] = {};
+		forImpulses(s, [this, s](std::int32_t index, const Impulse& p) {
 			const Contact& c = problem.contacts[index];
 			changeSums[s].add(
 			        c, p, problem.inverseMass[c.i], problem.inverseMass[c.j], twist(c.i), twist(c.j));
-		};
-		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
-			const auto& k = own.blocks[b];
-			for (std::size_t l = 0; l < lanes; ++l)
-				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none)
-					add(index, { k.n.v[l], k.t.v[l], k.r.v[l] });
-		}
-		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
-			add(laidOut.others[k], rows[k].p);
+		});
 	}
 #pragma omp single
 	{
