@@ -19,7 +19,7 @@ from yade import O
 from yade.wrapper import NewtonIntegrator
 
 from . import free_surface, keys, packing, similar, slope, tables
-from .packing_files import Packing, cache_folder, load, save
+from .packing_files import Packing, cache_file, load, save
 from .stepping import advance
 
 __all__ = ["CALM", "LONGEST", "cache_path", "of", "press"]
@@ -63,7 +63,7 @@ def cache_path(section, seed: int | None = None):
     key = keys.key_of(
         [section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.making_key(*MADE_BY)]
     )
-    return cache_folder("packings") / f"{key[:32]}-{section.seed if seed is None else seed}-pressed.npz"
+    return cache_file("packings", f"{key[:32]}-{section.seed if seed is None else seed}-pressed")
 
 
 def press(section, made, progress=None) -> Packing:

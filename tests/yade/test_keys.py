@@ -2,7 +2,7 @@
 
 import pytest
 
-from yade.nonsmooth import keys, section, slope_packing
+from yade.nonsmooth import keys, packing_files, section, slope_packing
 from yade.nonsmooth.benchmark import states
 from yade.nonsmooth.heaps import column, preparation
 from yade.nonsmooth.laboratory import pressing
@@ -71,3 +71,16 @@ def test_other_code_or_engines_make_their_own(cache, monkeypatch):
     monkeypatch.setattr(keys, "engines_key", lambda: "others")
     found.add(path())
     assert len(found) == 2 + len(module.MADE_BY)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [CACHES["slopes"][1], CACHES["heaps"][1], lambda: packing_files.cache_path(SHIPPED)],
+    ids=["slope", "heap", "packing"],
+)
+def test_a_new_format_leaves_old_files_alone(path, monkeypatch):
+    """A file of the same name would be there, and refuse to be read."""
+    before = path()
+    monkeypatch.setattr(packing_files, "FORMAT", packing_files.FORMAT + 1)
+    assert path() != before
+    assert path().parent == before.parent

@@ -56,7 +56,7 @@ def cache_path(heap):
     """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them;
     engines and code do, so that a run has the same bits with and without a cache from earlier ones."""
     plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")}
-    return packing_files.cache_folder("heaps") / f"{keys.key_of([plain, keys.making_key(*MADE_BY)])[:32]}.npz"
+    return packing_files.cache_file("heaps", keys.key_of([plain, keys.making_key(*MADE_BY)])[:32])
 
 
 def prepared(heap):
