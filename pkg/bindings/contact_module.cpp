@@ -196,8 +196,6 @@ py::dict solveArrays(
 {
 	Problem        p = problemOf(problem);
 	SolverSettings s;
-	if (method != "accelerated" && method != "gaussSeidel")
-		throw py::value_error("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
 	for (const BlockKernels* kernels : availableKernels())
 		if (path == kernels->name) s.kernels = kernels;
 	s.reference = path == "reference";
@@ -207,19 +205,20 @@ py::dict solveArrays(
 			names += "'" + name + "', ";
 		throw py::value_error("path = '" + path + "': it must be 'best', " + names + "or 'reference'");
 	}
-	if (precision != "mixed" && precision != "double")
-		throw py::value_error("precision = '" + precision + "': it must be 'mixed' or 'double'");
-	s.precision     = precision == "double" ? Precision::Double : Precision::Mixed;
-	s.method        = method == "gaussSeidel" ? Method::GaussSeidel : Method::Accelerated;
-	s.tolerance     = tolerance;
-	s.maxIterations = maxIterations;
-	s.checkEvery    = checkEvery;
-	s.threads       = threads;
-	try {
-		s.stopping = stoppingTestOf(stopping.c_str());
-	} catch (const std::invalid_argument& error) {
-		throw py::value_error(std::string("stopping = ") + error.what());
-	}
+	s.tolerance      = tolerance;
+	s.maxIterations  = maxIterations;
+	s.checkEvery     = checkEvery;
+	s.threads        = threads;
+	const auto named = [](const char* name, const std::string& value, auto look) {
+		try {
+			return look(value.c_str());
+		} catch (const std::invalid_argument& error) {
+			throw py::value_error(std::string(name) + " = " + error.what());
+		}
+	};
+	s.method    = named("method", method, methodOf);
+	s.precision = named("precision", precision, precisionOf);
+	s.stopping  = named("stopping", stopping, stoppingTestOf);
 	SolverStatistics statistics;
 	double           seconds = 0;
 	{

@@ -21,6 +21,15 @@ namespace {
 			refuse(name, " = ", value, ": it must be from ", least, " to ", most);
 	}
 
+	/// The value of two that has a name.
+	template <class Value> Value named(const char* name, const char* first, const char* second, Value a, Value b)
+	{
+		const std::string given(name);
+		if (given != first && given != second)
+			refuse("'", given, "': it must be '", first, "' or '", second, "'");
+		return given == first ? a : b;
+	}
+
 	void checkSize(const char* name, std::size_t found, std::size_t wanted, const char* ofWhat)
 	{
 		if (found != wanted)
@@ -28,6 +37,13 @@ namespace {
 	}
 
 } // namespace
+
+Method methodOf(const char* name)
+{
+	return named(name, "accelerated", "gaussSeidel", Method::Accelerated, Method::GaussSeidel);
+}
+
+Precision precisionOf(const char* name) { return named(name, "mixed", "double", Precision::Mixed, Precision::Double); }
 
 void check(const SolverSettings& s)
 {

@@ -34,6 +34,11 @@ enum class Method { GaussSeidel, Accelerated };
 /// What sweeps compute with: floats as far as the tolerance allows and doubles from there, or doubles alone.
 enum class Precision { Mixed, Double };
 
+/// "accelerated" or "gaussSeidel"; throws std::invalid_argument naming what was given and what would do.
+Method methodOf(const char* name);
+/// "mixed" or "double"; the same.
+Precision precisionOf(const char* name);
+
 /// The least tolerance that sweeps in single precision are for. Impulses in floats miss the law by some 1e-7 of their size, which beside this changes a residual by
 /// one part in ten thousand.
 constexpr double finestInSingle = 1e-5;

@@ -94,22 +94,23 @@ void ContactDynamicsEngine::validate() const
 	if (!(correctionSlack >= 0 && correctionSlack < 1))
 		refuse("correctionSlack", correctionSlack, "from 0 to less than 1 [ℓ]");
 	if (!(openGap >= 0)) refuse("openGap", openGap, "0 or more [ℓ]");
-	if (method != "accelerated" && method != "gaussSeidel")
-		fail("method = '" + method + "': it must be 'accelerated' or 'gaussSeidel'");
-	if (precision != "mixed" && precision != "double")
-		fail("precision = '" + precision + "': it must be 'mixed' or 'double'");
-	try {
-		contact::stoppingTestOf(stoppingTest.c_str());
-	} catch (const std::invalid_argument& error) {
-		fail(string("stoppingTest = ") + error.what());
-	}
+	const auto known = [&](const char* name, const auto& look) {
+		try {
+			look();
+		} catch (const std::invalid_argument& error) {
+			fail(string(name) + " = " + error.what());
+		}
+	};
+	known("method", [&] { contact::methodOf(method.c_str()); });
+	known("precision", [&] { contact::precisionOf(precision.c_str()); });
+	known("stoppingTest", [&] { contact::stoppingTestOf(stoppingTest.c_str()); });
 }
 
 contact::SolverSettings ContactDynamicsEngine::settings() const
 {
 	contact::SolverSettings s;
-	s.method        = method == "gaussSeidel" ? contact::Method::GaussSeidel : contact::Method::Accelerated;
-	s.precision     = precision == "double" ? contact::Precision::Double : contact::Precision::Mixed;
+	s.method        = contact::methodOf(method.c_str());
+	s.precision     = contact::precisionOf(precision.c_str());
 	s.tolerance     = tolerance;
 	s.maxIterations = maxIterations;
 	s.checkEvery    = checkEvery;

@@ -68,6 +68,24 @@ void expectSolved(const Problem& p, const SolverStatistics& s, double tolerance)
 	}
 }
 
+TEST(Precision, NamesOfSettings)
+{
+	EXPECT_EQ(precisionOf("mixed"), Precision::Mixed);
+	EXPECT_EQ(precisionOf("double"), Precision::Double);
+	EXPECT_EQ(methodOf("accelerated"), Method::Accelerated);
+	EXPECT_EQ(methodOf("gaussSeidel"), Method::GaussSeidel);
+	const auto refusal = [](auto look, const char* name) -> std::string {
+		try {
+			look(name);
+		} catch (const std::invalid_argument& error) {
+			return error.what();
+		}
+		return "taken";
+	};
+	EXPECT_EQ(refusal(precisionOf, "half"), "'half': it must be 'mixed' or 'double'");
+	EXPECT_EQ(refusal(methodOf, ""), "'': it must be 'accelerated' or 'gaussSeidel'");
+}
+
 } // namespace
 
 TEST(Precision, DoublesHoldWhatFloatsHaveFound)
