@@ -32,8 +32,8 @@ struct ContactBlocks {
 
 	template <class Number> BlocksOf<Number>& with();
 
-	/// What one part consists of, before its place in the whole is known.
-	struct Part {
+	/// What one part consists of, before its place in the whole is known. On cache lines of its own: threads fill one beside the other.
+	struct alignas(64) Part {
 		std::vector<std::int32_t> contactOf, others;
 	};
 	std::vector<Part> scratch;

@@ -7,6 +7,7 @@
 #include "Seldom.hpp"
 #include "YadeFeatures.hpp"
 #include <contact/problem_file.hpp>
+#include <optional>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -325,7 +326,11 @@ nscd::StageClock* nscd::StageClock::of(const Scene& scene)
 
 boost::python::object ContactDynamicsEngine::bodyTable() const
 {
-	return nscd::asBytes(nscd::Resident::of(*Omega::instance().getScene())->disks());
+	std::optional<nscd::Bytes<double>> table;
+	nscd::Resident::of(*Omega::instance().getScene())->disks([&](size_t count) {
+		return table.emplace(count).data();
+	});
+	return table->object;
 }
 
 boost::python::object ContactDynamicsEngine::breakTable() const

@@ -163,7 +163,7 @@ void NscdInteractionLoop::action()
 		return cache.constLaw.get() == ours.law && cache.geom.get() == ours.spheres ? Reading::Arrays
 		                                                                            : Reading::Functors;
 	};
-	struct Part {
+	struct alignas(64) Part {
 		std::vector<int> others,
 		        gone; // contacts that go through their functors, and that are forgotten: places in the order
 	};

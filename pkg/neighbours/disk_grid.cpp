@@ -86,7 +86,8 @@ void DiskGrid::pairs(int threads, Pairs& found)
 		const long   n   = (long)own.entries.size();
 #pragma omp parallel num_threads(threads)
 		{
-			auto& part = partOfThread(parts);
+			auto part = std::move(
+			        partOfThread(parts)); // which lie side by side, and would share a cache line
 #pragma omp for schedule(dynamic, 256)
 			for (long k = 0; k < n; ++k) {
 				const Entry& e = own.entries[k];
@@ -116,6 +117,7 @@ void DiskGrid::pairs(int threads, Pairs& found)
 						        [&](const Entry& o) { take(o, true); });
 				}
 			}
+			partOfThread(parts) = std::move(part);
 		}
 	}
 	sortPairs(threads, found);

@@ -88,3 +88,31 @@ def test_loaded_contacts_name_disks_and_walls(corner):
         )
     } == {pair: list(values) for pair, values in wanted.items()}
     assert not found["cbonded"].any() and np.abs(found["ct"]).max() > 0
+
+
+@pytest.mark.parametrize("owned", [False, True], ids=["from the bodies", "from the arrays"])
+def test_rows_of_many_bodies_with_gaps(owned):
+    """More than threads take at a time, with bodies that are no disks or gone between them; each moves in its own way."""
+    O.reset()
+    stuff = material(0.3, 0.1)
+    made = []
+    for k in range(9000):
+        if k % 1000 == 500:
+            O.bodies.append(scene.segments([(-500 - k, 0), (-500 - k, 1)], stuff))
+        made.append(O.bodies.append(scene.disk((3.0 * (k % 100), 3.0 * (k // 100)), 0.5 + 1e-5 * k, stuff)))
+        O.bodies[made[-1]].state.vel = (1e-3 * k, -2e-3 * k, 0)
+    for i in made[::7]:
+        O.bodies.erase(i)
+    begin(gravity=(0, 0, 0))
+    if owned:
+        engine().advance(1, view=False)
+    table = tables.bodies(engine())  # before anything else looks
+    left = [(k, i) for k, i in enumerate(made) if k % 7]
+    k = np.array([k for k, _ in left])
+    moved = owned * O.dt
+    assert table["id"].tolist() == [i for _, i in left]
+    assert (table["r"] == 0.5 + 1e-5 * k).all()
+    assert (table["vx"] == 1e-3 * k).all() and (table["vy"] == -2e-3 * k).all()
+    assert (table["x"] == 3.0 * (k % 100) + 1e-3 * k * moved).all()
+    assert (table["y"] == 3.0 * (k // 100) - 2e-3 * k * moved).all()
+    O.reset()

@@ -22,6 +22,7 @@
 #include <atomic>
 #include <boost/weak_ptr.hpp>
 #include <contact/problem.hpp>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -60,8 +61,8 @@ public:
 	/// Brings these bodies' states up to date and no more: the arrays stay right, and take what a script has made of these states when the next turn begins. What it
 	/// has written elsewhere stays, and is taken up when all has been shown.
 	void showOnly(const std::vector<int>& ids);
-	/// Rows (id, x, y, r, angle, vx, vy, ω) of all spheres as they are now.
-	std::vector<double> disks();
+	/// Writes rows (id, x, y, r, angle, vx, vy, ω) of all spheres as they are now to where `room` has a place for so many numbers.
+	void disks(const std::function<double*(size_t)>& room);
 	/// Makes sure that what it points to stays, whatever other threads erase.
 	void hold();
 

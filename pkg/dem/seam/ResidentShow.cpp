@@ -3,7 +3,9 @@
 #include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include "Resident.hpp"
+#include <algorithm>
 #include <lib/pyutil/gil.hpp>
+#include <numeric>
 
 namespace yade::nscd {
 
@@ -186,23 +188,42 @@ void Resident::takeShown(Scene& scene)
 	}
 }
 
-std::vector<double> Resident::disks()
+void Resident::disks(const std::function<double*(size_t)>& room)
 {
-	const auto          guard = betweenTurns();
-	const auto          kept  = container.lock();
-	std::vector<double> rows;
-	const size_t        count = bodiesOwned ? bodies.size() : kept->size();
-	rows.reserve(8 * count);
-	for (size_t id = 0; id < count; ++id) {
-		const BodyReading b = bodiesOwned ? bodies[id] : readBody((*kept)[id].get());
-		if (!b.present || !(b.radius > 0)) continue;
-		const auto& m = b.motion;
-		rows.insert(
-		        rows.end(),
-		        { double(id), m.position.x, m.position.y, double(b.radius),
-		          2 * std::atan2(m.rotation.z, m.rotation.w), m.velocity.x, m.velocity.y, m.velocity.w });
+	constexpr size_t         columns = 8, chunk = 4096;
+	const auto               guard = betweenTurns();
+	std::vector<BodyReading> shown; // where the arrays are not right
+	if (!bodiesOwned) {
+		const auto kept = container.lock();
+		shown.resize(kept->size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (size_t id = 0; id < shown.size(); ++id)
+			shown[id] = readBody((*kept)[id].get());
 	}
-	return rows;
+	const auto&  all    = bodiesOwned ? bodies : shown;
+	const auto   isDisk = [](const BodyReading& b) { return b.present && b.radius > 0; };
+	const size_t chunks = (all.size() + chunk - 1) / chunk;
+	const auto   end    = [&](size_t part) { return std::min(all.size(), (part + 1) * chunk); };
+
+	std::vector<size_t> before(chunks + 1, 0); // disks ahead of each chunk
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (size_t part = 0; part < chunks; ++part)
+		before[part + 1] = std::count_if(all.begin() + part * chunk, all.begin() + end(part), isDisk);
+	std::partial_sum(before.begin(), before.end(), before.begin());
+	double* const rows = room(columns * before.back());
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (size_t part = 0; part < chunks; ++part) {
+		double* row = rows + columns * before[part];
+		for (size_t id = part * chunk; id < end(part); ++id) {
+			const BodyReading& b = all[id];
+			if (!isDisk(b)) continue;
+			const auto&  m               = b.motion;
+			const double turned          = 2 * std::atan2(m.rotation.z, m.rotation.w);
+			const double values[columns] = { double(id), m.position.x, m.position.y, double(b.radius),
+				                         turned,     m.velocity.x, m.velocity.y, m.velocity.w };
+			row                          = std::copy_n(values, columns, row);
+		}
+	}
 }
 
 } // namespace yade::nscd

@@ -85,6 +85,8 @@ MUTANTS = (
            "the mean overlap is over all candidates", "test_whole_slope.py::test_a_column_is_what_the_steps_say[overlap_mean_rel]", slow=True),
     mutant("engine-angle", SHOW, "2 * std::atan2(m.rotation.z, m.rotation.w)", "std::atan2(m.rotation.z, m.rotation.w)", "angles of disks are half of what they are",
            "test_tables.py::test_bodies_are_those_of_the_scene"),
+    mutant("engine-rows", SHOW, "rows + columns * before[part]", "rows + part * chunk * columns", "rows of disks stand where they would if nobody was missing",
+           "test_tables.py::test_rows_of_many_bodies_with_gaps"),
     mutant("engine-gap", ENGINE, "double(-g.penetrationDepth)", "double(g.penetrationDepth)", "the table of contacts has overlaps for gaps",
            "test_tables.py::test_contacts_are_those_of_the_scene"),
     mutant("engine-bond-distance", ENGINE, "gap > phys->creationDistance", "gap > 0", "no bonds over a gap",
