@@ -37,7 +37,6 @@ namespace {
 	correct(Sweeper<double>& sweeper, const BlockKernels& kernels, const std::vector<PositionError>& errors,
 	        int sweeps, PositionCorrection& result)
 	{
-		const ContactBlocks& laidOut = sweeper.laidOut;
 		result.displacements.resize(sweeper.problem.bodyCount());
 		result.impulses.resize(sweeper.problem.contactCount());
 		Extrapolation       extrapolation(sweeper.settings.method);
@@ -55,15 +54,14 @@ namespace {
 				if (pass == 1) sweeper.keepBodies(s);
 				sweeper.extrapolate(s, betas[pass - 1]);
 				kernels.sweepNormals(blocks, count, sweeper.bodies.data(), betas[pass - 1]);
-				for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
-					sweeper.sweepRow(k, betas[pass - 1]);
+				sweeper.sweepRows(s, betas[pass - 1]);
 			} else {
 				sweeper.forImpulses(s, [&](std::int32_t index, const Impulse& p) {
 					result.impulses[index] = p.n;
 				});
-				const auto places = sweeper.newIn(s);
-				for (std::size_t k = places.begin; k < places.end; ++k)
-					result.displacements[laidOut.order.bodies[k]] = sweeper.twistAt(k);
+				sweeper.forNew(s, [&](std::size_t place, std::int32_t b) {
+					result.displacements[b] = sweeper.twistAt(place);
+				});
 			}
 		};
 #pragma omp parallel num_threads(sweeper.threads)
@@ -91,6 +89,7 @@ void correctPositions(
 		        + std::to_string(problem.contactCount()) + " contacts, of which the last solve laid out "
 		        + std::to_string(blocks.order.order.size()));
 	Sweeper<double> sweeper(problem, settings, workspace);
+	sweeper.fillRows();
 	correct(sweeper, kernelsFor(settings), errors, sweeps, result);
 }
 

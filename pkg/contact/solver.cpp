@@ -41,6 +41,7 @@ namespace {
 	        , laidOut(workspace.laidOut)
 	        , exact(problem_, settings_, workspace)
 	{
+		exact.fillRows();
 		if (sweepsInSingle(settings)) rounded.emplace(problem, settings, workspace);
 		problem.velocities.resize(problem.bodyCount());
 	}
@@ -75,7 +76,7 @@ namespace {
 	void Solve::round()
 	{
 		rounded->plan();
-		const auto body = [this](std::size_t place) {
+		const auto body = [this](std::size_t place, std::int32_t) {
 			for (int k = 0; k < 4; ++k)
 				rounded->bodies[place].v[k] = static_cast<float>(exact.bodies[place].v[k]);
 		};
@@ -85,15 +86,13 @@ namespace {
 			rounded->sums     = exact.sums;
 			rounded->residual = exact.residual;
 		}
-		exact.forFixed([&body](long place, std::int32_t) { body(place); });
+		exact.forFixed(body);
 		rounded->schedule.passes(omp_get_thread_num(), 1, [&](std::size_t s, int, const StripSchedule::Ahead&) {
 			const std::size_t begin = laidOut.blockBegin[s];
 			kernels.round(
 			        exact.blocksOf(s), exact.own.inverseLength.data() + begin, exact.countOf(s),
 			        rounded->blocksOf(s), rounded->own.inverseLength.data() + begin);
-			const auto places = exact.newIn(s);
-			for (std::size_t k = places.begin; k < places.end; ++k)
-				body(k);
+			exact.forNew(s, body);
 			rounded->keepBodies(s);
 		});
 #pragma omp barrier
@@ -103,9 +102,7 @@ namespace {
 	void Solve::writeStrip(std::size_t s)
 	{
 		exact.forImpulses(s, [this](std::int32_t index, const Impulse& p) { problem.impulses[index] = p; });
-		const auto places = exact.newIn(s);
-		for (std::size_t k = places.begin; k < places.end; ++k)
-			problem.velocities[laidOut.order.bodies[k]] = exact.twist(laidOut.order.bodies[k]);
+		exact.forNew(s, [this](std::size_t, std::int32_t b) { problem.velocities[b] = exact.twist(b); });
 	}
 
 	void Solve::writeFixed()

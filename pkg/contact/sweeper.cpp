@@ -27,11 +27,17 @@ Sweeper<Number>::Sweeper(Problem& problem_, const SolverSettings& settings_, Wor
 	own.blocks.resize(laidOut.blockBegin.back());
 	own.inverseLength.resize(laidOut.blockBegin.back());
 	outgrowsCache = own.blocks.size() * sizeof(Block<Number>) > lastCache;
-	rows.resize(laidOut.others.size());
 	sums.resize(laidOut.partCount());
 	if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.partCount());
 	bodies.resize(problem.bodyCount() + 1);
 	bodiesBefore.resize(problem.bodyCount() + 1);
+	bodies.back() = Motion<Number> {};
+	strips.reset(laidOut.order.partBegin, laidOut.order.evenStrips);
+}
+
+template <class Number> void Sweeper<Number>::fillRows()
+{
+	rows.resize(laidOut.others.size());
 	for (std::size_t k = 0; k < rows.size(); ++k) {
 		Contact           c  = problem.contacts[laidOut.others[k]];
 		const InverseMass mi = problem.inverseMass[c.i], mj = problem.inverseMass[c.j];
@@ -44,8 +50,6 @@ Sweeper<Number>::Sweeper(Problem& problem_, const SolverSettings& settings_, Wor
 		c.j     = laidOut.placeOf[c.j];
 		rows[k] = { c, mi, mj, p, p, inverseDelassus(c, mi, mj) };
 	}
-	bodies.back() = Motion<Number> {};
-	strips.reset(laidOut.order.partBegin, laidOut.order.evenStrips);
 }
 
 /// Leaves fixed bodies alone, which several threads may visit.
@@ -61,6 +65,14 @@ void Sweeper<Number>::setTwists(const Row& row, const Twist& vi, const Twist& vj
 	};
 	set(row.contact.i, row.mi, vi);
 	set(row.contact.j, row.mj, vj);
+}
+
+template <class Number>
+void Sweeper<Number>::push(const Row& row, const Impulse& impulse, std::vector<Motion<Number>>& in)
+{
+	Twist vi = twistIn(in, row.contact.i), vj = twistIn(in, row.contact.j);
+	applyImpulse(row.contact, impulse, row.mi, row.mj, vi, vj);
+	setTwists(row, vi, vj, in);
 }
 
 template <class Number> void Sweeper<Number>::plan()
@@ -84,19 +96,13 @@ template <class Number> void Sweeper<Number>::setOut(std::size_t place, std::int
 
 template <class Number> void Sweeper<Number>::setOut(std::size_t s)
 {
-	const Places places = newIn(s);
-	for (std::size_t k = places.begin; k < places.end; ++k)
-		setOut(k, laidOut.order.bodies[k]);
+	forNew(s, [this](std::size_t place, std::int32_t b) { setOut(place, b); });
 }
 
 template <class Number> void Sweeper<Number>::applyRows(std::size_t s)
 {
-	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-		const Row& row = rows[k];
-		Twist      vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
-		applyImpulse(row.contact, row.p, row.mi, row.mj, vi, vj);
-		setTwists(row, vi, vj, bodies);
-	}
+	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+		push(rows[k], rows[k].p, bodies);
 }
 
 template <class Number> void Sweeper<Number>::keepBodies(std::size_t s)
@@ -105,15 +111,17 @@ template <class Number> void Sweeper<Number>::keepBodies(std::size_t s)
 	std::copy(bodies.begin() + places.begin, bodies.begin() + places.end, bodiesBefore.begin() + places.begin);
 }
 
-template <class Number> void Sweeper<Number>::sweepRow(std::size_t k, double beta)
+template <class Number> void Sweeper<Number>::sweepRows(std::size_t s, double beta)
 {
-	Row&          row = rows[k];
-	const Impulse y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
-		          row.p.r + beta * (row.p.r - row.before.r) };
-	Twist         vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
-	row.before = row.p;
-	row.p      = visit(row.contact, y, row.inverse, row.mi, row.mj, vi, vj);
-	setTwists(row, vi, vj, bodies);
+	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
+		Row&          row = rows[k];
+		const Impulse y { row.p.n + beta * (row.p.n - row.before.n), row.p.t + beta * (row.p.t - row.before.t),
+			          row.p.r + beta * (row.p.r - row.before.r) };
+		Twist         vi = twistAt(row.contact.i), vj = twistAt(row.contact.j);
+		row.before = row.p;
+		row.p      = visit(row.contact, y, row.inverse, row.mi, row.mj, vi, vj);
+		setTwists(row, vi, vj, bodies);
+	}
 }
 
 /// Chooses the strips that are visited until the next choice.
@@ -142,15 +150,9 @@ template <class Number> void Sweeper<Number>::loseMomentum(std::size_t s)
 {
 	kernels.rest(blocksOf(s), countOf(s), bodiesBefore.data());
 	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-		Row&       row    = rows[k];
-		const auto before = [this](std::int32_t place) {
-			const auto& v = bodiesBefore[place].v;
-			return Twist { v[0], v[1], v[2] };
-		};
-		Twist         vi = before(row.contact.i), vj = before(row.contact.j);
+		Row&          row = rows[k];
 		const Impulse lost { row.p.n - row.before.n, row.p.t - row.before.t, row.p.r - row.before.r };
-		applyImpulse(row.contact, lost, row.mi, row.mj, vi, vj);
-		setTwists(row, vi, vj, bodiesBefore);
+		push(row, lost, bodiesBefore);
 		row.before = row.p;
 	}
 }
@@ -184,8 +186,7 @@ template <class Number> void Sweeper<Number>::sweep(const std::vector<double>& b
 			                blocksOf(ahead.strip) + countOf(ahead.strip) * ahead.part / ahead.parts);
 		        else
 			        kernels.sweep(blocksOf(s), countOf(s), bodies.data(), beta);
-		        for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
-			        sweepRow(k, beta);
+		        sweepRows(s, beta);
 	        });
 }
 

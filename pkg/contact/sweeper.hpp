@@ -48,13 +48,11 @@ public:
 	/// The residual from those of the strips.
 	void sumUp();
 
-	/// Places of the bodies that a part of the order is the first to touch in a pass.
-	struct Places {
-		std::size_t begin, end;
-	};
-	Places                     newIn(std::size_t strip) const;
+	template <class With> void forNew(std::size_t strip, With with) const;
 	template <class With> void forFixed(With with);
 	template <class Take> void forImpulses(std::size_t strip, Take take) const;
+	/// Takes the contacts outside the blocks from the problem.
+	void fillRows();
 	/// No impulse has changed a body's velocity yet.
 	void setOut(std::size_t place, std::int32_t body);
 	/// The same for a part's bodies.
@@ -65,8 +63,8 @@ public:
 	void keepBodies(std::size_t strip);
 	/// v ← v + β (v − before), before ← v for a part's bodies.
 	void extrapolate(std::size_t strip, double beta);
-	/// Any contact, one after the other of its three graphs.
-	void sweepRow(std::size_t row, double beta);
+	/// A strip's contacts outside the blocks, one after the other, and each one's three graphs so.
+	void sweepRows(std::size_t strip, double beta);
 	/// Natural-map residual of a strip with the present velocities.
 	void measureStrip(std::size_t strip);
 
@@ -75,10 +73,7 @@ public:
 	{
 		return laidOut.blockBegin[strip + 1] - laidOut.blockBegin[strip];
 	}
-	Twist twistAt(std::int32_t place) const
-	{
-		return { bodies[place].v[0], bodies[place].v[1], bodies[place].v[2] };
-	}
+	Twist twistAt(std::int32_t place) const { return twistIn(bodies, place); }
 	/// Its velocity; at its place stands what impulses have changed of the free one.
 	Twist twist(std::int32_t body) const
 	{
@@ -102,17 +97,37 @@ public:
 	int                          iterations = 0, restarts = 0; // of iterate()
 
 private:
+	/// Places of the bodies that a part of the order is the first to touch in a pass.
+	struct Places {
+		std::size_t begin, end;
+	};
+	Places      newIn(std::size_t strip) const;
 	void        sweep(const std::vector<double>& betas);
 	void        chooseStrips();
 	void        loseMomentum(std::size_t strip);
 	void        measureRows(std::size_t strip, ResidualSums& sums) const;
 	void        measureChanges();
 	static void setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion<Number>>& in);
+	/// Adds M⁻¹ Hᵀ of an impulse to the velocities of a contact's bodies.
+	static void  push(const Row& row, const Impulse& impulse, std::vector<Motion<Number>>& in);
+	static Twist twistIn(const std::vector<Motion<Number>>& motions, std::int32_t place)
+	{
+		const auto& v = motions[place].v;
+		return { v[0], v[1], v[2] };
+	}
 
 	bool                    outgrowsCache; // whether blocks have to be fetched from memory in every sweep
 	ActiveStrips            strips;
 	std::vector<ChangeSums> changeSums; // one a part of the order
 };
+
+/// Calls with(place, body) for the bodies that a strip is the first to touch.
+template <class Number> template <class With> void Sweeper<Number>::forNew(std::size_t s, With with) const
+{
+	const Places places = newIn(s);
+	for (std::size_t k = places.begin; k < places.end; ++k)
+		with(k, laidOut.order.bodies[k]);
+}
 
 /// Calls with(place, body) for the bodies that no strip has, and waits until all is done.
 template <class Number> template <class With> void Sweeper<Number>::forFixed(With with)

@@ -1,4 +1,5 @@
 // Which strips are visited, and that nothing but work depends on it.
+#include "every_path.hpp"
 #include "problems.hpp"
 #include <contact/active_strips.hpp>
 #include <contact/solver.hpp>
@@ -118,23 +119,10 @@ TEST(ActiveStrips, SolveTheSameProblemWithFewerVisits)
 
 TEST(ActiveStrips, AllThreadsAndInstructionsGiveTheSameBits)
 {
-	const Problem  p = hit();
 	SolverSettings s;
-	s.tolerance           = 1e-300;
-	s.maxIterations       = 60;
-	Problem    first      = p;
-	const auto statistics = solve(first, s);
-	for (const int threads : { 1, 2, 4, 7 })
-		for (const BlockKernels* kernels : availableKernels()) {
-			Problem other     = p;
-			s.threads         = threads;
-			s.kernels         = kernels;
-			const auto result = solve(other, s);
-			EXPECT_EQ(result.iterations, statistics.iterations);
-			EXPECT_EQ(result.residual.rms, statistics.residual.rms);
-			EXPECT_TRUE(sameBits(other.impulses, first.impulses)) << kernels->name << " " << threads;
-			EXPECT_TRUE(sameBits(other.velocities, first.velocities)) << kernels->name << " " << threads;
-		}
+	s.tolerance     = 1e-300;
+	s.maxIterations = 60;
+	expectTheSameBits(hit(), s);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // Blocks of eight contacts: complete, without conflicts, and the same bits whatever instructions work on them.
+#include "every_path.hpp"
 #include "problems.hpp"
 #include <algorithm>
 #include <contact/contact_blocks.hpp>
@@ -10,16 +11,6 @@ using namespace nonsmooth::contact;
 using namespace nonsmooth::contact::testing;
 
 namespace {
-
-/// A packing in which some contacts do not fit into blocks: a body that is heavier in y, a lever along the normal, a tangential bias.
-Problem mixed()
-{
-	Problem p = lattice(60, 20).problem;
-	p.inverseMass[100].y *= 0.5;
-	p.contacts[500].leverNj = 0.01;
-	p.contacts[900].biasT   = 0.02;
-	return p;
-}
 
 /// Contacts between bodies at random: colours of all sizes, whose rests share blocks, and bodies that come first in one contact and second in the next.
 Problem tangle(unsigned seed)
@@ -93,7 +84,7 @@ std::size_t expectApart(const Problem& p, const ContactBlocks& b)
 
 TEST(Blocks, HoldEveryContactOnceAndNoBodyTwice)
 {
-	const Problem p = mixed();
+	const Problem p = mixedLattice();
 	ContactBlocks b;
 	layOut(p, 2, b);
 	EXPECT_EQ(expectWhole(p, b), 11u) << "lanes idle; a tenth would be 350";
@@ -103,7 +94,7 @@ TEST(Blocks, HoldEveryContactOnceAndNoBodyTwice)
 
 TEST(Blocks, AreVisitedAtOnceWhereNoBodyIsInBothHalves)
 {
-	const Problem p = mixed();
+	const Problem p = mixedLattice();
 	ContactBlocks b;
 	layOut(p, 2, b);
 	// colours of some ten blocks each: all but their ends, and the contacts with walls
@@ -129,30 +120,19 @@ TEST(Blocks, OfATangleShareNoBodyEither)
 TEST(Blocks, AllInstructionsGiveTheSameBits)
 {
 	ASSERT_STREQ(availableKernels().back()->name, "portable");
-	for (const Method method : { Method::GaussSeidel, Method::Accelerated }) {
-		Problem        portable = mixed();
+	for (const Method method : methods) {
 		SolverSettings s;
 		s.method        = method;
 		s.maxIterations = 150;
 		s.tolerance     = 1e-12;
-		s.kernels       = availableKernels().back();
-		const auto x    = solve(portable, s);
-		for (const BlockKernels* kernels : availableKernels()) {
-			Problem other = mixed();
-			s.kernels     = kernels;
-			const auto y  = solve(other, s);
-			EXPECT_EQ(x.iterations, y.iterations) << kernels->name;
-			EXPECT_EQ(x.residual.rms, y.residual.rms) << kernels->name;
-			EXPECT_TRUE(sameBits(portable.impulses, other.impulses)) << kernels->name;
-			EXPECT_TRUE(sameBits(portable.velocities, other.velocities)) << kernels->name;
-		}
+		expectTheSameBits(mixedLattice(), s);
 	}
 }
 
 // of bonds too: what they may pull and rub is cut where the general law cuts it
 TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
 {
-	Problem                                p = mixed();
+	Problem                                p = mixedLattice();
 	std::mt19937                           random(3);
 	std::uniform_real_distribution<double> number(-1, 1);
 	for (std::size_t k = 0; k < p.contactCount(); ++k) {
@@ -196,13 +176,13 @@ TEST(Blocks, AreFilledWithTheNumbersOfTheLaw)
 TEST(Blocks, FetchingAheadChangesNoBit)
 {
 	for (const BlockKernels* kernels : availableKernels()) {
-		const Problem p = mixed();
+		const Problem p = mixedLattice();
 		ContactBlocks one;
 		layOut(p, 1, one);
 		for (std::size_t part = 0; part < one.partCount(); ++part)
 			fillIn(p, *kernels, part, one);
 		ContactBlocks               other = one;
-		std::vector<Motion<double>> bodies(mixed().bodyCount() + 1), same(bodies.size());
+		std::vector<Motion<double>> bodies(mixedLattice().bodyCount() + 1), same(bodies.size());
 		for (std::size_t b = 0; b + 1 < bodies.size(); ++b)
 			bodies[b].v = same[b].v = Four<double> { 0.01 * double(b % 7), -0.02 * double(b % 5), 0, 1e-4 };
 		kernels->inDouble.sweep(one.inDouble.blocks.data(), one.inDouble.blocks.size(), bodies.data(), 0);
@@ -215,7 +195,7 @@ TEST(Blocks, FetchingAheadChangesNoBit)
 
 TEST(Blocks, ReferencePutsNoContactIntoABlock)
 {
-	const Problem p = mixed();
+	const Problem p = mixedLattice();
 	ContactBlocks b;
 	layOut(p, 2, b, false);
 	EXPECT_TRUE(b.inDouble.blocks.empty());
@@ -228,7 +208,7 @@ TEST(Blocks, ReferencePutsNoContactIntoABlock)
 TEST(Blocks, ReferenceFindsTheSameSolution)
 {
 	const double tolerance = 1e-9;
-	Problem      blocked = mixed(), reference = blocked;
+	Problem      blocked = mixedLattice(), reference = blocked;
 	// a frictional packing has many sets of forces; with one graph a contact there is one motion, which both must find
 	for (Problem* p : { &blocked, &reference })
 		for (Contact& c : p->contacts)
@@ -256,7 +236,7 @@ TEST(Blocks, ReferenceSweepsTheSameContactsByTheSameFormulas)
 {
 	// One sweep in the order of the blocks: whole colours are independent, so order inside them does not matter, and the first sweeps differ by
 	// the contacts that share a block with another colour only. Many plain sweeps lead both to one and the same residual.
-	Problem        blocked = mixed(), reference = blocked;
+	Problem        blocked = mixedLattice(), reference = blocked;
 	SolverSettings s;
 	s.method        = Method::GaussSeidel;
 	s.maxIterations = 200;
@@ -270,7 +250,7 @@ TEST(Blocks, ReferenceSweepsTheSameContactsByTheSameFormulas)
 
 TEST(Blocks, ReportedResidualIsTheIndependentOne)
 {
-	Problem        p = mixed();
+	Problem        p = mixedLattice();
 	SolverSettings s;
 	s.maxIterations           = 40;
 	s.tolerance               = 1e-12;

@@ -1,9 +1,11 @@
 // Every way through the solver, and how far two results are apart.
 #pragma once
 
+#include "problems.hpp"
 #include <algorithm>
 #include <cmath>
 #include <contact/solver.hpp>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,27 @@ inline double largestDifference(const std::vector<Twist>& a, const std::vector<T
 		most = std::max(
 		        { most, std::abs(a[k].x - b[k].x), std::abs(a[k].y - b[k].y), std::abs(a[k].w - b[k].w) });
 	return most;
+}
+
+/// Expects the same solution, to the last bit, on any number of threads and by any kernels.
+inline void expectTheSameBits(const Problem& problem, const SolverSettings& common)
+{
+	Problem    first  = problem;
+	const auto wanted = solve(first, common);
+	for (const int threads : { 1, 2, 4, 7 })
+		for (const BlockKernels* kernels : availableKernels()) {
+			SCOPED_TRACE(kernels->name + (", threads " + std::to_string(threads)));
+			Problem        other = problem;
+			SolverSettings s     = common;
+			s.threads            = threads;
+			s.kernels            = kernels;
+			const auto found     = solve(other, s);
+			EXPECT_EQ(found.iterations, wanted.iterations);
+			EXPECT_EQ(found.inSingle, wanted.inSingle);
+			EXPECT_EQ(found.residual.rms, wanted.residual.rms);
+			EXPECT_TRUE(sameBits(other.impulses, first.impulses));
+			EXPECT_TRUE(sameBits(other.velocities, first.velocities));
+		}
 }
 
 } // namespace nonsmooth::contact::testing

@@ -13,10 +13,7 @@ namespace {
 /// A packing that falls, with spins, bonds, and some contacts outside blocks.
 Problem packed()
 {
-	Problem p = lattice(60, 20).problem;
-	p.inverseMass[100].y *= 0.5;
-	p.contacts[500].leverNj = 0.01;
-	p.contacts[900].biasT   = 0.02;
+	Problem p = mixedLattice();
 	for (std::size_t b = 0; b < p.bodyCount(); b += 3)
 		if (!p.inverseMass[b].isFixed()) p.freeVelocity[b].w = 0.1 * double(b % 7) - 0.3;
 	for (std::size_t k = 0; k < p.contactCount(); k += 3)
@@ -66,24 +63,6 @@ void expectSolved(const Problem& p, const SolverStatistics& s, double tolerance)
 		ASSERT_LE(std::abs(i.t), slidingThreshold(c, i.n)) << k;
 		ASSERT_LE(std::abs(i.r), rollingThreshold(c, i.n)) << k;
 	}
-}
-
-TEST(Precision, NamesOfSettings)
-{
-	EXPECT_EQ(precisionOf("mixed"), Precision::Mixed);
-	EXPECT_EQ(precisionOf("double"), Precision::Double);
-	EXPECT_EQ(methodOf("accelerated"), Method::Accelerated);
-	EXPECT_EQ(methodOf("gaussSeidel"), Method::GaussSeidel);
-	const auto refusal = [](auto look, const char* name) -> std::string {
-		try {
-			look(name);
-		} catch (const std::invalid_argument& error) {
-			return error.what();
-		}
-		return "taken";
-	};
-	EXPECT_EQ(refusal(precisionOf, "half"), "'half': it must be 'mixed' or 'double'");
-	EXPECT_EQ(refusal(methodOf, ""), "'': it must be 'accelerated' or 'gaussSeidel'");
 }
 
 } // namespace
@@ -148,24 +127,7 @@ TEST(Precision, FloatsGoTheWayOfDoubles)
 	EXPECT_NEAR(in.residual.relative(), both.residual.relative(), 0.02 * both.residual.relative());
 }
 
-TEST(Precision, TheSameBitsOnAnyThreadsAndInstructions)
-{
-	const Problem  p      = packed();
-	SolverSettings s      = withTolerance(finestInSingle);
-	Problem        first  = p;
-	const auto     wanted = solve(first, s);
-	for (const int threads : { 1, 2, 4, 7 })
-		for (const BlockKernels* kernels : availableKernels()) {
-			Problem other    = p;
-			s.threads        = threads;
-			s.kernels        = kernels;
-			const auto found = solve(other, s);
-			EXPECT_EQ(found.inSingle, wanted.inSingle);
-			EXPECT_EQ(found.residual.rms, wanted.residual.rms);
-			EXPECT_TRUE(sameBits(other.impulses, first.impulses)) << kernels->name << " " << threads;
-			EXPECT_TRUE(sameBits(other.velocities, first.velocities)) << kernels->name << " " << threads;
-		}
-}
+TEST(Precision, TheSameBitsOnAnyThreadsAndInstructions) { expectTheSameBits(packed(), withTolerance(finestInSingle)); }
 
 // a float has seven digits: of 10 km/s it does not see the step's 5 cm/s
 TEST(Precision, HoweverFastEverythingMoves)
@@ -243,4 +205,22 @@ TEST(Precision, BothShareTheSweepsThatMayBeMade)
 	EXPECT_EQ(found.iterations, 20);
 	EXPECT_EQ(found.inSingle, 20);
 	EXPECT_LE(largestDifference(p.velocities, velocitiesOf(p)), 1e-12);
+}
+
+TEST(Precision, NamesOfSettings)
+{
+	EXPECT_EQ(precisionOf("mixed"), Precision::Mixed);
+	EXPECT_EQ(precisionOf("double"), Precision::Double);
+	EXPECT_EQ(methodOf("accelerated"), Method::Accelerated);
+	EXPECT_EQ(methodOf("gaussSeidel"), Method::GaussSeidel);
+	const auto refusal = [](auto look, const char* name) -> std::string {
+		try {
+			look(name);
+		} catch (const std::invalid_argument& error) {
+			return error.what();
+		}
+		return "taken";
+	};
+	EXPECT_EQ(refusal(precisionOf, "half"), "'half': it must be 'mixed' or 'double'");
+	EXPECT_EQ(refusal(methodOf, ""), "'': it must be 'accelerated' or 'gaussSeidel'");
 }

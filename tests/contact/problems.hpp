@@ -169,4 +169,14 @@ inline Problem underPlaten(int columns, int rows)
 	return p;
 }
 
+/// A packing in which some contacts do not fit into blocks: a body that is heavier in y, a lever along the normal, a tangential bias.
+inline Problem mixedLattice()
+{
+	Problem p = lattice(60, 20).problem;
+	p.inverseMass[100].y *= 0.5;
+	p.contacts[500].leverNj = 0.01;
+	p.contacts[900].biasT   = 0.02;
+	return p;
+}
+
 } // namespace nonsmooth::contact::testing

@@ -53,7 +53,7 @@ MUTANTS = (
            "push<Number, Access>(k, at, n - at.get(k->beforeN), t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
            "push<Number, Access>(k, at, at.get(k->beforeN) - n, t - at.get(k->beforeT), r - at.get(k->beforeR), a, b)",
            "a strip that comes to rest leaves momentum in velocities", "gtest:ActiveStrips.*"),
-    mutant("strips-momentum-rows", SWEEPER, "setTwists(row, vi, vj, bodiesBefore);", "setTwists(row, vi, vj, bodies);",
+    mutant("strips-momentum-rows", SWEEPER, "push(row, lost, bodiesBefore);", "push(row, lost, bodies);",
            "contacts outside blocks push bodies when they come to rest", "gtest:ActiveStrips.*"),
     mutant("strips-left-over", SWEEPER, "begin.back() > begin[begin.size() - 2]", "false", "strips rest though contacts of no strip move their bodies",
            "gtest:Threads.*"),
