@@ -21,27 +21,33 @@ namespace {
 		std::atomic<const Scene*> scene { nullptr };
 		std::atomic<long>         left { 0 };
 		std::atomic<Real>         until { never };
+		std::atomic<bool>         interactions { true };
 
-		void set(const Scene* of, long steps, Real end)
+		void set(const Scene* of, long steps, Real end, bool all)
 		{
-			scene = of;
-			left  = steps;
-			until = end;
+			scene        = of;
+			left         = steps;
+			until        = end;
+			interactions = all;
 		}
 	} present;
 
 	/// Makes a course the present one for as long as the block lasts; an engine of one scene may advance another.
 	class Entered {
 	public:
-		Entered(const Scene& scene, long steps, Real until) { present.set(&scene, steps, until); }
-		~Entered() { present.set(scene, left, until); }
+		Entered(const Scene& scene, long steps, Real until, bool interactions)
+		{
+			present.set(&scene, steps, until, interactions);
+		}
+		~Entered() { present.set(scene, left, until, interactions); }
 		Entered(const Entered&)            = delete;
 		Entered& operator=(const Entered&) = delete;
 
 	private:
-		const Scene* scene = present.scene;
-		const long   left  = present.left;
-		const Real   until = present.until;
+		const Scene* scene        = present.scene;
+		const long   left         = present.left;
+		const Real   until        = present.until;
+		const bool   interactions = present.interactions;
 	};
 
 	/// The step that an exception ended within advance(), which may then go on with it, as O.step() does.
@@ -158,6 +164,8 @@ long stepsLeft(const Scene& scene)
 	return hasCome(present.until, scene.time + scene.dt, scene.dt) ? 1 : present.left.load();
 }
 
+bool interactionsWanted(const Scene& scene) { return present.scene != &scene || present.interactions; }
+
 long advance(const py::object& steps, const py::object& until, const py::object& view)
 {
 	const long count = countOf(steps);
@@ -168,7 +176,7 @@ long advance(const py::object& steps, const py::object& until, const py::object&
 	check(*scene);
 	const auto some = bodiesOf(view, *scene);
 	if (count == 0) return 0;
-	const Entered entered(*scene, count, end);
+	const Entered entered(*scene, count, end, !some);
 	Unlocked      unlocked;
 	using Steady                = std::chrono::steady_clock;
 	constexpr auto betweenLooks = std::chrono::milliseconds(20);

@@ -13,4 +13,7 @@ long advance(const boost::python::object& steps, const boost::python::object& un
 /// present length of the step, so ask after NonsmoothTimeStepper. An exception or a signal may end an advance() before.
 long stepsLeft(const Scene& scene);
 
+/// Whether all contacts are to have an interaction where other threads look: not within an advance() that leaves them out in the end.
+bool interactionsWanted(const Scene& scene);
+
 } // namespace yade::nscd

@@ -237,9 +237,8 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 
 int ContactDynamicsEngine::bond()
 {
-	scene = Omega::instance().getScene().get();
-	view();
-	int count = 0;
+	scene     = Omega::instance().getScene().get();
+	int count = nscd::Resident::of(*scene)->bondBare();
 	for (const auto& i : *scene->interactions) {
 		if (!i->isReal()) continue;
 		auto*       phys = dynamic_cast<NscdPhys*>(i->phys.get());
@@ -251,6 +250,7 @@ int ContactDynamicsEngine::bond()
 		nscd::markBond(
 		        *phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap,
 		        sphere ? sphere->radius : 0);
+		phys->touched = true;
 		++count;
 	}
 	return count;
@@ -340,18 +340,22 @@ boost::python::object ContactDynamicsEngine::breakTable() const
 
 boost::python::object ContactDynamicsEngine::contactTable() const
 {
-	view();
+	using Row                = std::array<double, 12>;
+	const Scene&        here = *Omega::instance().getScene();
 	std::vector<double> rows;
-	for (const auto& i : *Omega::instance().getScene()->interactions) {
+	const auto          add = [&](const Row& row) { rows.insert(rows.end(), row.begin(), row.end()); };
+	nscd::Resident::of(*Omega::instance().getScene())->showBare([&](const nscd::Reading& r, const Vector3r& at) {
+		add({ double(r.first), double(r.second), r.normal, r.tangential, r.torque, r.nx, r.ny, r.gap,
+		      double(r.bonded), double(NscdPhys::None), at[0], at[1] });
+	});
+	for (const auto& i : *here.interactions) {
 		const auto* phys = i->isReal() ? dynamic_cast<const NscdPhys*>(i->phys.get()) : nullptr;
 		if (!phys) continue;
 		const auto& g = static_cast<const ScGeom&>(*i->geom);
-		for (const double v :
-		     { double(i->getId1()), double(i->getId2()), double(phys->normal), double(phys->tangential),
-		       double(phys->torque), double(g.normal[0]), double(g.normal[1]), double(-g.penetrationDepth),
-		       double(phys->bonded), double(phys->brokenMode), double(g.contactPoint[0]),
-		       double(g.contactPoint[1]) })
-			rows.push_back(v);
+		add({ double(i->getId1()), double(i->getId2()), double(phys->normal), double(phys->tangential),
+		      double(phys->torque), double(g.normal[0]), double(g.normal[1]), double(-g.penetrationDepth),
+		      double(phys->bonded), double(phys->brokenMode), double(g.contactPoint[0]),
+		      double(g.contactPoint[1]) });
 	}
 	return nscd::asBytes(rows);
 }

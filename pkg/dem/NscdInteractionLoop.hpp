@@ -5,6 +5,7 @@
 // interactions follow when somebody looks. Everything else goes through the functors as ever. All other fields have the bits of YADE's loop.
 #pragma once
 
+#include "seam/Resident.hpp"
 #include <core/InteractionLoop.hpp>
 
 namespace yade {
@@ -13,11 +14,6 @@ class Law2_ScGeom_NscdPhys_SignoriniCoulomb;
 class Ig2_Segment_Sphere_ScGeom;
 class Ig2_Sphere_Sphere_ScGeom;
 class PlanarGridCollider;
-namespace nscd {
-	class Resident;
-	struct Reading;
-	struct BondReading;
-}
 
 class NscdInteractionLoop : public InteractionLoop {
 public:
@@ -38,8 +34,12 @@ private:
 		const PlanarGridCollider*                    collider;
 	};
 	const PlanarGridCollider* colliderBefore() const;
-	bool
-	follow(const nscd::Resident& resident, nscd::Reading& r, const nscd::BondReading& bond, const Ours& ours) const;
+	/// What becomes of a contact in a step: it may be forgotten, or need an interaction first, which it does not have.
+	enum class Next { Stays, Gone, Unmade };
+
+	Next follow(nscd::Resident& resident, int slot, const Ours& ours) const;
+	void takeProposed(nscd::Resident& resident, const Ours& ours, int threads);
+	bool prepare(nscd::Resident& resident, const nscd::Resident::Pair& pair, const Ours& ours);
 	void visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 
 	Ours ours {}; // of the last turn

@@ -1,6 +1,5 @@
 #include "NscdPhys.hpp"
 #include <boost/make_shared.hpp>
-#include <contact/plane/thresholds.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -56,9 +55,11 @@ namespace nscd {
 }
 
 namespace {
-	bool usable(const shared_ptr<Material>& m)
+	using nonsmooth::contact::plane::Strengths;
+
+	bool makesSense(const Material* m)
 	{
-		const auto* material = dynamic_cast<const NscdMat*>(m.get());
+		const auto* material = dynamic_cast<const NscdMat*>(m);
 		try {
 			if (material) material->validate();
 			return material;
@@ -73,7 +74,7 @@ void Ip2_NscdMat_NscdMat_NscdPhys::go(
 {
 	if (interaction->phys) return;
 	const Body &b1 = *Body::byId(interaction->getId1(), scene), &b2 = *Body::byId(interaction->getId2(), scene);
-	if (!usable(m1) || !usable(m2)) {
+	if (!makesSense(m1.get()) || !makesSense(m2.get())) {
 		// no exception may leave the threads of YADE's loop: ContactDynamicsEngine meets these numbers in the same step, and says why they are none
 		const auto spoilt = boost::make_shared<NscdPhys>();
 		spoilt->length    = nscd::meanDiameter(b1, b2);
@@ -114,39 +115,69 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, 
 			        who + " has a " + body->material->getClassName()
 			        + " in a rigid contact: give it an NscdMat");
 	}
-	const auto &a = static_cast<const NscdMat&>(*b1.material), &b = static_cast<const NscdMat&>(*b2.material);
-	if (const NscdMat* law = a.interfaceWith(b)) {
-		setStrengths(phys, *law, *law, nscd::meanDiameter(b1, b2), law->bondsToAll);
-		return;
-	}
-	const bool sameLayer = a.layer == b.layer, anyWall = a.wall || b.wall;
 	setStrengths(
-	        phys, a, b, nscd::meanDiameter(b1, b2),
-	        a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer && a.layer >= 0));
-	if (!sameLayer && !anyWall) phys.residualTensileForce = 0;
+	        phys, strengthsOf(static_cast<const NscdMat&>(*b1.material), static_cast<const NscdMat&>(*b2.material)),
+	        nscd::meanDiameter(b1, b2));
 }
 
-void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(
-        NscdPhys& phys, const NscdMat& a, const NscdMat& b, Real length, bool bondable)
+namespace {
+	Strengths pickStrengths(const NscdMat& a, const NscdMat& b, bool bondable)
+	{
+		// a wall's own value, or the weaker of two particles'
+		const auto pick = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
+		Strengths  s;
+		s.tension          = pick(a.tensileStrength, b.tensileStrength);
+		s.residualTension  = pick(a.residualTensileStrength, b.residualTensileStrength);
+		s.friction         = pick(std::tan(a.frictionAngle), std::tan(b.frictionAngle));
+		s.residualFriction = pick(
+		        std::tan(nscd::residual(a.residualFrictionAngle, a.frictionAngle)),
+		        std::tan(nscd::residual(b.residualFrictionAngle, b.frictionAngle)));
+		s.rolling         = pick(a.rollingFriction, b.rollingFriction);
+		s.residualRolling = pick(
+		        nscd::residual(a.residualRollingFriction, a.rollingFriction),
+		        nscd::residual(b.residualRollingFriction, b.rollingFriction));
+		s.restitution       = std::max(a.restitution, b.restitution);
+		s.ellipseNormal     = pick(a.bondEllipseNormal, b.bondEllipseNormal);
+		s.ellipseTangential = pick(a.bondEllipseTangential, b.bondEllipseTangential);
+		s.creationDistance  = pick(a.bondCreationDistance, b.bondCreationDistance);
+		s.bondable          = bondable;
+		return s;
+	}
+}
+
+Strengths Ip2_NscdMat_NscdMat_NscdPhys::strengthsOf(const NscdMat& a, const NscdMat& b)
 {
-	// a wall's own value, or the weaker of two particles'
-	const auto pick           = [&](Real va, Real vb) { return a.wall ? va : (b.wall ? vb : std::min(va, vb)); };
+	if (const NscdMat* law = a.interfaceWith(b)) return pickStrengths(*law, *law, law->bondsToAll);
+	const bool sameLayer = a.layer == b.layer, anyWall = a.wall || b.wall;
+	auto       s = pickStrengths(a, b, a.bondsToAll || b.bondsToAll || (!anyWall && sameLayer && a.layer >= 0));
+	if (!sameLayer && !anyWall) s.residualTension = 0;
+	return s;
+}
+
+std::optional<Strengths> Ip2_NscdMat_NscdMat_NscdPhys::lastingStrengths(const Material* a, const Material* b)
+{
+	for (const Material* m : { a, b })
+		if (!m || typeid(*m) != typeid(NscdMat) || !makesSense(m)) return {};
+	const auto &one = static_cast<const NscdMat&>(*a), &other = static_cast<const NscdMat&>(*b);
+	if (dynamic_cast<const SlipWeakeningMat*>(one.interfaceWith(other))) return {};
+	return strengthsOf(one, other);
+}
+
+void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Strengths& s, Real length)
+{
+	const auto bond = s.ofBond(length), residual = s.residual(length);
 	phys.length               = length;
-	phys.tensileForce         = length * pick(a.tensileStrength, b.tensileStrength);
-	phys.residualTensileForce = length * pick(a.residualTensileStrength, b.residualTensileStrength);
-	phys.friction             = pick(std::tan(a.frictionAngle), std::tan(b.frictionAngle));
-	phys.residualFriction     = pick(
-	            std::tan(nscd::residual(a.residualFrictionAngle, a.frictionAngle)),
-	            std::tan(nscd::residual(b.residualFrictionAngle, b.frictionAngle)));
-	phys.rollingArm         = length * pick(a.rollingFriction, b.rollingFriction);
-	phys.residualRollingArm = length
-	        * pick(nscd::residual(a.residualRollingFriction, a.rollingFriction),
-	               nscd::residual(b.residualRollingFriction, b.rollingFriction));
-	phys.restitution       = std::max(a.restitution, b.restitution);
-	phys.ellipseNormal     = length * pick(a.bondEllipseNormal, b.bondEllipseNormal);
-	phys.ellipseTangential = length * pick(a.bondEllipseTangential, b.bondEllipseTangential);
-	phys.creationDistance  = length * pick(a.bondCreationDistance, b.bondCreationDistance);
-	phys.bondable          = bondable;
+	phys.tensileForce         = bond.adhesion;
+	phys.residualTensileForce = residual.adhesion;
+	phys.friction             = bond.friction;
+	phys.residualFriction     = residual.friction;
+	phys.rollingArm           = bond.rollingArm;
+	phys.residualRollingArm   = residual.rollingArm;
+	phys.restitution          = s.restitution;
+	phys.ellipseNormal        = length * s.ellipseNormal;
+	phys.ellipseTangential    = length * s.ellipseTangential;
+	phys.creationDistance     = length * s.creationDistance;
+	phys.bondable             = s.bondable;
 }
 
 } // namespace yade

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "NscdMat.hpp"
+#include <contact/plane/thresholds.hpp>
 #include <core/Dispatching.hpp>
+#include <optional>
 #include <pkg/dem/FrictPhys.hpp>
 
 namespace yade {
@@ -93,7 +95,12 @@ public:
 	FUNCTOR2D(NscdMat, NscdMat);
 	/// Sets strengths and lengths of a contact from the materials of its bodies; bond and reactions stay.
 	static void setStrengths(NscdPhys& phys, const Body& b1, const Body& b2);
-	static void setStrengths(NscdPhys& phys, const NscdMat& a, const NscdMat& b, Real length, bool bondable);
+	static void setStrengths(NscdPhys& phys, const nonsmooth::contact::plane::Strengths& strengths, Real length);
+	/// What two materials agree on.
+	static nonsmooth::contact::plane::Strengths strengthsOf(const NscdMat& a, const NscdMat& b);
+	/// The same where a contact of two particles needs no more than that; none where its strength follows their slip, or a material does not make sense.
+	static std::optional<nonsmooth::contact::plane::Strengths>
+	lastingStrengths(const Material* a, const Material* b);
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Ip2_NscdMat_NscdMat_NscdPhys,IPhysFunctor,
 R"""(Make a :yref:`NscdPhys` from two :yref:`NscdMats<NscdMat>`, or a :yref:`SlipWeakeningPhys` where one is a :yref:`SlipWeakeningMat`.

@@ -39,8 +39,9 @@ void PlanarGridCollider::action()
 	threads = nscd::threadsOf(*this);
 	ranIn   = never; // until all is done; a step's number comes again after O.resetTime()
 	nscd::Turn turn(*this, threads);
-	resident                                 = &turn.resident();
-	const auto& bodies                       = resident->bodies;
+	resident           = &turn.resident();
+	const auto& bodies = resident->bodies;
+	if (!resident->hasContacts() && scene->interactions->size() == 0) resident->takeContacts(*scene);
 	scene->interactions->iterColliderLastRun = -1;
 	scene->forces.addMaxId(scene->bodies->size());
 	bool       anew = changed();
@@ -61,7 +62,8 @@ void PlanarGridCollider::action()
 	boundSides();
 
 	// nobody else adds or removes interactions during a step; a script may have, between two
-	const bool touched = scene->interactions->size() != sizeLeft;
+	const auto left    = [&] { return (long)scene->interactions->size() - resident->made; };
+	const bool touched = left() != sizeLeft;
 	if (!anew && !touched && resident->potentialOf == scene->iter - 1) eraseUnreal();
 	else
 		forget();
@@ -69,7 +71,7 @@ void PlanarGridCollider::action()
 	findNear();
 	takeDisks();
 	takeSides();
-	sizeLeft = scene->interactions->size();
+	sizeLeft = left();
 	if (!scene->subStepping) ranIn = scene->iter; // or a script may change bodies before others use what was found
 	turn.end();
 	resident = nullptr;
@@ -148,6 +150,7 @@ void PlanarGridCollider::forget()
 {
 	scene->interactions->conditionalyEraseNonReal(*this, scene);
 	resident->potential.clear();
+	resident->proposed.clear();
 	std::fill(known.begin(), known.end(), 0);
 	for (SidePair& pair : sidePairs)
 		pair.known = false;
@@ -171,11 +174,20 @@ void PlanarGridCollider::eraseUnreal()
 			continue;
 		}
 		eraseIfUnreal(a, b);
-		const auto begin = pairs.second.begin() + pairs.begin[a],
-		           end = pairs.second.begin() + pairs.begin[a + 1], at = std::lower_bound(begin, end, b);
-		if (at != end && *at == b) known[at - pairs.second.begin()] = 0;
+		unnote(a, b);
 	}
 	potential.resize(left);
+	for (const auto& pair : resident->proposed)
+		unnote(pair.low, pair.high);
+	resident->proposed.clear();
+}
+
+/// A pair of disks is no longer in O.interactions, nor a contact.
+void PlanarGridCollider::unnote(Body::id_t a, Body::id_t b)
+{
+	const auto begin = pairs.second.begin() + pairs.begin[a], end = pairs.second.begin() + pairs.begin[a + 1],
+	           at = std::lower_bound(begin, end, b);
+	if (at != end && *at == b) known[at - pairs.second.begin()] = 0;
 }
 
 /// The noted pair of two bodies one of which is no disk; null where there is none.
@@ -388,11 +400,24 @@ void PlanarGridCollider::takeSides()
 
 void PlanarGridCollider::insert(Body::id_t a, Body::id_t b)
 {
+	if (resident->bare > 0 && resident->isContact(std::min(a, b), std::max(a, b))) return;
 	if (!nscd::mayCollide(*this, *Body::byId(a, scene), *Body::byId(b, scene)) || scene->interactions->found(a, b))
 		return;
+	if (mayBeBare(a, b)) {
+		resident->proposed.push_back({ std::min(a, b), std::max(a, b), int(scene->iter) });
+		return;
+	}
 	const auto interaction = boost::make_shared<Interaction>(a, b);
 	scene->interactions->insert(interaction);
 	if (resident->hasContacts()) resident->addPotential(interaction);
+}
+
+/// Whether the contact of a pair may do without an interaction, as far as its bodies tell: see NscdInteractionLoop.
+bool PlanarGridCollider::mayBeBare(Body::id_t a, Body::id_t b) const
+{
+	const auto &first = resident->bodies[a], &second = resident->bodies[b];
+	return resident->hasContacts() && first.plain && second.plain && first.planar && second.planar
+	        && first.z == second.z && scene->iter <= std::numeric_limits<int>::max();
 }
 
 vector<Body::id_t> PlanarGridCollider::probeBoundingVolume(const Bound& bound)

@@ -89,13 +89,16 @@ private:
 	void takeSides();
 	void insert(Body::id_t a, Body::id_t b);
 	void eraseIfUnreal(Body::id_t a, Body::id_t b);
+	void unnote(Body::id_t a, Body::id_t b);
+	bool mayBeBare(Body::id_t a, Body::id_t b) const;
 	SidePair* sidePairOf(Body::id_t a, Body::id_t b);
 
 	static constexpr Real foresight = 2; // steps in which a pair beyond the sure reach may come to be within it
 	static constexpr Real ahead     = 12; // steps for which pairs are looked up, as fast as they are then
 
-	int                                      threads           = 1;
-	size_t                                   sizeLeft          = 0; // of O.interactions at the end of the last run
+	int  threads = 1;
+	long sizeLeft
+	        = 0; // of O.interactions at the end of the last run, without those that were made for the arrays' contacts
 	Real                                     factor            = 1; // reach of disks in sums of radii
 	Real                                     verletDistOfLists = 0; // the attribute as it was when they were made
 	nscd::Resident*                          resident          = nullptr; // during a turn

@@ -249,11 +249,11 @@ class Experiment:
         """The first steps, without gravity; bonds the packing as it is, unless that comes after gravity has grown."""
         s, solver = self.state, self.slope.solver
         self.newton.gravity = self._gravity(0.0)
-        advance()  # makes the interactions
+        advance(view=False)  # finds the contacts
         s.first_step = O.iter
         if self.section.stages.settle.bond == "before":
             s.bonds_initial = solver.bond()
-        advance()
+        advance(view=False)
         s.contacts_initial = solver.contacts
         self.walls.forget()
         if self.hard:  # from here on it grows by itself

@@ -84,7 +84,7 @@ class Hard:
         """
         newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         gravity, newton.gravity = newton.gravity, (0, 0, 0)
-        advance()
+        advance(view=False)
         newton.gravity = gravity
         return scene.contact_dynamics().bond()
 

@@ -176,7 +176,7 @@ def test_cost_by_size():
             "sweep_ns_per_contact": {"1": {"median": 40.0 + k}, "12": {"median": 9.0 + k}, "2": {"median": 22.0 + k}},
             "step_ms": {"median": 2e-3 * n},
             "bytes_per_contact": 2100 + k,
-            "bytes_per_contact_scene": 1500 + k,
+            "bytes_per_contact_viewed": 2900 + k,
             "packing_s": 0.01 * n,
         }
         for k, n in enumerate((100, 1000))

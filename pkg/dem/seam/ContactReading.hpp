@@ -1,7 +1,8 @@
 // What a step takes from one interaction, side by side in memory: geometry and physics of an interaction lie far apart, and to fetch them is most of the work.
 //
 // Readings stay from step to step (seam/Resident.hpp). Those of two disks under our own law are kept up to date by themselves, and their interactions follow when
-// somebody looks; the others are read anew after their functors have been called.
+// somebody looks; the others are read anew after their functors have been called. Where nobody has looked since it came, such a contact is bare: it has no interaction
+// (seam/ResidentMake.cpp).
 #pragma once
 
 #include "../NscdPhys.hpp"
@@ -27,16 +28,19 @@ struct alignas(64) Reading {
 	bool        wasRead : 1; // its geometry and thresholds are those of the interaction
 	bool        leftOut : 1; // of the last solve, and bears nothing
 	bool        reacts : 1; // its reactions are not yet those of the interaction
+	bool        stale : 1; // its thresholds are to be found anew
 
 	Real adhesion = 0, friction = 0, rollingArm = 0;
 	Real residualAdhesion = 0; // of a touching contact without a bond
 	Real normal = 0, tangential = 0, torque = 0, correction = 0; // of the last step
 
-	Interaction*                         interaction = nullptr; // null: the place is free
+	Interaction*                         interaction = nullptr; // null: bare, or the place is free
 	ScGeom*                              geom        = nullptr;
 	NscdPhys*                            phys        = nullptr; // null where the interaction has another physics
 	Real                                 restitution = 0;
 	nonsmooth::contact::plane::YieldPath path; // of a bond that the arrays keep
+	int                                  born = 0,
+	    strengths = -1; // of a bare contact: the step in which it came, and its place in Resident::strengths
 
 	Reading()
 	        : cohesive(false)
@@ -49,8 +53,15 @@ struct alignas(64) Reading {
 	        , wasRead(true)
 	        , leftOut(false)
 	        , reacts(false)
+	        , stale(false)
 	{
 	}
+
+	bool isBare() const { return !interaction; } // of a place that is taken
+	bool isLost() const
+	{
+		return isBare() && strengths < 0;
+	} // ended by a script, and forgotten when contacts are taken
 };
 static_assert(sizeof(Reading) == 3 * 64);
 
@@ -68,20 +79,34 @@ inline Vector3r vectorOf(const nonsmooth::contact::plane::YieldPath& path)
 /// Component of a unit normal along z up to which it lies in the plane.
 constexpr Real flatness = 1e-6;
 
-/// Whether thresholds, restitution and length of a contact are what the law knows; false for numbers that are none.
-inline bool makeSense(const NscdPhys& phys)
-{
-	const Real sum = phys.adhesion + phys.currentFriction + phys.currentRollingArm + phys.length;
-	return phys.adhesion >= 0 && phys.currentFriction >= 0 && phys.currentRollingArm >= 0 && phys.length > 0
-	        && phys.restitution >= 0 && phys.restitution <= 1 && sum <= std::numeric_limits<Real>::max();
-}
-
 /// The cohesive physics of an interaction, null if it has another; the usual two classes are recognised without a search.
 inline NscdPhys* physOf(IPhys& phys)
 {
 	const auto& type = typeid(phys);
 	if (type == typeid(NscdPhys) || type == typeid(SlipWeakeningPhys)) return static_cast<NscdPhys*>(&phys);
 	return dynamic_cast<NscdPhys*>(&phys);
+}
+
+/// Whether a contact's thresholds, restitution and length are what the law knows, false for numbers that are none; and its normal lies in the plane.
+inline bool makeSense(const Reading& r)
+{
+	const Real sum = r.adhesion + r.friction + r.rollingArm + r.length;
+	return r.adhesion >= 0 && r.friction >= 0 && r.rollingArm >= 0 && r.length > 0 && r.restitution >= 0
+	        && r.restitution <= 1 && sum <= std::numeric_limits<Real>::max() && std::abs(r.nz) <= flatness;
+}
+
+/// Finds the thresholds of a bare contact.
+inline void findThresholds(Reading& r, const nonsmooth::contact::plane::Strengths& strengths, Real adhesionRange)
+{
+	namespace plane     = nonsmooth::contact::plane;
+	const auto residual = strengths.residual(r.length);
+	const auto now      = plane::thresholdsOf(
+	             strengths.ofBond(r.length), residual, r.bonded, plane::touches(r.gap, adhesionRange, r.length));
+	r.adhesion         = now.adhesion;
+	r.friction         = now.friction;
+	r.rollingArm       = now.rollingArm;
+	r.residualAdhesion = residual.adhesion;
+	r.usable           = makeSense(r);
 }
 
 /// Takes thresholds and what they rest on from an interaction's physics.
@@ -92,7 +117,7 @@ inline void readThresholds(Reading& r)
 	r.friction           = phys.currentFriction;
 	r.rollingArm         = phys.currentRollingArm;
 	r.residualAdhesion   = phys.residualTensileForce;
-	r.usable             = std::abs(r.nz) <= flatness && makeSense(phys);
+	r.usable             = makeSense(r);
 }
 
 /// What an interaction itself says; `geom` is null where it is not real.

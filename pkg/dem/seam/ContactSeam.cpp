@@ -14,7 +14,6 @@ using contact::Impulse;
 using contact::Twist;
 
 namespace {
-	constexpr long tidyPeriod = 100; // steps
 	constexpr Real unseen = 0.005; // ℓ; what a contact left out of the solve may overlap without being recalled
 
 	constexpr int mostRecalls = 4; // solves of a step after which all contacts left out are taken in
@@ -86,7 +85,6 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 	resident   = &from;
 	gatherBodies(scene, gravity);
 	checkShapes(scene, resident->bodies, resident->shaped);
-	if (scene.iter % tidyPeriod == 0) tidy(scene);
 	divide(scene);
 	const auto&  order = resident->order;
 	const size_t count = order.size(), solved = solvedBefore.back(), leftOut = leftBefore.back();
@@ -218,23 +216,6 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	}
 }
 
-/// Puts YADE's list of interactions, which new and lost contacts shuffle, into the order of body ids: whoever walks along it then meets
-/// neighbours in memory.
-void ContactSeam::tidy(Scene& scene)
-{
-	auto&                                list = *scene.interactions;
-	const std::lock_guard<std::mutex>    drawing(list.drawloopmutex); // YADE's viewer walks along it meanwhile
-	std::vector<shared_ptr<Interaction>> sorted(list.begin(), list.begin() + list.size());
-	const auto                           key = [](const shared_ptr<Interaction>& i) {
-                return std::pair<int, int>(std::min(i->getId1(), i->getId2()), std::max(i->getId1(), i->getId2()));
-	};
-	std::sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-	for (size_t k = 0; k < sorted.size(); ++k) {
-		sorted[k]->linIx = int(k); // the list's own back-reference
-		list[k]          = std::move(sorted[k]);
-	}
-}
-
 /// Tells the contacts that need not be solved for from the others, and counts these, so that each can be gathered where it stays.
 void ContactSeam::divide(const Scene& scene)
 {
@@ -264,7 +245,10 @@ void ContactSeam::divide(const Scene& scene)
 		solvedBefore[part + 1] = solved;
 		leftBefore[part + 1]   = left;
 	}
-	if (bad < (long)count) refuseContact(scene, resident->readings[order[bad].slot]);
+	if (bad < (long)count) {
+		resident->show();
+		refuseContact(scene, resident->readings[order[bad].slot]);
+	}
 	for (size_t part = 1; part < solvedBefore.size(); ++part) {
 		solvedBefore[part] += solvedBefore[part - 1];
 		leftBefore[part] += leftBefore[part - 1];

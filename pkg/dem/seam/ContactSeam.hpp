@@ -85,7 +85,6 @@ private:
 	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
 
 	void                        gatherBodies(Scene& scene, const Vector3r& gravity);
-	void                        tidy(Scene& scene);
 	void                        divide(const Scene& scene);
 	bool                        mustBeSolved(const Reading& reading) const;
 	void                        setFrame(const Reading& reading, nonsmooth::contact::Contact& result) const;

@@ -8,6 +8,13 @@
 
 namespace yade::nscd {
 
+namespace {
+	bool isBefore(const Resident::Place& a, const Resident::Place& b)
+	{
+		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
+	}
+}
+
 std::shared_ptr<Resident> Resident::of(Scene& scene)
 {
 	static std::mutex                                        mutex;
@@ -18,8 +25,9 @@ std::shared_ptr<Resident> Resident::of(Scene& scene)
 	for (auto it = all.begin(); it != all.end();)
 		it = it->first != &scene && (!it->second || it->second->container.expired()) ? all.erase(it)
 		                                                                             : std::next(it);
-	found            = std::make_shared<Resident>();
-	found->container = scene.bodies;
+	found               = std::make_shared<Resident>();
+	found->container    = scene.bodies;
+	found->interactions = scene.interactions;
 	return found;
 }
 
@@ -40,6 +48,7 @@ void Resident::takeBodies(Scene& scene)
 
 void Resident::takeContacts(Scene& scene)
 {
+	makeAll();
 	const double begin = steadySeconds();
 	auto&        list  = *scene.interactions;
 	const int    size  = int(bodies.size());
@@ -74,6 +83,9 @@ void Resident::takeContacts(Scene& scene)
 	strewn = 0;
 	come.clear();
 	gone.clear();
+	proposed.clear();
+	strengths.clear();
+	bare = 0;
 	held = false;
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = 0; k < count; ++k) {
@@ -106,7 +118,7 @@ bool Resident::takeKnown(Scene& scene)
 {
 	const double begin = steadySeconds();
 	auto&        list  = *scene.interactions;
-	if (list.size() != order.size() + potential.size()) return false;
+	if (list.size() != order.size() - bare + potential.size()) return false;
 	const auto isThere = [&](const shared_ptr<Interaction>& i) {
 		return i->linIx >= 0 && size_t(i->linIx) < list.size() && list[i->linIx] == i;
 	};
@@ -121,8 +133,12 @@ bool Resident::takeKnown(Scene& scene)
 			fetch<1>(&readings[order[k + soon].slot].phys->touched);
 		const int     slot = order[k].slot;
 		const Holder& held = holders[slot];
-		Interaction&  i    = *held.interaction;
 		Reading&      r    = readings[slot];
+		if (r.isBare()) { // nobody could change it
+			surelySolved[slot] = false;
+			continue;
+		}
+		Interaction& i = *held.interaction;
 		if (!isThere(held.interaction) || i.geom != held.geom || i.phys != held.phys || i.getId1() != r.first)
 			other = true;
 		else if (r.keeper != Reading::Arrays || r.phys->touched)
@@ -141,7 +157,7 @@ bool Resident::takeKnown(Scene& scene)
 
 void Resident::hold()
 {
-	if (held) return;
+	if (held || bare == order.size()) return;
 	held = true;
 	holders.resize(readings.size());
 	const long count = (long)readings.size();
@@ -164,7 +180,7 @@ int Resident::slotOf(const shared_ptr<Interaction>& interaction)
 		slot = freeSlots.back();
 		freeSlots.pop_back();
 	}
-	if (held) holders[slot] = { interaction, interaction->geom, interaction->phys };
+	if (held && interaction) holders[slot] = { interaction, interaction->geom, interaction->phys };
 	return slot;
 }
 
@@ -181,21 +197,38 @@ void Resident::add(const shared_ptr<Interaction>& interaction)
 	come.push_back({ std::min(a, b), std::max(a, b), slot });
 }
 
+void Resident::add(const Reading& reading)
+{
+	const int slot     = slotOf({});
+	readings[slot]     = reading;
+	surelySolved[slot] = false;
+	++bare;
+	come.push_back({ reading.first, reading.second, slot });
+}
+
+bool Resident::isContact(int low, int high) const
+{
+	const auto at = std::lower_bound(order.begin(), order.end(), Place { low, high, 0 }, isBefore);
+	return at != order.end() && at->low == low && at->high == high && !readings[at->slot].isLost();
+}
+
 void Resident::merge(InteractionContainer& list)
 {
 	if (come.empty() && gone.empty()) return;
-	const auto isBefore = [](const Place& a, const Place& b) {
-		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
-	};
 	std::sort(come.begin(), come.end(), isBefore);
 	std::sort(gone.begin(), gone.end());
 	merged.clear();
 	merged.reserve(order.size() + come.size());
 	const auto leave = [&](const Place& place) {
-		Reading&   r           = readings[place.slot];
-		const auto interaction = list[r.interaction->linIx];
-		list.requestErase(interaction);
-		addPotential(interaction);
+		Reading& r = readings[place.slot];
+		if (r.isBare()) {
+			proposed.push_back({ place.low, place.high, r.born });
+			--bare;
+		} else {
+			const auto interaction = list[r.interaction->linIx];
+			list.requestErase(interaction);
+			addPotential(interaction);
+		}
 		r = Reading {};
 		if (held) holders[place.slot] = {};
 		freeSlots.push_back(place.slot);

@@ -14,6 +14,9 @@
 // Where only Python looks, as at the end of O.step(), the arrays stay known: the next turn looks whether each interaction is still there, and reads those that
 // were written to. What Python sets in an NscdPhys leaves a mark (touched); C++ that changes one outside an engine's turn sets the mark itself.
 //
+// Interactions that nobody asks for need not exist: a contact of two disks that comes in a step has none until the objects are shown. So a run in which nobody
+// looks makes none, and its contacts are in the arrays alone.
+//
 // O.forces stays where forces are added up, in every step: it is not kept twice.
 #pragma once
 
@@ -42,6 +45,19 @@ public:
 		bool                    followed = false; // the collider has found its pair among those that it follows
 	};
 
+	/// A pair of disks within reach that is no contact, and the step since which it has been known; its interaction would not be real.
+	struct Pair {
+		int low, high, born;
+	};
+
+	/// What interactions go through that are made for bare contacts, and a geometry to begin with, of which a part can be set by YADE's functors alone.
+	struct Recipe {
+		shared_ptr<IGeomFunctor> geomFunctor;
+		shared_ptr<IPhysFunctor> physFunctor;
+		shared_ptr<LawFunctor>   law;
+		shared_ptr<ScGeom>       geom;
+	};
+
 	/// That of a scene; made where there is none.
 	static std::shared_ptr<Resident> of(Scene& scene);
 
@@ -52,8 +68,9 @@ public:
 	void takeBodies(Scene& scene);
 	/// Takes all interactions that are real, and notes the others.
 	void takeContacts(Scene& scene);
-	/// Writes all into YADE's objects, which own it from now on; `staysKnown`: only Python can have changed them when contacts are taken again.
-	void show(const string& who = "whoever asked", bool staysKnown = false);
+	/// Writes all into YADE's objects, which own it from now on; `staysKnown`: only Python can have changed them when contacts are taken again; `makes`: bare contacts
+	/// get interactions, and are to stay known otherwise.
+	void show(const string& who = "whoever asked", bool staysKnown = false, bool makes = true);
 	/// The same where no turn is going on in this thread: at the end of the one that another thread is in.
 	void showBetweenTurns();
 	/// The same where the scene is about to be saved; steps that another thread makes wait until it is, so that what is written is of one moment.
@@ -82,8 +99,22 @@ public:
 	void addPotential(const shared_ptr<Interaction>& interaction);
 	/// Takes a real interaction for a new contact; `merge` gives it its place.
 	void add(const shared_ptr<Interaction>& interaction);
+	/// The same without an interaction; `reading` has its strengths' number.
+	void add(const Reading& reading);
 	/// Takes up the contacts that were added, and leaves out those in `gone`, whose interactions become potential ones.
 	void merge(InteractionContainer& list);
+	/// Whether that pair is a contact.
+	bool isContact(int low, int high) const;
+	/// The place of strengths among those that bare contacts share; −1 where there is no room for more.
+	int numberOf(const nonsmooth::contact::plane::Strengths& strengths);
+	/// Makes the interaction of a bare contact, with all that the arrays know of it.
+	void make(int slot);
+	/// The same of a pair that is no contact.
+	void make(const Pair& pair);
+	/// Goes through the bare contacts and the points at which they are [m]; all interactions that there are are up to date then.
+	void showBare(const std::function<void(const Reading&, const Vector3r&)>& take);
+	/// Bonds the bare contacts that are to be bonded, and returns how many; the others' interactions are up to date then, as ContactDynamicsEngine::bond needs them.
+	int bondBare();
 	/// Leaves out of the potential interactions those that are no longer in the list.
 	void forgetErased(InteractionContainer& list);
 
@@ -95,6 +126,11 @@ public:
 	                   surelySolved; // by slot: touches or is bonded, so that it is solved whatever its velocity; so much of a reading is asked first
 	std::vector<Place> order;
 	std::vector<int>   gone; // places in the order of contacts that are to be left out
+	std::vector<Pair>  proposed; // by the collider, and not taken for contacts yet; or no longer
+	std::vector<nonsmooth::contact::plane::Strengths> strengths; // of bare contacts, by number
+	Recipe                                            recipe;
+	size_t                                            bare = 0; // contacts without an interaction
+	long made = 0; // interactions so far that were made for contacts and pairs which had none
 	/// Interactions that are not real, in the order of their list after the last loop; and the step of that loop.
 	std::vector<Potential> potential;
 	long                   potentialOf = never;
@@ -117,6 +153,11 @@ private:
 	void                                   takeShown(Scene& scene);
 	int                                    slotOf(const shared_ptr<Interaction>& interaction);
 	void                                   showContact(int slot) const;
+	shared_ptr<Interaction>                interactionOf(int slot) const;
+	void                                   insert(int slot, const shared_ptr<Interaction>& interaction);
+	bool                                   isGone(int id) const;
+	void                                   makeAll();
+	void                                   sort();
 	void                                   repack();
 	bool                                   isBehind(const Scene& scene) const;
 
@@ -126,8 +167,9 @@ private:
                 0
 	}; // threads that want to look; turns follow each other too closely for them to come in by chance
 	bool beingSaved = false; // by a thread that holds Python's lock until it has written all
-	boost::weak_ptr<BodyContainer> container;
-	bool                           bodiesOwned = false, contactsOwned = false, held = false;
+	boost::weak_ptr<BodyContainer>        container;
+	boost::weak_ptr<InteractionContainer> interactions;
+	bool                                  bodiesOwned = false, contactsOwned = false, held = false;
 	bool             contactsKnown    = false; // not owned, but as they were shown unless Python has changed them
 	size_t           interactionsSeen = 0; // at the end of the last turn
 	std::vector<int> shownAlone; // bodies that a script may have changed since, see showOnly

@@ -100,11 +100,12 @@ void Resident::showContact(int slot) const
 	if (r.reacts) writeReactions(r);
 }
 
-void Resident::show(const string& who, bool staysKnown)
+void Resident::show(const string& who, bool staysKnown, bool makes)
 {
 	const std::lock_guard<std::recursive_mutex> guard(lock);
 	const double                                begin = steadySeconds();
 	const auto                                  kept  = container.lock();
+	if (makes) makeAll();
 	if (kept && contactsOwned) {
 		const long count = (long)order.size();
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -116,6 +117,7 @@ void Resident::show(const string& who, bool staysKnown)
 			}
 			showContact(order[k].slot);
 		}
+		sort();
 		if (staysKnown) hold();
 	}
 	contactsKnown = staysKnown && (contactsOwned || contactsKnown);

@@ -1,4 +1,5 @@
 // An engine's turn: what it takes when it begins, and to whom it shows what it has done when it ends.
+#include "../Advance.hpp"
 #include "../StageClock.hpp"
 #include "Audience.hpp"
 #include "Resident.hpp"
@@ -48,13 +49,13 @@ Turn::Turn(Engine& engine_, int threads)
 
 void Turn::end()
 {
-	Scene& scene  = *engine.scene;
-	Viewer viewer = whoLooksAfter(scene, engine);
+	Scene&       scene  = *engine.scene;
+	const Viewer viewer = whoLooksAfter(scene, engine);
 	if (viewer.name.empty() && othersMayLook(scene)) {
 		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
 		threadEnd.last = data;
 		if (steadySeconds() - data->lastShown > std::max(0.05, 50 * data->costOfLook))
-			viewer = { "others, now and then", true };
+			data->show("others, now and then", true, interactionsWanted(scene));
 	}
 	if (!viewer.name.empty()) data->show(viewer.name, viewer.isPython);
 	data->interactionsSeen = scene.interactions->size();

@@ -13,7 +13,6 @@ import time
 from pathlib import Path
 
 from yade import O
-from yade.wrapper import Collider, InteractionLoop
 
 from .. import contact, packing, packing_files, slope, worlds
 from ..statistics import spread
@@ -55,17 +54,17 @@ def measure(folder, source, disks, steps=STEPS):
     packing_files.save(packed, Path(folder) / PACKING)
     before, began = _resident(), time.perf_counter()
     solver = slope.build(chosen, packed).solver
-    scene = _scene_alone() - before
-    advance()
+    advance(view=False)
     bonds, building_s = solver.bond(), time.perf_counter() - began
     timed = TimedSteps().run(0, warm_up=LOADING)
     begun = solver.totalIterations
     timed.run(steps, warm_up=0)
     grown = _resident() - before
+    solver.view()  # from here on all contacts have interactions
     memory = {
         "bytes_per_disk": grown / len(packed),
         "bytes_per_contact": grown / solver.candidates,
-        "bytes_per_contact_scene": scene / solver.candidates,
+        "bytes_per_contact_viewed": (_resident() - before) / solver.candidates,
     }
     return {
         "disks": len(packed),
@@ -80,14 +79,6 @@ def measure(folder, source, disks, steps=STEPS):
         "steps": LOADING + steps,
         **_dumped(solver, Path(folder) / PROBLEM),
     }
-
-
-def _scene_alone():
-    """Finds the contacts as a step does before it comes to the solver, which leaves interactions and no contact problem; memory of the process then [byte]."""
-    for engine in O.engines:
-        if isinstance(engine, (Collider, InteractionLoop)):
-            engine()
-    return _resident()
 
 
 def _dumped(solver, path):

@@ -49,7 +49,7 @@ BLOCK = 10  # steps that are made and timed together, as the rows of a run, whic
 
 
 class TimedSteps:
-    """Times steps of the present scene by ContactDynamicsEngine.stageSeconds, by YADE's own timers where no engine of the plugin is at work, and by a clock around
+    """Times steps, at which nobody looks, of the present scene by ContactDynamicsEngine.stageSeconds, by YADE's own timers where no engine of the plugin is at work, and by a clock around
     BLOCK of them at a time.
 
     ``rows``: one dictionary a block: wall time [s] of one of its steps by stage, "step" for all of it and "other" for what no stage has.
@@ -63,7 +63,7 @@ class TimedSteps:
 
     def run(self, steps, warm_up=WARM_UP):
         """Makes so many steps, and before them ``warm_up`` that are not kept."""
-        advance(warm_up)
+        advance(warm_up, view=False)
         for made in range(0, steps, BLOCK):
             count = min(BLOCK, steps - made)
             before, begin = self._spent(), time.perf_counter()
@@ -73,8 +73,6 @@ class TimedSteps:
             step = (time.perf_counter() - begin) / count
             row = {name: (after - before[name]) / count for name, after in self._spent().items()}
             self.rows.append({**row, "other": step - sum(row.values()), "step": step})
-        if self.solver:
-            self.solver.view()
         return self
 
     def _spent(self):

@@ -1,0 +1,200 @@
+// Interactions of contacts that came while nobody looked: a bare contact has none until it is made, with all that the arrays know of it.
+//
+// What a bare contact has is in its reading and, where it is bonded, in its marks; its strengths are those on which its bodies' materials agreed when it came, as they would be in its
+// physics. An interaction is made where somebody may look, where its bond breaks, and where others than the arrays have to follow it.
+#include "Prefetch.hpp"
+#include "Resident.hpp"
+#include <boost/make_shared.hpp>
+#include <contact/plane/bond.hpp>
+
+namespace yade::nscd {
+
+namespace plane = nonsmooth::contact::plane;
+
+int Resident::numberOf(const plane::Strengths& wanted)
+{
+	constexpr size_t most
+	        = 256; // so that they are looked through quickly; contacts of more materials have interactions
+	const auto at = std::find(strengths.begin(), strengths.end(), wanted);
+	if (at != strengths.end()) return int(at - strengths.begin());
+	if (strengths.size() == most) return -1;
+	strengths.push_back(wanted);
+	return int(strengths.size()) - 1;
+}
+
+/// The interaction of a bare contact, which is in no list yet.
+shared_ptr<Interaction> Resident::interactionOf(int slot) const
+{
+	const Reading& r           = readings[slot];
+	const auto     interaction = boost::make_shared<Interaction>(r.first, r.second);
+	const auto     geom        = boost::make_shared<ScGeom>();
+	const auto     phys        = boost::make_shared<NscdPhys>();
+	*geom                      = *recipe.geom;
+	Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(*phys, strengths[r.strengths], r.length);
+	if (r.bonded) {
+		const auto& [marks, zone] = bonds[slot];
+		phys->bonded              = true;
+		phys->anchor1             = Vector3r(marks.first.x, marks.first.y, 0);
+		phys->anchor2             = Vector3r(marks.second.x, marks.second.y, 0);
+		phys->axis                = Vector3r(marks.normal.x, marks.normal.y, 0);
+	}
+	interaction->geom         = geom;
+	interaction->phys         = phys;
+	interaction->iterMadeReal = r.born;
+	auto& cache               = interaction->functorCache;
+	cache.geom                = recipe.geomFunctor;
+	cache.phys                = recipe.physFunctor;
+	cache.constLaw            = recipe.law;
+	return interaction;
+}
+
+/// Puts it into YADE's list. The contact is lost where one of its bodies is gone, or somebody has put another interaction in its place.
+void Resident::insert(int slot, const shared_ptr<Interaction>& interaction)
+{
+	Reading& r = readings[slot];
+	if (isGone(r.first) || isGone(r.second) || !interactions.lock()->insert(interaction)) {
+		r.strengths = -1;
+		return;
+	}
+	interaction->iterBorn = r.born;
+	r.interaction         = interaction.get();
+	r.geom                = static_cast<ScGeom*>(interaction->geom.get());
+	r.phys                = static_cast<NscdPhys*>(interaction->phys.get());
+	if (held) holders[slot] = { interaction, interaction->geom, interaction->phys };
+	--bare;
+	++made;
+	++interactionsSeen;
+}
+
+/// Whether the body that was of that id has been taken out since the last turn; there may be another.
+bool Resident::isGone(int id) const
+{
+	const auto  kept   = container.lock();
+	const auto& erased = kept->erasedBodies;
+	return !kept->exists(id) || std::find(erased.begin(), erased.end(), id) != erased.end();
+}
+
+void Resident::make(int slot)
+{
+	insert(slot, interactionOf(slot));
+	showContact(slot);
+}
+
+void Resident::make(const Pair& pair)
+{
+	if (isGone(pair.low) || isGone(pair.high)) return;
+	const auto interaction = boost::make_shared<Interaction>(pair.low, pair.high);
+	if (!interactions.lock()->insert(interaction)) return;
+	interaction->iterBorn = pair.born;
+	addPotential(interaction);
+	++made;
+	++interactionsSeen;
+}
+
+/// Makes the interactions of all bare contacts and pairs, but where a script has just ended all that there were.
+void Resident::makeAll()
+{
+	const auto list = interactions.lock();
+	if (!list || !container.lock() || (bare == 0 && proposed.empty())) return;
+	if (bare > 0) {
+		std::vector<int> slots;
+		slots.reserve(bare);
+		for (const Place& place : order) {
+			Reading& r = readings[place.slot];
+			if (list->dirty && r.isBare()) r.strengths = -1;
+			if (r.isBare() && !r.isLost()) slots.push_back(place.slot);
+		}
+		const long                           count = (long)slots.size();
+		std::vector<shared_ptr<Interaction>> all(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k)
+			all[k] = interactionOf(slots[k]);
+		for (long k = 0; k < count; ++k)
+			insert(slots[k], all[k]);
+#pragma omp parallel for schedule(static) num_threads(threads)
+		for (long k = 0; k < count; ++k)
+			showContact(slots[k]);
+	}
+	for (const Pair& pair : proposed)
+		if (!list->dirty) make(pair);
+	proposed.clear();
+	sort();
+}
+
+/// Puts YADE's list into the order of body ids, so that it does not depend on when interactions were made; and whoever walks along it meets neighbours in memory.
+void Resident::sort()
+{
+	const auto list = interactions.lock();
+	if (!list || bare > 0 || list->size() != order.size() + potential.size()) return;
+	const std::lock_guard<std::mutex> drawing(list->drawloopmutex); // YADE's viewer walks along it meanwhile
+	std::vector<Interaction*>         wanted;
+	wanted.reserve(list->size());
+	std::sort(potential.begin(), potential.end(), [](const Potential& a, const Potential& b) {
+		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
+	});
+	auto next = potential.begin();
+	for (const Place& place : order) {
+		for (; next != potential.end()
+		     && std::make_pair(next->low, next->high) < std::make_pair(place.low, place.high);
+		     ++next)
+			wanted.push_back(next->interaction.get());
+		wanted.push_back(readings[place.slot].interaction);
+	}
+	for (; next != potential.end(); ++next)
+		wanted.push_back(next->interaction.get());
+	const long count = (long)wanted.size();
+	long       first = 0; // that is not in its place
+	while (first < count && (*list)[first].get() == wanted[first])
+		++first;
+	bool all = true; // are there; or others, by a script in another thread
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : all)
+	for (long k = first; k < count; ++k) {
+		if (k + (long)later < count) fetch<1>(&wanted[k + later]->linIx);
+		const int place = wanted[k]->linIx;
+		all             = all && place >= first && place < count && (*list)[place].get() == wanted[k];
+	}
+	if (!all) return;
+	std::vector<shared_ptr<Interaction>> moved(count - first);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = first; k < count; ++k)
+		moved[k - first] = std::move((*list)[k]);
+#pragma omp parallel for schedule(static) num_threads(threads)
+	for (long k = first; k < count; ++k) {
+		int& place = wanted[k]->linIx; // the list's own back-reference
+		(*list)[k] = std::move(moved[place - first]);
+		place      = int(k);
+	}
+}
+
+void Resident::showBare(const std::function<void(const Reading&, const Vector3r&)>& take)
+{
+	const auto guard = betweenTurns();
+	show("a table", true, false);
+	for (const Place& place : order)
+		if (const Reading& r = readings[place.slot]; r.isBare() && !r.isLost()) take(r, contactPoint(r));
+}
+
+int Resident::bondBare()
+{
+	const auto guard = betweenTurns();
+	show("bond()", true, false);
+	int count = 0;
+	for (const Place& place : order) {
+		Reading& r = readings[place.slot];
+		if (!r.isBare() || r.isLost() || r.bonded) continue;
+		const auto& s = strengths[r.strengths];
+		if (!s.bondable || r.gap > r.length * s.creationDistance) continue;
+		const BodyReading &first = bodies[r.first], &second = bodies[r.second];
+		bonds[place.slot] = { plane::markBond(first.motion, second.motion, { r.nx, r.ny }, second.radius),
+			              { r.length * s.ellipseNormal, r.length * s.ellipseTangential } };
+		r.bonded          = true;
+		r.yielded         = false;
+		r.stale           = true;
+		r.restGap         = plane::firstRestGap(r.gap);
+		r.path            = {};
+		++count;
+	}
+	return count;
+}
+
+} // namespace yade::nscd
