@@ -262,7 +262,7 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 	    && (!ours.law->isWithinReach(r.gap, r.length)
 	        || (ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap))))
 		return Next::Gone;
-	if (refresh && r.isBare()) nscd::findThresholds(r, resident.strengths[r.strengths], ours.law->adhesionRange);
+	if (refresh && r.isBare()) nscd::findThresholds(r, resident.strengths[r.number], ours.law->adhesionRange);
 	else if (refresh) {
 		r.phys->updateThresholds(r.gap, ours.law->adhesionRange);
 		nscd::readThresholds(r);
@@ -326,8 +326,8 @@ void NscdInteractionLoop::takeProposed(nscd::Resident& resident, const Ours& our
 	std::vector<nscd::Resident::Pair> left;
 	for (long k = 0; k < count; ++k) {
 		if (taken[k] == Taken::Bare) {
-			readings[k].strengths = resident.numberOf(strengths[k]);
-			if (readings[k].strengths >= 0) {
+			readings[k].number = resident.numberOf(strengths[k]);
+			if (readings[k].number >= 0) {
 				resident.add(readings[k]);
 				continue;
 			}

@@ -203,15 +203,13 @@ def test_cost_by_size():
     assert drawn.points(drawn.line(sweep, "1 thread"))[:, 1].tolist() == [40, 41] and drawn.points(
         drawn.line(sweep, "2 threads")
     )[:, 1].tolist() == [22, 23]
-    whole, scene = (
-        drawn.line(memory, name) for name in ("all", "bodies, interactions and collider, without the solver")
-    )
-    assert drawn.points(whole)[:, 1] == pytest.approx([2.1, 2.101]) and drawn.points(scene)[:, 1] == pytest.approx(
-        [1.5, 1.501]
+    bare, viewed = (drawn.line(memory, name) for name in ("nobody has looked", "all have an interaction"))
+    assert drawn.points(bare)[:, 1] == pytest.approx([2.1, 2.101]) and drawn.points(viewed)[:, 1] == pytest.approx(
+        [2.9, 2.901]
     )
     assert drawn.legend(memory) == {
-        one.get_label(): drawn.colour(one) for one in (whole, scene)
-    } and memory.get_ylim() == pytest.approx((0, 1.25 * 2.101))
+        one.get_label(): drawn.colour(one) for one in (bare, viewed)
+    } and memory.get_ylim() == pytest.approx((0, 1.25 * 2.901))
 
 
 def test_a_sweep_of_time_steps_shows_seeds_mean_and_the_default(tmp_path):

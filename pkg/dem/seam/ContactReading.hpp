@@ -39,8 +39,9 @@ struct alignas(64) Reading {
 	NscdPhys*                            phys        = nullptr; // null where the interaction has another physics
 	Real                                 restitution = 0;
 	nonsmooth::contact::plane::YieldPath path; // of a bond that the arrays keep
-	int                                  born = 0,
-	    strengths = -1; // of a bare contact: the step in which it came, and its place in Resident::strengths
+	int                                  born = 0; // the step in which a bare contact came
+	int                                  number
+	        = -1; // of a bare contact's strengths, and of what holds another's interaction, in Resident; −1: none
 
 	Reading()
 	        : cohesive(false)
@@ -60,7 +61,7 @@ struct alignas(64) Reading {
 	bool isBare() const { return !interaction; } // of a place that is taken
 	bool isLost() const
 	{
-		return isBare() && strengths < 0;
+		return isBare() && number < 0;
 	} // ended by a script, and forgotten when contacts are taken
 };
 static_assert(sizeof(Reading) == 3 * 64);

@@ -39,9 +39,9 @@ void Resident::takeBodies(Scene& scene)
 	for (size_t id = 0; id < bodies.size(); ++id)
 		if (const BodyReading& b = bodies[id]; b.present && !(b.radius > 0) && !b.clumped)
 			shaped.push_back(int(id));
-	if (othersMayLook(scene)) asShown = bodies;
-	else
-		asShown.clear();
+	asShown.resize(othersMayLook(scene) ? bodies.size() : 0);
+	for (size_t id = 0; id < asShown.size(); ++id)
+		asShown[id] = bodies[id].motion;
 	bodiesOwned = true;
 	costOfLook += steadySeconds() - begin;
 }
@@ -79,6 +79,7 @@ void Resident::takeContacts(Scene& scene)
 	bonds.resize(count);
 	surelySolved.resize(count);
 	holders.clear();
+	freeHolders.clear();
 	freeSlots.clear();
 	strewn = 0;
 	come.clear();
@@ -107,8 +108,10 @@ void Resident::takeContacts(Scene& scene)
 
 void Resident::readSlot(const Found& found, int slot)
 {
-	Reading& r = readings[slot];
+	Reading&  r      = readings[slot];
+	const int number = r.number; // of its holder, which stays
 	read(found, r, bonds[slot]);
+	r.number           = number;
 	surelySolved[slot] = false;
 	if (r.phys && r.phys->touched) r.phys->touched = false;
 }
@@ -131,14 +134,14 @@ bool Resident::takeKnown(Scene& scene)
 		if (k + (long)later < count) fetch<sizeof(Interaction)>(readings[order[k + later].slot].interaction);
 		if (k + (long)soon < count && readings[order[k + soon].slot].phys)
 			fetch<1>(&readings[order[k + soon].slot].phys->touched);
-		const int     slot = order[k].slot;
-		const Holder& held = holders[slot];
-		Reading&      r    = readings[slot];
+		const int slot = order[k].slot;
+		Reading&  r    = readings[slot];
 		if (r.isBare()) { // nobody could change it
 			surelySolved[slot] = false;
 			continue;
 		}
-		Interaction& i = *held.interaction;
+		const Holder& held = holders[r.number];
+		Interaction&  i    = *held.interaction;
 		if (!isThere(held.interaction) || i.geom != held.geom || i.phys != held.phys || i.getId1() != r.first)
 			other = true;
 		else if (r.keeper != Reading::Arrays || r.phys->touched)
@@ -157,30 +160,40 @@ bool Resident::takeKnown(Scene& scene)
 
 void Resident::hold()
 {
-	if (held || bare == order.size()) return;
-	held = true;
-	holders.resize(readings.size());
-	const long count = (long)readings.size();
+	if (held) return;
+	held      = true;
+	int count = 0;
+	for (Reading& r : readings)
+		if (r.interaction) r.number = count++;
+	holders.resize(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < count; ++k)
+	for (size_t k = 0; k < readings.size(); ++k)
 		if (Interaction* i = readings[k].interaction)
-			holders[k] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()), i->geom,
-				       i->phys };
+			holders[readings[k].number] = { boost::static_pointer_cast<Interaction>(i->shared_from_this()),
+				                        i->geom, i->phys };
 }
 
-int Resident::slotOf(const shared_ptr<Interaction>& interaction)
+void Resident::hold(Reading& reading, const shared_ptr<Interaction>& interaction)
 {
-	int slot = int(readings.size());
+	if (freeHolders.empty()) {
+		freeHolders.push_back(int(holders.size()));
+		holders.emplace_back();
+	}
+	reading.number = freeHolders.back();
+	freeHolders.pop_back();
+	holders[reading.number] = { interaction, interaction->geom, interaction->phys };
+}
+
+int Resident::freeSlot()
+{
 	if (freeSlots.empty()) {
 		readings.emplace_back();
 		bonds.emplace_back();
 		surelySolved.push_back(false);
-		if (held) holders.emplace_back();
-	} else {
-		slot = freeSlots.back();
-		freeSlots.pop_back();
+		return int(readings.size()) - 1;
 	}
-	if (held && interaction) holders[slot] = { interaction, interaction->geom, interaction->phys };
+	const int slot = freeSlots.back();
+	freeSlots.pop_back();
 	return slot;
 }
 
@@ -192,14 +205,15 @@ void Resident::addPotential(const shared_ptr<Interaction>& interaction)
 
 void Resident::add(const shared_ptr<Interaction>& interaction)
 {
-	const int slot = slotOf(interaction), a = interaction->getId1(), b = interaction->getId2();
+	const int slot = freeSlot(), a = interaction->getId1(), b = interaction->getId2();
 	readSlot(look(*interaction), slot);
+	if (held) hold(readings[slot], interaction);
 	come.push_back({ std::min(a, b), std::max(a, b), slot });
 }
 
 void Resident::add(const Reading& reading)
 {
-	const int slot     = slotOf({});
+	const int slot     = freeSlot();
 	readings[slot]     = reading;
 	surelySolved[slot] = false;
 	++bare;
@@ -229,8 +243,11 @@ void Resident::merge(InteractionContainer& list)
 			list.requestErase(interaction);
 			addPotential(interaction);
 		}
+		if (held && !r.isBare()) {
+			holders[r.number] = {};
+			freeHolders.push_back(r.number);
+		}
 		r = Reading {};
-		if (held) holders[place.slot] = {};
 		freeSlots.push_back(place.slot);
 	};
 	auto       at = order.begin(), next = come.begin();
@@ -272,7 +289,6 @@ void Resident::repack()
 	pack(readings);
 	pack(bonds);
 	pack(surelySolved);
-	if (held) pack(holders);
 	for (long k = 0; k < count; ++k)
 		order[k].slot = int(k);
 	freeSlots.clear();

@@ -151,7 +151,8 @@ private:
 	std::unique_lock<std::recursive_mutex> betweenTurns();
 	bool                                   takeKnown(Scene& scene);
 	void                                   takeShown(Scene& scene);
-	int                                    slotOf(const shared_ptr<Interaction>& interaction);
+	int                                    freeSlot();
+	void                                   hold(Reading& reading, const shared_ptr<Interaction>& interaction);
 	void                                   showContact(int slot) const;
 	shared_ptr<Interaction>                interactionOf(int slot) const;
 	void                                   insert(int slot, const shared_ptr<Interaction>& interaction);
@@ -173,10 +174,10 @@ private:
 	bool             contactsKnown    = false; // not owned, but as they were shown unless Python has changed them
 	size_t           interactionsSeen = 0; // at the end of the last turn
 	std::vector<int> shownAlone; // bodies that a script may have changed since, see showOnly
-	std::vector<BodyReading>
+	std::vector<nonsmooth::contact::plane::Motion>
 	        asShown; // during a run in the background: what the states had when they were last written or read
-	std::vector<Holder> holders; // by slot
-	std::vector<int>    freeSlots;
+	std::vector<Holder> holders; // of interactions, by Reading::number
+	std::vector<int>    freeSlots, freeHolders;
 	size_t              strewn = 0; // contacts that came since slots were last in their order
 	std::vector<Place>  come, merged;
 	std::vector<int>    bucket;

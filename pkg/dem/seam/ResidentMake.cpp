@@ -30,7 +30,7 @@ shared_ptr<Interaction> Resident::interactionOf(int slot) const
 	const auto     geom        = boost::make_shared<ScGeom>();
 	const auto     phys        = boost::make_shared<NscdPhys>();
 	*geom                      = *recipe.geom;
-	Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(*phys, strengths[r.strengths], r.length);
+	Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(*phys, strengths[r.number], r.length);
 	if (r.bonded) {
 		const auto& [marks, zone] = bonds[slot];
 		phys->bonded              = true;
@@ -53,14 +53,15 @@ void Resident::insert(int slot, const shared_ptr<Interaction>& interaction)
 {
 	Reading& r = readings[slot];
 	if (isGone(r.first) || isGone(r.second) || !interactions.lock()->insert(interaction)) {
-		r.strengths = -1;
+		r.number = -1;
 		return;
 	}
 	interaction->iterBorn = r.born;
 	r.interaction         = interaction.get();
 	r.geom                = static_cast<ScGeom*>(interaction->geom.get());
 	r.phys                = static_cast<NscdPhys*>(interaction->phys.get());
-	if (held) holders[slot] = { interaction, interaction->geom, interaction->phys };
+	r.number              = -1;
+	if (held) hold(r, interaction);
 	--bare;
 	++made;
 	++interactionsSeen;
@@ -101,7 +102,7 @@ void Resident::makeAll()
 		slots.reserve(bare);
 		for (const Place& place : order) {
 			Reading& r = readings[place.slot];
-			if (list->dirty && r.isBare()) r.strengths = -1;
+			if (list->dirty && r.isBare()) r.number = -1;
 			if (r.isBare() && !r.isLost()) slots.push_back(place.slot);
 		}
 		const long                           count = (long)slots.size();
@@ -182,7 +183,7 @@ int Resident::bondBare()
 	for (const Place& place : order) {
 		Reading& r = readings[place.slot];
 		if (!r.isBare() || r.isLost() || r.bonded) continue;
-		const auto& s = strengths[r.strengths];
+		const auto& s = strengths[r.number];
 		if (!s.bondable || r.gap > r.length * s.creationDistance) continue;
 		const BodyReading &first = bodies[r.first], &second = bodies[r.second];
 		bonds[place.slot] = { plane::markBond(first.motion, second.motion, { r.nx, r.ny }, second.radius),

@@ -11,22 +11,23 @@ namespace yade::nscd {
 
 namespace {
 	/// Whether a state has what was written into it, or read from it, the last time.
-	bool isAs(const State& s, const BodyReading& known)
+	bool isAs(const State& s, const nonsmooth::contact::plane::Motion& m)
 	{
-		const auto& m = known.motion;
 		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x
 		        && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w && s.ori.z() == m.rotation.z
 		        && s.ori.w() == m.rotation.w;
 	}
 
 	/// Brings the state of the body of that id up to date, but for one that is gone, or was changed by somebody else since it was as in `asShown`.
-	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<BodyReading>& asShown)
+	void
+	write(BodyReading& b, const shared_ptr<Body>& body, size_t id,
+	      std::vector<nonsmooth::contact::plane::Motion>& asShown)
 	{
 		if (!b.moved) return;
 		b.moved = false;
 		if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return;
 		setMotion(*body->state, b.motion);
-		if (id < asShown.size()) asShown[id] = b;
+		if (id < asShown.size()) asShown[id] = b.motion;
 	}
 }
 
@@ -186,7 +187,7 @@ void Resident::takeShown(Scene& scene)
 			return;
 		}
 		b = now;
-		if (size_t(id) < asShown.size()) asShown[id] = now;
+		if (size_t(id) < asShown.size()) asShown[id] = now.motion;
 	}
 }
 

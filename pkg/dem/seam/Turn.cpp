@@ -52,10 +52,12 @@ void Turn::end()
 	Scene&       scene  = *engine.scene;
 	const Viewer viewer = whoLooksAfter(scene, engine);
 	if (viewer.name.empty() && othersMayLook(scene)) {
-		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards
-		threadEnd.last = data;
-		if (steadySeconds() - data->lastShown > std::max(0.05, 50 * data->costOfLook))
-			data->show("others, now and then", true, interactionsWanted(scene));
+		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards; seldom where the script said that nobody does
+		threadEnd.last     = data;
+		const bool   all   = interactionsWanted(scene);
+		const double least = all ? 0.05 : 1, share = all ? 50 : 200;
+		if (steadySeconds() - data->lastShown > std::max(least, share * data->costOfLook))
+			data->show("others, now and then", true, all);
 	}
 	if (!viewer.name.empty()) data->show(viewer.name, viewer.isPython);
 	data->interactionsSeen = scene.interactions->size();

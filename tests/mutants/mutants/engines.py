@@ -4,7 +4,8 @@ from mutant import mutant
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
 TO_PLANE = "pkg/dem/seam/PlaneMotion.hpp"
-RESIDENT, SHOW = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp"
+RESIDENT, SHOW, MAKE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp", "pkg/dem/seam/ResidentMake.cpp"
+COME, BARE_BONDS = "test_bare_contacts.py::test_contacts_that_come_and_go_are_the_same_once_they_are_seen", "test_bare_contacts.py::test_bonds_of_contacts_that_nobody_has_seen"
 AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
@@ -127,7 +128,7 @@ MUTANTS = (
     mutant("advance-until", ADVANCE, "time < until - 0.5 * step", "time < until", "steps go on to beyond a time, even by rounding alone",
            "test_advance.py::test_it_ends_with_the_step_that_is_nearest_to_a_time"),
     mutant("advance-left", ADVANCE, "--present.left;", ";", "no step of an advance is the last", "test_advance.py::test_engines_know_how_many_steps_are_left"),
-    mutant("advance-restore", ADVANCE, "present.set(scene, left, until);", "present.set(nullptr, 0, never);", "a scene that another one advances forgets its own course",
+    mutant("advance-restore", ADVANCE, "present.set(scene, left, until, interactions);", "present.set(nullptr, 0, never, true);", "a scene that another one advances forgets its own course",
            "test_advance.py::test_an_engine_may_advance_another_scene"),
     mutant("advance-signals", ADVANCE, "PyErr_CheckSignals() != 0", "false", "Ctrl-C is not heard", "test_advance.py::test_a_signal_that_is_only_noted_ends_nothing",
            "test_advance.py::test_ctrl_c_ends_it_between_two_steps"),
@@ -172,7 +173,7 @@ MUTANTS = (
     mutant("phys-adhesion", PHYS, "plane::touches(gap, adhesionRange, length)", "true", "residual adhesion acts over the whole reach",
            "test_reactions.py::test_residual_adhesion_acts_while_bodies_touch"),
     mutant("phys-weaker", PHYS, "std::min(va, vb)", "std::max(va, vb)", "the stronger of two disks rules", "test_bonds.py::test_weaker_of_two_disks_and_the_wall_alone"),
-    mutant("phys-layers", PHYS, "if (!sameLayer && !anyWall) phys.residualTensileForce = 0;", ";", "residual adhesion acts between layers",
+    mutant("phys-layers", PHYS, "if (!sameLayer && !anyWall) s.residualTension = 0;", ";", "residual adhesion acts between layers",
            "test_bonds.py::test_residual_adhesion_acts_within_a_layer_and_not_between_two"),
     mutant("mat-weaken", MAT, "weak + (strong - weak) * left", "strong * left", "what is left of a strength in the end is forgotten",
            "test_contact_law.py::test_friction_and_cohesion_fall_by_the_law_of_their_wall"),
@@ -234,8 +235,29 @@ MUTANTS = (
            "test_advance.py::test_bodies_that_are_asked_for_are_up_to_date_and_what_is_made_of_them_counts"),
     mutant("alone-exception", ADVANCE, "some && std::uncaught_exceptions() == exceptions", "some.has_value()", "an exception leaves bodies as they were at the last look",
            "test_advance.py::test_an_exception_leaves_all_up_to_date"),
-    mutant("alone-erased", "pkg/dem/NscdInteractionLoop.cpp", "list.size() != resident.order.size() + resident.potential.size()", "false",
+    mutant("alone-erased", "pkg/dem/NscdInteractionLoop.cpp", "list.size() != resident.order.size() - resident.bare + resident.potential.size()", "false",
            "the arrays go on with contacts that a script has taken out of the list", "test_advance.py::test_interactions_that_are_erased_meanwhile_end"),
+    mutant("bare-made", SHOW, "if (makes) makeAll();", ";", "contacts that came while nobody looked are not seen later", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
+    mutant("bare-unseen", LOOP, "if (r.usable) taken[k] = Taken::Bare;", ";", "every contact gets an interaction at once", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
+    mutant("bare-born", MAKE, "interaction->iterBorn = r.born;", ";", "a contact is as old as the first look at it", COME),
+    mutant("bare-order", MAKE, "wanted.push_back(readings[place.slot].interaction);", "wanted.insert(wanted.begin(), readings[place.slot].interaction);",
+           "O.interactions has an order that depends on when somebody looked", COME),
+    mutant("bare-known", RESIDENT, "at->low == low && at->high == high && !readings[at->slot].isLost()", "false", "a pair becomes a contact once more when the collider forgets what it knows",
+           "test_advance.py::test_interactions_that_are_erased_meanwhile_end"),
+    mutant("bare-slip", PHYS, "if (dynamic_cast<const SlipWeakeningMat*>(one.interfaceWith(other))) return {};", ";", "an interface that weakens keeps its strength where nobody looks",
+           "test_bare_contacts.py::test_an_interface_that_weakens_has_interactions"),
+    mutant("bare-epoch", MAKE, "if (at != strengths.end()) return int(at - strengths.begin());", "if (!strengths.empty()) return 0;", "contacts of all materials have the strengths of the first",
+           "test_bare_contacts.py::test_contacts_keep_the_strengths_with_which_they_came[frictionAngle-0.1]"),
+    mutant("bare-cleared", MAKE, "if (list->dirty && r.isBare()) r.number = -1;", ";", "contacts that a script has ended unseen come back", "test_bare_contacts.py::test_what_a_script_ends_without_having_looked_is_ended[cleared]"),
+    mutant("bare-replaced", MAKE, "std::find(erased.begin(), erased.end(), id) != erased.end()", "false", "a body that takes another's id takes its contacts too",
+           "test_bare_contacts.py::test_what_a_script_ends_without_having_looked_is_ended[replaced]"),
+    mutant("bare-bonds", MAKE, "r.stale           = true;", ";", "a bond made of a contact that nobody has seen holds nothing", BARE_BONDS),
+    mutant("bare-zone", MAKE, "r.length * s.ellipseNormal", "2 * r.length * s.ellipseNormal", "such a bond lives in too wide a zone", BARE_BONDS),
+    mutant("bare-anchors", MAKE, "phys->anchor2             = Vector3r(marks.second.x, marks.second.y, 0);", ";", "such a bond is not seen where it is", BARE_BONDS),
+    mutant("bare-differ", LOOP, "r.isBare() && differ", "false", "the arrays go on with bodies that they cannot keep",
+           "test_bare_contacts.py::test_bodies_that_the_arrays_cannot_keep_get_interactions[leaves the plane]"),
+    mutant("bare-table", MAKE, "take(r, contactPoint(r));", "take(r, Vector3r(0, 0, 0));", "the table puts contacts that nobody has seen into the origin",
+           "test_bare_contacts.py::test_a_table_of_contacts_needs_no_interactions"),
     mutant("surely-inactive", "pkg/dem/NscdInteractionLoop.cpp", "r.active && r.usable", "r.usable", "an interaction that a script has silenced is solved",
            "test_engine.py::test_an_interaction_that_is_silenced_bears_nothing"),
     mutant("known-written", RESIDENT, "r.keeper != Reading::Arrays || r.phys->touched", "r.keeper != Reading::Arrays", "what is written into a contact between two steps is lost",
