@@ -77,14 +77,6 @@ namespace {
 		}
 	}
 
-	/// Whether two disks are too far apart for that functor.
-	bool isBeyond(const Ig2_Sphere_Sphere_ScGeom& functor, const nscd::BodyReading& p1, const nscd::BodyReading& p2)
-	{
-		return std::pow(functor.interactionDetectionFactor * (p1.radius + p2.radius), 2)
-		        - (p2.place() - p1.place()).squaredNorm()
-		        < 0;
-	}
-
 	/// One interaction as YADE's loop treats it; returns false where it should be erased.
 	bool visit(const shared_ptr<Interaction>& I, Scene& scene, InteractionLoop& loop)
 	{
@@ -194,9 +186,9 @@ void NscdInteractionLoop::action()
 			Reading& r = resident.readings[slot];
 			// functors in use and the contact's own are what they were, or it was read anew; its bodies may have changed
 			const bool differ = !isOurs(bodies[r.first]) || !isOurs(bodies[r.second]);
-			if (!r.isBare() && (r.keeper == Reading::Unknown || differ)) r.keeper = keeperOf(r);
+			if (!r.bare && (r.keeper == Reading::Unknown || differ)) r.keeper = keeperOf(r);
 			if (r.keeper == Reading::Functors) part.others.push_back(int(k));
-			else if (const auto next = r.isBare() && differ ? Next::Unmade : follow(resident, slot, ours);
+			else if (const auto next = r.bare && differ ? Next::Unmade : follow(resident, slot, ours);
 			         next != Next::Stays)
 				(next == Next::Gone ? part.gone : part.unmade).push_back(int(k));
 		}
@@ -207,9 +199,9 @@ void NscdInteractionLoop::action()
 			const int slot = resident.order[k].slot;
 			Reading&  r    = resident.readings[slot];
 			resident.make(slot);
-			if (!r.isBare()) r.keeper = keeperOf(r);
+			if (!r.bare) r.keeper = keeperOf(r);
 			if (r.keeper == Reading::Functors) others.push_back(k);
-			else if (r.isBare() || follow(resident, slot, ours) != Next::Stays)
+			else if (r.bare || follow(resident, slot, ours) != Next::Stays)
 				resident.gone.push_back(k);
 		}
 		others.insert(others.end(), part.others.begin(), part.others.end());
@@ -246,7 +238,7 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 		if (!plane::bondLives(
 		            plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion),
 		            bond.zone)) {
-			if (r.isBare()) return Next::Unmade; // the interaction says how it broke, and when
+			if (r.bare) return Next::Unmade; // the interaction says how it broke, and when
 			r.phys->restGap   = r.restGap;
 			r.phys->yieldPath = nscd::vectorOf(r.path);
 			r.phys->yielded   = r.yielded;
@@ -262,7 +254,7 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 	    && (!ours.law->isWithinReach(r.gap, r.length)
 	        || (ours.collider && !ours.collider->wants(r.first, r.second, p1.radius + p2.radius + r.gap))))
 		return Next::Gone;
-	if (refresh && r.isBare()) nscd::findThresholds(r, resident.strengths[r.number], ours.law->adhesionRange);
+	if (refresh && r.bare) nscd::findThresholds(r, resident.strengths[r.number], ours.law->adhesionRange);
 	else if (refresh) {
 		r.phys->updateThresholds(r.gap, ours.law->adhesionRange);
 		nscd::readThresholds(r);
@@ -271,95 +263,6 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 	if (!(std::abs(r.nz) <= nscd::flatness)) r.usable = false;
 	resident.surelySolved[slot] = r.active && r.usable && (r.bonded || r.broken != NscdPhys::None || r.gap <= 0);
 	return Next::Stays;
-}
-
-/// Pairs of disks that the collider has found, without interactions: those that come into contact are taken for bare ones where the arrays may keep them, and get an
-/// interaction, which goes through its functors, where they may not. The others stay.
-void NscdInteractionLoop::takeProposed(nscd::Resident& resident, const Ours& ours, int threads)
-{
-	auto& proposed = resident.proposed;
-	if (proposed.empty()) return;
-	enum class Taken { No, Bare, ByFunctors };
-	const bool                    able  = ours.spheres && ours.law && prepare(resident, proposed.front(), ours);
-	const long                    count = (long)proposed.size();
-	std::vector<Taken>            taken(count, Taken::ByFunctors);
-	std::vector<Reading>          readings(able ? count : 0);
-	std::vector<plane::Strengths> strengths(able ? count : 0);
-	const auto&                   bodies = resident.bodies;
-#pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (able ? count : 0); ++k) {
-		const auto& pair = proposed[k];
-		if (k + (long)soon < count)
-			for (const int id : { proposed[k + soon].low, proposed[k + soon].high })
-				fetch<sizeof(Body)>((*scene->bodies)[id].get());
-		const auto &p1 = bodies[pair.low], &p2 = bodies[pair.high];
-		if (isBeyond(*ours.spheres, p1, p2)) {
-			taken[k] = Taken::No;
-			continue;
-		}
-		const auto agreed = Ip2_NscdMat_NscdMat_NscdPhys::lastingStrengths(
-		        (*scene->bodies)[pair.low]->material.get(), (*scene->bodies)[pair.high]->material.get());
-		const auto at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius);
-		if (!agreed || !(at.distance > 0)) continue;
-		const Real length = p1.radius + p2.radius;
-		if (!ours.law->isWithinReach(at.gap, length)) {
-			taken[k] = Taken::No;
-			continue;
-		}
-		Reading& r    = readings[k];
-		r.first       = pair.low;
-		r.second      = pair.high;
-		r.nx          = at.nx;
-		r.ny          = at.ny;
-		r.gap         = at.gap;
-		r.length      = length;
-		r.keeper      = Reading::Arrays;
-		r.cohesive    = true;
-		r.restitution = agreed->restitution;
-		r.bounces     = r.restitution > 0;
-		r.wasRead     = false;
-		r.born        = pair.born;
-		strengths[k]  = *agreed;
-		nscd::findThresholds(r, *agreed, ours.law->adhesionRange);
-		if (r.usable) taken[k] = Taken::Bare;
-	}
-	std::vector<nscd::Resident::Pair> left;
-	for (long k = 0; k < count; ++k) {
-		if (taken[k] == Taken::Bare) {
-			readings[k].number = resident.numberOf(strengths[k]);
-			if (readings[k].number >= 0) {
-				resident.add(readings[k]);
-				continue;
-			}
-		}
-		if (taken[k] == Taken::No) left.push_back(proposed[k]);
-		else
-			resident.make(proposed[k]);
-	}
-	proposed.swap(left);
-}
-
-/// Notes what interactions of bare contacts go through; returns false where that would be others' functors.
-bool NscdInteractionLoop::prepare(nscd::Resident& resident, const nscd::Resident::Pair& pair, const Ours& ours)
-{
-	auto&       recipe = resident.recipe;
-	const auto &b1 = (*scene->bodies)[pair.low], &b2 = (*scene->bodies)[pair.high];
-	bool        swap = false;
-	if (!recipe.geom) {
-		recipe.geom               = boost::make_shared<ScGeom>();
-		recipe.geom->contactPoint = Vector3r::Zero();
-		recipe.geom->refR1 = recipe.geom->refR2 = recipe.geom->penetrationDepth = 0;
-		recipe.geom->precompute(State(), State(), scene, nullptr, Vector3r::Zero(), true, Vector3r::Zero());
-		recipe.geom->shearInc = Vector3r::Zero();
-	}
-	shared_ptr<Material> material = boost::make_shared<NscdMat>();
-	shared_ptr<IGeom>    geom     = recipe.geom;
-	shared_ptr<IPhys>    phys     = boost::make_shared<NscdPhys>();
-	recipe.geomFunctor            = geomDispatcher->getFunctor2D(b1->shape, b2->shape, swap);
-	recipe.physFunctor            = physDispatcher->getFunctor2D(material, material, swap);
-	recipe.law                    = lawDispatcher->getFunctor2D(geom, phys, swap);
-	return recipe.geomFunctor.get() == ours.spheres && recipe.law.get() == ours.law && recipe.physFunctor
-	        && typeid(*recipe.physFunctor) == typeid(Ip2_NscdMat_NscdMat_NscdPhys);
 }
 
 /// Contacts that go through their functors, and interactions that may become contacts.
@@ -377,7 +280,8 @@ void NscdInteractionLoop::visitOthers(
 		if (!isThere(i.getId1()) || !isThere(i.getId2())) return false;
 		const auto &p1 = bodies[i.getId1()], &p2 = bodies[i.getId2()];
 		const auto* functor = i.functorCache.geom.get();
-		if (p1.plain && p2.plain && functor && functor == ours.spheres) return isBeyond(*ours.spheres, p1, p2);
+		if (p1.plain && p2.plain && functor && functor == ours.spheres) 
+			return nscd::areBeyond(ours.spheres->interactionDetectionFactor, p1, p2);
 		if (!p1.planar || !p2.plain || !functor || functor != ours.segments) return false;
 		const Real reach = (2 * ours.segments->interactionDetectionFactor - 1)
 		        * p2.radius; // of its centre from the segment

@@ -29,6 +29,7 @@ struct alignas(64) Reading {
 	bool        leftOut : 1; // of the last solve, and bears nothing
 	bool        reacts : 1; // its reactions are not yet those of the interaction
 	bool        stale : 1; // its thresholds are to be found anew
+	bool        bare : 1; // it has no interaction
 
 	Real adhesion = 0, friction = 0, rollingArm = 0;
 	Real residualAdhesion = 0; // of a touching contact without a bond
@@ -55,14 +56,11 @@ struct alignas(64) Reading {
 	        , leftOut(false)
 	        , reacts(false)
 	        , stale(false)
+	        , bare(false)
 	{
 	}
 
-	bool isBare() const { return !interaction; } // of a place that is taken
-	bool isLost() const
-	{
-		return isBare() && number < 0;
-	} // ended by a script, and forgotten when contacts are taken
+	bool isLost() const { return bare && number < 0; } // ended by a script, and forgotten when contacts are taken
 };
 static_assert(sizeof(Reading) == 3 * 64);
 

@@ -136,7 +136,7 @@ bool Resident::takeKnown(Scene& scene)
 			fetch<1>(&readings[order[k + soon].slot].phys->touched);
 		const int slot = order[k].slot;
 		Reading&  r    = readings[slot];
-		if (r.isBare()) { // nobody could change it
+		if (r.bare) { // nobody could change it
 			surelySolved[slot] = false;
 			continue;
 		}
@@ -216,6 +216,7 @@ void Resident::add(const Reading& reading)
 	const int slot     = freeSlot();
 	readings[slot]     = reading;
 	surelySolved[slot] = false;
+	readings[slot].bare = true;
 	++bare;
 	come.push_back({ reading.first, reading.second, slot });
 }
@@ -235,7 +236,7 @@ void Resident::merge(InteractionContainer& list)
 	merged.reserve(order.size() + come.size());
 	const auto leave = [&](const Place& place) {
 		Reading& r = readings[place.slot];
-		if (r.isBare()) {
+		if (r.bare) {
 			proposed.push_back({ place.low, place.high, r.born });
 			--bare;
 		} else {
@@ -243,7 +244,7 @@ void Resident::merge(InteractionContainer& list)
 			list.requestErase(interaction);
 			addPotential(interaction);
 		}
-		if (held && !r.isBare()) {
+		if (held && !r.bare) {
 			holders[r.number] = {};
 			freeHolders.push_back(r.number);
 		}

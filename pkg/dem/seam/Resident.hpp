@@ -68,8 +68,8 @@ public:
 	void takeBodies(Scene& scene);
 	/// Takes all interactions that are real, and notes the others.
 	void takeContacts(Scene& scene);
-	/// Writes all into YADE's objects, which own it from now on; `staysKnown`: only Python can have changed them when contacts are taken again; `makes`: bare contacts
-	/// get interactions, and are to stay known otherwise.
+	/// Writes all into YADE's objects, which own it from now on; `staysKnown`: only Python can have changed them when contacts are taken again; `makes`: bare
+	/// contacts get interactions.
 	void show(const string& who = "whoever asked", bool staysKnown = false, bool makes = true);
 	/// The same where no turn is going on in this thread: at the end of the one that another thread is in.
 	void showBetweenTurns();

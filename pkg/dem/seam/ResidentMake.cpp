@@ -2,6 +2,7 @@
 //
 // What a bare contact has is in its reading and, where it is bonded, in its marks; its strengths are those on which its bodies' materials agreed when it came, as they would be in its
 // physics. An interaction is made where somebody may look, where its bond breaks, and where others than the arrays have to follow it.
+#include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
 #include "Resident.hpp"
 #include <boost/make_shared.hpp>
@@ -61,6 +62,7 @@ void Resident::insert(int slot, const shared_ptr<Interaction>& interaction)
 	r.geom                = static_cast<ScGeom*>(interaction->geom.get());
 	r.phys                = static_cast<NscdPhys*>(interaction->phys.get());
 	r.number              = -1;
+	r.bare = false;
 	if (held) hold(r, interaction);
 	--bare;
 	++made;
@@ -102,8 +104,8 @@ void Resident::makeAll()
 		slots.reserve(bare);
 		for (const Place& place : order) {
 			Reading& r = readings[place.slot];
-			if (list->dirty && r.isBare()) r.number = -1;
-			if (r.isBare() && !r.isLost()) slots.push_back(place.slot);
+			if (list->dirty && r.bare) r.number = -1;
+			if (r.bare && !r.isLost()) slots.push_back(place.slot);
 		}
 		const long                           count = (long)slots.size();
 		std::vector<shared_ptr<Interaction>> all(count);
@@ -172,21 +174,23 @@ void Resident::showBare(const std::function<void(const Reading&, const Vector3r&
 	const auto guard = betweenTurns();
 	show("a table", true, false);
 	for (const Place& place : order)
-		if (const Reading& r = readings[place.slot]; r.isBare() && !r.isLost()) take(r, contactPoint(r));
+		if (const Reading& r = readings[place.slot]; r.bare && !r.isLost()) take(r, contactPoint(r));
 }
 
 int Resident::bondBare()
 {
 	const auto guard = betweenTurns();
 	show("bond()", true, false);
-	int count = 0;
+	const auto kept  = container.lock();
+	int        count = 0;
 	for (const Place& place : order) {
 		Reading& r = readings[place.slot];
-		if (!r.isBare() || r.isLost() || r.bonded) continue;
+		if (!r.bare || r.isLost() || r.bonded || isGone(r.first) || isGone(r.second)) continue;
 		const auto& s = strengths[r.number];
 		if (!s.bondable || r.gap > r.length * s.creationDistance) continue;
-		const BodyReading &first = bodies[r.first], &second = bodies[r.second];
-		bonds[place.slot] = { plane::markBond(first.motion, second.motion, { r.nx, r.ny }, second.radius),
+		// of the states, which a script may have changed since
+		const auto first = motionOf(*(*kept)[r.first]->state), second = motionOf(*(*kept)[r.second]->state);
+		bonds[place.slot] = { plane::markBond(first, second, { r.nx, r.ny }, bodies[r.second].radius),
 			              { r.length * s.ellipseNormal, r.length * s.ellipseTangential } };
 		r.bonded          = true;
 		r.yielded         = false;
