@@ -280,7 +280,7 @@ void NscdInteractionLoop::visitOthers(
 		if (!isThere(i.getId1()) || !isThere(i.getId2())) return false;
 		const auto &p1 = bodies[i.getId1()], &p2 = bodies[i.getId2()];
 		const auto* functor = i.functorCache.geom.get();
-		if (p1.plain && p2.plain && functor && functor == ours.spheres) 
+		if (p1.plain && p2.plain && functor && functor == ours.spheres)
 			return nscd::areBeyond(ours.spheres->interactionDetectionFactor, p1, p2);
 		if (!p1.planar || !p2.plain || !functor || functor != ours.segments) return false;
 		const Real reach = (2 * ours.segments->interactionDetectionFactor - 1)

@@ -26,7 +26,8 @@ struct BodyReading {
 /// Whether two disks are farther apart than `factor` sums of their radii, as Ig2_Sphere_Sphere_ScGeom tells it.
 inline bool areBeyond(Real factor, const BodyReading& first, const BodyReading& second)
 {
-	return std::pow(factor * (first.radius + second.radius), 2) - (second.place() - first.place()).squaredNorm() < 0;
+	return std::pow(factor * (first.radius + second.radius), 2) - (second.place() - first.place()).squaredNorm()
+	        < 0;
 }
 
 /// Reads a body, null where there is none; one without a state has nothing else set, as where there is none.

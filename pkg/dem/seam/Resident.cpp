@@ -213,9 +213,9 @@ void Resident::add(const shared_ptr<Interaction>& interaction)
 
 void Resident::add(const Reading& reading)
 {
-	const int slot     = freeSlot();
-	readings[slot]     = reading;
-	surelySolved[slot] = false;
+	const int slot      = freeSlot();
+	readings[slot]      = reading;
+	surelySolved[slot]  = false;
 	readings[slot].bare = true;
 	++bare;
 	come.push_back({ reading.first, reading.second, slot });

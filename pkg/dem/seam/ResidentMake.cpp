@@ -62,7 +62,7 @@ void Resident::insert(int slot, const shared_ptr<Interaction>& interaction)
 	r.geom                = static_cast<ScGeom*>(interaction->geom.get());
 	r.phys                = static_cast<NscdPhys*>(interaction->phys.get());
 	r.number              = -1;
-	r.bare = false;
+	r.bare                = false;
 	if (held) hold(r, interaction);
 	--bare;
 	++made;
