@@ -89,7 +89,7 @@ namespace {
 			const auto resident = Resident::of(scene);
 			if (some && std::uncaught_exceptions() == exceptions) resident->showOnly(*some);
 			else
-				resident->show("the end of advance()", true);
+				resident->show({ "the end of advance()", true });
 		}
 	};
 

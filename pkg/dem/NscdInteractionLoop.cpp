@@ -210,9 +210,6 @@ void NscdInteractionLoop::action()
 	takeProposed(resident, ours, threads);
 	if (!others.empty() || !resident.potential.empty()) visitOthers(resident, others, ours, threads);
 	resident.merge(list);
-	const auto before = [](const auto& a, const auto& b) { return a.interaction->linIx < b.interaction->linIx; };
-	auto&      unreal = resident.potential;
-	if (!std::is_sorted(unreal.begin(), unreal.end(), before)) std::sort(unreal.begin(), unreal.end(), before);
 	resident.potentialOf = scene->subStepping ? nscd::Resident::never
 	                                          : scene->iter; // a script may do anything between sub-steps
 	turn.end();

@@ -86,6 +86,7 @@ void Resident::takeContacts(Scene& scene)
 	gone.clear();
 	proposed.clear();
 	strengths.clear();
+	bareSlots.clear();
 	bare = 0;
 	held = false;
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -218,6 +219,7 @@ void Resident::add(const Reading& reading)
 	surelySolved[slot]  = false;
 	readings[slot].bare = true;
 	++bare;
+	bareSlots.push_back(slot);
 	come.push_back({ reading.first, reading.second, slot });
 }
 
@@ -294,6 +296,9 @@ void Resident::repack()
 		order[k].slot = int(k);
 	freeSlots.clear();
 	strewn = 0;
+	bareSlots.clear();
+	for (long k = 0; bare > 0 && k < count; ++k)
+		if (readings[k].bare) bareSlots.push_back(int(k));
 }
 
 void Resident::forgetErased(InteractionContainer& list)

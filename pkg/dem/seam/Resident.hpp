@@ -58,6 +58,13 @@ public:
 		shared_ptr<ScGeom>       geom;
 	};
 
+	/// A look at YADE's objects.
+	struct Look {
+		string who        = "whoever asked";
+		bool   staysKnown = false; // only Python can have changed them when contacts are taken again
+		bool   makes      = true; // interactions of bare contacts
+	};
+
 	/// That of a scene; made where there is none.
 	static std::shared_ptr<Resident> of(Scene& scene);
 
@@ -68,9 +75,9 @@ public:
 	void takeBodies(Scene& scene);
 	/// Takes all interactions that are real, and notes the others.
 	void takeContacts(Scene& scene);
-	/// Writes all into YADE's objects, which own it from now on; `staysKnown`: only Python can have changed them when contacts are taken again; `makes`: bare
-	/// contacts get interactions.
-	void show(const string& who = "whoever asked", bool staysKnown = false, bool makes = true);
+	/// Writes all into YADE's objects, which own it from now on.
+	void show(const Look& look);
+	void show() { show(Look()); }
 	/// The same where no turn is going on in this thread: at the end of the one that another thread is in.
 	void showBetweenTurns();
 	/// The same where the scene is about to be saved; steps that another thread makes wait until it is, so that what is written is of one moment.
@@ -131,7 +138,7 @@ public:
 	Recipe                                            recipe;
 	size_t                                            bare = 0; // contacts without an interaction
 	long made = 0; // interactions so far that were made for contacts and pairs which had none
-	/// Interactions that are not real, in the order of their list after the last loop; and the step of that loop.
+	/// Interactions that are not real; and the step of the last loop, which knew of all.
 	std::vector<Potential> potential;
 	long                   potentialOf = never;
 	/// Where bodies were when the geometry of contacts was found; by id.
@@ -178,6 +185,7 @@ private:
 	        asShown; // during a run in the background: what the states had when they were last written or read
 	std::vector<Holder> holders; // of interactions, by Reading::number
 	std::vector<int>    freeSlots, freeHolders;
+	std::vector<int>    bareSlots; // of bare contacts, and of some that are so no longer
 	size_t              strewn = 0; // contacts that came since slots were last in their order
 	std::vector<Place>  come, merged;
 	std::vector<int>    bucket;

@@ -100,13 +100,15 @@ void Resident::makeAll()
 	const auto list = interactions.lock();
 	if (!list || !container.lock() || (bare == 0 && proposed.empty())) return;
 	if (bare > 0) {
-		std::vector<int> slots;
-		slots.reserve(bare);
-		for (const Place& place : order) {
-			Reading& r = readings[place.slot];
+		std::vector<int> slots = std::exchange(bareSlots, {});
+		std::sort(slots.begin(), slots.end());
+		slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+		const auto isNone = [&](int slot) {
+			Reading& r = readings[slot];
 			if (list->dirty && r.bare) r.number = -1;
-			if (r.bare && !r.isLost()) slots.push_back(place.slot);
-		}
+			return !r.bare || r.isLost();
+		};
+		slots.erase(std::remove_if(slots.begin(), slots.end(), isNone), slots.end());
 		const long                           count = (long)slots.size();
 		std::vector<shared_ptr<Interaction>> all(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -121,58 +123,57 @@ void Resident::makeAll()
 	for (const Pair& pair : proposed)
 		if (!list->dirty) make(pair);
 	proposed.clear();
-	sort();
 }
 
-/// Puts YADE's list into the order of body ids, so that it does not depend on when interactions were made; and whoever walks along it meets neighbours in memory.
+/// Puts YADE's list into the order of body ids, contacts first, so that it does not depend on when interactions were made; and whoever walks along it meets neighbours in
+/// memory.
 void Resident::sort()
 {
-	const auto list = interactions.lock();
-	if (!list || bare > 0 || list->size() != order.size() + potential.size()) return;
+	const auto list     = interactions.lock();
+	const long contacts = (long)order.size(), count = contacts + (long)potential.size();
+	if (!list || bare > 0 || (long)list->size() != count) return;
 	const std::lock_guard<std::mutex> drawing(list->drawloopmutex); // YADE's viewer walks along it meanwhile
-	std::vector<Interaction*>         wanted;
-	wanted.reserve(list->size());
-	std::sort(potential.begin(), potential.end(), [](const Potential& a, const Potential& b) {
-		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
-	});
-	auto next = potential.begin();
-	for (const Place& place : order) {
-		for (; next != potential.end()
-		     && std::make_pair(next->low, next->high) < std::make_pair(place.low, place.high);
-		     ++next)
-			wanted.push_back(next->interaction.get());
-		wanted.push_back(readings[place.slot].interaction);
-	}
-	for (; next != potential.end(); ++next)
-		wanted.push_back(next->interaction.get());
-	const long count = (long)wanted.size();
-	long       first = 0; // that is not in its place
-	while (first < count && (*list)[first].get() == wanted[first])
-		++first;
-	bool all = true; // are there; or others, by a script in another thread
+	const auto                        isBefore = [](const Potential& a, const Potential& b) {
+                return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
+	};
+	const auto added = std::is_sorted_until(potential.begin(), potential.end(), isBefore);
+	std::sort(added, potential.end(), isBefore);
+	std::inplace_merge(potential.begin(), added, potential.end(), isBefore);
+	const auto wanted = [&](long k) {
+		return k < contacts ? readings[order[k].slot].interaction : potential[k - contacts].interaction.get();
+	};
+	long first = count; // that is not in its place
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : first)
+	for (long k = 0; k < count; ++k)
+		if (k < first && (*list)[k].get() != wanted(k)) first = k;
+	std::vector<int> from(count - first);
+	bool             all = true; // are there; or others, by a script in another thread
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : all)
 	for (long k = first; k < count; ++k) {
-		if (k + (long)later < count) fetch<1>(&wanted[k + later]->linIx);
-		const int place = wanted[k]->linIx;
-		all             = all && place >= first && place < count && (*list)[place].get() == wanted[k];
+		if (k + (long)later < count) fetch<1>(&wanted(k + later)->linIx);
+		int& place      = wanted(k)->linIx; // the list's own back-reference
+		from[k - first] = place;
+		all             = all && place >= first && place < count && (*list)[place].get() == wanted(k);
+		place           = int(k);
 	}
-	if (!all) return;
+	if (!all) {
+		for (long k = first; k < count; ++k)
+			(*list)[k]->linIx = int(k);
+		return;
+	}
 	std::vector<shared_ptr<Interaction>> moved(count - first);
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long k = first; k < count; ++k)
 		moved[k - first] = std::move((*list)[k]);
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = first; k < count; ++k) {
-		int& place = wanted[k]->linIx; // the list's own back-reference
-		(*list)[k] = std::move(moved[place - first]);
-		place      = int(k);
-	}
+	for (long k = first; k < count; ++k)
+		(*list)[k] = std::move(moved[from[k - first] - first]);
 }
 
 void Resident::showBare(const std::function<void(const Reading&, const Vector3r&)>& take)
 {
 	const auto guard = betweenTurns();
-	show("a table", true, false);
+	show({ "a table", true, false });
 	for (const Place& place : order)
 		if (const Reading& r = readings[place.slot]; r.bare && !r.isLost()) take(r, contactPoint(r));
 }
@@ -180,7 +181,7 @@ void Resident::showBare(const std::function<void(const Reading&, const Vector3r&
 int Resident::bondBare()
 {
 	const auto guard = betweenTurns();
-	show("bond()", true, false);
+	show({ "bond()", true, false });
 	const auto kept  = container.lock();
 	int        count = 0;
 	for (const Place& place : order) {

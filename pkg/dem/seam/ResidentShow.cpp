@@ -101,12 +101,12 @@ void Resident::showContact(int slot) const
 	if (r.reacts) writeReactions(r);
 }
 
-void Resident::show(const string& who, bool staysKnown, bool makes)
+void Resident::show(const Look& look)
 {
 	const std::lock_guard<std::recursive_mutex> guard(lock);
 	const double                                begin = steadySeconds();
 	const auto                                  kept  = container.lock();
-	if (makes) makeAll();
+	if (look.makes) makeAll();
 	if (kept && contactsOwned) {
 		const long count = (long)order.size();
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -118,10 +118,10 @@ void Resident::show(const string& who, bool staysKnown, bool makes)
 			}
 			showContact(order[k].slot);
 		}
-		sort();
-		if (staysKnown) hold();
+		if (look.staysKnown) hold();
 	}
-	contactsKnown = staysKnown && (contactsOwned || contactsKnown);
+	sort();
+	contactsKnown = look.staysKnown && (contactsOwned || contactsKnown);
 	if (kept && bodiesOwned) {
 		const long count = (long)std::min(bodies.size(), kept->size());
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -135,7 +135,7 @@ void Resident::show(const string& who, bool staysKnown, bool makes)
 	}
 	if (bodiesOwned || contactsOwned) {
 		++shown;
-		shownTo = who;
+		shownTo = look.who;
 	}
 	bodiesOwned = contactsOwned = false;
 	lastShown                   = steadySeconds();
@@ -159,7 +159,7 @@ void Resident::showBetweenTurns()
 void Resident::showForSaving()
 {
 	const auto guard = betweenTurns();
-	show("whoever saves");
+	show({ "whoever saves" });
 	beingSaved = PyGILState_Check();
 }
 
