@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from contact_scenes import begin, engine, free_disk, material
 from test_view import busy, everything
-from yade import O
+from yade import O, utils
 from yade.wrapper import Collider, NscdMat, SlipWeakeningMat, Sphere
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -250,3 +250,30 @@ def test_a_material_without_sense_is_refused_in_the_words_of_the_law():
     lattice(lambda k: NscdMat(density=2500, frictionAngle=-0.1) if k == 7 else None)
     with pytest.raises(RuntimeError, match="frictionAngle = -0.1"):
         engine().advance(3, view=False)
+
+
+def test_an_interaction_that_a_script_makes_of_a_pair_it_has_not_seen_takes_the_place_of_its_contact():
+    ids = lattice()
+    engine().advance(5, view=False)
+    made = utils.createInteraction(ids[0], ids[1])
+    engine().view()
+    assert O.interactions[ids[0], ids[1]] == made and made.iterBorn == 5
+    whole = 2 * SIDE * (SIDE - 1)
+    assert O.interactions.countReal() == whole and O.interactions[ids[1], ids[2]].iterBorn == 0
+    engine().advance(5)
+    assert engine().candidates == whole and all(i.phys.length == 1 for i in O.interactions)
+
+
+def test_looks_that_follow_each_other_mind_what_a_script_has_exchanged():
+    """As many interactions as before, and others."""
+    ids = lattice()
+    engine().advance(5)
+    engine().unbond()  # a look after which nothing is known
+    for k in range(10):
+        O.interactions.erase(ids[2 * k], ids[2 * k + 1])
+    O.interactions.eraseNonReal()
+    for k in range(10):
+        utils.createInteraction(ids[2 * k], ids[2 * k + 1])
+    engine().view()
+    engine().advance(5)
+    assert engine().candidates == 2 * SIDE * (SIDE - 1)

@@ -138,6 +138,7 @@ bool Resident::takeKnown(Scene& scene)
 		const int slot = order[k].slot;
 		Reading&  r    = readings[slot];
 		if (r.bare) { // nobody could change it
+			other              = other || r.isLost();
 			surelySolved[slot] = false;
 			continue;
 		}
