@@ -63,6 +63,7 @@ public:
 		string who        = "whoever asked";
 		bool   staysKnown = false; // only Python can have changed them when contacts are taken again
 		bool   makes      = true; // interactions of bare contacts
+		bool   sorts      = true; // the list of interactions; not where other threads may be walking along it
 	};
 
 	/// That of a scene; made where there is none.

@@ -120,7 +120,7 @@ void Resident::show(const Look& look)
 		}
 		if (look.staysKnown) hold();
 	}
-	if (contactsOwned || contactsKnown) sort(); // else what it goes by may be gone
+	if (look.sorts && (contactsOwned || contactsKnown)) sort(); // else what it goes by may be gone
 	contactsKnown = look.staysKnown && (contactsOwned || contactsKnown);
 	if (kept && bodiesOwned) {
 		const long count = (long)std::min(bodies.size(), kept->size());

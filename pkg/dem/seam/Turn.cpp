@@ -57,7 +57,7 @@ void Turn::end()
 		const bool   all   = interactionsWanted(scene);
 		const double least = all ? 0.05 : 1, share = all ? 50 : 200;
 		if (steadySeconds() - data->lastShown > std::max(least, share * data->costOfLook))
-			data->show({ "others, now and then", true, all });
+			data->show({ "others, now and then", true, all, false });
 	}
 	if (!viewer.name.empty()) data->show({ viewer.name, viewer.isPython });
 	data->interactionsSeen = scene.interactions->size();
