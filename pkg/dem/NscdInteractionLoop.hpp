@@ -22,7 +22,8 @@ public:
 	YADE_CLASS_BASE_DOC(NscdInteractionLoop,InteractionLoop,
 R"""(:yref:`InteractionLoop` for simulations of :yref:`ContactDynamicsEngine`: the same lists of functors, the same results, about twice
 as fast. Contacts of two :yref:`spheres<Sphere>` with :yref:`NscdPhys` are kept up to date without their functor: position, normal and overlap are those
-of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, are zero. With periodic
+of :yref:`Ig2_Sphere_Sphere_ScGeom`; ``shearInc`` and the axes of rotation, which rigid contacts have no use for, are zero. Such a contact gets its interaction
+when somebody looks, see :yref:`ContactDynamicsEngine.advance`, and until then has all that its functors would have given it. With periodic
 boundaries, callbacks or sorted interactions it is the plain loop.)""");
 	// clang-format on
 private:

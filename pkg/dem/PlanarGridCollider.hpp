@@ -44,7 +44,7 @@ public:
 R"""(Collider for disks (:yref:`spheres<Sphere>` in the x-y plane) of any sizes, with bodies of other shapes among them: the place and the list of functors of an
 :yref:`InsertionSortCollider`, several times faster where disks move fast. :yref:`Bo1_Sphere_Aabb.aabbEnlargeFactor` of its list is the distance,
 in sums of radii, within which two disks have an interaction: give it the value of :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`. A pair of disks is in
-O.interactions while it is within that reach, or as long as its contact lives; potential interactions exist only with bodies that are no spheres, near their
+O.interactions while it is within that reach, or as long as its contact lives (behind :yref:`NscdInteractionLoop` from the first look on); potential interactions exist only with bodies that are no spheres, near their
 bounding boxes. Disks get no :yref:`Body.bound`. Pairs of bodies that are no spheres are not looked for. Periodic scenes are refused.)""",
 		((Real,verletDist,-0.7,,"Margin [m] by which pairs are looked up beyond their reach and what they may go in a few steps; negative: in smallest radii. It changes the speed alone: more pairs to follow against fewer searches."))
 		((Real,sureReach,std::numeric_limits<Real>::max(),,"Gap [ℓ] up to which disks always have an interaction; beyond it, within the reach, only while one of them is so fast against a disk near it that it may come as near in two steps. Not below bondCreationDistance and :yref:`ContactDynamicsEngine.openGap`. By default all within the reach have one."))
