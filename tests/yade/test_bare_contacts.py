@@ -6,6 +6,7 @@ import pytest
 from contact_scenes import begin, engine, free_disk, material
 from test_view import busy, everything
 from yade import O, utils
+from yade.nonsmooth import scene
 from yade.wrapper import Collider, NscdMat, SlipWeakeningMat, Sphere
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -97,7 +98,7 @@ def without_signs_of_zeros(value):
 def test_bonds_of_contacts_that_nobody_has_seen():
     """They are made, yield, grow and break as those of interactions do, and the arrays can take them from there. A zero that has been turned has no sign."""
 
-    def scene():
+    def bonded_unseen():
         stuff = material(0.5, 0.05, tensileStrength=5e2, bondCreationDistance=0.01, restitution=0.1)
         ids = lattice(lambda k: stuff, stirred=2.0)
         engine().advance(1, view=view)
@@ -113,7 +114,7 @@ def test_bonds_of_contacts_that_nobody_has_seen():
 
     ends, bonded = [], []
     for view in (False, True):
-        ends.append([without_signs_of_zeros(part) for part in way(view, scene, 120, written_to)])
+        ends.append([without_signs_of_zeros(part) for part in way(view, bonded_unseen, 120, written_to)])
         broken = engine().brokenTension + engine().brokenShear + engine().brokenTorque + engine().brokenMixed
         assert broken > 50 and engine().bonds > 50
     assert bonded[0] == bonded[1] > 600
@@ -165,8 +166,6 @@ def test_what_a_script_ends_without_having_looked_is_ended(change):
 
 
 def other_disk():
-    from yade.nonsmooth import scene
-
     return scene.disk((7.0, 1.95), 0.47, O.materials[0])
 
 
