@@ -341,10 +341,10 @@ boost::python::object ContactDynamicsEngine::breakTable() const
 boost::python::object ContactDynamicsEngine::contactTable() const
 {
 	using Row                = std::array<double, 12>;
-	const Scene&        here = *Omega::instance().getScene();
+	Scene&              here = *Omega::instance().getScene();
 	std::vector<double> rows;
 	const auto          add = [&](const Row& row) { rows.insert(rows.end(), row.begin(), row.end()); };
-	nscd::Resident::of(*Omega::instance().getScene())->showBare([&](const nscd::Reading& r, const Vector3r& at) {
+	nscd::Resident::of(here)->showBare([&](const nscd::Reading& r, const Vector3r& at) {
 		add({ double(r.first), double(r.second), r.normal, r.tangential, r.torque, r.nx, r.ny, r.gap,
 		      double(r.bonded), double(NscdPhys::None), at[0], at[1] });
 	});

@@ -22,13 +22,13 @@ void NscdInteractionLoop::takeProposed(nscd::Resident& resident, const Ours& our
 	if (proposed.empty()) return;
 	enum class Taken { No, Bare, ByFunctors };
 	const bool                    able  = ours.spheres && ours.law && prepare(resident, proposed.front(), ours);
-	const long                    count = (long)proposed.size();
+	const long                    count = (long)proposed.size(), looked = able ? count : 0;
 	std::vector<Taken>            taken(count, Taken::ByFunctors);
-	std::vector<Reading>          readings(able ? count : 0);
-	std::vector<plane::Strengths> strengths(able ? count : 0);
+	std::vector<Reading>          readings(looked);
+	std::vector<plane::Strengths> strengths(looked);
 	const auto&                   bodies = resident.bodies;
 #pragma omp parallel for schedule(static) num_threads(threads)
-	for (long k = 0; k < (able ? count : 0); ++k) {
+	for (long k = 0; k < looked; ++k) {
 		const auto& pair = proposed[k];
 		if (k + (long)soon < count)
 			for (const int id : { proposed[k + soon].low, proposed[k + soon].high })

@@ -636,19 +636,28 @@ def test_contacts_recalled_in_a_step_stand_in_the_order_of_ids(tmp_path):
     assert (speeds[1] - speeds[0], speeds[2] - speeds[1]) == pytest.approx((20, 20), rel=1e-9)
 
 
-@pytest.mark.parametrize("own", [False, True])
-def test_contacts_that_came_late_stand_in_the_order_of_ids_too(tmp_path, own):
-    """In the arrays, and read from the list where YADE's own loop has just made one; whoever looks afterwards finds them so too."""
+@pytest.mark.parametrize(
+    "engines",
+    [
+        lambda: O.engines,
+        lambda: O.engines + [ForceEngine(force=(0, 0, 0), ids=[])],
+        lambda: [plain(e) for e in O.engines],
+    ],
+    ids=["arrays", "read anew", "YADE's own loop"],
+)
+def test_contacts_that_came_late_stand_in_the_order_of_ids_too(tmp_path, engines):
+    """In the arrays, beside an engine that may change anything, so that all are read anew, and from the list where YADE's own loop has just made one; whoever looks
+    afterwards finds them so too."""
     first, late, early = (free_disk(x, 0) for x in (0, -5, 1))
     begin(gravity=(0, 0, 0))
-    if own:
-        O.engines = [plain(e) for e in O.engines]
+    O.engines = engines()
     run(2)
     O.bodies[late].state.pos = (-1, 0, 0)
-    run(1)
-    engine().dump(str(tmp_path / "problem.h5"))
-    assert contact.load(tmp_path / "problem.h5").body.tolist() == [[first, late], [first, early]]
-    assert [(i.id1, i.id2) for i in O.interactions if i.isReal] == [(first, late), (first, early)]
+    for _ in range(2):  # it comes in the first of them, and stays, or is read with the others, in the second
+        run(1)
+        engine().dump(str(tmp_path / "problem.h5"))
+        assert contact.load(tmp_path / "problem.h5").body.tolist() == [[first, late], [first, early]]
+        assert [(i.id1, i.id2) for i in O.interactions if i.isReal] == [(first, late), (first, early)]
 
 
 def test_the_list_of_interactions_is_not_rewritten_while_a_viewer_walks_along_it():

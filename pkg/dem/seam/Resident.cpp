@@ -8,13 +8,6 @@
 
 namespace yade::nscd {
 
-namespace {
-	bool isBefore(const Resident::Place& a, const Resident::Place& b)
-	{
-		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
-	}
-}
-
 std::shared_ptr<Resident> Resident::of(Scene& scene)
 {
 	static std::mutex                                        mutex;
@@ -226,14 +219,14 @@ void Resident::add(const Reading& reading)
 
 bool Resident::isContact(int low, int high) const
 {
-	const auto at = std::lower_bound(order.begin(), order.end(), Place { low, high, 0 }, isBefore);
+	const auto at = std::lower_bound(order.begin(), order.end(), Place { low, high, 0 }, isBefore<Place>);
 	return at != order.end() && at->low == low && at->high == high && !readings[at->slot].isLost();
 }
 
 void Resident::merge(InteractionContainer& list)
 {
 	if (come.empty() && gone.empty()) return;
-	std::sort(come.begin(), come.end(), isBefore);
+	std::sort(come.begin(), come.end(), isBefore<Place>);
 	std::sort(gone.begin(), gone.end());
 	merged.clear();
 	merged.reserve(order.size() + come.size());
@@ -263,7 +256,7 @@ void Resident::merge(InteractionContainer& list)
 	while (next != come.end() || leaving != gone.end()) {
 		const auto left   = leaving == gone.end() ? order.end() : order.begin() + *leaving;
 		const auto before = next == come.end() ? order.end()
-		                                       : std::lower_bound(at, order.end(), *next, isBefore);
+		                                       : std::lower_bound(at, order.end(), *next, isBefore<Place>);
 		takeUpTo(std::min(left, before));
 		if (leaving != gone.end() && at == left) {
 			leave(*at++);

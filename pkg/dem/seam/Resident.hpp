@@ -156,6 +156,11 @@ private:
 		shared_ptr<IGeom>       geom;
 		shared_ptr<IPhys>       phys;
 	};
+	/// Of places, or of interactions that are not real: in the order of ids.
+	template <class Item> static bool isBefore(const Item& a, const Item& b)
+	{
+		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
+	}
 	std::unique_lock<std::recursive_mutex> betweenTurns();
 	bool                                   takeKnown(Scene& scene);
 	void                                   takeShown(Scene& scene);
@@ -164,6 +169,7 @@ private:
 	void                                   showContact(int slot) const;
 	shared_ptr<Interaction>                interactionOf(int slot) const;
 	void                                   insert(int slot, const shared_ptr<Interaction>& interaction);
+	bool                                   insert(const shared_ptr<Interaction>& interaction, int born);
 	bool                                   isGone(int id) const;
 	void                                   makeAll();
 	void                                   sort();

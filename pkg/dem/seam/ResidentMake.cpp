@@ -53,20 +53,25 @@ shared_ptr<Interaction> Resident::interactionOf(int slot) const
 void Resident::insert(int slot, const shared_ptr<Interaction>& interaction)
 {
 	Reading& r = readings[slot];
-	if (isGone(r.first) || isGone(r.second) || !interactions.lock()->insert(interaction)) {
-		r.number = -1;
-		return;
-	}
-	interaction->iterBorn = r.born;
-	r.interaction         = interaction.get();
-	r.geom                = static_cast<ScGeom*>(interaction->geom.get());
-	r.phys                = static_cast<NscdPhys*>(interaction->phys.get());
-	r.number              = -1;
-	r.bare                = false;
+	r.number   = -1; // that of its strengths is needed no longer
+	if (!insert(interaction, r.born)) return;
+	r.interaction = interaction.get();
+	r.geom        = static_cast<ScGeom*>(interaction->geom.get());
+	r.phys        = static_cast<NscdPhys*>(interaction->phys.get());
+	r.bare        = false;
 	if (held) hold(r, interaction);
 	--bare;
+}
+
+/// The same of any interaction; returns false where it is not taken.
+bool Resident::insert(const shared_ptr<Interaction>& interaction, int born)
+{
+	if (isGone(interaction->getId1()) || isGone(interaction->getId2()) || !interactions.lock()->insert(interaction))
+		return false;
+	interaction->iterBorn = born;
 	++made;
 	++interactionsSeen;
+	return true;
 }
 
 /// Whether the body that was of that id has been taken out since the last turn; there may be another.
@@ -85,13 +90,8 @@ void Resident::make(int slot)
 
 void Resident::make(const Pair& pair)
 {
-	if (isGone(pair.low) || isGone(pair.high)) return;
 	const auto interaction = boost::make_shared<Interaction>(pair.low, pair.high);
-	if (!interactions.lock()->insert(interaction)) return;
-	interaction->iterBorn = pair.born;
-	addPotential(interaction);
-	++made;
-	++interactionsSeen;
+	if (insert(interaction, pair.born)) addPotential(interaction);
 }
 
 /// Makes the interactions of all bare contacts and pairs, but where a script has just ended all that there were.
@@ -133,12 +133,9 @@ void Resident::sort()
 	const long contacts = (long)order.size(), count = contacts + (long)potential.size();
 	if (!list || bare > 0 || (long)list->size() != count) return;
 	const std::lock_guard<std::mutex> drawing(list->drawloopmutex); // YADE's viewer walks along it meanwhile
-	const auto                        isBefore = [](const Potential& a, const Potential& b) {
-                return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
-	};
-	const auto added = std::is_sorted_until(potential.begin(), potential.end(), isBefore);
-	std::sort(added, potential.end(), isBefore);
-	std::inplace_merge(potential.begin(), added, potential.end(), isBefore);
+	const auto added = std::is_sorted_until(potential.begin(), potential.end(), isBefore<Potential>);
+	std::sort(added, potential.end(), isBefore<Potential>);
+	std::inplace_merge(potential.begin(), added, potential.end(), isBefore<Potential>);
 	const auto wanted = [&](long k) {
 		return k < contacts ? readings[order[k].slot].interaction : potential[k - contacts].interaction.get();
 	};

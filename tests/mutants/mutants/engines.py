@@ -239,7 +239,7 @@ MUTANTS = (
            "the arrays go on with contacts that a script has taken out of the list", "test_advance.py::test_interactions_that_are_erased_meanwhile_end"),
     mutant("bare-made", SHOW, "if (look.makes) makeAll();", ";", "contacts that came while nobody looked are not seen later", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
     mutant("bare-unseen", "pkg/dem/NscdInteractionLoopProposed.cpp", "if (r.usable) taken[k] = Taken::Bare;", ";", "every contact gets an interaction at once", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
-    mutant("bare-born", MAKE, "interaction->iterBorn = r.born;", ";", "a contact is as old as the first look at it", COME),
+    mutant("bare-born", MAKE, "interaction->iterBorn = born;", ";", "a contact is as old as the first look at it", COME),
     mutant("bare-order", MAKE, "readings[order[k].slot].interaction", "readings[order[contacts - 1 - k].slot].interaction",
            "O.interactions has another order than that of ids", "test_bare_contacts.py::test_what_nobody_asks_for_is_not_made"),
     mutant("bare-known", RESIDENT, "at->low == low && at->high == high && !readings[at->slot].isLost()", "false", "a pair becomes a contact once more when the collider forgets what it knows",
