@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <contact/extrapolation.hpp>
 #include <contact/law.hpp>
 #include <contact/sweeper.hpp>
@@ -7,65 +8,146 @@
 namespace nonsmooth::contact {
 namespace {
 
-	/// Makes displacements of velocities: nothing has moved, and contacts ask for their errors along the normal alone.
-	void takeErrors(Sweeper<double>& sweeper, std::size_t s, const std::vector<PositionError>& errors)
+	constexpr double without = 1e100; // a bond holds whatever it costs
+
+	/// The graphs of law.hpp that errors of position ask for: thresholds are none, or without bounds.
+	struct Graphs {
+		double biasN, biasT, biasR, adhesion, friction, rollingArm;
+
+		explicit Graphs(const PositionError& e)
+		        : biasN(e.error)
+		        , biasT(e.slip)
+		        , biasR(e.turn)
+		        , adhesion(e.held ? without : 0)
+		        , friction(e.sticks ? 1 : 0)
+		        , rollingArm(e.grips ? 1 : 0)
+		{
+		}
+	};
+
+	class Correction {
+	public:
+		Correction(
+		        Sweeper<double>& sweeper_, const BlockKernels& kernels_,
+		        const std::vector<PositionError>& errors_, PositionCorrection& result_)
+		        : sweeper(sweeper_)
+		        , kernels(kernels_)
+		        , laidOut(sweeper_.laidOut)
+		        , errors(errors_)
+		        , result(result_)
+		{
+		}
+		void run(int sweeps);
+
+	private:
+		void findAcross();
+		void begin(std::size_t strip);
+		void end(std::size_t strip);
+
+		Sweeper<double>&                  sweeper;
+		const BlockKernels&               kernels;
+		const ContactBlocks&              laidOut;
+		const std::vector<PositionError>& errors;
+		PositionCorrection&               result;
+		std::vector<char>                 across; // of strips: whether tangents and turns are corrected too
+	};
+
+	/// Which strips have bonds that ask for more than their lengths; every thread calls it.
+	void Correction::findAcross()
 	{
-		const ContactBlocks& laidOut = sweeper.laidOut;
-		constexpr double     without = 1e100; // a bond holds whatever it costs
+#pragma omp for schedule(static)
+		for (long s = 0; s < static_cast<long>(across.size()); ++s) {
+			const auto asks = [this](std::int32_t index) {
+				return index != ContactBlocks::none && errors[index].asksAcross();
+			};
+			const auto *lane = laidOut.contactOf.data(), *other = laidOut.others.data();
+			across[s] = std::any_of(
+			                    lane + laidOut.blockBegin[s] * lanes,
+			                    lane + laidOut.blockBegin[s + 1] * lanes, asks)
+			        || std::any_of(other + laidOut.otherBegin[s], other + laidOut.otherBegin[s + 1], asks);
+		}
+#pragma omp single
+		if (std::find(across.begin(), across.end(), true) != across.end())
+			result.tangential.assign(sweeper.problem.contactCount(), 0);
+		else
+			result.tangential.clear();
+	}
+
+	/// Makes displacements of velocities: nothing has moved but what the impulses to begin with ask for.
+	void Correction::begin(std::size_t s)
+	{
 		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
 			auto& k = sweeper.own.blocks[b];
-			for (std::size_t l = 0; l < lanes; ++l)
-				if (const auto index = laidOut.contactOf[b * lanes + l]; index != ContactBlocks::none) {
-					k.biasN.v[l]    = errors[index].error;
-					k.adhesion.v[l] = errors[index].held ? without : 0;
-					k.n.v[l] = k.beforeN.v[l] = projectNormal(
-					        errors[index].impulse, k.adhesion.v[l]);
-				}
+			for (std::size_t l = 0; l < lanes; ++l) {
+				const auto index = laidOut.contactOf[b * lanes + l];
+				if (index == ContactBlocks::none) continue;
+				const Graphs graphs(errors[index]);
+				k.biasN.v[l]    = graphs.biasN;
+				k.adhesion.v[l] = graphs.adhesion;
+				k.n.v[l] = k.beforeN.v[l] = projectNormal(errors[index].impulse, graphs.adhesion);
+				if (!across[s]) continue;
+				k.biasT.v[l]      = graphs.biasT;
+				k.biasR.v[l]      = graphs.biasR;
+				k.friction.v[l]   = graphs.friction;
+				k.rollingArm.v[l] = graphs.rollingArm;
+				k.t.v[l] = k.r.v[l] = k.beforeT.v[l] = k.beforeR.v[l] = 0;
+			}
 		}
 		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 			const PositionError& e = errors[laidOut.others[k]];
+			const Graphs         graphs(e);
 			Contact&             c = sweeper.rows[k].contact;
-			c.biasN                = e.error;
-			c.adhesion             = e.held ? without : 0;
-			c.biasT = c.biasR = c.friction = c.rollingArm = 0;
+			c.biasN                = graphs.biasN;
+			c.adhesion             = graphs.adhesion;
+			c.biasT                = across[s] ? graphs.biasT : 0;
+			c.biasR                = across[s] ? graphs.biasR : 0;
+			c.friction             = across[s] ? graphs.friction : 0;
+			c.rollingArm           = across[s] ? graphs.rollingArm : 0;
 			sweeper.rows[k].p = sweeper.rows[k].before = { projectNormal(e.impulse, c.adhesion), 0, 0 };
 		}
 		sweeper.setOut(s);
+		kernels.applyNormals(sweeper.blocksOf(s), sweeper.countOf(s), sweeper.bodies.data());
+		sweeper.applyRows(s);
 	}
 
-	void
-	correct(Sweeper<double>& sweeper, const BlockKernels& kernels, const std::vector<PositionError>& errors,
-	        int sweeps, PositionCorrection& result)
+	void Correction::end(std::size_t s)
+	{
+		sweeper.forImpulses(s, [&](std::int32_t index, const Impulse& p) {
+			result.impulses[index] = p.n;
+			if (across[s]) result.tangential[index] = p.t;
+		});
+		sweeper.forNew(s, [&](std::size_t place, std::int32_t b) {
+			result.displacements[b] = sweeper.twistAt(place);
+		});
+	}
+
+	void Correction::run(int sweeps)
 	{
 		result.displacements.resize(sweeper.problem.bodyCount());
 		result.impulses.resize(sweeper.problem.contactCount());
+		across.assign(laidOut.partCount(), false);
 		Extrapolation       extrapolation(sweeper.settings.method);
 		std::vector<double> betas(sweeps);
 		for (double& b : betas)
 			b = extrapolation.next();
 		const auto visit = [&](std::size_t s, int pass, const StripSchedule::Ahead&) {
-			Block<double>* const blocks = sweeper.blocksOf(s);
-			const std::size_t    count  = sweeper.countOf(s);
-			if (pass == 0) {
-				takeErrors(sweeper, s, errors);
-				kernels.applyNormals(blocks, count, sweeper.bodies.data());
-				sweeper.applyRows(s);
-			} else if (pass <= sweeps) {
+			if (pass == 0) begin(s);
+			else if (pass <= sweeps) {
+				Block<double>* const blocks = sweeper.blocksOf(s);
+				const std::size_t    count  = sweeper.countOf(s);
+				const double         beta   = betas[pass - 1];
 				if (pass == 1) sweeper.keepBodies(s);
-				sweeper.extrapolate(s, betas[pass - 1]);
-				kernels.sweepNormals(blocks, count, sweeper.bodies.data(), betas[pass - 1]);
-				sweeper.sweepRows(s, betas[pass - 1]);
-			} else {
-				sweeper.forImpulses(s, [&](std::int32_t index, const Impulse& p) {
-					result.impulses[index] = p.n;
-				});
-				sweeper.forNew(s, [&](std::size_t place, std::int32_t b) {
-					result.displacements[b] = sweeper.twistAt(place);
-				});
-			}
+				sweeper.extrapolate(s, beta);
+				if (across[s]) kernels.inDouble.sweep(blocks, count, sweeper.bodies.data(), beta);
+				else
+					kernels.sweepNormals(blocks, count, sweeper.bodies.data(), beta);
+				sweeper.sweepRows(s, beta);
+			} else
+				end(s);
 		};
 #pragma omp parallel num_threads(sweeper.threads)
 		{
+			findAcross();
 			sweeper.plan();
 			sweeper.forFixed([&](long place, std::int32_t b) {
 				sweeper.setOut(place, b);
@@ -90,7 +172,7 @@ void correctPositions(
 		        + std::to_string(blocks.order.order.size()));
 	Sweeper<double> sweeper(problem, settings, workspace);
 	sweeper.fillRows();
-	correct(sweeper, kernelsFor(settings), errors, sweeps, result);
+	Correction(sweeper, kernelsFor(settings), errors, result).run(sweeps);
 }
 
 } // namespace nonsmooth::contact

@@ -18,8 +18,9 @@
 //
 // Errors of position are taken back by displacements that leave no velocity behind (split impulses). For bodies'
 // displacements D and pseudo-impulses Q with D = M⁻¹ Hᵀ Q, a few sweeps of the same blocks, extrapolated as above, move towards
-//     0 ≤ (D^n + e) ⟂ Q ≥ 0 ,     and for a bond that holds    D^n + e = 0 ,
-// with e the error at the end of the step, as far as it is to be taken back; normals alone act. The sweeps begin with the Q of the step before.
+//     0 ≤ (D^n + e) ⟂ Q ≥ 0 ,     and for a bond that holds    D^n + e = 0 ,    where it sticks    D^t + e_t = 0 ,    and where it does not roll    D^r + e_r = 0 ,
+// with e the errors at the end of the step, as far as they are to be taken back. Normals alone act, but in strips in which a bond asks for more. The sweeps begin
+// with the Q of the step before along the normals, and with none along the tangents, whose errors are few and small.
 #pragma once
 
 #include <contact/contact_blocks.hpp>
@@ -89,11 +90,16 @@ struct PositionError {
 	bool   held  = false;
 	double impulse
 	        = 0; // Q to begin with [kg m], that of the step before: what lies deep in a packing takes several steps
+	// where a bond may not slip, and may not turn: what it has done so all the same, and is to go back [m, rad]
+	bool  sticks = false, grips = false;
+	float slip = 0, turn = 0;
+	bool  asksAcross() const { return slip != 0 || turn != 0; }
 };
 
 struct PositionCorrection {
 	std::vector<Twist>  displacements; // of bodies [m, m, rad]
 	std::vector<double> impulses; // Q of contacts [kg m]
+	std::vector<double> tangential; // the same along the tangents; empty where no bond asks for any
 };
 
 /// Displacements of the bodies that take the errors back, one error a contact. To be called after a solve with the same problem, settings and workspace,

@@ -1,4 +1,5 @@
 #include "BondEllipse.hpp"
+#include "seam/PlaneMotion.hpp"
 #include <pkg/common/Sphere.hpp>
 
 namespace yade::nscd {
@@ -17,11 +18,35 @@ BondPair bondPair(const Body& b1, const Body& b2)
 void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius)
 {
 	markPoints(phys, *pair.first->state, *pair.second->state, normal, secondRadius);
-	phys.restGap    = nonsmooth::contact::plane::firstRestGap(gap);
-	phys.bonded     = true;
-	phys.yielded    = false;
-	phys.brokenMode = NscdPhys::None;
-	phys.yieldPath  = Vector3r::Zero();
+	phys.restGap = nonsmooth::contact::plane::firstRestGap(gap);
+	phys.bonded  = true;
+	phys.yielded = phys.slid = phys.rolled = false;
+	phys.restSlip = phys.restTurn = 0;
+	phys.brokenMode               = NscdPhys::None;
+	phys.yieldPath                = Vector3r::Zero();
+}
+
+nonsmooth::contact::plane::BondStrain
+bondStrain(const NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap)
+{
+	namespace plane     = nonsmooth::contact::plane;
+	const auto radiusOf = [](const Body& b) {
+		const auto* sphere = dynamic_cast<const Sphere*>(b.shape.get());
+		return sphere ? sphere->radius : 0;
+	};
+	const State &first = *pair.first->state, &second = *pair.second->state;
+	const Real   r1 = radiusOf(*pair.first), r2 = radiusOf(*pair.second);
+	if (r1 > 0)
+		return plane::bondStrain(
+		        { { phys.anchor1[0], phys.anchor1[1] },
+		          { phys.anchor2[0], phys.anchor2[1] },
+		          { phys.axis[0], phys.axis[1] } },
+		        motionOf(first), motionOf(second), { normal[0], normal[1] }, r1 + 0.5 * gap, r2 + 0.5 * gap,
+		        r2);
+	// on a wall the point moves with the disk's centre and its turn
+	const Vector3r n = first.ori * phys.axis, a = second.ori * phys.anchor2;
+	const Real     sine = (a[0] * n[1] - a[1] * n[0]) / r2, angle = plane::smallAngle(sine);
+	return { bondDisplacement(phys, first, second).tangential - r2 * (angle - sine), angle };
 }
 
 NscdPhys::Mode bondMode(const Vector3r& yieldPath)

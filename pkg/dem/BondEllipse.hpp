@@ -39,6 +39,10 @@ bondDisplacement(const Marks& marks, const Place& first, const Place& second)
 	return { d.dot(n), n[0] * d[1] - n[1] * d[0] };
 }
 
+/// What the bodies of a bond have slipped on and turned against each other since it was made; `normal` now, from the first to the second, and the gap [m].
+nonsmooth::contact::plane::BondStrain
+bondStrain(const NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap);
+
 /// How a bond that has left its ellipse was broken, from the paths along which it yielded.
 NscdPhys::Mode bondMode(const Vector3r& yieldPath);
 

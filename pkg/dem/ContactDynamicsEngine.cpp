@@ -138,7 +138,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	rollingLoss += s.rolling;
 	debondingLoss += s.debonding;
 	impactLoss += s.impact;
-	correctionEnergy += s.correction;
+	correctionEnergy += s.correction + s.heldWork;
 	if (scene->trackEnergy) {
 		const std::pair<const char*, Real> parts[] = { { "contactSliding", s.sliding },
 			                                       { "contactRolling", s.rolling },

@@ -17,6 +17,24 @@ void Law2_ScGeom_NscdPhys_SignoriniCoulomb::expectSolver()
 	if (nscd::seldom(++unsolved)) LOG_ERROR("step " << scene->iter << ": " << nscd::noSolver(*scene));
 }
 
+void Law2_ScGeom_NscdPhys_SignoriniCoulomb::followBond(
+        NscdPhys& phys, Real gap, const Vector3r& normal, const nscd::BondPair& pair) const
+{
+	namespace plane = nonsmooth::contact::plane;
+	if (!plane::bondLives(
+	            nscd::bondDisplacement(phys, *pair.first->state, *pair.second->state),
+	            { phys.ellipseNormal, phys.ellipseTangential })) {
+		breakBond(phys);
+		return;
+	}
+	if (phys.yielded) phys.restGap = plane::grownRestGap(phys.restGap, gap);
+	const auto strain = nscd::bondStrain(phys, pair, normal, gap);
+	if (phys.slid) phys.restSlip = strain.slip;
+	if (phys.rolled) phys.restTurn = strain.turn;
+	phys.errorSlip = strain.slip - phys.restSlip;
+	phys.errorTurn = strain.turn - phys.restTurn;
+}
+
 bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr<IPhys>& ip, Interaction* interaction)
 {
 	expectSolver();
@@ -27,7 +45,7 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 	if (phys.bonded) {
 		const auto pair = nscd::bondPair(
 		        *Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
-		followBond(phys, gap, *pair.first->state, *pair.second->state);
+		followBond(phys, gap, pair.swapped ? Vector3r(-geom.normal) : geom.normal, pair);
 	}
 	if (!keeps(phys, gap)) return false;
 	if (!phys.bonded && !phys.breaks)

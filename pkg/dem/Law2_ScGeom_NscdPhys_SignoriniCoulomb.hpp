@@ -19,17 +19,8 @@ class Law2_ScGeom_NscdPhys_SignoriniCoulomb : public LawFunctor {
 public:
 	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* interaction) override;
 	FUNCTOR2D(ScGeom, NscdPhys);
-	/// Follows a bond of bodies at two places, in the bond's order (see nscd::BondPair), with the gap [m] they have now.
-	template <class Place> void followBond(NscdPhys& phys, Real gap, const Place& first, const Place& second) const
-	{
-		namespace plane = nonsmooth::contact::plane;
-		if (!plane::bondLives(
-		            nscd::bondDisplacement(phys, first, second),
-		            { phys.ellipseNormal, phys.ellipseTangential }))
-			breakBond(phys);
-		else if (phys.yielded)
-			phys.restGap = plane::grownRestGap(phys.restGap, gap);
-	}
+	/// Follows a bond with the gap [m] and the normal that it has now, from its first body to its second.
+	void followBond(NscdPhys& phys, Real gap, const Vector3r& normal, const nscd::BondPair& pair) const;
 	/// Ends a bond that has left its ellipse in this step.
 	void breakBond(NscdPhys& phys) const
 	{

@@ -21,7 +21,8 @@ YADE_PLUGIN((NscdInteractionLoop));
 
 namespace {
 	using nscd::fetch, nscd::soon, nscd::later, nscd::Reading;
-	namespace plane = nonsmooth::contact::plane;
+	namespace contact = nonsmooth::contact;
+	namespace plane   = contact::plane;
 
 	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just now, some steps ago, or loaded.
 	void forgetShear(const shared_ptr<Interaction>& I, Scene& scene)
@@ -48,6 +49,26 @@ namespace {
 		return "NscdInteractionLoop: bodies #" + std::to_string(I.getId1()) + " and #"
 		        + std::to_string(I.getId2()) + ": there is no functor " + kind + " for " + a + " and " + b
 		        + ": add one to the list";
+	}
+
+	/// What a bond of two disks has slipped and turned; where it yielded so in the step before, it is at rest with that.
+	void followStrain(
+	        Reading& r, bool swap, const nscd::BodyReading& p1, const nscd::BodyReading& p2,
+	        const plane::BondMarks& marks, plane::BondStrain& rest)
+	{
+		const auto &         first = swap ? p2 : p1, &second = swap ? p1 : p2;
+		const contact::Point normal { swap ? -r.nx : r.nx, swap ? -r.ny : r.ny };
+		const auto           strain = plane::bondStrain(
+		                  marks, first.motion, second.motion, normal, first.radius + 0.5 * r.gap,
+		                  second.radius + 0.5 * r.gap, second.radius);
+		if (r.slid || r.rolled) {
+			if (!r.strained) rest = {};
+			if (r.slid) rest.slip = strain.slip;
+			if (r.rolled) rest.turn = strain.turn;
+			r.strained = true;
+		}
+		r.slip = static_cast<float>(strain.slip - (r.strained ? rest.slip : 0));
+		r.turn = static_cast<float>(strain.turn - (r.strained ? rest.turn : 0));
 	}
 
 	/// What functors will look at of a contact. Noted before the loop: in it other threads write readings.
@@ -239,12 +260,16 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 			r.phys->restGap   = r.restGap;
 			r.phys->yieldPath = nscd::vectorOf(r.path);
 			r.phys->yielded   = r.yielded;
+			r.phys->slid      = r.slid;
+			r.phys->rolled    = r.rolled;
 			ours.law->breakBond(*r.phys);
 			r.bonded = false;
 			r.broken = r.phys->brokenMode;
 			refresh  = true;
-		} else if (r.yielded)
-			r.restGap = plane::grownRestGap(r.restGap, r.gap);
+		} else {
+			if (r.yielded) r.restGap = plane::grownRestGap(r.restGap, r.gap);
+			followStrain(r, swap, p1, p2, bond.marks, resident.rests[slot]);
+		}
 	}
 	const bool stays = r.bonded || r.broken != NscdPhys::None;
 	if (!stays

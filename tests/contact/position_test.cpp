@@ -159,7 +159,8 @@ std::vector<PositionError> errorsOf(const Problem& problem)
 {
 	std::vector<PositionError> errors;
 	for (std::size_t k = 0; k < problem.contactCount(); ++k)
-		errors.push_back({ 1e-3 * std::sin(double(k)), k % 7 == 0 });
+		errors.push_back({ 1e-3 * std::sin(double(k)), k % 7 == 0, 0, k % 7 == 0, k % 14 == 0,
+		                   k % 70 == 0 ? 1e-4f : 0, k % 98 == 0 ? 1e-4f : 0 });
 	return errors;
 }
 
@@ -216,6 +217,55 @@ TEST(Positions, ReferenceAndBlocksAgree)
 	}
 	EXPECT_GT(largest, 1e-4);
 	EXPECT_LT(apart, 1e-3 * largest);
+}
+
+/// A bond of two disks that has slipped and turned, with the place of an unbonded third disk beside it.
+PositionError strained(double slip, double turn)
+{
+	return { 0, true, 0, true, true, static_cast<float>(slip), static_cast<float>(turn) };
+}
+
+TEST(Positions, ABondGoesBackWhatItHasSlipped)
+{
+	const double slip = float(0.004), turn = float(0.006);
+	for (const double radius : { 0.5, 1.0 })
+		for (const bool reference : { false, true }) {
+			const Scene        scene   = row({ 0.0 }, radius);
+			Problem            problem = scene.problem;
+			Workspace          workspace;
+			PositionCorrection found;
+			SolverSettings     settings;
+			settings.reference = reference;
+			solve(problem, settings, &workspace);
+			correctPositions(problem, settings, workspace, { strained(slip, turn) }, 200, found);
+			const auto& d = found.displacements;
+			// along the tangent, about the contact, and along the normal
+			EXPECT_NEAR(d[1].y - d[0].y - 0.5 * d[1].w - radius * d[0].w, -slip, 1e-12) << radius;
+			EXPECT_NEAR(d[1].w - d[0].w, -turn, 1e-12);
+			EXPECT_NEAR(d[1].x - d[0].x, 0, 1e-12);
+			// by equal and opposite pseudo-impulses: neither the centre moves nor what turns about it
+			const double m0 = scene.mass(scene.disks[0]), m1 = scene.mass(scene.disks[1]);
+			const double about = m1 * (radius + 0.5) * d[1].y + 0.5 * m0 * radius * radius * d[0].w
+			        + 0.5 * m1 * 0.25 * d[1].w;
+			EXPECT_NEAR(m0 * d[0].y + m1 * d[1].y, 0, 1e-12 * m1);
+			EXPECT_NEAR(about, 0, 1e-12 * m1);
+			ASSERT_EQ(found.tangential.size(), 1u);
+			EXPECT_NEAR(found.tangential[0], m1 * d[1].y, 1e-12 * m1);
+		}
+}
+
+TEST(Positions, WhereABondMayGiveNothingIsAskedOfIt)
+{
+	const Scene   scene  = row({ 0.0 });
+	PositionError slides = strained(0, 0.006), turns = strained(0.004, 0);
+	slides.sticks   = false;
+	turns.grips     = false;
+	const auto slid = displaced(scene.problem, { slides }, 200), turned = displaced(scene.problem, { turns }, 200);
+	// alone: opposite turns by half each, and a slip that the masses share with the turns as m : m/2 = 1/3 : 2/3
+	EXPECT_NEAR(slid[1].w, -0.003, 1e-9);
+	EXPECT_EQ(slid[1].y, 0);
+	EXPECT_NEAR(turned[1].y - turned[0].y, -0.004 / 3, 1e-9);
+	EXPECT_NEAR(turned[0].w, turned[1].w, 1e-12);
 }
 
 TEST(Positions, RefusesErrorsOfOtherContacts)

@@ -396,9 +396,11 @@ std::vector<PositionError> errorsOf(const Problem& p)
 {
 	std::mt19937               dice(9);
 	std::vector<PositionError> errors;
-	for (std::size_t k = 0; k < p.contactCount(); ++k)
-		errors.push_back(
-		        { 1e-3 * (dice() / 2147483648.0 - 1), dice() % 5 == 0, 1e-3 * (dice() / 4294967296.0) });
+	for (std::size_t k = 0; k < p.contactCount(); ++k) {
+		const bool bonded = dice() % 5 == 0, slipped = bonded && dice() % 2 == 0;
+		errors.push_back({ 1e-3 * (dice() / 2147483648.0 - 1), bonded, 1e-3 * (dice() / 4294967296.0), bonded,
+		                   slipped, slipped ? 1.0f / 1024 : 0, slipped ? -1.0f / 512 : 0 });
+	}
 	return errors;
 }
 
@@ -420,7 +422,10 @@ TEST(Symmetry, DisplacementsToo)
 			forEachPath(p, sweeps(method, 3), [&](const SolverSettings& s, const std::string& name) {
 				const auto one = corrected(p, errors, s);
 				// mirrored: the same bits
-				const auto mirror = corrected(mirrored(p), errors, s);
+				auto seen = errors;
+				for (PositionError& e : seen)
+					e.slip = -e.slip, e.turn = -e.turn;
+				const auto mirror = corrected(mirrored(p), seen, s);
 				Problem    back   = p;
 				back.velocities   = mirror.displacements;
 				EXPECT_EQ(mirror.impulses, one.impulses) << name;
@@ -429,7 +434,7 @@ TEST(Symmetry, DisplacementsToo)
 				const Units u { 8, 1.0 / 32, 4 };
 				auto        scaled = errors;
 				for (PositionError& e : scaled)
-					e.error *= u.length, e.impulse *= u.mass * u.length;
+					e.error *= u.length, e.slip *= u.length, e.impulse *= u.mass * u.length;
 				const auto other = corrected(inUnits(p, u), scaled, s);
 				for (std::size_t k = 0; k < one.impulses.size(); ++k)
 					ASSERT_EQ(other.impulses[k], u.mass * u.length * one.impulses[k])
@@ -441,7 +446,11 @@ TEST(Symmetry, DisplacementsToo)
 					        << name << ", body " << b;
 				}
 				// which body is the first: rounding of thousandths
-				const auto exchange = corrected(exchanged(p, 2), errors, s);
+				const Problem swapped = exchanged(p, 2);
+				auto          turned  = errors;
+				for (std::size_t k = 0; k < turned.size(); ++k)
+					if (swapped.contacts[k].i != p.contacts[k].i) turned[k].turn = -turned[k].turn;
+				const auto exchange = corrected(swapped, turned, s);
 				EXPECT_LE(largestDifference(exchange.displacements, one.displacements), 1e-3 * rounding)
 				        << name;
 			});

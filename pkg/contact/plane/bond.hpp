@@ -3,7 +3,10 @@
 // When a bond is made, the point P of the second body that is nearest to the first is marked on both, a₁ on the first and a₂ on the second, with the normal n₀
 // seen from the first. Later, with d the displacement of P from the place it had on the first body, in the axes of that moment,
 //     d = x₂ + q₂ a₂ q₂* − x₁ − q₁ a₁ q₁* ,   n = q₁ n₀ q₁* ,   d_n = d·n ,   d_t = n × d ,
-// the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 and is lost for good when it leaves. All comes from positions and rotations, so no error adds up.
+// the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 and is lost for good when it leaves. All comes from positions and rotations.
+// With α₁ and α₂ the angles by which the contact has gone about each body, as seen from it, it has slipped by s = λ₁ α₁ + λ₂ α₂ (λ: centre to contact) and turned by
+// ψ = α₁ − α₂, whose rates are U_t and w of contact/law.hpp; on a straight wall s = d_t − r (ψ − sin ψ). A bond that holds has no such rates: what of s and ψ it has not
+// yielded is an error of position, which the next steps take back (contact/solver.hpp), as they do with its gap. So no error adds up.
 // A bond at its threshold yields. In a step of length h with relative velocities U and impulses P (thresholds as in contact/law.hpp) it yields by
 //     h U_n where P_n = −h F_a and U_n > 0 ,   |h U_t| where |P_t| = μ_s (h F_a + P_n) ,   |h w| ℓ/2 where |P_r| = μ_r ℓ (h F_a + P_n) .
 // The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break. In tension it keeps the longest gap it has had.
@@ -63,6 +66,26 @@ inline BondDisplacement bondDisplacement(const BondMarks& marks, const Motion& f
 	return { dx * n.x + dy * n.y, n.x * dy - n.y * dx };
 }
 
+/// How far the bodies of a bond have gone about each other since it was made.
+struct BondStrain {
+	double slip; // slid along the tangent [m]; rate U_t
+	double turn; // of the second against the first [rad]; rate w
+};
+
+/// Arc sine to the fifth order: angles in a bond are small.
+inline double smallAngle(double sine) { return sine * (1 + sine * sine / 6); }
+
+/// That of two disks; `normal` now, from the first to the second, with what lies along it from each centre to the contact, and the second's radius [m].
+inline BondStrain bondStrain(
+        const BondMarks& marks, const Motion& first, const Motion& second, const Point& normal, double leverFirst,
+        double leverSecond, double secondRadius)
+{
+	const Point  n = rotate(first.rotation, marks.normal), a2 = rotate(second.rotation, marks.second);
+	const double aboutFirst  = smallAngle(n.x * normal.y - n.y * normal.x),
+	             aboutSecond = smallAngle((a2.y * normal.x - a2.x * normal.y) / secondRadius);
+	return { leverFirst * aboutFirst + leverSecond * aboutSecond, aboutFirst - aboutSecond };
+}
+
 /// Whether a bond is inside its zone.
 inline bool bondLives(const BondDisplacement& d, const BondEllipse& zone)
 {
@@ -87,13 +110,23 @@ inline bool yieldsInTension(const Contact& c, const Impulse& p, const Impulse& u
 	return c.adhesion > 0 && p.n <= -reached * c.adhesion && u.n > 0;
 }
 
+/// Whether it slides, and whether it rolls.
+inline bool yieldsInShear(const Contact& c, const Impulse& p)
+{
+	return std::abs(p.t) >= reached * slidingThreshold(c, p.n);
+}
+inline bool yieldsInTorque(const Contact& c, const Impulse& p)
+{
+	return std::abs(p.r) >= reached * rollingThreshold(c, p.n);
+}
+
 /// By how much a bond yields in a step of length h [s].
 inline YieldPath yieldOfStep(const Contact& c, const Impulse& p, const Impulse& u, double h)
 {
 	YieldPath y;
 	if (yieldsInTension(c, p, u)) y.tension = std::max(0.0, h * u.n);
-	if (std::abs(p.t) >= reached * slidingThreshold(c, p.n)) y.shear = std::abs(h * u.t);
-	if (std::abs(p.r) >= reached * rollingThreshold(c, p.n)) y.torque = std::abs(h * u.r) * 0.5 * c.length;
+	if (yieldsInShear(c, p)) y.shear = std::abs(h * u.t);
+	if (yieldsInTorque(c, p)) y.torque = std::abs(h * u.r) * 0.5 * c.length;
 	return y;
 }
 

@@ -17,7 +17,9 @@ struct alignas(64) Reading {
 	enum Keeper : unsigned char { Unknown, Arrays, Functors };
 
 	int         first = -1, second = -1; // bodies, in the interaction's own order
-	Real        nx = 0, ny = 0, nz = 0, gap = 0; // along that order
+	Real        nx = 0, ny = 0, gap = 0; // along that order
+	float       nz      = 0;
+	float       turn    = 0; // of a bond: what it has turned without having yielded [rad], and below slipped [m]
 	Real        restGap = 0, length = 0;
 	signed char broken = 0; // NscdPhys::brokenMode if the bond broke in this step
 	Keeper      keeper = Unknown;
@@ -30,6 +32,10 @@ struct alignas(64) Reading {
 	bool        reacts : 1; // its reactions are not yet those of the interaction
 	bool        stale : 1; // its thresholds are to be found anew
 	bool        bare : 1; // it has no interaction
+	bool        slid : 1, rolled : 1; // the bond yielded so in the last step
+	bool        strained : 1; // it ever did, so that its strain at rest is not none
+	bool        joins : 1; // its bodies were turned as one in the last step, see plane/rigid_clusters.hpp
+	float       slip = 0;
 
 	Real adhesion = 0, friction = 0, rollingArm = 0;
 	Real residualAdhesion = 0; // of a touching contact without a bond
@@ -57,6 +63,10 @@ struct alignas(64) Reading {
 	        , reacts(false)
 	        , stale(false)
 	        , bare(false)
+	        , slid(false)
+	        , rolled(false)
+	        , strained(false)
+	        , joins(false)
 	{
 	}
 
@@ -69,6 +79,8 @@ struct alignas(64) BondReading {
 	nonsmooth::contact::plane::BondMarks   marks;
 	nonsmooth::contact::plane::BondEllipse zone;
 };
+
+using nonsmooth::contact::plane::BondStrain;
 
 inline Vector3r vectorOf(const nonsmooth::contact::plane::YieldPath& path)
 {
@@ -136,7 +148,7 @@ inline Found look(Interaction& i)
 }
 
 /// Reads a real interaction.
-inline void read(const Found& found, Reading& r, BondReading& bond)
+inline void read(const Found& found, Reading& r, BondReading& bond, BondStrain& rest)
 {
 	r             = Reading {};
 	r.interaction = found.interaction;
@@ -165,13 +177,27 @@ inline void read(const Found& found, Reading& r, BondReading& bond)
 	r.bonded             = phys.bonded;
 	r.slips              = phys.countsSlip();
 	readThresholds(r);
+	r.joins = phys.joins;
 	if (!r.bonded) return;
-	r.yielded = phys.yielded;
-	r.path    = { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] };
-	bond      = { { { phys.anchor1[0], phys.anchor1[1] },
-		        { phys.anchor2[0], phys.anchor2[1] },
-		        { phys.axis[0], phys.axis[1] } },
-		      { phys.ellipseNormal, phys.ellipseTangential } };
+	r.yielded  = phys.yielded;
+	r.slid     = phys.slid;
+	r.rolled   = phys.rolled;
+	r.slip     = static_cast<float>(phys.errorSlip);
+	r.turn     = static_cast<float>(phys.errorTurn);
+	rest       = { phys.restSlip, phys.restTurn };
+	r.strained = rest.slip != 0 || rest.turn != 0;
+	r.path     = { phys.yieldPath[0], phys.yieldPath[1], phys.yieldPath[2] };
+	bond       = { { { phys.anchor1[0], phys.anchor1[1] },
+		         { phys.anchor2[0], phys.anchor2[1] },
+		         { phys.axis[0], phys.axis[1] } },
+		       { phys.ellipseNormal, phys.ellipseTangential } };
+}
+
+/// Notes whether a contact's bodies are turned as one.
+inline void setJoins(Reading& r, bool joins)
+{
+	r.joins = joins;
+	if (r.keeper != Reading::Arrays) r.phys->joins = joins;
 }
 
 /// Writes a contact's reactions into its interaction, whose forces act on its second body.

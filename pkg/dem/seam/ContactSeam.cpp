@@ -94,10 +94,12 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 	links.resize(solved);
 	leftContacts.resize(leftOut);
 	leftLinks.resize(leftOut);
+	joints.resize(chunksOf(count));
 #pragma omp parallel for schedule(static) num_threads(threads)
 	for (long part = 0; part < (long)chunksOf(count); ++part) {
 		const size_t begin = part * sumChunk;
 		size_t       in = solvedBefore[part], left = leftBefore[part];
+		joints[part].clear();
 		for (size_t k = begin; k < std::min(begin + sumChunk, count); ++k) {
 			const int slot = order[k].slot;
 			if (k + later < count) fetch<commonOfReading>(&resident->readings[order[k + later].slot]);
@@ -109,6 +111,10 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 				}
 				problem.impulses[in] = warmStart[in] = gatherContact(
 				        slot, problem.contacts[in], links[in]);
+				if (Reading& r = resident->readings[slot]; r.joins) {
+					joints[part].push_back(in);
+					setJoins(r, false);
+				}
 				++in;
 			} else if (partOf[k] == Left) {
 				gatherContact(slot, leftContacts[left], leftLinks[left]);
@@ -117,6 +123,7 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 			}
 		}
 	}
+	loadClusters();
 }
 
 /// A contact that is left out of the solve bears nothing.

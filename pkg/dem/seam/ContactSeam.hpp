@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Resident.hpp"
+#include <contact/plane/rigid_clusters.hpp>
 #include <contact/solver.hpp>
 #include <algorithm>
 #include <core/Scene.hpp>
@@ -32,6 +33,7 @@ struct ContactSums {
 	Real overlap = 0, worstOverlap = 0; // sum and maximum, in units of ℓ
 	int  worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
 	Real contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
+	Real heldWork = 0; // of reactions of bonds in which they hold [J]: none but for errors of the step's positions
 	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 
 	bool anyBroken() const
@@ -91,16 +93,38 @@ private:
 	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
 	void                        forgetReactions(int slot);
 	void scatterContacts(size_t begin, size_t end, bool rates, StepSums& result, char& slips);
-	void scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
+	/// Which of a bond's three reactions have held in this step and in the one before.
+	struct Held {
+		bool along = false, across = false, turning = false;
+	};
+	Held scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
 	void sumReactions();
 	void scatterForces(Scene& scene, size_t begin, size_t end);
-	void turnBack();
-	void turnBack(size_t k);
-	void displace(size_t begin, size_t end);
+	void loadClusters();
+	void findClusters();
+	void turnClusters();
+	bool turnsFar(const nonsmooth::contact::Contact& contact) const;
+	nonsmooth::contact::PositionError errorOf(size_t k, const nonsmooth::contact::Impulse& u, bool sticks) const;
+	void                              turnBack();
+	void                              turnBack(size_t k);
+	void                              displace(size_t begin, size_t end);
+	/// How far a body is moved beside the path of the step.
+	nonsmooth::contact::Twist displacementOf(size_t id) const
+	{
+		const nonsmooth::contact::Twist none {};
+		const auto& corrected = correction.displacements.empty() ? none : correction.displacements[id];
+		const auto& turned    = clusterWay.empty() ? none : clusterWay[id];
+		return { corrected.x + turned.x, corrected.y + turned.y, corrected.w + turned.w };
+	}
+	nonsmooth::contact::plane::BodyArrays bodyArrays() const
+	{
+		return { problem.positions.data(), problem.inverseMass.data(), mass.data() };
+	}
 	void
 	rateContact(size_t k, const nonsmooth::contact::Impulse& u, const Reading& reading, ContactSums& sums) const;
-	Real
-	sumContact(size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, ContactSums& sums) const;
+	Real sumContact(
+	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, Held held,
+	        ContactSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	Relaxation                                     relaxation { 1, 0, 0, 0, 0 };
@@ -114,7 +138,12 @@ private:
 	std::vector<nonsmooth::contact::PositionError> errors; // of contacts
 	nonsmooth::contact::PositionCorrection         correction; // none where there are no displacements
 	std::vector<nonsmooth::contact::Twist>
-	                    turning; // of bodies: impulses that keep the angular momentum, see turnBack [N s]
+	        turning; // of bodies: impulses that turn clusters and keep the angular momentum, see turnBack [N s]
+	nonsmooth::contact::plane::RigidClusters clusters;
+	// of bodies, empty where no cluster turns: what the centrifugal force gave [m/s]; after the solve displacements [m] and changes of velocity [m/s]
+	std::vector<nonsmooth::contact::Twist> centrifugal, clusterWay, clusterTurn;
+	std::vector<std::vector<size_t>>
+	        joints; // by part: contacts whose bodies were turned as one in the step before; then those that may be now
 	std::vector<char>   present;
 	Resident*           resident = nullptr; // during a step
 	std::vector<Part>   partOf; // by place in the order of contacts

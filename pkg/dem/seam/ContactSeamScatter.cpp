@@ -19,6 +19,7 @@ void StepSums::add(const StepSums& other)
 	rolling += other.rolling;
 	debonding += other.debonding;
 	impact += other.impact;
+	heldWork += other.heldWork;
 	overlap += other.overlap;
 	if (other.worstOverlap > worstOverlap) {
 		worstOverlap = other.worstOverlap;
@@ -44,7 +45,8 @@ void StepSums::add(const StepSums& other)
 }
 
 /// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the step.
-[[gnu::always_inline]] inline void ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
+[[gnu::always_inline]] inline ContactSeam::Held
+ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
 {
 	const Real     h    = relaxation.step;
 	const Contact& c    = problem.contacts[k];
@@ -57,16 +59,22 @@ void StepSums::add(const StepSums& other)
 	r.leftOut           = false;
 	const bool inArrays = r.keeper == Reading::Arrays;
 	if (!inArrays) writeReactions(r);
-	if (!inArrays || r.broken != NscdPhys::None) r.phys->yielded = false;
+	if (!inArrays || r.broken != NscdPhys::None) r.phys->yielded = r.phys->slid = r.phys->rolled = false;
 	if (r.broken != NscdPhys::None) r.phys->breaks = false; // it is counted now
-	if (!r.bonded) return;
+	if (!r.bonded) return {};
 	const auto path  = contact::plane::yieldOfStep(c, p, u, h);
-	const bool opens = contact::plane::yieldsInTension(c, p, u);
-	r.yielded        = opens;
+	const bool opens = contact::plane::yieldsInTension(c, p, u), slides = path.shear != 0, rolls = path.torque != 0;
+	const Held held { !opens && !r.yielded, !slides && !r.slid, !rolls && !r.rolled };
+	r.yielded = opens;
+	r.slid    = slides;
+	r.rolled  = rolls;
 	if (path.any()) r.path.add(path); // seldom, and what is not written need not go back to memory
-	if (inArrays) return;
+	if (inArrays) return held;
 	r.phys->yielded = opens;
+	r.phys->slid    = slides;
+	r.phys->rolled  = rolls;
 	r.phys->yieldPath += vectorOf(path);
+	return held;
 }
 
 /// How fast a contact turns and its bond crosses its ellipse at the end of the step. What divisions and roots give, which are slow, is found only where it may
@@ -93,22 +101,25 @@ ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSu
 
 /// Returns what it has slid on a wall [J].
 [[gnu::always_inline]] inline Real
-ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, ContactSums& sums) const
+ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, Held held, ContactSums& sums) const
 {
 	const Contact& c  = problem.contacts[k];
 	const Impulse& p  = problem.impulses[k];
 	const Impulse  u0 = contact::relativeVelocity(c, before[c.i], before[c.j]);
 	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
-	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
-	// both, since which one it is cannot be told ahead
+	const Real along = 0.5 * p.n * (u0.n + u1.n), across = 0.5 * p.t * (u0.t + u1.t),
+	           turning = 0.5 * p.r * (u0.r + u1.r);
+	// a bond that holds loses nothing; neither which one it is nor that can be told ahead
+	const Real normalWork = held.along ? 0 : along, shearWork = held.across ? 0 : across,
+	           rollingWork = held.turning ? 0 : turning;
 	sums.debonding -= p.n < 0 ? normalWork : 0;
 	sums.impact -= p.n < 0 ? 0 : normalWork;
-	const Real shearWork = 0.5 * p.t * (u0.t + u1.t);
 	sums.sliding -= shearWork;
-	sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
+	sums.rolling -= rollingWork;
+	sums.heldWork += (along - normalWork) + (across - shearWork) + (turning - rollingWork);
 	// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
-	const bool held    = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed() && r.gap < 0;
-	const Real overlap = held ? 0 : std::max(Real(0), -r.gap) / c.length;
+	const bool placed  = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed() && r.gap < 0;
+	const Real overlap = placed ? 0 : std::max(Real(0), -r.gap) / c.length;
 	sums.overlap += overlap;
 	if (overlap > sums.worstOverlap) {
 		sums.worstOverlap = overlap;
@@ -133,12 +144,12 @@ void ContactSeam::scatterContacts(size_t begin, size_t end, bool rates, StepSums
 			fetch<commonOfReading>(&readingOf(links[k + later]));
 			if (rates) fetch<1>(&resident->bonds[links[k + later].slot].zone);
 		}
-		const Contact& c = problem.contacts[k];
-		Reading&       r = resident->readings[links[k].slot];
-		const Impulse  u = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-		scatterContact(k, u, r);
+		const Contact& c    = problem.contacts[k];
+		Reading&       r    = resident->readings[links[k].slot];
+		const Impulse  u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
+		const Held     held = scatterContact(k, u, r);
 		anySlips |= r.slips;
-		if (const Real slid = sumContact(k, u, r, sums); slid != 0)
+		if (const Real slid = sumContact(k, u, r, held, sums); slid != 0)
 			result.slidingOnWalls.emplace_back(radius[c.i] < 0 ? c.i : c.j, slid);
 		if (rates) rateContact(k, u, r, sums);
 	}
@@ -223,6 +234,10 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 		Twist r = reaction[id];
 		r.x += turning[id].x;
 		r.y += turning[id].y;
+		if (!centrifugal.empty()) {
+			r.x += mass[id] * centrifugal[id].x;
+			r.y += mass[id] * centrifugal[id].y;
+		}
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
 		scene.forces.addForceUnsynced(id, Vector3r(r.x / h, r.y / h, 0)); // into the sums, see gatherBodies
 		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, r.w / h));
@@ -246,13 +261,16 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		sums.potential -= mass[id] * gravity.dot(at);
 		// what errors of position cost: the way of the weight, and what the pairs of impulses give
 		Twist v2 = v1;
-		if (!correction.displacements.empty()) {
-			const Twist &d = correction.displacements[id], &p = turning[id];
+		if (!correction.displacements.empty() || !clusterWay.empty()) {
+			const Twist d = displacementOf(id), &p = turning[id];
 			v2.x += w.x * p.x;
 			v2.y += w.y * p.y;
 			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y))
 			        - mass[id] * gravity.dot(Vector3r(d.x, d.y, 0));
 		}
+		// the centrifugal force does no work on what turns as one, but on what leaves it
+		if (!centrifugal.empty())
+			sums.correction += 0.5 * mass[id] * (centrifugal[id].x * x + centrifugal[id].y * y);
 		sums.mass += mass[id];
 		sums.centre += mass[id] * at;
 		sums.momentum += mass[id] * Vector3r(v2.x, v2.y, 0);

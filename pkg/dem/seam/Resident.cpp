@@ -70,6 +70,7 @@ void Resident::takeContacts(Scene& scene)
 	const long count = (long)order.size();
 	readings.resize(count);
 	bonds.resize(count);
+	rests.resize(count);
 	surelySolved.resize(count);
 	holders.clear();
 	freeHolders.clear();
@@ -104,7 +105,7 @@ void Resident::readSlot(const Found& found, int slot)
 {
 	Reading&  r      = readings[slot];
 	const int number = r.number; // of its holder, which stays
-	read(found, r, bonds[slot]);
+	read(found, r, bonds[slot], rests[slot]);
 	r.number           = number;
 	surelySolved[slot] = false;
 	if (r.phys && r.phys->touched) r.phys->touched = false;
@@ -184,6 +185,7 @@ int Resident::freeSlot()
 	if (freeSlots.empty()) {
 		readings.emplace_back();
 		bonds.emplace_back();
+		rests.emplace_back();
 		surelySolved.push_back(false);
 		return int(readings.size()) - 1;
 	}
@@ -285,6 +287,7 @@ void Resident::repack()
 	};
 	pack(readings);
 	pack(bonds);
+	pack(rests);
 	pack(surelySolved);
 	for (long k = 0; k < count; ++k)
 		order[k].slot = int(k);

@@ -130,6 +130,7 @@ public:
 	std::vector<int>         shaped; // those that are no disks and of no clump
 	std::vector<Reading>     readings; // by slot
 	std::vector<BondReading> bonds; // by slot, of contacts that the arrays keep
+	std::vector<BondStrain>  rests; // the same: what a bond has slipped and turned by yielding
 	std::vector<char>
 	                   surelySolved; // by slot: touches or is bonded, so that it is solved whatever its velocity; so much of a reading is asked first
 	std::vector<Place> order;

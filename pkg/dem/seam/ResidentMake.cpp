@@ -191,10 +191,10 @@ int Resident::bondBare()
 		bonds[place.slot] = { plane::markBond(first, second, { r.nx, r.ny }, bodies[r.second].radius),
 			              { r.length * s.ellipseNormal, r.length * s.ellipseTangential } };
 		r.bonded          = true;
-		r.yielded         = false;
-		r.stale           = true;
-		r.restGap         = plane::firstRestGap(r.gap);
-		r.path            = {};
+		r.yielded = r.slid = r.rolled = r.strained = false;
+		r.stale                                    = true;
+		r.restGap                                  = plane::firstRestGap(r.gap);
+		r.path                                     = {};
 		++count;
 	}
 	return count;

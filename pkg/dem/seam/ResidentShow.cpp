@@ -97,6 +97,11 @@ void Resident::showContact(int slot) const
 		phys.restGap   = r.restGap;
 		phys.yieldPath = vectorOf(r.path);
 		phys.yielded   = r.yielded;
+		phys.slid      = r.slid;
+		phys.rolled    = r.rolled;
+		phys.joins     = r.joins;
+		phys.restSlip  = r.strained ? rests[slot].slip : 0;
+		phys.restTurn  = r.strained ? rests[slot].turn : 0;
 	}
 	if (r.reacts) writeReactions(r);
 }
