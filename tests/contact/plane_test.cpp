@@ -210,6 +210,46 @@ TEST(PlaneBond, MotionOfThePairAsOneBodyIsNoDisplacement)
 	EXPECT_NEAR(p.displacement().tangential, before.tangential, 1e-14);
 }
 
+/// What a pair has slipped and turned, as the interaction loop asks it.
+BondStrain strainOf(const Pair& p)
+{
+	const DiskContact d = diskContact(p.first.position, p.second.position, 1, 0.5);
+	return bondStrain(p.marks, p.first, p.second, { d.nx, d.ny }, 1 + 0.5 * d.gap, 0.5 + 0.5 * d.gap, 0.5);
+}
+
+/// The second disk goes by an angle about the first one's centre, and both turn.
+Pair moved(double orbit, double turnFirst, double turnSecond)
+{
+	Pair        p;
+	const Point arm = rotate(
+	        turned(orbit), { p.second.position.x - p.first.position.x, p.second.position.y - p.first.position.y });
+	p.second.position = { p.first.position.x + arm.x, p.first.position.y + arm.y };
+	p.first.rotation  = product(turned(turnFirst), p.first.rotation);
+	p.second.rotation = product(turned(turnSecond), p.second.rotation);
+	return p;
+}
+
+TEST(PlaneBond, SlipsAndTurnsByTheIntegralsOfItsVelocities)
+{
+	// U_t = 1.5 θ' − 1 ω₁ − 0.5 ω₂ and w = ω₂ − ω₁, radii 1 and 0.5; angles of 0.1 miss the arc sine's fifth order, 1e-6
+	for (const double angle : { 0.001, 0.1, -0.08 }) {
+		const double margin = 1e-15 + 0.1 * std::pow(std::abs(angle), 5);
+		const auto   whole = strainOf(moved(angle, angle, angle)), orbit = strainOf(moved(angle, 0, 0)),
+		           first = strainOf(moved(0, angle, 0)), second = strainOf(moved(0, 0, angle)),
+		           rolled = strainOf(moved(angle / 3, 0, angle)); // without slip
+		EXPECT_NEAR(whole.slip, 0, 1e-15);
+		EXPECT_NEAR(whole.turn, 0, 1e-15);
+		EXPECT_NEAR(orbit.slip, 1.5 * angle, 2 * margin);
+		EXPECT_NEAR(orbit.turn, 0, margin);
+		EXPECT_NEAR(first.slip, -angle, margin);
+		EXPECT_NEAR(first.turn, -angle, margin);
+		EXPECT_NEAR(second.slip, -0.5 * angle, margin);
+		EXPECT_NEAR(second.turn, angle, margin);
+		EXPECT_NEAR(rolled.slip, 0, margin);
+		EXPECT_NEAR(rolled.turn, angle, margin);
+	}
+}
+
 TEST(PlaneBond, LivesInsideItsEllipse)
 {
 	const BondEllipse zone { 0.02, 0.05 };

@@ -28,6 +28,7 @@ __all__ = [
 MODULES = (
     "contacts",
     "bonds",
+    "tumbling",
     "impacts",
     "packings",
     "siconos",

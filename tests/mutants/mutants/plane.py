@@ -1,6 +1,7 @@
 """Motion, contacts of disks, bonds and thresholds in the plane: plain C++, judged by GoogleTest."""
 from mutant import mutant
 
+CLUSTERS = "pkg/contact/plane/rigid_clusters.cpp"
 MOTION, DISKS, BOND, THRESHOLDS = (f"pkg/contact/plane/{name}.hpp" for name in ("motion", "disk_contact", "bond", "thresholds"))
 
 MUTANTS = (
@@ -35,6 +36,17 @@ MUTANTS = (
     mutant("plane-break", BOND, "if (path.shear > bound) return BreakMode::Shear;", "if (path.shear > bound) return BreakMode::Torque;", "broken in shear and by torque are one",
            "gtest:PlaneBond.*"),
     mutant("plane-mixed", BOND, "path.tension + (path.shear + path.torque)", "path.shear + path.torque", "a break in tension is one whatever else yielded", "gtest:PlaneBond.*"),
+    mutant("plane-slip", BOND, "leverFirst * aboutFirst + leverSecond * aboutSecond", "leverFirst * aboutFirst - leverSecond * aboutSecond", "rolling counts as slip", "gtest:PlaneBond.*"),
+    mutant("plane-turn", BOND, "aboutFirst - aboutSecond", "aboutSecond - aboutFirst", "a bond's turn has the other sign", "gtest:PlaneBond.*"),
+    mutant("plane-arc", BOND, "sine * (1 + sine * sine / 6)", "sine", "an arc is taken for its chord", "gtest:PlaneBond.*"),
+    # ---- clusters
+    mutant("clusters-centre", CLUSTERS, "all.mass[*b] / mass", "1.0 / (last - first)", "a cluster turns about the middle of its disks", "gtest:RigidClusters.*"),
+    mutant("clusters-load", CLUSTERS, "h * axes.velocity.w * axes.velocity.w", "h * axes.velocity.w", "the centrifugal force grows as the spin", "gtest:RigidClusters.*"),
+    mutant("clusters-path", CLUSTERS, "place.x - r.x - h * end.x", "place.x - r.x", "a cluster goes its way twice", "gtest:RigidClusters.*"),
+    mutant("clusters-momentum", CLUSTERS, "spin *= axes.inertia / inertia", "spin *= 1", "what is not rigid changes the angular momentum", "gtest:RigidClusters.*"),
+    mutant("clusters-driven", CLUSTERS, "axes.turns && !isDriven", "axes.turns", "a rotor turns as fast as what hangs on it", "gtest:RigidClusters.*"),
+    mutant("clusters-guided", CLUSTERS, "(w.x == 0) != (w.y == 0)", "false", "a body on a rail is turned with the others", "gtest:RigidClusters.*"),
+    mutant("clusters-rigid", CLUSTERS, "square <= rigidEnough", "square >= rigidEnough", "what bends is turned as one", "gtest:RigidClusters.*"),
     # ---- thresholds
     mutant("plane-residual", THRESHOLDS, "if (bonded) return bond;", "return bond;", "a contact without a bond has the bond's strengths", "gtest:PlaneThresholds.*"),
     mutant("plane-adhesion", THRESHOLDS, "touching ? residual.adhesion : 0", "residual.adhesion", "residual adhesion acts over the whole reach", "gtest:PlaneThresholds.*"),
