@@ -93,13 +93,13 @@ void Resident::showContact(int slot) const
 		phys.currentFriction = phys.tangensOfFrictionAngle = r.friction;
 		phys.currentRollingArm                             = r.rollingArm;
 	}
+	phys.joins = r.joins; // of a bond that broke since, too
 	if (r.bonded) {
 		phys.restGap   = r.restGap;
 		phys.yieldPath = vectorOf(r.path);
 		phys.yielded   = r.yielded;
 		phys.slid      = r.slid;
 		phys.rolled    = r.rolled;
-		phys.joins     = r.joins;
 		phys.restSlip  = r.strained ? rests[slot].slip : 0;
 		phys.restTurn  = r.strained ? rests[slot].turn : 0;
 	}
