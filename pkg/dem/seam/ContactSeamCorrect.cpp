@@ -108,9 +108,13 @@ void ContactSeam::turnClusters()
 	// what it has yielded it keeps too
 	e.sticks = sticks;
 	e.grips  = e.held && !plane::yieldsInTorque(c, p);
-	if (e.sticks) e.slip = static_cast<float>(limited(taken(r.slip, u.t, slack), most));
-	if (e.grips)
-		e.turn = static_cast<float>(limited(taken(r.turn, u.r, 2 * relaxation.slack), 2 * most / c.length));
+	// sweeps with three rows cost twice as much as along the normals alone: not for bonds that creep along the edge of the slack
+	constexpr Real asking = 1.25; // slacks
+	const auto     asks  = [h](Real off, Real rate, Real edge) { return std::abs(off + h * rate) > asking * edge; };
+	const Real     angle = 2 * relaxation.slack; // by which a rim is off by the slack
+	if (e.sticks && asks(r.slip, u.t, slack)) e.slip = static_cast<float>(limited(taken(r.slip, u.t, slack), most));
+	if (e.grips && asks(r.turn, u.r, angle))
+		e.turn = static_cast<float>(limited(taken(r.turn, u.r, angle), 2 * most / c.length));
 	return e;
 }
 

@@ -87,7 +87,7 @@ MUTANTS = (
     mutant("cluster-saved", "pkg/dem/seam/ContactReading.hpp", "r.joins              = phys.joins;", "r.joins = false;", "what turned as one is forgotten when it is saved",
            "test_tumbling.py::test_saved_and_loaded_in_full_spin_it_has_the_same_bits"),
     mutant("bond-slip-back", CORRECT, "taken(r.slip, u.t, slack)", "0", "what a bond has slipped stays", "test_tumbling.py::test_what_a_bond_has_slipped_without_yielding_is_taken_back"),
-    mutant("bond-turn-back", CORRECT, "taken(r.turn, u.r, 2 * relaxation.slack)", "0", "what a bond has turned stays",
+    mutant("bond-turn-back", CORRECT, "taken(r.turn, u.r, angle)", "0", "what a bond has turned stays",
            "test_tumbling.py::test_what_a_bond_has_slipped_without_yielding_is_taken_back"),
     mutant("bond-keeps-slip", "pkg/dem/NscdInteractionLoop.cpp", "if (r.slid) rest.slip = strain.slip;", "", "a bond that has yielded in shear springs back",
            "test_tumbling.py::test_what_a_bond_has_yielded_in_shear_it_keeps"),
