@@ -10,6 +10,7 @@
 //   open gap g > 0        b_n = g / h        the gap may close, not more
 //   overlap or bond       b_n = 0            errors of position are taken back by displacements, see solver.hpp
 //   impact                b_n = e U^n_before Newton's restitution
+//                         impacts that follow from impacts in the same step are taken before: impact_sequence.hpp
 // Each graph "x ∈ K, −u ∈ N_K(x)" is the fixed point x = proj_K(x − ρ u) for every ρ > 0; the residual of a solution is
 // the distance from that fixed point with ρ the inverse diagonal of the Delassus operator (natural map).
 // Sign: compression and opening positive, impulses positive on body j. Deviation from the paper: none in the graphs; the biases are

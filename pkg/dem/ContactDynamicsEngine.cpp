@@ -33,6 +33,7 @@ void ContactDynamicsEngine::action()
 	        threads);
 	stepSolved = scene->dt;
 	timer.next(Stage::Solve);
+	impactsFollowed = seam.followImpacts(maxImpacts);
 	auto statistics = contact::solve(seam.problem, settings(), &workspace);
 	while (seam.recall() > 0) {
 		const int before = statistics.iterations;
@@ -89,6 +90,7 @@ void ContactDynamicsEngine::validate() const
 	if (maxIterations < 1) fail("maxIterations = " + std::to_string(maxIterations) + ": it must be at least 1");
 	if (correctionSweeps < 0)
 		fail("correctionSweeps = " + std::to_string(correctionSweeps) + ": it must be 0 or more");
+	if (maxImpacts < 0) fail("maxImpacts = " + std::to_string(maxImpacts) + ": it must be 0 or more");
 	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
 	if (!(relaxationRate >= 0 && relaxationRate <= 1)) refuse("relaxationRate", relaxationRate, "from 0 to 1");
 	if (!(correctionSpeed >= 0)) refuse("correctionSpeed", correctionSpeed, "0 or more [m/s]");
@@ -138,6 +140,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	rollingLoss += s.rolling;
 	debondingLoss += s.debonding;
 	impactLoss += s.impact;
+	missedRestitution += s.missed;
 	correctionEnergy += s.correction + s.heldWork;
 	if (scene->trackEnergy) {
 		const std::pair<const char*, Real> parts[] = { { "contactSliding", s.sliding },
@@ -147,6 +150,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 		for (int k = 0; k < 4; ++k)
 			scene->energy->add(parts[k].second, parts[k].first, energyIx[k]);
 	}
+	reportRestitution();
 	candidates       = (int)seam.links.size();
 	contacts         = s.touching;
 	bonds            = s.bonds;
@@ -204,6 +208,25 @@ void ContactDynamicsEngine::reportOverlap()
 	        << " " << 100 * overlapWorst << " % of their mean diameter in each other (" << overlappedSteps
 	        << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
 	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors.");
+}
+
+void ContactDynamicsEngine::reportRestitution()
+{
+	if (seam.overrun() > 0 && nscd::seldom(++overrunSteps))
+		LOG_WARN(
+		        "step " << scene->iter << ": " << seam.overrun()
+		                << " bodies had more than maxImpacts = " << maxImpacts << " impacts (" << overrunSteps
+		                << " such steps so far); what came after was solved at once, and a part of it lost its"
+		                   " restitution. Lower O.dt, give them more room, or raise maxImpacts.");
+	constexpr Real matters = 0.01, again = 10;
+	kineticMost = std::max(kineticMost, kineticEnergy);
+	if (missedRestitution <= std::max(matters * kineticMost, again * missedTold)) return;
+	missedTold = missedRestitution;
+	LOG_WARN(
+	        "step " << scene->iter << ": contacts with restitution that closed as others pushed have lost "
+	                << missedRestitution << " J so far that restitution would have given back, "
+	                << 100 * missedRestitution / kineticMost
+	                << " % of the largest kinetic energy. Lower O.dt, or accept it knowingly.");
 }
 
 void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, Real meanWeight)
@@ -286,8 +309,8 @@ void ContactDynamicsEngine::updateStrengths()
 void ContactDynamicsEngine::forgetEnergies()
 {
 	energyStart = NaN;
-	for (Real* value :
-	     { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss, &correctionEnergy })
+	for (Real* value : { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss,
+	                     &correctionEnergy, &missedRestitution, &missedTold, &kineticMost })
 		*value = 0;
 	wallSlidingLoss.clear();
 }

@@ -69,6 +69,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,correctionSlack,1e-4,,"Overlaps and errors of bonds' lengths up to this [ℓ] stay as they are; a packing whose least errors are taken back in every step does not come to rest."))
 		((int,correctionSweeps,10,,"Sweeps in which these displacements are found; what they leave is taken back by later steps."))
 		((Real,openGap,0.05,,"A contact whose gap is wider [ℓ], and would stay so at 1.2 times its present speed of approach, is left out of the step's solve, unless the solution would close it after all."))
+		((int,maxImpacts,1000,,"Impacts of one body that are followed one after the other within a step, where impacts with restitution lead to others; what comes after them is left to the step's solve, with a warning. 0: all impacts are, and what is hit across a gap that closes in the same step is stopped without restitution."))
 		((Vector3r,finalGravity,Vector3r::Zero(),,"Gravity at the end of its ramp [m/s²], see gravityRamp."))
 		((Real,gravityBegin,0,,"O.time at which the ramp of gravity begins [s]; until then there is none."))
 		((Real,gravityRamp,0,,"Time in which gravity grows in proportion from nothing to finalGravity [s]: at the head of each step the integrator's gravity becomes what is due at O.time. When it has grown the ramp is over, and this is 0 again; 0: the integrator's gravity is left alone."))
@@ -106,6 +107,11 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,rollingLoss,0,Attr::readonly,"Energy dissipated by rolling so far [J]."))
 		((Real,debondingLoss,0,Attr::readonly,"Energy dissipated by contacts in tension so far [J]."))
 		((Real,impactLoss,0,Attr::readonly,"Energy dissipated by impact so far [J]."))
+		((Real,missedRestitution,0,Attr::readonly,"Part of :yref:`impactLoss<ContactDynamicsEngine.impactLoss>` at contacts with restitution that closed in a step as other contacts or forces pushed, and got none: e² of what they lost [J]. A warning tells when it passes 1 % of the largest kinetic energy so far."))
+		((int,impactsFollowed,0,(Attr::readonly|Attr::noSave),"Impacts of the last step that were followed one after the other, because they led to others."))
+		((int,overrunSteps,0,Attr::readonly,"Steps so far in which a body had more than maxImpacts impacts, of which a warning tells."))
+		((Real,kineticMost,0,(Attr::readonly|Attr::hidden),"Largest kinetic energy since the balance began [J]."))
+		((Real,missedTold,0,(Attr::readonly|Attr::hidden),"missedRestitution of the last warning [J]."))
 		((Real,correctionEnergy,0,Attr::readonly,"Energy that bodies have got so far by taking back overlaps and bonds' errors [J]: what it lifts them against gravity, what the impulses that keep the angular momentum add to their kinetic energy, and what bonds do in which they hold, which is nothing but for errors of the step; negative where it lets them down or slows them. Forces of other engines are not counted on these displacements, here or in externalWork."))
 		((Real,energyStart,NaN,(Attr::readonly|Attr::hidden),"Kinetic and potential energy when the balance began [J]."))
 		((Real,energyError,0,(Attr::readonly|Attr::noSave),"What the balance of all these misses [J]."))
@@ -146,6 +152,7 @@ private:
 	void                               recordBreaks(const nscd::Resident& resident);
 	void report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
 	void reportOverlap();
+	void reportRestitution();
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;

@@ -12,7 +12,7 @@ from yade.nonsmooth.verification import Outcome, at_least, at_most, between, nea
 
 from contact_scenes import material
 
-OURS = ("contacts", "bonds", "impacts")
+OURS = ("contacts", "bonds", "impacts", "impact_chains")
 
 
 def module_of(check):

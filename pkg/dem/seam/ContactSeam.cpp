@@ -60,7 +60,7 @@ namespace {
 	const Reading& reading = resident->readings[slot];
 	const Real     gap = reading.gap, h = relaxation.step;
 	setFrame(reading, c);
-	link    = { slot, reading.correction };
+	link    = { slot, -1, reading.correction };
 	c.biasN = !reading.bonded && gap > 0 ? gap / h : 0;
 	c.biasT = c.biasR = 0;
 	c.adhesion        = h * reading.adhesion;
@@ -70,7 +70,11 @@ namespace {
 	if (reading.bounces && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
-		if (approach < 0 && gap + h * approach <= 0) c.biasN = reading.restitution * approach;
+		if (approach < 0 && gap + h * approach <= 0) {
+			c.biasN = reading.restitution * approach;
+#pragma omp atomic write
+			meets = 1;
+		}
 	}
 	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed())
 		return {}; // no reaction is found, so none may stay
@@ -81,6 +85,8 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 {
 	relaxation = how;
 	recalls    = 0;
+	meets      = 0;
+	followed   = false;
 	threads    = threadCount;
 	resident   = &from;
 	gatherBodies(scene, gravity);
@@ -279,7 +285,7 @@ size_t ContactSeam::recall()
 {
 	const auto gapAfter = [this](size_t k) {
 		const Contact& c = leftContacts[k];
-		return readingOf(leftLinks[k]).gap
+		return gapOf(c, readingOf(leftLinks[k]))
 		        + relaxation.step
 		        * contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]).n;
 	};
@@ -289,10 +295,15 @@ size_t ContactSeam::recall()
 	if (!needed) return 0;
 	++recalls;
 	std::vector<size_t> taken;
-	size_t              left = 0;
 	for (size_t k = 0; k < leftLinks.size(); ++k)
 		if (recalls > mostRecalls || gapAfter(k) < 0) taken.push_back(k);
-	// into the order of ids, from the back
+	takeIn(taken);
+	return taken.size();
+}
+
+/// Takes contacts that were left out into the solve, into the order of ids, from the back.
+void ContactSeam::takeIn(const std::vector<size_t>& taken)
+{
 	const auto key = [](const Contact& c) { return std::pair(std::min(c.i, c.j), std::max(c.i, c.j)); };
 	size_t     old = links.size(), b = taken.size(), at = old + b;
 	links.resize(at);
@@ -314,6 +325,7 @@ size_t ContactSeam::recall()
 			problem.impulses[at] = warmStart[at] = {};
 		}
 	}
+	size_t left = 0;
 	for (size_t k = 0, next = 0; k < leftLinks.size(); ++k) {
 		if (next < taken.size() && taken[next] == k) {
 			++next;
@@ -324,7 +336,6 @@ size_t ContactSeam::recall()
 	}
 	leftLinks.resize(left);
 	leftContacts.resize(left);
-	return taken.size();
 }
 
 } // namespace yade::nscd

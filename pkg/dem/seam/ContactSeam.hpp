@@ -5,6 +5,7 @@
 #pragma once
 
 #include "Resident.hpp"
+#include <contact/impact_sequence.hpp>
 #include <contact/plane/rigid_clusters.hpp>
 #include <contact/solver.hpp>
 #include <algorithm>
@@ -24,12 +25,14 @@ struct Relaxation {
 /// A gathered contact's place in Resident::readings.
 struct Link {
 	int  slot       = -1;
+	int  impacts    = -1; // its place in the sequence of impacts, where the step has one
 	Real correction = 0; // pseudo-impulse of the step before [kg m]
 };
 
 /// What a step did, summed over contacts in a fixed order.
 struct ContactSums {
 	Real sliding = 0, rolling = 0, debonding = 0, impact = 0; // energy dissipated in the step [J]
+	Real missed  = 0; // of impact: what restitution would have given back [J]
 	Real overlap = 0, worstOverlap = 0; // sum and maximum, in units of ℓ
 	int  worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
 	Real contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
@@ -61,6 +64,11 @@ public:
 	/// Makes the contact problem of a step; throws std::runtime_error naming the body where the scene cannot be taken.
 	void
 	gather(Scene& scene, Resident& resident, const Vector3r& gravity, const Relaxation& relaxation, int threads);
+	/// Before the solve: takes the impacts that follow from impacts one after the other, `most` of one body; returns how many. The solve then has the velocities they
+	/// leave, and bodies are displaced so that each has come its way at the step's end (contact/impact_sequence.hpp).
+	int followImpacts(int most);
+	/// Bodies that had more.
+	int overrun() const { return followed ? sequence.overrun : 0; }
 	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids; returns how many. They need another solve. After
 	/// a few rounds it takes in all.
 	size_t recall();
@@ -92,6 +100,21 @@ private:
 	void                        setFrame(const Reading& reading, nonsmooth::contact::Contact& result) const;
 	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
 	void                        forgetReactions(int slot);
+	void                        takeIn(const std::vector<size_t>& taken);
+	void                        expectImpacts(std::vector<nonsmooth::contact::ImpactPair>& pairs);
+	void                        setBiasAfterImpacts(nonsmooth::contact::Contact& c, const Link& link) const;
+	Real                        gapAfterImpacts(const nonsmooth::contact::Contact& c, const Reading& reading) const;
+	/// Gap that a contact would have at the step's beginning for bodies that fly all the step with the velocities that impacts leave.
+	Real gapOf(const nonsmooth::contact::Contact& c, const Reading& reading) const
+	{
+		return followed ? gapAfterImpacts(c, reading) : reading.gap;
+	}
+	/// What impacts did at a contact before the solve; null where none did.
+	const nonsmooth::contact::PairImpacts* impactsAt(const Link& link) const
+	{
+		return followed && sequence.impacts[link.impacts].count > 0 ? &sequence.impacts[link.impacts] : nullptr;
+	}
+	nonsmooth::contact::Impulse impulseOfStep(size_t k) const;
 	void scatterContacts(size_t begin, size_t end, bool rates, StepSums& result, char& slips);
 	/// Which of a bond's three reactions have held in this step and in the one before.
 	struct Held {
@@ -108,14 +131,8 @@ private:
 	void                              turnBack();
 	void                              turnBack(size_t k);
 	void                              displace(size_t begin, size_t end);
-	/// How far a body is moved beside the path of the step.
-	nonsmooth::contact::Twist displacementOf(size_t id) const
-	{
-		const nonsmooth::contact::Twist none {};
-		const auto& corrected = correction.displacements.empty() ? none : correction.displacements[id];
-		const auto& turned    = clusterWay.empty() ? none : clusterWay[id];
-		return { corrected.x + turned.x, corrected.y + turned.y, corrected.w + turned.w };
-	}
+	nonsmooth::contact::Twist         correctionOf(size_t id) const;
+	nonsmooth::contact::Twist         displacementOf(size_t id) const;
 	nonsmooth::contact::plane::BodyArrays bodyArrays() const
 	{
 		return { problem.positions.data(), problem.inverseMass.data(), mass.data() };
@@ -125,14 +142,20 @@ private:
 	Real sumContact(
 	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, Held held,
 	        ContactSums& sums) const;
+	void sumImpacts(size_t id, const Vector3r& gravity, StepSums& sums) const;
 	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
-	Relaxation                                     relaxation { 1, 0, 0, 0, 0 };
-	std::vector<nonsmooth::contact::Contact>       leftContacts; // left out of the solve, with
-	std::vector<Link>                              leftLinks; // their links
-	int                                            threads = 1;
-	int                                            recalls = 0; // of this step
-	std::vector<nonsmooth::contact::Twist>         before; // velocities at the beginning of the step
+	Relaxation                               relaxation { 1, 0, 0, 0, 0 };
+	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
+	std::vector<Link>                        leftLinks; // their links
+	int                                      threads = 1;
+	int                                      recalls = 0; // of this step
+	std::vector<nonsmooth::contact::Twist>
+	        before; // velocities at the beginning of the step, after the impacts that were followed
+	std::vector<nonsmooth::contact::Twist>         begun; // before these; of a step with any
+	nonsmooth::contact::ImpactSequence             sequence;
+	mutable char                                   meets    = 0; // contacts with restitution close in this step
+	bool                                           followed = false; // impacts were, in this step
 	std::vector<nonsmooth::contact::Twist>         external; // force and torque of other engines [N, N m]
 	std::vector<nonsmooth::contact::Twist>         reaction; // sum of contact impulses on each body
 	std::vector<nonsmooth::contact::PositionError> errors; // of contacts

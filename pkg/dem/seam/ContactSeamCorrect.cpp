@@ -96,13 +96,14 @@ void ContactSeam::turnClusters()
 	// a bond that opens keeps its new length
 	e.held = r.bonded && !plane::yieldsInTension(c, p, u);
 	// of what was wrong before the step the share 1 − κ may stay; what the step adds may not
-	const auto taken = [this, h](Real off, Real rate, Real slack) {
-		return beyond(off + h * rate, slack) - (1 - relaxation.rate) * beyond(off, slack);
+	const auto taken = [this](Real off, Real end, Real slack) {
+		return beyond(end, slack) - (1 - relaxation.rate) * beyond(off, slack);
 	};
 	const auto limited = [](Real error, Real bound) { return std::max(-bound, std::min(bound, error)); };
-	const Real slack = relaxation.slack * c.length, off = r.gap - (e.held ? r.restGap : 0);
-	e.error = e.held ? taken(off, u.n, slack)
-	                 : off + h * u.n + slack - (1 - relaxation.rate) * std::min(Real(0), off + slack);
+	const Real slack = relaxation.slack * c.length, rest = e.held ? r.restGap : 0, off = r.gap - rest,
+	           end = gapOf(c, r) - rest + h * u.n;
+	e.error        = e.held ? taken(off, end, slack)
+	                        : end + slack - (1 - relaxation.rate) * std::min(Real(0), off + slack);
 	if (e.held || e.error < 0) e.error = limited(e.error, most);
 	if (!r.bonded) return e;
 	// what it has yielded it keeps too
@@ -110,11 +111,12 @@ void ContactSeam::turnClusters()
 	e.grips  = e.held && !plane::yieldsInTorque(c, p);
 	// sweeps with three rows cost twice as much as along the normals alone: not for bonds that creep along the edge of the slack
 	constexpr Real asking = 1.25; // slacks
-	const auto     asks  = [h](Real off, Real rate, Real edge) { return std::abs(off + h * rate) > asking * edge; };
-	const Real     angle = 2 * relaxation.slack; // by which a rim is off by the slack
-	if (e.sticks && asks(r.slip, u.t, slack)) e.slip = static_cast<float>(limited(taken(r.slip, u.t, slack), most));
-	if (e.grips && asks(r.turn, u.r, angle))
-		e.turn = static_cast<float>(limited(taken(r.turn, u.r, angle), 2 * most / c.length));
+	const Real     angle  = 2 * relaxation.slack; // by which a rim is off by the slack
+	const Real     slip = r.slip + h * u.t, turn = r.turn + h * u.r;
+	if (e.sticks && std::abs(slip) > asking * slack)
+		e.slip = static_cast<float>(limited(taken(r.slip, slip, slack), most));
+	if (e.grips && std::abs(turn) > asking * angle)
+		e.turn = static_cast<float>(limited(taken(r.turn, turn, angle), 2 * most / c.length));
 	return e;
 }
 
@@ -189,10 +191,28 @@ void ContactSeam::turnBack()
 			turnBack(k);
 }
 
+/// How far a body is moved for errors of position, and because it turns with a cluster.
+Twist ContactSeam::correctionOf(size_t id) const
+{
+	const Twist d = correction.displacements.empty() ? Twist {} : correction.displacements[id];
+	if (clusterWay.empty()) return d;
+	const Twist& turned = clusterWay[id];
+	return { d.x + turned.x, d.y + turned.y, d.w + turned.w };
+}
+
+/// How far it is moved in all beside the path of the step: impacts may have taken place within it, too.
+Twist ContactSeam::displacementOf(size_t id) const
+{
+	const Twist d = correctionOf(id);
+	if (!followed) return d;
+	const Twist& s = sequence.flights[id].shift;
+	return { d.x + s.x, d.y + s.y, d.w + s.w };
+}
+
 /// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.
 void ContactSeam::displace(size_t begin, size_t end)
 {
-	if (correction.displacements.empty() && clusterWay.empty()) return;
+	if (correction.displacements.empty() && clusterWay.empty() && !followed) return;
 	for (size_t id = begin; id < end; ++id) {
 		const Twist d = displacementOf(id);
 		if (!present[id] || (d.x == 0 && d.y == 0 && d.w == 0)) continue;

@@ -20,6 +20,7 @@ void StepSums::add(const StepSums& other)
 	debonding += other.debonding;
 	impact += other.impact;
 	heldWork += other.heldWork;
+	missed += other.missed;
 	overlap += other.overlap;
 	if (other.worstOverlap > worstOverlap) {
 		worstOverlap = other.worstOverlap;
@@ -50,7 +51,7 @@ ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
 {
 	const Real     h    = relaxation.step;
 	const Contact& c    = problem.contacts[k];
-	const Impulse& p    = problem.impulses[k];
+	const Impulse  p    = impulseOfStep(k);
 	r.normal            = p.n / h;
 	r.tangential        = p.t / h;
 	r.torque            = p.r / h;
@@ -117,6 +118,15 @@ ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, Held held
 	sums.sliding -= shearWork;
 	sums.rolling -= rollingWork;
 	sums.heldWork += (along - normalWork) + (across - shearWork) + (turning - rollingWork);
+	// a gap that closes in the step as others push: its restitution is lost
+	if (r.bounces && !r.bonded && c.biasN > 0 && p.n > 0)
+		sums.missed -= r.restitution * r.restitution * std::min(Real(0), normalWork);
+	const auto* impacts = impactsAt(links[k]); // which came before
+	if (impacts) {
+		sums.impact += impacts->normalLoss;
+		sums.sliding += impacts->slidingLoss;
+		sums.rolling += impacts->rollingLoss;
+	}
 	// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
 	const bool placed  = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed() && r.gap < 0;
 	const Real overlap = placed ? 0 : std::max(Real(0), -r.gap) / c.length;
@@ -126,10 +136,10 @@ ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, Held held
 		sums.worstIds[0]  = std::min(c.i, c.j);
 		sums.worstIds[1]  = std::max(c.i, c.j);
 	}
-	sums.touching += (p.n != 0) | (r.gap <= 0);
+	sums.touching += (p.n != 0) | (r.gap <= 0) | (impacts != nullptr);
 	sums.bonds += r.bonded;
 	if (r.broken != NscdPhys::None) ++sums.broken[r.broken];
-	return radius[c.i] < 0 || radius[c.j] < 0 ? -shearWork : 0;
+	return radius[c.i] < 0 || radius[c.j] < 0 ? (impacts ? impacts->slidingLoss : 0) - shearWork : 0;
 }
 
 /// Reactions and sums of some contacts; `slips`: whether any of them counts the path of its slip.
@@ -192,7 +202,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		for (size_t k = part * sumChunk; slip[part] && k < std::min((part + 1) * sumChunk, count); ++k) {
 			const Contact& c = problem.contacts[k];
 			const Reading& r = readingOf(links[k]);
-			if (!r.slips || problem.impulses[k].n + c.adhesion <= 0) continue;
+			if (!r.slips || impulseOfStep(k).n + c.adhesion <= 0) continue;
 			const auto apart = contact::relativeVelocity(
 			        c, problem.velocities[c.i], problem.velocities[c.j]);
 			r.phys->addSlip(std::abs(h * apart.t), scene.iter);
@@ -238,6 +248,10 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 			r.x += mass[id] * centrifugal[id].x;
 			r.y += mass[id] * centrifugal[id].y;
 		}
+		if (followed) {
+			const Twist& p = sequence.flights[id].impulse;
+			r              = { r.x + p.x, r.y + p.y, r.w + p.w };
+		}
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
 		scene.forces.addForceUnsynced(id, Vector3r(r.x / h, r.y / h, 0)); // into the sums, see gatherBodies
 		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, r.w / h));
@@ -253,16 +267,18 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		// where the motion is given, the work that the contacts do on it goes outside; elsewhere other engines' forces work
 		const Real half = 0.5 * relaxation.step, x = v0.x + v1.x, y = v0.y + v1.y, a = v0.w + v1.w;
 		sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));
+		if (followed) sumImpacts(id, gravity, sums);
 		if (w.isFixed()) continue;
 		sums.external += half * ((w.x > 0 ? f.x * x : 0) + (w.y > 0 ? f.y * y : 0) + (w.w > 0 ? f.w * a : 0));
 		// energies at the beginning of the step, like the positions they belong to
-		sums.kinetic += 0.5 * (mass[id] * (v0.x * v0.x + v0.y * v0.y) + inertia[id] * v0.w * v0.w);
+		const Twist& u = followed ? begun[id] : v0;
+		sums.kinetic += 0.5 * (mass[id] * (u.x * u.x + u.y * u.y) + inertia[id] * u.w * u.w);
 		const Vector3r at(problem.positions[id].x, problem.positions[id].y, 0);
 		sums.potential -= mass[id] * gravity.dot(at);
 		// what errors of position cost: the way of the weight, and what the pairs of impulses give
 		Twist v2 = v1;
 		if (!correction.displacements.empty() || !clusterWay.empty()) {
-			const Twist d = displacementOf(id), &p = turning[id];
+			const Twist d = correctionOf(id), &p = turning[id];
 			v2.x += w.x * p.x;
 			v2.y += w.y * p.y;
 			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y))

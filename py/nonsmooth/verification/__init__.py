@@ -30,6 +30,7 @@ MODULES = (
     "bonds",
     "tumbling",
     "impacts",
+    "impact_chains",
     "packings",
     "siconos",
     "lmgc90",
