@@ -1,6 +1,6 @@
-"""Pictures of the documentation that take seconds, as PNGs in a folder: the law drawn, the end of each lesson, hard and soft, and of the README's script.
+"""Pictures of the documentation that take seconds, as PNGs in a folder: the law drawn, the end of each lesson, hard and soft, of the recipes, and of the README's script.
 
-  scripts/yade-nonsmooth doc/examples/pictures.py FOLDER [law] [LESSON …]
+  scripts/yade-nonsmooth doc/examples/pictures.py FOLDER [law] [recipes] [LESSON …]
 """
 import argparse
 import dataclasses
@@ -30,14 +30,27 @@ def _the_law(folder):
     figures.water_forces(slope.water.dip, 2.0, rock.density, slope.water.unit_weight, slope.gravity, f"{folder}/water_forces.png")
 
 
+def _the_recipes(folder):
+    figure = style.figure(11.0, 8.0)
+    for k, (name, title) in enumerate((("conveyor", "a conveyor belt"), ("feeding", "feeding and erasing"), ("boulder", "a boulder"), ("gas", "a gas"))):
+        _end_of(f"{_ROOT}/doc/examples/{name}.py")
+        axes = figure.add_axes([0.02 + 0.5 * (k % 2), 0.02 + 0.5 * (1 - k // 2), 0.46, 0.42])
+        figures.draw(O, ax=axes)
+        axes.set_title(title, fontsize=13, fontweight="bold")
+    style.save(figure, f"{folder}/recipes.png", dpi=110)
+
+
 _parser = argparse.ArgumentParser(description=__doc__)
 _parser.add_argument("folder")
 _parser.add_argument("pictures", nargs="*", metavar="LESSON")
 _parser.add_argument("--threads", help="read by the launcher")
 _given = _parser.parse_args()
-for _name in _given.pictures or ("law", "beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "wedge"):
+for _name in _given.pictures or ("law", "recipes", "beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "wedge"):
     if _name == "law":
         _the_law(_given.folder)
+        continue
+    if _name == "recipes":
+        _the_recipes(_given.folder)
         continue
     _flat = _name in ("beam", "column")  # one above the other; others beside each other
     _figure = style.figure(9.0, 4.6) if _flat else style.figure(11.0, 5.5)

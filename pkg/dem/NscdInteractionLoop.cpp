@@ -1,10 +1,12 @@
 #include "NscdInteractionLoop.hpp"
+#include "Arc.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "PlanarGridCollider.hpp"
 #include "seam/Prefetch.hpp"
 #include "SceneCheck.hpp"
 #include "Segment.hpp"
 #include "StageClock.hpp"
+#include "WallJoints.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
 #include <contact/plane/disk_contact.hpp>
@@ -162,6 +164,7 @@ void NscdInteractionLoop::action()
 	// a functor that is used as it is may be replaced by what it does; one that a user derived from it may not
 	const auto& shapes = geomDispatcher->functors;
 	const Ours  now { exactly<Ig2_Sphere_Sphere_ScGeom>(shapes), exactly<Ig2_Segment_Sphere_ScGeom>(shapes),
+                         exactly<Ig2_Arc_Sphere_ScGeom>(shapes),
                          exactly<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(lawDispatcher->functors), colliderBefore() };
 	if (!resident.order.empty() && (now.spheres != ours.spheres || now.law != ours.law)) resident.show();
 	ours = now;
@@ -172,6 +175,8 @@ void NscdInteractionLoop::action()
 	if (resident.hasContacts()) resident.hold();
 	else
 		resident.takeContacts(*scene);
+	resident.showBodies(resident.shaped);
+	nscd::WallJoints::of(*scene).find(*scene, resident.shaped);
 
 	const auto& bodies = resident.bodies;
 	const long  size = (long)bodies.size(), count = (long)resident.order.size();
@@ -304,12 +309,20 @@ void NscdInteractionLoop::visitOthers(
 		const auto* functor = i.functorCache.geom.get();
 		if (p1.plain && p2.plain && functor && functor == ours.spheres)
 			return nscd::areBeyond(ours.spheres->interactionDetectionFactor, p1, p2);
-		if (!p1.planar || !p2.plain || !functor || functor != ours.segments) return false;
-		const Real reach = (2 * ours.segments->interactionDetectionFactor - 1)
-		        * p2.radius; // of its centre from the segment
-		return nscd::isBeyond(
-		        reach * (1 + 1e-6), static_cast<const Segment&>(*(*scene->bodies)[i.getId1()]->shape),
-		        p1.motion, p2.motion.position);
+		if (!p1.planar || !p2.plain || !functor) return false;
+		const auto isBeyond = [&](Real factor, const auto& wall, const auto& place) {
+			const Real reach = (2 * factor - 1) * p2.radius; // of its centre from the wall
+			return nscd::isBeyond(reach * (1 + 1e-6), wall, place, p2.motion.position);
+		};
+		const Shape& shape = *(*scene->bodies)[i.getId1()]->shape;
+		if (functor == ours.segments)
+			return isBeyond(
+			        ours.segments->interactionDetectionFactor, static_cast<const Segment&>(shape),
+			        p1.motion);
+		return functor == ours.arcs
+		        && isBeyond(
+		                ours.arcs->interactionDetectionFactor, static_cast<const Arc&>(shape),
+		                p1.motion.position);
 	};
 	std::vector<char> isNear(resident.potential.size(), 1);
 #pragma omp parallel for schedule(static) num_threads(threads)

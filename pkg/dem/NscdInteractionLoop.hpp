@@ -11,6 +11,7 @@
 namespace yade {
 
 class Law2_ScGeom_NscdPhys_SignoriniCoulomb;
+class Ig2_Arc_Sphere_ScGeom;
 class Ig2_Segment_Sphere_ScGeom;
 class Ig2_Sphere_Sphere_ScGeom;
 class PlanarGridCollider;
@@ -31,6 +32,7 @@ private:
 	struct Ours {
 		const Ig2_Sphere_Sphere_ScGeom*              spheres;
 		const Ig2_Segment_Sphere_ScGeom*             segments;
+		const Ig2_Arc_Sphere_ScGeom*                 arcs;
 		const Law2_ScGeom_NscdPhys_SignoriniCoulomb* law;
 		const PlanarGridCollider*                    collider;
 	};

@@ -60,6 +60,14 @@ namespace {
 			fail("NewtonIntegrator.densityScaling = True, which would change the masses behind the solver's back: set densityScaling=False (rigid contacts need none)");
 	}
 
+	/// Engines of YADE that move walls by the stiffness of their contacts.
+	bool asksForStiffness(const Engine& engine)
+	{
+		const string kind = engine.getClassName();
+		return kind == "TriaxialStressController" || kind == "TriaxialCompressionEngine"
+		        || kind == "ThreeDTriaxialEngine";
+	}
+
 	/// Sphere of a scene by id, null where the body is none.
 	const Sphere* sphereOf(const Body& b) { return dynamic_cast<const Sphere*>(b.shape.get()); }
 }
@@ -91,6 +99,9 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		if (stepper && stepper->active && !stepper->dead)
 			fail(stepper->getClassName()
 			     + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
+		if (!engine.dead && asksForStiffness(engine))
+			fail(named(engine)
+			     + " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would go to and fro at max_vel: load plates instead, see yade.nonsmooth.scene.plate");
 		if (dynamic_cast<const ForceResetter*>(&engine)) resetters.take(engine, passed);
 		else if (dynamic_cast<const Collider*>(&engine))
 			colliders.take(engine, passed);

@@ -1,4 +1,5 @@
 #include "Segment.hpp"
+#include "WallJoints.hpp"
 #include <core/Aabb.hpp>
 #include <boost/make_shared.hpp>
 #include <core/Omega.hpp>
@@ -19,46 +20,54 @@ void Bo1_Segment_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bou
 }
 
 namespace nscd {
-	/// Where a sphere's centre stands to a segment: distance vector from the nearest point and whose the contact is.
-	struct SegmentNearest {
-		Vector3r normal; // from the wall to the sphere
-		Real     distance; // of the centre from the wall, negative behind a one-sided wall
-		bool     owned;
-	};
-
-	inline SegmentNearest nearest(const Segment& segment, const State& state, const Vector3r& centre)
+	inline WallNearest
+	nearest(const Segment& segment, const State& state, const WallEnds& ends, const Vector3r& centre, Real radius)
 	{
 		const Vector3r along = state.ori * Vector3r(1, 0, 0), up = state.ori * Vector3r(0, 1, 0);
 		const Vector3r d = centre - state.pos;
 		const Real     s = d.dot(along), m = d.dot(up), half = segment.halfLength;
-		const bool     ownsEnd = segment.nextDirection != Vector3r::Zero(),
-		           ownsStart   = segment.previousDirection != Vector3r::Zero();
-		const bool inside      = (ownsStart ? s > -half : s >= -half) && (ownsEnd ? s < half : s <= half);
-
-		SegmentNearest result;
 		const int      side = segment.sense != 0 ? segment.sense : (m < 0 ? -1 : 1);
-		result.normal       = side * up;
-		result.distance     = side * m;
-		result.owned        = inside;
-		if (inside) return result;
+		WallNearest    result { side * up, side * m, true };
+		if ((ends[0].isFirst ? s > -half : s >= -half) && (ends[1].isFirst ? s < half : s <= half))
+			return result;
+		const bool beyondEnd = s > 0;
+		takeEnd(ends[beyondEnd], centre - (state.pos + (beyondEnd ? half : -half) * along), segment.sense,
+		        radius, result);
+		return result;
+	}
 
-		const bool     beyondEnd = s > 0;
-		const Vector3r corner    = state.pos + (beyondEnd ? half : -half) * along;
-		if (beyondEnd && ownsEnd) result.owned = (centre - corner).dot(state.ori * segment.nextDirection) < 0;
-		else if (!beyondEnd && ownsStart)
-			result.owned = (centre - corner).dot(state.ori * segment.previousDirection) > 0;
-		else
-			result.owned = beyondEnd ? !segment.hasNext : !segment.hasPrevious;
-		if (result.owned) { // outside a convex corner or a free end: the corner itself is the nearest point
-			const Vector3r out = centre - corner;
-			if (segment.sense != 0 && out.dot(result.normal) < 0) {
-				result.owned = false; // behind a one-sided wall there is nothing to touch
-				return result;
-			}
-			result.distance = out.norm();
-			if (result.distance > 0) result.normal = out / result.distance;
+	void takeEnd(const WallEnd& end, const Vector3r& out, int sense, Real radius, WallNearest& result)
+	{
+		// not owned: as if the wall went on, for bonds that live until they leave their ellipse; behind a one-sided wall there is nothing to touch
+		result.owned = end.owns(out, radius) && !(sense != 0 && out.dot(result.normal) < 0);
+		if (!result.owned) return;
+		// outside a convex corner or a free end: the corner itself is the nearest point
+		result.curvature = 0;
+		result.distance  = out.norm();
+		if (result.distance > 0) result.normal = out / result.distance;
+	}
+
+	bool setWallGeom(
+	        const WallNearest& near, int sense, Real radius, Real factor, const State& wall, const State& sphere,
+	        const Vector3r& shift, bool force, Scene* scene, const shared_ptr<Interaction>& interaction)
+	{
+		const Real gap = near.distance - radius;
+		if (!interaction->isReal() && !force) {
+			if (!near.owned || gap > (factor - 1) * 2 * radius || (sense != 0 && near.distance < -radius))
+				return false;
 		}
-		return result; // not owned: as if the segment went on, for bonds that live until they leave their ellipse
+		const bool              isNew = !interaction->geom;
+		shared_ptr<SegmentGeom> geom;
+		if (isNew) interaction->geom = geom = boost::make_shared<SegmentGeom>();
+		else
+			geom = YADE_PTR_CAST<SegmentGeom>(interaction->geom);
+		geom->owned     = near.owned;
+		geom->curvature = near.curvature;
+		// both radii the sphere's, as the box functor does it
+		geom->doIg2Work(
+		        sphere.pos + shift - near.normal * (radius + 0.5 * gap), -gap, radius, radius, wall, sphere,
+		        scene, interaction, near.normal, shift, isNew, false);
+		return true;
 	}
 }
 
@@ -68,24 +77,11 @@ bool Ig2_Segment_Sphere_ScGeom::go(
 {
 	const auto& segment = static_cast<const Segment&>(*shape1);
 	const Real  radius  = static_cast<const Sphere&>(*shape2).radius;
-	const auto  near    = nscd::nearest(segment, state1, state2.pos + shift2);
-	const Real  gap     = near.distance - radius;
-	if (!interaction->isReal() && !force) {
-		if (!near.owned || gap > (interactionDetectionFactor - 1) * 2 * radius
-		    || (segment.sense != 0 && near.distance < -radius))
-			return false;
-	}
-	const bool              isNew = !interaction->geom;
-	shared_ptr<SegmentGeom> geom;
-	if (isNew) interaction->geom = geom = boost::make_shared<SegmentGeom>();
-	else
-		geom = YADE_PTR_CAST<SegmentGeom>(interaction->geom);
-	geom->owned = near.owned;
-	// both radii the sphere's, as the box functor does it
-	geom->doIg2Work(
-	        state2.pos + shift2 - near.normal * (radius + 0.5 * gap), -gap, radius, radius, state1, state2, scene,
-	        interaction, near.normal, shift2, isNew, false);
-	return true;
+	const auto& ends    = nscd::WallJoints::of(*scene).endsOf(*scene, interaction->getId1(), force);
+	const auto  near    = nscd::nearest(segment, state1, ends, state2.pos + shift2, radius);
+	return nscd::setWallGeom(
+	        near, segment.sense, radius, interactionDetectionFactor, state1, state2, shift2, force, scene,
+	        interaction);
 }
 
 bool Ig2_Segment_Sphere_ScGeom::goReverse(

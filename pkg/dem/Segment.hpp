@@ -14,15 +14,16 @@ public:
 	virtual ~Segment() = default;
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(Segment,Shape,
-R"""(Line segment in the x-y plane: centred on the body's position, along the body's local x axis. In a polyline each segment knows the
-directions of its neighbours, so that a sphere at a joint has one contact: the segment above whose length the sphere's centre stands,
-or the earlier one of two (the later one, where that has :yref:`previousDirection<Segment.previousDirection>`) where the centre stands in the wedge outside a convex corner. See :yref:`yade.nonsmooth.scene.segments`.)""",
+R"""(Line segment in the x-y plane: centred on the body's position, along the body's local x axis. Segments and :yref:`arcs<Arc>` whose ends meet are one wall, however
+they were made, and as long as they meet: a sphere at a joint has one contact, with the wall above whose length the sphere's centre stands,
+or with that of lower id where the centre stands in the wedge outside a convex corner. Walls meet where their ends are nearer than a millionth of the shorter one's length, or where an end lies on
+the other wall; those of different :yref:`groupMask<Body.groupMask>` do not. See :yref:`yade.nonsmooth.scene.segments`.)""",
 		((Real,halfLength,1,,"Half of the length [m]."))
 		((int,sense,0,,"Side that acts: 0 both, 1 that of local +y only, −1 that of local −y only. A one-sided segment also pushes back a sphere whose centre is behind it by less than its radius."))
-		((Vector3r,nextDirection,Vector3r::Zero(),,"Direction of the segment that begins at this one's local +x end, in this one's frame, pointing away from the joint; zero: none."))
-		((bool,hasPrevious,false,,"Another segment ends at this one's local −x end and owns the joint."))
-		((Vector3r,previousDirection,Vector3r::Zero(),,"Direction of the segment that ends at this one's local −x end, in this one's frame, pointing to the joint, which this one owns; zero: none."))
-		((bool,hasNext,false,,"Another segment begins at this one's local +x end and owns the joint."))
+		((Vector3r,nextDirection,Vector3r::Zero(),,"Not zero: this segment has the corner at its local +x end before the one that begins there with :yref:`hasPrevious<Segment.hasPrevious>`, whichever has the lower id. Direction of that one in this one's frame, pointing away from the joint."))
+		((bool,hasPrevious,false,,"The segment that ends at this one's local −x end has their corner, see :yref:`nextDirection<Segment.nextDirection>`."))
+		((Vector3r,previousDirection,Vector3r::Zero(),,"The same as :yref:`nextDirection<Segment.nextDirection>` at the local −x end, for one that ends there with :yref:`hasNext<Segment.hasNext>`; pointing to the joint."))
+		((bool,hasNext,false,,"The segment that begins at this one's local +x end has their corner, see :yref:`previousDirection<Segment.previousDirection>`."))
 		,
 		createIndex();
 	);
@@ -42,6 +43,8 @@ public:
 REGISTER_SERIALIZABLE(Bo1_Segment_Aabb);
 
 namespace nscd {
+	struct WallEnd;
+
 	/// Whether a point is surely farther than `reach` [m] from a segment that lies in the plane with that motion.
 	inline bool isBeyond(
 	        Real reach, const Segment& segment, const nonsmooth::contact::plane::Motion& wall,
@@ -54,13 +57,32 @@ namespace nscd {
 	}
 }
 
-/// A ScGeom that also knows whether its segment still owns the sphere.
+namespace nscd {
+	/// Where a sphere's centre stands to a wall: distance vector from the nearest point and whose the contact is.
+	struct WallNearest {
+		Vector3r normal; // from the wall to the sphere
+		Real     distance; // of the centre from the wall, negative behind a one-sided wall
+		bool     owned;
+		Real     curvature = 0; // see SegmentGeom
+	};
+
+	/// What becomes of it beyond the end of the wall, for a centre that stands at `out` from the end point.
+	void takeEnd(const WallEnd& end, const Vector3r& out, int sense, Real radius, WallNearest& result);
+
+	/// Makes or updates the geometry of a wall, the interaction's first body, and a sphere; returns false where it is to have none.
+	bool setWallGeom(
+	        const WallNearest& near, int sense, Real radius, Real factor, const State& wall, const State& sphere,
+	        const Vector3r& shift, bool force, Scene* scene, const shared_ptr<Interaction>& interaction);
+}
+
+/// A ScGeom that also knows whether its wall still owns the sphere, and how the wall is bent.
 class SegmentGeom : public ScGeom {
 public:
 	virtual ~SegmentGeom() = default;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SegmentGeom,ScGeom,"Contact of a :yref:`Segment` with a sphere; :yref:`normal<GenericSpheresContact.normal>` points from the wall to the sphere.",
-		((bool,owned,true,Attr::readonly,"The sphere is this segment's; false once it has passed a joint to the neighbour."))
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(SegmentGeom,ScGeom,"Contact of a :yref:`Segment` or an :yref:`Arc` with a sphere; :yref:`normal<GenericSpheresContact.normal>` points from the wall to the sphere.",
+		((bool,owned,true,Attr::readonly,"The sphere is this wall's; false once it has passed a joint to the neighbour."))
+		((Real,curvature,0,Attr::readonly,"Of the line along which the sphere's centre goes while it touches [1/m], positive where that turns towards the normal, as inside an arc; 0 on a segment and at the end of a wall."))
 		,
 		createIndex();
 	);

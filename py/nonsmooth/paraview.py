@@ -94,7 +94,7 @@ def write_walls(section, path):
 
 
 def write_scene_walls(O, path):
-    """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment: one line for each edge, see :mod:`.scene_arrays`; a Wall, which has no ends,
+    """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment and no Arc: one line for each edge, see :mod:`.scene_arrays`; a Wall, which has no ends,
     across all that is there and a tenth beyond. Raises RecordsError for a scene without disks."""
     scene = read_scene(O)
     places = np.concatenate(

@@ -8,27 +8,44 @@ import numpy as np
 
 from yade import O, utils
 from yade.wrapper import (
+    Arc,
     Body,
+    Bo1_Arc_Aabb,
     Bo1_Segment_Aabb,
     Bo1_Sphere_Aabb,
     ContactDynamicsEngine,
     ForceResetter,
+    Ig2_Arc_Sphere_ScGeom,
     Ig2_Segment_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom,
     Ip2_NscdMat_NscdMat_NscdPhys,
     Law2_ScGeom_NscdPhys_SignoriniCoulomb,
     NscdInteractionLoop,
+    NewtonIntegrator,
     NscdMat,
     PlanarGridCollider,
     PlanarNewtonIntegrator,
+    PlateLoadEngine,
     Segment,
     SlipWeakeningMat,
+    Sphere,
 )
 from yade.minieigenHP import Quaternion, Vector3
 
 from . import geometry
 
-__all__ = ["contact_dynamics", "disk", "engines", "join", "material", "segments", "wall_material"]
+__all__ = [
+    "arc",
+    "contact_dynamics",
+    "disk",
+    "disks",
+    "engines",
+    "join",
+    "material",
+    "plate",
+    "segments",
+    "wall_material",
+]
 
 
 def material(m, kind=NscdMat, **others):
@@ -77,12 +94,82 @@ def disk(centre, radius, material, fixed=False, color=None):
     inertia m r²/2 per metre of thickness. ``fixed``: block all degrees of freedom.
     """
     body = utils.sphere((centre[0], centre[1], 0), radius, material=material, fixed=fixed, color=color)
-    density = body.material.density
-    mass = density * math.pi * (radius * radius)  # pow() may round sizes 1:4 differently
+    return _as_disk(body, "xyzXYZ" if fixed else "zXY")
+
+
+def _as_disk(body, blocked):
+    """Gives a sphere's body the mass and the inertia of a disk."""
+    radius = body.shape.radius
+    mass = body.material.density * math.pi * (radius * radius)  # pow() may round sizes 1:4 differently
     body.state.mass = mass
     body.state.inertia = Vector3(1, 1, 1) * (0.5 * mass * (radius * radius))
-    body.state.blockedDOFs = "xyzXYZ" if fixed else "zXY"
+    body.state.blockedDOFs = blocked
     return body
+
+
+def disks(spheres, material=None, fixed=False, color=None):
+    """Disks in the plane z = 0, as :func:`disk` makes one, of what YADE's makers give; a list of bodies, not yet in the scene.
+
+    ``spheres``: a SpherePack, filled by makeCloud or from a file; spheres' bodies, as pack.regularHexa, pack.regularOrtho and ymport.text give them; or rows (x, y, radius) or
+    (x, y, z, radius) [m], a list or an array. Or ids, as SpherePack.toSimulation gives them, of spheres that are in the scene: these become disks where they are, and are not to be appended again.
+    ``material``: an NscdMat; None: bodies keep theirs. ``fixed``: block all degrees of freedom; what a body has blocked stays blocked. ``color``: of all; None: bodies keep theirs, others get random ones.
+
+    A cloud is flat where its corners have one z: ``makeCloud((0, 0, 0), (2, 1, 0), rMean=0.05)``. Raises ValueError for spheres that do not lie in one plane z = const, for clumps, for a radius that is
+    not positive and where a material is missing; TypeError for what holds no spheres.
+    """
+    bodies = _spheres(spheres, material, color)
+    bad = [k for k, b in enumerate(bodies) if not (b.shape.radius > 0 and all(map(math.isfinite, b.state.pos)))]
+    if bad:
+        b = bodies[bad[0]]
+        raise ValueError(
+            f"sphere {bad[0]} has the radius {b.shape.radius:g} m and stands at {tuple(b.state.pos)}: give a positive radius and a finite place"
+        )
+    if any(b.isClump or b.isClumpMember for b in bodies):
+        raise ValueError("the spheres are in clumps, which the engines do not know: bond disks instead")
+    heights = [b.state.pos[2] for b in bodies]
+    if bodies and max(heights) - min(heights) > 1e-6 * min(b.shape.radius for b in bodies):
+        raise ValueError(
+            f"the spheres do not lie in one plane: z is from {min(heights):g} to {max(heights):g} m. Disks lie in the x-y plane: make one layer "
+            "(makeCloud with one z in both corners), or choose one by z"
+        )
+    for b in bodies:
+        if material is not None:
+            b.material = _material(material)
+        if color is not None:
+            b.shape.color = color
+        b.state.pos = b.state.refPos = Vector3(b.state.pos[0], b.state.pos[1], 0)
+        _as_disk(b, "xyzXYZ" if fixed else "".join(k for k in "xyzXYZ" if k in b.state.blockedDOFs or k in "zXY"))
+    return bodies
+
+
+def _spheres(spheres, material, color):
+    """Spheres' bodies of what :func:`disks` takes."""
+    if hasattr(spheres, "toSimulation"):  # a SpherePack, whose rows of a clump have its number behind
+        rows = list(spheres)
+        if any(len(row) > 2 and row[2] >= 0 for row in rows):
+            raise ValueError("the spheres are in clumps, which the engines do not know: bond disks instead")
+        found = [(*row[0], row[1]) for row in rows]
+    else:
+        found = list(spheres)
+    if found and all(isinstance(one, Body) for one in found):
+        strange = [one for one in found if not isinstance(one.shape, Sphere)]
+        if strange:
+            raise TypeError(f"a body has a {type(strange[0].shape).__name__}: only spheres become disks")
+        return found
+    if found and all(isinstance(one, (int, np.integer)) for one in found):
+        return _spheres([O.bodies[int(i)] for i in found], material, color)
+    try:
+        table = np.array(found, float).reshape(len(found), -1)
+    except (TypeError, ValueError):
+        table = np.zeros((len(found), 0))
+    if found and table.shape[1] not in (3, 4):
+        raise TypeError(
+            f"{type(spheres).__name__} holds no spheres: give a SpherePack, bodies of spheres, their ids, or rows (x, y, radius)"
+        )
+    if found and material is None:
+        raise ValueError("material = None: rows and packs of spheres have none, give an NscdMat")
+    places = [((x, y, *(z or (0,))), r) for x, y, *z, r in table]
+    return [utils.sphere(place, r, material=material, color=color) for place, r in places]
 
 
 def segments(vertices, material, piece=None, sense=0, closed=False, backwards=False):
@@ -90,7 +177,7 @@ def segments(vertices, material, piece=None, sense=0, closed=False, backwards=Fa
 
     ``vertices``: (n, 2) [m]. ``piece``: greatest length of a segment [m]; long oblique segments have large bounding boxes, so cut
     walls into pieces of some ten disk diameters. ``sense``: side that acts, see Segment.sense (+1: left of the direction of
-    travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump. ``backwards``: the list begins at the last vertex, and a
+    travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump; so do those with walls of other calls, wherever ends meet (see Segment). ``backwards``: the list begins at the last vertex, and a
     corner belongs to the segment behind it, so that a mirrored wall has the mirrored bodies in the same order; not for a closed one.
     """
     points = [np.asarray(v, float) for v in vertices]
@@ -109,7 +196,10 @@ def segments(vertices, material, piece=None, sense=0, closed=False, backwards=Fa
         cut += [a + (b - a) * (k / count) for k in range(1, count + 1)]
     ends = [(b, a) if backwards else (a, b) for a, b in zip(cut[:-1], cut[1:])]
     angles = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in ends]
-    bodies = [_segment(a, b, angle, material, sense) for (a, b), angle in zip(ends, angles)]
+    bodies = [
+        _wall(Segment(halfLength=0.5 * float(geometry.distance(*(b - a))), sense=sense), 0.5 * (a + b), angle, material)
+        for (a, b), angle in zip(ends, angles)
+    ]
     for k in range(len(bodies) if closed else len(bodies) - 1):
         after = (k + 1) % len(bodies)
         turn = angles[after] - angles[k]
@@ -117,15 +207,48 @@ def segments(vertices, material, piece=None, sense=0, closed=False, backwards=Fa
     return bodies
 
 
-def _segment(a, b, angle, material, sense):
+def arc(centre, radius, start, end, material, inside=True, piece=None):
+    """Bodies of a wall along a circle, fixed and not yet in the scene: a bowl, a drum, a roller.
+
+    ``centre``: (x, y) [m]; ``radius`` [m]; ``start``, ``end``: angles [rad] from the x axis, counter-clockwise from the one to the other; 2 π apart or more: the whole circle.
+    ``inside``: the side that acts; False: the outside, None: both. ``piece``: greatest length of a piece [m], of some ten disk diameters where the arc is large beside many disks;
+    None: one body. Each body's position is the circle's centre: set its angVel, or RotationEngine, and the wall turns in its place. Ends that meet segments or other arcs are joints, see
+    Segment. Raises ValueError for a radius that is not positive, and for an end that is not beyond the start.
+    """
+    for name, value in (("radius", radius), ("piece", piece)):
+        if value is not None and not (value > 0 and math.isfinite(value)):
+            raise ValueError(f"{name} = {value}: give a positive length [m]")
+    if not (end > start and math.isfinite(end - start)):
+        raise ValueError(
+            f"an arc from start = {start:g} to end = {end:g} rad: give an end beyond the start, counter-clockwise"
+        )
+    opening = min(end - start, 2 * math.pi)
+    count = max(1, math.ceil(radius * opening / piece - 1e-9)) if piece else 1
+    sense = {True: 1, False: -1, None: 0}[inside]
+    return [
+        _wall(
+            Arc(radius=radius, halfAngle=0.5 * opening / count, sense=sense),
+            centre,
+            start + (k + 0.5) * opening / count,
+            material,
+        )
+        for k in range(count)
+    ]
+
+
+def _wall(shape, position, angle, material):
     body = Body()
-    body.shape = Segment(halfLength=0.5 * float(geometry.distance(*(b - a))), sense=sense)
-    body.state.pos = Vector3(*(0.5 * (a + b)), 0)
+    body.shape = shape
+    body.state.pos = Vector3(position[0], position[1], 0)
     body.state.ori = Quaternion((0, 0, 1), angle)
     body.state.refPos, body.state.refOri = body.state.pos, body.state.ori
     body.state.blockedDOFs = "xyzXYZ"
-    body.material = material if not isinstance(material, str) else O.materials[material]
+    body.material = _material(material)
     return body
+
+
+def _material(material):
+    return O.materials[material] if isinstance(material, (str, int)) else material
 
 
 def join(one, other, along, backwards=False):
@@ -151,11 +274,14 @@ def engines(
     sure = {"sureReach": reach} if far > reach else {}
     return [
         ForceResetter(),
-        PlanarGridCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + far), Bo1_Segment_Aabb()], verletDist=verlet, **sure),
+        PlanarGridCollider(
+            [Bo1_Sphere_Aabb(aabbEnlargeFactor=1 + far), Bo1_Segment_Aabb(), Bo1_Arc_Aabb()], verletDist=verlet, **sure
+        ),
         NscdInteractionLoop(
             [
                 Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1 + far),
                 Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1 + far),
+                Ig2_Arc_Sphere_ScGeom(interactionDetectionFactor=1 + far),
             ],
             [Ip2_NscdMat_NscdMat_NscdPhys()],
             [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=far)],
@@ -165,6 +291,65 @@ def engines(
         PlanarNewtonIntegrator(damping=0, gravity=gravity),
         *after,
     ]
+
+
+def plate(
+    ends, material, force=0.0, stress=0.0, mass=None, direction=None, between=(), damping=0.0, weightless=True, label=""
+):
+    """A plate under a load, as a servo has it in other scripts: adds its body to O.bodies and the engine that loads it to O.engines; returns the engine, whose ``id`` is the body's.
+
+    ``ends``: two points [m]; the plate acts on its left, as a segment with ``sense=1``, and is pushed there: from right to left for a lid. It moves along one direction, and does not turn.
+    ``force`` [N] or ``stress`` [Pa], both per metre of thickness and free to change later (``engine.stress = 2e5``); the stress acts on the present width. ``mass`` [kg]; None: ρ L²/10, a plate a tenth as thick as long.
+    ``direction``: (x, y) of the way on which it is free and pushed; None: its normal. ``between``: ids of two walls at its sides, whose distance along the plate is its width; none: its own length is.
+    ``damping``: [N s/m]; ``weightless``: the load is all that presses, and not the plate's weight as well; ``label``: of the engine. See PlateLoadEngine.
+
+    Raises LookupError where O.engines has no integrator yet: set O.engines first; ValueError for a mass that is not positive, a direction without length and one that lies along the plate while a stress is given.
+    """
+    a, b = (np.asarray(end, float) for end in ends)
+    (body,) = segments([a, b], material, sense=1)
+    length = 2 * body.shape.halfLength
+    normal = np.array([a[1] - b[1], b[0] - a[0]]) / length
+    way = normal if direction is None else np.asarray(direction, float)[:2]
+    if not np.hypot(*way) > 0:
+        raise ValueError(f"direction = {tuple(map(float, way))}: give a direction in the x-y plane, (x, y)")
+    way = way / np.hypot(*way)
+    if stress and abs(float(way @ normal)) < 1e-9:
+        raise ValueError("a plate that moves along itself takes no stress: give a force, or another direction")
+    mass = 0.1 * body.material.density * length * length if mass is None else mass
+    if not (mass > 0 and math.isfinite(mass)):
+        raise ValueError(f"mass = {mass}: give the plate a positive mass [kg]")
+    place = _place_of_loads()
+    body.state.mass = mass
+    body.state.inertia = Vector3(1, 1, 1) * (mass * length * length / 12)
+    axis = [k for k in (0, 1) if abs(way[1 - k]) < 1e-12]
+    body.state.blockedDOFs = {0: "yzXYZ", 1: "xzXYZ"}[axis[0]] if axis else "zXYZ"
+    engine = PlateLoadEngine(
+        id=O.bodies.append(body),
+        direction=Vector3(way[0], way[1], 0),
+        force=force,
+        stress=stress,
+        between=list(between),
+        damping=damping,
+        weightless=weightless,
+        origin=body.state.pos,
+        label=label,
+    )
+    if not axis:
+        rail = Body()
+        rail.state.pos = rail.state.refPos = body.state.pos
+        rail.state.blockedDOFs = "xyzXYZ"
+        engine.rail = O.bodies.append(rail)
+    O.engines = O.engines[:place] + [engine] + O.engines[place:]
+    return engine
+
+
+def _place_of_loads():
+    """Where in O.engines an engine stands that adds forces."""
+    for kind in (ContactDynamicsEngine, NewtonIntegrator):
+        for k, engine in enumerate(O.engines):
+            if isinstance(engine, kind):
+                return k
+    raise LookupError("O.engines has no integrator: set O.engines = engines(...) first, then make the plate")
 
 
 def contact_dynamics():

@@ -1,10 +1,11 @@
 """Any scene as it stands, as arrays, whoever made it. Reads YADE's objects by their attributes, and imports no YADE.
 
-Disks are :class:`Sphere`; walls are Segment, Wall (along an axis), Box and Facet, seen along z. Contacts are hard or soft; a force is that of the last step.
+Disks are :class:`Sphere`; walls are Segment, Arc, Wall (along an axis), Box and Facet, seen along z. Contacts are hard or soft; a force is that of the last step.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,7 +56,7 @@ def read(O) -> Scene:
             )
         elif kind == "Wall":
             axes += [(b.shape.axis, b.state.pos[b.shape.axis])] if b.shape.axis < 2 else []
-        elif kind in ("Segment", "Box", "Facet"):
+        elif kind in ("Segment", "Arc", "Box", "Facet"):
             turn = b.state.ori.toRotationMatrix()
             corners = np.array(
                 [
@@ -63,7 +64,9 @@ def read(O) -> Scene:
                     for c in _corners(kind, b.shape)
                 ]
             )
-            walls += [np.array([corners[k], corners[k - 1]]) for k in range(len(corners)) if len(corners) > 2 or k]
+            walls += [
+                np.array([corners[k], corners[k - 1]]) for k in range(len(corners)) if kind in ("Box", "Facet") or k
+            ]
     if not disks:
         raise RecordsError("there is no disk in the scene; draw it when its bodies have been appended")
     contacts = [one for i in O.interactions if i.isReal and (one := _contact(i, order))]
@@ -87,6 +90,10 @@ def _corners(kind, shape):
     """Points of a wall's outline in its own frame."""
     if kind == "Segment":
         return [(-shape.halfLength, 0, 0), (shape.halfLength, 0, 0)]
+    if kind == "Arc":  # chords of 3° or less
+        count = max(1, math.ceil(2 * shape.halfAngle / math.radians(3)))
+        angles = np.linspace(-shape.halfAngle, shape.halfAngle, count + 1)
+        return [(shape.radius * math.cos(a), shape.radius * math.sin(a), 0.0) for a in angles]
     if kind == "Box":
         a, b = shape.extents[0], shape.extents[1]
         return [(-a, -b, 0), (a, -b, 0), (a, b, 0), (-a, b, 0)]

@@ -6,15 +6,15 @@ import math
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import WallForceEngine
+from yade.wrapper import Arc, WallForceEngine
 
 __all__ = ["WallForces"]
 
-RIGHT = Vector3(1, 0, 0)
+RIGHT, UP = Vector3(1, 0, 0), Vector3(0, 1, 0)
 
 
 class WallForces:
-    """``walls``: {name: ids of its pieces}, which do not move; their forces [N/m] are summed up by engines at the end of O.engines, and those that a loaded scene has
+    """``walls``: {name: ids of its pieces}, segments or arcs, which do not move; their forces [N/m] are summed up by engines at the end of O.engines, and those that a loaded scene has
     go on. ``period``: only steps after which O.iter is a multiple of it count."""
 
     def __init__(self, walls, period=1):
@@ -36,10 +36,10 @@ class WallForces:
 
 
 def _along(ids):
-    """The directions of a wall's pieces; those in one line have the same to the last bit, so that their forces are added before anything else."""
+    """The directions of a wall's pieces, of an arc that of its chord, counter-clockwise; those in one line have the same to the last bit, so that their forces are added before anything else."""
     ways, last = [], None
     for i in ids:
-        along = O.bodies[i].state.ori * RIGHT
+        along = O.bodies[i].state.ori * (UP if isinstance(O.bodies[i].shape, Arc) else RIGHT)
         angle = math.atan2(along[1], along[0])
         if last is None or abs(angle - last) > 1e-9:
             way, last = Vector3(along[0], along[1], 0), angle

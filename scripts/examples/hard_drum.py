@@ -14,7 +14,7 @@ import math
 import random
 
 from yade import utils
-from yade.nonsmooth.scene import disk, segments
+from yade.nonsmooth.scene import arc, disk
 
 # [ numerics
 numerics = dict(dt=2e-3, tolerance=1e-4)
@@ -23,16 +23,15 @@ numerics = dict(dt=2e-3, tolerance=1e-4)
 utils.readParamsFromTable(friction=0.5, turn=20, turns=0.6, **numerics)
 from yade.params import table
 
-RADIUS, SIDES = 1.0, 40
+RADIUS = 1.0
 
 # [ material
 rock = NscdMat(density=2500, frictionAngle=math.atan(table.friction))
 # ]
 O.materials.append(rock)
 
-# the drum: a closed polygon that acts inwards; a disk that would slip on smooth walls is carried along by friction
-corners = [(RADIUS * math.cos(2 * math.pi * k / SIDES), RADIUS * math.sin(2 * math.pi * k / SIDES)) for k in range(SIDES)]
-drum = O.bodies.append(segments(corners, rock, sense=1, closed=True))
+# the drum: a circle that acts inwards; a disk that would slip on smooth walls is carried along by friction
+drum = O.bodies.append(arc((0, 0), RADIUS, 0, 2 * math.pi, rock))
 
 dice = random.Random(1)
 disks = []
@@ -45,9 +44,9 @@ for row in range(16):
 # [ functors, engines, time step
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Segment_Aabb()], verletDist=0.01),
+    InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Arc_Aabb()], verletDist=0.01),
     InteractionLoop(
-        [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.05), Ig2_Segment_Sphere_ScGeom(interactionDetectionFactor=1.05)],
+        [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.05), Ig2_Arc_Sphere_ScGeom(interactionDetectionFactor=1.05)],
         [Ip2_NscdMat_NscdMat_NscdPhys()],
         [Law2_ScGeom_NscdPhys_SignoriniCoulomb()]),
     RotationEngine(rotateAroundZero=True, zeroPoint=(0, 0, 0), rotationAxis=(0, 0, 1), ids=drum, label="drive"),

@@ -6,6 +6,7 @@
 #include "../NscdInteractionLoop.hpp"
 #include "../PlanarGridCollider.hpp"
 #include "../PlanarNewtonIntegrator.hpp"
+#include "../PlateLoadEngine.hpp"
 #include "../PorePressureEngine.hpp"
 #include "../SceneCheck.hpp"
 #include "../WallForceEngine.hpp"
@@ -62,7 +63,7 @@ bool othersMayLook(const Scene& scene) { return Omega::instance().isRunning() ||
 bool takesTurns(const Engine& engine)
 {
 	return isOneOf<
-	        PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, ContactDynamicsEngine,
+	        PlanarGridCollider, NscdInteractionLoop, PorePressureEngine, PlateLoadEngine, ContactDynamicsEngine,
 	        PlanarNewtonIntegrator>(engine);
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "../NscdPhys.hpp"
+#include "../Segment.hpp"
 #include <contact/plane/bond.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -22,7 +23,7 @@ struct alignas(64) Reading {
 	float       turn    = 0; // of a bond: what it has turned without having yielded [rad], and below slipped [m]
 	Real        restGap = 0, length = 0;
 	signed char broken = 0; // NscdPhys::brokenMode if the bond broke in this step
-	Keeper      keeper = Unknown;
+	Keeper      keeper : 2;
 	bool        cohesive : 1, bounces : 1; // its physics is an NscdPhys; with restitution
 	bool        bonded : 1, yielded : 1, slips : 1;
 	bool        usable : 1; // its numbers make sense, and its normal lies in the plane
@@ -32,6 +33,7 @@ struct alignas(64) Reading {
 	bool        reacts : 1; // its reactions are not yet those of the interaction
 	bool        stale : 1; // its thresholds are to be found anew
 	bool        bare : 1; // it has no interaction
+	bool        curved : 1; // its wall is bent, see SegmentGeom::curvature
 	bool        slid : 1, rolled : 1; // the bond yielded so in the last step
 	bool        strained : 1; // it ever did, so that its strain at rest is not none
 	bool        joins : 1; // its bodies were turned as one in the last step, see plane/rigid_clusters.hpp
@@ -51,7 +53,8 @@ struct alignas(64) Reading {
 	        = -1; // of a bare contact's strengths, and of what holds another's interaction, in Resident; −1: none
 
 	Reading()
-	        : cohesive(false)
+	        : keeper(Unknown)
+	        , cohesive(false)
 	        , bounces(false)
 	        , bonded(false)
 	        , yielded(false)
@@ -63,6 +66,7 @@ struct alignas(64) Reading {
 	        , reacts(false)
 	        , stale(false)
 	        , bare(false)
+	        , curved(false)
 	        , slid(false)
 	        , rolled(false)
 	        , strained(false)
@@ -176,6 +180,7 @@ inline void read(const Found& found, Reading& r, BondReading& bond, BondStrain& 
 	r.broken             = phys.breaks ? phys.brokenMode : int(NscdPhys::None);
 	r.bonded             = phys.bonded;
 	r.slips              = phys.countsSlip();
+	r.curved = typeid(geom) == typeid(SegmentGeom) && static_cast<const SegmentGeom&>(geom).curvature != 0;
 	readThresholds(r);
 	r.joins = phys.joins;
 	if (!r.bonded) return;

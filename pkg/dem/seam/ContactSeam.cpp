@@ -53,6 +53,22 @@ namespace {
 	c.leverTj = rj.x * nx + rj.y * ny;
 }
 
+/// How far a bent wall, or the line that a disk's centre follows on it, turns away from its tangent along the path of the step [m]; see Arc.
+Real ContactSeam::bendOf(const Reading& reading, const Contact& c) const
+{
+	const Real   curvature = static_cast<const SegmentGeom&>(*reading.geom).curvature;
+	const Twist &vi = before[c.i], &vj = before[c.j];
+	const Real   path = relaxation.step * (-c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y)), turn = path * curvature;
+	return path * turn / (1 + std::sqrt(std::max(Real(0), 1 - turn * turn)));
+}
+
+/// Of a bent wall the step's path is a chord.
+void ContactSeam::bend(const Reading& reading, Contact& c) const
+{
+	const Real bias = bendOf(reading, c) / relaxation.step;
+	c.biasN         = c.biasN < 0 ? std::min(c.biasN, -bias) : c.biasN - bias;
+}
+
 /// Fills in a contact and its link, number by number: to copy a contact that was just put together would wait for each of its parts. Returns the impulses of
 /// the step before.
 [[gnu::always_inline]] inline Impulse ContactSeam::gatherContact(int slot, Contact& c, Link& link) const
@@ -76,6 +92,7 @@ namespace {
 			meets = 1;
 		}
 	}
+	if (reading.curved) bend(reading, c);
 	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed())
 		return {}; // no reaction is found, so none may stay
 	return { h * reading.normal, h * reading.tangential, h * reading.torque };

@@ -97,6 +97,8 @@ private:
 	void                        gatherBodies(Scene& scene, const Vector3r& gravity);
 	void                        divide(const Scene& scene);
 	bool                        mustBeSolved(const Reading& reading) const;
+	void                        bend(const Reading& reading, nonsmooth::contact::Contact& contact) const;
+	Real                        bendOf(const Reading& reading, const nonsmooth::contact::Contact& contact) const;
 	void                        setFrame(const Reading& reading, nonsmooth::contact::Contact& result) const;
 	nonsmooth::contact::Impulse gatherContact(int slot, nonsmooth::contact::Contact& result, Link& link) const;
 	void                        forgetReactions(int slot);

@@ -101,7 +101,7 @@ void ContactSeam::turnClusters()
 	};
 	const auto limited = [](Real error, Real bound) { return std::max(-bound, std::min(bound, error)); };
 	const Real slack = relaxation.slack * c.length, rest = e.held ? r.restGap : 0, off = r.gap - rest,
-	           end = gapOf(c, r) - rest + h * u.n;
+	           end = gapOf(c, r) - rest + h * u.n - (r.curved ? bendOf(r, c) : 0);
 	e.error        = e.held ? taken(off, end, slack)
 	                        : end + slack - (1 - relaxation.rate) * std::min(Real(0), off + slack);
 	if (e.held || e.error < 0) e.error = limited(e.error, most);

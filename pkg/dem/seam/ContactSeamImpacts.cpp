@@ -64,6 +64,7 @@ void ContactSeam::setBiasAfterImpacts(Contact& c, const Link& link) const
 	// What parts may come back as fast as it went, and no faster: it then takes no energy from what throws it back, and gives none. Places are put right by displacements.
 	c.biasN = std::max({ Real(0), (gap - std::min(r.gap, Real(0))) / h, approach });
 	if (r.bounces && approach < 0 && gap + h * approach < -touch * c.length) c.biasN = r.restitution * approach;
+	if (r.curved) bend(r, c);
 }
 
 Real ContactSeam::gapAfterImpacts(const Contact& c, const Reading& reading) const

@@ -18,6 +18,7 @@ from yade.wrapper import (
     JCFpmMat,
     JCFpmPhys,
     NscdMat,
+    Arc,
     Segment,
     Sphere,
     WallPhys,
@@ -107,7 +108,7 @@ def bond_walls(ids=None, fragile=True):
 
     ``ids``: of disks, default all; ``fragile`` as in :func:`bond`. Call it after the engines are set. A bond over a gap is born without force.
 
-    Raises SoftError for ductile bonds (``fragile=False``) without a BondEllipseEngine in O.engines, and where the engines make other contacts with
+    Raises SoftError for ductile bonds (``fragile=False``) without a BondEllipseEngine in O.engines, for an Arc of such a material, and where the engines make other contacts with
     walls than WallPhys.
     """
     disks = [b for b in O.bodies if isinstance(b.shape, Sphere)] if ids is None else [O.bodies[k] for k in ids]
@@ -117,6 +118,10 @@ def bond_walls(ids=None, fragile=True):
     count, follower = 0, None if fragile else _follower()
     for wall in O.bodies:
         m = wall.material
+        if isinstance(wall.shape, Arc) and isinstance(m, NscdMat) and m.bondsToAll:
+            raise SoftError(
+                f"body {wall.id} is an Arc, to which soft bonds are not made: take segments, or bondsToAll=False"
+            )
         if not isinstance(wall.shape, Segment) or not isinstance(m, NscdMat) or not m.bondsToAll:
             continue
         along, half = np.array(wall.state.ori * Vector3(1, 0, 0))[:2], wall.shape.halfLength

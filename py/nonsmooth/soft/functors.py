@@ -6,11 +6,13 @@ import math
 
 from yade.wrapper import (
     BondEllipseEngine,
+    Bo1_Arc_Aabb,
     Bo1_Segment_Aabb,
     Bo1_Sphere_Aabb,
     CohFrictMat,
     ForceResetter,
     FrictMat,
+    Ig2_Arc_Sphere_ScGeom,
     Ig2_Segment_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom6D,
@@ -76,7 +78,7 @@ def engines_of(
     which contacts whose bond broke get the residual strengths (:func:`~yade.nonsmooth.soft.bonds.weaken`). ``ductile``: with the engine that bonds need
     which yield instead of breaking at once.
 
-    Disks touch Segment walls through WallPhys in all models, so walls take :func:`wall_material`. A material of the disks' kind will not do:
+    Disks touch Segment and Arc walls through WallPhys in all models, so walls take :func:`wall_material`. A material of the disks' kind will not do:
     CohesionMoment needs rotations that a Segment's geometry has not (it is a ScGeom, not a ScGeom6D, and YADE does not check), and JCFpm
     needs a JCFpmState on both bodies.
     """
@@ -99,9 +101,9 @@ def engines_of(
     )
     return [
         ForceResetter(),
-        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb()], verletDist=verlet),
+        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Segment_Aabb(), Bo1_Arc_Aabb()], verletDist=verlet),
         InteractionLoop(
-            [geometry, Ig2_Segment_Sphere_ScGeom()],
+            [geometry, Ig2_Segment_Sphere_ScGeom(), Ig2_Arc_Sphere_ScGeom()],
             [*physics, Ip2_FrictMat_FrictMat_FrictPhys(), Ip2_NscdMat_FrictMat_WallPhys(rollingRatio=rolling_ratio)],
             [*laws, Law2_ScGeom_FrictPhys_CundallStrack(), Law2_SegmentGeom_WallPhys_SlipWeakening()],
         ),

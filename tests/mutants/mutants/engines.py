@@ -10,7 +10,7 @@ AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hp
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
 CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
-PHYS, MAT, SEGMENT, SEGMENT_H = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.cpp", "pkg/dem/Segment.hpp"
+PHYS, MAT, SEGMENT_H = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.hpp"
 BONDS, BONDS_H, LAW_H = "pkg/dem/BondEllipse.cpp", "pkg/dem/BondEllipse.hpp", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 WALL, WALL_LAW, FOLLOWER = "pkg/dem/WallPhys.cpp", "pkg/dem/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp", "pkg/dem/BondEllipseEngine.cpp"
 
@@ -210,8 +210,6 @@ MUTANTS = (
            "test_course_runner.py::test_a_run_by_engine_is_resumed_by_either"),
     mutant("runner-looks", "pkg/dem/seam/Audience.cpp", "return static_cast<const CourseRunner&>(engine).isDue(time, engine.scene->dt);", "return false;",
            "a row looks at a view that is behind", "test_course_runner.py::test_a_command_sees_the_scene_between_two_steps"),
-    mutant("segment-start", SEGMENT, "(centre - corner).dot(state.ori * segment.previousDirection) > 0", "(centre - corner).dot(state.ori * segment.previousDirection) < 0",
-           "the corner of a mirrored wall belongs to nobody", "test_contact_law.py::test_a_wall_made_backwards_is_the_mirrored_wall"),
     mutant("strip-way", "pkg/contact/strip_cut.cpp", "to < from ? -1.0 : 1.0", "1.0", "strips begin on the left in a mirrored scene too",
            "test_any_slope.py::test_strips_of_a_mirrored_slope_are_mirrored"),
     mutant("bond-axes", LOOP, "bond.zone", "plane::BondEllipse { bond.zone.normal, bond.zone.normal }", "the ellipse of a bond is a circle",
@@ -288,10 +286,6 @@ MUTANTS = (
            "test_engine.py::test_what_an_engine_between_loop_and_solver_changes_counts_in_the_same_step", "test_engine.py::test_own_loop_and_integrator_have_the_bits_of_yades",
            "test_view.py::test_what_is_changed_between_two_runs_is_taken_up[integrator]"),
     # ---- walls
-    mutant("segment-behind", SEGMENT, "(segment.sense != 0 && near.distance < -radius)", "false", "a one-sided wall catches disks from behind",
-           "test_contact_law.py::test_a_one_sided_wall_holds_on_its_side_alone"),
-    mutant("segment-corner", SEGMENT, "(centre - corner).dot(state.ori * segment.nextDirection) < 0", "(centre - corner).dot(state.ori * segment.nextDirection) > 0",
-           "corners belong to the wrong one of two pieces", "test_contact_law.py::test_convex_corner_is_rounded_with_one_contact"),
     mutant("soft-wall-stiffness", WALL, "2 * radius * a * b / (a + b)", "radius * a * b / (a + b)", "springs at walls are half as stiff",
            "test_soft.py::test_a_disk_rests_on_a_segment_by_its_spring_and_slides_along_it"),
     mutant("soft-wall-shear", WALL_LAW, "shear.norm() > s.friction * held", "shear.norm() > s.friction * normal", "a bond to a soft wall shears without its adhesion",

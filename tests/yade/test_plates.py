@@ -1,0 +1,224 @@
+"""Plates under a force or a stress: Newton's law where they are free, equilibrium where they press."""
+import math
+
+import pytest
+from yade import O
+from yade.minieigenHP import Vector3
+from yade.nonsmooth import scene
+from yade.wrapper import NewtonIntegrator
+
+from contact_scenes import G, begin, material, run, state
+
+pytestmark = pytest.mark.usefixtures("empty")
+
+ANGLES = [0.0, math.pi / 2, math.pi, -math.pi / 2, math.radians(30), math.radians(-127)]
+
+
+def turned(x, y, angle):
+    return x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)
+
+
+def lid(angle, **load):
+    """A plate of 2 m that is pushed downwards in a scene that is turned by an angle."""
+    return scene.plate([turned(1, 2, angle), turned(-1, 2, angle)], material(0.3), **load)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+@pytest.mark.parametrize("load, force", [(dict(force=300.0), 300.0), (dict(stress=200.0), 400.0)])
+def test_a_free_plate_has_the_acceleration_force_by_mass(angle, load, force):
+    begin(gravity=(0, -G, 0), dt=1e-3)
+    engine = lid(angle, mass=50.0, **load)
+    s, start = O.bodies[engine.id].state, O.bodies[engine.id].state.pos
+    run(200)
+    way = Vector3(*turned(0, -1, angle), 0)
+    t = O.time
+    # the weight is taken off; exact in Moreau-Jean stepping, to the solver's tolerance where a guide holds
+    assert s.vel.dot(way) == pytest.approx(force / 50 * t, rel=1e-9)
+    assert (s.pos - start).dot(way) == pytest.approx(force / 50 * t * (t + O.dt) / 2, rel=1e-9)
+    across = Vector3(-way[1], way[0], 0)
+    assert abs((s.pos - start).dot(across)) < 1e-9 and s.angVel[2] == 0
+    assert engine.load == pytest.approx(force, rel=1e-12) and engine.width == pytest.approx(2)
+
+
+@pytest.mark.parametrize("angle", [0.0, math.radians(30)])
+def test_a_plate_with_weight_falls(angle):
+    begin(gravity=(0, -G, 0), dt=1e-3)
+    engine = lid(angle, mass=50.0, force=100.0, weightless=False)
+    run(100)
+    way = Vector3(*turned(0, -1, angle), 0)
+    assert O.bodies[engine.id].state.vel.dot(way) == pytest.approx((2 + G * math.cos(angle)) * O.time, rel=1e-9)
+    assert abs(O.bodies[engine.id].state.vel.dot(Vector3(-way[1], way[0], 0))) < 1e-9
+
+
+@pytest.mark.parametrize("angle", [0.0, math.radians(30)])
+@pytest.mark.parametrize("damping", [500.0, 1e7])
+def test_a_damped_plate_comes_to_the_speed_force_by_damping(angle, damping):
+    """Also where the damping is stiff beside the step, h c/m = 200."""
+    begin(gravity=(0, 0, 0), dt=1e-3)
+    engine = lid(angle, mass=50.0, force=1000.0, damping=damping)
+    seen = []
+    for _ in range(20):
+        run(50)
+        seen.append(O.bodies[engine.id].state.vel.dot(Vector3(*turned(0, -1, angle), 0)))
+    assert seen == sorted(seen)  # no overshoot
+    # F/c + h F/m, reached as 1 − exp(−c t/m), in a second here
+    final = 1000 * (1 / damping + O.dt / 50)
+    assert seen[-1] == pytest.approx(final * (1 - math.exp(-min(50, damping / 50))), rel=1e-4)
+
+
+def box(angle, mu_side=0.0, width=1.0):
+    """A floor and two smooth sides, turned; returns floor, left and right."""
+    smooth, rough = material(mu_side, wall=True), material(0.4)
+
+    def wall(a, b):
+        return O.bodies.append(scene.segments([turned(*a, angle), turned(*b, angle)], smooth, sense=1))[0]
+
+    floor, right, left = wall((-1, 0), (width + 1, 0)), wall((width, -1), (width, 4)), wall((0, 4), (0, -1))
+    for k in range(50):
+        x, y = 0.1 + 0.2 * (k % 5), 0.11 + 0.21 * (k // 5)
+        r = 0.08 + 0.02 * ((7 * k) % 11) / 11
+        O.bodies.append(scene.disk(turned(x, y, angle), r, rough))
+    return floor, left, right
+
+
+@pytest.mark.parametrize("angle", [0.0, math.radians(30), math.radians(-127)])
+def test_a_floor_bears_the_stress_on_the_width_between_the_walls(angle):
+    """The plate is wider than the box, so its own length is not what counts; no gravity, smooth sides."""
+    begin(gravity=(0, 0, 0), dt=2e-3, tolerance=1e-9, maxIterations=5000)
+    floor, left, right = box(angle)
+    engine = scene.plate(
+        [turned(2, 2.3, angle), turned(-1, 2.3, angle)],
+        O.materials[0],
+        stress=2e4,
+        mass=300.0,
+        between=(left, right),
+        damping=3000,
+    )
+    run(1500)
+    down = Vector3(*turned(0, -1, angle), 0)
+    assert engine.width == pytest.approx(1, rel=1e-12) and engine.load == pytest.approx(2e4, rel=1e-12)
+    assert O.forces.f(floor).dot(down) == pytest.approx(2e4, rel=1e-5)  # what 3 s leave of the motion
+    # what the sides bear is in balance, since nothing rubs on them; a guide bears what friction asks for across the way
+    across = Vector3(-down[1], down[0], 0)
+    assert abs(O.forces.f(left).dot(across) + O.forces.f(right).dot(across)) < 1e-4 * 2e4
+
+
+def test_the_load_follows_the_walls_that_move():
+    begin(gravity=(0, 0, 0), dt=1e-3)
+    _, left, right = box(0.0)
+    engine = scene.plate([(3, 3), (-1, 3)], O.materials[0], stress=1e3, mass=1e4, between=(left, right))
+    O.bodies[right].state.vel = (0.5, 0, 0)
+    run(1000)
+    # by what the walls were apart when the last step began
+    assert engine.load == pytest.approx(1e3 * (1 + 0.5 * 0.999), rel=1e-9)
+    O.bodies[right].state.vel = (5, 0, 0)
+    run(1000)
+    assert engine.width == pytest.approx(4)  # no more than the plate is long
+
+
+def test_between_inclined_walls_the_width_is_that_at_the_plate():
+    begin(gravity=(0, 0, 0), dt=1e-3)
+    stuff = material(0.3)
+    left, right = (O.bodies.append(scene.segments([(s * 1, 0), (s * 3, 2)], stuff))[0] for s in (-1, 1))
+    engine = scene.plate([(9, 1.5), (-9, 1.5)], stuff, stress=1e3, mass=1e9, between=(left, right))
+    run(1)
+    assert engine.width == pytest.approx(5, rel=1e-12)  # a funnel of 45°, 2 m wide at its foot
+
+
+@pytest.mark.parametrize("angle", [0.0, math.radians(30)])
+def test_a_loaded_plate_goes_on_after_loading(angle, tmp_path):
+    def press():
+        O.reset()
+        begin(gravity=(0, -G, 0), dt=2e-3, tolerance=1e-9, maxIterations=5000)
+        _, left, right = box(angle)
+        scene.plate(
+            [turned(2, 2.3, angle), turned(-1, 2.3, angle)],
+            O.materials[0],
+            stress=2e4,
+            between=(left, right),
+            label="servo",
+        )
+        run(100)
+
+    ids = range(54)
+    press()
+    run(50)
+    straight = state(ids)
+    press()
+    O.save(str(tmp_path / "half.yade.bz2"))
+    O.load(str(tmp_path / "half.yade.bz2"))
+    run(50)
+    assert state(ids) == straight
+
+
+def test_it_may_be_pushed_along_itself():
+    """A plate that shears: it moves along its length, under a force."""
+    begin(gravity=(0, -G, 0), dt=1e-3)
+    engine = scene.plate([(1, 2), (-1, 2)], material(0.3), force=20.0, mass=10.0, direction=(1, 0))
+    run(100)
+    assert O.bodies[engine.id].state.vel == pytest.approx((2 * O.time, 0, 0), rel=1e-9)
+    with pytest.raises(ValueError, match="takes no stress"):
+        scene.plate([(1, 2), (-1, 2)], material(0.3), stress=20.0, direction=(1, 0))
+
+
+@pytest.mark.parametrize("angle", [0.0, math.radians(30)])
+def test_it_works_beside_soft_contacts(angle):
+    from yade.wrapper import ForceResetter
+
+    O.engines = [ForceResetter(), NewtonIntegrator(damping=0, gravity=(0, -G, 0))]
+    O.dt = 1e-3
+    engine = lid(angle, mass=50.0, force=300.0)
+    run(200)
+    way = Vector3(*turned(0, -1, angle), 0)
+    assert O.bodies[engine.id].state.vel.dot(way) == pytest.approx(6 * O.time, rel=1e-9)
+    assert abs(O.bodies[engine.id].state.vel.dot(Vector3(-way[1], way[0], 0))) < 1e-12
+
+
+def test_what_does_not_make_a_plate_is_told():
+    stuff = material(0.3)
+    O.engines = []
+    with pytest.raises(LookupError, match="set O.engines"):
+        scene.plate([(1, 2), (-1, 2)], stuff, force=1.0)
+    assert len(O.bodies) == 0
+    begin()
+    for words, more in (
+        ("mass = -1", dict(mass=-1)),
+        ("direction = ", dict(direction=(0, 0))),
+        ("two neighbouring vertices", dict(ends=[(1, 2), (1, 2)])),
+    ):
+        with pytest.raises(ValueError, match=words):
+            scene.plate(**{**dict(ends=[(1, 2), (-1, 2)], material=stuff, force=1.0), **more})
+
+
+@pytest.mark.parametrize(
+    "attribute, value, words",
+    [
+        ("id", 99, "id = 99: there is no such body"),
+        ("direction", (0, 0, 1), "give a vector in the x-y plane"),
+        ("damping", -1.0, "damping = -1"),
+        ("stress", float("nan"), "stress = nan"),
+        ("between", [0], "give two bodies"),
+        ("between", [0, 77], "id 77"),
+        ("between", [0, 0], "parallel to the plate"),
+    ],
+)
+def test_values_without_sense_are_refused(attribute, value, words):
+    begin()
+    O.bodies.append(scene.segments([(-1, 0), (1, 0)], material(0.3)))
+    engine = lid(0.0, force=1.0)
+    setattr(engine, attribute, value)
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    assert words in str(error.value)
+
+
+def test_a_servo_that_asks_for_stiffness_is_refused():
+    """YADE's triaxial engines move a wall by its force over the contacts' stiffness; without any by max_vel, to and fro."""
+    from yade.wrapper import TriaxialStressController
+
+    begin()
+    box(0.0)
+    O.engines = O.engines[:3] + [TriaxialStressController(thickness=1, label="servo")] + O.engines[3:]
+    with pytest.raises(RuntimeError) as error:
+        O.engines[4]()
+    assert "TriaxialStressController 'servo'" in str(error.value) and "scene.plate" in str(error.value)
