@@ -32,7 +32,7 @@ MUTANTS = (
     mutant("arc-side", ARC, "arc.radius - side * radius", "arc.radius + side * radius", "the centre's circle is the wall's with the disk on the other side", SWING),
     mutant("arc-curvature", SEAM, "path * turn / (1 + std::sqrt(std::max(Real(0), 1 - turn * turn)))", "0", "a step's path is a tangent, whose end lies in the wall", SWING),
     mutant("arc-correction", CORRECT, "r.curved ? bendOf(r, c) : 0", "0", "errors of position at an arc are those of its tangent", SWING),
-    mutant("arc-bounce", SEAM, "c.biasN < 0 ? std::min(c.biasN, -bend) : c.biasN - bend", "c.biasN - bend", "a disk that swings jumps",
+    mutant("arc-bounce", SEAM, "c.biasN < 0 ? std::min(c.biasN, -bias) : c.biasN - bias", "c.biasN - bias", "a disk that swings jumps",
            "test_arcs.py::test_restitution_in_a_bowl_is_that_of_the_material"),
     mutant("arc-read", READING, "static_cast<const SegmentGeom&>(geom).curvature != 0", "static_cast<const SegmentGeom&>(geom).curvature > 0", "the outside of an arc is taken for flat",
            "test_arcs.py::test_a_disk_leaves_the_outside_where_it_must"),
