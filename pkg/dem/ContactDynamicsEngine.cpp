@@ -2,6 +2,7 @@
 #include "BondEllipse.hpp"
 #include "Gravity.hpp"
 #include "NonsmoothTimeStepper.hpp"
+#include "PlaneCheck.hpp"
 #include "PythonBytes.hpp"
 #include "SceneCheck.hpp"
 #include "Seldom.hpp"
@@ -24,14 +25,17 @@ void ContactDynamicsEngine::action()
 	nscd::StageTimer timer(&clock, Stage::Gather);
 	validate();
 	const auto gravity = nscd::gravityOf(*scene);
+	nscd::checkGravity(*scene, gravity, gravityRamp > 0 ? finalGravity : Vector3r(Vector3r::Zero()));
 	const int  threads = nscd::threadsOf(*this);
 	nscd::Turn turn(*this, threads);
 	auto&      resident = turn.resident();
 	if (!resident.hasContacts()) resident.takeContacts(*scene);
+	if (steps > 0 && !givenMotions.empty() && stepSolved == 0) seam.givenMotion.setNumbers(givenMotions); // loaded
 	seam.gather(
 	        *scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap },
 	        threads);
 	stepSolved = scene->dt;
+	reportChanges(resident);
 	timer.next(Stage::Solve);
 	impactsFollowed = seam.followImpacts(maxImpacts);
 	auto statistics = contact::solve(seam.problem, settings(), &workspace);
@@ -83,7 +87,8 @@ void ContactDynamicsEngine::validate() const
 	// here and not where contacts are made: an exception in InteractionLoop's threads would end the program
 	for (const auto& material : scene->materials)
 		if (const auto* nscd = dynamic_cast<const NscdMat*>(material.get())) nscd->validate();
-	if (scene->isPeriodic) fail("periodic scenes are not supported: set O.periodic = False");
+	if (scene->isPeriodic)
+		fail("periodic scenes are not supported: set O.periodic = False and bound the scene by walls");
 	if (!(scene->dt > 0) || !std::isfinite(scene->dt))
 		fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");
 	if (!(tolerance > 0) || !std::isfinite(tolerance)) refuse("tolerance", tolerance, "positive and finite");
@@ -126,10 +131,14 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 {
 	kineticEnergy   = s.kinetic;
 	potentialEnergy = s.potential;
-	if (std::isnan(energyStart)) energyStart = kineticEnergy + potentialEnergy;
+	const Real now  = kineticEnergy + potentialEnergy;
+	if (std::isnan(energyStart)) energyStart = now;
+	else if (const Real brought = now - energyLeft; std::abs(brought) > 1e-12 * s.size) // more than rounding
+		broughtEnergy += brought;
+	energyLeft = s.kineticLeft + s.potentialLeft;
 	// energies belong to the beginning of the step, the sums to the steps before it
-	energyError = kineticEnergy + potentialEnergy - energyStart - externalWork - wallWork - correctionEnergy
-	        + slidingLoss + rollingLoss + debondingLoss + impactLoss;
+	energyError = now - energyStart - broughtEnergy - externalWork - wallWork - correctionEnergy + slidingLoss
+	        + rollingLoss + debondingLoss + impactLoss;
 	externalWork += s.external;
 	wallWork += s.wallWork;
 	slidingLoss += s.sliding;
@@ -172,6 +181,27 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	momentum    = s.momentum;
 }
 
+void ContactDynamicsEngine::reportChanges(nscd::Resident& resident)
+{
+	for (const string& what : std::exchange(resident.sizesTold, {}))
+		if (nscd::seldom(++sizesChanged))
+			LOG_WARN(
+			        "step " << scene->iter << ": " << what << " (" << sizesChanged
+			                << " such bodies so far).");
+	if (const string& what = seam.givenMotion.told; !what.empty() && nscd::seldom(++placedAgain))
+		LOG_WARN("step " << scene->iter << ": " << what << " (" << placedAgain << " such moves so far).");
+	for (const auto& material : scene->materials) {
+		auto* nscd = dynamic_cast<NscdMat*>(material.get());
+		if (nscd && nscd->changesPeakAlone())
+			LOG_WARN(
+			        "step "
+			        << scene->iter << ": the frictionAngle of " << nscd->getClassName() << " '"
+			        << nscd->label << "' was changed to " << nscd->frictionAngle
+			        << ", and its residualFrictionAngle = " << nscd->residualFrictionAngle
+			        << " stays that of contacts to come that are not bonded: set it too, or to -1 to follow frictionAngle.");
+	}
+}
+
 void ContactDynamicsEngine::recordBreaks(const nscd::Resident& resident)
 {
 	for (const size_t k : seam.broken) {
@@ -188,6 +218,7 @@ void ContactDynamicsEngine::view() const { nscd::Resident::of(*Omega::instance()
 
 void ContactDynamicsEngine::preSave(ContactDynamicsEngine&)
 {
+	if (stepSolved != 0) givenMotions = seam.givenMotion.numbers();
 	nscd::Resident::of(*Omega::instance().getScene())->showForSaving();
 }
 
@@ -207,7 +238,9 @@ void ContactDynamicsEngine::reportOverlap()
 	        << scene->iter << " began with bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1]
 	        << " " << 100 * overlapWorst << " % of their mean diameter in each other (" << overlappedSteps
 	        << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
-	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors.");
+	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors."
+	           " Where none of that is so, the solve leaves overlaps: lower tolerance (it is "
+	        << tolerance << "), or raise maxIterations where steps end above it (" << unconverged << " so far).");
 }
 
 void ContactDynamicsEngine::reportRestitution()
@@ -260,13 +293,14 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 
 int ContactDynamicsEngine::bond()
 {
-	scene     = Omega::instance().getScene().get();
-	int count = nscd::Resident::of(*scene)->bondBare();
+	scene             = Omega::instance().getScene().get();
+	auto [count, all] = nscd::Resident::of(*scene)->bondBare();
 	for (const auto& i : *scene->interactions) {
 		if (!i->isReal()) continue;
 		auto*       phys = dynamic_cast<NscdPhys*>(i->phys.get());
 		const auto& geom = static_cast<const ScGeom&>(*i->geom);
 		const Real  gap  = -geom.penetrationDepth;
+		all += phys && phys->bonded;
 		if (!phys || !phys->bondable || phys->bonded || gap > phys->creationDistance) continue;
 		const auto  pair   = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
 		const auto* sphere = dynamic_cast<const Sphere*>(pair.second->shape.get());
@@ -275,7 +309,9 @@ int ContactDynamicsEngine::bond()
 		        sphere ? sphere->radius : 0);
 		phys->touched = true;
 		++count;
+		++all;
 	}
+	bonds = all;
 	return count;
 }
 
@@ -290,6 +326,7 @@ int ContactDynamicsEngine::unbond()
 		phys->bonded = false;
 		++count;
 	}
+	bonds = 0;
 	return count;
 }
 
@@ -310,7 +347,7 @@ void ContactDynamicsEngine::forgetEnergies()
 {
 	energyStart = NaN;
 	for (Real* value : { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss,
-	                     &correctionEnergy, &missedRestitution, &missedTold, &kineticMost })
+	                     &correctionEnergy, &broughtEnergy, &missedRestitution, &missedTold, &kineticMost })
 		*value = 0;
 	wallSlidingLoss.clear();
 }
@@ -327,6 +364,7 @@ boost::python::dict ContactDynamicsEngine::energies() const
 	d["debonding"]  = debondingLoss;
 	d["impact"]     = impactLoss;
 	d["correction"] = correctionEnergy;
+	d["brought"]    = broughtEnergy;
 	d["error"]      = energyError;
 	return d;
 }

@@ -53,7 +53,8 @@ R"""(Contact Dynamics (Moreau 1988, Jean 1999) for rigid disks in the x-y plane:
 :yref:`Law2_ScGeom_NscdPhys_SignoriniCoulomb` keeps, such that velocities at the end of the step obey the law. Place it after
 :yref:`InteractionLoop` and every engine that adds forces, before :yref:`NewtonIntegrator`\ (damping=0). Gravity is the integrator's.
 Bodies need blockedDOFs='zXY' and a disk's mass and inertia (:yref:`yade.nonsmooth.scene.disk`); bodies with blocked DOFs are walls, and their
-velocity drives them.
+velocity drives them. A wall that a script or an engine moves by ``state.pos`` or ``state.ori`` instead, time after time, is met with the velocity that
+follows from its places; one that is placed once, or from far away, is not.
 
 The solve ends when the natural-map residual (rms over contacts, relative to the rms reaction, from velocities computed anew) is below
 :yref:`tolerance<ContactDynamicsEngine.tolerance>`, unless :yref:`stoppingTest<ContactDynamicsEngine.stoppingTest>` names another test. Energies dissipated go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding
@@ -92,7 +93,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((int,overlappedSteps,0,Attr::readonly,"Steps so far that began with an overlap of 0.05 ℓ or more, of which a warning tells."))
 		((int,contacts,0,(Attr::readonly|Attr::noSave),"Contacts that touch or carry force."))
 		((int,candidates,0,(Attr::readonly|Attr::noSave),"Contacts in the solve, open ones included."))
-		((int,bonds,0,(Attr::readonly|Attr::noSave),"Living bonds."))
+		((int,bonds,0,(Attr::readonly|Attr::noSave),"Living bonds: of the last step, or those that there were after a bond() or unbond() since."))
 		((int,brokenTension,0,Attr::readonly,"Bonds broken so far by tension."))
 		((int,brokenShear,0,Attr::readonly,"Bonds broken so far by shear."))
 		((int,brokenTorque,0,Attr::readonly,"Bonds broken so far by torque."))
@@ -113,6 +114,11 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,kineticMost,0,(Attr::readonly|Attr::hidden),"Largest kinetic energy since the balance began [J]."))
 		((Real,missedTold,0,(Attr::readonly|Attr::hidden),"missedRestitution of the last warning [J]."))
 		((Real,correctionEnergy,0,Attr::readonly,"Energy that bodies have got so far by taking back overlaps and bonds' errors [J]: what it lifts them against gravity, what the impulses that keep the angular momentum add to their kinetic energy, and what bonds do in which they hold, which is nothing but for errors of the step; negative where it lets them down or slows them. Forces of other engines are not counted on these displacements, here or in externalWork."))
+		((Real,broughtEnergy,0,Attr::readonly,"Energy that others have brought between steps so far, less what they took [J]: kinetic and potential energy of bodies that were added, erased, freed or blocked, moved, or given another velocity, mass or size, and what a change of gravity does to the potential energy."))
+		((Real,energyLeft,0,(Attr::readonly|Attr::hidden),"Kinetic and potential energy at the end of the last step [J]."))
+		((vector<Real>,givenMotions,,(Attr::readonly|Attr::hidden),"Motion of bodies that others move by their positions, see seam/GivenMotion.hpp; written when the scene is saved."))
+		((int,sizesChanged,0,(Attr::readonly|Attr::hidden),"Disks so far whose radius was changed and of which there was something to tell."))
+		((int,placedAgain,0,(Attr::readonly|Attr::hidden),"Moves of bodies by their positions so far that gave no velocity and were not the body's first."))
 		((Real,energyStart,NaN,(Attr::readonly|Attr::hidden),"Kinetic and potential energy when the balance began [J]."))
 		((Real,energyError,0,(Attr::readonly|Attr::noSave),"What the balance of all these misses [J]."))
 		((Real,meanSpeed,0,(Attr::readonly|Attr::noSave),"Mean speed of moving bodies at the end of the last step [m/s]."))
@@ -153,6 +159,7 @@ private:
 	void report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
 	void reportOverlap();
 	void reportRestitution();
+	void reportChanges(nscd::Resident& resident);
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;

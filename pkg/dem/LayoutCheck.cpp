@@ -24,13 +24,16 @@
 #include <pkg/common/Bo1_Aabb.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ElastMat.hpp>
+#include <pkg/common/ForceEngine.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
+#include <pkg/common/TorqueEngine.hpp>
 #include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
+#include <pkg/dem/UniaxialStrainer.hpp>
 
 #include <dlfcn.h>
 #include <malloc.h>
@@ -169,6 +172,17 @@ void checkLayout()
 		check("InsertionSortCollider", "avoidSelfInteractionMask", &Collider::avoidSelfInteractionMask,
 		      mask_t(51));
 	}
+	const auto push = make<ForceEngine>("ForceEngine"), turn = make<TorqueEngine>("TorqueEngine");
+	if (not static_cast<const ForceEngine&>(*push).ids.empty()
+	    or static_cast<const ForceEngine&>(*push).force != Vector3r::Zero())
+		misplaced("ForceEngine.force");
+	if (not static_cast<const TorqueEngine&>(*turn).ids.empty()
+	    or static_cast<const TorqueEngine&>(*turn).moment != Vector3r::Zero())
+		misplaced("TorqueEngine.moment");
+	check("UniaxialStrainer", "active", &UniaxialStrainer::active, false);
+	check("UniaxialStrainer", "asymmetry", &UniaxialStrainer::asymmetry, 1);
+	check("UniaxialStrainer", "crossSectionArea", &UniaxialStrainer::crossSectionArea, 2.375);
+	check("UniaxialStrainer", "stressUpdateInterval", &UniaxialStrainer::stressUpdateInterval, 55);
 	check("NewtonIntegrator", "ompThreads", &NewtonIntegrator::ompThreads, 3);
 	check("NewtonIntegrator", "damping", &NewtonIntegrator::damping, 0.0625);
 	check("NewtonIntegrator", "mask", &NewtonIntegrator::mask, 5);

@@ -142,6 +142,7 @@ void NscdInteractionLoop::action()
 {
 	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Interactions);
 	auto&                  list = *scene->interactions;
+	nscd::refuseLimiter(*scene, "NscdInteractionLoop");
 	if (!nscd::hasSolver(*scene))
 		for (const auto& law : lawDispatcher->functors)
 			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get()))

@@ -44,6 +44,15 @@ void NscdMat::validate() const
 	}
 }
 
+bool NscdMat::changesPeakAlone()
+{
+	const bool alone = !std::isnan(knownPeak) && frictionAngle != knownPeak && residualFrictionAngle >= 0
+	        && residualFrictionAngle == knownResidual;
+	knownPeak     = frictionAngle;
+	knownResidual = residualFrictionAngle;
+	return alone;
+}
+
 const NscdMat* NscdMat::interfaceWith(const NscdMat& other) const
 {
 	const auto find = [](const NscdMat& one, int layer) -> const NscdMat* {

@@ -11,6 +11,8 @@ public:
 	virtual ~NscdMat() = default;
 	/// Checks the strengths; throws std::invalid_argument naming the attribute, its value and what would do.
 	virtual void validate() const;
+	/// Whether the peak's friction angle has changed since it was last asked, and the residual one, which is a value of its own, has not.
+	bool changesPeakAlone();
 	/// The law of contacts with a body of another material, where one of the two says so for the other's layer; null where none does.
 	const NscdMat* interfaceWith(const NscdMat& other) const;
 	// clang-format off
@@ -18,7 +20,8 @@ public:
 R"""(Material of rigid particles with cohesive bonds, after Taboada and Estrada (2009), section 2.2 and Table 1. A contact of two such
 materials resists separation up to :math:`F_a=\sigma\ell`, sliding up to :math:`\mu_s(F_a+N)` and rolling up to
 :math:`\mu_r\ell(F_a+N)`, with :math:`\ell` the mean diameter (the disk's diameter at a wall). Stiffnesses (``young``, ``poisson``) are
-not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that of a bond; a negative residual value stands for "as the peak".)""",
+not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that of a bond; a negative residual value stands for "as the peak". Where none is given
+it is 0.5 rad (28.6°, μ = 0.546), as in every FrictMat, and not 0.)""",
 		((Real,tensileStrength,0,,"Tensile strength of a bond, σ_ext [Pa]; in two dimensions force per contact and metre of thickness is σ_ext ℓ."))
 		((Real,residualTensileStrength,0,,"Tensile strength σ_res [Pa] of a touching contact that is not bonded, between bodies of one :yref:`layer<NscdMat.layer>`."))
 		((Real,residualFrictionAngle,-1,,"Friction angle [rad] of a contact that is not bonded; negative: as frictionAngle."))
@@ -41,6 +44,9 @@ not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that 
 
 protected:
 	void require(bool good, const char* name, Real value, const char* what) const;
+
+private:
+	Real knownPeak = NaN, knownResidual = NaN; // when it was last asked
 };
 REGISTER_SERIALIZABLE(NscdMat);
 

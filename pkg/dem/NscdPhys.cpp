@@ -8,9 +8,36 @@ namespace yade {
 
 YADE_PLUGIN((NscdPhys)(SlipWeakeningPhys)(Ip2_NscdMat_NscdMat_NscdPhys));
 
+const char* NscdPhys::unheard() const
+{
+	if (kn != 0) return "kn";
+	if (ks != 0) return "ks";
+	if (overruled) return "tangensOfFrictionAngle";
+	if (std::isnan(forcesNoted) || sumOfForces() == forcesNoted) return nullptr; // none of a step yet
+	if (normalForce == Vector3r::Zero() && shearForce == Vector3r::Zero()) return nullptr;
+	return "normalForce or shearForce";
+}
+
+void NscdPhys::hearFriction()
+{
+	// NaN too, which is refused in its place
+	if (tangensOfFrictionAngle != currentFriction) friction = residualFriction = tangensOfFrictionAngle;
+}
+
+void NscdPhys::follow(Real newLength)
+{
+	const Real ratio = newLength / length;
+	for (Real* value : { &adhesion, &currentRollingArm, &restGap, &residualTensileForce, &residualRollingArm,
+	                     &tensileForce, &rollingArm, &ellipseNormal, &ellipseTangential, &creationDistance })
+		*value *= ratio;
+	length  = newLength;
+	touched = true;
+}
+
 void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 {
 	namespace plane = nonsmooth::contact::plane;
+	hearFriction();
 	const plane::Thresholds bond { tensileForce, friction, rollingArm },
 	        residual { residualTensileForce, residualFriction, residualRollingArm };
 	const plane::Thresholds now = plane::thresholdsOf(
@@ -27,10 +54,13 @@ void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 
 void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)
 {
+	const bool written = tangensOfFrictionAngle != currentFriction;
 	NscdPhys::updateThresholds(gap, adhesionRange);
-	Real left = wallMaterial->remaining(body);
+	const Real wanted = currentFriction;
+	Real       left   = wallMaterial->remaining(body);
 	if (other >= 0) left = std::min(left, wallMaterial->remaining(other));
 	wallMaterial->weaken(adhesion, currentFriction, length, left);
+	if (written) overruled = left <= 0 && currentFriction != wanted;
 	tangensOfFrictionAngle = currentFriction;
 }
 
@@ -42,8 +72,7 @@ void SlipWeakeningPhys::addSlip(Real distance, long step)
 }
 
 namespace nscd {
-	/// Mean diameter of the spheres of an interaction [m]; the sphere's own where the other body is a wall.
-	inline Real meanDiameter(const Body& b1, const Body& b2)
+	Real meanDiameter(const Body& b1, const Body& b2)
 	{
 		const auto* s1 = dynamic_cast<const Sphere*>(b1.shape.get());
 		const auto* s2 = dynamic_cast<const Sphere*>(b2.shape.get());
@@ -178,6 +207,8 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Strengths&
 	phys.ellipseTangential    = length * s.ellipseTangential;
 	phys.creationDistance     = length * s.creationDistance;
 	phys.bondable             = s.bondable;
+	phys.currentFriction = phys.tangensOfFrictionAngle = phys.bonded ? bond.friction : residual.friction;
+	phys.overruled                                     = false;
 }
 
 } // namespace yade

@@ -10,6 +10,8 @@
 namespace yade {
 
 class NscdPhys : public FrictPhys {
+	Real forcesNoted = NaN; // beside what is compared with it
+
 public:
 	/// How a bond ended; None while it lives and where there was none.
 	enum Mode { None = 0, Tension, Shear, Torque, Mixed };
@@ -22,18 +24,39 @@ public:
 	virtual bool countsSlip() const { return false; }
 	/// A script has set an attribute; nscd::Resident takes it up. C++ that changes one where no engine has its turn sets this too.
 	void postLoad(NscdPhys&) { touched = true; }
+	/// Whether somebody has written into an attribute of FrictPhys since it was last set here: those of YADE's own classes leave no mark.
+	bool isWritten() const { return tangensOfFrictionAngle != currentFriction || isReset() || unheard(); }
+	/// The attribute of YADE's own classes that was written to and that a rigid contact cannot hear; null where there is none.
+	const char* unheard() const;
+	/// Whether somebody has set the forces of a step to zero.
+	bool isReset() const
+	{
+		return !std::isnan(forcesNoted) && forcesNoted != 0 && normalForce == Vector3r::Zero()
+		        && shearForce == Vector3r::Zero();
+	}
+	/// Notes that the forces are those of a step.
+	void noteForces() { forcesNoted = sumOfForces(); }
+	/// Changes lengths and what is in proportion to them, when the length of the contact becomes another one [m].
+	void follow(Real newLength);
 	bool touched = false;
+	/// A written friction that slip had taken away already.
+	bool overruled = false;
 	// attributes in the order of their use: see nscd::partOfPhysics
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(NscdPhys,FrictPhys,
 R"""(Contact of two :yref:`NscdMats<NscdMat>`: reactions of the last step, thresholds, and the bond. Forces act on the second body;
-:yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the averages over the last step.)""",
+:yref:`normalForce<NormPhys.normalForce>` and :yref:`shearForce<NormShearPhys.shearForce>` are the averages over the last step.
+
+What a script writes into YADE's own attributes counts from the next step on, or is refused. :yref:`tangensOfFrictionAngle<FrictPhys.tangensOfFrictionAngle>`, into which
+``utils.setContactFriction`` writes too, becomes the friction of the contact, bonded or not (:yref:`friction<NscdPhys.friction>` and :yref:`residualFriction<NscdPhys.residualFriction>`);
+at a wall that weakens by slip it is what slip weakens from there on. Forces that are set to zero let the next solve begin with none; others are refused, as
+the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid contacts do not have.)""",
 		((Real,normal,0,Attr::triggerPostLoad,"Normal reaction N [N], compression positive."))
 		((Real,tangential,0,Attr::triggerPostLoad,"Tangential reaction T [N], along the contact normal (from the body of lower id) turned by +90°."))
 		((Real,torque,0,Attr::triggerPostLoad,"Rolling reaction Γ [N m] on the body of higher id, counter-clockwise positive."))
 		((Real,length,0,Attr::readonly,"Mean diameter ℓ [m] of the two bodies; the disk's diameter at a wall."))
 		((Real,adhesion,0,(Attr::readonly|Attr::noSave),"F_a [N] in force."))
-		((Real,currentFriction,0,(Attr::readonly|Attr::noSave),"μ_s in force."))
+		((Real,currentFriction,0,Attr::readonly,"μ_s in force."))
 		((Real,currentRollingArm,0,(Attr::readonly|Attr::noSave),"μ_r ℓ in force [m]."))
 		((Real,restGap,0,(Attr::readonly|Attr::hidden),"Gap [m] that a bond keeps unless it yields in tension."))
 		((Real,restitution,0,Attr::triggerPostLoad,"Coefficient of restitution."))
@@ -69,6 +92,14 @@ R"""(Contact of two :yref:`NscdMats<NscdMat>`: reactions of the last step, thres
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(NscdPhys, FrictPhys);
+
+protected:
+	/// Takes a friction that somebody has written for that of the contact, with a bond and without.
+	void hearFriction();
+
+private:
+	/// One number that is another one where any component of a force is.
+	Real sumOfForces() const { return normalForce.dot(Vector3r(1, 3, 5)) + shearForce.dot(Vector3r(7, 11, 13)); }
 };
 REGISTER_SERIALIZABLE(NscdPhys);
 
@@ -94,6 +125,11 @@ along that wall, or of that one's of the two which has slipped farther.)""",
 	REGISTER_CLASS_INDEX(SlipWeakeningPhys, NscdPhys);
 };
 REGISTER_SERIALIZABLE(SlipWeakeningPhys);
+
+namespace nscd {
+	/// Mean diameter of the spheres of an interaction [m]; the sphere's own where the other body is a wall. Throws std::invalid_argument where there is none.
+	Real meanDiameter(const Body& b1, const Body& b2);
+}
 
 class Ip2_NscdMat_NscdMat_NscdPhys : public IPhysFunctor {
 public:

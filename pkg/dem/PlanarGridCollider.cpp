@@ -1,4 +1,5 @@
 #include "PlanarGridCollider.hpp"
+#include "SceneCheck.hpp"
 #include "StageClock.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
@@ -25,9 +26,10 @@ namespace {
 void PlanarGridCollider::action()
 {
 	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Collide);
+	nscd::refuseLimiter(*scene, "PlanarGridCollider"); // before it has its turn
 	if (scene->isPeriodic)
 		throw std::runtime_error(
-		        "PlanarGridCollider: periodic scenes are not supported: set O.periodic = False, or use InsertionSortCollider");
+		        "PlanarGridCollider: periodic scenes are not supported, with any collider: set O.periodic = False and bound the scene by walls");
 	if (!(sureReach >= 0))
 		throw std::runtime_error(
 		        "PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach)

@@ -5,7 +5,10 @@
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ForceResetter.hpp>
 #include <pkg/common/Sphere.hpp>
+#include <pkg/dem/DomainLimiter.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
+#include <pkg/dem/UniaxialStrainer.hpp>
+#include <set>
 
 namespace yade::nscd {
 
@@ -68,6 +71,33 @@ namespace {
 		        || kind == "ThreeDTriaxialEngine";
 	}
 
+	/// Of an attribute of YADE's own classes of physics that was written to.
+	[[noreturn]] void refuseWritten(const string& pair, const NscdPhys& phys, const string& name)
+	{
+		const auto vector = [](const Vector3r& v) {
+			return "(" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + ")";
+		};
+		if (name == "kn" || name == "ks")
+			fail(pair + " has phys." + name + " = " + number(name == "kn" ? phys.kn : phys.ks)
+			     + " N/m, and a rigid contact has no stiffness: leave kn and ks 0");
+		if (name == "tangensOfFrictionAngle")
+			fail(pair
+			     + " was given another phys.tangensOfFrictionAngle, which slip has already weakened away: set the wall's frictionAngle and weakenedFrictionAngle, and call ContactDynamicsEngine.updateStrengths()");
+		fail(pair + " was given phys.normalForce = " + vector(phys.normalForce)
+		     + " and phys.shearForce = " + vector(phys.shearForce)
+		     + " N by a script, and the solver finds these forces anew in each step: press bodies by O.forces.setPermF, or set both to zero to let the solve begin with none");
+	}
+
+	/// Whether an engine of YADE's reads the forces on bodies when it acts.
+	bool readsForces(const Engine& engine)
+	{
+		static const std::set<string> readers { "Disp2DPropLoadEngine", "ForceRecorder",  "KinemCNDEngine",
+			                                "KinemCNLEngine",       "KinemCNSEngine", "KinemCTDEngine",
+			                                "ServoPIDController",   "TimeAverager",   "TorqueRecorder",
+			                                "UniaxialStrainer" };
+		return readers.count(engine.getClassName());
+	}
+
 	/// Sphere of a scene by id, null where the body is none.
 	const Sphere* sphereOf(const Body& b) { return dynamic_cast<const Sphere*>(b.shape.get()); }
 }
@@ -78,6 +108,8 @@ void checkEngines(const Scene& scene, const Engine& solver)
 	bool                    passed  = false;
 	const Engine*           between = nullptr;
 	const NewtonIntegrator* newton  = nullptr;
+	bool                    reset   = false; // forces of the step before are gone
+	refuseLimiter(scene, "ContactDynamicsEngine");
 	for (const auto& pointer : scene.engines) {
 		const Engine& engine = *pointer;
 		if (&engine == &solver) {
@@ -102,11 +134,22 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		if (!engine.dead && asksForStiffness(engine))
 			fail(named(engine)
 			     + " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would go to and fro at max_vel: load plates instead, see yade.nonsmooth.scene.plate");
-		if (dynamic_cast<const ForceResetter*>(&engine)) resetters.take(engine, passed);
-		else if (dynamic_cast<const Collider*>(&engine))
+		if (dynamic_cast<const ForceResetter*>(&engine)) {
+			resetters.take(engine, passed);
+			reset = reset || !engine.dead;
+		} else if (dynamic_cast<const Collider*>(&engine))
 			colliders.take(engine, passed);
 		else if (dynamic_cast<const InteractionLoop*>(&engine) || dynamic_cast<const LawDispatcher*>(&engine))
 			loops.take(engine, passed);
+		else if (reset && !passed && !engine.dead && readsForces(engine))
+			fail(named(engine)
+			     + " reads forces and stands before it, where O.forces has no reaction of this step yet: put it after the integrator (engines(after=[...]))"
+			     + (dynamic_cast<const UniaxialStrainer*>(&engine)
+			                ? ", with blockDisplacements=True and blockRotations=True"
+			                : ""));
+		if (!engine.dead && dynamic_cast<const LawTester*>(&engine))
+			fail(named(engine)
+			     + " blocks all DOFs of its two bodies, and a contact of bodies that are held has no reaction: leave one of them free and load it by O.forces.setPermF, or free it along one direction and set its state.vel");
 		if (passed && !newton && !engine.dead && !between) between = &engine;
 	}
 	integrators.require("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");
@@ -126,6 +169,15 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		fail("O.forces were last reset in step " + std::to_string(scene.forces.lastReset)
 		     + ", and this is step " + std::to_string(scene.iter)
 		     + ", so that reactions of steps before would act again: put ForceResetter() first in O.engines");
+}
+
+void refuseLimiter(const Scene& scene, const char* who)
+{
+	for (const auto& engine : scene.engines)
+		if (!engine->dead && dynamic_cast<const DomainLimiter*>(engine.get()))
+			throw std::runtime_error(
+			        string(who) + ": O.engines has a " + named(*engine)
+			        + ", which ends the process where it erases a body that Python has made: let a PyRunner at the end of the list erase it, as PyRunner(command='for b in [b for b in O.bodies if b.state.pos[1] < -3]: O.bodies.erase(b.id)', iterPeriod=20)");
 }
 
 void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped)
@@ -193,6 +245,7 @@ void refuseContact(const Scene& scene, const Reading& reading)
 		fail(pair + " has a normal that leaves the x-y plane, of which only a part would act (z component "
 		     + number(reading.nz) + "; centres at z = " + number(b1->state->pos[2]) + " and "
 		     + number(b2->state->pos[2]) + " m): put all disks at one z, and walls upright to the plane");
+	if (const char* name = reading.phys->unheard()) refuseWritten(pair, *reading.phys, name);
 	fail(pair + " has numbers without sense: friction " + number(reading.friction) + ", tensile force "
 	     + number(reading.adhesion) + " N, rolling arm " + number(reading.rollingArm) + " m, mean diameter "
 	     + number(reading.length) + " m, restitution " + number(reading.restitution)

@@ -15,6 +15,9 @@ string named(const Engine& engine);
 /// Refuses lists of engines that leave out, double or disturb the solver's work. Throws std::runtime_error that names the engine and what would do.
 void checkEngines(const Scene& scene, const Engine& solver);
 
+/// Refuses YADE's DomainLimiter, for the engine `who`. Throws std::runtime_error.
+void refuseLimiter(const Scene& scene, const char* who);
+
 /// Refuses bodies that could be touched and never are, since the engines have no functor for their shapes; `shaped`: those that are no disks and of no clump.
 /// Throws std::runtime_error.
 void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped);

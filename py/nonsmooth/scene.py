@@ -91,7 +91,7 @@ def disk(centre, radius, material, fixed=False, color=None):
     """A disk as a YADE Sphere body in the plane z = 0, not yet in the scene.
 
     ``centre``: (x, y) [m]; ``radius`` [m]; ``material``: an NscdMat, whose density [kg/m³] gives the mass ρ π r² and the
-    inertia m r²/2 per metre of thickness. ``fixed``: block all degrees of freedom.
+    inertia m r²/2 per metre of thickness; its friction angle is 0.5 rad unless it says otherwise. Where ``shape.radius`` is changed later, mass and inertia follow. ``fixed``: block all degrees of freedom.
     """
     body = utils.sphere((centre[0], centre[1], 0), radius, material=material, fixed=fixed, color=color)
     return _as_disk(body, "xyzXYZ" if fixed else "zXY")
@@ -261,12 +261,12 @@ def join(one, other, along, backwards=False):
 
 
 def engines(
-    gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=0.1, before=(), after=(), label="contactDynamics", **options
+    gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=-0.2, before=(), after=(), label="contactDynamics", **options
 ):
     """The list O.engines of a Contact Dynamics simulation.
 
     ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``far``: the same for disks that are fast
-    enough to come so near in two steps, where that is more; ``verlet``: the collider's margin [m] (negative: in smallest radii); ``before``:
+    enough to come so near in two steps, where that is more; ``verlet``: the collider's margin [m], negative: in smallest radii, which fits any size of disks; ``before``:
     engines that add forces, e.g. PorePressureEngine; ``after``: engines after the integrator; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
     """
     solver = ContactDynamicsEngine(label=label, **options)

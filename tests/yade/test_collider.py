@@ -312,7 +312,7 @@ def test_moving_bodies_of_other_shapes_keep_their_contacts():
 @pytest.mark.parametrize(
     "spoil, words",
     [
-        (lambda: setattr(O, "periodic", True), ("periodic", "InsertionSortCollider")),
+        (lambda: setattr(O, "periodic", True), ("periodic", "O.periodic = False")),
         (lambda: setattr(collider(), "verletDist", math.nan), ("verletDist", "nan")),
         (lambda: setattr(collider(), "sureReach", -0.1), ("sureReach", "-0.1", "not negative")),
     ],

@@ -238,6 +238,22 @@ def test_a_folder_is_free_once_its_run_is_dead(tmp_path):
     assert (tmp_path / output_folder.LOCK).read_text() == "a.py\nb.py\n"
 
 
+@pytest.mark.parametrize(
+    "words, seen, threads",
+    [
+        (("--threads", "1", "SCRIPT", "a", "b"), ["a", "b"], 1),
+        (("--threads=2", "SCRIPT", "--threads", "7"), ["--threads", "7"], 2),  # the script's own
+        (("SCRIPT", "--threads", "2", "c"), ["--threads", "2", "c"], 2),
+    ],
+)
+def test_threads_before_the_script_are_the_launchers_alone(words, seen, threads, tmp_path):
+    script = tmp_path / "words.py"
+    script.write_text("import sys\nfrom yade import O\nprint('seen', sys.argv[1:], O.numThreads)\n")
+    words = [str(script) if word == "SCRIPT" else word for word in words]
+    done = subprocess.run([SCRIPTS / "yade-nonsmooth", *words], env=ENVIRONMENT, capture_output=True, text=True)
+    assert done.returncode == 0 and f"seen {seen} {threads}\n" in done.stdout, done.stdout + done.stderr
+
+
 def test_a_resume_in_the_folder_of_another_command_is_refused(tmp_path):
     output_folder.claim(tmp_path, "column.py")
     with pytest.raises(output_folder.FolderError, match="holds what column.py wrote, nothing of biaxial.py"):

@@ -8,6 +8,7 @@ from yade.wrapper import (
     BondEllipseEngine,
     Collider,
     ContactDynamicsEngine,
+    DomainLimiter,
     ForceResetter,
     InsertionSortCollider,
     InteractionLoop,
@@ -18,6 +19,7 @@ from yade.wrapper import (
     NscdMat,
     PlanarNewtonIntegrator,
     PorePressureEngine,
+    PyRunner,
     SlipWeakeningMat,
 )
 
@@ -179,6 +181,32 @@ def test_periodic_scenes():
     refused("ContactDynamicsEngine", "periodic", "O.periodic = False")
 
 
+def test_a_periodic_scene_is_not_sent_from_one_engine_to_the_next():
+    rests()
+    O.periodic = True
+    O.cell.setBox(50, 50, 50)
+    with pytest.raises(RuntimeError, match="O.periodic = False") as error:
+        O.step()
+    assert "PlanarGridCollider" in str(error.value) and "InsertionSortCollider" not in str(error.value)
+
+
+@pytest.mark.parametrize("place", ["end", "beginning"])
+def test_a_domain_limiter_is_refused_before_it_ends_the_process(place):
+    disk = rests()
+    O.bodies[disk].state.pos = (100, 100, 0)  # outside: it would be erased in the first step
+    limiter = DomainLimiter(lo=(-1, -1, -1), hi=(1, 5, 1), iterPeriod=1, label="limit")
+    O.engines = O.engines + [limiter] if place == "end" else O.engines[:1] + [limiter] + O.engines[1:]
+    if place == "beginning":
+        O.bodies[disk].state.pos = (0, 0.5, 0)  # nobody of ours comes before it, so it has its turn
+    refused("DomainLimiter 'limit'", "PyRunner", "O.bodies.erase(b.id)")
+    limiter.dead = True
+    command = "for b in [b for b in O.bodies if b.state.pos[1] > 3]: O.bodies.erase(b.id)"
+    O.bodies[disk].state.pos = (100, 100, 0)
+    O.engines = [e for e in O.engines if e is not limiter] + [PyRunner(command=command, iterPeriod=1)]
+    run(3)
+    assert O.bodies[disk] is None and len(O.bodies) == disk + 1
+
+
 def test_clumps_meet_the_solver():
     stuff = material(0.3)
     O.bodies.appendClumped([scene.disk((x, 0), 0.5, stuff) for x in (0, 0.8)])
@@ -296,6 +324,24 @@ def test_walls_without_length_and_scenes_without_a_solver():
     assert scene.contact_dynamics() is not None
 
 
+def test_the_margin_of_the_search_goes_with_the_sizes():
+    """Of 0.1 m at 1 m; micrometre disks have as many pairs as metre disks."""
+    found = []
+    for radius in (0.5, 0.5e-6):
+        O.reset()
+        stuff = material(0.3)
+        for k in range(100):
+            O.bodies.append(scene.disk((2.2 * radius * (k % 10), 2.2 * radius * (k // 10)), radius, stuff))
+        begin(gravity=(0, 0, 0))
+        O.step()
+        found.append(next(e for e in O.engines if isinstance(e, Collider)).candidates)
+    assert found == [180, 180]  # neighbours at 2.2 radii; the margin ends at 2.3
+
+
+def test_a_material_without_a_friction_angle_has_half_a_radian():
+    assert NscdMat().frictionAngle == 0.5 and "0.5 rad" in NscdMat.__doc__
+
+
 # ---- what is told, not refused --------------------------------------------------------------------
 
 
@@ -329,3 +375,29 @@ def test_a_lasting_miss_is_told_after_ten_steps_and_a_heavy_one_at_once(capfd):
         assert warned == ((row == 10 or heavy) and due in (1, 10, 100))
         reasons |= {("lasts", row == 10), ("heavy", heavy), ("matters", bool(matters))}
     assert {("lasts", True), ("heavy", True), ("heavy", False), ("matters", True)} <= reasons, reasons
+
+
+def test_an_overlap_names_the_tolerance_too(capfd):
+    disk = rests(tolerance=0.03)
+    O.bodies[disk].state.pos = (0, 0.4, 0)
+    run(1)
+    told = capfd.readouterr().err
+    assert "in each other" in told and "lower tolerance (it is 0.03)" in told and "O.dt" in told
+
+
+def test_bonds_are_counted_when_they_are_made_and_removed():
+    stuff = material(0.3, tensileStrength=1e5)
+    for k in range(4):
+        free_disk(k, 0, stuff=stuff)
+    e = begin(gravity=(0, 0, 0))
+    run(1)
+    assert (e.bond(), e.bonds) == (3, 3)
+    assert (e.bond(), e.bonds) == (0, 3)
+    e.advance(2)
+    assert e.bonds == 3
+    free_disk(4, 0, stuff=stuff)
+    e.advance(2, view=False)  # the new contact has no interaction yet
+    assert (e.bond(), e.bonds) == (1, 4)
+    assert (e.unbond(), e.bonds) == (4, 0)
+    e.advance(1)
+    assert e.bonds == 0

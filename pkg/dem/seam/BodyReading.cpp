@@ -1,6 +1,7 @@
 #include "BodyReading.hpp"
 #include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
+#include <algorithm>
 #include <pkg/common/Sphere.hpp>
 
 namespace yade::nscd {
@@ -28,12 +29,13 @@ BodyReading readBody(const Body* body)
 	return r;
 }
 
-void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
+std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 {
 	const auto& bodies = *scene.bodies;
 	const long  count  = (long)bodies.size();
 	readings.resize(count);
-	long stateless = -1; // reported after the loop, which must not throw
+	long                    stateless = -1; // reported after the loop, which must not throw
+	std::vector<FormerSize> changed;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(max : stateless)
 	for (long id = 0; id < count; ++id) {
 		if (id + (long)later < count) fetch<sizeof(Body)>(bodies[id + later].get());
@@ -43,11 +45,18 @@ void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings)
 		}
 		const auto& body = bodies[id];
 		if (body && !body->state) stateless = std::max(stateless, id);
-		readings[id] = readBody(body.get());
+		const FormerSize former { int(id), readings[id].radius, readings[id].mass, readings[id].inertia };
+		const bool       was = readings[id].present && former.radius > 0;
+		readings[id]         = readBody(body.get());
+		if (was && readings[id].radius > 0 && readings[id].radius != former.radius)
+#pragma omp critical
+			changed.push_back(former);
 	}
+	std::sort(changed.begin(), changed.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
 	if (stateless >= 0)
 		throw std::runtime_error(
 		        "body #" + std::to_string(stateless) + " has no state: set Body.state = State(...)");
+	return changed;
 }
 
 void readMotion(const State& state, BodyReading& reading)

@@ -30,11 +30,20 @@ inline bool areBeyond(Real factor, const BodyReading& first, const BodyReading& 
 	        < 0;
 }
 
+/// Directions of motion in the plane, as in State::blockedDOFs.
+constexpr unsigned inPlane = State::DOF_X | State::DOF_Y | State::DOF_RZ;
+
 /// Reads a body, null where there is none; one without a state has nothing else set, as where there is none.
 BodyReading readBody(const Body* body);
 
-/// Reads all bodies of a scene, by id.
-void readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings);
+/// What a sphere was when it was last read, whose radius is another one now.
+struct FormerSize {
+	int  id;
+	Real radius, mass, inertia; // [m, kg, kg m²]
+};
+
+/// Reads all bodies of a scene, by id; returns those of other radius than `readings` had, in the order of ids.
+std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyReading>& readings);
 
 /// Reads place, orientation and velocity in the plane.
 void readMotion(const State& state, BodyReading& reading);

@@ -132,7 +132,7 @@ inline void readThresholds(Reading& r)
 	r.friction           = phys.currentFriction;
 	r.rollingArm         = phys.currentRollingArm;
 	r.residualAdhesion   = phys.residualTensileForce;
-	r.usable             = makeSense(r);
+	r.usable             = makeSense(r) && !phys.unheard();
 }
 
 /// What an interaction itself says; `geom` is null where it is not real.
@@ -173,13 +173,15 @@ inline void read(const Found& found, Reading& r, BondReading& bond, BondStrain& 
 	r.restitution        = phys.restitution;
 	r.bounces            = phys.restitution > 0;
 	r.length             = phys.length;
-	r.normal             = phys.normal;
-	r.tangential         = phys.tangential;
-	r.torque             = phys.torque;
 	r.correction         = phys.correction;
-	r.broken             = phys.breaks ? phys.brokenMode : int(NscdPhys::None);
-	r.bonded             = phys.bonded;
-	r.slips              = phys.countsSlip();
+	if (!phys.isReset()) { // else the solve begins with none
+		r.normal     = phys.normal;
+		r.tangential = phys.tangential;
+		r.torque     = phys.torque;
+	}
+	r.broken = phys.breaks ? phys.brokenMode : int(NscdPhys::None);
+	r.bonded = phys.bonded;
+	r.slips  = phys.countsSlip();
 	r.curved = typeid(geom) == typeid(SegmentGeom) && static_cast<const SegmentGeom&>(geom).curvature != 0;
 	readThresholds(r);
 	r.joins = phys.joins;
@@ -216,6 +218,7 @@ inline void writeReactions(const Reading& r)
 	phys.normalForce = r.leftOut ? Vector3r(Vector3r::Zero()) : Vector3r(r.normal * r.nx, r.normal * r.ny, 0);
 	phys.shearForce  = r.leftOut ? Vector3r(Vector3r::Zero())
 	                             : Vector3r(-r.tangential * r.ny, r.tangential * r.nx, 0);
+	phys.noteForces();
 }
 
 } // namespace yade::nscd

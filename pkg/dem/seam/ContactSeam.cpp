@@ -1,5 +1,6 @@
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
+#include "../PlaneCheck.hpp"
 #include "../SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
@@ -107,6 +108,7 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 	threads    = threadCount;
 	resident   = &from;
 	gatherBodies(scene, gravity);
+	takeGivenMotion(scene);
 	checkShapes(scene, resident->bodies, resident->shaped);
 	divide(scene);
 	const auto&  order = resident->order;
@@ -209,10 +211,11 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		if (w.w > 0) v.w += h * m[2] * w.w;
 		problem.freeVelocity[id] = v;
 
-		const bool     moves  = !w.isFixed();
+		const bool     moves = !w.isFixed(), out = f[2] != 0 || m[0] != 0 || m[1] != 0;
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
 		if (!std::isfinite(v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + w.x + w.y + w.w)
 		    || (moves && (d & planar) != planar) || s.clumped || w.x < 0 || w.y < 0 || w.w < 0
+		    || (moves && out && leavesPlane(f, m, s.mass, s.inertia, gravity))
 		    || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
 			bad = std::max(bad, (int)id);
 	}
@@ -241,9 +244,23 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		const Vector3r& f = scene.forces.getForce(bad);
 		if (!std::isfinite(f.sum()))
 			refuse(body, "has a force that is not finite", "look at the engines that add forces");
+		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
+		if ((s.blockedDOFs & planar) == planar) refuseForce(scene, bad);
 		refuse(body, "can leave the x-y plane",
-		       "set state.blockedDOFs = 'zXY' (the contact problem is two-dimensional)");
+		       "set state.blockedDOFs = 'zXY' (the contact problem is two-dimensional)" + whoFrees(scene, bad));
 	}
+}
+
+/// Bodies that others move by their positions are met with the velocity of that motion.
+void ContactSeam::takeGivenMotion(const Scene& scene)
+{
+	for (const auto& [id, u] : givenMotion.take(scene, *resident))
+		for (auto* velocities : { &before, &problem.freeVelocity }) {
+			Twist& v = (*velocities)[id];
+			v.x += u.x;
+			v.y += u.y;
+			v.w += u.w;
+		}
 }
 
 /// Tells the contacts that need not be solved for from the others, and counts these, so that each can be gathered where it stays.

@@ -4,6 +4,7 @@
 // order YADE keeps them in: the same scene gives the same bits after loading and on any number of threads.
 #pragma once
 
+#include "GivenMotion.hpp"
 #include "Resident.hpp"
 #include <contact/impact_sequence.hpp>
 #include <contact/plane/rigid_clusters.hpp>
@@ -51,7 +52,9 @@ struct StepSums : ContactSums {
 	        slidingOnWalls; // of sliding, contact by contact: id of the wall and energy [J]
 	// bodies
 	Real     kinetic = 0, potential = 0, external = 0, wallWork = 0; // [J]; external and wallWork during the step
-	Real     correction = 0; // energy that bodies got by taking back errors of position [J]
+	Real     correction  = 0; // energy that bodies got by taking back errors of position [J]
+	Real     kineticLeft = 0, potentialLeft = 0; // [J], at the end of the step, as the integrator leaves it
+	Real     size = 0; // sum of all parts of these energies, whatever their signs [J]
 	Real     mass = 0, speed = 0, largestSpeed = 0;
 	Vector3r centre = Vector3r::Zero(), momentum = Vector3r::Zero();
 	int      bodies = 0;
@@ -84,6 +87,7 @@ public:
 	std::vector<nonsmooth::contact::Impulse> warmStart; // what the solve began with
 	std::vector<Link>                        links;
 	std::vector<size_t>                      broken; // places of the contacts whose bonds broke in the step
+	GivenMotion                              givenMotion; // of bodies that others move by their positions
 	const Reading& readingOf(const Link& link) const { return resident->readings[link.slot]; }
 
 private:
@@ -95,6 +99,7 @@ private:
 	static size_t           chunksOf(size_t count) { return (count + sumChunk - 1) / sumChunk; }
 
 	void                        gatherBodies(Scene& scene, const Vector3r& gravity);
+	void                        takeGivenMotion(const Scene& scene);
 	void                        divide(const Scene& scene);
 	bool                        mustBeSolved(const Reading& reading) const;
 	void                        bend(const Reading& reading, nonsmooth::contact::Contact& contact) const;
@@ -145,7 +150,7 @@ private:
 	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, Held held,
 	        ContactSums& sums) const;
 	void sumImpacts(size_t id, const Vector3r& gravity, StepSums& sums) const;
-	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
+	void sumBodies(Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	Relaxation                               relaxation { 1, 0, 0, 0, 0 };
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with

@@ -37,6 +37,9 @@ void StepSums::add(const StepSums& other)
 	external += other.external;
 	wallWork += other.wallWork;
 	correction += other.correction;
+	kineticLeft += other.kineticLeft;
+	potentialLeft += other.potentialLeft;
+	size += other.size;
 	mass += other.mass;
 	speed += other.speed;
 	largestSpeed = std::max(largestSpeed, other.largestSpeed);
@@ -192,7 +195,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 			scatterForces(scene, begin, end);
 			displace(begin, end);
 			StepSums sums;
-			sumBodies(gravity, begin, end, sums);
+			sumBodies(scene, gravity, begin, end, sums);
 			parts[chunksC + k] = sums;
 		}
 	}
@@ -212,6 +215,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		for (size_t k = part * sumChunk; parts[part].anyBroken() && k < std::min((part + 1) * sumChunk, count);
 		     ++k)
 			if (readingOf(links[k]).broken != NscdPhys::None) broken.push_back(k);
+	givenMotion.leave(scene, *resident, h);
 	StepSums total;
 	for (const StepSums& s : parts)
 		total.add(s);
@@ -258,7 +262,7 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 	}
 }
 
-void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
+void ContactSeam::sumBodies(Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
 {
 	for (size_t id = begin; id < end; ++id) {
 		if (!present[id]) continue;
@@ -269,12 +273,30 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 		sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));
 		if (followed) sumImpacts(id, gravity, sums);
 		if (w.isFixed()) continue;
+		// and so does the work of what holds the weight of a body that is free along another direction
+		sums.wallWork -= relaxation.step * mass[id]
+		        * ((w.x > 0 ? 0 : gravity[0] * v1.x) + (w.y > 0 ? 0 : gravity[1] * v1.y));
 		sums.external += half * ((w.x > 0 ? f.x * x : 0) + (w.y > 0 ? f.y * y : 0) + (w.w > 0 ? f.w * a : 0));
 		// energies at the beginning of the step, like the positions they belong to
-		const Twist& u = followed ? begun[id] : v0;
-		sums.kinetic += 0.5 * (mass[id] * (u.x * u.x + u.y * u.y) + inertia[id] * u.w * u.w);
+		const Twist& start     = followed ? begun[id] : v0;
+		const auto   kineticOf = [&](const Twist& v) {
+                        return 0.5 * (mass[id] * (v.x * v.x + v.y * v.y) + inertia[id] * v.w * v.w);
+		};
+		const Real     kinetic = kineticOf(start);
 		const Vector3r at(problem.positions[id].x, problem.positions[id].y, 0);
-		sums.potential -= mass[id] * gravity.dot(at);
+		const Real     potential = mass[id] * gravity.dot(at);
+		sums.kinetic += kinetic;
+		sums.potential -= potential;
+		sums.size += kinetic + std::abs(potential);
+		// as the integrator will have them, with its own operations: nobody has brought anything where the next step begins with the same bits
+		const Real      h     = relaxation.step;
+		const Vector3r &force = scene.forces.getForce(id), &torque = scene.forces.getTorque(id);
+		const auto&     place = resident->bodies[id].motion.position;
+		const Twist     left { start.x + h * (w.x > 0 ? 0.0 + (force[0] / mass[id] + gravity[0]) : 0.0),
+                                   start.y + h * (w.y > 0 ? 0.0 + (force[1] / mass[id] + gravity[1]) : 0.0),
+                                   start.w + h * (w.w > 0 ? 0.0 + torque[2] / inertia[id] : 0.0) };
+		sums.kineticLeft += kineticOf(left);
+		sums.potentialLeft -= mass[id] * gravity.dot(Vector3r(place.x + left.x * h, place.y + left.y * h, 0));
 		// what errors of position cost: the way of the weight, and what the pairs of impulses give
 		Twist v2 = v1;
 		if (!correction.displacements.empty() || !clusterWay.empty()) {

@@ -15,6 +15,9 @@ template <std::size_t bytes> void fetch(const void* object)
 // What every step reads and writes of an interaction comes first in its objects; the marks of bonds, which come last, are met by the loop alone.
 constexpr std::size_t partOfGeometry = 128, partOfPhysics = 256;
 
+// What of a physics tells whether a script has written into it.
+constexpr std::size_t partWritten = 192;
+
 // Of a Reading: all but what few contacts ask for, those that break, yield, or have an impact.
 constexpr std::size_t commonOfReading = 128;
 

@@ -27,11 +27,15 @@ std::shared_ptr<Resident> Resident::of(Scene& scene)
 void Resident::takeBodies(Scene& scene)
 {
 	const double begin = steadySeconds();
-	readBodies(scene, threads, bodies);
+	followSizes(scene, readBodies(scene, threads, bodies));
 	shaped.clear();
-	for (size_t id = 0; id < bodies.size(); ++id)
-		if (const BodyReading& b = bodies[id]; b.present && !(b.radius > 0) && !b.clumped)
-			shaped.push_back(int(id));
+	driven.clear();
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		const BodyReading& b = bodies[id];
+		if (!b.present) continue;
+		if (!(b.radius > 0) && !b.clumped) shaped.push_back(int(id));
+		if (b.blocked & inPlane) driven.push_back(int(id));
+	}
 	asShown.resize(othersMayLook(scene) ? bodies.size() : 0);
 	for (size_t id = 0; id < asShown.size(); ++id)
 		asShown[id] = bodies[id].motion;
@@ -128,7 +132,7 @@ bool Resident::takeKnown(Scene& scene)
 	for (long k = 0; k < count; ++k) {
 		if (k + (long)later < count) fetch<sizeof(Interaction)>(readings[order[k + later].slot].interaction);
 		if (k + (long)soon < count && readings[order[k + soon].slot].phys)
-			fetch<1>(&readings[order[k + soon].slot].phys->touched);
+			fetch<partWritten>(readings[order[k + soon].slot].phys);
 		const int slot = order[k].slot;
 		Reading&  r    = readings[slot];
 		if (r.bare) { // nobody could change it
@@ -140,7 +144,7 @@ bool Resident::takeKnown(Scene& scene)
 		Interaction&  i    = *held.interaction;
 		if (!isThere(held.interaction) || i.geom != held.geom || i.phys != held.phys || i.getId1() != r.first)
 			other = true;
-		else if (r.keeper != Reading::Arrays || r.phys->touched)
+		else if (r.keeper != Reading::Arrays || r.phys->touched || r.phys->isWritten())
 			readSlot(look(i), slot);
 		else {
 			r.active = i.isActive;

@@ -121,13 +121,15 @@ public:
 	void make(const Pair& pair);
 	/// Goes through the bare contacts and the points at which they are [m]; all interactions that there are are up to date then.
 	void showBare(const std::function<void(const Reading&, const Vector3r&)>& take);
-	/// Bonds the bare contacts that are to be bonded, and returns how many; the others' interactions are up to date then, as ContactDynamicsEngine::bond needs them.
-	int bondBare();
+	/// Bonds the bare contacts that are to be bonded, and returns how many, and how many bare ones are bonded then; the others' interactions are up to date then, as ContactDynamicsEngine::bond needs them.
+	std::pair<int, int> bondBare();
 	/// Leaves out of the potential interactions those that are no longer in the list.
 	void forgetErased(InteractionContainer& list);
 
 	std::vector<BodyReading> bodies; // by id
 	std::vector<int>         shaped; // those that are no disks and of no clump
+	std::vector<int>         driven; // those with a motion in the plane that is given, since DOFs are blocked
+	std::vector<string> sizesTold; // what there is to tell of disks whose radius was changed, see ResidentSizes.cpp
 	std::vector<Reading>     readings; // by slot
 	std::vector<BondReading> bonds; // by slot, of contacts that the arrays keep
 	std::vector<BondStrain>  rests; // the same: what a bond has slipped and turned by yielding
@@ -165,6 +167,7 @@ private:
 	std::unique_lock<std::recursive_mutex> betweenTurns();
 	bool                                   takeKnown(Scene& scene);
 	void                                   takeShown(Scene& scene);
+	void                                   followSizes(Scene& scene, const std::vector<FormerSize>& changed);
 	int                                    freeSlot();
 	void                                   hold(Reading& reading, const shared_ptr<Interaction>& interaction);
 	void                                   showContact(int slot) const;

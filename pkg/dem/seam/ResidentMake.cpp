@@ -175,14 +175,15 @@ void Resident::showBare(const std::function<void(const Reading&, const Vector3r&
 		if (const Reading& r = readings[place.slot]; r.bare && !r.isLost()) take(r, contactPoint(r));
 }
 
-int Resident::bondBare()
+std::pair<int, int> Resident::bondBare()
 {
 	const auto guard = betweenTurns();
 	show({ "bond()", true, false });
 	const auto kept  = container.lock();
-	int        count = 0;
+	int        count = 0, all = 0;
 	for (const Place& place : order) {
 		Reading& r = readings[place.slot];
+		all += r.bare && r.bonded && !r.isLost();
 		if (!r.bare || r.isLost() || r.bonded || isGone(r.first) || isGone(r.second)) continue;
 		const auto& s = strengths[r.number];
 		if (!s.bondable || r.gap > r.length * s.creationDistance) continue;
@@ -197,7 +198,7 @@ int Resident::bondBare()
 		r.path                                     = {};
 		++count;
 	}
-	return count;
+	return { count, all + count };
 }
 
 } // namespace yade::nscd

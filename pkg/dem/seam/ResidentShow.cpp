@@ -4,6 +4,7 @@
 #include "Prefetch.hpp"
 #include "Resident.hpp"
 #include <algorithm>
+#include <core/Omega.hpp>
 #include <lib/pyutil/gil.hpp>
 #include <numeric>
 
@@ -80,7 +81,7 @@ Vector3r Resident::contactPoint(const Reading& r) const
 void Resident::showContact(int slot) const
 {
 	const Reading& r = readings[slot];
-	if (r.keeper != Reading::Arrays || !r.phys || r.phys->touched) return;
+	if (r.keeper != Reading::Arrays || !r.phys || r.phys->touched || r.phys->isWritten()) return;
 	ScGeom&   geom = *r.geom;
 	NscdPhys& phys = *r.phys;
 	if (!r.wasRead) {
@@ -165,6 +166,12 @@ void Resident::showForSaving()
 {
 	const auto guard = betweenTurns();
 	show({ "whoever saves" });
+	if (Scene& scene = *Omega::instance().getScene(); !bodies.empty() && container.lock() == scene.bodies)
+		followSizes(
+		        scene,
+		        readBodies(
+		                scene, threads,
+		                bodies)); // a radius that was changed since the last step is saved with what follows
 	beingSaved = PyGILState_Check();
 }
 
@@ -186,7 +193,8 @@ void Resident::takeShown(Scene& scene)
 	for (const int id : known) {
 		BodyReading&      b   = bodies[id];
 		const BodyReading now = readBody((*scene.bodies)[id].get());
-		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped) {
+		if (now.present != b.present || now.plain != b.plain || now.clumped != b.clumped
+		    || now.radius != b.radius || now.blocked != b.blocked) {
 			show();
 			takeBodies(scene);
 			return;

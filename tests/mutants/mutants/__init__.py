@@ -1,8 +1,17 @@
 """The table of mutants. A new one goes into the file of its subject; see tests/README.md."""
-from . import course, drawing, engines, impacts, laboratory, law, plane, solver, walls
+from . import between, course, drawing, engines, impacts, laboratory, law, plane, solver, walls
 
 MUTANTS = (
-    law.MUTANTS + solver.MUTANTS + plane.MUTANTS + engines.MUTANTS + impacts.MUTANTS + walls.MUTANTS + course.MUTANTS + laboratory.MUTANTS + drawing.MUTANTS
+    law.MUTANTS
+    + solver.MUTANTS
+    + plane.MUTANTS
+    + engines.MUTANTS
+    + between.MUTANTS
+    + impacts.MUTANTS
+    + walls.MUTANTS
+    + course.MUTANTS
+    + laboratory.MUTANTS
+    + drawing.MUTANTS
 )
 
 #: Mutants that no test sees, and why that is left so: {name: reason}.

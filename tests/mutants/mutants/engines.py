@@ -58,7 +58,7 @@ MUTANTS = (
     mutant("scatter-wall-work", SCATTER, "sums.wallWork -= 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));",
            "sums.wallWork += 0.5 * ((w.x > 0 ? 0 : r.x * x) + (w.y > 0 ? 0 : r.y * y) + (w.w > 0 ? 0 : r.w * a));", "the work of driven walls has the wrong sign",
            "test_engine.py::test_driven_wall_pushes_and_works"),
-    mutant("scatter-inertia", SCATTER, "inertia[id] * u.w * u.w", "mass[id] * u.w * u.w", "energy of rotation has the mass in the place of the inertia",
+    mutant("scatter-inertia", SCATTER, "inertia[id] * v.w * v.w", "mass[id] * v.w * v.w", "energy of rotation has the mass in the place of the inertia",
            "test_reactions.py::test_figures_of_a_step_by_hand"),
     mutant("scatter-centre", SCATTER, "sums.centre += mass[id] * at;", "sums.centre += at;", "the centre of mass does not know masses",
            "test_whole_slope.py::test_a_column_is_what_the_steps_say[centroid_x_m]", slow=True),

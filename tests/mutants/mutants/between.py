@@ -1,0 +1,57 @@
+"""What scripts and other engines do between two steps: written contacts, walls moved by their positions, sizes, what bodies bring; and the refusals of what leaves the plane."""
+from mutant import mutant
+
+PHYS, PHYS_H, READING, RESIDENT = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdPhys.hpp", "pkg/dem/seam/ContactReading.hpp", "pkg/dem/seam/Resident.cpp"
+GIVEN, SIZES, SCATTER, SEAM = "pkg/dem/seam/GivenMotion.cpp", "pkg/dem/seam/ResidentSizes.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeam.cpp"
+ENGINE, PLANE, CHECK, MAKE = "pkg/dem/ContactDynamicsEngine.cpp", "pkg/dem/PlaneCheck.cpp", "pkg/dem/SceneCheck.cpp", "pkg/dem/seam/ResidentMake.cpp"
+WRITTEN, MOTION, SIZE, BROUGHT = "test_written_contacts.py", "test_given_motion.py", "test_sizes.py", "test_brought_energy.py"
+
+MUTANTS = (
+    # ---- written contacts
+    mutant("written-residual", PHYS, "friction = residualFriction = tangensOfFrictionAngle", "friction = tangensOfFrictionAngle",
+           "a written friction is that of bonds alone", WRITTEN + "::test_set_contact_friction_counts_from_the_next_step_on"),
+    mutant("written-known", RESIDENT, "r.phys->touched || r.phys->isWritten()", "r.phys->touched", "contacts of disks do not notice what is written into them",
+           WRITTEN + "::test_contacts_of_disks_hear_it_too"),
+    mutant("written-overruled", PHYS, "overruled = left <= 0 && currentFriction != wanted", "overruled = false", "a friction that slip has taken away is not refused",
+           WRITTEN + "::test_a_wall_that_weakens_goes_on_from_it_and_refuses_what_slip_has_taken"),
+    mutant("written-stiffness", PHYS, "if (ks != 0) return \"ks\";", "", "a shear stiffness goes unheard", WRITTEN + "::test_what_a_rigid_contact_cannot_hear"),
+    mutant("written-usable", READING, "makeSense(r) && !phys.unheard()", "makeSense(r)", "what no contact can hear is not refused", WRITTEN + "::test_what_a_rigid_contact_cannot_hear"),
+    # ---- walls that are moved by their positions
+    mutant("given-mean", GIVEN, "moved / series.time", "moved / series.time * series.steps", "a wall moved every tenth step has ten times its speed",
+           MOTION + "::test_a_piston_gives_its_speed"),
+    mutant("given-end", GIVEN, "else if (s.steps >= s.interval)", "else if (s.steps >= 1000)", "a wall that stands has the speed of its last motion",
+           MOTION + "::test_a_wall_that_was_moved_and_stands_is_at_rest"),
+    mutant("given-once", GIVEN, "!again || series.steps > Real(longest)", "again && series.steps > Real(longest)", "a wall that is placed once has a speed",
+           MOTION + "::test_a_wall_that_is_placed_once_gives_no_speed"),
+    mutant("given-back", GIVEN, "std::signbit(moved) != std::signbit(own)", "false", "a belt that is put back does not drag", MOTION + "::test_a_belt_that_is_put_back_keeps_its_own_velocity"),
+    mutant("given-far", GIVEN, "if (back || late || far || (jumps && series.steps > 1))", "if (back || late)", "a wall that is put far away has a speed",
+           MOTION + "::test_jumps_and_moves_after_long_are_places_and_are_told_of"),
+    mutant("given-angle", GIVEN, "to.z * from.w - to.w * from.z", "to.w * from.z - to.z * from.w", "a wheel turns the other way",
+           MOTION + "::test_a_disk_is_turned_by_a_wheel_that_is_turned_by_its_orientation"),
+    mutant("given-body", GIVEN, "if (at->body && at->body != (*scene.bodies)[id])", "if (false)", "another body of the same id has moved",
+           MOTION + "::test_another_body_of_the_same_id_has_not_moved"),
+    mutant("given-saved", ENGINE, "if (stepSolved != 0) givenMotions = seam.givenMotion.numbers();", "", "a motion is forgotten in a saved scene",
+           MOTION + "::test_the_motion_goes_on_after_a_load_with_the_same_bits"),
+    # ---- sizes
+    mutant("sizes-area", SIZES, "? massOf(body, radius)", "? former.mass * square * ratio", "a disk's mass goes with the cube of its radius", SIZE + "::test_a_disk_stays_a_disk"),
+    mutant("sizes-own-mass", SIZES, "if ((!left && !grown) || (grown && isSphere))", "if (grown && isSphere)", "a mass that a script has set is overwritten",
+           SIZE + "::test_what_a_script_has_chosen_stays"),
+    mutant("sizes-thresholds", PHYS, "length  = newLength;", "length = newLength; tensileForce /= ratio;", "a bond's strength stays where its disks grow",
+           SIZE + "::test_contacts_follow_with_length_thresholds_and_bonds"),
+    mutant("sizes-marks", SIZES, "*= ratio;\n", "*= 1;\n", "a bond's marks stay where they were in a disk that grows", SIZE + "::test_bonds_live_while_disks_grow_slowly"),
+    # ---- what others bring
+    mutant("brought-left", ENGINE, "energyLeft = s.kineticLeft + s.potentialLeft;", "energyLeft = now;", "what gravity and contacts do in a step was brought by others",
+           BROUGHT + "::test_nothing_is_brought_where_nobody_brings_anything"),
+    mutant("brought-error", ENGINE, "now - energyStart - broughtEnergy", "now - energyStart", "what bodies bring is an error", BROUGHT + "::test_what_changes_bring"),
+    mutant("brought-plate", SCATTER, "gravity[1] * v1.y", "-gravity[1] * v1.y", "a plate that is lifted does the work", BROUGHT + "::test_a_driven_direction_of_a_body_that_is_free_along_another_is_the_walls_work"),
+    # ---- out of the plane
+    mutant("plane-about-y", PLANE, "std::abs(torque[0]) + std::abs(torque[1])", "std::abs(torque[0])", "a torque about y is let through", "test_plane.py::test_forces_and_torques"),
+    mutant("plane-gyration", PLANE, "std::sqrt(inertia / mass)", "inertia / mass", "the rounding of torques has the wrong unit", "test_plane.py::test_rounding_is_none_of_it"),
+    mutant("plane-ramp", ENGINE, "gravityRamp > 0 ? finalGravity : Vector3r(Vector3r::Zero())", "Vector3r(Vector3r::Zero())", "gravity may grow out of the plane",
+           "test_plane.py::test_gravity_that_grows_out_of_the_plane"),
+    mutant("plane-readers", CHECK, "reset && !passed && !engine.dead && readsForces(engine)", "false", "engines that read forces may stand where there are none",
+           "test_plane.py::test_readers_of_forces_before_the_solver_are_refused"),
+    # ---- counts
+    mutant("bonds-bare", MAKE, "return { count, all + count };", "return { count, count };", "bonds of contacts without interactions are not counted",
+           "test_messages.py::test_bonds_are_counted_when_they_are_made_and_removed"),
+)
