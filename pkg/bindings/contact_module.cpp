@@ -158,10 +158,12 @@ void saveFile(const std::string& path, const py::dict& d)
 py::dict dictOf(const Residual& r)
 {
 	py::dict d;
-	d["relative"] = r.relative();
-	d["rms"]      = r.rms;
-	d["largest"]  = r.largest;
-	d["scale"]    = r.scale;
+	d["relative"]            = r.relative();
+	d["rms"]                 = r.rms;
+	d["largest"]             = r.largest;
+	d["scale"]               = r.scale;
+	d["speed_share"]         = r.speed;
+	d["speed_share_largest"] = r.largestSpeed;
 	return d;
 }
 
@@ -233,6 +235,7 @@ py::dict solveArrays(
 	d["iterations"] = statistics.iterations;
 	d["in_single"]  = statistics.inSingle;
 	d["restarts"]   = statistics.restarts;
+	d["patches"]    = statistics.patches;
 	d["converged"]  = statistics.converged;
 	d["seconds"]    = seconds;
 	return d;

@@ -14,18 +14,18 @@ void ActiveStrips::reset(const std::vector<std::size_t>& begin_, std::size_t eve
 	weigh();
 }
 
-bool ActiveStrips::choose(const std::vector<ResidualSums>& sums)
+bool ActiveStrips::choose(const std::vector<ResidualSums>& sums, double ResidualSums::*part)
 {
 	constexpr double share
 	        = 0.005; // η; with a tenth more rests, but late in a solve the residual comes back from where it rested
 	double all = 0;
 	for (std::size_t s = 0; s < active.size(); ++s)
-		all += sums[s].square;
+		all += sums[s].*part;
 	const double bound   = share * all / std::max<std::size_t>(active.size(), 1);
 	bool         changed = false;
 	anyRests             = false;
 	for (std::size_t s = 0; s < active.size(); ++s) {
-		const bool now = !(sums[s].square <= bound); // what is no number does not rest
+		const bool now = !(sums[s].*part <= bound); // what is no number does not rest
 		changed        = changed || now != bool(active[s]);
 		resting[s]     = active[s] && !now;
 		anyRests       = anyRests || resting[s];

@@ -3,6 +3,7 @@
 // In a packing that moves, nine tenths of the residual's square lie in a quarter of the strips, and which these are changes slowly. So at each look at the residual
 // a strip s is active if its part r_s of the sum of squares has
 //     r_s > η ⟨r⟩ ,     ⟨r⟩ the mean over all strips, η = 0.005 ;
+// where impulses are solved and speeds are not (residual.hpp), r_s is its part of the sum of ϑ²;
 // the others rest until the next look, and hold less than η of the whole together. Impulses of a strip that rests stay; its bodies move where a
 // strip beside it is active, and its residual with them, which is looked at then. Where contacts are left over by the strips (sweep_order.hpp), none rests.
 //
@@ -19,8 +20,8 @@ class ActiveStrips {
 public:
 	/// All are active. `begin`, `evenStrips`: as SweepOrder::partBegin and SweepOrder::evenStrips.
 	void reset(const std::vector<std::size_t>& begin, std::size_t evenStrips);
-	/// Chooses by the sums of the parts, in the order of places; returns whether another choice stood before.
-	bool choose(const std::vector<ResidualSums>& sums);
+	/// Chooses by one of the sums of the parts, in the order of places; returns whether another choice stood before.
+	bool choose(const std::vector<ResidualSums>& sums, double ResidualSums::*part = &ResidualSums::square);
 	/// All are active again, and none has come to rest; returns as choose().
 	bool wakeAll();
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <contact/problem.hpp>
+#include <contact/residual.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -67,11 +68,6 @@ template <class Number> struct alignas(64) Block : BlockBodies {
 	Numbers<Number> beforeT, beforeR; // with beforeN P_{k−1}
 };
 
-/// Sums over contacts: squared residual and impulse, and the largest squared residual.
-struct ResidualSums {
-	double square = 0, scale = 0, largest = 0;
-};
-
 /// Where the numbers of blocks come from.
 struct BlockNumbers {
 	static constexpr std::int32_t none = -1; // an empty lane
@@ -91,10 +87,10 @@ template <class Number> struct KernelsOf {
 	        const Block<Number>* ahead);
 	/// before += M⁻¹ Hᵀ (P_k − P_{k−1}), P_{k−1} ← P_k: what is extrapolated next is zero.
 	void (*rest)(Block<Number>* blocks, std::size_t count, Motion<Number>* before);
-	/// Natural-map residual; `inverseLength`: 1/ℓ, 0 in an empty lane.
+	/// Natural-map residual; `inverseLength`: 1/ℓ, 0 in an empty lane; `least`: leastSquaredSpeed().
 	ResidualSums (*measure)(
 	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, std::size_t count,
-	        const Motion<Number>* bodies);
+	        const Motion<Number>* bodies, Number least);
 	/// v ← v + β (v − before), before ← v.
 	void (*extrapolate)(Motion<Number>* bodies, Motion<Number>* before, std::size_t count, Number beta);
 };

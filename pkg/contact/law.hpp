@@ -44,15 +44,19 @@ inline Impulse project(const Contact& c, const Impulse& p)
 	return { n, projectThreshold(p.t, slidingThreshold(c, n)), projectThreshold(p.r, rollingThreshold(c, n)) };
 }
 
-/// Inverse diagonal of the Delassus operator at one contact: 1/W_nn, 1/W_tt, 1/W_rr; from 1/W_nn where W_tt or W_rr is 0, 0 where W_nn is.
-inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
+/// Diagonal of the Delassus operator at one contact: W_nn, W_tt [1/kg], W_rr [1/(kg m²)].
+inline Impulse delassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
 {
 	const double x = mi.x + mj.x, y = mi.y + mj.y;
-	const double wn = c.nx * c.nx * x + c.ny * c.ny * y + mi.w * c.leverNi * c.leverNi
-	        + mj.w * c.leverNj * c.leverNj;
-	const double wt = c.ny * c.ny * x + c.nx * c.nx * y + mi.w * c.leverTi * c.leverTi
-	        + mj.w * c.leverTj * c.leverTj;
-	const double wr = mi.w + mj.w;
+	return { c.nx * c.nx * x + c.ny * c.ny * y + mi.w * c.leverNi * c.leverNi + mj.w * c.leverNj * c.leverNj,
+		 c.ny * c.ny * x + c.nx * c.nx * y + mi.w * c.leverTi * c.leverTi + mj.w * c.leverTj * c.leverTj,
+		 mi.w + mj.w };
+}
+
+/// Its inverse: 1/W_nn, 1/W_tt, 1/W_rr; from 1/W_nn where W_tt or W_rr is 0, 0 where W_nn is.
+inline Impulse inverseDelassus(const Contact& c, const InverseMass& mi, const InverseMass& mj)
+{
+	const auto [wn, wt, wr] = delassus(c, mi, mj);
 	// A row that no impulse moves may still be driven (a wall drawn under a disk that is held): any factor leads to its threshold.
 	const double n = wn > 0 ? 1 / wn : 0;
 	return { n, wt > 0 ? 1 / wt : n, wr > 0 ? 1 / wr : n * c.length * c.length };

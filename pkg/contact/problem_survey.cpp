@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <contact/mass_jumps.hpp>
 #include <contact/problem_check.hpp>
 #include <contact/problem_survey.hpp>
 
@@ -25,17 +26,20 @@ namespace {
 	{
 		const long count     = static_cast<long>(problem.bodyCount());
 		const bool hasPlaces = !problem.positions.empty();
-		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL;
-		long       bad = count, astray = count; // the first ones, found by threads, which must not throw
+		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL, most = 0,
+		       lightness = HUGE_VAL;
+		long bad = count, astray = count; // the first ones, found by threads, which must not throw
 		result.traits.resize(count);
 // clang-format off
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY, bad, astray) reduction(max : highX, highY)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY, lightness, bad, astray) reduction(max : highX, highY, most)
 		// clang-format on
 		for (long b = 0; b < count; ++b) {
 			const InverseMass& m = problem.inverseMass[b];
 			const Twist&       v = problem.freeVelocity[b];
 			if (!usable(m, v)) bad = std::min(bad, b);
 			result.traits[b] = traitsOf(m, v);
+			most             = std::max({ most, std::abs(v.x), std::abs(v.y) });
+			lightness        = std::min({ lightness, m.x > 0 ? m.x : HUGE_VAL, m.y > 0 ? m.y : HUGE_VAL });
 			if (!hasPlaces) continue;
 			const Point& x = problem.positions[b];
 			if (!usable(x)) astray = std::min(astray, b);
@@ -47,6 +51,8 @@ namespace {
 		}
 		if (bad < count) refuseBody(problem, bad);
 		if (astray < count) refusePosition(problem, astray);
+		result.fastest    = most;
+		result.lightness  = lightness;
 		result.extents[0] = { lowX, highX };
 		result.extents[1] = { lowY, highY };
 	}
@@ -58,12 +64,12 @@ namespace {
 		const auto   bodies    = static_cast<std::int32_t>(problem.bodyCount());
 		const Point* positions = problem.positions.empty() ? nullptr : problem.positions.data();
 		double       longestX = 0, longestY = 0;
-		long         bad      = count;
-		bool         newPairs = result.pairs.size() != problem.contactCount(), newSimple = newPairs;
+		long         bad = count;
+		bool newPairs = result.pairs.size() != problem.contactCount(), newSimple = newPairs, jumps = false;
 		result.pairs.resize(count);
 		result.simple.resize(count);
 // clang-format off
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad) reduction(max : longestX, longestY) reduction(|| : newPairs, newSimple)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad) reduction(max : longestX, longestY) reduction(|| : newPairs, newSimple, jumps)
 		// clang-format on
 		for (long k = 0; k < count; ++k) {
 			const Contact& c = problem.contacts[k];
@@ -79,6 +85,7 @@ namespace {
 			const std::uint8_t fits   = blocks && isSimple(c, i, j);
 			newSimple                 = newSimple || fits != result.simple[k];
 			result.simple[k]          = fits;
+			jumps = jumps || isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j]);
 			if (!positions || !(i & j & Survey::moves)) continue;
 			longestX = std::max(longestX, std::abs(positions[c.i].x - positions[c.j].x));
 			longestY = std::max(longestY, std::abs(positions[c.i].y - positions[c.j].y));
@@ -86,6 +93,7 @@ namespace {
 		if (bad < count) refuseContact(problem, bad);
 		result.longest[0] = longestX;
 		result.longest[1] = longestY;
+		result.jumps      = jumps;
 		result.pairsKept  = !newPairs;
 		result.simpleKept = !newSimple;
 	}

@@ -27,7 +27,10 @@ struct Survey {
 	std::vector<std::uint8_t> simple; // whether a contact fits into blocks
 	std::vector<MovablePair>  pairs; // of the contacts
 	Span                      extents[2]; // in x and y, from the lowest to the highest body that can move
+	double                    fastest    = 0; // largest component of a free velocity [m/s]
+	double                    lightness  = HUGE_VAL; // least inverse mass of what can move in x or y [1/kg]
 	double                    longest[2] = { 0, 0 }; // in x and y, of contacts between bodies that can move
+	bool                      jumps      = false; // whether masses jump somewhere (mass_jumps.hpp)
 	bool                      pairsKept = false, simpleKept = false; // whether they are those of the last look
 };
 

@@ -29,6 +29,36 @@ std::vector<Impulse> naturalMapDefects(const Problem& problem)
 	return defects;
 }
 
+double fastest(const std::vector<Twist>& velocities)
+{
+	double most = 0;
+	for (const Twist& v : velocities)
+		most = std::max({ most, std::abs(v.x), std::abs(v.y) });
+	return most;
+}
+
+double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& mi, const InverseMass& mj)
+{
+	const Impulse w = delassus(c, mi, mj);
+	const double  n = w.n * defect.n, t = w.t * defect.t, r = (c.leverTi - c.leverTj) * (w.r * defect.r);
+	return n * n + t * t + r * r;
+}
+
+double speedShare(
+        const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
+        const Twist& vi, const Twist& vj, double least, double rounding)
+{
+	const double missed = missedSpeed(c, defect, mi, mj), wn = delassus(c, mi, mj).n;
+	const auto   change = [](const Twist& v, double leverN, double leverT) {
+                return v.x * v.x + v.y * v.y + (leverN * leverN + leverT * leverT) * (v.w * v.w);
+	};
+	const double biasR = (c.leverTi - c.leverTj) * c.biasR,
+	             rest = wn * wn * (p.n * p.n + p.t * p.t) + (c.biasN * c.biasN + c.biasT * c.biasT + biasR * biasR);
+	const double own  = std::max(change(vi, c.leverNi, c.leverTi), change(vj, c.leverNj, c.leverTj))
+	        + rounding * rounding * rest;
+	return missed / (missed + own + least);
+}
+
 SpeedResidual naturalMapSpeeds(const Problem& problem)
 {
 	const auto defects = naturalMapDefects(problem);
@@ -46,18 +76,62 @@ SpeedResidual naturalMapSpeeds(const Problem& problem)
 	return { std::sqrt(sum / std::max<std::size_t>(defects.size(), 1)), std::sqrt(largest) };
 }
 
+std::vector<double> speedShares(const Problem& problem)
+{
+	const auto          v       = velocitiesOf(problem);
+	const auto          defects = naturalMapDefects(problem);
+	const double        least   = leastSquaredSpeed<double>(fastest(problem.freeVelocity));
+	std::vector<double> shares;
+	shares.reserve(defects.size());
+	const auto change = [&](std::int32_t b) {
+		const Twist& free = problem.freeVelocity[b];
+		return Twist { v[b].x - free.x, v[b].y - free.y, v[b].w - free.w };
+	};
+	for (std::size_t k = 0; k < defects.size(); ++k) {
+		const Contact& c = problem.contacts[k];
+		shares.push_back(speedShare(
+		        c, problem.impulses[k], defects[k], problem.inverseMass[c.i], problem.inverseMass[c.j],
+		        change(c.i), change(c.j), least));
+	}
+	return shares;
+}
+
+void ResidualSums::add(const Contact& c, const Impulse& p, const Impulse& defect, double share)
+{
+	const double one = squareNorm(c, defect);
+	square += one;
+	largest = std::max(largest, one);
+	scale += squareNorm(c, p);
+	speed += share;
+	largestSpeed = std::max(largestSpeed, share);
+	active += p.n + c.adhesion > 0 || defect.n != 0;
+}
+
+void ResidualSums::add(const ResidualSums& other)
+{
+	square += other.square;
+	scale += other.scale;
+	largest = std::max(largest, other.largest);
+	speed += other.speed;
+	largestSpeed = std::max(largestSpeed, other.largestSpeed);
+	active += other.active;
+}
+
+Residual ResidualSums::residual(std::size_t contacts) const
+{
+	const double n = std::max<std::size_t>(contacts, 1);
+	return { std::sqrt(square / n), std::sqrt(largest), std::sqrt(scale / n),
+		 std::sqrt(speed / std::max(active, 1.0)), std::sqrt(largestSpeed) };
+}
+
 Residual naturalMapResidual(const Problem& problem)
 {
-	const auto defects = naturalMapDefects(problem);
-	double     sum = 0, scale = 0, largest = 0;
-	for (std::size_t k = 0; k < defects.size(); ++k) {
-		const double square = squareNorm(problem.contacts[k], defects[k]);
-		sum += square;
-		largest = std::max(largest, square);
-		scale += squareNorm(problem.contacts[k], problem.impulses[k]);
-	}
-	const double count = std::max<std::size_t>(defects.size(), 1);
-	return { std::sqrt(sum / count), std::sqrt(largest), std::sqrt(scale / count) };
+	const auto   defects = naturalMapDefects(problem);
+	const auto   shares  = speedShares(problem);
+	ResidualSums sums;
+	for (std::size_t k = 0; k < defects.size(); ++k)
+		sums.add(problem.contacts[k], problem.impulses[k], defects[k], shares[k]);
+	return sums.residual(defects.size());
 }
 
 } // namespace nonsmooth::contact

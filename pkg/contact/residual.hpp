@@ -1,22 +1,79 @@
 // The natural-map residual of the three threshold graphs: how far impulses and velocities are from satisfying the law,
-// whatever method made them.
+// whatever method made them. It is measured twice over, as impulses and as speeds, since neither sees all:
+//
+//   D = P − proj(P − W⁻¹ (U + b))       what the impulses of a contact miss; its rms beside that of all impulses is Residual::relative().
+//                                        A light body among heavy ones hardly counts in either.
+//   V = W D                              the same as speeds; rolling times the arm λ_i − λ_j
+//   s² = max(|Δv_i|², |Δv_j|²)           Δv: what impulses have changed of a body's free velocity, with the speed of its turning at the contact,
+//                                        |Δv|² = Δv_x² + Δv_y² + (λ Δω)²; under gravity alone g h for each body that is borne
+//   ϑ = V / √(V² + s²)                   share of the contact's speed that its impulses leave open: 0 solved, 1 where nothing acts yet and something should
+//
+// ϑ does not depend on masses, units, or on how fast everything moves together. It has no scale that other contacts set: a disk that falls is seen
+// beside an impact. A little of W P, of b and of the fastest body's speed is added to s, beside which velocities are rounded, so that a
+// packing that is pressed and changes no velocity can be solved.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <contact/problem.hpp>
+#include <limits>
+#include <type_traits>
 
 namespace nonsmooth::contact {
 
 struct Residual {
-	double rms     = 0; // rms over contacts of |P − proj(P − (U+b)/W)| [N s], rolling divided by ℓ
-	double largest = 0; // its largest value [N s]
-	double scale   = 0; // rms over contacts of |P| [N s]
+	double rms          = 0; // rms over contacts of |P − proj(P − (U+b)/W)| [N s], rolling divided by ℓ
+	double largest      = 0; // its largest value [N s]
+	double scale        = 0; // rms over contacts of |P| [N s]
+	double speed        = 0; // rms of ϑ over contacts that act or should [-]
+	double largestSpeed = 0; // largest ϑ [-]
 	/// The figure that tolerances are given for; 0 where nothing acts and nothing should.
 	double relative() const
 	{
 		if (!std::isfinite(rms + scale)) return HUGE_VAL; // whatever is not a number is not a solution
 		return scale > 0 ? rms / scale : (rms > 0 ? 1 : 0);
 	}
+	/// The largest of the three figures, each over what the tolerance allows it: solved up to 1. A speed may miss 125 times as much as the
+	/// impulses in the rms, and in a single contact two thousand times; but never so much that a body may fall, nor need it miss less than a
+	/// hundredth, where what is asked of impulses asks for more.
+	double missed(double tolerance) const
+	{
+		if (!std::isfinite(relative() + speed)) return HUGE_VAL;
+		return std::max(
+		        { relative() / tolerance, speed / meanSpeed(tolerance), largestSpeed / mostSpeed(tolerance) });
+	}
+	static double meanSpeed(double tolerance) { return std::clamp(125 * tolerance, 1e-4, 0.1); }
+	static double mostSpeed(double tolerance) { return std::clamp(2000 * tolerance, 1e-2, 0.5); }
+};
+
+/// Speeds beside W P and b that no ϑ is asked for, see above: what rounding leaves over the least ϑ that missed() can ask for.
+template <class Number> constexpr Number speedRounding = std::is_same_v<Number, float> ? 1e-4 : 1e-11;
+
+/// The same beside the fastest body's free velocity, squared: free velocities are always doubles. Never 0.
+template <class Number> Number leastSquaredSpeed(double fastest)
+{
+	const double least = 1e-12 * fastest;
+	return std::max(static_cast<Number>(least * least), std::numeric_limits<Number>::min());
+}
+double fastest(const std::vector<Twist>& velocities);
+
+/// V² of a contact that misses `defect` [m²/s²].
+double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& mi, const InverseMass& mj);
+
+/// ϑ² of a contact with the impulses `p` that misses `defect`; `vi`, `vj`: what impulses have changed of its bodies' velocities.
+double speedShare(
+        const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
+        const Twist& vi, const Twist& vj, double least, double rounding = speedRounding<double>);
+
+/// Sums over contacts that the figures are made of; parts can be added in any fixed order.
+struct ResidualSums {
+	double square = 0, scale = 0, largest = 0; // of squared defects and impulses, and the largest defect
+	double speed = 0, largestSpeed = 0, active = 0; // of ϑ², the largest ϑ², and contacts that act or should
+
+	/// Adds a contact; `share`: its ϑ².
+	void     add(const Contact& c, const Impulse& p, const Impulse& defect, double share);
+	void     add(const ResidualSums& other);
+	Residual residual(std::size_t contacts) const;
 };
 
 /// freeVelocity + M⁻¹ Hᵀ P, the velocities that belong to problem.impulses. Serial, in the contacts' order.
@@ -30,6 +87,9 @@ struct SpeedResidual {
 	double rms = 0, largest = 0; // over contacts [m/s]
 };
 SpeedResidual naturalMapSpeeds(const Problem& problem);
+
+/// ϑ² of every contact of problem.impulses.
+std::vector<double> speedShares(const Problem& problem);
 
 /// Residual of problem.impulses with the velocities that follow from them (nothing of a solver's own state is used).
 Residual naturalMapResidual(const Problem& problem);

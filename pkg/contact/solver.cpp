@@ -1,5 +1,7 @@
 #include <cmath>
+#include <contact/patch_solver.hpp>
 #include <contact/problem_check.hpp>
+#include <contact/problem_scale.hpp>
 #include <contact/sweeper.hpp>
 #include <optional>
 
@@ -22,6 +24,7 @@ namespace {
 		void begin();
 		void round();
 		void finish(bool take);
+		bool sweepAndPatch();
 		void writeFixed();
 		void applyStrip(std::size_t strip);
 		void writeStrip(std::size_t strip);
@@ -32,6 +35,8 @@ namespace {
 		const ContactBlocks&          laidOut;
 		Sweeper<double>               exact;
 		std::optional<Sweeper<float>> rounded;
+		std::optional<PatchSolver>    patches; // where masses jump
+		bool                          patched = false; // in the last round
 	};
 
 	Solve::Solve(Problem& problem_, const SolverSettings& settings_, Workspace& workspace)
@@ -42,7 +47,10 @@ namespace {
 	        , exact(problem_, settings_, workspace)
 	{
 		exact.fillRows();
-		if (sweepsInSingle(settings)) rounded.emplace(problem, settings, workspace);
+		if (laidOut.survey.jumps && settings.stopping == StoppingTest::NaturalMap) patches.emplace(exact);
+		if (patches && !patches->any()) patches.reset();
+		// floats have no digits for a light body between heavy ones
+		if (sweepsInSingle(settings) && !patches) rounded.emplace(problem, settings, workspace);
 		problem.velocities.resize(problem.bodyCount());
 	}
 
@@ -135,6 +143,34 @@ namespace {
 		exact.sumUp();
 	}
 
+	/// Sweeps and patches in turn, with more sweeps in each round; returns whether anything was changed.
+	bool Solve::sweepAndPatch()
+	{
+		constexpr int firstSweeps = 30, rounds = 4;
+		const double  tolerance = settings.tolerance;
+		bool          changed   = false;
+		for (int round = 0, sweeps = firstSweeps;; ++round, sweeps *= 4) {
+			const int  before = exact.iterations, left = settings.maxIterations - before;
+			const bool last = round == rounds;
+			exact.iterate({ tolerance, last ? left : std::min(left, sweeps) });
+			const bool swept = exact.iterations > before;
+			changed          = changed || swept;
+#pragma omp barrier
+#pragma omp single
+			patched = patches->settle(
+			        tolerance, last ? 0 : 0.5 * settings.maxIterations * double(problem.contactCount()));
+			if (patched) {
+				changed = true;
+				exact.schedule.each(omp_get_thread_num(), [this](std::size_t s) {
+					exact.measureStrip(s);
+				});
+				exact.sumUp();
+			}
+			if (last || exact.solved(tolerance)) break;
+		}
+		return changed;
+	}
+
 	SolverStatistics Solve::run()
 	{
 		// in single precision a little further, so that doubles, which round otherwise, find it solved
@@ -145,6 +181,11 @@ namespace {
 			bool written = false;
 			begin();
 			int left = settings.maxIterations;
+			if (patches && sweepAndPatch()) {
+				finish(false);
+				left    = 0;
+				written = true;
+			}
 			if (rounded && !exact.solved(tolerance)) {
 				round();
 				rounded->iterate({ further * tolerance, left });
@@ -152,8 +193,8 @@ namespace {
 				written = rounded->iterations > 0 && std::isfinite(rounded->residual.rms);
 				if (written) finish(true);
 			}
-			exact.iterate({ tolerance, left });
-			if (exact.iterations > 0) finish(false);
+			if (!patches) exact.iterate({ tolerance, left });
+			if (!patches && exact.iterations > 0) finish(false);
 			else if (!written) { // as it was begun with
 				writeFixed();
 				exact.schedule.each(omp_get_thread_num(), [this](std::size_t s) { writeStrip(s); });
@@ -168,6 +209,11 @@ namespace {
 		statistics.changes    = exact.changes;
 		statistics.converged  = exact.solved(
 		         tolerance * (1 + 1e-6)); // velocities computed anew may round the other way
+		if (patches) {
+			statistics.patches   = patches->solved();
+			statistics.converged = statistics.converged
+			        && patches->speed() <= Residual::meanSpeed(tolerance);
+		}
 		return statistics;
 	}
 
@@ -179,7 +225,20 @@ SolverStatistics solve(Problem& problem, const SolverSettings& settings, Workspa
 	Workspace  own;
 	Workspace& memory = workspace ? *workspace : own;
 	layOut(problem, threadsFor(problem, settings), memory.laidOut, !settings.reference);
-	return Solve(problem, settings, memory).run();
+	const auto scaling = scalingOfLostSquares(memory.laidOut.survey);
+	if (!scaling) return Solve(problem, settings, memory).run();
+	Problem    other      = scaled(problem, *scaling);
+	auto       statistics = solve(other, settings, &memory);
+	const auto back       = inverse(*scaling);
+	for (std::size_t k = 0; k < problem.contactCount(); ++k)
+		problem.impulses[k] = scaled(other.impulses[k], back);
+	problem.velocities.resize(problem.bodyCount());
+	for (std::size_t b = 0; b < problem.bodyCount(); ++b)
+		problem.velocities[b] = scaled(other.velocities[b], back.speed);
+	for (double* const impulse :
+	     { &statistics.residual.rms, &statistics.residual.largest, &statistics.residual.scale })
+		*impulse = std::ldexp(*impulse, back.speed + back.mass);
+	return statistics;
 }
 
 } // namespace nonsmooth::contact

@@ -58,11 +58,13 @@ struct SolverSettings {
 };
 
 struct SolverStatistics {
-	int  iterations = 0; // visits over contacts, a sweep of few strips being a quarter at least, rounded up
-	int  inSingle   = 0; // those of them in single precision
-	int  restarts   = 0;
-	int  strips     = 0;
-	bool converged  = true;
+	int iterations = 0; // visits over contacts, a sweep of few strips being a quarter at least, rounded up
+	int inSingle   = 0; // those of them in single precision
+	int restarts   = 0;
+	int strips     = 0;
+	int patches
+	        = 0; // of contacts around mass jumps that were solved at once, each as often as it was (mass_jumps.hpp)
+	bool converged = true;
 	Residual
 	        residual; // of what is returned, from velocities computed anew from the impulses; whatever test stopped the solver
 	VelocityChanges changes; // the same, in the figures of LMGC90's tests; only where one of them was asked for

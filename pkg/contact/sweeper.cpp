@@ -32,6 +32,7 @@ Sweeper<Number>::Sweeper(Problem& problem_, const SolverSettings& settings_, Wor
 	bodies.resize(problem.bodyCount() + 1);
 	bodiesBefore.resize(problem.bodyCount() + 1);
 	bodies.back() = Motion<Number> {};
+	least         = leastSquaredSpeed<Number>(laidOut.survey.fastest);
 	strips.reset(laidOut.order.partBegin, laidOut.order.evenStrips);
 }
 
@@ -124,17 +125,16 @@ template <class Number> void Sweeper<Number>::sweepRows(std::size_t s, double be
 	}
 }
 
-/// Chooses the strips that are visited until the next choice.
-template <class Number> void Sweeper<Number>::chooseStrips()
+/// Chooses the strips that are visited until the next choice, by what keeps the problem from being solved.
+template <class Number> void Sweeper<Number>::chooseStrips(double tolerance)
 {
 	const auto& begin = laidOut.order.partBegin;
-	if (settings.method != Method::Accelerated || settings.checkEvery > longestRest
-	    || settings.stopping != StoppingTest::NaturalMap)
-		return;
+	if (settings.checkEvery > longestRest || settings.stopping != StoppingTest::NaturalMap) return;
 	if (begin.back() > begin[begin.size() - 2]) return; // what is left over moves bodies of any strip
 #pragma omp barrier
 #pragma omp single
-	if (strips.choose(sums)) schedule.plan(strips.work(), laidOut.order.evenStrips, omp_get_num_threads());
+	if (strips.choose(sums, residual.relative() <= tolerance ? &ResidualSums::speed : &ResidualSums::square))
+		schedule.plan(strips.work(), laidOut.order.evenStrips, omp_get_num_threads());
 	if (!strips.anyComesToRest()) return;
 	// one worker's stretch may have most of them, so each takes what comes next; no two even strips share bodies, nor do two odd ones
 	const long even = static_cast<long>(laidOut.order.evenStrips), all = static_cast<long>(begin.size()) - 2;
@@ -193,20 +193,20 @@ template <class Number> void Sweeper<Number>::sweep(const std::vector<double>& b
 template <class Number> void Sweeper<Number>::measureRows(std::size_t s, ResidualSums& sums) const
 {
 	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
-		const Contact& c   = rows[k].contact;
-		const Impulse& p   = rows[k].p;
-		const double   one = squareNorm(
-		          c, naturalMapDefect(c, p, relativeVelocity(c, twistAt(c.i), twistAt(c.j)), rows[k].inverse));
-		sums.square += one;
-		sums.largest = std::max(sums.largest, one);
-		sums.scale += squareNorm(c, p);
+		const Contact& c  = rows[k].contact;
+		const Impulse& p  = rows[k].p;
+		const Twist    vi = twistAt(c.i), vj = twistAt(c.j);
+		const Impulse  defect = naturalMapDefect(c, p, relativeVelocity(c, vi, vj), rows[k].inverse);
+		sums.add(
+		        c, p, defect,
+		        speedShare(c, p, defect, rows[k].mi, rows[k].mj, vi, vj, least, speedRounding<Number>));
 	}
 }
 
 template <class Number> void Sweeper<Number>::measureStrip(std::size_t s)
 {
 	sums[s] = kernels.measure(
-	        blocksOf(s), own.inverseLength.data() + laidOut.blockBegin[s], countOf(s), bodies.data());
+	        blocksOf(s), own.inverseLength.data() + laidOut.blockBegin[s], countOf(s), bodies.data(), least);
 	measureRows(s, sums[s]);
 }
 
@@ -216,13 +216,9 @@ template <class Number> void Sweeper<Number>::sumUp()
 #pragma omp single
 	{
 		ResidualSums all;
-		for (const ResidualSums& s : sums) {
-			all.square += s.square;
-			all.scale += s.scale;
-			all.largest = std::max(all.largest, s.largest);
-		}
-		const double n = std::max<std::size_t>(problem.contactCount(), 1);
-		residual       = { std::sqrt(all.square / n), std::sqrt(all.largest), std::sqrt(all.scale / n) };
+		for (const ResidualSums& s : sums)
+			all.add(s);
+		residual = all.residual(problem.contactCount());
 	}
 	if (settings.stopping != StoppingTest::NaturalMap) measureChanges();
 }
@@ -251,23 +247,32 @@ template <class Number> void Sweeper<Number>::measureChanges()
 
 template <class Number> bool Sweeper<Number>::solved(double tolerance) const
 {
-	const double figure = settings.stopping == StoppingTest::NaturalMap ? residual.relative()
-	                                                                    : changes.figure(settings.stopping);
-	return figure <= tolerance;
+	return settings.stopping == StoppingTest::NaturalMap ? residual.missed(tolerance) <= 1
+	                                                     : changes.figure(settings.stopping) <= tolerance;
+}
+
+/// All strips are visited again.
+template <class Number> void Sweeper<Number>::wakeStrips()
+{
+#pragma omp barrier // others may still look at what is active
+#pragma omp single
+	if (strips.wakeAll()) schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
 }
 
 template <class Number> void Sweeper<Number>::iterate(const Goal& goal)
 {
-	Extrapolation       extrapolation(settings.method);
+	Method              method = settings.method;
+	Extrapolation       extrapolation(method);
 	int                 begunAnew = 0;
 	const double        all       = std::max<std::size_t>(problem.contactCount(), 1);
 	double              made      = 0; // visits
 	int                 chosen    = shortestRest; // sweeps since the last choice of strips
 	RestartRule         rule(residual.rms, settings.checkEvery);
+	StagnationRule      stagnation(residual.rms);
 	std::vector<double> betas; // of the sweeps until the next look at the residual
-	while (!solved(goal.tolerance) && std::isfinite(residual.rms)) {
-		if (chosen >= shortestRest) {
-			chooseStrips();
+	while (!solved(goal.tolerance) && std::isfinite(residual.rms + residual.speed)) {
+		if (method == Method::Accelerated && chosen >= shortestRest) {
+			chooseStrips(goal.tolerance);
 			chosen = 0;
 		}
 		// what a sweep counts for; threads wait for each other in short ones too
@@ -280,17 +285,21 @@ template <class Number> void Sweeper<Number>::iterate(const Goal& goal)
 		made += static_cast<double>(betas.size()) * one;
 		chosen += static_cast<int>(betas.size());
 		sumUp();
-		if (!rule.asks(residual.rms) || settings.method != Method::Accelerated) continue;
-		++begunAnew;
-		extrapolation = Extrapolation(settings.method);
+		if (method != Method::Accelerated) continue;
+		const bool stagnates = stagnation.asks(residual.rms, static_cast<int>(betas.size()));
+		if (!rule.asks(residual.rms) && !stagnates) continue;
+		if (stagnates) {
+			method = Method::GaussSeidel;
+			wakeStrips();
+		} else
+			++begunAnew;
+		extrapolation = Extrapolation(method);
 	}
-#pragma omp barrier // others may still look at what is active
+	wakeStrips();
 #pragma omp single
 	{
-		iterations = static_cast<int>(std::ceil(made / all));
-		restarts   = begunAnew;
-		if (strips.wakeAll())
-			schedule.plan(laidOut.order.partBegin, laidOut.order.evenStrips, omp_get_num_threads());
+		iterations += static_cast<int>(std::ceil(made / all));
+		restarts += begunAnew;
 	}
 }
 

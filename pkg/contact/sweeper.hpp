@@ -103,7 +103,8 @@ private:
 	};
 	Places      newIn(std::size_t strip) const;
 	void        sweep(const std::vector<double>& betas);
-	void        chooseStrips();
+	void        chooseStrips(double tolerance);
+	void        wakeStrips();
 	void        loseMomentum(std::size_t strip);
 	void        measureRows(std::size_t strip, ResidualSums& sums) const;
 	void        measureChanges();
@@ -116,6 +117,7 @@ private:
 		return { v[0], v[1], v[2] };
 	}
 
+	Number                  least; // leastSquaredSpeed()
 	bool                    outgrowsCache; // whether blocks have to be fetched from memory in every sweep
 	ActiveStrips            strips;
 	std::vector<ChangeSums> changeSums; // one a part of the order

@@ -7,8 +7,12 @@
 #include "SceneCheck.hpp"
 #include "Seldom.hpp"
 #include "YadeFeatures.hpp"
+#include <contact/mass_jumps.hpp>
 #include <contact/problem_file.hpp>
+#include <contact/residual.hpp>
+#include <algorithm>
 #include <optional>
+#include <sstream>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -268,17 +272,25 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 	lastUnsolved                = !statistics.converged;
 	residual                    = statistics.residual.relative();
 	residualForce               = statistics.residual.rms / scene->dt;
+	residualSpeed               = statistics.residual.speed;
+	residualSpeedWorst          = statistics.residual.largestSpeed;
+	patches                     = statistics.patches;
+	residualSpeedPair           = Vector2i(-1, -1);
+	const string worstPair      = statistics.converged ? "" : tellWorstPair();
 	++steps;
 	totalIterations += iterations;
 	if (!statistics.converged) ++unconverged;
 	const auto test   = contact::stoppingTestOf(stoppingTest.c_str());
 	const bool ours   = test == contact::StoppingTest::NaturalMap;
 	const Real figure = ours ? residual : statistics.changes.figure(test);
-	// A step in which bodies meet hard may miss the tolerance, and so do forces that are next to nothing: that is counted. What lasts, or outweighs a body, matters.
+	// A step in which bodies meet hard may miss the tolerance, and so do forces that are next to nothing: that is counted. What lasts, or outweighs a body, matters,
+	// and so does a body that keeps falling, however light.
 	constexpr Real missed  = 10; // tolerances
 	constexpr int  lasts   = 10; // steps
-	const bool     matters = !statistics.converged && !(figure <= missed * tolerance)
-	        && !(residualForce <= missed * tolerance * meanWeight);
+	constexpr Real falling = 0.5; // share of a contact's speed
+	const bool     matters = !statistics.converged
+	        && ((!(figure <= missed * tolerance) && !(residualForce <= missed * tolerance * meanWeight))
+	            || (ours && residualSpeedWorst > falling));
 	unsolvedOnEnd        = matters ? unsolvedOnEnd + 1 : 0;
 	const bool outweighs = matters && meanWeight > 0 && residualForce > meanWeight;
 	if ((unsolvedOnEnd != lasts && !outweighs) || !nscd::seldom(++unsolved)) return;
@@ -287,8 +299,36 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 	        << scene->iter << " was not solved" << (unsolvedOnEnd >= lasts ? ", like those before it" : "") << ": "
 	        << (ours ? "residual" : stoppingTest) << " " << figure << " after " << iterations << " sweeps, wanted "
 	        << tolerance << "; reactions miss the law by " << residualForce << " N (rms), a body weighs "
-	        << meanWeight << " N (mean); " << unconverged
+	        << meanWeight << " N (mean); " << worstPair << "; " << unconverged
 	        << " steps so far ended above the tolerance. Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
+}
+
+/// Finds the contact of the last solve that leaves most of its speed open, and says what helps it.
+string ContactDynamicsEngine::tellWorstPair()
+{
+	const auto shares = contact::speedShares(seam.problem);
+	if (shares.empty()) return "there are no contacts";
+	const size_t worst = std::max_element(shares.begin(), shares.end()) - shares.begin();
+	const auto&  r     = seam.readingOf(seam.links[worst]);
+	const auto&  here  = seam.problem.contacts[worst];
+	residualSpeedPair  = Vector2i(std::min(r.first, r.second), std::max(r.first, r.second));
+	std::ostringstream text;
+	text << "worst are bodies #" << residualSpeedPair[0] << " and #" << residualSpeedPair[1] << ", which leave "
+	     << 100 * std::sqrt(shares[worst]) << " % of their speed open";
+	Real lightest = 0, heaviest = 0; // inverse masses of the pair and of what it touches
+	for (const auto& c : seam.problem.contacts) {
+		if (c.i != here.i && c.j != here.j && c.i != here.j && c.j != here.i) continue;
+		for (const int b : { c.i, c.j })
+			if (const Real inverse = seam.problem.inverseMass[b].x + seam.problem.inverseMass[b].y;
+			    inverse > 0) {
+				lightest = std::max(lightest, inverse);
+				heaviest = heaviest > 0 ? std::min(heaviest, inverse) : inverse;
+			}
+	}
+	if (heaviest > 0 && lightest > contact::massJump * heaviest)
+		text << "; among them and what they touch one body has " << lightest / heaviest
+		     << " times the mass of another, which asks for more sweeps (a larger maxIterations lets it solve larger patches of contacts, too) or for masses nearer to each other";
+	return text.str();
 }
 
 int ContactDynamicsEngine::bond()

@@ -57,7 +57,7 @@ velocity drives them. A wall that a script or an engine moves by ``state.pos`` o
 follows from its places; one that is placed once, or from far away, is not.
 
 The solve ends when the natural-map residual (rms over contacts, relative to the rms reaction, from velocities computed anew) is below
-:yref:`tolerance<ContactDynamicsEngine.tolerance>`, unless :yref:`stoppingTest<ContactDynamicsEngine.stoppingTest>` names another test. Energies dissipated go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding
+:yref:`tolerance<ContactDynamicsEngine.tolerance>` and no body is left without what bears it (:yref:`residualSpeed<ContactDynamicsEngine.residualSpeed>`), unless :yref:`stoppingTest<ContactDynamicsEngine.stoppingTest>` names another test. Energies dissipated go to O.energy if O.trackEnergy: contactSliding, contactRolling, contactDebonding
 and contactImpact. The same scene gives the same bits on any number of threads.)""",
 		((Real,tolerance,1e-4,,"Residual below which a step is solved [-], or the figures of another stoppingTest."))
 		((string,stoppingTest,"naturalMap",,"What tolerance is compared with: 'naturalMap' (the residual), or one of LMGC90's tests of the change of relative velocity that one more visit of a contact would make: 'Quad' (rms over active contacts), 'Maxm' (largest) or 'QM/16' (rms, and largest below 16.666 tolerances). The residual is measured and reported in any case."))
@@ -77,6 +77,10 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((int,iterations,0,(Attr::readonly|Attr::noSave),"Sweeps of the last step."))
 		((Real,residual,0,(Attr::readonly|Attr::noSave),"Residual of the last step [-]."))
 		((Real,residualForce,0,(Attr::readonly|Attr::noSave),"The same as a force: rms over contacts of what the reactions miss of the law's graphs [N]."))
+		((Real,residualSpeed,0,(Attr::readonly|Attr::noSave),"What relative velocities of the last step miss of the law's graphs, each as a share of what it misses and of its bodies' own change of velocity by contacts: rms over contacts that act [-]. It sees a light body among heavy ones, which residual does not; a step is solved when it is below 125 tolerances, at most 0.1, and residualSpeedWorst below 2000, at most 0.5."))
+		((Real,residualSpeedWorst,0,(Attr::readonly|Attr::noSave),"The largest of these shares [-]; 1 where a body falls through another."))
+		((Vector2i,residualSpeedPair,Vector2i(-1,-1),(Attr::readonly|Attr::noSave),"Bodies with the largest share in the last step, the lower id first, where it was not solved; (-1, -1) where it was."))
+		((int,patches,0,(Attr::readonly|Attr::noSave),"Patches of contacts that were solved at once in the last step, around bodies with 30 times the mass of one that they touch; each as often as it was."))
 		((Real,contactRate,0,Attr::readonly,"With a :yref:`NonsmoothTimeStepper`: largest speed of two bodies in contact against each other at the end of the last step [ℓ/s]; at a wall its normal component."))
 		((Real,bondRate,0,Attr::readonly,"With a :yref:`NonsmoothTimeStepper`: largest rate at which a bond crosses its ellipse at the end of the last step [1/s]."))
 		((int,lastIterations,0,(Attr::readonly|Attr::hidden),"iterations, saved with the scene."))
@@ -156,10 +160,11 @@ private:
 	nonsmooth::contact::SolverSettings settings() const;
 	void                               account(const nscd::StepSums& sums, const nscd::Resident& resident);
 	void                               recordBreaks(const nscd::Resident& resident);
-	void report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
-	void reportOverlap();
-	void reportRestitution();
-	void reportChanges(nscd::Resident& resident);
+	void   report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
+	string tellWorstPair();
+	void   reportOverlap();
+	void   reportRestitution();
+	void   reportChanges(nscd::Resident& resident);
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;

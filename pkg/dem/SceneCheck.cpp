@@ -1,5 +1,6 @@
 #include "SceneCheck.hpp"
 #include "ContactDynamicsEngine.hpp"
+#include <cmath>
 #include <core/InteractionLoop.hpp>
 #include <core/TimeStepper.hpp>
 #include <pkg/common/Collider.hpp>
@@ -241,6 +242,14 @@ void refuseContact(const Scene& scene, const Reading& reading)
 	if (!reading.phys)
 		fail(pair + " has a " + i.phys->getClassName()
 		     + ": give both bodies an NscdMat and use Ip2_NscdMat_NscdMat_NscdPhys");
+	if (!std::isfinite(reading.nx + reading.ny + reading.nz)) {
+		const auto place = [](const Body& b) {
+			return number(b.state->pos[0]) + ", " + number(b.state->pos[1]);
+		};
+		fail(pair + " has no normal: the centres are at one place, (" + place(*b1) + ") and (" + place(*b2)
+		     + ") m, or one of them is nowhere. They were put there, or something pressed one through the other in steps that were not solved: look at"
+		       " contactDynamics.overlapWorst and .unconverged of the steps before, and move one of them");
+	}
 	if (!reading.usable && std::abs(reading.nz) > flatness)
 		fail(pair + " has a normal that leaves the x-y plane, of which only a part would act (z component "
 		     + number(reading.nz) + "; centres at z = " + number(b1->state->pos[2]) + " and "

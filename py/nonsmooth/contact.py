@@ -69,6 +69,8 @@ class Residual:
     force_largest: float  # [N]
     speed_rms: float  # [m/s]
     speed_largest: float  # [m/s]
+    speed_share: float  # rms over contacts of what relative velocities miss, as a share of it and of the bodies' change of velocity [-]
+    speed_share_largest: float
     defect: np.ndarray  # (c, 3): P − proj(P − (U + b)/W) of every contact [N s, N s, N m s]
 
 
@@ -95,8 +97,11 @@ class Solution:
     iterations: int
     in_single: int  # those of them in single precision
     restarts: int
+    patches: int  # of contacts around mass jumps that were solved at once, each as often as it was
     converged: bool
     relative: float  # residual (natural map) of what is returned, whatever test stopped the solver
+    speed_share: float  # rms over contacts of the share of their speed that is left open (ϑ of pkg/contact/residual.hpp) [-]
+    speed_share_largest: float  # the largest of them
     seconds: float  # wall time of the solve, without the copying of arrays [s]
 
 
@@ -267,8 +272,11 @@ def solve(
                 "iterations",
                 "in_single",
                 "restarts",
+                "patches",
                 "converged",
                 "relative",
+                "speed_share",
+                "speed_share_largest",
                 "seconds",
             )
         }
@@ -288,7 +296,16 @@ def residual(problem: ContactProblem, impulse=None) -> Residual:
 
     r = _nonsmooth_contact.residual(_arrays(check(problem), problem.impulse if impulse is None else impulse))
     h = problem.time_step
-    return Residual(r["relative"], r["rms"] / h, r["largest"] / h, r["speed_rms"], r["speed_largest"], r["defect"])
+    return Residual(
+        r["relative"],
+        r["rms"] / h,
+        r["largest"] / h,
+        r["speed_rms"],
+        r["speed_largest"],
+        r["speed_share"],
+        r["speed_share_largest"],
+        r["defect"],
+    )
 
 
 def velocity_changes(problem: ContactProblem, impulse=None) -> VelocityChanges:

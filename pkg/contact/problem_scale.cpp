@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <cmath>
+#include <contact/problem_scale.hpp>
+
+namespace nonsmooth::contact {
+
+std::optional<Scaling> scalingOfLostSquares(const Survey& survey)
+{
+	constexpr double lost  = 1e-120; // its square is far from a double's 15 digits
+	const double     speed = survey.fastest, lightness = survey.lightness;
+	if (!(speed > 0) || !std::isfinite(lightness) || !(std::min(speed, speed / lightness) < lost)) return {};
+	return Scaling { -std::ilogb(speed), std::ilogb(lightness) };
+}
+
+Impulse scaled(const Impulse& p, const Scaling& s)
+{
+	const int by = s.speed + s.mass;
+	return { std::ldexp(p.n, by), std::ldexp(p.t, by), std::ldexp(p.r, by) };
+}
+
+Twist scaled(const Twist& v, int speed)
+{
+	return { std::ldexp(v.x, speed), std::ldexp(v.y, speed), std::ldexp(v.w, speed) };
+}
+
+Problem scaled(const Problem& problem, const Scaling& s)
+{
+	Problem p = problem;
+	for (Twist& v : p.freeVelocity)
+		v = scaled(v, s.speed);
+	for (InverseMass& m : p.inverseMass)
+		m = { std::ldexp(m.x, -s.mass), std::ldexp(m.y, -s.mass), std::ldexp(m.w, -s.mass) };
+	for (Impulse& i : p.impulses)
+		i = scaled(i, s);
+	for (Contact& c : p.contacts) {
+		c.biasN    = std::ldexp(c.biasN, s.speed);
+		c.biasT    = std::ldexp(c.biasT, s.speed);
+		c.biasR    = std::ldexp(c.biasR, s.speed);
+		c.adhesion = std::ldexp(c.adhesion, s.speed + s.mass);
+	}
+	return p;
+}
+
+} // namespace nonsmooth::contact
