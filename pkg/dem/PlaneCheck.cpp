@@ -1,8 +1,8 @@
 #include "PlaneCheck.hpp"
 #include "PorePressureEngine.hpp"
+#include "Refusal.hpp"
 #include "SceneCheck.hpp"
 #include "seam/ContactReading.hpp"
-#include <charconv>
 #include <pkg/common/ForceEngine.hpp>
 #include <pkg/common/TorqueEngine.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
@@ -11,16 +11,6 @@
 namespace yade::nscd {
 
 namespace {
-	[[noreturn]] void fail(const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); }
-
-	/// In as few digits as tell it.
-	string number(Real value)
-	{
-		char       digits[32];
-		const auto end = std::to_chars(digits, digits + sizeof(digits), value);
-		return string(digits, end.ptr);
-	}
-
 	string text(const Vector3r& v) { return "(" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + ")"; }
 
 	/// Whether a part out of the plane is more than rounding beside one in it.

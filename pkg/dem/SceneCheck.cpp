@@ -1,5 +1,6 @@
 #include "SceneCheck.hpp"
 #include "ContactDynamicsEngine.hpp"
+#include "Refusal.hpp"
 #include <cmath>
 #include <core/InteractionLoop.hpp>
 #include <core/TimeStepper.hpp>
@@ -19,9 +20,6 @@ string named(const Engine& engine)
 }
 
 namespace {
-	[[noreturn]] void fail(const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); }
-
-	string number(Real value) { return boost::lexical_cast<string>(value); }
 	string body(Body::id_t id) { return "body #" + std::to_string(id); }
 
 	/// The engines of one kind in the list, see checkEngines.
