@@ -13,7 +13,7 @@ public:
 	explicit PatchSolver(Sweeper<double>& sweeper);
 
 	bool any() const { return !patches.empty(); }
-	/// Solves the patches that miss more speed than the tolerance, but none that would take more visits than `most`; returns whether anything has changed. The residual is then
+	/// Solves the patches that miss more of their speed than a tenth of the tolerance, but none that would take more visits than `most`; returns whether anything has changed. The residual is then
 	/// to be measured anew. One thread's work: each patch begins with what the one before left.
 	bool settle(double tolerance, double most);
 	/// The largest rms ϑ of a patch, as settle() left them.

@@ -27,6 +27,7 @@ __all__ = [
 #: Modules of this package that hold checks, in the report's order.
 MODULES = (
     "contacts",
+    "uneven",
     "bonds",
     "tumbling",
     "impacts",
