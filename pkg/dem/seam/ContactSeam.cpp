@@ -88,7 +88,10 @@ void ContactSeam::bend(const Reading& reading, Contact& c) const
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
 		if (approach < 0 && gap + h * approach <= 0) {
-			c.biasN = reading.restitution * approach;
+			// disks that pass each other come no nearer than their paths do
+			const Real end = radius[c.i] > 0 && radius[c.j] > 0 && gap > 0 ? gapAtEnd(c, {}, {})
+			                                                               : gap + h * approach;
+			c.biasN        = end > 0 ? end / h - approach : reading.restitution * approach;
 #pragma omp atomic write
 			meets = 1;
 		}

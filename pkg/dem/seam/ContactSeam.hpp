@@ -111,6 +111,10 @@ private:
 	void                        expectImpacts(std::vector<nonsmooth::contact::ImpactPair>& pairs);
 	void                        setBiasAfterImpacts(nonsmooth::contact::Contact& c, const Link& link) const;
 	Real                        gapAfterImpacts(const nonsmooth::contact::Contact& c, const Reading& reading) const;
+	/// Gap of two disks that are displaced and fly all the step with the velocities `before`.
+	Real gapAtEnd(
+	        const nonsmooth::contact::Contact& c, const nonsmooth::contact::Twist& shiftI,
+	        const nonsmooth::contact::Twist& shiftJ) const;
 	/// Gap that a contact would have at the step's beginning for bodies that fly all the step with the velocities that impacts leave.
 	Real gapOf(const nonsmooth::contact::Contact& c, const Reading& reading) const
 	{

@@ -73,13 +73,17 @@ Real ContactSeam::gapAfterImpacts(const Contact& c, const Reading& reading) cons
 	if (!i.struck && !j.struck) return reading.gap;
 	if (radius[c.i] < 0 || radius[c.j] < 0) return reading.gap + contact::relativeVelocity(c, i.shift, j.shift).n;
 	// exact at the end of the step, though the two have passed each other
-	const Real h     = relaxation.step;
-	const auto atEnd = [&](int id, const contact::ImpactSequence::Flight& f) {
-		const auto& x = problem.positions[id];
-		return contact::Point { x.x + f.shift.x + h * f.velocity.x, x.y + f.shift.y + h * f.velocity.y };
+	return gapAtEnd(c, i.shift, j.shift) - relaxation.step * contact::relativeVelocity(c, i.velocity, j.velocity).n;
+}
+
+Real ContactSeam::gapAtEnd(const Contact& c, const Twist& shiftI, const Twist& shiftJ) const
+{
+	const auto at = [this](int id, const Twist& shift) {
+		const auto&  x = problem.positions[id];
+		const Twist& v = before[id];
+		return contact::Point { x.x + shift.x + relaxation.step * v.x, x.y + shift.y + relaxation.step * v.y };
 	};
-	return contact::plane::diskContact(atEnd(c.i, i), atEnd(c.j, j), radius[c.i], radius[c.j]).gap
-	        - h * contact::relativeVelocity(c, i.velocity, j.velocity).n;
+	return contact::plane::diskContact(at(c.i, shiftI), at(c.j, shiftJ), radius[c.i], radius[c.j]).gap;
 }
 
 /// Impulses of a contact in the whole step: of impacts that were followed, and of the solve.

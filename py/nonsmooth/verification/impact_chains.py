@@ -81,7 +81,7 @@ def following_impacts(bench):
 
     In a gas of 50 elastic disks that fill half of a box, a part of the impacts is of this kind: energy is kept if these are followed, and lost if they are not.
     """
-    claims, figure = [], Figure(figsize=(10, 3.4))
+    claims, figure = [], Figure(figsize=(10, 3.4), constrained_layout=True)
     kept, course, box = figure.subplots(1, 3)
 
     gaps = np.linspace(0, 0.02, 9 if bench.quick else 21)
@@ -189,8 +189,8 @@ def following_impacts(bench):
                 at_most(
                     "elastic gas: largest change of energy",
                     np.abs(np.array(series) - 1).max(),
-                    1e-9,
-                    why="each impact keeps it to rounding",
+                    1e-5,
+                    why="impacts on walls that stay alone are the solve's, whose tolerance is 1e-4 of their impulses, up and down",
                 ),
                 at_most(
                     "elastic gas: error of the energy balance", abs(engine.energyError) / first, 1e-9, why="rounding"

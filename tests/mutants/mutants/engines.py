@@ -28,7 +28,7 @@ MUTANTS = (
            "test_reactions.py::test_a_wheel_drives_another_by_the_ratio_of_their_radii"),
     mutant("gather-wall-lever", SEAM, "c.leverNi = ny * ri.x - nx * ri.y;", "c.leverNi = nx * ri.y - ny * ri.x;", "the normal lever of a wall has the wrong sign",
            "test_reactions.py::test_a_wall_feels_the_moment_of_what_lies_on_it", "test_engine.py::test_turning_wall_drags_a_disk"),
-    mutant("gather-impact", SEAM, "c.biasN = reading.restitution * approach;", "c.biasN = -reading.restitution * approach;",
+    mutant("gather-impact", SEAM, ": reading.restitution * approach;", ": -reading.restitution * approach;",
            "restitution draws on instead of throwing back", "test_reactions.py::test_a_disk_bounces_step_by_step_as_the_rules_say"),
     mutant("gather-rest", CORRECT, "e.held ? r.restGap : 0", "0", "a bond forgets the gap over which it was made",
            "test_positions.py::test_a_bond_finds_its_length_from_both_sides"),
