@@ -10,7 +10,7 @@ MUTANTS = (
     # ---- written contacts
     mutant("written-residual", PHYS, "friction = residualFriction = tangensOfFrictionAngle", "friction = tangensOfFrictionAngle",
            "a written friction is that of bonds alone", WRITTEN + "::test_set_contact_friction_counts_from_the_next_step_on"),
-    mutant("written-known", RESIDENT, "r.phys->touched || r.phys->isWritten()", "r.phys->touched", "contacts of disks do not notice what is written into them",
+    mutant("written-known", RESIDENT, "r.phys->isWritten()", "false", "contacts of disks do not notice what is written into them",
            WRITTEN + "::test_contacts_of_disks_hear_it_too"),
     mutant("written-overruled", PHYS, "overruled = left <= 0 && currentFriction != wanted", "overruled = false", "a friction that slip has taken away is not refused",
            WRITTEN + "::test_a_wall_that_weakens_goes_on_from_it_and_refuses_what_slip_has_taken"),
