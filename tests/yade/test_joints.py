@@ -52,6 +52,12 @@ def to_and_fro(stuff):
         O.bodies.append(scene.segments(ends(k)[:: -1 if k % 2 else 1], stuff))
 
 
+def to_and_fro_one_sided(stuff):
+    """Each acts upwards: to the left of one that goes to the right, to the right of one that comes back."""
+    for k in range(COUNT):
+        O.bodies.append(scene.segments(ends(k)[:: -1 if k % 2 else 1], stuff, sense=-1 if k % 2 else 1))
+
+
 def to_rounding(stuff):
     dice = random.Random(5)
     for k in range(COUNT):
@@ -66,7 +72,7 @@ def polylines_and_single_ones(stuff):
         O.bodies.append(scene.segments(ends(k + 3), stuff, sense=1))
 
 
-WAYS = [one_by_one, in_another_order, to_and_fro, to_rounding, polylines_and_single_ones]
+WAYS = [one_by_one, in_another_order, to_and_fro, to_and_fro_one_sided, to_rounding, polylines_and_single_ones]
 
 
 @pytest.mark.parametrize("lay", WAYS, ids=lambda way: way.__name__)
@@ -78,6 +84,23 @@ def test_a_disk_keeps_its_speed_over_joints_of_walls_made(lay):
     begin(dt=DT)
     assert kept(i) == pytest.approx((1, 1), abs=KEPT)
     assert O.bodies[i].state.pos[1] == pytest.approx(RADIUS, abs=1e-8)
+
+
+@pytest.mark.parametrize("size, far", [(1e-5, 0.0), (1e3, 0.0), (1.0, 1e5)])
+def test_joints_of_walls_of_any_size_and_far_from_the_origin(size, far):
+    """A grain of 10 µm, a disk of a kilometre, and a floor 100 km away, where a coordinate has 1e-11 m."""
+    stuff = material(0.3)
+    for k in range(30):
+        line = [(far + 0.3 * size * (k + n) - size, 0.01 * far) for n in (0, 1)]
+        O.bodies.append(scene.segments(line, stuff, sense=1))
+    i = O.bodies.append(scene.disk((far, 0.01 * far + 0.5 * size), 0.5 * size, stuff))
+    speed = 3 * math.sqrt(size)
+    s = O.bodies[i].state
+    s.vel, s.angVel = (speed, 0, 0), (0, 0, -speed / (0.5 * size))
+    begin(dt=5e-3 * math.sqrt(size))
+    O.engines[1].verletDist = -0.7
+    run(400)
+    assert s.vel[0] == pytest.approx(speed, rel=1e-7) and s.pos[0] - far > 15 * 0.3 * size
 
 
 def test_walls_that_come_during_the_run_join_those_that_are_there():

@@ -2,7 +2,7 @@
 import math
 
 import pytest
-from yade import O
+from yade import O, pack
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
 from yade.wrapper import NewtonIntegrator
@@ -101,6 +101,33 @@ def test_a_floor_bears_the_stress_on_the_width_between_the_walls(angle):
     # what the sides bear is in balance, since nothing rubs on them; a guide bears what friction asks for across the way
     across = Vector3(-down[1], down[0], 0)
     assert abs(O.forces.f(left).dot(across) + O.forces.f(right).dot(across)) < 1e-4 * 2e4
+
+
+def test_two_plates_press_a_cloud_from_two_sides():
+    """The servo of a biaxial test: each plate's load follows what the other leaves of its width; a cloud of YADE's comes to rest under both stresses, and takes half as much again on one side."""
+    solver = begin(gravity=(0, 0, 0), dt=1e-3, tolerance=1e-6, maxIterations=1000)
+    rough, smooth = material(0.5), material(0.0, wall=True)
+    bottom, left = (
+        O.bodies.append(scene.segments(line, smooth, sense=1))[0] for line in ([(-1, 0), (3, 0)], [(0, 3), (0, -1)])
+    )
+    heavy = dict(mass=2000.0, damping=2e5)
+    right = scene.plate([(2, -1), (2, 3)], smooth, stress=1e5, **heavy)
+    top = scene.plate([(3, 2), (-1, 2)], smooth, stress=1e5, between=(left, right.id), **heavy)
+    right.between = [bottom, top.id]
+    cloud = pack.SpherePack()
+    cloud.makeCloud((0, 0, 0), (2, 2, 0), rMean=0.05, rRelFuzz=0.3, num=200, seed=1)
+    O.bodies.append(scene.disks(cloud, rough))
+
+    def stresses():
+        width, height = O.bodies[right.id].state.pos[0], O.bodies[top.id].state.pos[1]
+        assert (right.width, top.width) == pytest.approx((height, width), rel=1e-4)
+        return -O.forces.f(left)[0] / height, -O.forces.f(bottom)[1] / width
+
+    solver.advance(2000)
+    assert stresses() == pytest.approx((1e5, 1e5), rel=2e-3)  # some disks still rattle
+    top.stress = 1.5e5
+    solver.advance(1600)
+    assert stresses() == pytest.approx((1e5, 1.5e5), rel=5e-3)
 
 
 def test_the_load_follows_the_walls_that_move():
