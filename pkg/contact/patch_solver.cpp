@@ -90,10 +90,10 @@ void PatchSolver::write(const MassPatch& patch, const PatchProblem& solved)
 bool PatchSolver::settle(double tolerance, double most)
 {
 	// a chain of some ten contacts adds up what each of them misses
-	constexpr double asked   = 0.1, reached = 0.01; // of the tolerance
+	constexpr double asked = 0.1, reached = 0.01; // of the tolerance
 	const double     least   = leastSquaredSpeed<double>(sweeper.laidOut.survey.fastest);
-	bool         changed = false;
-	worst                = 0;
+	bool             changed = false;
+	worst                    = 0;
 	for (const MassPatch& patch : patches) {
 		PatchProblem at   = read(patch);
 		double       left = residualOf(at, least).speed;

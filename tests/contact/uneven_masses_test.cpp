@@ -102,8 +102,8 @@ TEST(UnevenMasses, SharesOfSpeedAreThoseOfTheirDefinitionOnEveryPath)
 {
 	// by hand: a light disk (twice as fast as it changed) comes down on a heavy one at rest that has changed by 3 of its speed
 	Problem p;
-	p.inverseMass  = { { 0.25, 0.25, 0 }, { 1, 1, 0 }, {} };
-	p.freeVelocity = { { 0, -3, 0 }, { 0, -1, 0 }, {} };
+	p.inverseMass      = { { 0.25, 0.25, 0 }, { 1, 1, 0 }, {} };
+	p.freeVelocity     = { { 0, -3, 0 }, { 0, -1, 0 }, {} };
 	const auto contact = [](int i, int j) {
 		Contact c;
 		c.i = i, c.j = j, c.nx = 0, c.ny = 1;

@@ -36,7 +36,9 @@ def _column(light, ratio, steps):
     """A disk of that many times the mass on so many light ones: what the floor bears in each step, as a share of the weight."""
     O.reset()
     floor = wall([(-5, 0), (5, 0)], _stuff())
-    disks = [O.bodies.append(scene.disk((0, 0.5 + k), 0.5, _stuff(ratio if k == light else 1))) for k in range(light + 1)]
+    disks = [
+        O.bodies.append(scene.disk((0, 0.5 + k), 0.5, _stuff(ratio if k == light else 1))) for k in range(light + 1)
+    ]
     e, weight, shares = _begin(), G * sum(O.bodies[k].state.mass for k in disks), []
     for _ in range(steps):
         run(1)
@@ -83,7 +85,9 @@ def heavy_on_light(bench):
             name = f"{ratio:g} on {light}: "
             claims += [
                 at_most(name + "error of the floor's force in any step", errors[-1], 1e-3, why=WEIGHT),
-                at_most(name + "sunk", sunk, 3e-4 * (light + 1), unit="d", why="overlaps of 1e-4 are left at each contact"),
+                at_most(
+                    name + "sunk", sunk, 3e-4 * (light + 1), unit="d", why="overlaps of 1e-4 are left at each contact"
+                ),
                 near(name + "steps above the tolerance", e.unconverged, 0, why="a count"),
             ]
         axes.loglog(ratios, [max(x, 1e-9) for x in errors], marker=marker, label=f"on {light}")
@@ -95,8 +99,7 @@ def heavy_on_light(bench):
 
 @check("A boulder on pebbles", subject="Statics", seconds=20)
 def boulder_on_pebbles(bench):
-    """A boulder of 1 m on rows of pebbles between two walls. At rest floor and walls bear the weight of all in every step. Masses are as the square of the sizes: 2,500 and 40,000.
-    """
+    """A boulder of 1 m on rows of pebbles between two walls. At rest floor and walls bear the weight of all in every step. Masses are as the square of the sizes: 2,500 and 40,000."""
     claims, figure = [], Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
     for sizes, rows in ((50, 2), (200, 1)):
@@ -104,7 +107,9 @@ def boulder_on_pebbles(bench):
         rests = shares[30:]
         axes.plot(shares, label=f"1 : {sizes}, {rows} row{'s' if rows > 1 else ''}")
         claims += [
-            at_most(f"1 : {sizes}: error of the force from step to step", max(abs(s - 1) for s in rests), 1e-3, why=WEIGHT),
+            at_most(
+                f"1 : {sizes}: error of the force from step to step", max(abs(s - 1) for s in rests), 1e-3, why=WEIGHT
+            ),
             near(f"1 : {sizes}: warnings", e.unsolved, 0, why="a count"),
         ]
     axes.set(xlabel="step", ylabel="force on floor and walls over weight")
