@@ -399,6 +399,7 @@ def test_bonds_are_counted_when_they_are_made_and_removed():
     free_disk(4, 0, stuff=stuff)
     e.advance(2, view=False)  # the new contact has no interaction yet
     assert (e.bond(), e.bonds) == (1, 4)
+    assert (e.bond(), e.bonds) == (0, 4)  # nor has it one now
     assert (e.unbond(), e.bonds) == (4, 0)
     e.advance(1)
     assert e.bonds == 0
