@@ -27,8 +27,9 @@ void NscdPhys::hearFriction()
 void NscdPhys::follow(Real newLength)
 {
 	const Real ratio = newLength / length;
-	for (Real* value : { &adhesion, &currentRollingArm, &restGap, &residualTensileForce, &residualRollingArm,
-	                     &tensileForce, &rollingArm, &ellipseNormal, &ellipseTangential, &creationDistance })
+	for (Real* value :
+	     { &adhesion, &currentRollingArm, &restGap, &restSlip, &residualTensileForce, &residualRollingArm,
+	       &tensileForce, &rollingArm, &ellipseNormal, &ellipseTangential, &creationDistance })
 		*value *= ratio;
 	length  = newLength;
 	touched = true;

@@ -40,8 +40,9 @@ def test_a_free_plate_has_the_acceleration_force_by_mass(angle, load, force):
     assert engine.load == pytest.approx(force, rel=1e-12) and engine.width == pytest.approx(2)
 
 
-@pytest.mark.parametrize("angle", [0.0, math.radians(30)])
+@pytest.mark.parametrize("angle", [0.0, math.radians(30), math.radians(-30)])
 def test_a_plate_with_weight_falls(angle):
+    """A guide bears the weight across the way on either of its sides."""
     begin(gravity=(0, -G, 0), dt=1e-3)
     engine = lid(angle, mass=50.0, force=100.0, weightless=False)
     run(100)
@@ -194,10 +195,10 @@ def test_it_works_beside_soft_contacts(angle):
 
     O.engines = [ForceResetter(), NewtonIntegrator(damping=0, gravity=(0, -G, 0))]
     O.dt = 1e-3
-    engine = lid(angle, mass=50.0, force=300.0)
+    engine = lid(angle, mass=50.0, force=300.0, weightless=False)
     run(200)
     way = Vector3(*turned(0, -1, angle), 0)
-    assert O.bodies[engine.id].state.vel.dot(way) == pytest.approx(6 * O.time, rel=1e-9)
+    assert O.bodies[engine.id].state.vel.dot(way) == pytest.approx((6 + G * math.cos(angle)) * O.time, rel=1e-9)
     assert abs(O.bodies[engine.id].state.vel.dot(Vector3(-way[1], way[0], 0))) < 1e-12
 
 
