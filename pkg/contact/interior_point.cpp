@@ -8,10 +8,11 @@
 namespace nonsmooth::contact {
 namespace {
 
-	constexpr int    mostIterations = 40;
+	constexpr int    mostIterations = 80;
 	constexpr double towardsEdge    = 0.9; // share of the way to the first slack that would be 0
 	constexpr double regularisation = 1e-11; // of W
 	constexpr double leastCentring  = 1e-2; // of τ, in one iteration
+	constexpr double farAway        = 1e-2; // of what is missed at first: a start that gains less has led nowhere
 	constexpr double nothing        = 1e-24; // of the τ of the first scale
 
 	/// One of the products that are led to 0.
@@ -76,21 +77,23 @@ namespace {
 		{
 		}
 
+		/// From what was there, and if that leads nowhere from nothing.
 		bool run(double tolerance)
 		{
-			const PatchResidual before = residualOf(patch, least);
-			PatchResidual       best   = before;
-			if (!begin()) return false;
-			std::vector<Impulse> found = patch.impulses;
-			for (int k = 0; k < mostIterations && best.largest > tolerance; ++k) {
-				if (!step()) break;
-				PatchProblem here = start;
-				read(here);
-				const PatchResidual now = residualOf(here, least);
-				if (now.work < best.work) best = now, found = here.impulses;
-				if (tau <= nothing * scale * scale) break;
+			const PatchResidual  before = residualOf(patch, least);
+			PatchResidual        best   = before;
+			std::vector<Impulse> found;
+			for (const bool warm : { true, false }) {
+				if (best.work < farAway * before.work || !begin(warm)) break;
+				for (int k = 0; k < mostIterations && best.largest > tolerance && step(); ++k) {
+					PatchProblem here = start;
+					read(here);
+					const PatchResidual now = residualOf(here, least);
+					if (now.work < best.work) best = now, found = here.impulses;
+					if (tau <= nothing * scale * scale) break;
+				}
 			}
-			if (!(best.work < before.work)) return false;
+			if (found.empty()) return false;
 			patch.impulses = found;
 			patch.changes  = changesOf(patch.impulses);
 			return true;
@@ -133,7 +136,7 @@ namespace {
 			to.changes = changesOf(to.impulses);
 		}
 
-		bool begin()
+		bool begin(bool warm)
 		{
 			double square = 0;
 			for (const Twist& v : start.changes)
@@ -143,10 +146,11 @@ namespace {
 			velocity.resize(3 * bodies);
 			for (std::size_t b = 0; b < bodies; ++b)
 				for (int k = 0; k < 3; ++k)
-					velocity[unknown(int(b), k)] = part(start.changes[b], k);
+					velocity[unknown(int(b), k)] = warm ? part(start.changes[b], k) : 0;
 			all.resize(start.contacts.size());
 			for (std::size_t c = 0; c < all.size(); ++c)
-				begin(start.contacts[c], project(start.contacts[c], start.impulses[c]), all[c]);
+				begin(start.contacts[c],
+				      project(start.contacts[c], warm ? start.impulses[c] : Impulse {}), all[c]);
 			return true;
 		}
 
