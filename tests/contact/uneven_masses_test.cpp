@@ -109,8 +109,8 @@ TEST(UnevenMasses, SharesOfSpeedAreThoseOfTheirDefinitionOnEveryPath)
 		c.i = i, c.j = j, c.nx = 0, c.ny = 1;
 		return c;
 	};
-	p.contacts = { contact(2, 0), contact(0, 1), contact(2, 1) };
-	p.impulses = { { 12, 0, 0 }, {}, {} }; // the floor holds the heavy one
+	p.contacts          = { contact(2, 0), contact(0, 1), contact(2, 1) };
+	p.impulses          = { { 12, 0, 0 }, {}, {} }; // the floor holds the heavy one
 	p.contacts[2].biasN = 100; // open, so that it does not count
 	SolverSettings s;
 	s.maxIterations = 0;

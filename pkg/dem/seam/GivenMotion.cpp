@@ -92,7 +92,7 @@ const std::vector<GivenMotion::Given>& GivenMotion::take(const Scene& scene, con
 			return s.steps < 0;
 		});
 		if (stands && idle) continue;
-		if (at->body && at->body != (*scene.bodies)[id]) {
+		if (at->known && !at->is((*scene.bodies)[id])) {
 			at->series = {};
 			continue;
 		}
@@ -127,9 +127,10 @@ void GivenMotion::leave(const Scene& scene, const Resident& resident, Real h)
 		plane::integrate(b.left, {}, 1, 1, plane::blockedAll, {}, h);
 		for (Series& s : b.series)
 			if (s.steps >= 0) s.time += h;
-		if (const auto& body = (*scene.bodies)[b.id]; b.body != body) {
-			if (b.body) b.series = {};
-			b.body = body;
+		if (const auto& body = (*scene.bodies)[b.id]; !b.known || !b.is(body)) {
+			if (b.known) b.series = {};
+			b.body  = body;
+			b.known = true;
 		}
 	}
 }

@@ -51,7 +51,14 @@ private:
 		int                               id = -1;
 		nonsmooth::contact::plane::Motion left; // where the integrator leaves it
 		std::array<Series, 3>             series; // along x, along y, about z
-		shared_ptr<yade::Body>            body; // an id may be another body's later; null: loaded
+		// an id may be another body's later. It is not held: what Python has made may end under Python's lock alone
+		boost::weak_ptr<yade::Body> body;
+		bool                        known = false; // else it was loaded
+
+		bool is(const shared_ptr<yade::Body>& other) const
+		{
+			return !body.owner_before(other) && !other.owner_before(body);
+		}
 	};
 	void takeMove(Series& series, Real moved, Real own, bool far, bool jumps, const Body& body, const char* what);
 	void followBody(Body& body, const BodyReading& now, Real smallest);
