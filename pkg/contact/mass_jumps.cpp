@@ -48,7 +48,7 @@ namespace {
                         return problem.inverseMass[b].x + problem.inverseMass[b].y;
 		};
 		for (const Contact& c : problem.contacts)
-			if (isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j]))
+			if (isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j], jumpOf(problem)))
 				found.push_back(lightness(c.i) < lightness(c.j) ? c.i : c.j);
 		std::sort(found.begin(), found.end());
 		found.erase(std::unique(found.begin(), found.end()), found.end());

@@ -15,7 +15,8 @@ namespace nonsmooth::contact {
 
 constexpr double      massJump    = 30; // ratio of masses: in the plane a ratio of sizes of 5.5
 constexpr std::size_t mostInPatch = 1200; // bodies
-constexpr std::size_t fewBodies   = 100;
+constexpr std::size_t fewBodies   = 100; // of a problem
+constexpr double      fewsJump    = 10; // what is a jump among so few, where a patch costs next to nothing
 
 struct MassPatch {
 	std::vector<std::int32_t>
@@ -26,11 +27,14 @@ struct MassPatch {
 	double                    work() const; // of one solve, in visits to a contact
 };
 
-/// Whether one of the bodies is massJump times as heavy as the other, both of them free to move.
-inline bool isMassJump(const InverseMass& i, const InverseMass& j)
+/// The ratio of masses that is a jump in a problem.
+inline double jumpOf(const Problem& problem) { return problem.bodyCount() <= fewBodies ? fewsJump : massJump; }
+
+/// Whether one of the bodies is that many times as heavy as the other, both of them free to move.
+inline bool isMassJump(const InverseMass& i, const InverseMass& j, double jump)
 {
 	const double a = i.x + i.y, b = j.x + j.y; // of a body that is held in one direction half
-	return a > 0 && b > 0 && (a > massJump * b || b > massJump * a);
+	return a > 0 && b > 0 && (a >= jump * b || b >= jump * a);
 }
 
 /// The patches of a problem, in the order in which they are solved; to be asked where it has such contacts.

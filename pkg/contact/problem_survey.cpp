@@ -27,11 +27,11 @@ namespace {
 		const long count     = static_cast<long>(problem.bodyCount());
 		const bool hasPlaces = !problem.positions.empty();
 		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL, most = 0,
-		       lightness = HUGE_VAL;
+		       lightness = HUGE_VAL, lightest = 0;
 		long bad = count, astray = count; // the first ones, found by threads, which must not throw
 		result.traits.resize(count);
 // clang-format off
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY, lightness, bad, astray) reduction(max : highX, highY, most)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY, lightness, bad, astray) reduction(max : highX, highY, most, lightest)
 		// clang-format on
 		for (long b = 0; b < count; ++b) {
 			const InverseMass& m = problem.inverseMass[b];
@@ -39,6 +39,7 @@ namespace {
 			if (!usable(m, v)) bad = std::min(bad, b);
 			result.traits[b] = traitsOf(m, v);
 			most             = std::max({ most, std::abs(v.x), std::abs(v.y) });
+			lightest         = std::max({ lightest, m.x, m.y });
 			lightness        = std::min({ lightness, m.x > 0 ? m.x : HUGE_VAL, m.y > 0 ? m.y : HUGE_VAL });
 			if (!hasPlaces) continue;
 			const Point& x = problem.positions[b];
@@ -53,6 +54,7 @@ namespace {
 		if (astray < count) refusePosition(problem, astray);
 		result.fastest    = most;
 		result.lightness  = lightness;
+		result.uneven     = lightest >= jumpOf(problem) * lightness;
 		result.extents[0] = { lowX, highX };
 		result.extents[1] = { lowY, highY };
 	}
@@ -64,7 +66,8 @@ namespace {
 		const auto   bodies    = static_cast<std::int32_t>(problem.bodyCount());
 		const Point* positions = problem.positions.empty() ? nullptr : problem.positions.data();
 		double       longestX = 0, longestY = 0;
-		long         bad = count;
+		long         bad  = count;
+		const double jump = jumpOf(problem);
 		bool newPairs = result.pairs.size() != problem.contactCount(), newSimple = newPairs, jumps = false;
 		result.pairs.resize(count);
 		result.simple.resize(count);
@@ -85,7 +88,7 @@ namespace {
 			const std::uint8_t fits   = blocks && isSimple(c, i, j);
 			newSimple                 = newSimple || fits != result.simple[k];
 			result.simple[k]          = fits;
-			jumps = jumps || isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j]);
+			jumps = jumps || isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j], jump);
 			if (!positions || !(i & j & Survey::moves)) continue;
 			longestX = std::max(longestX, std::abs(positions[c.i].x - positions[c.j].x));
 			longestY = std::max(longestY, std::abs(positions[c.i].y - positions[c.j].y));

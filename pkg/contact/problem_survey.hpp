@@ -30,8 +30,9 @@ struct Survey {
 	double                    fastest    = 0; // largest component of a free velocity [m/s]
 	double                    lightness  = HUGE_VAL; // least inverse mass of what can move in x or y [1/kg]
 	double                    longest[2] = { 0, 0 }; // in x and y, of contacts between bodies that can move
-	bool                      jumps      = false; // whether masses jump somewhere (mass_jumps.hpp)
-	bool                      pairsKept = false, simpleKept = false; // whether they are those of the last look
+	bool uneven    = false; // whether one body has massJump times the mass of another (mass_jumps.hpp)
+	bool jumps     = false; // whether masses jump somewhere (mass_jumps.hpp)
+	bool pairsKept = false, simpleKept = false; // whether they are those of the last look
 };
 
 /// Looks with so many threads; without `blocks` no contact fits into them. Throws std::invalid_argument naming the first size, body or contact that cannot be

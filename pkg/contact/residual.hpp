@@ -33,17 +33,23 @@ struct Residual {
 		if (!std::isfinite(rms + scale)) return HUGE_VAL; // whatever is not a number is not a solution
 		return scale > 0 ? rms / scale : (rms > 0 ? 1 : 0);
 	}
-	/// The largest of the three figures, each over what the tolerance allows it: solved up to 1. A speed may miss 125 times as much as the
-	/// impulses in the rms, and in a single contact two thousand times; but never so much that a body may fall, nor need it miss less than a
-	/// hundredth, where what is asked of impulses asks for more.
-	double missed(double tolerance) const
+	/// The largest of the three figures, each over what the tolerance allows it: solved up to 1. `uneven`: masses are so far apart that impulses do not show
+	/// what a light body misses; then speeds decide, and else they see to it that no body falls.
+	double missed(double tolerance, bool uneven) const
 	{
 		if (!std::isfinite(relative() + speed)) return HUGE_VAL;
-		return std::max(
-		        { relative() / tolerance, speed / meanSpeed(tolerance), largestSpeed / mostSpeed(tolerance) });
+		return std::max({ relative() / tolerance, speed / meanSpeed(tolerance, uneven),
+		                  largestSpeed / mostSpeed(tolerance, uneven) });
 	}
-	static double meanSpeed(double tolerance) { return std::clamp(125 * tolerance, 1e-4, 0.1); }
-	static double mostSpeed(double tolerance) { return std::clamp(2000 * tolerance, 1e-2, 0.5); }
+	/// What a tolerance allows the rms of ϑ and the largest.
+	static double meanSpeed(double tolerance, bool uneven)
+	{
+		return std::clamp((uneven ? 100 : 200) * tolerance, 1e-4, 0.1);
+	}
+	static double mostSpeed(double tolerance, bool uneven)
+	{
+		return std::clamp((uneven ? 1000 : 5000) * tolerance, 1e-2, 0.5);
+	}
 };
 
 /// Speeds beside W P and b that no ϑ is asked for, see above: what rounding leaves over the least ϑ that missed() can ask for.

@@ -212,7 +212,7 @@ namespace {
 		if (patches) {
 			statistics.patches   = patches->solved();
 			statistics.converged = statistics.converged
-			        && patches->speed() <= Residual::meanSpeed(tolerance);
+			        && patches->speed() <= Residual::meanSpeed(tolerance, true);
 		}
 		return statistics;
 	}

@@ -247,7 +247,7 @@ template <class Number> void Sweeper<Number>::measureChanges()
 
 template <class Number> bool Sweeper<Number>::solved(double tolerance) const
 {
-	return settings.stopping == StoppingTest::NaturalMap ? residual.missed(tolerance) <= 1
+	return settings.stopping == StoppingTest::NaturalMap ? residual.missed(tolerance, laidOut.survey.uneven) <= 1
 	                                                     : changes.figure(settings.stopping) <= tolerance;
 }
 
