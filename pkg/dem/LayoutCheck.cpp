@@ -28,6 +28,7 @@
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/TorqueEngine.hpp>
+#include <pkg/common/Wall.hpp>
 #include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
@@ -130,6 +131,8 @@ void checkLayout()
 	check("Sphere", "wire", &Sphere::wire, true);
 	check("Sphere", "highlight", &Sphere::highlight, true);
 	check("Sphere", "radius", &Sphere::radius, 4.625);
+	check("Wall", "sense", &Wall::sense, 1);
+	check("Wall", "axis", &Wall::axis, 2);
 	check("Interaction", "iterMadeReal", &Interaction::iterMadeReal, 987L);
 	check("Interaction", "iterBorn", &Interaction::iterBorn, 654L);
 	check("Interaction", "linIx", &Interaction::linIx, 46);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <charconv>
-#include <lib/base/Math.hpp>
+#include <core/Engine.hpp>
 #include <stdexcept>
 
 namespace yade::nscd {

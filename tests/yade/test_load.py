@@ -138,6 +138,7 @@ LOOKED_AT = {
     "core/Body": ["Body"],
     "core/Dispatching": ["BoundDispatcher", "IGeomDispatcher"],
     "core/GlobalEngine": ["GlobalEngine"],
+    "core/Interaction": ["Interaction"],
     "core/InteractionLoop": ["InteractionLoop"],
     "core/Scene": [
         "Scene",
@@ -158,6 +159,7 @@ LOOKED_AT = {
     "pkg/common/PeriodicEngines": ["PeriodicEngine"],
     "pkg/common/Sphere": ["Sphere"],
     "pkg/common/TorqueEngine": ["TorqueEngine"],
+    "pkg/common/Wall": ["Wall"],
     "pkg/dem/CohesiveFrictionalContactLaw": ["CohFrictMat", "CohFrictPhys"],
     "pkg/dem/FrictPhys": ["FrictPhys"],
     "pkg/dem/Ig2_Sphere_Sphere_ScGeom": ["Ig2_Sphere_Sphere_ScGeom"],
