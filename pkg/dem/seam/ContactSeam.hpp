@@ -115,10 +115,17 @@ private:
 	Real gapAtEnd(
 	        const nonsmooth::contact::Contact& c, const nonsmooth::contact::Twist& shiftI,
 	        const nonsmooth::contact::Twist& shiftJ) const;
+	/// The same as a gap at the step's beginning, of two that pass each other (gatherContact); else that gap.
+	Real gapInPassing(const nonsmooth::contact::Contact& c, const Reading& reading) const
+	{
+		const bool passes = !reading.bonded && reading.gap > 0 && c.biasN > reading.gap / relaxation.step;
+		return passes ? c.biasN * relaxation.step : reading.gap;
+	}
 	/// Gap that a contact would have at the step's beginning for bodies that fly all the step with the velocities that impacts leave.
 	Real gapOf(const nonsmooth::contact::Contact& c, const Reading& reading) const
 	{
-		return followed ? gapAfterImpacts(c, reading) : reading.gap;
+		if (followed) return gapAfterImpacts(c, reading);
+		return reading.bounces ? gapInPassing(c, reading) : reading.gap;
 	}
 	/// What impacts did at a contact before the solve; null where none did.
 	const nonsmooth::contact::PairImpacts* impactsAt(const Link& link) const

@@ -10,6 +10,11 @@ using contact::Contact;
 using contact::Impulse;
 using contact::Twist;
 
+namespace {
+	// ℓ; so far apart may stand what presses on each other, and so far may it part in a step, at the solve's tolerance and where more presses on it
+	constexpr Real near = 1e-6, fast = 1e-3;
+}
+
 /// All contacts of the step, those left out of the solve too, in the order of ids.
 void ContactSeam::expectImpacts(std::vector<contact::ImpactPair>& pairs)
 {
@@ -22,8 +27,11 @@ void ContactSeam::expectImpacts(std::vector<contact::ImpactPair>& pairs)
 		Link&          link = isIn ? links[in++] : leftLinks[left++];
 		const Reading& r    = readingOf(link);
 		link.impacts        = (int)pairs.size();
+		// what presses, or is pressed together, is the solve's, which finds all of it at once
+		const Real parting = relaxation.step * contact::relativeVelocity(c, before[c.i], before[c.j]).n;
+		const bool presses = r.normal != 0 && r.gap <= near * r.length && parting <= fast * r.length;
 		pairs.push_back({ &c, r.gap, r.bounces ? r.restitution : 0, radius[c.i] > 0 && radius[c.j] > 0,
-		                  r.bonded || r.adhesion > 0 || r.residualAdhesion > 0 });
+		                  r.bonded || r.adhesion > 0 || r.residualAdhesion > 0 || presses });
 	}
 }
 
@@ -70,7 +78,7 @@ void ContactSeam::setBiasAfterImpacts(Contact& c, const Link& link) const
 Real ContactSeam::gapAfterImpacts(const Contact& c, const Reading& reading) const
 {
 	const auto &i = sequence.flights[c.i], &j = sequence.flights[c.j];
-	if (!i.struck && !j.struck) return reading.gap;
+	if (!i.struck && !j.struck) return reading.bounces ? gapInPassing(c, reading) : reading.gap;
 	if (radius[c.i] < 0 || radius[c.j] < 0) return reading.gap + contact::relativeVelocity(c, i.shift, j.shift).n;
 	// exact at the end of the step, though the two have passed each other
 	return gapAtEnd(c, i.shift, j.shift) - relaxation.step * contact::relativeVelocity(c, i.velocity, j.velocity).n;
