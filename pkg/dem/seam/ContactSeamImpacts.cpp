@@ -10,15 +10,14 @@ using contact::Contact;
 using contact::Impulse;
 using contact::Twist;
 
-namespace {
-	// ℓ; so far apart may stand what presses on each other, and so far may it part in a step, at the solve's tolerance and where more presses on it
-	constexpr Real near = 1e-6, fast = 1e-3;
-}
-
 /// All contacts of the step, those left out of the solve too, in the order of ids.
 void ContactSeam::expectImpacts(std::vector<contact::ImpactPair>& pairs)
 {
-	const auto key = [](const Contact& c) { return std::pair(std::min(c.i, c.j), std::max(c.i, c.j)); };
+	const auto key      = [](const Contact& c) { return std::pair(std::min(c.i, c.j), std::max(c.i, c.j)); };
+	const auto isPushed = [this](int body) {
+		const Twist &free = problem.freeVelocity[body], &now = before[body];
+		return free.x != now.x || free.y != now.y || free.w != now.w;
+	};
 	pairs.reserve(links.size() + leftLinks.size());
 	for (size_t in = 0, left = 0; in < links.size() || left < leftLinks.size();) {
 		const bool isIn = left == leftLinks.size()
@@ -27,11 +26,10 @@ void ContactSeam::expectImpacts(std::vector<contact::ImpactPair>& pairs)
 		Link&          link = isIn ? links[in++] : leftLinks[left++];
 		const Reading& r    = readingOf(link);
 		link.impacts        = (int)pairs.size();
-		// what presses, or is pressed together, is the solve's, which finds all of it at once
-		const Real parting = relaxation.step * contact::relativeVelocity(c, before[c.i], before[c.j]).n;
-		const bool presses = r.normal != 0 && r.gap <= near * r.length && parting <= fast * r.length;
+		// what forces push together, or let fall onto another, is the solve's, which finds all of it at once
+		const bool pushed = isPushed(c.i) || isPushed(c.j);
 		pairs.push_back({ &c, r.gap, r.bounces ? r.restitution : 0, radius[c.i] > 0 && radius[c.j] > 0,
-		                  r.bonded || r.adhesion > 0 || r.residualAdhesion > 0 || presses });
+		                  r.bonded || r.adhesion > 0 || r.residualAdhesion > 0 || pushed });
 	}
 }
 
