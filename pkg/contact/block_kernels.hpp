@@ -87,10 +87,10 @@ template <class Number> struct KernelsOf {
 	        const Block<Number>* ahead);
 	/// before += M⁻¹ Hᵀ (P_k − P_{k−1}), P_{k−1} ← P_k: what is extrapolated next is zero.
 	void (*rest)(Block<Number>* blocks, std::size_t count, Motion<Number>* before);
-	/// Natural-map residual; `inverseLength`: 1/ℓ, 0 in an empty lane; `least`: leastSquaredSpeed().
+	/// Natural-map residual; `inverseLength`: 1/ℓ, 0 in an empty lane; `share`, `mean`, `least`: SpeedScale.
 	ResidualSums (*measure)(
 	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, std::size_t count,
-	        const Motion<Number>* bodies, Number least);
+	        const Motion<Number>* bodies, Number share, Number mean, Number least);
 	/// v ← v + β (v − before), before ← v.
 	void (*extrapolate)(Motion<Number>* bodies, Motion<Number>* before, std::size_t count, Number beta);
 };

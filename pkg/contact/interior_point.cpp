@@ -69,9 +69,9 @@ namespace {
 
 	class Method {
 	public:
-		Method(PatchProblem& patch_, double least_)
+		Method(PatchProblem& patch_, const SpeedScale& asked_)
 		        : patch(patch_)
-		        , least(least_)
+		        , asked(asked_)
 		        , start(patch_)
 		        , bodies(patch_.masses.size())
 		{
@@ -80,7 +80,7 @@ namespace {
 		/// From what was there, and if that leads nowhere from nothing.
 		bool run(double tolerance)
 		{
-			const PatchResidual  before = residualOf(patch, least);
+			const PatchResidual  before = residualOf(patch, asked);
 			PatchResidual        best   = before;
 			std::vector<Impulse> found;
 			for (const bool warm : { true, false }) {
@@ -88,7 +88,7 @@ namespace {
 				for (int k = 0; k < mostIterations && best.largest > tolerance && step(); ++k) {
 					PatchProblem here = start;
 					read(here);
-					const PatchResidual now = residualOf(here, least);
+					const PatchResidual now = residualOf(here, asked);
 					if (now.work < best.work) best = now, found = here.impulses;
 					if (tau <= nothing * scale * scale) break;
 				}
@@ -392,7 +392,7 @@ namespace {
 		}
 
 		PatchProblem&           patch;
-		const double            least;
+		const SpeedScale        asked;
 		const PatchProblem      start;
 		const std::size_t       bodies;
 		double                  scale = 0, tau = 0; // of speeds [m/s], and of the products [J kg⁻¹]
@@ -403,7 +403,7 @@ namespace {
 
 } // namespace
 
-PatchResidual residualOf(const PatchProblem& patch, double least)
+PatchResidual residualOf(const PatchProblem& patch, const SpeedScale& scale)
 {
 	PatchResidual result;
 	double        sum = 0, active = 0, most = 0;
@@ -416,7 +416,7 @@ PatchResidual residualOf(const PatchProblem& patch, double least)
 		const Twist vi       = isThere(c.i) ? patch.changes[c.i] : Twist {},
 		            vj       = isThere(c.j) ? patch.changes[c.j] : Twist {};
 		const Impulse defect = naturalMapDefect(c, p, relativeVelocity(c, vi, vj), inverseDelassus(c, mi, mj));
-		const double  share  = speedShare(c, p, defect, mi, mj, vi, vj, least);
+		const double  share  = speedShare(c, p, defect, mi, mj, vi, vj, scale);
 		sum += share;
 		most = std::max(most, share);
 		active += p.n + c.adhesion > 0 || defect.n != 0;
@@ -427,9 +427,9 @@ PatchResidual residualOf(const PatchProblem& patch, double least)
 	return result;
 }
 
-bool solvePatch(PatchProblem& patch, double tolerance, double least)
+bool solvePatch(PatchProblem& patch, double tolerance, const SpeedScale& scale)
 {
-	return !patch.contacts.empty() && Method(patch, least).run(tolerance);
+	return !patch.contacts.empty() && Method(patch, scale).run(tolerance);
 }
 
 } // namespace nonsmooth::contact

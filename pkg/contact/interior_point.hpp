@@ -15,6 +15,7 @@
 
 #include <contact/bordered_band.hpp>
 #include <contact/problem.hpp>
+#include <contact/residual.hpp>
 
 namespace nonsmooth::contact {
 
@@ -35,10 +36,10 @@ struct PatchResidual {
 	double work    = 0; // Σ max(m_i, m_j) V² [J], which no light body hides from
 };
 
-/// With the velocities that follow from its impulses; `least`: leastSquaredSpeed().
-PatchResidual residualOf(const PatchProblem& patch, double least);
+/// With the velocities that follow from its impulses.
+PatchResidual residualOf(const PatchProblem& patch, const SpeedScale& scale);
 
 /// Changes impulses and velocities to the nearest that the method found to a solution, until the largest ϑ is below `tolerance`; returns whether that is nearer than what was there.
-bool solvePatch(PatchProblem& patch, double tolerance, double least);
+bool solvePatch(PatchProblem& patch, double tolerance, const SpeedScale& scale);
 
 } // namespace nonsmooth::contact

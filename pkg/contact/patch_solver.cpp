@@ -91,15 +91,15 @@ bool PatchSolver::settle(double tolerance, double most)
 {
 	// a chain of some ten contacts adds up what each of them misses
 	constexpr double asked = 0.1, reached = 0.01; // of the tolerance
-	const double     least   = leastSquaredSpeed<double>(sweeper.laidOut.survey.fastest);
 	bool             changed = false;
 	worst                    = 0;
 	for (const MassPatch& patch : patches) {
 		PatchProblem at   = read(patch);
-		double       left = residualOf(at, least).speed;
-		if (left > asked * tolerance && patch.work() <= most && solvePatch(at, reached * tolerance, least)) {
+		double       left = residualOf(at, sweeper.scale).speed;
+		if (left > asked * tolerance && patch.work() <= most
+		    && solvePatch(at, reached * tolerance, sweeper.scale)) {
 			write(patch, at);
-			left    = residualOf(at, least).speed;
+			left    = residualOf(at, sweeper.scale).speed;
 			changed = true;
 			++count;
 		}

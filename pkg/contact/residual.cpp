@@ -46,7 +46,7 @@ double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& m
 
 double speedShare(
         const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
-        const Twist& vi, const Twist& vj, double least, double rounding)
+        const Twist& vi, const Twist& vj, const SpeedScale& scale)
 {
 	const double missed = missedSpeed(c, defect, mi, mj), wn = delassus(c, mi, mj).n;
 	const auto   change = [](const Twist& v, double leverN, double leverT) {
@@ -55,8 +55,8 @@ double speedShare(
 	const double biasR = (c.leverTi - c.leverTj) * c.biasR,
 	             rest = wn * wn * (p.n * p.n + p.t * p.t) + (c.biasN * c.biasN + c.biasT * c.biasT + biasR * biasR);
 	const double own  = std::max(change(vi, c.leverNi, c.leverTi), change(vj, c.leverNj, c.leverTj))
-	        + rounding * rounding * rest;
-	return missed / (missed + own + least);
+	        + scale.share * scale.share * rest + scale.mean;
+	return missed / (missed + own + scale.least);
 }
 
 SpeedResidual naturalMapSpeeds(const Problem& problem)
@@ -76,11 +76,26 @@ SpeedResidual naturalMapSpeeds(const Problem& problem)
 	return { std::sqrt(sum / std::max<std::size_t>(defects.size(), 1)), std::sqrt(largest) };
 }
 
+/// As the solver has it.
+SpeedScale scaleOf(const Problem& problem, const std::vector<Twist>& velocities)
+{
+	double square = 0, count = 0;
+	for (std::size_t b = 0; b < problem.bodyCount(); ++b) {
+		if (problem.inverseMass[b].isFixed()) continue;
+		const double x = velocities[b].x - problem.freeVelocity[b].x,
+		             y = velocities[b].y - problem.freeVelocity[b].y;
+		square += x * x + y * y;
+		++count;
+	}
+	return { roundedShare<double>(), count > 0 ? square / count : 0,
+		 leastSquaredSpeed<double>(fastest(problem.freeVelocity)) };
+}
+
 std::vector<double> speedShares(const Problem& problem)
 {
 	const auto          v       = velocitiesOf(problem);
 	const auto          defects = naturalMapDefects(problem);
-	const double        least   = leastSquaredSpeed<double>(fastest(problem.freeVelocity));
+	const SpeedScale    scale   = scaleOf(problem, v);
 	std::vector<double> shares;
 	shares.reserve(defects.size());
 	const auto change = [&](std::int32_t b) {
@@ -91,7 +106,7 @@ std::vector<double> speedShares(const Problem& problem)
 		const Contact& c = problem.contacts[k];
 		shares.push_back(speedShare(
 		        c, problem.impulses[k], defects[k], problem.inverseMass[c.i], problem.inverseMass[c.j],
-		        change(c.i), change(c.j), least));
+		        change(c.i), change(c.j), scale));
 	}
 	return shares;
 }

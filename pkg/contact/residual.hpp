@@ -8,9 +8,8 @@
 //                                        |Δv|² = Δv_x² + Δv_y² + (λ Δω)²; under gravity alone g h for each body that is borne
 //   ϑ = V / √(V² + s²)                   share of the contact's speed that its impulses leave open: 0 solved, 1 where nothing acts yet and something should
 //
-// ϑ does not depend on masses, units, or on how fast everything moves together. It has no scale that other contacts set: a disk that falls is seen
-// beside an impact. A little of W P, of b and of the fastest body's speed is added to s, beside which velocities are rounded, so that a
-// packing that is pressed and changes no velocity can be solved.
+// ϑ does not depend on units, or on how fast everything moves together. The square of the rms of all bodies' |Δv| is added to s² (SpeedScale): in a packing that is pressed without
+// being accelerated nobody's own change is known to a share of itself. So is what rounding leaves of W P and of b, so that one which changes no velocity at all can be solved.
 #pragma once
 
 #include <algorithm>
@@ -44,22 +43,26 @@ struct Residual {
 	/// What a tolerance allows the rms of ϑ and the largest.
 	static double meanSpeed(double tolerance, bool uneven)
 	{
-		return std::clamp((uneven ? 100 : 200) * tolerance, 1e-4, 0.1);
+		return uneven ? std::clamp(100 * tolerance, 1e-4, 0.1) : 0.1;
 	}
 	static double mostSpeed(double tolerance, bool uneven)
 	{
-		return std::clamp((uneven ? 1000 : 5000) * tolerance, 1e-2, 0.5);
+		return uneven ? std::clamp(1000 * tolerance, 1e-2, 0.3) : 0.3;
 	}
 };
 
-/// Speeds beside W P and b that no ϑ is asked for, see above: what rounding leaves over the least ϑ that missed() can ask for.
-template <class Number> constexpr Number speedRounding = std::is_same_v<Number, float> ? 1e-4 : 1e-11;
-
-/// The same beside the fastest body's free velocity, squared: free velocities are always doubles. Never 0.
-template <class Number> Number leastSquaredSpeed(double fastest)
+/// What is added to s², see above.
+struct SpeedScale {
+	double share = 1e-11; // of W P and of b, not squared
+	double mean  = 0; // of |Δv|² over the bodies that can move [m²/s²]
+	double least = 0; // what can be told from rounding, squared [m²/s²]
+};
+template <class Number> constexpr double roundedShare() { return std::is_same_v<Number, float> ? 1e-4 : 1e-11; }
+/// The least square that can be told from rounding, for free velocities, which are always doubles. Never 0.
+template <class Number> double leastSquaredSpeed(double fastest)
 {
 	const double least = 1e-12 * fastest;
-	return std::max(static_cast<Number>(least * least), std::numeric_limits<Number>::min());
+	return std::max<double>(least * least, std::numeric_limits<Number>::min());
 }
 double fastest(const std::vector<Twist>& velocities);
 
@@ -69,7 +72,7 @@ double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& m
 /// ϑ² of a contact with the impulses `p` that misses `defect`; `vi`, `vj`: what impulses have changed of its bodies' velocities.
 double speedShare(
         const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
-        const Twist& vi, const Twist& vj, double least, double rounding = speedRounding<double>);
+        const Twist& vi, const Twist& vj, const SpeedScale& scale);
 
 /// Sums over contacts that the figures are made of; parts can be added in any fixed order.
 struct ResidualSums {

@@ -77,7 +77,7 @@ namespace {
 				        exact.measureStrip(s);
 			        }
 		        });
-		exact.sumUp();
+		exact.judge(settings.tolerance);
 	}
 
 	/// The same state in floats.
@@ -90,9 +90,10 @@ namespace {
 		};
 #pragma omp single
 		{
-			rounded->rows     = exact.rows;
-			rounded->sums     = exact.sums;
-			rounded->residual = exact.residual;
+			rounded->rows       = exact.rows;
+			rounded->sums       = exact.sums;
+			rounded->residual   = exact.residual;
+			rounded->scale.mean = exact.scale.mean;
 		}
 		exact.forFixed(body);
 		rounded->schedule.passes(omp_get_thread_num(), 1, [&](std::size_t s, int, const StripSchedule::Ahead&) {
@@ -140,7 +141,7 @@ namespace {
 				        writeStrip(s);
 			        }
 		        });
-		exact.sumUp();
+		exact.judge(settings.tolerance * (1 + 1e-6));
 	}
 
 	/// Sweeps and patches in turn, with more sweeps in each round; returns whether anything was changed.
@@ -164,7 +165,7 @@ namespace {
 				exact.schedule.each(omp_get_thread_num(), [this](std::size_t s) {
 					exact.measureStrip(s);
 				});
-				exact.sumUp();
+				exact.judge(tolerance);
 			}
 			if (last || exact.solved(tolerance)) break;
 		}

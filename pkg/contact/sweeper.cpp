@@ -32,7 +32,7 @@ Sweeper<Number>::Sweeper(Problem& problem_, const SolverSettings& settings_, Wor
 	bodies.resize(problem.bodyCount() + 1);
 	bodiesBefore.resize(problem.bodyCount() + 1);
 	bodies.back() = Motion<Number> {};
-	least         = leastSquaredSpeed<Number>(laidOut.survey.fastest);
+	scale         = { roundedShare<Number>(), 0, leastSquaredSpeed<Number>(laidOut.survey.fastest) };
 	strips.reset(laidOut.order.partBegin, laidOut.order.evenStrips);
 }
 
@@ -197,16 +197,15 @@ template <class Number> void Sweeper<Number>::measureRows(std::size_t s, Residua
 		const Impulse& p  = rows[k].p;
 		const Twist    vi = twistAt(c.i), vj = twistAt(c.j);
 		const Impulse  defect = naturalMapDefect(c, p, relativeVelocity(c, vi, vj), rows[k].inverse);
-		sums.add(
-		        c, p, defect,
-		        speedShare(c, p, defect, rows[k].mi, rows[k].mj, vi, vj, least, speedRounding<Number>));
+		sums.add(c, p, defect, speedShare(c, p, defect, rows[k].mi, rows[k].mj, vi, vj, scale));
 	}
 }
 
 template <class Number> void Sweeper<Number>::measureStrip(std::size_t s)
 {
 	sums[s] = kernels.measure(
-	        blocksOf(s), own.inverseLength.data() + laidOut.blockBegin[s], countOf(s), bodies.data(), least);
+	        blocksOf(s), own.inverseLength.data() + laidOut.blockBegin[s], countOf(s), bodies.data(),
+	        static_cast<Number>(scale.share), static_cast<Number>(scale.mean), static_cast<Number>(scale.least));
 	measureRows(s, sums[s]);
 }
 
@@ -219,8 +218,32 @@ template <class Number> void Sweeper<Number>::sumUp()
 		for (const ResidualSums& s : sums)
 			all.add(s);
 		residual = all.residual(problem.contactCount());
+		if (residual.relative() <= settings.tolerance) scale.mean = meanSquaredChange();
 	}
 	if (settings.stopping != StoppingTest::NaturalMap) measureChanges();
+}
+
+/// Sums up, and where only speeds are left to be judged does so by the present scale of them.
+template <class Number> void Sweeper<Number>::judge(double tolerance)
+{
+	sumUp();
+	if (settings.stopping != StoppingTest::NaturalMap || residual.relative() > tolerance || solved(tolerance))
+		return;
+#pragma omp barrier // others may still look at the residual
+	schedule.each(omp_get_thread_num(), [this](std::size_t s) { measureStrip(s); });
+	sumUp();
+}
+
+/// Of what impulses have changed of the velocities of bodies that can move.
+template <class Number> double Sweeper<Number>::meanSquaredChange() const
+{
+	const std::size_t count = laidOut.order.bodyBegin.back(); // those in strips come first
+	double            sum   = 0;
+	for (std::size_t k = 0; k < count; ++k) {
+		const Twist v = twistAt(static_cast<std::int32_t>(k));
+		sum += v.x * v.x + v.y * v.y;
+	}
+	return sum / double(std::max<std::size_t>(count, 1));
 }
 
 /// The figures of LMGC90's tests with the present velocities, summed strip by strip.
@@ -284,7 +307,7 @@ template <class Number> void Sweeper<Number>::iterate(const Goal& goal)
 		sweep(betas);
 		made += static_cast<double>(betas.size()) * one;
 		chosen += static_cast<int>(betas.size());
-		sumUp();
+		judge(goal.tolerance);
 		if (method != Method::Accelerated) continue;
 		const bool stagnates = stagnation.asks(residual.rms, static_cast<int>(betas.size()));
 		if (!rule.asks(residual.rms) && !stagnates) continue;

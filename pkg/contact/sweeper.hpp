@@ -47,6 +47,8 @@ public:
 	bool solved(double tolerance) const;
 	/// The residual from those of the strips.
 	void sumUp();
+	/// The same, by the scale of speeds that it finds.
+	void judge(double tolerance);
 
 	template <class With> void forNew(std::size_t strip, With with) const;
 	template <class With> void forFixed(With with);
@@ -92,9 +94,10 @@ public:
 	StripSchedule                schedule;
 	std::vector<Row>             rows;
 	std::vector<ResidualSums>    sums; // one a part of the order
-	Residual                     residual;
-	VelocityChanges              changes;
-	int                          iterations = 0, restarts = 0; // of iterate()
+	SpeedScale      scale; // of the next look; the mean is that of the last one at which impulses were solved
+	Residual        residual;
+	VelocityChanges changes;
+	int             iterations = 0, restarts = 0; // of iterate()
 
 private:
 	/// Places of the bodies that a part of the order is the first to touch in a pass.
@@ -108,6 +111,7 @@ private:
 	void        loseMomentum(std::size_t strip);
 	void        measureRows(std::size_t strip, ResidualSums& sums) const;
 	void        measureChanges();
+	double      meanSquaredChange() const;
 	static void setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion<Number>>& in);
 	/// Adds M⁻¹ Hᵀ of an impulse to the velocities of a contact's bodies.
 	static void  push(const Row& row, const Impulse& impulse, std::vector<Motion<Number>>& in);
@@ -117,7 +121,6 @@ private:
 		return { v[0], v[1], v[2] };
 	}
 
-	Number                  least; // leastSquaredSpeed()
 	bool                    outgrowsCache; // whether blocks have to be fetched from memory in every sweep
 	ActiveStrips            strips;
 	std::vector<ChangeSums> changeSums; // one a part of the order

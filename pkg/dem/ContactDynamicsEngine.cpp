@@ -287,7 +287,7 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 	// and so does a body that keeps falling, however light.
 	constexpr Real missed  = 10; // tolerances
 	constexpr int  lasts   = 10; // steps
-	constexpr Real falling = 0.5; // share of a contact's speed
+	constexpr Real falling = 0.3; // share of a contact's speed
 	const bool     matters = !statistics.converged
 	        && ((!(figure <= missed * tolerance) && !(residualForce <= missed * tolerance * meanWeight))
 	            || (ours && residualSpeedWorst > falling));

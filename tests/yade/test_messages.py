@@ -367,7 +367,7 @@ def test_a_lasting_miss_is_told_after_ten_steps_and_a_heavy_one_at_once(capfd):
         missed = e.unconverged
         O.step()
         forces = e.residual > 10 * tolerance and e.residualForce > 10 * tolerance * weight
-        matters = e.unconverged > missed and (forces or e.residualSpeedWorst > 0.5)
+        matters = e.unconverged > missed and (forces or e.residualSpeedWorst > 0.3)
         row = row + 1 if matters else 0
         heavy = matters and e.residualForce > weight
         due += row == 10 or heavy

@@ -80,7 +80,7 @@ def test_a_pair_that_keeps_falling_is_named_with_its_ratio_of_masses(capfd):
     run(12)
     told = capfd.readouterr().err
     assert e.unsolved >= 1 and e.unconverged >= 10
-    assert e.residualSpeedWorst > 0.5
+    assert e.residualSpeedWorst > 0.3
     assert all(k in (*disks, 0) for k in e.residualSpeedPair)
     assert "was not solved" in told and "worst are bodies #" in told
     assert "1e+06 times the mass" in told and "maxIterations" in told
