@@ -12,6 +12,9 @@ std::optional<Scaling> scalingOfLostSquares(const Survey& survey)
 	return Scaling { -std::ilogb(speed), std::ilogb(lightness) };
 }
 
+/// What a strength becomes that is out of all proportion to the impulses; times a friction it is still a number.
+constexpr double unreached = 1e290;
+
 Impulse scaled(const Impulse& p, const Scaling& s)
 {
 	const int by = s.speed + s.mass;
@@ -36,7 +39,7 @@ Problem scaled(const Problem& problem, const Scaling& s)
 		c.biasN    = std::ldexp(c.biasN, s.speed);
 		c.biasT    = std::ldexp(c.biasT, s.speed);
 		c.biasR    = std::ldexp(c.biasR, s.speed);
-		c.adhesion = std::ldexp(c.adhesion, s.speed + s.mass);
+		c.adhesion = std::min(std::ldexp(c.adhesion, s.speed + s.mass), unreached);
 	}
 	return p;
 }

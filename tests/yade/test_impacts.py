@@ -360,13 +360,12 @@ def test_a_gas_under_gravity_keeps_its_balance():
     run(1)
     start = e.kineticEnergy + e.potentialEnergy
     run(2000)
-    total = e.kineticEnergy + e.potentialEnergy
     # bodies move with the velocity of the step's end: ½ h m g times the change of speed since the beginning, stepping.rst
     bound = 0.5 * O.dt * 9.81 * sum(O.bodies[k].state.mass for k in ids) * 6
     assert abs(e.energyError) < bound
-    assert total == pytest.approx(
-        start, rel=0.02
-    )  # at the order of the step: m g h times the speed, in each impact that is followed at the floor
+    # where forces act impacts are the solve's, and what restitution could not give back is told
+    lost = start - e.kineticEnergy - e.potentialEnergy
+    assert 0 < e.missedRestitution < 2 * lost
 
 
 # ---- rest -----------------------------------------------------------------------------------------

@@ -15,9 +15,9 @@ from slope_scenes import write_quick
 
 ROWS = 200
 PINNED = {
-    "slope": "d222b30253905319a0c59dcf8be3b1551e22b1978e60991a4469830dd66ee804",
-    "biaxial": "ac38a697832695760e58a61b52aed5dfc462e43296f6045c810f714a4a99d68d",
-    "column": "215126531ffbbe444eedfc466c76a76dd48e8ab220dfb85ed297fd5ade5d0831",
+    "slope": "f6b6d9f5bcd1749060beaf19623632ad904b6a8222bc2a640c49fac54aea71e5",
+    "biaxial": "27eafc6d74393eeaf013f5734bc2a3579a07e8cd36e4ea3584f2c93082a35baf",
+    "column": "a1c6028c982249142b4616e545305b79df5cae753e159aed72ecdc9cc4f393ac",
 }
 
 
