@@ -31,7 +31,7 @@ struct ImpactPair {
 	double         gap         = 0; // then [m]
 	double         restitution = 0; // e
 	bool           disks       = false; // both are round
-	bool           held        = false; // by a bond or by adhesion, or forces act on a body of it: left to the solve
+	bool           held = false; // by a bond or by adhesion, or forces act on a body of it: left to the solve
 };
 
 /// What the impacts of a step have done at one pair: sums, each along the normal and tangent it had.

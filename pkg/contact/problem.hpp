@@ -70,6 +70,12 @@ inline Impulse relativeVelocity(const Contact& c, const Twist& vi, const Twist& 
 		 -c.ny * dx + c.nx * dy + c.leverTj * vj.w - c.leverTi * vi.w, vj.w - vi.w };
 }
 
+/// How fast the places of two bodies pass each other, along the tangent: without what their turning adds [m/s].
+inline double passingSpeed(const Contact& c, const Twist& vi, const Twist& vj)
+{
+	return -c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y);
+}
+
 /// v_j += M_j⁻¹ Hᵀ p and v_i −= M_i⁻¹ Hᵀ p.
 inline void
 applyImpulse(const Contact& c, const Impulse& p, const InverseMass& mi, const InverseMass& mj, Twist& vi, Twist& vj)

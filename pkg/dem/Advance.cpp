@@ -1,4 +1,5 @@
 #include "Advance.hpp"
+#include "Refusal.hpp"
 #include "seam/Resident.hpp"
 #include <atomic>
 #include <boost/python/stl_iterator.hpp>
@@ -118,8 +119,7 @@ namespace {
 		if (until.is_none()) return never;
 		const Real time = PyFloat_AsDouble(until.ptr());
 		if (PyErr_Occurred()) py::throw_error_already_set();
-		if (!std::isfinite(time))
-			refuseValue("until = " + boost::lexical_cast<string>(time) + ": give a finite time [s]");
+		if (!std::isfinite(time)) refuseValue("until = " + nscd::number(time) + ": give a finite time [s]");
 		return time;
 	}
 

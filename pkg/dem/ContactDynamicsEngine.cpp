@@ -4,6 +4,7 @@
 #include "NonsmoothTimeStepper.hpp"
 #include "PlaneCheck.hpp"
 #include "PythonBytes.hpp"
+#include "Refusal.hpp"
 #include "SceneCheck.hpp"
 #include "Seldom.hpp"
 #include "YadeFeatures.hpp"
@@ -64,17 +65,17 @@ void ContactDynamicsEngine::growGravity(NewtonIntegrator& newton, Real time)
 {
 	if (gravityRamp == 0) return;
 	const auto refuse = [](const char* name, const string& value, const char* what) {
-		throw std::runtime_error(
-		        string("ContactDynamicsEngine: ") + name + " = " + value + ": it must be " + what);
+		nscd::fail(string(name) + " = " + value + ": it must be " + what);
 	};
-	const auto text = [](Real value) { return boost::lexical_cast<string>(value); };
+	using nscd::number;
 	if (!(gravityRamp > 0) || !std::isfinite(gravityRamp))
-		refuse("gravityRamp", text(gravityRamp), "0 or more, and finite [s]");
-	if (!std::isfinite(gravityBegin)) refuse("gravityBegin", text(gravityBegin), "finite [s]");
+		refuse("gravityRamp", number(gravityRamp), "0 or more, and finite [s]");
+	if (!std::isfinite(gravityBegin)) refuse("gravityBegin", number(gravityBegin), "finite [s]");
 	for (int i = 0; i < 3; ++i)
 		if (!std::isfinite(finalGravity[i]))
 			refuse("finalGravity",
-			       text(finalGravity[0]) + ", " + text(finalGravity[1]) + ", " + text(finalGravity[2]),
+			       number(finalGravity[0]) + ", " + number(finalGravity[1]) + ", "
+			               + number(finalGravity[2]),
 			       "finite [m/s²]");
 	const Real share = std::max(Real(0), std::min(Real(1), (time - gravityBegin) / gravityRamp));
 	newton.gravity   = share * finalGravity;
@@ -83,9 +84,9 @@ void ContactDynamicsEngine::growGravity(NewtonIntegrator& newton, Real time)
 
 void ContactDynamicsEngine::validate() const
 {
-	const auto fail   = [](const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); };
+	using nscd::fail, nscd::number;
 	const auto refuse = [&](const char* name, Real value, const char* what) {
-		fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be " + what);
+		fail(string(name) + " = " + number(value) + ": it must be " + what);
 	};
 	nscd::checkEngines(*scene, *this);
 	// here and not where contacts are made: an exception in InteractionLoop's threads would end the program
@@ -94,7 +95,7 @@ void ContactDynamicsEngine::validate() const
 	if (scene->isPeriodic)
 		fail("periodic scenes are not supported: set O.periodic = False and bound the scene by walls");
 	if (!(scene->dt > 0) || !std::isfinite(scene->dt))
-		fail("O.dt = " + boost::lexical_cast<string>(scene->dt) + ": set a positive time step [s]");
+		fail("O.dt = " + number(scene->dt) + ": set a positive time step [s]");
 	if (!(tolerance > 0) || !std::isfinite(tolerance)) refuse("tolerance", tolerance, "positive and finite");
 	if (maxIterations < 1) fail("maxIterations = " + std::to_string(maxIterations) + ": it must be at least 1");
 	if (correctionSweeps < 0)

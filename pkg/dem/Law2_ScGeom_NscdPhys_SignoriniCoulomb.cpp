@@ -28,11 +28,12 @@ void Law2_ScGeom_NscdPhys_SignoriniCoulomb::followBond(
 		return;
 	}
 	if (phys.yielded) phys.restGap = plane::grownRestGap(phys.restGap, gap);
-	const auto strain = nscd::bondStrain(phys, pair, normal, gap);
-	if (phys.slid) phys.restSlip = strain.slip;
-	if (phys.rolled) phys.restTurn = strain.turn;
-	phys.errorSlip = strain.slip - phys.restSlip;
-	phys.errorTurn = strain.turn - phys.restTurn;
+	plane::BondStrain rest { phys.restSlip, phys.restTurn };
+	const auto error = plane::unyielded(nscd::bondStrain(phys, pair, normal, gap), phys.slid, phys.rolled, rest);
+	phys.restSlip    = rest.slip;
+	phys.restTurn    = rest.turn;
+	phys.errorSlip   = error.slip;
+	phys.errorTurn   = error.turn;
 }
 
 bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr<IPhys>& ip, Interaction* interaction)

@@ -1,6 +1,7 @@
 #include "NonsmoothTimeStepper.hpp"
 #include "CourseRunner.hpp"
 #include "ContactDynamicsEngine.hpp"
+#include "Refusal.hpp"
 #include <core/Scene.hpp>
 
 namespace yade {
@@ -12,15 +13,15 @@ void NonsmoothTimeStepper::validate() const
 	const auto fail     = [](const string& why) { throw std::runtime_error("NonsmoothTimeStepper: " + why); };
 	const auto positive = [&](const char* name, Real value) {
 		if (!(value > 0) || !std::isfinite(value))
-			fail(string(name) + " = " + boost::lexical_cast<string>(value) + ": it must be positive");
+			fail(string(name) + " = " + nscd::number(value) + ": it must be positive");
 	};
 	positive("smallest", smallest);
 	positive("path", path);
 	positive("bondPath", bondPath);
 	if (!(largest >= smallest) || !std::isfinite(largest))
-		fail("largest = " + boost::lexical_cast<string>(largest)
-		     + ": it must not be below smallest = " + boost::lexical_cast<string>(smallest));
-	if (!(growth >= 1)) fail("growth = " + boost::lexical_cast<string>(growth) + ": it must be at least 1");
+		fail("largest = " + nscd::number(largest)
+		     + ": it must not be below smallest = " + nscd::number(smallest));
+	if (!(growth >= 1)) fail("growth = " + nscd::number(growth) + ": it must be at least 1");
 	// a CourseRunner looks at the step before
 	const auto& all   = scene->engines;
 	const auto  first = std::find_if(all.begin(), all.end(), [](const auto& e) {

@@ -63,14 +63,15 @@ namespace {
 		const auto           strain = plane::bondStrain(
 		                  marks, first.motion, second.motion, normal, first.radius + 0.5 * r.gap,
 		                  second.radius + 0.5 * r.gap, second.radius);
-		if (r.slid || r.rolled) {
+		// most have yielded nothing, and their rest, which lies elsewhere in memory, is not read
+		auto error = strain;
+		if (r.strained || r.slid || r.rolled) {
 			if (!r.strained) rest = {};
-			if (r.slid) rest.slip = strain.slip;
-			if (r.rolled) rest.turn = strain.turn;
 			r.strained = true;
+			error      = plane::unyielded(strain, r.slid, r.rolled, rest);
 		}
-		r.slip = static_cast<float>(strain.slip - (r.strained ? rest.slip : 0));
-		r.turn = static_cast<float>(strain.turn - (r.strained ? rest.turn : 0));
+		r.slip = static_cast<float>(error.slip);
+		r.turn = static_cast<float>(error.turn);
 	}
 
 	/// What functors will look at of a contact. Noted before the loop: in it other threads write readings.

@@ -1,5 +1,6 @@
 #include "NscdMat.hpp"
 #include "PythonBytes.hpp"
+#include "Refusal.hpp"
 #include <contact/slip_weakening.hpp>
 #include <core/Omega.hpp>
 #include <lib/high-precision/Constants.hpp>
@@ -12,8 +13,8 @@ void NscdMat::require(bool good, const char* name, Real value, const char* what)
 {
 	if (!good)
 		throw std::invalid_argument(
-		        getClassName() + " '" + label + "': " + name + " = " + boost::lexical_cast<string>(value)
-		        + ", it must be " + what);
+		        getClassName() + " '" + label + "': " + name + " = " + nscd::number(value) + ", it must be "
+		        + what);
 }
 
 void NscdMat::validate() const

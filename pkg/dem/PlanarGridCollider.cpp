@@ -1,4 +1,5 @@
 #include "PlanarGridCollider.hpp"
+#include "Refusal.hpp"
 #include "SceneCheck.hpp"
 #include "StageClock.hpp"
 #include "YadeFeatures.hpp"
@@ -32,11 +33,11 @@ void PlanarGridCollider::action()
 		        "PlanarGridCollider: periodic scenes are not supported, with any collider: set O.periodic = False and bound the scene by walls");
 	if (!(sureReach >= 0))
 		throw std::runtime_error(
-		        "PlanarGridCollider: sureReach = " + boost::lexical_cast<string>(sureReach)
+		        "PlanarGridCollider: sureReach = " + nscd::number(sureReach)
 		        + ": give a gap in units of ℓ that is not negative");
 	if (!std::isfinite(verletDist))
 		throw std::runtime_error(
-		        "PlanarGridCollider: verletDist = " + boost::lexical_cast<string>(verletDist)
+		        "PlanarGridCollider: verletDist = " + nscd::number(verletDist)
 		        + ": give a length [m], or a negative number of smallest radii");
 	threads = nscd::threadsOf(*this);
 	ranIn   = never; // until all is done; a step's number comes again after O.resetTime()

@@ -1,6 +1,7 @@
 #include "PlateLoadEngine.hpp"
 #include "Gravity.hpp"
 #include "NscdPhys.hpp"
+#include "Refusal.hpp"
 #include "SceneCheck.hpp"
 #include "Segment.hpp"
 #include "YadeFeatures.hpp"
@@ -32,7 +33,7 @@ namespace {
 
 void PlateLoadEngine::validate() const
 {
-	const auto number = [](Real value) { return boost::lexical_cast<string>(value); };
+	using nscd::number;
 	const auto exists = [this](Body::id_t body) {
 		return body >= 0 && body < Body::id_t(scene->bodies->size()) && (*scene->bodies)[body];
 	};

@@ -214,8 +214,9 @@ class Known:
 
     def works(self):
         """Of the water in each step: its forces times the mean velocities."""
-        n, v = self.section.normal, (self.before, self.after)
-        return self.steps.dt * (0.5 * self.lift() * sum(part["vx"] * n[0] + part["vy"] * n[1] for part in v)).sum(1)
+        n = self.section.normal
+        vx, vy = (self.before[v] + self.steps.solved[:, k] for k, v in enumerate(("vx", "vy")))
+        return self.steps.dt * (0.5 * self.lift() * (vx * n[0] + vy * n[1])).sum(1)
 
     def energy_water_J(self):
         return self.since_settled(self.works())

@@ -62,11 +62,12 @@ def apart(spin, orbit):
     return abs((spin - orbit + math.pi) % (2 * math.pi) - math.pi)
 
 
-def no_yield():
-    """No bond has broken, opened, slid or rolled since the balance began."""
+def no_yield(energy):
+    """No bond has broken, opened, slid or rolled since the balance began; ``energy``: of the whole [J]."""
     e = engine()
-    assert e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed == 0
-    assert e.debondingLoss == e.slidingLoss == e.rollingLoss == e.impactLoss == 0
+    assert e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed == 0 and e.debondingLoss == 0
+    # what a bond still slips and rolls is what solves to their tolerance leave, step by step
+    assert abs(e.slidingLoss) + abs(e.rollingLoss) + abs(e.impactLoss) < 1e-6 * energy
 
 
 @pytest.mark.parametrize(
@@ -92,7 +93,7 @@ def test_bonded_bodies_tumble_freely_for_ever(rings, omega, dt, turns):
         assert d.norm() == pytest.approx(length, abs=2 * SLACK * length)
     after, turned, kept = sums(ids)
     assert engine().bonds == bonds == len([i for i in contacts() if i.phys.bonded])
-    no_yield()
+    no_yield(energy)
     assert worst < 2 * SLACK  # the slack [ℓ] over half a diameter
     # equal and opposite in each step; rounding of so many
     assert abs(turned - angular) < 1e-9 * size
@@ -156,7 +157,7 @@ def test_steps_of_the_time_stepper_keep_a_spinning_pair():
     _, after, kept = sums(ids)
     assert engine().bonds == 1 and O.dt == pytest.approx(5e-3, rel=0.1)  # 0.05 of the diameter at ω r
     assert after == pytest.approx(angular, rel=1e-9) and kept == pytest.approx(energy, rel=1e-4)
-    no_yield()
+    no_yield(energy)
 
 
 def test_what_hangs_on_a_rotor_goes_round_with_it():
@@ -172,7 +173,7 @@ def test_what_hangs_on_a_rotor_goes_round_with_it():
         O.bodies[i].state.vel, O.bodies[i].state.angVel = (0, omega * O.bodies[i].state.pos[0], 0), (0, 0, omega)
     engine().advance(int(20 * 2 * math.pi / omega / 5e-3))
     assert engine().bonds == 3
-    no_yield()
+    no_yield(sums(arm)[2])
     mass = O.bodies[arm[0]].state.mass
     for k, i in enumerate(arm):
         p = O.bodies[i].state.pos

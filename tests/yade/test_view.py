@@ -23,6 +23,7 @@ from yade.wrapper import (
 from contact_scenes import begin, engine, free_disk, loose_heap, material
 
 STEPS = 240
+REACH = 0.4  # mean diameters
 pytestmark = pytest.mark.usefixtures("empty")
 
 
@@ -70,7 +71,7 @@ def busy(steps_of_time=False):
     water = PorePressureEngine(
         planePoint=(0, 0, 0), planeNormal=(0, 1, 0), times=[0, 0.3], heights=[0, 2.0], releaseDistance=0.5
     )
-    begin(dt=2e-3, reach=0.4, tolerance=1e-6)
+    begin(dt=2e-3, reach=REACH, tolerance=1e-6)
     O.engines = O.engines[:1] + [water] + O.engines[1:]
     if steps_of_time:
         O.engines = [NonsmoothTimeStepper(smallest=1e-4, largest=4e-3)] + O.engines
@@ -188,6 +189,17 @@ def test_interactions_are_what_yades_own_loop_makes_of_them():
             assert a[key] == b[key], key
 
 
+def found_by_boxes(rows):
+    """Without walls that a disk is yet to come near to. YADE's collider has boxes of disks, which reach half as far beyond the rim as two of them together, and
+    boxes of walls, which reach nowhere; so it finds such a wall some steps later than ours. Nothing acts over such gaps.
+    """
+    return [
+        row
+        for row in rows
+        if not ("owned" in dict(row[1]) and -dict(row[1])["penetrationDepth"] > 0.5 * REACH * dict(row[1])["length"])
+    ]
+
+
 def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines():
     """On the way disks are taken away and put in, a bonded contact is ended, a disk is thrown, and what touches is bonded anew."""
 
@@ -240,6 +252,9 @@ def test_two_thousand_steps_are_the_same_in_every_way_and_with_yades_own_engines
     for way in ("advanced", "unseen", "one seen", "watched", "stepped", "beside others", "own engines"):
         for leg, (a, b) in enumerate(zip(expected, end(way))):
             for what, x, y in zip(("bodies", "walls", "counts", "contacts"), a, b):
+                if what == "contacts" and way == "own engines":
+                    x, y = found_by_boxes(x), found_by_boxes(y)
+                    assert len(x) > 20
                 assert x == y, (way, leg, what)
 
 

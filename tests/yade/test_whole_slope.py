@@ -40,14 +40,14 @@ def test_it_settles_gets_wet_fails_weakens_moves_and_rests(whole):
 
 #: Relative to the column's largest value; where not rounding of sums over thousands of steps, the reason stands beside.
 CLOSE = {
-    "slip_mean_dp_m": 1e-3,
-    "energy_water_J": 1e-4,
-    "energy_sliding_J": 1e-3,
-    "energy_rolling_J": 1e-3,
-    "energy_impact_J": 1e-3,
-    "energy_bonds_J": 1e-3,
-    "energy_error_rel": 1e-5,
-    "energy_correction_J": 0.01,  # disks that are turned back (ContactSeamCorrect) have two velocities at a step's end, of which the table has the second
+    "slip_mean_dp_m": 1e-9,
+    "energy_water_J": 1e-9,
+    "energy_sliding_J": 1e-9,
+    "energy_rolling_J": 1e-9,
+    "energy_impact_J": 1e-9,
+    "energy_bonds_J": 1e-9,
+    "energy_error_rel": 1e-7,  # of a sum that cancels
+    "energy_correction_J": 1e-6,
     "residual": 1e-6,
     "residual_N_per_m": 1e-6,  # velocities are computed anew, in another order of contacts
 }

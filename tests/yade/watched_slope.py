@@ -9,9 +9,68 @@ import numpy as np
 from slope_scenes import SMALL
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import experiment, records, results, section, slope, slope_packing, tables
+from yade.nonsmooth import contact, experiment, records, results, section, slope, slope_packing, tables
 
 DUMPED = 40  # rows between two contact problems that are kept
+
+
+def sorted_contacts(solver):
+    """The contact table with the lower id first and the normal from it to the other, in the order of ids."""
+    rows = np.frombuffer(solver.contactTable()).reshape(-1, 12).copy()
+    rows[rows[:, 0] > rows[:, 1], 5:7] *= -1
+    rows[:, :2] = np.sort(rows[:, :2], axis=1)
+    return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
+
+
+class Work:
+    """What contacts did in each step, by hand: impulses times the mean of the relative velocities before and after it.
+
+    Tension in a bond which opens neither in a step nor in the one before dissipates nothing: it is an error of the step.
+    """
+
+    def __init__(self, first, r):
+        self.first, self.r = first, r  # id of the first disk, radii of the disks
+        self._bears, self._open = (
+            {},
+            set(),
+        )  # by pair: the tension at which bonds open [N]; the pairs that opened in the last step
+
+    def of(self, table, before, after, h):
+        """Losses of a step [J] in the order of records.LOSSES, the work of tension in bonds that hold [J], and the contacts' relative velocities at its end (3, contacts).
+
+        ``table``: :func:`sorted_contacts` after the step; ``before``, ``after``: x, y, vx, vy, omega of the disks. Bodies that turn as one have two velocities at a step's end: solved, and turned;
+        the sums are of the first.
+        """
+        n, t, torque, nx, ny, gap = table[:, 2:8].T
+        i, j = table[:, :2].astype(int).T - self.first
+        wall, u = i < 0, []  # they stand still
+        for x, y, vx, vy, w in (before, after):
+            fixed = lambda values: np.where(wall, 0, values[i])  # noqa: E731
+            dx, dy = vx[j] - fixed(vx), vy[j] - fixed(vy)
+            across = -dx * ny + dy * nx - w[j] * (self.r[j] + 0.5 * gap) - fixed(w) * (fixed(self.r) + 0.5 * gap)
+            u.append(np.array([dx * nx + dy * ny, across, w[j] - fixed(w)]))
+        normal, sliding, rolling = -0.5 * h * np.array([n, t, torque]) * (u[0] + u[1])
+        held = self._hold(table, u[1][0])
+        pulled = (n < 0) & ~held
+        return (
+            (sliding.sum(), rolling.sum(), normal[n >= 0].sum(), normal[pulled].sum()),
+            -normal[(n < 0) & held].sum(),
+            u[1],
+        )
+
+    def _hold(self, table, opening):
+        """Which contacts are bonds that open neither in this step nor in the one before."""
+        bonded = np.flatnonzero(table[:, 8])
+        pairs = [tuple(p) for p in table[bonded, :2].astype(int).tolist()]
+        for p in pairs:
+            if p not in self._bears:
+                self._bears[p] = O.interactions[p].phys.tensileForce
+        bears = np.array([self._bears[p] for p in pairs])
+        opens = (table[bonded, 2] <= -(1 - 1e-9) * bears) & (opening[bonded] > 0)
+        held = np.zeros(len(table), dtype=bool)
+        held[bonded] = ~opens & ~np.array([p in self._open for p in pairs], dtype=bool)
+        self._open = {p for p, now in zip(pairs, opens) if now}
+        return held
 
 
 class Watch:
@@ -19,8 +78,9 @@ class Watch:
 
     ``steps``: arrays with a first axis of steps: ``iter``, ``time`` (at the end), ``dt``, ``gravity`` (2), ``before`` and ``after`` (columns of
     tables.bodies: x, y, angle, vx, vy, omega; shape (6, disks)), ``walls`` (pieces, 3: force and torque on them), ``water`` (2: the force on all disks),
-    ``height``, ``wet``, ``released``, ``ever_wet``, ``counters`` (:data:`COUNTERS`), ``losses`` (sliding, rolling, impact, bonds: by hand), ``slip`` (of each disk on DP).
-    ``begun``, ``rows``: the contact table after two steps and at each row, see :meth:`contacts`; ``dumps``: every :data:`DUMPED` rows the number of the row and its contact problem.
+    ``height``, ``wet``, ``released``, ``ever_wet``, ``counters`` (:data:`COUNTERS`), ``losses`` (sliding, rolling, impact, bonds: by hand), ``slip`` (of each disk on DP), ``solved`` (vx, vy, omega that
+    the step was solved for: bonded disks that turn as one are turned then).
+    ``begun``, ``rows``: the contact table after two steps and at each row, see :func:`sorted_contacts`; ``dumps``: every :data:`DUMPED` rows the number of the row and its contact problem.
     """
 
     COUNTERS = (
@@ -48,6 +108,7 @@ class Watch:
         t = tables.bodies(self.solver)
         self.r = t["r"]
         states = [O.bodies[int(i)].state for i in t["id"]]
+        self.work = Work(self.first, self.r)
         self.mass, self.inertia = np.array([s.mass for s in states]), np.array([s.inertia[2] for s in states])
         self._seen, self.rows = [], []
         self._last = self._bodies()
@@ -67,8 +128,8 @@ class Watch:
         self._advance()
         after, water = self._bodies(), self.water
         if O.iter == 2:
-            self.begun = self.contacts()
-        losses, slip = self._of_contacts(self._last, after, O.time - began)
+            self.begun = sorted_contacts(self.solver)
+        losses, slip, solved = self._of_contacts(self._last, after, O.time - began)
         self._seen.append(
             (
                 O.iter,
@@ -84,35 +145,28 @@ class Watch:
                 [getattr(self.solver, name) for name in self.COUNTERS],
                 losses,
                 slip,
+                solved,
             )
         )
         self._last = after
 
-    def contacts(self):
-        """The contact table with the lower id first and the normal from it to the other, in the order of ids."""
-        rows = np.frombuffer(self.solver.contactTable()).reshape(-1, 12).copy()
-        rows[rows[:, 0] > rows[:, 1], 5:7] *= -1
-        rows[:, :2] = np.sort(rows[:, :2], axis=1)
-        return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
+    def _solved(self, bodies):
+        """With the velocities that the step's contact problem was solved for."""
+        path = str(self.folder / "step.h5")
+        self.solver.dump(path)
+        return np.r_[bodies[:2], contact.load(path).velocity[self.first : self.first + self.count].T]
 
     def _of_contacts(self, before, after, h):
-        """What contacts dissipated in a step [J], in the order of records.LOSSES: their impulses times the mean of the relative velocities before and after it. And how
-        far each disk slipped on DP [m]."""
-        table = self.contacts()
-        n, t, torque, nx, ny, gap = table[:, 2:8].T
+        """What contacts dissipated in a step [J], how far each disk slipped on DP [m], and the velocities that the step was solved for."""
+        table, places = sorted_contacts(self.solver), [0, 1, 3, 4, 5]
+        solved = self._solved(after[places])
+        losses, _, u = self.work.of(table, before[places], solved, h)
         i, j = table[:, :2].astype(int).T - self.first
-        wall = i < 0  # they stand still
-        u = []
-        for x, y, _, vx, vy, w in (before, after):
-            lever_i, lever_j = (np.where(wall, 0, self.r[i]) + 0.5 * gap, self.r[j] + 0.5 * gap)
-            dx, dy, wi = (vx[j] - np.where(wall, 0, vx[i]), vy[j] - np.where(wall, 0, vy[i]), np.where(wall, 0, w[i]))
-            u.append((dx * nx + dy * ny, -dx * ny + dy * nx - w[j] * lever_j - wi * lever_i, w[j] - wi))
-        normal, sliding, rolling = (-0.5 * h * force * (a + b) for force, a, b in zip((n, t, torque), *u))
-        slip, dp = np.zeros(self.count), wall & np.isin(
-            table[:, 0], [i for i, name in zip(self.pieces, self.wall_of) if name == "DP"]
-        ) & (n > 0)
-        np.add.at(slip, j[dp], np.abs(h * u[1][1][dp]))
-        return (sliding.sum(), rolling.sum(), normal[n >= 0].sum(), normal[n < 0].sum()), slip
+        on = np.isin(table[:, 0], [k for k, name in zip(self.pieces, self.wall_of) if name == "DP"])
+        dp = (i < 0) & on & (table[:, 2] > 0)
+        slip = np.zeros(self.count)
+        np.add.at(slip, j[dp], np.abs(h * u[1][dp]))
+        return losses, slip, solved[2:]
 
     def row(self, *_):
         """Called after each row."""
@@ -120,7 +174,7 @@ class Watch:
             path = self.folder / f"row-{len(self.rows)}.h5"
             self.solver.dump(str(path))
             self.dumps.append((len(self.rows), path))
-        self.rows.append(self.contacts())
+        self.rows.append(sorted_contacts(self.solver))
 
     def begin(self, patch):
         """Every step of experiments is watched from now on. ``patch``: a pytest.MonkeyPatch."""
@@ -144,6 +198,7 @@ class Watch:
             "counters",
             "losses",
             "slip",
+            "solved",
         )
         self.steps = SimpleNamespace(**{name: np.array(part) for name, part in zip(names, zip(*self._seen))})
         del self._seen, self.solver, self.water, self.newton

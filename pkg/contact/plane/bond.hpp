@@ -86,6 +86,14 @@ inline BondStrain bondStrain(
 	return { leverFirst * aboutFirst + leverSecond * aboutSecond, aboutFirst - aboutSecond };
 }
 
+/// What of a bond's strain it has not yielded: its error of position. `rest`: what it has yielded, which follows where it slid or rolled in the step before.
+inline BondStrain unyielded(const BondStrain& strain, bool slid, bool rolled, BondStrain& rest)
+{
+	if (slid) rest.slip = strain.slip;
+	if (rolled) rest.turn = strain.turn;
+	return { strain.slip - rest.slip, strain.turn - rest.turn };
+}
+
 /// Whether a bond is inside its zone.
 inline bool bondLives(const BondDisplacement& d, const BondEllipse& zone)
 {

@@ -1,6 +1,7 @@
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
 #include "../PlaneCheck.hpp"
+#include "../Refusal.hpp"
 #include "../SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
@@ -57,9 +58,8 @@ namespace {
 /// How far a bent wall, or the line that a disk's centre follows on it, turns away from its tangent along the path of the step [m]; see Arc.
 Real ContactSeam::bendOf(const Reading& reading, const Contact& c) const
 {
-	const Real   curvature = static_cast<const SegmentGeom&>(*reading.geom).curvature;
-	const Twist &vi = before[c.i], &vj = before[c.j];
-	const Real   path = relaxation.step * (-c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y)), turn = path * curvature;
+	const Real curvature = static_cast<const SegmentGeom&>(*reading.geom).curvature;
+	const Real path = relaxation.step * contact::passingSpeed(c, before[c.i], before[c.j]), turn = path * curvature;
 	return path * turn / (1 + std::sqrt(std::max(Real(0), 1 - turn * turn)));
 }
 
@@ -231,8 +231,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum()))
 			refuse(body, "has a position or velocity that is not finite",
 			       "look at the forces and velocities set by the script");
-		const auto     number = [](Real value) { return boost::lexical_cast<string>(value); };
-		const unsigned free   = ~s.blockedDOFs;
+		const unsigned free = ~s.blockedDOFs;
 		if (((free & (State::DOF_X | State::DOF_Y)) && !(s.mass > 0))
 		    || ((free & State::DOF_RZ) && !(s.inertia[2] > 0)))
 			refuse(body,

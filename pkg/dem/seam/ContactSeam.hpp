@@ -37,7 +37,7 @@ struct ContactSums {
 	Real overlap = 0, worstOverlap = 0; // sum and maximum, in units of ℓ
 	int  worstIds[2] = { -1, -1 }; // bodies of the first contact that has the maximum
 	Real contactRate = 0, bondRate = 0; // [1/s], see NonsmoothTimeStepper
-	Real heldWork = 0; // of reactions of bonds in which they hold [J]: none but for errors of the step's positions
+	Real heldWork = 0; // of tension in bonds that do not open [J]: none but for errors of the step's positions
 	int  touching = 0, bonds = 0, broken[5] = { 0, 0, 0, 0, 0 };
 
 	bool anyBroken() const
@@ -134,11 +134,7 @@ private:
 	}
 	nonsmooth::contact::Impulse impulseOfStep(size_t k) const;
 	void scatterContacts(size_t begin, size_t end, bool rates, StepSums& result, char& slips);
-	/// Which of a bond's three reactions have held in this step and in the one before.
-	struct Held {
-		bool along = false, across = false, turning = false;
-	};
-	Held scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
+	bool scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
 	void sumReactions();
 	void scatterForces(Scene& scene, size_t begin, size_t end);
 	void loadClusters();
@@ -158,7 +154,7 @@ private:
 	void
 	rateContact(size_t k, const nonsmooth::contact::Impulse& u, const Reading& reading, ContactSums& sums) const;
 	Real sumContact(
-	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, Held held,
+	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, bool held,
 	        ContactSums& sums) const;
 	void sumImpacts(size_t id, const Vector3r& gravity, StepSums& sums) const;
 	void sumBodies(Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;

@@ -80,8 +80,7 @@ void ContactSeam::turnClusters()
 	constexpr Real far = 1e-4; // rad; what less does to a bond is taken back like any other error of position
 	const auto &   vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
 	if (radius[c.i] < 0) return std::abs(relaxation.step * vi.w) > far;
-	const Real passing = -c.ny * (vj.x - vi.x) + c.nx * (vj.y - vi.y);
-	return std::abs(relaxation.step * passing) > far * (c.leverTi - c.leverTj);
+	return std::abs(relaxation.step * contact::passingSpeed(c, vi, vj)) > far * (c.leverTi - c.leverTj);
 }
 
 /// What a contact asks of the positions at the end of the step; `u`: its velocities then.

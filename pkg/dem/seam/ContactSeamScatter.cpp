@@ -48,9 +48,9 @@ void StepSums::add(const StepSums& other)
 	bodies += other.bodies;
 }
 
-/// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the step.
-[[gnu::always_inline]] inline ContactSeam::Held
-ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
+/// Takes a contact's reactions to where it is kept, and what a bond has yielded; u: its velocities at the end of the step. Returns whether it is a bond that opened
+/// neither in this step nor in the one before.
+[[gnu::always_inline]] inline bool ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
 {
 	const Real     h    = relaxation.step;
 	const Contact& c    = problem.contacts[k];
@@ -65,13 +65,13 @@ ContactSeam::scatterContact(size_t k, const Impulse& u, Reading& r) const
 	if (!inArrays) writeReactions(r);
 	if (!inArrays || r.broken != NscdPhys::None) r.phys->yielded = r.phys->slid = r.phys->rolled = false;
 	if (r.broken != NscdPhys::None) r.phys->breaks = false; // it is counted now
-	if (!r.bonded) return {};
+	if (!r.bonded) return false;
 	const auto path  = contact::plane::yieldOfStep(c, p, u, h);
 	const bool opens = contact::plane::yieldsInTension(c, p, u), slides = path.shear != 0, rolls = path.torque != 0;
-	const Held held { !opens && !r.yielded, !slides && !r.slid, !rolls && !r.rolled };
-	r.yielded = opens;
-	r.slid    = slides;
-	r.rolled  = rolls;
+	const bool held = !opens && !r.yielded;
+	r.yielded       = opens;
+	r.slid          = slides;
+	r.rolled        = rolls;
 	if (path.any()) r.path.add(path); // seldom, and what is not written need not go back to memory
 	if (inArrays) return held;
 	r.phys->yielded = opens;
@@ -105,22 +105,21 @@ ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSu
 
 /// Returns what it has slid on a wall [J].
 [[gnu::always_inline]] inline Real
-ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, Held held, ContactSums& sums) const
+ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, bool held, ContactSums& sums) const
 {
 	const Contact& c  = problem.contacts[k];
 	const Impulse& p  = problem.impulses[k];
 	const Impulse  u0 = contact::relativeVelocity(c, before[c.i], before[c.j]);
 	// work of the impulse over the step, exact for constant mass: P·(U⁻ + U⁺)/2
-	const Real along = 0.5 * p.n * (u0.n + u1.n), across = 0.5 * p.t * (u0.t + u1.t),
-	           turning = 0.5 * p.r * (u0.r + u1.r);
-	// a bond that holds loses nothing; neither which one it is nor that can be told ahead
-	const Real normalWork = held.along ? 0 : along, shearWork = held.across ? 0 : across,
-	           rollingWork = held.turning ? 0 : turning;
-	sums.debonding -= p.n < 0 ? normalWork : 0;
-	sums.impact -= p.n < 0 ? 0 : normalWork;
+	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
+	// all, since which one it is cannot be told ahead; tension in a bond that does not open loses nothing
+	const bool draws = p.n < 0;
+	sums.debonding -= draws && !held ? normalWork : 0;
+	sums.heldWork += draws && held ? normalWork : 0;
+	sums.impact -= draws ? 0 : normalWork;
+	const Real shearWork = 0.5 * p.t * (u0.t + u1.t);
 	sums.sliding -= shearWork;
-	sums.rolling -= rollingWork;
-	sums.heldWork += (along - normalWork) + (across - shearWork) + (turning - rollingWork);
+	sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
 	// a gap that closes in the step as others push: its restitution is lost
 	if (r.bounces && !r.bonded && c.biasN > 0 && p.n > 0)
 		sums.missed -= r.restitution * r.restitution * std::min(Real(0), normalWork);
@@ -160,7 +159,7 @@ void ContactSeam::scatterContacts(size_t begin, size_t end, bool rates, StepSums
 		const Contact& c    = problem.contacts[k];
 		Reading&       r    = resident->readings[links[k].slot];
 		const Impulse  u    = contact::relativeVelocity(c, problem.velocities[c.i], problem.velocities[c.j]);
-		const Held     held = scatterContact(k, u, r);
+		const bool     held = scatterContact(k, u, r);
 		anySlips |= r.slips;
 		if (const Real slid = sumContact(k, u, r, held, sums); slid != 0)
 			result.slidingOnWalls.emplace_back(radius[c.i] < 0 ? c.i : c.j, slid);

@@ -1,4 +1,5 @@
 #include "GivenMotion.hpp"
+#include "../Refusal.hpp"
 #include <algorithm>
 
 namespace yade::nscd {
@@ -40,9 +41,8 @@ void GivenMotion::takeMove(
 		series.interval = series.velocity = 0;
 		if (again && !back)
 			told = "body #" + std::to_string(body.id) + ", whose DOFs are blocked, was moved by " + what
-			        + " again, " + boost::lexical_cast<string>(moved)
-			        + (what == string("state.ori") ? " rad" : " m") + " at once after "
-			        + std::to_string(long(series.steps))
+			        + " again, " + number(moved) + (what == string("state.ori") ? " rad" : " m")
+			        + " at once after " + std::to_string(long(series.steps))
 			        + " steps. That is taken for a new place and not for a motion, and what it meets gets no velocity: set state.vel (state.angVel) where it is to push or to drag, and the integrator moves it";
 	} else {
 		series.interval = series.steps;

@@ -7,6 +7,7 @@
 // has chosen, and they stay. A contact's length follows, with what is in proportion to it, and a bond's marks stay on the rims.
 // Units: m, kg, kg m², per metre of thickness for disks.
 #include "../BondEllipse.hpp"
+#include "../Refusal.hpp"
 #include "Resident.hpp"
 #include <lib/high-precision/Constants.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -37,8 +38,7 @@ namespace {
 		const bool left  = s.mass == former.mass && inertia == former.inertia;
 		const bool grown = near(s.mass, former.mass * square * ratio)
 		        && near(inertia, former.inertia * square * square * ratio);
-		const auto   number = [](Real value) { return boost::lexical_cast<string>(value); };
-		const string what   = "the radius of body #" + std::to_string(body.getId()) + " was changed from "
+		const string what = "the radius of body #" + std::to_string(body.getId()) + " was changed from "
 		        + number(former.radius) + " to " + number(radius) + " m";
 		if ((!left && !grown) || (grown && isSphere)) {
 			const Real fits = s.mass * (radius * radius);

@@ -73,10 +73,6 @@ def ways_to_solve(bench):
                 )
         for method, way in ((SHIPPED, "accelerated"), (PLAIN, "gaussSeidel")):
             own = [contact.solve(problem, way, start=start, tolerance=t, max_iterations=most) for t in TOLERANCES]
-            # looks too seldom for strips to rest, which the prototype does not know
-            whole = contact.solve(
-                problem, way, start=start, tolerance=1e-3, max_iterations=most, check_every=2 * sweep_methods.LOOK
-            )
             rows.append(
                 [
                     name,
@@ -89,7 +85,7 @@ def ways_to_solve(bench):
                 near(
                     f"{name}: sweeps of {method} to 1e-3",
                     _work(curves[name, method], 1e-3),
-                    whole.iterations,
+                    _sweeps_to(problem, way, start, 1e-3, most),
                     absolute=10,
                     relative=0.02,
                     against="the solver in C++",
@@ -113,6 +109,20 @@ def ways_to_solve(bench):
         ],
         plots=[_side_by_side(curves)],
     )
+
+
+def _sweeps_to(problem, way, start, tolerance, most):
+    """Sweeps of the solver in C++ from ``start`` until its residual (natural map) is below a tolerance; infinite where it does not come to that.
+
+    Its own test of convergence asks for more (speeds), so it is not asked. It looks too seldom for strips to rest, which the prototype does not know.
+    """
+    for count in range(sweep_methods.LOOK, most + 1, sweep_methods.LOOK):
+        s = contact.solve(
+            problem, method=way, start=start, tolerance=1e-300, max_iterations=count, check_every=2 * sweep_methods.LOOK
+        )
+        if s.relative <= tolerance:
+            return count
+    return np.inf
 
 
 def _side_by_side(curves):
