@@ -238,26 +238,25 @@ def test_a_slope_without_water_weakening_and_backstop(monkeypatch, tmp_path):
 
 
 def test_a_slope_of_another_size_does_the_same_until_it_fails(whole, tmp_path):
-    """At a hundredth of the size, lengths, times and forces come down by 100, 10 and 10⁴. Beyond the failure the flow is chaotic: there it is the same to a part
-    only, as for disks that were shifted by the last bit."""
+    """At a hundredth of the size, lengths, times and forces come down by 100, 10 and 10⁴. Rounding is another one, so all is the same as far as it is for disks that were
+    shifted by the last bit: bounds are twice the widest of what eleven sizes from 0.01 to 0.3 gave, before bonded disks were turned as one and after. That nothing has a
+    unit that does not go along is the next test's."""
     small = similar.scaled(section.load(str(SMALL)), 0.01)
     O.reset()
     series, told = run(small, tmp_path / "out")
     big = whole.summary
     assert told["contacts_initial"] == pytest.approx(big["contacts_initial"], abs=2) and told["disks"] == big["disks"]
-    for name, factor in (
-        ("fb_force_dry_N_per_m", 1e-4),
-        ("dp_shear_dry_N_per_m", 1e-4),
-        ("water_passive_m", 1e-2),
-        ("packing_fraction", 1.0),
+    for name, factor, scatter in (
+        ("fb_force_dry_N_per_m", 1e-4, 0.06),  # 164 to 170 kN/m
+        ("dp_shear_dry_N_per_m", 1e-4, 0.01),  # 1,114 to 1,119 kN/m
+        ("water_passive_m", 1e-2, 1e-9),
+        ("packing_fraction", 1.0, 2e-4),
+        ("water_at_failure_m", 1e-2, 0.06),  # 2.72 to 2.81 m
+        ("front_travel_m", 1e-2, 0.5),  # 5.3 to 8.0 m
     ):
-        assert told[name] / big[name] == pytest.approx(factor, rel=0.01), name
-    row = 0.02 * 1.5  # m, by which the table rises from one to the next
-    assert 100 * told["water_at_failure_m"] == pytest.approx(big["water_at_failure_m"], abs=1.01 * row)
+        assert told[name] / big[name] == pytest.approx(factor, rel=scatter), name
     for name in ("t0", "t1", "t2"):
-        assert 10 * told["times_s"][name] == pytest.approx(big["times_s"][name], rel=0.01)
-    # measured: 6 % here; 4 to 7 % on a slope of 2,000 disks that were shifted by 1e-11 m
-    assert 100 * told["front_travel_m"] == pytest.approx(big["front_travel_m"], rel=0.25)
+        assert 10 * told["times_s"][name] == pytest.approx(big["times_s"][name], abs=0.3)  # 0.1 to 0.16 s apart
 
 
 # powers of the size with which what a run tells grows, by the unit in its name
