@@ -249,7 +249,7 @@ def test_a_slope_of_another_size_does_the_same_until_it_fails(whole, tmp_path):
     for name, factor, scatter in (
         ("fb_force_dry_N_per_m", 1e-4, 0.06),  # 164 to 170 kN/m
         ("dp_shear_dry_N_per_m", 1e-4, 0.01),  # 1,114 to 1,119 kN/m
-        ("water_passive_m", 1e-2, 1e-9),
+        ("water_passive_m", 1e-2, 1e-6),
         ("packing_fraction", 1.0, 2e-4),
         ("water_at_failure_m", 1e-2, 0.06),  # 2.72 to 2.81 m
         ("front_travel_m", 1e-2, 0.5),  # 5.3 to 8.0 m
