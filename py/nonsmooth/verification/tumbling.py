@@ -110,8 +110,8 @@ def tumbling(bench):
         (1, 1, 1e-2, 5),
         (11, 10, 5e-3, 2 if bench.quick else 10),
     ]
-    claims, figure = [], Figure(figsize=(9, 3.6), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    claims, figure = [], Figure(figsize=(10, 3.6), layout="constrained")
+    left, right = figure.subplots(1, 2, gridspec_kw={"wspace": 0.08})
     for rings, omega, dt, turns in cases:
         name = f"{len(boulder(rings))} disks, {omega:g} rad/s, steps of {dt * 1e3:g} ms, {turns} turns"
         bench.progress(name)
@@ -154,7 +154,7 @@ def tumbling(bench):
     pair = 10 * 1e-2 - math.atan(10 * 1e-2)
     turns = np.geomspace(0.05, 3)
     left.loglog(turns, pair * turns * 2 * math.pi / 0.1, "k:", lw=1)
-    left.annotate("each body by itself,\n0.1 rad a step", (0.06, 0.01), fontsize=7)
+    left.annotate("each body by itself, 0.1 rad a step", (0.04, 0.1), fontsize=7)
     left.axhline(2 * SLACK, color="0.6", lw=0.8)
     left.set(xlabel="turns", ylabel="spin and orbit apart [rad]", ylim=(1e-16, 1))
     right.set(xlabel="turns", ylabel="energy, relative error", ylim=(1e-17, 1e-2))
