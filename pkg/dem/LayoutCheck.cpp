@@ -28,13 +28,19 @@
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/TorqueEngine.hpp>
-#include <pkg/common/Wall.hpp>
 #include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
 #include <pkg/dem/UniaxialStrainer.hpp>
+// clang-format off
+// its header has Gl1_Wall too, whose code a YADE without OpenGL has not: this library must load whatever the macros were
+#pragma push_macro("YADE_OPENGL")
+#undef YADE_OPENGL
+#include <pkg/common/Wall.hpp>
+#pragma pop_macro("YADE_OPENGL")
+// clang-format on
 
 #include <dlfcn.h>
 #include <malloc.h>

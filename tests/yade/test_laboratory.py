@@ -570,7 +570,7 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
         "--fraction",
         "0.82",
         "--confining",
-        "0.5,4",
+        "0.02,0.2",
         "--strain",
         "0.03",
         "--sides",
@@ -591,21 +591,26 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
     minor, major = (np.array([t[f"sigma{k}_peak_Pa"] for t in summary["tests"]]) for k in (3, 1))
     slope, begin = np.polyfit(minor, major, 1)
     assert math.sin(math.radians(summary["friction_peak_deg"])) == pytest.approx((slope - 1) / (slope + 1))
-    # two single samples of 150 disks, whose peaks scatter by a tenth: at 4 MPa that is more than the cohesion
-    assert abs(begin) < 0.15 * major[-1]
-    # of a difference of megapascals
+    assert begin > 0  # pressures are low, so that the cohesion is more than the scatter of two samples
+    # of a difference of hundreds of kilopascals
     assert 1e3 * summary["cohesion_peak_kPa"] == pytest.approx(begin / (2 * math.sqrt(slope)), rel=1e-6)
-    assert minor == pytest.approx([0.5e6, 4e6], rel=0.01)
+    assert minor == pytest.approx([0.02e6, 0.2e6], rel=0.01)
     assert all(len(t[key]) == 2 for t in summary["tests"] for key in ("bands", "bands_late"))
-    for name in ("stress_strain.png", "mohr.png", "bands.png", "force_chains.png", "tests/4MPa-seed1/vtk/biaxial.pvd"):
+    for name in (
+        "stress_strain.png",
+        "mohr.png",
+        "bands.png",
+        "force_chains.png",
+        "tests/0.2MPa-seed1/vtk/biaxial.pvd",
+    ):
         assert (tmp_path / name).stat().st_size > 300
-    assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.5MPa-seed1", "4MPa-seed1"]
+    assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.02MPa-seed1", "0.2MPa-seed1"]
     leftovers.plant(
         tmp_path,
         "summary.json",
         "mohr.png",
         *(
-            f"tests/4MPa-seed1/{name}"
+            f"tests/0.2MPa-seed1/{name}"
             for name in ("result.json", "progress", "snapshots/begin.npz", "snapshots/4.npz", "vtk/disks-1.vtu")
         ),
     )

@@ -15,7 +15,7 @@ from slope_scenes import write_quick
 
 ROWS = 200
 PINNED = {
-    "slope": "f6b6d9f5bcd1749060beaf19623632ad904b6a8222bc2a640c49fac54aea71e5",
+    "slope": "7250b6bc5c4eecd10762d2f6b4c74c06624da363bd8e49c89a5f2facf7604f69",
     "biaxial": "27eafc6d74393eeaf013f5734bc2a3579a07e8cd36e4ea3584f2c93082a35baf",
     "column": "a1c6028c982249142b4616e545305b79df5cae753e159aed72ecdc9cc4f393ac",
 }
