@@ -87,7 +87,11 @@ template <class Number> struct KernelsOf {
 	        const Block<Number>* ahead);
 	/// before += M⁻¹ Hᵀ (P_k − P_{k−1}), P_{k−1} ← P_k: what is extrapolated next is zero.
 	void (*rest)(Block<Number>* blocks, std::size_t count, Motion<Number>* before);
-	/// Natural-map residual; `inverseLength`: 1/ℓ, 0 in an empty lane; `share`, `mean`, `least`: SpeedScale.
+	/// Natural-map residual of impulses alone; `inverseLength`: 1/ℓ, 0 in an empty lane.
+	ResidualSums (*measureImpulses)(
+	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, std::size_t count,
+	        const Motion<Number>* bodies);
+	/// That of speeds, too; `share`, `mean`, `least`: SpeedScale.
 	ResidualSums (*measure)(
 	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, std::size_t count,
 	        const Motion<Number>* bodies, Number share, Number mean, Number least);

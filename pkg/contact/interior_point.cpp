@@ -416,7 +416,7 @@ PatchResidual residualOf(const PatchProblem& patch, const SpeedScale& scale)
 		const Twist vi       = isThere(c.i) ? patch.changes[c.i] : Twist {},
 		            vj       = isThere(c.j) ? patch.changes[c.j] : Twist {};
 		const Impulse defect = naturalMapDefect(c, p, relativeVelocity(c, vi, vj), inverseDelassus(c, mi, mj));
-		const double  share  = speedShare(c, p, defect, mi, mj, vi, vj, scale);
+		const double  share  = speedShare(c, p, defect, mi, mj, vi, vj, scale).all;
 		sum += share;
 		most = std::max(most, share);
 		active += p.n + c.adhesion > 0 || defect.n != 0;

@@ -29,18 +29,18 @@ namespace {
 	public:
 		Correction(
 		        Sweeper<double>& sweeper_, const BlockKernels& kernels_,
-		        const std::vector<PositionError>& errors_, PositionCorrection& result_)
+		        const std::vector<PositionError>& errors_, PositionCorrection& result_, bool asked_)
 		        : sweeper(sweeper_)
 		        , kernels(kernels_)
 		        , laidOut(sweeper_.laidOut)
 		        , errors(errors_)
 		        , result(result_)
+		        , asked(asked_)
 		{
 		}
 		void run(int sweeps);
 
 	private:
-		void findAcross();
 		void begin(std::size_t strip);
 		void end(std::size_t strip);
 
@@ -49,43 +49,35 @@ namespace {
 		const ContactBlocks&              laidOut;
 		const std::vector<PositionError>& errors;
 		PositionCorrection&               result;
+		const bool                        asked; // whether any error may ask for more than a length
 		std::vector<char>                 across; // of strips: whether tangents and turns are corrected too
 	};
-
-	/// Which strips have bonds that ask for more than their lengths; every thread calls it.
-	void Correction::findAcross()
-	{
-#pragma omp for schedule(static)
-		for (long s = 0; s < static_cast<long>(across.size()); ++s) {
-			const auto asks = [this](std::int32_t index) {
-				return index != ContactBlocks::none && errors[index].asksAcross();
-			};
-			const auto *lane = laidOut.contactOf.data(), *other = laidOut.others.data();
-			across[s] = std::any_of(
-			                    lane + laidOut.blockBegin[s] * lanes,
-			                    lane + laidOut.blockBegin[s + 1] * lanes, asks)
-			        || std::any_of(other + laidOut.otherBegin[s], other + laidOut.otherBegin[s + 1], asks);
-		}
-#pragma omp single
-		if (std::find(across.begin(), across.end(), true) != across.end())
-			result.tangential.assign(sweeper.problem.contactCount(), 0);
-		else
-			result.tangential.clear();
-	}
 
 	/// Makes displacements of velocities: nothing has moved but what the impulses to begin with ask for.
 	void Correction::begin(std::size_t s)
 	{
+		bool asks = false;
 		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
 			auto& k = sweeper.own.blocks[b];
 			for (std::size_t l = 0; l < lanes; ++l) {
 				const auto index = laidOut.contactOf[b * lanes + l];
 				if (index == ContactBlocks::none) continue;
+				const PositionError& e = errors[index];
+				k.biasN.v[l]           = e.error;
+				k.adhesion.v[l]        = e.held ? without : 0;
+				k.n.v[l] = k.beforeN.v[l] = projectNormal(e.impulse, k.adhesion.v[l]);
+				asks                      = asks || (asked && e.asksAcross());
+			}
+		}
+		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
+			asks = asks || (asked && errors[laidOut.others[k]].asksAcross());
+		across[s] = asks;
+		for (std::size_t b = laidOut.blockBegin[s]; asks && b < laidOut.blockBegin[s + 1]; ++b) {
+			auto& k = sweeper.own.blocks[b];
+			for (std::size_t l = 0; l < lanes; ++l) {
+				const auto index = laidOut.contactOf[b * lanes + l];
+				if (index == ContactBlocks::none) continue;
 				const Graphs graphs(errors[index]);
-				k.biasN.v[l]    = graphs.biasN;
-				k.adhesion.v[l] = graphs.adhesion;
-				k.n.v[l] = k.beforeN.v[l] = projectNormal(errors[index].impulse, graphs.adhesion);
-				if (!across[s]) continue;
 				k.biasT.v[l]      = graphs.biasT;
 				k.biasR.v[l]      = graphs.biasR;
 				k.friction.v[l]   = graphs.friction;
@@ -126,6 +118,7 @@ namespace {
 		result.displacements.resize(sweeper.problem.bodyCount());
 		result.impulses.resize(sweeper.problem.contactCount());
 		across.assign(laidOut.partCount(), false);
+		result.tangential.assign(asked ? sweeper.problem.contactCount() : 0, 0);
 		Extrapolation       extrapolation(sweeper.settings.method);
 		std::vector<double> betas(sweeps);
 		for (double& b : betas)
@@ -147,7 +140,6 @@ namespace {
 		};
 #pragma omp parallel num_threads(sweeper.threads)
 		{
-			findAcross();
 			sweeper.plan();
 			sweeper.forFixed([&](long place, std::int32_t b) {
 				sweeper.setOut(place, b);
@@ -161,7 +153,7 @@ namespace {
 
 void correctPositions(
         Problem& problem, const SolverSettings& settings, Workspace& workspace,
-        const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result)
+        const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result, bool across)
 {
 	const ContactBlocks& blocks = workspace.laidOut;
 	if (errors.size() != problem.contactCount() || blocks.order.order.size() != problem.contactCount()
@@ -172,7 +164,7 @@ void correctPositions(
 		        + std::to_string(blocks.order.order.size()));
 	Sweeper<double> sweeper(problem, settings, workspace);
 	sweeper.fillRows();
-	Correction(sweeper, kernelsFor(settings), errors, result).run(sweeps);
+	Correction(sweeper, kernelsFor(settings), errors, result, across).run(sweeps);
 }
 
 } // namespace nonsmooth::contact

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <contact/law.hpp>
 #include <contact/residual.hpp>
+#include <utility>
 
 namespace nonsmooth::contact {
 
@@ -37,18 +38,29 @@ double fastest(const std::vector<Twist>& velocities)
 	return most;
 }
 
-double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& mi, const InverseMass& mj)
-{
-	const Impulse w = delassus(c, mi, mj);
-	const double  n = w.n * defect.n, t = w.t * defect.t, r = (c.leverTi - c.leverTj) * (w.r * defect.r);
-	return n * n + t * t + r * r;
+namespace {
+	/// V² of the point, and of rolling.
+	std::pair<double, double>
+	missedSpeeds(const Contact& c, const Impulse& defect, const InverseMass& mi, const InverseMass& mj)
+	{
+		const Impulse w = delassus(c, mi, mj);
+		const double  n = w.n * defect.n, t = w.t * defect.t, r = (c.leverTi - c.leverTj) * (w.r * defect.r);
+		return { n * n + t * t, r * r };
+	}
 }
 
-double speedShare(
+double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& mi, const InverseMass& mj)
+{
+	const auto [point, rolling] = missedSpeeds(c, defect, mi, mj);
+	return point + rolling;
+}
+
+SpeedShare speedShare(
         const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
         const Twist& vi, const Twist& vj, const SpeedScale& scale)
 {
-	const double missed = missedSpeed(c, defect, mi, mj), wn = delassus(c, mi, mj).n;
+	const auto [point, rolling] = missedSpeeds(c, defect, mi, mj);
+	const double missed = point + rolling, wn = delassus(c, mi, mj).n;
 	const auto   change = [](const Twist& v, double leverN, double leverT) {
                 return v.x * v.x + v.y * v.y + (leverN * leverN + leverT * leverT) * (v.w * v.w);
 	};
@@ -56,7 +68,8 @@ double speedShare(
 	             rest = wn * wn * (p.n * p.n + p.t * p.t) + (c.biasN * c.biasN + c.biasT * c.biasT + biasR * biasR);
 	const double own  = std::max(change(vi, c.leverNi, c.leverTi), change(vj, c.leverNj, c.leverTj))
 	        + scale.share * scale.share * rest + scale.mean;
-	return missed / (missed + own + scale.least);
+	const double whole = missed + own + scale.least;
+	return { missed / whole, point / whole };
 }
 
 SpeedResidual naturalMapSpeeds(const Problem& problem)
@@ -91,12 +104,12 @@ SpeedScale scaleOf(const Problem& problem, const std::vector<Twist>& velocities)
 		 leastSquaredSpeed<double>(fastest(problem.freeVelocity)) };
 }
 
-std::vector<double> speedShares(const Problem& problem)
+std::vector<SpeedShare> speedShares(const Problem& problem)
 {
-	const auto          v       = velocitiesOf(problem);
-	const auto          defects = naturalMapDefects(problem);
-	const SpeedScale    scale   = scaleOf(problem, v);
-	std::vector<double> shares;
+	const auto              v       = velocitiesOf(problem);
+	const auto              defects = naturalMapDefects(problem);
+	const SpeedScale        scale   = scaleOf(problem, v);
+	std::vector<SpeedShare> shares;
 	shares.reserve(defects.size());
 	const auto change = [&](std::int32_t b) {
 		const Twist& free = problem.freeVelocity[b];
@@ -111,14 +124,18 @@ std::vector<double> speedShares(const Problem& problem)
 	return shares;
 }
 
-void ResidualSums::add(const Contact& c, const Impulse& p, const Impulse& defect, double share)
+void ResidualSums::addImpulses(const Contact& c, const Impulse& p, const Impulse& defect)
 {
 	const double one = squareNorm(c, defect);
 	square += one;
 	largest = std::max(largest, one);
 	scale += squareNorm(c, p);
-	speed += share;
-	largestSpeed = std::max(largestSpeed, share);
+}
+
+void ResidualSums::addSpeeds(const Contact& c, const Impulse& p, const Impulse& defect, const SpeedShare& share)
+{
+	speed += share.all;
+	largestSpeed = std::max(largestSpeed, share.point);
 	active += p.n + c.adhesion > 0 || defect.n != 0;
 }
 
@@ -144,8 +161,10 @@ Residual naturalMapResidual(const Problem& problem)
 	const auto   defects = naturalMapDefects(problem);
 	const auto   shares  = speedShares(problem);
 	ResidualSums sums;
-	for (std::size_t k = 0; k < defects.size(); ++k)
-		sums.add(problem.contacts[k], problem.impulses[k], defects[k], shares[k]);
+	for (std::size_t k = 0; k < defects.size(); ++k) {
+		sums.addImpulses(problem.contacts[k], problem.impulses[k], defects[k]);
+		sums.addSpeeds(problem.contacts[k], problem.impulses[k], defects[k], shares[k]);
+	}
 	return sums.residual(defects.size());
 }
 

@@ -7,6 +7,7 @@
 //   s² = max(|Δv_i|², |Δv_j|²)           Δv: what impulses have changed of a body's free velocity, with the speed of its turning at the contact,
 //                                        |Δv|² = Δv_x² + Δv_y² + (λ Δω)²; under gravity alone g h for each body that is borne
 //   ϑ = V / √(V² + s²)                   share of the contact's speed that its impulses leave open: 0 solved, 1 where nothing acts yet and something should
+//   ϑ_p                                  the same with the normal and tangential rows of V alone: what the contact's point leaves open
 //
 // ϑ does not depend on units, or on how fast everything moves together. The square of the rms of all bodies' |Δv| is added to s² (SpeedScale): in a packing that is pressed without
 // being accelerated nobody's own change is known to a share of itself. So is what rounding leaves of W P and of b, so that one which changes no velocity at all can be solved.
@@ -25,7 +26,7 @@ struct Residual {
 	double largest      = 0; // its largest value [N s]
 	double scale        = 0; // rms over contacts of |P| [N s]
 	double speed        = 0; // rms of ϑ over contacts that act or should [-]
-	double largestSpeed = 0; // largest ϑ [-]
+	double largestSpeed = 0; // largest ϑ_p [-]
 	/// The figure that tolerances are given for; 0 where nothing acts and nothing should.
 	double relative() const
 	{
@@ -40,14 +41,14 @@ struct Residual {
 		return std::max({ relative() / tolerance, speed / meanSpeed(tolerance, uneven),
 		                  largestSpeed / mostSpeed(tolerance, uneven) });
 	}
-	/// What a tolerance allows the rms of ϑ and the largest.
+	/// What a tolerance allows the rms of ϑ and the largest ϑ_p. That of a body at rest which falls beside others that do not is 0.7.
 	static double meanSpeed(double tolerance, bool uneven)
 	{
 		return uneven ? std::clamp(100 * tolerance, 1e-4, 0.1) : 0.1;
 	}
 	static double mostSpeed(double tolerance, bool uneven)
 	{
-		return uneven ? std::clamp(1000 * tolerance, 1e-2, 0.3) : 0.3;
+		return uneven ? std::clamp(1000 * tolerance, 1e-2, 0.3) : std::clamp(3000 * tolerance, 0.3, 0.6);
 	}
 };
 
@@ -69,18 +70,22 @@ double fastest(const std::vector<Twist>& velocities);
 /// V² of a contact that misses `defect` [m²/s²].
 double missedSpeed(const Contact& c, const Impulse& defect, const InverseMass& mi, const InverseMass& mj);
 
-/// ϑ² of a contact with the impulses `p` that misses `defect`; `vi`, `vj`: what impulses have changed of its bodies' velocities.
-double speedShare(
+struct SpeedShare {
+	double all, point; // ϑ² and ϑ_p²
+};
+/// That of a contact with the impulses `p` that misses `defect`; `vi`, `vj`: what impulses have changed of its bodies' velocities.
+SpeedShare speedShare(
         const Contact& c, const Impulse& p, const Impulse& defect, const InverseMass& mi, const InverseMass& mj,
         const Twist& vi, const Twist& vj, const SpeedScale& scale);
 
 /// Sums over contacts that the figures are made of; parts can be added in any fixed order.
 struct ResidualSums {
 	double square = 0, scale = 0, largest = 0; // of squared defects and impulses, and the largest defect
-	double speed = 0, largestSpeed = 0, active = 0; // of ϑ², the largest ϑ², and contacts that act or should
+	double speed = 0, largestSpeed = 0, active = 0; // of ϑ², the largest ϑ_p², and contacts that act or should
 
-	/// Adds a contact; `share`: its ϑ².
-	void     add(const Contact& c, const Impulse& p, const Impulse& defect, double share);
+	/// Add a contact.
+	void     addImpulses(const Contact& c, const Impulse& p, const Impulse& defect);
+	void     addSpeeds(const Contact& c, const Impulse& p, const Impulse& defect, const SpeedShare& share);
 	void     add(const ResidualSums& other);
 	Residual residual(std::size_t contacts) const;
 };
@@ -97,8 +102,8 @@ struct SpeedResidual {
 };
 SpeedResidual naturalMapSpeeds(const Problem& problem);
 
-/// ϑ² of every contact of problem.impulses.
-std::vector<double> speedShares(const Problem& problem);
+/// Of every contact of problem.impulses.
+std::vector<SpeedShare> speedShares(const Problem& problem);
 
 /// Residual of problem.impulses with the velocities that follow from them (nothing of a solver's own state is used).
 Residual naturalMapResidual(const Problem& problem);

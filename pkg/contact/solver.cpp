@@ -74,10 +74,10 @@ namespace {
 				        applyStrip(s);
 			        } else {
 				        exact.keepBodies(s);
-				        exact.measureStrip(s);
+				        exact.measureStrip(s, false);
 			        }
 		        });
-		exact.judge(settings.tolerance);
+		exact.judge(settings.tolerance, settings.maxIterations == 0);
 	}
 
 	/// The same state in floats.
@@ -137,11 +137,11 @@ namespace {
 				        applyStrip(s);
 			        } else {
 				        exact.keepBodies(s);
-				        exact.measureStrip(s);
+				        exact.measureStrip(s, false);
 				        writeStrip(s);
 			        }
 		        });
-		exact.judge(settings.tolerance * (1 + 1e-6));
+		exact.judge(settings.tolerance * (1 + 1e-6), true);
 	}
 
 	/// Sweeps and patches in turn, with more sweeps in each round; returns whether anything was changed.
@@ -163,7 +163,7 @@ namespace {
 			if (patched) {
 				changed = true;
 				exact.schedule.each(omp_get_thread_num(), [this](std::size_t s) {
-					exact.measureStrip(s);
+					exact.measureStrip(s, false);
 				});
 				exact.judge(tolerance);
 			}

@@ -105,10 +105,10 @@ struct PositionCorrection {
 };
 
 /// Displacements of the bodies that take the errors back, one error a contact. To be called after a solve with the same problem, settings and workspace,
-/// on whose blocks it sweeps. Throws std::invalid_argument where a size does not fit.
+/// on whose blocks it sweeps. `across`: whether any of them may ask for more than its length. Throws std::invalid_argument where a size does not fit.
 void correctPositions(
         Problem& problem, const SolverSettings& settings, Workspace& workspace,
-        const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result);
+        const std::vector<PositionError>& errors, int sweeps, PositionCorrection& result, bool across = true);
 
 /// Solves in place: reads problem.impulses as warm start, writes problem.impulses and problem.velocities.
 /// Throws std::invalid_argument naming the setting, body or contact that cannot be used (problem_check.hpp), before anything is changed.

@@ -174,7 +174,7 @@ template <class Number> void Sweeper<Number>::sweep(const std::vector<double>& b
 	        omp_get_thread_num(), sweeps + 1,
 	        [this, &betas, sweeps](std::size_t s, int pass, const StripSchedule::Ahead& ahead) {
 		        if (pass == sweeps) {
-			        if (strips.changes(s)) measureStrip(s);
+			        if (strips.changes(s)) measureStrip(s, false);
 			        return;
 		        }
 		        const double beta = betas[pass];
@@ -190,23 +190,28 @@ template <class Number> void Sweeper<Number>::sweep(const std::vector<double>& b
 	        });
 }
 
-template <class Number> void Sweeper<Number>::measureRows(std::size_t s, ResidualSums& sums) const
+template <class Number> void Sweeper<Number>::measureRows(std::size_t s, bool speeds, ResidualSums& sums) const
 {
 	for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k) {
 		const Contact& c  = rows[k].contact;
 		const Impulse& p  = rows[k].p;
 		const Twist    vi = twistAt(c.i), vj = twistAt(c.j);
 		const Impulse  defect = naturalMapDefect(c, p, relativeVelocity(c, vi, vj), rows[k].inverse);
-		sums.add(c, p, defect, speedShare(c, p, defect, rows[k].mi, rows[k].mj, vi, vj, scale));
+		sums.addImpulses(c, p, defect);
+		if (speeds)
+			sums.addSpeeds(c, p, defect, speedShare(c, p, defect, rows[k].mi, rows[k].mj, vi, vj, scale));
 	}
 }
 
-template <class Number> void Sweeper<Number>::measureStrip(std::size_t s)
+template <class Number> void Sweeper<Number>::measureStrip(std::size_t s, bool speeds)
 {
-	sums[s] = kernels.measure(
-	        blocksOf(s), own.inverseLength.data() + laidOut.blockBegin[s], countOf(s), bodies.data(),
-	        static_cast<Number>(scale.share), static_cast<Number>(scale.mean), static_cast<Number>(scale.least));
-	measureRows(s, sums[s]);
+	const auto* blocks    = blocksOf(s);
+	const auto* perLength = own.inverseLength.data() + laidOut.blockBegin[s];
+	sums[s]               = speeds ? kernels.measure(
+	                                blocks, perLength, countOf(s), bodies.data(), static_cast<Number>(scale.share),
+	                                static_cast<Number>(scale.mean), static_cast<Number>(scale.least))
+	                               : kernels.measureImpulses(blocks, perLength, countOf(s), bodies.data());
+	measureRows(s, speeds, sums[s]);
 }
 
 template <class Number> void Sweeper<Number>::sumUp()
@@ -223,14 +228,13 @@ template <class Number> void Sweeper<Number>::sumUp()
 	if (settings.stopping != StoppingTest::NaturalMap) measureChanges();
 }
 
-/// Sums up, and where only speeds are left to be judged does so by the present scale of them.
-template <class Number> void Sweeper<Number>::judge(double tolerance)
+/// Sums up what is measured of impulses; where they are solved, or in any case, speeds are measured, too, by the scale of them that follows.
+template <class Number> void Sweeper<Number>::judge(double tolerance, bool always)
 {
 	sumUp();
-	if (settings.stopping != StoppingTest::NaturalMap || residual.relative() > tolerance || solved(tolerance))
-		return;
+	if (!always && (settings.stopping != StoppingTest::NaturalMap || !(residual.relative() <= tolerance))) return;
 #pragma omp barrier // others may still look at the residual
-	schedule.each(omp_get_thread_num(), [this](std::size_t s) { measureStrip(s); });
+	schedule.each(omp_get_thread_num(), [this](std::size_t s) { measureStrip(s, true); });
 	sumUp();
 }
 

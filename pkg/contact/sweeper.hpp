@@ -47,8 +47,8 @@ public:
 	bool solved(double tolerance) const;
 	/// The residual from those of the strips.
 	void sumUp();
-	/// The same, by the scale of speeds that it finds.
-	void judge(double tolerance);
+	/// The same of impulses; where they are solved, or always, speeds are measured and summed up, too.
+	void judge(double tolerance, bool always = false);
 
 	template <class With> void forNew(std::size_t strip, With with) const;
 	template <class With> void forFixed(With with);
@@ -67,8 +67,8 @@ public:
 	void extrapolate(std::size_t strip, double beta);
 	/// A strip's contacts outside the blocks, one after the other, and each one's three graphs so.
 	void sweepRows(std::size_t strip, double beta);
-	/// Natural-map residual of a strip with the present velocities.
-	void measureStrip(std::size_t strip);
+	/// Natural-map residual of a strip with the present velocities, and with `speeds` what it misses of them.
+	void measureStrip(std::size_t strip, bool speeds);
 
 	Block<Number>* blocksOf(std::size_t strip) { return own.blocks.data() + laidOut.blockBegin[strip]; }
 	std::size_t    countOf(std::size_t strip) const
@@ -109,7 +109,7 @@ private:
 	void        chooseStrips(double tolerance);
 	void        wakeStrips();
 	void        loseMomentum(std::size_t strip);
-	void        measureRows(std::size_t strip, ResidualSums& sums) const;
+	void        measureRows(std::size_t strip, bool speeds, ResidualSums& sums) const;
 	void        measureChanges();
 	double      meanSquaredChange() const;
 	static void setTwists(const Row& row, const Twist& vi, const Twist& vj, std::vector<Motion<Number>>& in);

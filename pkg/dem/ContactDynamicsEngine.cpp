@@ -309,13 +309,16 @@ string ContactDynamicsEngine::tellWorstPair()
 {
 	const auto shares = contact::speedShares(seam.problem);
 	if (shares.empty()) return "there are no contacts";
-	const size_t worst = std::max_element(shares.begin(), shares.end()) - shares.begin();
-	const auto&  r     = seam.readingOf(seam.links[worst]);
-	const auto&  here  = seam.problem.contacts[worst];
-	residualSpeedPair  = Vector2i(std::min(r.first, r.second), std::max(r.first, r.second));
+	const size_t worst = std::max_element(
+	                             shares.begin(), shares.end(),
+	                             [](const auto& a, const auto& b) { return a.point < b.point; })
+	        - shares.begin();
+	const auto& r     = seam.readingOf(seam.links[worst]);
+	const auto& here  = seam.problem.contacts[worst];
+	residualSpeedPair = Vector2i(std::min(r.first, r.second), std::max(r.first, r.second));
 	std::ostringstream text;
 	text << "worst are bodies #" << residualSpeedPair[0] << " and #" << residualSpeedPair[1] << ", which leave "
-	     << 100 * std::sqrt(shares[worst]) << " % of their speed open";
+	     << 100 * std::sqrt(shares[worst].point) << " % of their speed open";
 	Real lightest = 0, heaviest = 0; // inverse masses of the pair and of what it touches
 	for (const auto& c : seam.problem.contacts) {
 		if (c.i != here.i && c.j != here.j && c.i != here.j && c.j != here.i) continue;

@@ -28,6 +28,8 @@ void Law2_ScGeom_NscdPhys_SignoriniCoulomb::followBond(
 		return;
 	}
 	if (phys.yielded) phys.restGap = plane::grownRestGap(phys.restGap, gap);
+	phys.errorSlip = phys.errorTurn = 0;
+	if (!phys.slid && !phys.rolled && !phys.joins) return;
 	plane::BondStrain rest { phys.restSlip, phys.restTurn };
 	const auto error = plane::unyielded(nscd::bondStrain(phys, pair, normal, gap), phys.slid, phys.rolled, rest);
 	phys.restSlip    = rest.slip;

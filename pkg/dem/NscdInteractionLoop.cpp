@@ -275,7 +275,10 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 			refresh  = true;
 		} else {
 			if (r.yielded) r.restGap = plane::grownRestGap(r.restGap, r.gap);
-			followStrain(r, swap, p1, p2, bond.marks, resident.rests[slot]);
+			if (r.slid || r.rolled || r.joins)
+				followStrain(r, swap, p1, p2, bond.marks, resident.rests[slot]);
+			else
+				r.slip = r.turn = 0;
 		}
 	}
 	const bool stays = r.bonded || r.broken != NscdPhys::None;

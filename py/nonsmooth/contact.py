@@ -101,7 +101,7 @@ class Solution:
     converged: bool
     relative: float  # residual (natural map) of what is returned, whatever test stopped the solver
     speed_share: float  # rms over contacts of the share of their speed that is left open (ϑ of pkg/contact/residual.hpp) [-]
-    speed_share_largest: float  # the largest of them
+    speed_share_largest: float  # the largest of them, of a contact's point and without rolling
     seconds: float  # wall time of the solve, without the copying of arrays [s]
 
 

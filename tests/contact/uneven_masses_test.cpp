@@ -147,11 +147,11 @@ TEST(UnevenMasses, SharesOfSpeedAreThoseOfTheirDefinitionOnEveryPath)
                                 const Twist &v = copy.velocities[b], &from = copy.freeVelocity[b];
                                 return Twist { v.x - from.x, v.y - from.y, v.w - from.w };
 			};
-			const double share = speedShare(
+			const auto share = speedShare(
 			        c, copy.impulses[k], defects[k], copy.inverseMass[c.i], copy.inverseMass[c.j],
 			        change(c.i), change(c.j), SpeedScale { 1e-11, 0, 1e-30 });
-			sum += share;
-			most = std::max(most, share);
+			sum += share.all;
+			most = std::max(most, share.point);
 			active += copy.impulses[k].n + c.adhesion > 0 || defects[k].n != 0;
 		}
 		EXPECT_NEAR(found.speed, std::sqrt(sum / active), 1e-9)

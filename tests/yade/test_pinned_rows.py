@@ -16,8 +16,8 @@ from slope_scenes import write_quick
 ROWS = 200
 PINNED = {
     "slope": "7250b6bc5c4eecd10762d2f6b4c74c06624da363bd8e49c89a5f2facf7604f69",
-    "biaxial": "27eafc6d74393eeaf013f5734bc2a3579a07e8cd36e4ea3584f2c93082a35baf",
-    "column": "a1c6028c982249142b4616e545305b79df5cae753e159aed72ecdc9cc4f393ac",
+    "biaxial": "841b34f25bff14b9ca72c591b653ccdef274ab2031d2d55afe60a56bcd9911ee",
+    "column": "215126531ffbbe444eedfc466c76a76dd48e8ab220dfb85ed297fd5ade5d0831",
 }
 
 

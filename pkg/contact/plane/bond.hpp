@@ -6,7 +6,7 @@
 // the bond lives while (d_n / ε_n ℓ)² + (d_t / ε_t ℓ)² < 1 and is lost for good when it leaves. All comes from positions and rotations.
 // With α₁ and α₂ the angles by which the contact has gone about each body, as seen from it, it has slipped by s = λ₁ α₁ + λ₂ α₂ (λ: centre to contact) and turned by
 // ψ = α₁ − α₂, whose rates are U_t and w of contact/law.hpp; on a straight wall s = d_t − r (ψ − sin ψ). A bond that holds has no such rates: what of s and ψ it has not
-// yielded is an error of position, which the next steps take back (contact/solver.hpp), as they do with its gap. So no error adds up.
+// yielded is an error of position. Where bodies turn as one (rigid_clusters.hpp) it would add up, and the next steps take it back (contact/solver.hpp), as they do with its gap.
 // A bond at its threshold yields. In a step of length h with relative velocities U and impulses P (thresholds as in contact/law.hpp) it yields by
 //     h U_n where P_n = −h F_a and U_n > 0 ,   |h U_t| where |P_t| = μ_s (h F_a + P_n) ,   |h w| ℓ/2 where |P_r| = μ_r ℓ (h F_a + P_n) .
 // The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break. In tension it keeps the longest gap it has had.

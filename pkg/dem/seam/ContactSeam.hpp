@@ -75,7 +75,8 @@ public:
 	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids; returns how many. They need another solve. After
 	/// a few rounds it takes in all.
 	size_t recall();
-	/// After the last solve: finds how far bodies are to be displaced to take back overlaps and bonds' errors of length; scatter moves them.
+	/// After the last solve: finds how far bodies are to be displaced to take back overlaps, bonds' errors of length, and what bonds of bodies that turn as one have slipped
+	/// and turned; scatter moves them.
 	void
 	correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace,
 	        int sweeps);
@@ -141,12 +142,30 @@ private:
 	void findClusters();
 	void turnClusters();
 	bool turnsFar(const nonsmooth::contact::Contact& contact) const;
-	nonsmooth::contact::PositionError errorOf(size_t k, const nonsmooth::contact::Impulse& u, bool sticks) const;
+	bool sticks(size_t k, const nonsmooth::contact::Impulse& u) const;
+	nonsmooth::contact::PositionError errorOf(size_t k, const nonsmooth::contact::Impulse& u, bool turns) const;
 	void                              turnBack();
-	void                              turnBack(size_t k);
-	void                              displace(size_t begin, size_t end);
-	nonsmooth::contact::Twist         correctionOf(size_t id) const;
-	nonsmooth::contact::Twist         displacementOf(size_t id) const;
+	void                              turnBack(
+	                                     size_t k, const std::vector<nonsmooth::contact::Twist>& velocities,
+	                                     const std::vector<nonsmooth::contact::Twist>& ways);
+	void displace(size_t begin, size_t end);
+	/// How far a body is moved for errors of position, and because it turns with a cluster.
+	nonsmooth::contact::Twist correctionOf(size_t id) const
+	{
+		using nonsmooth::contact::Twist;
+		const Twist d = correction.displacements.empty() ? Twist {} : correction.displacements[id];
+		if (turned.empty()) return d;
+		const Twist& way = clusterWay[id];
+		return { d.x + way.x, d.y + way.y, d.w + way.w };
+	}
+	/// How far it is moved in all beside the path of the step: impacts may have taken place within it, too.
+	nonsmooth::contact::Twist displacementOf(size_t id) const
+	{
+		const auto d = correctionOf(id);
+		if (!followed) return d;
+		const auto& s = sequence.flights[id].shift;
+		return { d.x + s.x, d.y + s.y, d.w + s.w };
+	}
 	nonsmooth::contact::plane::BodyArrays bodyArrays() const
 	{
 		return { problem.positions.data(), problem.inverseMass.data(), mass.data() };
@@ -177,8 +196,11 @@ private:
 	std::vector<nonsmooth::contact::Twist>
 	        turning; // of bodies: impulses that turn clusters and keep the angular momentum, see turnBack [N s]
 	nonsmooth::contact::plane::RigidClusters clusters;
-	// of bodies, empty where no cluster turns: what the centrifugal force gave [m/s]; after the solve displacements [m] and changes of velocity [m/s]
+	// of bodies, nothing but of those that are loaded and turned: what the centrifugal force gave [m/s]; after the solve displacements [m] and changes of velocity [m/s]
 	std::vector<nonsmooth::contact::Twist> centrifugal, clusterWay, clusterTurn;
+	std::vector<int>                       loaded, turned; // bodies of clusters, in the last step
+	std::vector<char>                      isTurned; // by body
+	std::vector<nonsmooth::contact::Twist> afterTurn, waysOfAll; // memory of turnBack()
 	std::vector<std::vector<size_t>>
 	        joints; // by part: contacts whose bodies were turned as one in the step before; then those that may be now
 	std::vector<char>   present;

@@ -20,19 +20,31 @@ namespace {
 	Real beyond(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
 }
 
+namespace {
+	/// Nothing for all bodies, where only those of the step before have something.
+	void forget(std::vector<Twist>& of, const std::vector<int>& those, size_t count)
+	{
+		if (of.size() != count) of.assign(count, {});
+		else
+			for (const int body : those)
+				of[body] = {};
+	}
+}
+
 /// Bodies that were turned as one in the step before bear the centrifugal force.
 void ContactSeam::loadClusters()
 {
-	centrifugal.clear();
 	findClusters();
-	if (clusters.count() == 0) return;
-	centrifugal.resize(before.size());
+	if (clusters.count() == 0 && loaded.empty()) return;
+	forget(centrifugal, loaded, before.size());
+	loaded.clear();
 	const auto bodies = bodyArrays();
 	for (size_t s = 0; s < clusters.count(); ++s) {
 		const int *first = clusters.first(s), *last = clusters.last(s);
 		const auto axes = plane::axesOf(bodies, before, first, last);
 		if (!axes.turns) continue;
 		plane::load(bodies, axes, relaxation.step, first, last, centrifugal);
+		loaded.insert(loaded.end(), first, last);
 		for (const int* b = first; b != last; ++b) {
 			problem.freeVelocity[*b].x += centrifugal[*b].x;
 			problem.freeVelocity[*b].y += centrifugal[*b].y;
@@ -53,38 +65,53 @@ void ContactSeam::findClusters()
 /// Turns the bodies as one which move so: those that contacts in `joints` hold together.
 void ContactSeam::turnClusters()
 {
-	clusterWay.clear();
-	clusterTurn.clear();
 	findClusters();
-	if (clusters.count() == 0) return;
-	clusterWay.resize(before.size());
-	clusterTurn.resize(before.size());
-	const auto        bodies = bodyArrays();
-	std::vector<char> turned(before.size(), false);
+	if (clusters.count() == 0 && turned.empty()) return;
+	forget(clusterWay, turned, before.size());
+	forget(clusterTurn, turned, before.size());
+	if (isTurned.size() != before.size()) isTurned.assign(before.size(), false);
+	else
+		for (const int body : turned)
+			isTurned[body] = false;
+	turned.clear();
+	const auto bodies = bodyArrays();
 	for (size_t s = 0; s < clusters.count(); ++s) {
 		const int *first = clusters.first(s), *last = clusters.last(s);
 		const auto axes = plane::axesOf(bodies, problem.velocities, first, last);
 		if (!axes.turns || !plane::movesRigidly(bodies, problem.velocities, axes, first, last)) continue;
 		plane::turn(bodies, problem.velocities, axes, relaxation.step, first, last, clusterWay, clusterTurn);
-		for (const int* b = first; b != last; ++b)
-			turned[*b] = true;
+		turned.insert(turned.end(), first, last);
 	}
+	for (const int body : turned)
+		isTurned[body] = true;
 	for (const auto& part : joints)
 		for (const size_t k : part)
-			if (turned[problem.contacts[k].i]) setJoins(resident->readings[links[k].slot], true);
+			if (isTurned[problem.contacts[k].i]) setJoins(resident->readings[links[k].slot], true);
 }
 
 /// Whether the frame of a contact turns by so much in the step that its bodies, where a bond holds them, are turned as one.
 [[gnu::always_inline]] inline bool ContactSeam::turnsFar(const Contact& c) const
 {
-	constexpr Real far = 1e-4; // rad; what less does to a bond is taken back like any other error of position
-	const auto &   vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
-	if (radius[c.i] < 0) return std::abs(relaxation.step * vi.w) > far;
-	return std::abs(relaxation.step * contact::passingSpeed(c, vi, vj)) > far * (c.leverTi - c.leverTj);
+	constexpr Real far
+	        = 1e-4; // rad; what less does is next to nothing: a third of its cube to angles, half of its square to lengths, which are taken back
+	const auto &vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+	const bool  passes = std::abs(relaxation.step * contact::passingSpeed(c, vi, vj))
+	        > far * (c.leverTi - c.leverTj),
+	           spins = std::abs(relaxation.step * vi.w) > far;
+	if (!passes && !spins) return false; // most, of which the radius in memory is not asked for
+	return radius[c.i] < 0 ? spins : passes;
 }
 
-/// What a contact asks of the positions at the end of the step; `u`: its velocities then.
-[[gnu::always_inline]] inline contact::PositionError ContactSeam::errorOf(size_t k, const Impulse& u, bool sticks) const
+/// Whether a bond holds along the normal and does not slide.
+[[gnu::always_inline]] inline bool ContactSeam::sticks(size_t k, const Impulse& u) const
+{
+	const Contact& c = problem.contacts[k];
+	const Impulse& p = problem.impulses[k];
+	return !plane::yieldsInTension(c, p, u) && !plane::yieldsInShear(c, p);
+}
+
+/// What a contact asks of the positions at the end of the step; `u`: its velocities then, `turns`: its bond is one of bodies that turn as one.
+[[gnu::always_inline]] inline contact::PositionError ContactSeam::errorOf(size_t k, const Impulse& u, bool turns) const
 {
 	const Real             h = relaxation.step, most = h * relaxation.largestSpeed;
 	const Contact&         c = problem.contacts[k];
@@ -104,16 +131,15 @@ void ContactSeam::turnClusters()
 	e.error        = e.held ? taken(off, end, slack)
 	                        : end + slack - (1 - relaxation.rate) * std::min(Real(0), off + slack);
 	if (e.held || e.error < 0) e.error = limited(e.error, most);
-	if (!r.bonded) return e;
+	if (!turns) return e;
 	// what it has yielded it keeps too
-	e.sticks = sticks;
-	e.grips  = e.held && !plane::yieldsInTorque(c, p);
+	e.sticks = true;
+	e.grips  = !plane::yieldsInTorque(c, p);
 	// sweeps with three rows cost twice as much as along the normals alone: not for bonds that creep along the edge of the slack
 	constexpr Real asking = 1.25; // slacks
 	const Real     angle  = 2 * relaxation.slack; // by which a rim is off by the slack
 	const Real     slip = r.slip + h * u.t, turn = r.turn + h * u.r;
-	if (e.sticks && std::abs(slip) > asking * slack)
-		e.slip = static_cast<float>(limited(taken(r.slip, slip, slack), most));
+	if (std::abs(slip) > asking * slack) e.slip = static_cast<float>(limited(taken(r.slip, slip, slack), most));
 	if (e.grips && std::abs(turn) > asking * angle)
 		e.turn = static_cast<float>(limited(taken(r.turn, turn, angle), 2 * most / c.length));
 	return e;
@@ -122,52 +148,47 @@ void ContactSeam::turnClusters()
 void ContactSeam::correct(const contact::SolverSettings& settings, contact::Workspace& workspace, int sweeps)
 {
 	correction.displacements.clear();
+	correction.tangential.clear();
 	const bool   corrects = sweeps > 0 && relaxation.rate > 0;
 	const size_t count    = links.size();
-	bool         any      = false;
+	bool         any = false, anyAcross = false;
 	errors.resize(count);
 	joints.resize(chunksOf(count));
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : any, anyAcross)
 	for (long part = 0; part < (long)chunksOf(count); ++part) {
 		joints[part].clear();
 		for (size_t k = part * sumChunk; k < std::min((part + 1) * sumChunk, count); ++k) {
 			if (k + later < count) fetch<1>(&readingOf(links[k + later]));
 			const Contact& c = problem.contacts[k];
-			const Impulse& p = problem.impulses[k];
 			const Impulse  u = contact::relativeVelocity(
 			         c, problem.velocities[c.i], problem.velocities[c.j]);
-			const bool sticks = readingOf(links[k]).bonded && !plane::yieldsInTension(c, p, u)
-			        && !plane::yieldsInShear(c, p);
-			if (sticks && turnsFar(c)) joints[part].push_back(k);
+			const bool turns = readingOf(links[k]).bonded && turnsFar(c) && sticks(k, u);
+			if (turns) joints[part].push_back(k);
 			if (!corrects) continue;
-			const auto& e = errors[k] = errorOf(k, u, sticks);
-			any                       = any || (e.held ? e.error != 0 : e.error < 0) || e.asksAcross();
+			const auto& e = errors[k] = errorOf(k, u, turns);
+			any                       = any || (e.held ? e.error != 0 : e.error < 0);
+			anyAcross                 = anyAcross || e.asksAcross();
 		}
 	}
 	turnClusters();
-	if (any) contact::correctPositions(problem, settings, workspace, errors, sweeps, correction);
+	if (any || anyAcross)
+		contact::correctPositions(problem, settings, workspace, errors, sweeps, correction, anyAcross);
 }
 
 /// Two bodies that are drawn together or apart while they pass each other would change their angular momentum, Σ m D × v: a pair of tangential impulses takes
-/// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step.
-void ContactSeam::turnBack(size_t k)
+/// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step. `velocities` then, and `ways`: how far bodies are displaced.
+[[gnu::always_inline]] inline void
+ContactSeam::turnBack(size_t k, const std::vector<Twist>& velocities, const std::vector<Twist>& ways)
 {
 	const Contact& c    = problem.contacts[k];
 	const auto     free = [this](int body) {
                 return problem.inverseMass[body].x > 0 && problem.inverseMass[body].x == problem.inverseMass[body].y;
 	};
 	if (!free(c.i) || !free(c.j)) return; // what holds a body takes its angular momentum
-	const auto after = [this](int body) {
-		Twist v = problem.velocities[body];
-		if (clusterTurn.empty()) return v;
-		v.x += clusterTurn[body].x;
-		v.y += clusterTurn[body].y;
-		return v;
-	};
-	const Twist vi = after(c.i), vj = after(c.j), di = displacementOf(c.i), dj = displacementOf(c.j);
-	const Real  dx = vj.x - vi.x, dy = vj.y - vi.y;
-	const auto &xi = problem.positions[c.i], &xj = problem.positions[c.j];
-	const Real  distance = c.nx * (xj.x + dj.x - xi.x - di.x) + c.ny * (xj.y + dj.y - xi.y - di.y);
+	const Twist &vi = velocities[c.i], &vj = velocities[c.j], &di = ways[c.i], &dj = ways[c.j];
+	const Real   dx = vj.x - vi.x, dy = vj.y - vi.y;
+	const auto & xi = problem.positions[c.i], &xj = problem.positions[c.j];
+	const Real   distance = c.nx * (xj.x + dj.x - xi.x - di.x) + c.ny * (xj.y + dj.y - xi.y - di.y);
 	if (!(distance > 0)) return;
 	Real moment = correction.impulses[k] * (-c.ny * dx + c.nx * dy); // Q × v
 	if (!correction.tangential.empty()) moment -= correction.tangential[k] * (c.nx * dx + c.ny * dy);
@@ -182,36 +203,31 @@ void ContactSeam::turnBack(size_t k)
 void ContactSeam::turnBack()
 {
 	turning.assign(before.size(), {});
-	for (size_t id = 0; id < clusterTurn.size(); ++id)
+	for (const int id : turned)
 		turning[id] = { mass[id] * clusterTurn[id].x, mass[id] * clusterTurn[id].y, 0 };
 	if (correction.displacements.empty()) return;
-	for (size_t k = 0; k < links.size(); ++k)
-		if (correction.impulses[k] != 0 || (!correction.tangential.empty() && correction.tangential[k] != 0))
-			turnBack(k);
-}
-
-/// How far a body is moved for errors of position, and because it turns with a cluster.
-Twist ContactSeam::correctionOf(size_t id) const
-{
-	const Twist d = correction.displacements.empty() ? Twist {} : correction.displacements[id];
-	if (clusterWay.empty()) return d;
-	const Twist& turned = clusterWay[id];
-	return { d.x + turned.x, d.y + turned.y, d.w + turned.w };
-}
-
-/// How far it is moved in all beside the path of the step: impacts may have taken place within it, too.
-Twist ContactSeam::displacementOf(size_t id) const
-{
-	const Twist d = correctionOf(id);
-	if (!followed) return d;
-	const Twist& s = sequence.flights[id].shift;
-	return { d.x + s.x, d.y + s.y, d.w + s.w };
+	const auto all = [this](const std::vector<Twist>& velocities, const std::vector<Twist>& ways) {
+		for (size_t k = 0; k < links.size(); ++k)
+			if (correction.impulses[k] != 0
+			    || (!correction.tangential.empty() && correction.tangential[k] != 0))
+				turnBack(k, velocities, ways);
+	};
+	if (turned.empty() && !followed) return all(problem.velocities, correction.displacements);
+	afterTurn = problem.velocities;
+	for (const int id : turned) {
+		afterTurn[id].x += clusterTurn[id].x;
+		afterTurn[id].y += clusterTurn[id].y;
+	}
+	waysOfAll.resize(before.size());
+	for (size_t id = 0; id < before.size(); ++id)
+		waysOfAll[id] = displacementOf(id);
+	all(afterTurn, waysOfAll);
 }
 
 /// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.
 void ContactSeam::displace(size_t begin, size_t end)
 {
-	if (correction.displacements.empty() && clusterWay.empty() && !followed) return;
+	if (correction.displacements.empty() && turned.empty() && !followed) return;
 	for (size_t id = begin; id < end; ++id) {
 		const Twist d = displacementOf(id);
 		if (!present[id] || (d.x == 0 && d.y == 0 && d.w == 0)) continue;

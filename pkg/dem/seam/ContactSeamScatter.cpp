@@ -54,7 +54,7 @@ void StepSums::add(const StepSums& other)
 {
 	const Real     h    = relaxation.step;
 	const Contact& c    = problem.contacts[k];
-	const Impulse  p    = impulseOfStep(k);
+	const Impulse  p    = followed ? impulseOfStep(k) : problem.impulses[k];
 	r.normal            = p.n / h;
 	r.tangential        = p.t / h;
 	r.torque            = p.r / h;
@@ -247,7 +247,7 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 		Twist r = reaction[id];
 		r.x += turning[id].x;
 		r.y += turning[id].y;
-		if (!centrifugal.empty()) {
+		if (!loaded.empty()) {
 			r.x += mass[id] * centrifugal[id].x;
 			r.y += mass[id] * centrifugal[id].y;
 		}
@@ -290,15 +290,16 @@ void ContactSeam::sumBodies(Scene& scene, const Vector3r& gravity, size_t begin,
 		// as the integrator will have them, with its own operations: nobody has brought anything where the next step begins with the same bits
 		const Real      h     = relaxation.step;
 		const Vector3r &force = scene.forces.getForce(id), &torque = scene.forces.getTorque(id);
-		const auto&     place = resident->bodies[id].motion.position;
 		const Twist     left { start.x + h * (w.x > 0 ? 0.0 + (force[0] / mass[id] + gravity[0]) : 0.0),
                                    start.y + h * (w.y > 0 ? 0.0 + (force[1] / mass[id] + gravity[1]) : 0.0),
                                    start.w + h * (w.w > 0 ? 0.0 + torque[2] / inertia[id] : 0.0) };
+		const Twist     way = displacementOf(id);
 		sums.kineticLeft += kineticOf(left);
-		sums.potentialLeft -= mass[id] * gravity.dot(Vector3r(place.x + left.x * h, place.y + left.y * h, 0));
+		sums.potentialLeft -= mass[id]
+		        * gravity.dot(Vector3r(at[0] + way.x + left.x * h, at[1] + way.y + left.y * h, 0));
 		// what errors of position cost: the way of the weight, and what the pairs of impulses give
 		Twist v2 = v1;
-		if (!correction.displacements.empty() || !clusterWay.empty()) {
+		if (!correction.displacements.empty() || !turned.empty()) {
 			const Twist d = correctionOf(id), &p = turning[id];
 			v2.x += w.x * p.x;
 			v2.y += w.y * p.y;
@@ -306,7 +307,7 @@ void ContactSeam::sumBodies(Scene& scene, const Vector3r& gravity, size_t begin,
 			        - mass[id] * gravity.dot(Vector3r(d.x, d.y, 0));
 		}
 		// the centrifugal force does no work on what turns as one, but on what leaves it
-		if (!centrifugal.empty())
+		if (!loaded.empty())
 			sums.correction += 0.5 * mass[id] * (centrifugal[id].x * x + centrifugal[id].y * y);
 		sums.mass += mass[id];
 		sums.centre += mass[id] * at;

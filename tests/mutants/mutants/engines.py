@@ -79,7 +79,7 @@ MUTANTS = (
            "the angular momentum of a correction is doubled and not taken back",
            "test_positions.py::test_bodies_that_pass_each_other_get_what_keeps_their_angular_momentum"),
     # ---- bodies that bonds hold together
-    mutant("cluster-turns", CORRECT, "sticks && turnsFar(c)", "false", "bonded bodies are not turned as one", "test_tumbling.py"),
+    mutant("cluster-turns", CORRECT, "turnsFar(c) && sticks(k, u)", "false", "bonded bodies are not turned as one", "test_tumbling.py"),
     mutant("cluster-loads", CORRECT, "plane::load(bodies, axes, relaxation.step, first, last, centrifugal);", "(void)axes;", "bonds of what turns bear nothing",
            "test_tumbling.py::test_a_bond_bears_the_centrifugal_force"),
     mutant("cluster-momentum", CORRECT, "mass[id] * clusterTurn[id].y, 0", "0, 0", "velocities of what turns keep one direction",

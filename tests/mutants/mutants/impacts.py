@@ -43,7 +43,7 @@ MUTANTS = (
            "what displacements lift is taken for what they lower", GRAVITY),
     mutant("impacts-begun", SCATTER, "followed ? begun[id] : v0", "v0", "the kinetic energy of a step's beginning is that after its impacts", CHAINS),
     mutant("impacts-forces", SCATTER, "r              = { r.x + p.x, r.y + p.y, r.w + p.w };", "r = { r.x + p.x, r.y + p.y, r.w };", "impacts do not turn bodies", FRICTION),
-    mutant("impacts-displaced", CORRECT, "d.x + s.x, d.y + s.y, d.w + s.w", "d.x + s.x, d.y, d.w", "bodies are displaced along x alone",
+    mutant("impacts-displaced", "pkg/dem/seam/ContactSeam.hpp", "d.x + s.x, d.y + s.y, d.w + s.w", "d.x + s.x, d.y, d.w", "bodies are displaced along x alone",
            "test_impacts.py::test_any_frame_and_any_ids_see_the_same_impacts"),
     mutant("impacts-told", ENGINE, "missedRestitution += s.missed;", "missedRestitution += 0 * s.missed;", "what restitution would have given is not told",
            "test_impacts.py::test_without_impacts_that_are_followed_the_loss_is_told"),
