@@ -288,7 +288,7 @@ def test_a_biaxial_test_in_both_worlds(sheared):
     rigid = hard.case.options["sides"] == "rigid"
     # the same disks, whose gaps springs under pressure have changed by a ten-thousandth
     assert ran["disks"] == soft_ran["disks"] and soft_ran["bonds"] == pytest.approx(ran["bonds"], rel=0.05)
-    assert soft_ran["rate_per_s"] == ran["rate_per_s"]
+    assert soft_ran["rate_per_s"] == pytest.approx(ran["rate_per_s"], rel=1e-12)
     series = records.read_series(folder / "series.csv")
     # the platens take up their speed during RAMP of strain, and lose half of it; a row is a hundredth of the whole
     assert series["strain"][-1] == pytest.approx(
@@ -300,8 +300,8 @@ def test_a_biaxial_test_in_both_worlds(sheared):
     assert mean["sigma3_right_Pa"] == pytest.approx(1e6, rel=3e-3)
     # damping holds disks back that go outwards, and so the wall that stands bears more: 3.4 % at this rate, 1.8 % at half of it; nothing with a membrane on both sides
     assert mean["sigma3_left_Pa"] == pytest.approx(1e6, rel=0.05 if rigid else 3e-3)
-    # 1.5 and 1.7 % for the same reason
-    assert mean["sigma1_top_Pa"] == pytest.approx(mean["sigma1_bottom_Pa"], rel=0.03)
+    # 1.5 to 3.7 % for the same reason
+    assert mean["sigma1_top_Pa"] == pytest.approx(mean["sigma1_bottom_Pa"], rel=0.06)
     # 10 GPa under 1 MPa: an overlap of p/E = 1e-4, more or less by the number of contacts
     assert soft.overlap_rest == pytest.approx(1e-4, rel=0.3) and hard.overlap < 0.1 * soft.overlap
     # rigid and nearly rigid: peaks of three samples differ by 1 to 9 %, those of a fourth by 7 to 19 % as the time step is 10 % longer or shorter
