@@ -27,11 +27,13 @@ namespace {
 		const long count     = static_cast<long>(problem.bodyCount());
 		const bool hasPlaces = !problem.positions.empty();
 		double     lowX = HUGE_VAL, lowY = HUGE_VAL, highX = -HUGE_VAL, highY = -HUGE_VAL, most = 0,
-		       lightness = HUGE_VAL, lightest = 0;
-		long bad = count, astray = count; // the first ones, found by threads, which must not throw
+		       lightness = HUGE_VAL, lightest = 0, heaviest = HUGE_VAL; // the last one as an inverse mass
+		// plates of presses and boxes, which go along one line, are heavy by their driving and not beside their neighbours
+		const bool counted = problem.bodyCount() <= fewBodies;
+		long       bad = count, astray = count; // the first ones, found by threads, which must not throw
 		result.traits.resize(count);
 // clang-format off
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY, lightness, bad, astray) reduction(max : highX, highY, most, lightest)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : lowX, lowY, lightness, heaviest, bad, astray) reduction(max : highX, highY, most, lightest)
 		// clang-format on
 		for (long b = 0; b < count; ++b) {
 			const InverseMass& m = problem.inverseMass[b];
@@ -41,6 +43,8 @@ namespace {
 			most             = std::max({ most, std::abs(v.x), std::abs(v.y) });
 			lightest         = std::max({ lightest, m.x, m.y });
 			lightness        = std::min({ lightness, m.x > 0 ? m.x : HUGE_VAL, m.y > 0 ? m.y : HUGE_VAL });
+			if (counted || (m.x > 0 && m.y > 0))
+				heaviest = std::min({ heaviest, m.x > 0 ? m.x : HUGE_VAL, m.y > 0 ? m.y : HUGE_VAL });
 			if (!hasPlaces) continue;
 			const Point& x = problem.positions[b];
 			if (!usable(x)) astray = std::min(astray, b);
@@ -54,7 +58,7 @@ namespace {
 		if (astray < count) refusePosition(problem, astray);
 		result.fastest    = most;
 		result.lightness  = lightness;
-		result.uneven     = lightest >= jumpOf(problem) * lightness;
+		result.uneven     = lightest >= jumpOf(problem) * heaviest;
 		result.extents[0] = { lowX, highX };
 		result.extents[1] = { lowY, highY };
 	}

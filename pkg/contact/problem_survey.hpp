@@ -30,7 +30,8 @@ struct Survey {
 	double                    fastest    = 0; // largest component of a free velocity [m/s]
 	double                    lightness  = HUGE_VAL; // least inverse mass of what can move in x or y [1/kg]
 	double                    longest[2] = { 0, 0 }; // in x and y, of contacts between bodies that can move
-	bool uneven    = false; // whether one body has massJump times the mass of another (mass_jumps.hpp)
+	bool                      uneven
+	        = false; // whether one body has massJump times the mass of another (mass_jumps.hpp); among many, plates that go along one line do not count
 	bool jumps     = false; // whether masses jump somewhere (mass_jumps.hpp)
 	bool pairsKept = false, simpleKept = false; // whether they are those of the last look
 };

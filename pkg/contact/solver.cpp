@@ -47,7 +47,8 @@ namespace {
 	        , exact(problem_, settings_, workspace)
 	{
 		exact.fillRows();
-		if (laidOut.survey.jumps && settings.stopping == StoppingTest::NaturalMap) patches.emplace(exact);
+		if (laidOut.survey.jumps && laidOut.survey.uneven && settings.stopping == StoppingTest::NaturalMap)
+			patches.emplace(exact);
 		if (patches && !patches->any()) patches.reset();
 		// floats have no digits for a light body between heavy ones
 		if (sweepsInSingle(settings) && !patches) rounded.emplace(problem, settings, workspace);

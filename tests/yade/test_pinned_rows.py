@@ -16,7 +16,7 @@ from slope_scenes import write_quick
 ROWS = 200
 PINNED = {
     "slope": "7250b6bc5c4eecd10762d2f6b4c74c06624da363bd8e49c89a5f2facf7604f69",
-    "biaxial": "841b34f25bff14b9ca72c591b653ccdef274ab2031d2d55afe60a56bcd9911ee",
+    "biaxial": "7f12f953edc8651a3bb2b3353ade6a696447be512d4babfaa45155035cb95c2d",
     "column": "215126531ffbbe444eedfc466c76a76dd48e8ab220dfb85ed297fd5ade5d0831",
 }
 
