@@ -9,6 +9,7 @@ namespace nonsmooth::contact {
 namespace {
 
 	constexpr double without = 1e100; // a bond holds whatever it costs
+	double           adhesionOf(const PositionError& e) { return e.held ? without : 0; }
 
 	/// The graphs of law.hpp that errors of position ask for: thresholds are none, or without bounds.
 	struct Graphs {
@@ -18,7 +19,7 @@ namespace {
 		        : biasN(e.error)
 		        , biasT(e.slip)
 		        , biasR(e.turn)
-		        , adhesion(e.held ? without : 0)
+		        , adhesion(adhesionOf(e))
 		        , friction(e.sticks ? 1 : 0)
 		        , rollingArm(e.grips ? 1 : 0)
 		{
@@ -64,7 +65,7 @@ namespace {
 				if (index == ContactBlocks::none) continue;
 				const PositionError& e = errors[index];
 				k.biasN.v[l]           = e.error;
-				k.adhesion.v[l]        = e.held ? without : 0;
+				k.adhesion.v[l]        = adhesionOf(e);
 				k.n.v[l] = k.beforeN.v[l] = projectNormal(e.impulse, k.adhesion.v[l]);
 				asks                      = asks || (asked && e.asksAcross());
 			}

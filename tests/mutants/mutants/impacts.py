@@ -19,7 +19,7 @@ MUTANTS = (
            "a meeting stays though its second body has been hit away", "gtest:ImpactSequence.*"),
     mutant("impacts-last-first", SEQUENCE, "after = wide / (along + std::sqrt(root));", "after = wide / (along - std::sqrt(root));",
            "two disks meet where they would leave each other", "gtest:ImpactSequence.*"),
-    mutant("impacts-next-step", SEQUENCE, "time + after <= h &&", "after <= h &&", "a step goes on after its end", "gtest:ImpactSequence.*"),
+    mutant("impacts-next-step", SEQUENCE, "time + after <= h", "after <= h", "a step goes on after its end", "gtest:ImpactSequence.*"),
     mutant("impacts-turned", SEQUENCE, "!pair.disks", "true", "disks that pass each other keep their normal", "gtest:ImpactSequence.*"),
     mutant("impacts-rim", SEQUENCE, "c.leverTj = -scene->radius[c.j];", "c.leverTj = c.leverTj;", "a disk touches a wall in the middle of the gap that it had", FRICTION),
     mutant("impacts-alone", SEQUENCE, "alone = false;", "alone = true;", "an impact is left to the solve though its body goes on to others", "gtest:ImpactSequence.*"),

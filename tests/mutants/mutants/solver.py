@@ -80,7 +80,7 @@ MUTANTS = (
            "gtest:Threads.*"),
     mutant("residual-mean", RESIDUAL, "std::sqrt(square / n)", "std::sqrt(square)", "the residual is a sum and no mean over contacts",
            "gtest:Manufactured.WhatIsMoved*"),
-    mutant("position-held", CORRECTION, "= e.held ? without : 0;", "= e.held ? 0 : without;",
+    mutant("position-held", CORRECTION, "e.held ? without : 0", "e.held ? 0 : without",
            "contacts pull and bonds do not, where errors of position are taken back", "gtest:Positions.*"),
     mutant("position-friction", CORRECTION, "across[s] ? graphs.friction : 0", "c.friction",
            "displacements of contacts outside the blocks know friction", "gtest:Positions.*"),
