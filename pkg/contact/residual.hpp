@@ -10,7 +10,7 @@
 //   ϑ_p                                  the same with the normal and tangential rows of V alone: what the contact's point leaves open
 //
 // ϑ does not depend on units, or on how fast everything moves together. The square of the rms of all bodies' |Δv| is added to s² (SpeedScale): in a packing that is pressed without
-// being accelerated nobody's own change is known to a share of itself; there, among like masses and more than fewBodies, a hundred tolerances of a mean impulse stand in for it, in a solve. So is what rounding leaves of W P and of b, so that one which changes no velocity at all can be solved.
+// being accelerated nobody's own change is known to a share of itself. So is what rounding leaves of W P and of b, so that one which changes no velocity at all can be solved.
 #pragma once
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <contact/extrapolation.hpp>
 #include <contact/law.hpp>
-#include <contact/mass_jumps.hpp>
 #include <contact/sweeper.hpp>
 
 namespace nonsmooth::contact {
@@ -239,22 +238,16 @@ template <class Number> void Sweeper<Number>::judge(double tolerance, bool alway
 	sumUp();
 }
 
-/// Of what impulses have changed of the velocities of bodies that can move, and among like masses of what a hundred tolerances of a mean impulse would change.
+/// Of what impulses have changed of the velocities of bodies that can move.
 template <class Number> double Sweeper<Number>::meanSquaredChange() const
 {
-	constexpr double  most  = 100; // tolerances
 	const std::size_t count = laidOut.order.bodyBegin.back(); // those in strips come first
-	double            sum = 0, inverse = 0; // v[3]: of the mass
+	double            sum   = 0;
 	for (std::size_t k = 0; k < count; ++k) {
-		const auto&  v = bodies[k].v;
-		const double x = v[0], y = v[1], w = v[3];
-		sum += x * x + y * y;
-		inverse += w * w;
+		const Twist v = twistAt(static_cast<std::int32_t>(k));
+		sum += v.x * v.x + v.y * v.y;
 	}
-	// few bodies cost next to nothing: there every one of them is looked at by itself
-	const bool   strict = laidOut.survey.uneven || problem.bodyCount() <= fewBodies;
-	const double small  = strict ? 0 : most * settings.tolerance * residual.scale;
-	return (sum + small * small * inverse) / double(std::max<std::size_t>(count, 1));
+	return sum / double(std::max<std::size_t>(count, 1));
 }
 
 /// The figures of LMGC90's tests with the present velocities, summed strip by strip.
