@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from slope_scenes import SMALL
-from watched_slope import Work, sorted_contacts
+from watched_slope import Work, solved, sorted_contacts
 from yade import O
-from yade.nonsmooth import contact, experiment, records, section, slope, slope_packing, tables, worlds
+from yade.nonsmooth import experiment, records, section, slope, slope_packing, tables, worlds
 from yade.nonsmooth.slope import hard
 
 MODES = ("tension", "shear", "torque", "mixed")
@@ -79,17 +79,14 @@ def steps(tmp_path_factory):
     pieces = [i for ids in built.walls.values() for i in ids]
     places = np.array([tuple(O.bodies[i].state.pos)[:2] for i in pieces])
     bodies = lambda: np.array([tables.bodies(solver)[name] for name in ("x", "y", "vx", "vy", "omega")])  # noqa: E731
-    dump = str(tmp_path_factory.mktemp("steps") / "step.h5")
-
-    def solved():
-        """As bodies(), with the velocities that the step's problem was solved for."""
-        solver.dump(dump)
-        return np.r_[bodies()[:2], contact.load(dump).velocity[first : first + built.count].T]
-
+    dump = tmp_path_factory.mktemp("steps") / "step.h5"
+    done = lambda before, after: work.of(  # noqa: E731
+        sorted_contacts(solver), before, solved(solver, after, first, dump), 5e-3
+    )
     experiment.advance(59)
     work, before = Work(first, t["r"]), bodies()
     experiment.advance()
-    work.of(sorted_contacts(solver), before, solved(), 5e-3)  # what opens in it
+    done(before, bodies())  # what opens in it
     found = []
     solver.forgetEnergies()
     for _ in range(60):
@@ -121,9 +118,7 @@ def steps(tmp_path_factory):
                 )
             ]
         )
-        found.append(
-            (before, after, on_walls, lift, counters, work.of(sorted_contacts(solver), before, solved(), 5e-3))
-        )
+        found.append((before, after, on_walls, lift, counters, done(before, after)))
     O.reset()
     return found, mass, inertia, places
 

@@ -22,6 +22,12 @@ def sorted_contacts(solver):
     return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
 
 
+def solved(solver, bodies, first, path):
+    """``bodies`` (x, y, vx, vy, omega; the first one of id ``first``) with the velocities that the step's contact problem was solved for; ``path``: of a file to write it to."""
+    solver.dump(str(path))
+    return np.r_[bodies[:2], contact.load(str(path)).velocity[first : first + bodies.shape[1]].T]
+
+
 class Work:
     """What contacts did in each step, by hand: impulses times the mean of the relative velocities before and after it.
 
@@ -30,10 +36,8 @@ class Work:
 
     def __init__(self, first, r):
         self.first, self.r = first, r  # id of the first disk, radii of the disks
-        self._bears, self._open = (
-            {},
-            set(),
-        )  # by pair: the tension at which bonds open [N]; the pairs that opened in the last step
+        self._bears = {}  # by pair: the tension at which its bond opens [N]
+        self._open = set()  # pairs that opened in the last step
 
     def of(self, table, before, after, h):
         """Losses of a step [J] in the order of records.LOSSES, the work of tension in bonds that hold [J], and the contacts' relative velocities at its end (3, contacts).
@@ -129,7 +133,7 @@ class Watch:
         after, water = self._bodies(), self.water
         if O.iter == 2:
             self.begun = sorted_contacts(self.solver)
-        losses, slip, solved = self._of_contacts(self._last, after, O.time - began)
+        losses, slip, end = self._of_contacts(self._last, after, O.time - began)
         self._seen.append(
             (
                 O.iter,
@@ -145,28 +149,22 @@ class Watch:
                 [getattr(self.solver, name) for name in self.COUNTERS],
                 losses,
                 slip,
-                solved,
+                end,
             )
         )
         self._last = after
 
-    def _solved(self, bodies):
-        """With the velocities that the step's contact problem was solved for."""
-        path = str(self.folder / "step.h5")
-        self.solver.dump(path)
-        return np.r_[bodies[:2], contact.load(path).velocity[self.first : self.first + self.count].T]
-
     def _of_contacts(self, before, after, h):
         """What contacts dissipated in a step [J], how far each disk slipped on DP [m], and the velocities that the step was solved for."""
         table, places = sorted_contacts(self.solver), [0, 1, 3, 4, 5]
-        solved = self._solved(after[places])
-        losses, _, u = self.work.of(table, before[places], solved, h)
+        end = solved(self.solver, after[places], self.first, self.folder / "step.h5")
+        losses, _, u = self.work.of(table, before[places], end, h)
         i, j = table[:, :2].astype(int).T - self.first
         on = np.isin(table[:, 0], [k for k, name in zip(self.pieces, self.wall_of) if name == "DP"])
         dp = (i < 0) & on & (table[:, 2] > 0)
         slip = np.zeros(self.count)
         np.add.at(slip, j[dp], np.abs(h * u[1][dp]))
-        return losses, slip, solved[2:]
+        return losses, slip, end[2:]
 
     def row(self, *_):
         """Called after each row."""

@@ -18,11 +18,9 @@ using contact::Twist;
 namespace {
 	/// What of an error of a bond's length, either way, goes beyond the slack.
 	Real beyond(Real error, Real slack) { return error - std::max(-slack, std::min(slack, error)); }
-}
 
-namespace {
 	/// Nothing for all bodies, where only those of the step before have something.
-	void forget(std::vector<Twist>& of, const std::vector<int>& those, size_t count)
+	template <class Value> void forget(std::vector<Value>& of, const std::vector<int>& those, size_t count)
 	{
 		if (of.size() != count) of.assign(count, {});
 		else
@@ -69,10 +67,7 @@ void ContactSeam::turnClusters()
 	if (clusters.count() == 0 && turned.empty()) return;
 	forget(clusterWay, turned, before.size());
 	forget(clusterTurn, turned, before.size());
-	if (isTurned.size() != before.size()) isTurned.assign(before.size(), false);
-	else
-		for (const int body : turned)
-			isTurned[body] = false;
+	forget(isTurned, turned, before.size());
 	turned.clear();
 	const auto bodies = bodyArrays();
 	for (size_t s = 0; s < clusters.count(); ++s) {

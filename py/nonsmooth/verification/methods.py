@@ -85,7 +85,16 @@ def ways_to_solve(bench):
                 near(
                     f"{name}: sweeps of {method} to 1e-3",
                     _work(curves[name, method], 1e-3),
-                    _sweeps_to(problem, way, start, 1e-3, most),
+                    # looks too seldom for strips to rest, which the prototype does not know
+                    _sweeps_until(
+                        lambda s: s.relative <= 1e-3,
+                        problem,
+                        way,
+                        start,
+                        sweep_methods.LOOK,
+                        most,
+                        look=2 * sweep_methods.LOOK,
+                    ),
                     absolute=10,
                     relative=0.02,
                     against="the solver in C++",
@@ -111,17 +120,22 @@ def ways_to_solve(bench):
     )
 
 
-def _sweeps_to(problem, way, start, tolerance, most):
-    """Sweeps of the solver in C++ from ``start`` until its residual (natural map) is below a tolerance; infinite where it does not come to that.
+def _sweeps_until(done, problem, method, start, step, most, look=None):
+    """Sweeps of the solver in C++ from ``start``, in steps, until ``done(solution)``; infinite where it does not come to that. Its own test of convergence is not asked.
 
-    Its own test of convergence asks for more (speeds), so it is not asked. It looks too seldom for strips to rest, which the prototype does not know.
+    ``look``: sweeps between two looks at the residual; none before the end where it is None.
     """
-    for count in range(sweep_methods.LOOK, most + 1, sweep_methods.LOOK):
+    # an accelerated sweep remembers those before it, so each look begins anew
+    goes_on = method == "gaussSeidel"
+    for count in range(step, most + 1, step):
+        sweeps = step if goes_on else count
         s = contact.solve(
-            problem, method=way, start=start, tolerance=1e-300, max_iterations=count, check_every=2 * sweep_methods.LOOK
+            problem, method=method, start=start, tolerance=1e-300, max_iterations=sweeps, check_every=look or sweeps
         )
-        if s.relative <= tolerance:
+        if done(s):
             return count
+        if goes_on:
+            start = s.impulse
     return np.inf
 
 
@@ -150,18 +164,7 @@ def _side_by_side(curves):
 
 def _sweeps_to_carry(problem, weight, method, step, most):
     """Sweeps from zero impulses until walls and floor first bear ``weight`` [N s]; infinite where they do not."""
-    # an accelerated sweep remembers those before it, so each look begins anew
-    start, goes_on = ("cold", method == "gaussSeidel")
-    for count in range(step, most + 1, step):
-        sweeps = step if goes_on else count
-        s = contact.solve(
-            problem, method=method, start=start, tolerance=1e-300, max_iterations=sweeps, check_every=sweeps
-        )
-        if lp.carried(problem, s.impulse) >= weight:
-            return count
-        if goes_on:
-            start = s.impulse
-    return np.inf
+    return _sweeps_until(lambda s: lp.carried(problem, s.impulse) >= weight, problem, method, "cold", step, most)
 
 
 @check("Sweeps from a cold start against the thickness of the packing", subject=SUBJECT, seconds=10, quick=5)
