@@ -3,6 +3,7 @@
 Those of the C++ (below pkg/) all stand in one copy, which is built once: the environment variable NONSMOOTH_MUTANT, read when the library is loaded, chooses one
 by its number, and without it the copy computes as the original does. Others, one at a time, take the place of the text that they change.
 """
+import re
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
@@ -69,6 +70,24 @@ def place(root, mutated, file, old):
     return text, text.index(old)
 
 
+def check_whole(mutated, text, begin, old, new):
+    """Raises TableError where an edit of C++ can stand in no brackets, which would change the copy without a mutant too."""
+    if old.endswith(";"):
+        return
+    for part in (old, new):
+        depth = 0
+        for c in re.sub(r"<[\w:, ]*>", "", part):  # without the commas of templates
+            depth += (c in "([{") - (c in ")]}")
+            if depth < 0 or (c == "," and depth == 0):
+                raise TableError(f"mutant {mutated.name}: `{part}` is no expression and ends with no semicolon")
+    if re.search(r"(?<![=<>!])=(?!=)", re.sub(r"\[[^]]*\]|<=|>=", "", old)) and not re.match(
+        r"\s*[;)]", text[begin + len(old) :]
+    ):
+        raise TableError(
+            f"mutant {mutated.name}: `{old}` is a part of an assignment; take all of it, or its right side"
+        )
+
+
 def switched(old, alternatives):
     """``old``, an expression or a statement of C++, or one of the ``alternatives`` {number: text} where that is chosen."""
     if old.endswith(";"):
@@ -84,7 +103,9 @@ def switch_all(root, mutants):
     spans = {}  # file: {(begin, old): {number: new}}
     for mutated in mutants:
         for file, old, new in mutated.edits if mutated.compiled else ():
-            spans.setdefault(file, {}).setdefault((place(root, mutated, file, old)[1], old), {})[mutated.number] = new
+            text, begin = place(root, mutated, file, old)
+            check_whole(mutated, text, begin, old, new)
+            spans.setdefault(file, {}).setdefault((begin, old), {})[mutated.number] = new
     for file, found in spans.items():
         path = Path(root) / file
         text, before = path.read_text(), None

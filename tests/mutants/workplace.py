@@ -63,7 +63,7 @@ def build(source, folder, main_build, targets):
     options += [
         "-DCMAKE_BUILD_TYPE=Mutation",
         "-DCMAKE_CXX_FLAGS_MUTATION=-O1 -DNDEBUG",
-        f"-DCMAKE_CXX_FLAGS=-include {source}/pkg/contact/mutant.hpp",
+        f"-DCMAKE_CXX_FLAGS=-w -include {source}/pkg/contact/mutant.hpp",
         "-DNONSMOOTH_BENCHMARKS=OFF",
         "-DNONSMOOTH_CHECKS=OFF",
     ]

@@ -192,6 +192,35 @@ def test_the_end_of_an_arc_is_a_corner():
     assert O.bodies[i].state.pos[1] < 1 and nearest == pytest.approx(0.3, abs=1e-5)
 
 
+@pytest.mark.parametrize("end", ["first", "last"])
+@pytest.mark.parametrize("drop", [20, 80])
+@pytest.mark.parametrize("arc_first", [True, False])
+def test_a_corner_of_an_arc_and_a_segment_has_one_contact(arc_first, drop, end):
+    """A cap of 60 degrees and a wall that falls away from one of its ends, the corner being convex: whoever presses on the corner, from any direction
+    between the two, is held by one contact, against which it moves."""
+    side = -1 if end == "last" else 1  # of the corner; arcs run counter-clockwise
+    slope = math.radians(30 + drop)
+    corner = np.array([side * math.sin(math.radians(30)), math.cos(math.radians(30))])
+    for share in (0.02, 0.5, 0.98):
+        O.reset()
+        stuff = material(0.0)
+        foot = corner + 2 * np.array([side * math.cos(slope), -math.sin(slope)])
+        cap = scene.arc((0, 0), 1, math.radians(60), math.radians(120), stuff, inside=False)
+        fall = scene.segments([corner, foot], stuff)
+        for wall in (cap, fall) if arc_first else (fall, cap):
+            O.bodies.append(wall)
+        leaning = math.radians(30 + share * drop)
+        away = np.array([side * math.sin(leaning), math.cos(leaning)])
+        i = O.bodies.append(scene.disk(corner + 0.2 * away, 0.2, stuff))
+        O.bodies[i].state.vel = (*(-away), 0)
+        begin(gravity=(0, 0, 0))
+        run(1)
+        held = [c for c in contacts() if c.phys.normal > 0]
+        assert len(held) == 1
+        assert tuple(O.bodies[i].state.vel) == pytest.approx((0, 0, 0), abs=1e-9)
+        assert tuple(held[0].geom.normal)[:2] == pytest.approx(away, abs=1e-6)
+
+
 def test_a_drum_turns_with_its_pieces_and_they_stay_one_wall():
     """Twelve pieces that turn about their common centre; disks in it go on as in a drum of one piece."""
     turned = []

@@ -250,7 +250,7 @@ GAS = World(
     ),
     walls=(Line(((0, 0), (2.2, 0), (2.2, 2.2), (0, 2.2), (0, 0)), piece=2),),
     stuffs={"rock": dict(frictionAngle=0.2, restitution=0.9), "ground": dict(frictionAngle=0.1, restitution=0.8)},
-    gravity=(0, -9.81),
+    gravity=(0, 0),  # what forces push is the solve's
     dt=2e-3,
     steps=60,
 )
@@ -309,6 +309,8 @@ def test_gaps_wider_than_the_solve_looks_at_are_known_to_impacts():
     run(1)
     assert speeds(ids) == pytest.approx([0, 0, 0, 100], abs=1e-9) and engine().impactsFollowed == 3
     assert places(ids)[-1] == pytest.approx(3 + 0.3, abs=1e-12)
+    blow = 100 * masses_of(ids)[0] / O.dt
+    assert list(tables.contacts(engine())["normal"]) == pytest.approx([blow] * 3, rel=1e-12)
 
 
 def test_friction_and_spin_act_in_each_impact():
@@ -366,6 +368,22 @@ def test_a_gas_under_gravity_keeps_its_balance():
     # where forces act impacts are the solve's, and what restitution could not give back is told
     lost = start - e.kineticEnergy - e.potentialEnergy
     assert 0 < e.missedRestitution < 2 * lost
+
+
+def test_impacts_of_what_forces_hold_against_gravity_keep_their_balance():
+    """On an air table that leans, or in water of their own weight, disks are pushed by nothing: their impacts are followed, and displace them along gravity."""
+    ids = gas(count=40, width=2.4)
+    for k in ids:
+        O.forces.setPermF(k, (0, 9.81 * O.bodies[k].state.mass, 0))
+    e = begin(gravity=(0, -9.81, 0), tolerance=1e-12)
+    (energy, _, up, _), followed = totals(ids), 0
+    for _ in range(500):
+        run(1)
+        followed += e.impactsFollowed
+    assert followed > 100
+    assert totals(ids)[0] == pytest.approx(energy, rel=1e-9)
+    # bodies rise with the velocity of a step's end, and forces work on the mean one: ½ h g times what the momentum has changed, stepping.rst
+    assert e.energyError == pytest.approx(0.5 * O.dt * 9.81 * (totals(ids)[2] - up), abs=1e-9 * energy)
 
 
 # ---- rest -----------------------------------------------------------------------------------------
@@ -433,6 +451,11 @@ def test_more_impacts_than_allowed_are_told(capfd):
     said = capfd.readouterr().err
     assert "maxImpacts = 7" in said and "raise maxImpacts" in said
     assert abs(O.bodies[disk].state.vel[0]) <= 10 + 1e-9  # no energy comes of it
+    # what the solve finds after the last of them is a part of the reaction
+    reactions = {i.id1: i.phys.normal for i in contacts()}
+    assert max(reactions.values()) > 0
+    for wall in (0, 1):
+        assert reactions.get(wall, 0) == pytest.approx(abs(O.forces.f(wall)[0]), rel=1e-12)
 
 
 def test_without_impacts_that_are_followed_the_loss_is_told(capfd):

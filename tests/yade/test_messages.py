@@ -397,9 +397,21 @@ def test_bonds_are_counted_when_they_are_made_and_removed():
     e.advance(2)
     assert e.bonds == 3
     free_disk(4, 0, stuff=stuff)
-    e.advance(2, view=False)  # the new contact has no interaction yet
+    e.advance(2, view=False)
     assert (e.bond(), e.bonds) == (1, 4)
-    assert (e.bond(), e.bonds) == (0, 4)  # nor has it one now
+    assert (e.bond(), e.bonds) == (0, 4)
     assert (e.unbond(), e.bonds) == (4, 0)
     e.advance(1)
     assert e.bonds == 0
+
+
+def test_bonds_of_contacts_that_have_no_interaction_are_counted_too():
+    stuff = material(0.3, tensileStrength=1e5)
+    for k in range(4):
+        free_disk(k, 0, stuff=stuff)
+    e = begin(gravity=(0, 0, 0))
+    e.advance(1, view=False)
+    assert (e.bond(), e.bonds) == (3, 3)
+    e.advance(1, view=False)
+    assert len(O.interactions) == 0
+    assert (e.bond(), e.bonds) == (0, 3)

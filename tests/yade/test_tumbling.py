@@ -257,6 +257,33 @@ def test_what_a_bond_has_yielded_in_shear_it_keeps():
     assert O.bodies[ids[1]].state.pos[1] == pytest.approx(rest, abs=1e-6)
 
 
+def test_what_a_bond_has_yielded_in_shear_while_it_turns_it_keeps():
+    """A disk that hangs on a rotor is pushed along its path until it has slipped; then it goes round with the rotor where it is."""
+    strength, omega, h = 1e5, 2.0, 5e-3
+    rotor, disk = tumbling(lattice(0), 0, h, rock(strength, bondEllipseTangential=0.5))
+    hub, s = O.bodies[rotor].state, O.bodies[disk].state
+    hub.blockedDOFs = "xyzXYZ"
+    hub.vel, hub.angVel = (0, 0, 0), (0, 0, omega)
+    s.vel, s.angVel = (0, omega, 0), (0, 0, omega)
+
+    def ahead():
+        """By what angle the disk is ahead of the rotor, about its middle."""
+        d = s.pos - hub.pos
+        return (math.atan2(d[1], d[0]) - angle(hub) + math.pi) % (2 * math.pi) - math.pi
+
+    while ahead() < 0.02:
+        d = s.pos - hub.pos
+        O.forces.setPermF(disk, tuple(1.02 * strength * x for x in (-d[1], d[0], 0)))  # friction of bonds: 1
+        run(1)
+        assert O.time < 60
+    O.forces.setPermF(disk, (0, 0, 0))
+    run(20)  # its bond stops it
+    kept = ahead()
+    assert kept > 0.02 and engine().bonds == 1
+    run(1000)
+    assert ahead() == pytest.approx(kept, abs=2 * SLACK) and engine().bonds == 1
+
+
 def test_saved_and_loaded_in_full_spin_it_has_the_same_bits(tmp_path):
     def bits():
         return [(tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel), tuple(b.state.ori)) for b in O.bodies]

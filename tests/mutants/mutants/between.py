@@ -53,5 +53,5 @@ MUTANTS = (
            "test_plane.py::test_readers_of_forces_before_the_solver_are_refused"),
     # ---- counts
     mutant("bonds-bare", MAKE, "return { count, all + count };", "return { count, count };", "bonds of contacts without interactions are not counted",
-           "test_messages.py::test_bonds_are_counted_when_they_are_made_and_removed"),
+           "test_messages.py::test_bonds_of_contacts_that_have_no_interaction_are_counted_too"),
 )

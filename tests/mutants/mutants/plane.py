@@ -46,7 +46,7 @@ MUTANTS = (
     mutant("clusters-momentum", CLUSTERS, "spin *= axes.inertia / inertia", "spin *= 1", "what is not rigid changes the angular momentum", "gtest:RigidClusters.*"),
     mutant("clusters-driven", CLUSTERS, "axes.turns && !isDriven", "axes.turns", "a rotor turns as fast as what hangs on it", "gtest:RigidClusters.*"),
     mutant("clusters-guided", CLUSTERS, "(w.x == 0) != (w.y == 0)", "false", "a body on a rail is turned with the others", "gtest:RigidClusters.*"),
-    mutant("clusters-rigid", CLUSTERS, "square <= rigidEnough", "square >= rigidEnough", "what bends is turned as one", "gtest:RigidClusters.*"),
+    mutant("clusters-rigid", CLUSTERS, "square <= rigidEnough * rigidEnough * turn * turn * axes.inertia", "square >= rigidEnough * rigidEnough * turn * turn * axes.inertia", "what bends is turned as one", "gtest:RigidClusters.*"),
     # ---- thresholds
     mutant("plane-residual", THRESHOLDS, "if (bonded) return bond;", "return bond;", "a contact without a bond has the bond's strengths", "gtest:PlaneThresholds.*"),
     mutant("plane-adhesion", THRESHOLDS, "touching ? residual.adhesion : 0", "residual.adhesion", "residual adhesion acts over the whole reach", "gtest:PlaneThresholds.*"),
