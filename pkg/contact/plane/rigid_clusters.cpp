@@ -39,33 +39,30 @@ void RigidClusters::find(const std::vector<Joint>& joints, std::size_t bodyCount
 	rank.resize(bodyCount);
 	for (const auto& [i, j] : joints)
 		for (const int body : { i, j })
-			if (parent[body] == nobody) {
-				parent[body] = body;
-				bodies.push_back(body);
-			}
+			if (parent[body] == nobody) parent[body] = body;
 	for (const auto& [i, j] : joints) {
 		const int a = rootOf(i), b = rootOf(j);
 		parent[std::max(a, b)] = std::min(a, b); // the root is the first of its set
 	}
-	std::sort(bodies.begin(), bodies.end());
-	std::vector<int> root(bodies.size());
-	int              sets = 0;
-	for (std::size_t k = 0; k < bodies.size(); ++k) {
-		root[k] = rootOf(bodies[k]);
-		if (root[k] == bodies[k]) rank[bodies[k]] = sets++;
+	// by id, so that roots come before the others of their sets
+	int sets = 0;
+	for (int body = 0; body < (int)bodyCount; ++body) {
+		if (parent[body] == nobody) continue;
+		const int root = rootOf(body);
+		if (root == body) {
+			rank[body] = sets++;
+			begin.push_back(0);
+		}
+		++begin[rank[root]];
 	}
-	begin.assign(sets + 1, 0);
-	for (const int r : root)
-		++begin[rank[r] + 1];
-	for (int s = 0; s < sets; ++s)
-		begin[s + 1] += begin[s];
-	std::vector<int>         sorted(bodies.size());
-	std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-	for (std::size_t k = 0; k < bodies.size(); ++k)
-		sorted[next[rank[root[k]]]++] = bodies[k];
-	for (const int body : bodies)
-		parent[body] = nobody;
-	bodies.swap(sorted);
+	begin.push_back(0);
+	for (int s = 0, before = 0; s <= sets; ++s)
+		before += std::exchange(begin[s], before);
+	next.assign(begin.begin(), begin.end() - 1);
+	bodies.resize(begin.back());
+	for (int body = 0; body < (int)bodyCount; ++body)
+		if (parent[body] != nobody) bodies[next[rank[rootOf(body)]]++] = body;
+	std::fill(parent.begin(), parent.end(), nobody);
 }
 
 TurningAxes axesOf(const BodyArrays& all, const std::vector<Twist>& velocities, const int* first, const int* last)

@@ -39,6 +39,7 @@ private:
 	std::vector<int>         bodies; // set by set
 	std::vector<std::size_t> begin; // of the sets, and the end
 	std::vector<int>         rank; // of a root's set, by body
+	std::vector<std::size_t> next; // memory of find()
 };
 
 /// Bodies of the plane as arrays, by id.

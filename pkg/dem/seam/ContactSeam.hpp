@@ -145,10 +145,8 @@ private:
 	bool sticks(size_t k, const nonsmooth::contact::Impulse& u) const;
 	nonsmooth::contact::PositionError errorOf(size_t k, const nonsmooth::contact::Impulse& u, bool turns) const;
 	void                              turnBack();
-	void                              turnBack(
-	                                     size_t k, const std::vector<nonsmooth::contact::Twist>& velocities,
-	                                     const std::vector<nonsmooth::contact::Twist>& ways);
-	void displace(size_t begin, size_t end);
+	void                              turnBack(size_t k);
+	void                              displace(size_t begin, size_t end);
 	/// How far a body is moved for errors of position, and because it turns with a cluster.
 	nonsmooth::contact::Twist correctionOf(size_t id) const
 	{
@@ -200,7 +198,6 @@ private:
 	std::vector<nonsmooth::contact::Twist> centrifugal, clusterWay, clusterTurn;
 	std::vector<int>                       loaded, turned; // bodies of clusters, in the last step
 	std::vector<char>                      isTurned; // by body
-	std::vector<nonsmooth::contact::Twist> afterTurn, waysOfAll; // memory of turnBack()
 	std::vector<std::vector<size_t>>
 	        joints; // by part: contacts whose bodies were turned as one in the step before; then those that may be now
 	std::vector<char>   present;

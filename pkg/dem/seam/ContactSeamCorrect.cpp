@@ -70,15 +70,17 @@ void ContactSeam::turnClusters()
 	forget(isTurned, turned, before.size());
 	turned.clear();
 	const auto bodies = bodyArrays();
-	for (size_t s = 0; s < clusters.count(); ++s) {
+#pragma omp parallel for schedule(dynamic, 16) num_threads(threads)
+	for (long s = 0; s < (long)clusters.count(); ++s) {
 		const int *first = clusters.first(s), *last = clusters.last(s);
 		const auto axes = plane::axesOf(bodies, problem.velocities, first, last);
 		if (!axes.turns || !plane::movesRigidly(bodies, problem.velocities, axes, first, last)) continue;
 		plane::turn(bodies, problem.velocities, axes, relaxation.step, first, last, clusterWay, clusterTurn);
-		turned.insert(turned.end(), first, last);
+		for (const int* body = first; body != last; ++body)
+			isTurned[*body] = true;
 	}
-	for (const int body : turned)
-		isTurned[body] = true;
+	for (size_t s = 0; s < clusters.count(); ++s)
+		if (isTurned[*clusters.first(s)]) turned.insert(turned.end(), clusters.first(s), clusters.last(s));
 	for (const auto& part : joints)
 		for (const size_t k : part)
 			if (isTurned[problem.contacts[k].i]) setJoins(resident->readings[links[k].slot], true);
@@ -171,19 +173,23 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 }
 
 /// Two bodies that are drawn together or apart while they pass each other would change their angular momentum, Σ m D × v: a pair of tangential impulses takes
-/// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step. `velocities` then, and `ways`: how far bodies are displaced.
-[[gnu::always_inline]] inline void
-ContactSeam::turnBack(size_t k, const std::vector<Twist>& velocities, const std::vector<Twist>& ways)
+/// that back, as for bodies on a string that is shortened. Exact for the positions at the end of the step, and the velocities then.
+[[gnu::always_inline]] inline void ContactSeam::turnBack(size_t k)
 {
 	const Contact& c    = problem.contacts[k];
 	const auto     free = [this](int body) {
                 return problem.inverseMass[body].x > 0 && problem.inverseMass[body].x == problem.inverseMass[body].y;
 	};
 	if (!free(c.i) || !free(c.j)) return; // what holds a body takes its angular momentum
-	const Twist &vi = velocities[c.i], &vj = velocities[c.j], &di = ways[c.i], &dj = ways[c.j];
-	const Real   dx = vj.x - vi.x, dy = vj.y - vi.y;
-	const auto & xi = problem.positions[c.i], &xj = problem.positions[c.j];
-	const Real   distance = c.nx * (xj.x + dj.x - xi.x - di.x) + c.ny * (xj.y + dj.y - xi.y - di.y);
+	const Twist &vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
+	Real         dx = vj.x - vi.x, dy = vj.y - vi.y;
+	if (!turned.empty()) {
+		dx = (vj.x + clusterTurn[c.j].x) - (vi.x + clusterTurn[c.i].x);
+		dy = (vj.y + clusterTurn[c.j].y) - (vi.y + clusterTurn[c.i].y);
+	}
+	const Twist di = displacementOf(c.i), dj = displacementOf(c.j);
+	const auto &xi = problem.positions[c.i], &xj = problem.positions[c.j];
+	const Real  distance = c.nx * (xj.x + dj.x - xi.x - di.x) + c.ny * (xj.y + dj.y - xi.y - di.y);
 	if (!(distance > 0)) return;
 	Real moment = correction.impulses[k] * (-c.ny * dx + c.nx * dy); // Q × v
 	if (!correction.tangential.empty()) moment -= correction.tangential[k] * (c.nx * dx + c.ny * dy);
@@ -201,22 +207,9 @@ void ContactSeam::turnBack()
 	for (const int id : turned)
 		turning[id] = { mass[id] * clusterTurn[id].x, mass[id] * clusterTurn[id].y, 0 };
 	if (correction.displacements.empty()) return;
-	const auto all = [this](const std::vector<Twist>& velocities, const std::vector<Twist>& ways) {
-		for (size_t k = 0; k < links.size(); ++k)
-			if (correction.impulses[k] != 0
-			    || (!correction.tangential.empty() && correction.tangential[k] != 0))
-				turnBack(k, velocities, ways);
-	};
-	if (turned.empty() && !followed) return all(problem.velocities, correction.displacements);
-	afterTurn = problem.velocities;
-	for (const int id : turned) {
-		afterTurn[id].x += clusterTurn[id].x;
-		afterTurn[id].y += clusterTurn[id].y;
-	}
-	waysOfAll.resize(before.size());
-	for (size_t id = 0; id < before.size(); ++id)
-		waysOfAll[id] = displacementOf(id);
-	all(afterTurn, waysOfAll);
+	for (size_t k = 0; k < links.size(); ++k)
+		if (correction.impulses[k] != 0 || (!correction.tangential.empty() && correction.tangential[k] != 0))
+			turnBack(k);
 }
 
 /// Moves bodies by their displacements. NewtonIntegrator adds the path of the step.
