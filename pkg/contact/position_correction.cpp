@@ -42,6 +42,7 @@ namespace {
 		void run(int sweeps);
 
 	private:
+		bool asksAcross(std::size_t strip) const;
 		void begin(std::size_t strip);
 		void end(std::size_t strip);
 
@@ -54,25 +55,38 @@ namespace {
 		std::vector<char>                 across; // of strips: whether tangents and turns are corrected too
 	};
 
+	/// Whether a contact of a strip asks for more than a length.
+	bool Correction::asksAcross(std::size_t s) const
+	{
+		const auto asks = [this](auto index) {
+			return index != ContactBlocks::none && errors[index].asksAcross();
+		};
+		const auto* const places = laidOut.contactOf.data();
+		return std::any_of(
+		               places + laidOut.blockBegin[s] * lanes, places + laidOut.blockBegin[s + 1] * lanes, asks)
+		        || std::any_of(
+		                laidOut.others.begin() + laidOut.otherBegin[s],
+		                laidOut.others.begin() + laidOut.otherBegin[s + 1], asks);
+	}
+
 	/// Makes displacements of velocities: nothing has moved but what the impulses to begin with ask for.
 	void Correction::begin(std::size_t s)
 	{
-		bool asks = false;
+		const PositionError* const all = errors.data();
 		for (std::size_t b = laidOut.blockBegin[s]; b < laidOut.blockBegin[s + 1]; ++b) {
-			auto& k = sweeper.own.blocks[b];
+			auto&             k      = sweeper.own.blocks[b];
+			const auto* const places = laidOut.contactOf.data() + b * lanes;
 			for (std::size_t l = 0; l < lanes; ++l) {
-				const auto index = laidOut.contactOf[b * lanes + l];
-				if (index == ContactBlocks::none) continue;
-				const PositionError& e = errors[index];
-				k.biasN.v[l]           = e.error;
-				k.adhesion.v[l]        = adhesionOf(e);
-				k.n.v[l] = k.beforeN.v[l] = projectNormal(e.impulse, k.adhesion.v[l]);
-				asks                      = asks || (asked && e.asksAcross());
+				if (places[l] == ContactBlocks::none) continue;
+				const PositionError& e = all[places[l]];
+				const double adhesion = adhesionOf(e), impulse = projectNormal(e.impulse, adhesion);
+				k.biasN.v[l]    = e.error;
+				k.adhesion.v[l] = adhesion;
+				k.n.v[l] = k.beforeN.v[l] = impulse;
 			}
 		}
-		for (std::size_t k = laidOut.otherBegin[s]; k < laidOut.otherBegin[s + 1]; ++k)
-			asks = asks || (asked && errors[laidOut.others[k]].asksAcross());
-		across[s] = asks;
+		const bool asks = asked && asksAcross(s);
+		across[s]       = asks;
 		for (std::size_t b = laidOut.blockBegin[s]; asks && b < laidOut.blockBegin[s + 1]; ++b) {
 			auto& k = sweeper.own.blocks[b];
 			for (std::size_t l = 0; l < lanes; ++l) {

@@ -78,7 +78,9 @@ namespace {
 				        exact.measureStrip(s, false);
 			        }
 		        });
-		exact.judge(settings.tolerance, settings.maxIterations == 0);
+		if (settings.maxIterations == 0) exact.judgeAll();
+		else
+			exact.judge(settings.tolerance);
 	}
 
 	/// The same state in floats.
@@ -138,11 +140,10 @@ namespace {
 				        applyStrip(s);
 			        } else {
 				        exact.keepBodies(s);
-				        exact.measureStrip(s, false);
 				        writeStrip(s);
 			        }
 		        });
-		exact.judge(settings.tolerance * (1 + 1e-6), true);
+		exact.judgeAll();
 	}
 
 	/// Sweeps and patches in turn, with more sweeps in each round; returns whether anything was changed.

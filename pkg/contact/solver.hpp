@@ -89,11 +89,10 @@ template <> inline BodiesOf<float>&  Workspace::with() { return inSingle; }
 /// must; they may draw together by `error` where it is positive. With `held` they do so in any case.
 struct PositionError {
 	double error = 0;
+	bool   held = false, sticks = false, grips = false; // a bond that may not slip, and may not turn
 	double impulse
 	        = 0; // Q to begin with [kg m], that of the step before: what lies deep in a packing takes several steps
-	// where a bond may not slip, and may not turn: what it has done so all the same, and is to go back [m, rad]
-	float slip = 0, turn = 0;
-	bool  held = false, sticks = false, grips = false;
+	float slip = 0, turn = 0; // what it has done so all the same, and is to go back [m, rad]
 	bool  asksAcross() const { return slip != 0 || turn != 0; }
 };
 

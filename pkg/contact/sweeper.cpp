@@ -228,14 +228,31 @@ template <class Number> void Sweeper<Number>::sumUp()
 	if (settings.stopping != StoppingTest::NaturalMap) measureChanges();
 }
 
-/// Sums up what is measured of impulses; where they are solved, or in any case, speeds are measured, too, by the scale of them that follows.
-template <class Number> void Sweeper<Number>::judge(double tolerance, bool always)
+/// Sums up what is measured of impulses; where they are solved, speeds are measured, too, by the scale of them that follows.
+template <class Number> void Sweeper<Number>::judge(double tolerance)
 {
 	sumUp();
-	if (!always && (settings.stopping != StoppingTest::NaturalMap || !(residual.relative() <= tolerance))) return;
+	if (settings.stopping != StoppingTest::NaturalMap || !(residual.relative() <= tolerance)) return;
 #pragma omp barrier // others may still look at the residual
 	schedule.each(omp_get_thread_num(), [this](std::size_t s) { measureStrip(s, true); });
 	sumUp();
+}
+
+/// Measures impulses and speeds, solved or not: at once by the scale of what is solved, as it is as a rule; where it is not, once more by the last one.
+template <class Number> void Sweeper<Number>::judgeAll()
+{
+	const double last = scale.mean;
+#pragma omp barrier // others may still move bodies
+	const double present  = meanSquaredChange();
+	const auto   measured = [this](double mean) {
+#pragma omp barrier // or look at the scale, and at the residual
+#pragma omp single
+		scale.mean = mean;
+		schedule.each(omp_get_thread_num(), [this](std::size_t s) { measureStrip(s, true); });
+		sumUp();
+	};
+	measured(present);
+	if (!(residual.relative() <= settings.tolerance)) measured(last);
 }
 
 /// Of what impulses have changed of the velocities of bodies that can move.

@@ -47,8 +47,10 @@ public:
 	bool solved(double tolerance) const;
 	/// The residual from those of the strips.
 	void sumUp();
-	/// The same of impulses; where they are solved, or always, speeds are measured and summed up, too.
-	void judge(double tolerance, bool always = false);
+	/// The same of impulses; where they are solved speeds are measured and summed up, too.
+	void judge(double tolerance);
+	/// Both, solved or not.
+	void judgeAll();
 
 	template <class With> void forNew(std::size_t strip, With with) const;
 	template <class With> void forFixed(With with);

@@ -61,7 +61,8 @@ struct Steps {
 			solve(p, s);
 			std::vector<PositionError> e(p.contactCount());
 			for (std::size_t k = 0; k < e.size(); ++k)
-				e[k] = { 1e-6 * std::sin(double(k)), k % 3 == 0, 1e-6 * (1 + std::sin(double(k))) };
+				e[k] = { 1e-6 * std::sin(double(k)), k % 3 == 0, false, false,
+					 1e-6 * (1 + std::sin(double(k))) };
 			errors.push_back(e);
 		}
 	}

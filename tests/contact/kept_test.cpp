@@ -112,8 +112,8 @@ std::vector<PositionError> errorsOf(const Problem& p)
 {
 	std::vector<PositionError> errors;
 	for (std::size_t k = 0; k < p.contactCount(); ++k)
-		errors.push_back({ 1e-3 * std::sin(double(k)), k % 7 == 0, std::sin(3 * double(k)), k % 7 == 0,
-		                   k % 14 == 0, k % 70 == 0 ? 1e-4f : 0, k % 98 == 0 ? 1e-4f : 0 });
+		errors.push_back({ 1e-3 * std::sin(double(k)), k % 7 == 0, k % 7 == 0, k % 14 == 0,
+		                   std::sin(3 * double(k)), k % 70 == 0 ? 1e-4f : 0, k % 98 == 0 ? 1e-4f : 0 });
 	return errors;
 }
 

@@ -107,8 +107,10 @@ TEST(Positions, SweepsBeginWithTheImpulsesOfTheStepBefore)
 		settings.reference = reference;
 		const auto d       = displaced(
 		              scene.problem,
-		              { { -0.02, false, 0.03 * m }, { 0.01, true, -0.02 * m }, { -0.01, false, -0.05 * m } }, 0,
-		              settings);
+		              { { -0.02, false, false, false, 0.03 * m },
+		                { 0.01, true, false, false, -0.02 * m },
+		                { -0.01, false, false, false, -0.05 * m } },
+		              0, settings);
 		EXPECT_NEAR(d[0].x, -0.03, rounding);
 		EXPECT_NEAR(d[1].x, 0.03 + 0.02, rounding);
 		EXPECT_NEAR(d[2].x, -0.02, rounding);
@@ -159,7 +161,7 @@ std::vector<PositionError> errorsOf(const Problem& problem)
 {
 	std::vector<PositionError> errors;
 	for (std::size_t k = 0; k < problem.contactCount(); ++k)
-		errors.push_back({ 1e-3 * std::sin(double(k)), k % 7 == 0, 0, k % 7 == 0, k % 14 == 0,
+		errors.push_back({ 1e-3 * std::sin(double(k)), k % 7 == 0, k % 7 == 0, k % 14 == 0, 0,
 		                   k % 70 == 0 ? 1e-4f : 0, k % 98 == 0 ? 1e-4f : 0 });
 	return errors;
 }
@@ -222,7 +224,7 @@ TEST(Positions, ReferenceAndBlocksAgree)
 /// A bond of two disks that has slipped and turned, with the place of an unbonded third disk beside it.
 PositionError strained(double slip, double turn)
 {
-	return { 0, true, 0, true, true, static_cast<float>(slip), static_cast<float>(turn) };
+	return { 0, true, true, true, 0, static_cast<float>(slip), static_cast<float>(turn) };
 }
 
 TEST(Positions, ABondGoesBackWhatItHasSlipped)

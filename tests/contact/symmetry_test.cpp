@@ -398,8 +398,9 @@ std::vector<PositionError> errorsOf(const Problem& p)
 	std::vector<PositionError> errors;
 	for (std::size_t k = 0; k < p.contactCount(); ++k) {
 		const bool bonded = dice() % 5 == 0, slipped = bonded && dice() % 2 == 0;
-		errors.push_back({ 1e-3 * (dice() / 2147483648.0 - 1), bonded, 1e-3 * (dice() / 4294967296.0), bonded,
-		                   slipped, slipped ? 1.0f / 1024 : 0, slipped ? -1.0f / 512 : 0 });
+		errors.push_back({ 1e-3 * (dice() / 2147483648.0 - 1), bonded, bonded, slipped,
+		                   1e-3 * (dice() / 4294967296.0), slipped ? 1.0f / 1024 : 0,
+		                   slipped ? -1.0f / 512 : 0 });
 	}
 	return errors;
 }

@@ -152,7 +152,7 @@ private:
 	{
 		using nonsmooth::contact::Twist;
 		const Twist d = correction.displacements.empty() ? Twist {} : correction.displacements[id];
-		if (turned.empty()) return d;
+		if (turned.empty() || !isTurned[id]) return d;
 		const Twist& way = clusterWay[id];
 		return { d.x + way.x, d.y + way.y, d.w + way.w };
 	}
@@ -174,7 +174,7 @@ private:
 	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, bool held,
 	        ContactSums& sums) const;
 	void sumImpacts(size_t id, const Vector3r& gravity, StepSums& sums) const;
-	void sumBodies(Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
+	void sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const;
 
 	Relaxation                               relaxation { 1, 0, 0, 0, 0 };
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
@@ -188,6 +188,7 @@ private:
 	mutable char                                   meets    = 0; // contacts with restitution close in this step
 	bool                                           followed = false; // impacts were, in this step
 	std::vector<nonsmooth::contact::Twist>         external; // force and torque of other engines [N, N m]
+	std::vector<nonsmooth::contact::Twist>         force; // the same with the contacts', at the end of the step
 	std::vector<nonsmooth::contact::Twist>         reaction; // sum of contact impulses on each body
 	std::vector<nonsmooth::contact::PositionError> errors; // of contacts
 	nonsmooth::contact::PositionCorrection         correction; // none where there are no displacements

@@ -171,7 +171,8 @@ void ContactSeam::scatterContacts(size_t begin, size_t end, bool rates, StepSums
 
 StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadCount, bool rates)
 {
-	threads                     = threadCount;
+	threads = threadCount;
+	force.resize(before.size());
 	const Real            h     = relaxation.step;
 	const size_t          count = links.size(), chunksC = chunksOf(count), chunksB = chunksOf(before.size());
 	std::vector<StepSums> parts(chunksC + chunksB);
@@ -194,7 +195,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 			scatterForces(scene, begin, end);
 			displace(begin, end);
 			StepSums sums;
-			sumBodies(scene, gravity, begin, end, sums);
+			sumBodies(gravity, begin, end, sums);
 			parts[chunksC + k] = sums;
 		}
 	}
@@ -244,7 +245,8 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 {
 	const Real h = relaxation.step;
 	for (size_t id = begin; id < end; ++id) {
-		Twist r = reaction[id];
+		force[id] = external[id];
+		Twist r   = reaction[id];
 		r.x += turning[id].x;
 		r.y += turning[id].y;
 		if (!loaded.empty()) {
@@ -256,12 +258,15 @@ void ContactSeam::scatterForces(Scene& scene, size_t begin, size_t end)
 			r              = { r.x + p.x, r.y + p.y, r.w + p.w };
 		}
 		if (r.x == 0 && r.y == 0 && r.w == 0) continue;
-		scene.forces.addForceUnsynced(id, Vector3r(r.x / h, r.y / h, 0)); // into the sums, see gatherBodies
-		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, r.w / h));
+		const Twist mean { r.x / h, r.y / h, r.w / h };
+		scene.forces.addForceUnsynced(id, Vector3r(mean.x, mean.y, 0)); // into the sums, see gatherBodies
+		scene.forces.addTorqueUnsynced(id, Vector3r(0, 0, mean.w));
+		Twist& all = force[id]; // added as there
+		all        = { all.x + mean.x, all.y + mean.y, all.w + mean.w };
 	}
 }
 
-void ContactSeam::sumBodies(Scene& scene, const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
+void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, StepSums& sums) const
 {
 	for (size_t id = begin; id < end; ++id) {
 		if (!present[id]) continue;
@@ -288,12 +293,12 @@ void ContactSeam::sumBodies(Scene& scene, const Vector3r& gravity, size_t begin,
 		sums.potential -= potential;
 		sums.size += kinetic + std::abs(potential);
 		// as the integrator will have them, with its own operations: nobody has brought anything where the next step begins with the same bits
-		const Real      h     = relaxation.step;
-		const Vector3r &force = scene.forces.getForce(id), &torque = scene.forces.getTorque(id);
-		const Twist     left { start.x + h * (w.x > 0 ? 0.0 + (force[0] / mass[id] + gravity[0]) : 0.0),
-                                   start.y + h * (w.y > 0 ? 0.0 + (force[1] / mass[id] + gravity[1]) : 0.0),
-                                   start.w + h * (w.w > 0 ? 0.0 + torque[2] / inertia[id] : 0.0) };
-		const Twist     way = displacementOf(id);
+		const Real   h   = relaxation.step;
+		const Twist& all = force[id];
+		const Twist  left { start.x + h * (w.x > 0 ? 0.0 + (all.x / mass[id] + gravity[0]) : 0.0),
+                                   start.y + h * (w.y > 0 ? 0.0 + (all.y / mass[id] + gravity[1]) : 0.0),
+                                   start.w + h * (w.w > 0 ? 0.0 + all.w / inertia[id] : 0.0) };
+		const Twist  way = displacementOf(id);
 		sums.kineticLeft += kineticOf(left);
 		sums.potentialLeft -= mass[id]
 		        * gravity.dot(Vector3r(at[0] + way.x + left.x * h, at[1] + way.y + left.y * h, 0));
