@@ -164,7 +164,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 		for (int k = 0; k < 4; ++k)
 			scene->energy->add(parts[k].second, parts[k].first, energyIx[k]);
 	}
-	reportRestitution();
+	reportRestitution(s.mass * (scene->dt * scene->dt) * nscd::gravityOf(*scene).squaredNorm());
 	candidates       = (int)seam.links.size();
 	contacts         = s.touching;
 	bonds            = s.bonds;
@@ -248,7 +248,8 @@ void ContactDynamicsEngine::reportOverlap()
 	        << tolerance << "), or raise maxIterations where steps end above it (" << unconverged << " so far).");
 }
 
-void ContactDynamicsEngine::reportRestitution()
+/// `settling`: twice what gravity gives bodies at rest in a step [J]; those that are placed a little above their places lose as much.
+void ContactDynamicsEngine::reportRestitution(Real settling)
 {
 	if (seam.overrun() > 0 && nscd::seldom(++overrunSteps))
 		LOG_WARN(
@@ -258,13 +259,13 @@ void ContactDynamicsEngine::reportRestitution()
 		                   " restitution. Lower O.dt, give them more room, or raise maxImpacts.");
 	constexpr Real matters = 0.01, again = 10;
 	kineticMost = std::max(kineticMost, kineticEnergy);
-	if (missedRestitution <= std::max(matters * kineticMost, again * missedTold)) return;
+	if (missedRestitution <= std::max({ matters * kineticMost, again * missedTold, again * settling })) return;
 	missedTold = missedRestitution;
 	LOG_WARN(
 	        "step " << scene->iter << ": contacts with restitution that closed as others pushed have lost "
-	                << missedRestitution << " J so far that restitution would have given back, "
-	                << 100 * missedRestitution / kineticMost
-	                << " % of the largest kinetic energy. Lower O.dt, or accept it knowingly.");
+	                << missedRestitution
+	                << " J so far that restitution would have given back; the largest kinetic energy was "
+	                << kineticMost << " J. Lower O.dt, or accept it knowingly.");
 }
 
 void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, Real meanWeight)

@@ -163,7 +163,7 @@ private:
 	void   report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
 	string tellWorstPair();
 	void   reportOverlap();
-	void   reportRestitution();
+	void   reportRestitution(Real settling);
 	void   reportChanges(nscd::Resident& resident);
 
 	nscd::ContactSeam             seam;

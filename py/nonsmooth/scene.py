@@ -172,19 +172,33 @@ def _spheres(spheres, material, color):
     return [utils.sphere(place, r, material=material, color=color) for place, r in places]
 
 
+def _check_length(name, value):
+    if value is not None and not (value > 0 and math.isfinite(value)):
+        raise ValueError(f"{name} = {value}: give a positive length [m]")
+
+
 def segments(vertices, material, piece=None, sense=0, closed=False, backwards=False):
     """Bodies of a wall along a polyline, fixed and not yet in the scene.
 
     ``vertices``: (n, 2) [m]. ``piece``: greatest length of a segment [m]; long oblique segments have large bounding boxes, so cut
     walls into pieces of some ten disk diameters. ``sense``: side that acts, see Segment.sense (+1: left of the direction of
     travel). Joints, of pieces and of corners, count as one wall: no doubled contact, no bump; so do those with walls of other calls, wherever ends meet (see Segment). ``backwards``: the list begins at the last vertex, and a
-    corner belongs to the segment behind it, so that a mirrored wall has the mirrored bodies in the same order; not for a closed one.
+    corner belongs to the segment behind it, so that a mirrored wall has the mirrored bodies in the same order; not for a closed one. Raises ValueError for fewer than two
+    vertices, one that is not finite or coincides with its neighbour, and for a ``piece`` or a ``sense`` that makes no sense.
     """
+    _check_length("piece", piece)
+    if sense not in (-1, 0, 1):
+        raise ValueError(
+            f"sense = {sense}: give +1 (the left of the way that vertices go acts), -1 (the right), or 0 (both)"
+        )
     points = [np.asarray(v, float) for v in vertices]
     if closed:
         points.append(points[0])
     if len(points) < 2:
         raise ValueError(f"a wall needs two vertices or more, not {len(points)}")
+    for k, point in enumerate(points):
+        if point.shape != (2,) or not np.all(np.isfinite(point)):
+            raise ValueError(f"vertex {k} of a wall is {tuple(point)}: give two finite coordinates [m]")
     if backwards:
         points.reverse()
     cut = [points[0]]
@@ -216,8 +230,7 @@ def arc(centre, radius, start, end, material, inside=True, piece=None):
     Segment. Raises ValueError for a radius that is not positive, and for an end that is not beyond the start.
     """
     for name, value in (("radius", radius), ("piece", piece)):
-        if value is not None and not (value > 0 and math.isfinite(value)):
-            raise ValueError(f"{name} = {value}: give a positive length [m]")
+        _check_length(name, value)
     if not (end > start and math.isfinite(end - start)):
         raise ValueError(
             f"an arc from start = {start:g} to end = {end:g} rad: give an end beyond the start, counter-clockwise"

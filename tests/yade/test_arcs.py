@@ -341,6 +341,31 @@ def test_disks_bond_to_an_arc(gap, kind):
     assert engine.bonds == 1
 
 
+@pytest.mark.parametrize("inside", [True, False])
+@pytest.mark.parametrize("small, turn", [(0.2, 0.03), (0.2, 0.1), (0.003, 0.01)])
+def test_a_bond_to_a_drum_that_turns_holds(inside, small, turn):
+    """A disk that is bonded to a drum of 1 m goes round with it, in steps of ``turn`` [rad], as it would with a disk of that size."""
+    omega, dt = 3.0, turn / 3.0
+    stuff = material(0.6, 0.5, tensileStrength=1e9, bondsToAll=True)
+    drum = O.bodies.append(scene.arc((0, 0), 1, 0, 2 * math.pi, stuff, inside=inside))
+    path = 1 - small if inside else 1 + small
+    i = O.bodies.append(scene.disk((path, 0), small, stuff))
+    for wall in drum:
+        O.bodies[wall].state.angVel = (0, 0, omega)
+    e = begin(gravity=(0, 0, 0), dt=dt)
+    s = O.bodies[i].state
+    s.vel, s.angVel = (0, omega * path, 0), (0, 0, omega)
+    e.advance(1)
+    assert e.bond() == 1
+    behind = math.atan2(s.pos[1], s.pos[0]) - 2 * math.atan2(s.ori[2], s.ori[3])
+    e.advance(round(4 * 2 * math.pi / turn))
+    assert e.bonds == 1
+    off = math.atan2(s.pos[1], s.pos[0]) - 2 * math.atan2(s.ori[2], s.ori[3]) - behind
+    # slacks of its size, and what the first step, in which nobody knew that they turn as one, was off
+    assert math.remainder(off, 2 * math.pi) * path == pytest.approx(0, abs=4e-4 * small + turn**3 / 2 * path)
+    assert math.hypot(*tuple(s.pos)[:2]) == pytest.approx(path, abs=4e-4 * small)
+
+
 def test_slip_along_an_arc_is_the_path():
     """Of a disk that cannot turn, down a bowl whose friction falls with slip."""
     stuff = material(0.5)

@@ -470,6 +470,18 @@ def test_without_impacts_that_are_followed_the_loss_is_told(capfd):
     assert e.missedRestitution == 0
 
 
+@pytest.mark.parametrize("gap", [1e-9, 1e-6, 1e-5])
+@pytest.mark.parametrize("dt", [1e-4, 1e-3, 5e-3])
+def test_what_is_placed_a_little_above_its_place_is_told_of_nothing(gap, dt, capfd):
+    stuff = material(0.3, restitution=0.9)
+    floor(stuff)
+    for k in range(3):
+        free_disk(0, 0.5 + k * (1 + gap) + gap, stuff=stuff)
+    begin(dt=dt)
+    run(20)
+    assert "restitution" not in capfd.readouterr().err
+
+
 def test_what_hangs_by_bonds_is_hit_by_the_solve_and_its_loss_told():
     stuff = material(0.0, restitution=1.0, tensileStrength=1e9, bondCreationDistance=1e-6)
     loose = material(0.0, restitution=1.0, bondCreationDistance=1e-6)

@@ -317,6 +317,15 @@ def test_walls_without_length_and_scenes_without_a_solver():
         scene.segments([(0, 0), (1, 2), (1, 2)], stuff)
     with pytest.raises(ValueError, match="coincide"):
         scene.segments([(0, 0), (0, 0)], stuff, closed=True)
+    for bad in ((math.nan, 1), (1, -math.inf), (1, 2, 3)):
+        with pytest.raises(ValueError, match=r"vertex 1 of a wall is .*: give two finite coordinates"):
+            scene.segments([(0, 0), bad], stuff)
+    for piece in (0, -1, math.nan, math.inf):
+        with pytest.raises(ValueError, match=f"piece = {piece}: give a positive length"):
+            scene.segments([(0, 0), (1, 0)], stuff, piece=piece)
+    for sense in (2, -3, 0.5, math.nan):
+        with pytest.raises(ValueError, match=f"sense = {sense}: give \\+1"):
+            scene.segments([(0, 0), (1, 0)], stuff, sense=sense)
     O.engines = []
     with pytest.raises(LookupError, match="no ContactDynamicsEngine: set O.engines"):
         scene.contact_dynamics()

@@ -15,7 +15,7 @@ from slope_scenes import write_quick
 
 ROWS = 200
 PINNED = {
-    "slope": "7250b6bc5c4eecd10762d2f6b4c74c06624da363bd8e49c89a5f2facf7604f69",
+    "slope": "1d425958fa6a026218237d219af18b51f1aa0a97cfcf3b5f00565bd719f8d347",
     "biaxial": "7f12f953edc8651a3bb2b3353ade6a696447be512d4babfaa45155035cb95c2d",
     "column": "215126531ffbbe444eedfc466c76a76dd48e8ab220dfb85ed297fd5ade5d0831",
 }

@@ -221,13 +221,18 @@ def test_the_larger_of_two_coefficients_of_restitution_holds(of_floor, of_disk):
 
 @pytest.mark.parametrize("gap, adhesive", [(-0.004, True), (0.9e-3, True), (1.1e-3, False), (0.03, False)])
 @pytest.mark.parametrize("share", [-3.0, 0.0, 0.9, 1.1])
-def test_residual_adhesion_acts_while_bodies_touch(gap, adhesive, share):
+@pytest.mark.parametrize("other", ["disk", "wall"])
+def test_residual_adhesion_acts_while_bodies_touch(other, gap, adhesive, share):
     """A pull of ``share`` times the adhesion, at a gap within adhesionRange = 1e-3 ℓ or beyond it, which is known up to the reach of 0.05 ℓ."""
     strength, h = 2e4, 1e-3
-    stuff, length = material(0.3, residualTensileStrength=strength / 0.7), 0.7
-    O.bodies.append(scene.disk((0, 0), 0.25, stuff, fixed=True))
+    length, at = (0.7, 0.7) if other == "disk" else (0.9, 0.45)
+    stuff = material(0.3, residualTensileStrength=strength / length)
+    if other == "disk":
+        O.bodies.append(scene.disk((0, 0), 0.25, stuff, fixed=True))
+    else:
+        O.bodies.append(scene.segments([(0, -3), (0, 3)], stuff))
     gap *= length
-    disk = O.bodies.append(scene.disk((length + gap, 0), 0.45, stuff))
+    disk = O.bodies.append(scene.disk((at + gap, 0), 0.45, stuff))
     s = O.bodies[disk].state
     O.forces.setPermF(disk, (share * strength, 0, 0))
     begin(gravity=(0, 0, 0), dt=h, relaxationRate=0)

@@ -240,6 +240,27 @@ def test_what_a_bond_has_slipped_without_yielding_is_taken_back(slip, turn):
     assert engine().bonds == 1
 
 
+@pytest.mark.parametrize("h", [5e-4, 2e-3])
+def test_the_balance_of_a_pendulum_on_a_pin_stays_closed(h):
+    """A disk that is bonded to a pin swings through 2 rad to either side: neither what is listed as error nor as correction grows."""
+    stuff = rock()
+    pin = O.bodies.append(scene.disk((0, 0), 1.0, stuff))
+    bob = O.bodies.append(scene.disk((2 * math.sin(2.0), -2 * math.cos(2.0)), 1.0, stuff))
+    O.bodies[pin].state.blockedDOFs = "xyzXY"
+    e = begin(dt=h, tolerance=1e-8)
+    e.advance(1)
+    e.bond()
+    e.forgetEnergies()
+    e.advance(1)
+    s = O.bodies[bob].state
+    swing = s.mass * 9.81 * 2 * (1 - math.cos(2.0))
+    e.advance(round(20 / h))
+    assert e.bonds == 1
+    # ½ h m g times the speed, stepping.rst: at most 8 m/s
+    bound = 0.5 * h * s.mass * 9.81 * 8
+    assert abs(e.energyError) < 1.5 * bound and abs(e.correctionEnergy) < 1.5 * bound < 0.05 * swing
+
+
 def test_what_a_bond_has_yielded_in_shear_it_keeps():
     strength, mu = 1e5, 1.0
     stuff = rock(strength, bondEllipseTangential=0.1)

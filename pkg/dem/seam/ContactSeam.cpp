@@ -59,7 +59,10 @@ namespace {
 Real ContactSeam::bendOf(const Reading& reading, const Contact& c) const
 {
 	const Real curvature = static_cast<const SegmentGeom&>(*reading.geom).curvature;
-	const Real path = relaxation.step * contact::passingSpeed(c, before[c.i], before[c.j]), turn = path * curvature;
+	Real       path      = relaxation.step * contact::passingSpeed(c, before[c.i], before[c.j]);
+	// what a bond carries round with its wall is turned as one with it, see plane/rigid_clusters.hpp
+	if (reading.bonded && curvature != 0) path += relaxation.step * before[c.i].w / curvature;
+	const Real turn = path * curvature;
 	return path * turn / (1 + std::sqrt(std::max(Real(0), 1 - turn * turn)));
 }
 

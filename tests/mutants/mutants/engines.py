@@ -84,6 +84,8 @@ MUTANTS = (
            "test_tumbling.py::test_a_bond_bears_the_centrifugal_force"),
     mutant("cluster-momentum", CORRECT, "mass[id] * clusterTurn[id].y", "0", "velocities of what turns keep one direction",
            "test_tumbling.py::test_bonded_bodies_tumble_freely_for_ever"),
+    mutant("cluster-weight", SCATTER, "0.5 * h * mass[id]", "-0.5 * h * mass[id]", "what a pendulum turns is taken for a lift",
+           "test_tumbling.py::test_the_balance_of_a_pendulum_on_a_pin_stays_closed"),
     mutant("cluster-saved", "pkg/dem/seam/ContactReading.hpp", "r.joins = phys.joins;", "r.joins = false;", "what turned as one is forgotten when it is saved",
            "test_tumbling.py::test_saved_and_loaded_in_full_spin_it_has_the_same_bits"),
     mutant("bond-slip-back", CORRECT, "taken(r.slip, slip, slack)", "0", "what a bond has slipped stays", "test_tumbling.py::test_what_a_bond_has_slipped_without_yielding_is_taken_back"),
