@@ -270,12 +270,17 @@ def test_a_collapse_is_measured_from_its_records(tmp_path):
 
 @pytest.fixture(scope="module", params=["rigid", "flexible"])
 def sheared(request, tmp_path_factory):
-    """One sample between smooth platens, hard and soft: {world: (folder, what the run returned, Outcome)}."""
+    """One sample between smooth platens, hard and soft, see :func:`shear`."""
+    return shear(request.param, 1, tmp_path_factory)
+
+
+def shear(sides, seed, folders):
+    """{world: (folder, what the run returned, Outcome)}."""
     found = {}
-    options = {"strain": 0.01, "sides": request.param, "platens": "smooth", "inertia": 4e-4}
+    options = {"strain": 0.01, "sides": sides, "platens": "smooth", "inertia": 4e-4}
     for world, soft in (("hard", {}), ("soft", dict(stiffness=1e10, damping=0.2, model="cohesion_moment"))):
-        case = cases.Case(world, "wwr", 150, 4, 0.8 if soft else 1.0, options=options, **soft)
-        folder = tmp_path_factory.mktemp(world)
+        case = cases.Case(world, "wwr", 150, seed, 0.8 if soft else 1.0, options=options, **soft)
+        folder = folders.mktemp(world)
         biaxials.prepare(case)
         O.reset()
         ran = biaxials.run(folder, **dataclasses.asdict(case))
@@ -300,21 +305,32 @@ def test_a_biaxial_test_in_both_worlds(sheared):
     assert mean["sigma3_right_Pa"] == pytest.approx(1e6, rel=3e-3)
     # damping holds disks back that go outwards, and so the wall that stands bears more: 3.4 % at this rate, 1.8 % at half of it; nothing with a membrane on both sides
     assert mean["sigma3_left_Pa"] == pytest.approx(1e6, rel=0.05 if rigid else 3e-3)
-    # 1.5 to 3.7 % for the same reason
-    assert mean["sigma1_top_Pa"] == pytest.approx(mean["sigma1_bottom_Pa"], rel=0.06)
+    # 1.5 and 1.7 % for the same reason
+    assert mean["sigma1_top_Pa"] == pytest.approx(mean["sigma1_bottom_Pa"], rel=0.03)
     # 10 GPa under 1 MPa: an overlap of p/E = 1e-4, more or less by the number of contacts
     assert soft.overlap_rest == pytest.approx(1e-4, rel=0.3) and hard.overlap < 0.1 * soft.overlap
-    # rigid and nearly rigid: peaks of three samples differ by 1 to 9 %, those of a fourth by 7 to 19 % as the time step is 10 % longer or shorter
+    # rigid and nearly rigid: the strengths of this sample differ by 2 to 8 %
     for name in ("sigma1_peak_Pa", "sigma1_residual_Pa"):
         assert soft.values[name] == pytest.approx(hard.values[name], rel=0.15), name
-    # the curve is flat there: from sample to sample the peak is anywhere
-    assert all(0 < world.values["strain_peak"] < 0.01 for world in (hard, soft))
-    # 0 to 5.1° apart in three samples
-    assert soft.values["dilatancy_deg"] == pytest.approx(hard.values["dilatancy_deg"], abs=8)
+    assert soft.values["strain_peak"] == pytest.approx(hard.values["strain_peak"], rel=0.15)
+    assert soft.values["dilatancy_deg"] == pytest.approx(hard.values["dilatancy_deg"], abs=5)
     assert soft.values["bonds_broken_share"] == pytest.approx(hard.values["bonds_broken_share"], rel=0.3)
     cost = soft.cost
     assert (cost.steps, cost.simulated_s) == (soft_ran["steps"], soft_ran["simulated_s"])
     assert cost.rate == pytest.approx(soft_ran["wall_steps_s"] / (cost.steps * cost.step_s), rel=1e-6)
+
+
+def test_both_worlds_have_the_same_strength_on_the_mean(tmp_path_factory):
+    """Four samples of 150 disks, with rigid and with flexible sides: where one of them fails is its own, what all bear is not."""
+    ratios = []
+    for sides in ("rigid", "flexible"):
+        for seed in (1, 2, 3, 4):
+            worlds_of = shear(sides, seed, tmp_path_factory)
+            hard, soft = (worlds_of[name][2].values for name in ("hard", "soft"))
+            ratios.append([soft[name] / hard[name] for name in ("sigma1_peak_Pa", "sigma1_residual_Pa")])
+    # three standard errors of the eight: they scatter by 4.6 % and by 8.3 %
+    peak, residual = np.mean(ratios, axis=0)
+    assert peak == pytest.approx(1, abs=0.05) and residual == pytest.approx(1, abs=0.09), ratios
 
 
 def test_the_script_refuses_in_one_line(tmp_path):
