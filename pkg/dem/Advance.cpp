@@ -193,6 +193,10 @@ long advance(const py::object& steps, const py::object& until, const py::object&
 		}
 		++made;
 		if (count != endless) --present.left;
+		else if (!(scene->dt > 0))
+			refuse("after " + std::to_string(made) + " steps O.dt = " + nscd::number(scene->dt)
+			       + ", and until = " + nscd::number(end)
+			       + " s never comes: set a positive O.dt, or give steps");
 		if (Omega::instance().getScene() != scene)
 			refuse("after " + std::to_string(made)
 			       + " steps an engine has put another scene in the place of the one that was to be advanced (O.reset, O.load, O.switchScene)");

@@ -23,6 +23,7 @@ void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real
 	phys.yielded = phys.slid = phys.rolled = false;
 	phys.restSlip = phys.restTurn = 0;
 	phys.brokenMode               = NscdPhys::None;
+	phys.brokenStep               = -1;
 	phys.yieldPath                = Vector3r::Zero();
 }
 

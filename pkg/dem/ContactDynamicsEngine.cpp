@@ -336,12 +336,22 @@ string ContactDynamicsEngine::tellWorstPair()
 	return text.str();
 }
 
+namespace {
+	/// Whether an interaction's bodies are still there, with their shapes: YADE's loop takes it out in the next step where they are not.
+	bool hasBodies(const Interaction& i, const Scene& scene)
+	{
+		const auto& bodies  = *scene.bodies;
+		const auto  isThere = [&](Body::id_t id) { return bodies.exists(id) && bodies[id]->shape; };
+		return isThere(i.getId1()) && isThere(i.getId2());
+	}
+}
+
 int ContactDynamicsEngine::bond()
 {
 	scene             = Omega::instance().getScene().get();
 	auto [count, all] = nscd::Resident::of(*scene)->bondBare();
 	for (const auto& i : *scene->interactions) {
-		if (!i->isReal()) continue;
+		if (!i->isReal() || !hasBodies(*i, *scene)) continue;
 		auto*       phys = dynamic_cast<NscdPhys*>(i->phys.get());
 		const auto& geom = static_cast<const ScGeom&>(*i->geom);
 		const Real  gap  = -geom.penetrationDepth;
@@ -383,7 +393,8 @@ void ContactDynamicsEngine::updateStrengths()
 		if (const auto* material = b ? dynamic_cast<const NscdMat*>(b->material.get()) : nullptr)
 			material->validate();
 	for (const auto& i : *scene->interactions)
-		if (auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr)
+		if (auto* phys = i->isReal() && hasBodies(*i, *scene) ? dynamic_cast<NscdPhys*>(i->phys.get())
+		                                                      : nullptr)
 			Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(
 			        *phys, *Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
 }

@@ -61,7 +61,7 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 		((Real,restGap,0,(Attr::readonly|Attr::hidden),"Gap [m] that a bond keeps unless it yields in tension."))
 		((Real,restitution,0,Attr::triggerPostLoad,"Coefficient of restitution."))
 		((Real,correction,0,(Attr::readonly|Attr::hidden),"Pseudo-impulse of the last correction of positions [kg m], from which the next one starts."))
-		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did."))
+		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did since the last one was made."))
 		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque, 4 mixed."))
 		((bool,bonded,false,Attr::triggerPostLoad,"A bond holds."))
 		((bool,yielded,false,(Attr::readonly|Attr::hidden),"The bond yielded in tension in the last step."))

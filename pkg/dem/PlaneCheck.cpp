@@ -55,11 +55,14 @@ void checkGravity(const Scene& scene, const Vector3r& gravity, const Vector3r& f
 		        + text(along ? Vector3r(0, g[2], 0) : Vector3r(g[0], g[1], 0))
 		        + (along ? " in a scene whose heights are y (scripts with z up need z and y exchanged)" : "");
 	};
-	if (leaves(gravity))
-		for (const auto& engine : scene.engines)
-			if (!engine->dead && dynamic_cast<const NewtonIntegrator*>(engine.get()))
-				fail(named(*engine) + ".gravity = " + text(gravity) + " m/s²" + remedy(gravity));
-	if (leaves(final)) fail("finalGravity = " + text(final) + " m/s²" + remedy(final));
+	const auto check = [&](const Vector3r& g, const string& name) {
+		if (!std::isfinite(g.sum())) fail(name + " = " + text(g) + " m/s²: give finite components");
+		if (leaves(g)) fail(name + " = " + text(g) + " m/s²" + remedy(g));
+	};
+	for (const auto& engine : scene.engines)
+		if (!engine->dead && dynamic_cast<const NewtonIntegrator*>(engine.get()))
+			check(gravity, named(*engine) + ".gravity");
+	check(final, "finalGravity");
 }
 
 bool leavesPlane(const Vector3r& force, const Vector3r& torque, Real mass, Real inertia, const Vector3r& gravity)

@@ -1,6 +1,7 @@
 #include "PorePressureEngine.hpp"
 #include "Gravity.hpp"
 #include "PythonBytes.hpp"
+#include "Refusal.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
 #include <core/Scene.hpp>
@@ -11,12 +12,46 @@ namespace yade {
 YADE_PLUGIN((PorePressureEngine));
 CREATE_LOGGER(PorePressureEngine);
 
+namespace {
+	[[noreturn]] void refuse(const string& name, Real value)
+	{
+		throw std::invalid_argument(
+		        "PorePressureEngine: " + name + " = " + nscd::number(value) + ": give a finite number");
+	}
+	[[noreturn]] void refuse(const char* name, size_t place, Real value)
+	{
+		refuse(string(name) + "[" + std::to_string(place) + "]", value);
+	}
+}
+
+void PorePressureEngine::validate() const
+{
+	for (const auto& [name, value] : { std::pair("unitWeight", unitWeight), std::pair("volumeFactor", volumeFactor),
+	                                   std::pair("thickness", thickness) })
+		if (!std::isfinite(value)) refuse(name, value);
+	if (std::isnan(releaseDistance)) refuse("releaseDistance", releaseDistance);
+	for (const auto& [name, values] :
+	     { std::pair("planePoint", &planePoint), std::pair("planeNormal", &planeNormal),
+	       std::pair("pressureGradient", &pressureGradient) })
+		for (int k = 0; k < 3; ++k)
+			if (!std::isfinite((*values)[k])) refuse(name, k, (*values)[k]);
+	if (planeNormal == Vector3r::Zero())
+		throw std::invalid_argument(
+		        "PorePressureEngine: planeNormal = (0, 0, 0): give the direction from the sliding plane to the water");
+}
+
 Real PorePressureEngine::heightAt(Real time) const
 {
 	if (times.size() != heights.size())
 		throw std::invalid_argument(
 		        "PorePressureEngine: times has " + std::to_string(times.size()) + " entries and heights "
 		        + std::to_string(heights.size()) + ": give as many of both");
+	const auto check = [](const char* name, const vector<Real>& values) {
+		for (size_t k = 0; k < values.size(); ++k)
+			if (!std::isfinite(values[k])) refuse(name, k, values[k]);
+	};
+	check("times", times);
+	check("heights", heights);
 	if (times.empty()) return 0;
 	if (!std::is_sorted(times.begin(), times.end()))
 		throw std::invalid_argument("PorePressureEngine: times must rise");
@@ -50,6 +85,7 @@ void PorePressureEngine::pyHandleCustomCtorArgs(boost::python::tuple&, boost::py
 
 void PorePressureEngine::action()
 {
+	validate();
 	const Vector3r gravity   = nscd::gravityOf(*scene);
 	const Vector3r normal    = planeNormal.normalized();
 	const Real     cosDip    = gravity.norm() > 0 ? -gravity.normalized().dot(normal) : 1;

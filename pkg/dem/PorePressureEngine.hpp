@@ -18,6 +18,8 @@ public:
 	void action() override;
 	void pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named) override;
 	Real heightAt(Real time) const;
+	/// Throws std::invalid_argument, naming it, for a number that is none.
+	void validate() const;
 	void forgetReleases()
 	{
 		moved.clear();

@@ -1,13 +1,18 @@
 #include "SceneCheck.hpp"
+#include "Arc.hpp"
 #include "ContactDynamicsEngine.hpp"
+#include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
 #include "Refusal.hpp"
+#include "Segment.hpp"
 #include <cmath>
 #include <core/InteractionLoop.hpp>
 #include <core/TimeStepper.hpp>
+#include <pkg/common/Bo1_Aabb.hpp>
 #include <pkg/common/Collider.hpp>
 #include <pkg/common/ForceResetter.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/DomainLimiter.hpp>
+#include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/UniaxialStrainer.hpp>
 #include <set>
@@ -179,6 +184,64 @@ void refuseLimiter(const Scene& scene, const char* who)
 			        + ", which ends the process where it erases a body that Python has made: let a PyRunner at the end of the list erase it, as PyRunner(command='for b in [b for b in O.bodies if b.state.pos[1] < -3]: O.bodies.erase(b.id)', iterPeriod=20)");
 }
 
+namespace {
+	/// Walls whose numbers no disk could touch.
+	void checkWall(const Body& wall)
+	{
+		const auto refuseShape = [&](const string& name, Real value, const string& remedy) {
+			fail(body(wall.getId()) + " is a wall with " + name + " = " + number(value) + ": " + remedy);
+		};
+		const auto check = [&](const char* name, Real length, int sense) {
+			if (!(length > 0 && std::isfinite(length)))
+				refuseShape(name, length, "give a positive length [m]");
+			if (sense < -1 || sense > 1) refuseShape("sense", sense, "give 1, -1 or 0, the side that acts");
+		};
+		const auto* segment = dynamic_cast<const Segment*>(wall.shape.get());
+		const auto* arc     = dynamic_cast<const Arc*>(wall.shape.get());
+		if (segment) check("halfLength", segment->halfLength, segment->sense);
+		else if (arc) {
+			check("radius", arc->radius, arc->sense);
+			if (!(arc->halfAngle > 0 && arc->halfAngle <= Mathr::PI * (1 + 1e-12)))
+				refuseShape("halfAngle", arc->halfAngle, "give more than 0 and at most π [rad]");
+		}
+	}
+
+	/// How far functors and the law look: less than a touching contact, or what is no number, would let disks pass through each other.
+	void checkReach(const InteractionLoop& loop, const Collider& collider)
+	{
+		const auto refuseReach = [](const Engine& engine, const string& functor, const string& name, Real value,
+		                            const string& remedy) {
+			fail(named(engine) + ": " + functor + "." + name + " = " + number(value) + ": " + remedy);
+		};
+		const auto factor = [&](const auto* functor) {
+			if (functor
+			    && !(functor->interactionDetectionFactor >= 1
+			         && std::isfinite(functor->interactionDetectionFactor)))
+				refuseReach(
+				        loop, functor->getClassName(), "interactionDetectionFactor",
+				        functor->interactionDetectionFactor, "give 1 or more, as 1 + reach of the law");
+		};
+		for (const auto& functor : loop.geomDispatcher->functors) {
+			factor(dynamic_cast<const Ig2_Sphere_Sphere_ScGeom*>(functor.get()));
+			factor(dynamic_cast<const Ig2_Segment_Sphere_ScGeom*>(functor.get()));
+			factor(dynamic_cast<const Ig2_Arc_Sphere_ScGeom*>(functor.get()));
+		}
+		for (const auto& functor : loop.lawDispatcher->functors)
+			if (const auto* law = dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(functor.get()))
+				for (const auto& [name, value] :
+				     { std::pair("reach", law->reach), std::pair("adhesionRange", law->adhesionRange) })
+					if (!(value >= 0 && std::isfinite(value)))
+						refuseReach(
+						        loop, law->getClassName(), name, value, "give 0 or more [ℓ]");
+		for (const auto& functor : collider.boundDispatcher->functors)
+			if (const auto* box = dynamic_cast<const Bo1_Sphere_Aabb*>(functor.get());
+			    box && !std::isfinite(box->aabbEnlargeFactor))
+				refuseReach(
+				        collider, box->getClassName(), "aabbEnlargeFactor", box->aabbEnlargeFactor,
+				        "give a finite factor, as 1 + reach of the law");
+	}
+}
+
 void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped)
 {
 	InteractionLoop* loop     = nullptr;
@@ -190,6 +253,7 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 			collider = sorter;
 	}
 	if (!loop || !collider) return; // separate dispatchers, which are YADE's own affair
+	checkReach(*loop, *collider);
 	const auto isDisk = [](const BodyReading& b) { return b.present && b.radius > 0 && !b.clumped; };
 	const auto first  = std::find_if(bodies.begin(), bodies.end(), isDisk);
 	if (first == bodies.end()) return;
@@ -206,6 +270,7 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 		const auto& b     = (*scene.bodies)[id];
 		auto&       shape = b->shape;
 		if (!shape || !b->isBounded()) continue; // meant to touch nothing
+		checkWall(*b);
 		if (const Sphere* sphere = sphereOf(*b))
 			fail(body(id) + " is a Sphere of radius " + number(sphere->radius)
 			     + ": give it a positive radius [m]");

@@ -27,7 +27,9 @@ void WallForceEngine::action()
 		const Vector3r& way = along[k];
 		Real            x = 0, y = 0;
 		for (; k < ids.size() && along[k] == way; ++k) {
-			if (ids[k] < 0) fail("id " + std::to_string(ids[k]) + ": there is no such body");
+			if (!scene->bodies->exists(ids[k]))
+				fail("id " + std::to_string(ids[k])
+				     + ": there is no such body; take an erased one out of ids and along");
 			const Vector3r& force = scene->forces.getForce(ids[k]);
 			x += force[0];
 			y += force[1];

@@ -219,7 +219,9 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 
 		const bool     moves = !w.isFixed(), out = f[2] != 0 || m[0] != 0 || m[1] != 0;
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
-		if (!std::isfinite(v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + w.x + w.y + w.w)
+		if (!std::isfinite(
+		            v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + s.motion.rotation.z
+		            + s.motion.rotation.w + w.x + w.y + w.w)
 		    || (moves && (d & planar) != planar) || s.clumped || w.x < 0 || w.y < 0 || w.w < 0
 		    || (moves && out && leavesPlane(f, m, s.mass, s.inertia, gravity))
 		    || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
@@ -234,6 +236,9 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum()))
 			refuse(body, "has a position or velocity that is not finite",
 			       "look at the forces and velocities set by the script");
+		if (!std::isfinite(s.ori.coeffs().sum()))
+			refuse(body, "has an orientation that is not finite",
+			       "set state.ori = Quaternion((0, 0, 1), angle)");
 		const unsigned free = ~s.blockedDOFs;
 		if (((free & (State::DOF_X | State::DOF_Y)) && !(s.mass > 0))
 		    || ((free & State::DOF_RZ) && !(s.inertia[2] > 0)))
@@ -246,9 +251,11 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 			       "is at z = " + number(s.pos[2]) + " m and body #" + std::to_string(first - read.begin())
 			               + " at z = " + number(plane) + " m",
 			       "put all disks at one z, since only the part of a contact in the x-y plane would act");
-		const Vector3r& f = scene.forces.getForce(bad);
-		if (!std::isfinite(f.sum()))
-			refuse(body, "has a force that is not finite", "look at the engines that add forces");
+		const Vector3r& f     = scene.forces.getForce(bad);
+		const bool      force = !std::isfinite(f.sum());
+		if (force || !std::isfinite(scene.forces.getTorque(bad).sum()))
+			refuse(body, string("has a ") + (force ? "force" : "torque") + " that is not finite",
+			       "look at the engines that add forces");
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
 		if ((s.blockedDOFs & planar) == planar) refuseForce(scene, bad);
 		refuse(body, "can leave the x-y plane",
