@@ -88,8 +88,9 @@ template <> inline BodiesOf<float>&  Workspace::with() { return inSingle; }
 /// What one contact asks of the positions at the end of a step [m]: its bodies draw apart by −error where that is negative, and by no more than they
 /// must; they may draw together by `error` where it is positive. With `held` they do so in any case.
 struct PositionError {
-	double error = 0;
-	bool   held = false, sticks = false, grips = false; // a bond that may not slip, and may not turn
+	double error  = 0;
+	bool   held   = false; // a bond, whose length is kept either way
+	bool   sticks = false, grips = false; // that may not slip, and may not turn
 	double impulse
 	        = 0; // Q to begin with [kg m], that of the step before: what lies deep in a packing takes several steps
 	float slip = 0, turn = 0; // what it has done so all the same, and is to go back [m, rad]

@@ -57,6 +57,7 @@ void ContactDynamicsEngine::action()
 	});
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
 	account(sums, resident);
+	reportRestitution(sums.mass * (scene->dt * scene->dt) * gravity.squaredNorm());
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
 	turn.end();
 }
@@ -164,7 +165,6 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 		for (int k = 0; k < 4; ++k)
 			scene->energy->add(parts[k].second, parts[k].first, energyIx[k]);
 	}
-	reportRestitution(s.mass * (scene->dt * scene->dt) * nscd::gravityOf(*scene).squaredNorm());
 	candidates       = (int)seam.links.size();
 	contacts         = s.touching;
 	bonds            = s.bonds;

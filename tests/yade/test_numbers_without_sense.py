@@ -6,7 +6,7 @@ import pytest
 from yade import O
 from yade.minieigenHP import Quaternion
 from yade.nonsmooth import scene
-from yade.wrapper import ForceResetter, PorePressureEngine, WallForceEngine
+from yade.wrapper import ContactDynamicsEngine, ForceResetter, PorePressureEngine, WallForceEngine
 
 from contact_scenes import begin, contacts, engine, floor, free_disk, material, run
 
@@ -162,8 +162,6 @@ def test_a_time_that_never_comes():
     O.engines = [ForceResetter()]
     O.dt = 0
     free_disk()
-    from yade.wrapper import ContactDynamicsEngine
-
     with pytest.raises(RuntimeError, match=r"after 1 steps O\.dt = 0, and until = 1 s never comes"):
         ContactDynamicsEngine.advance(until=1.0)
     assert ContactDynamicsEngine.advance(5, until=1.0) == 5

@@ -251,11 +251,11 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 			       "is at z = " + number(s.pos[2]) + " m and body #" + std::to_string(first - read.begin())
 			               + " at z = " + number(plane) + " m",
 			       "put all disks at one z, since only the part of a contact in the x-y plane would act");
-		const Vector3r& f     = scene.forces.getForce(bad);
-		const bool      force = !std::isfinite(f.sum());
-		if (force || !std::isfinite(scene.forces.getTorque(bad).sum()))
-			refuse(body, string("has a ") + (force ? "force" : "torque") + " that is not finite",
-			       "look at the engines that add forces");
+		for (const auto& [what, value] : { std::pair("force", scene.forces.getForce(bad)),
+		                                   std::pair("torque", scene.forces.getTorque(bad)) })
+			if (!std::isfinite(value.sum()))
+				refuse(body, string("has a ") + what + " that is not finite",
+				       "look at the engines that add forces");
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
 		if ((s.blockedDOFs & planar) == planar) refuseForce(scene, bad);
 		refuse(body, "can leave the x-y plane",

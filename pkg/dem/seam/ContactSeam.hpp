@@ -147,12 +147,14 @@ private:
 	void                              turnBack();
 	void                              turnBack(size_t k);
 	void                              displace(size_t begin, size_t end);
+	/// Whether a body was turned with a cluster in this step.
+	bool turnsAsOne(size_t id) const { return !turned.empty() && isTurned[id]; }
 	/// How far a body is moved for errors of position, and because it turns with a cluster.
 	nonsmooth::contact::Twist correctionOf(size_t id) const
 	{
 		using nonsmooth::contact::Twist;
 		const Twist d = correction.displacements.empty() ? Twist {} : correction.displacements[id];
-		if (turned.empty() || !isTurned[id]) return d;
+		if (!turnsAsOne(id)) return d;
 		const Twist& way = clusterWay[id];
 		return { d.x + way.x, d.y + way.y, d.w + way.w };
 	}

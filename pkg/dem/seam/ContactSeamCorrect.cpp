@@ -183,7 +183,7 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 	if (!free(c.i) || !free(c.j)) return; // what holds a body takes its angular momentum
 	const Twist &vi = problem.velocities[c.i], &vj = problem.velocities[c.j];
 	Real         dx = vj.x - vi.x, dy = vj.y - vi.y;
-	if (!turned.empty() && (isTurned[c.i] || isTurned[c.j])) {
+	if (turnsAsOne(c.i) || turnsAsOne(c.j)) {
 		dx = (vj.x + clusterTurn[c.j].x) - (vi.x + clusterTurn[c.i].x);
 		dy = (vj.y + clusterTurn[c.j].y) - (vi.y + clusterTurn[c.i].y);
 	}

@@ -311,7 +311,7 @@ void ContactSeam::sumBodies(const Vector3r& gravity, size_t begin, size_t end, S
 			sums.correction += 0.5 * (p.x * (v1.x + v2.x) + p.y * (v1.y + v2.y))
 			        - mass[id] * gravity.dot(Vector3r(d.x, d.y, 0));
 			// gravity works on the mean velocity of the step, also of what a cluster that hangs on a body that is held turns; in pairs it is none
-			if (!turned.empty() && isTurned[id])
+			if (turnsAsOne(id))
 				sums.correction -= 0.5 * h * mass[id]
 				        * gravity.dot(Vector3r(clusterTurn[id].x, clusterTurn[id].y, 0));
 		}
