@@ -1,5 +1,8 @@
 #include "Advance.hpp"
+#include "PythonMade.hpp"
 #include "Refusal.hpp"
+#include "SceneCheck.hpp"
+#include "seam/Audience.hpp"
 #include "seam/Resident.hpp"
 #include <atomic>
 #include <boost/python/stl_iterator.hpp>
@@ -58,6 +61,8 @@ namespace {
 
 		bool is(const Scene& other) const { return scene == &other && iter == other.iter; }
 	} broken;
+
+	std::atomic<const Scene*> begun { nullptr }; // whose step has, see StepHasBegun
 
 	/// The interpreter's lock is free for as long as the block lasts: threads of Python go on, and engines that need it take it.
 	class Unlocked {
@@ -152,11 +157,18 @@ namespace {
 			refuse("O.subStepping is on, and a step is more than one call then: set O.subStepping = False, or call O.step()");
 		if (present.scene == &scene)
 			refuse("it is making steps of this scene already: call it between two steps, not from an engine or another thread");
-		if (scene.subStep >= 0 && !broken.is(scene))
+		if (begun == &scene || (scene.subStep >= 0 && !broken.is(scene)))
 			refuse("step " + std::to_string(scene.iter)
 			       + " has begun and is not over: call it between two steps and not from an engine; where an error has ended the step, call O.step() to finish it");
 	}
 }
+
+StepHasBegun::StepHasBegun(const Scene& scene)
+        : before(begun.exchange(&scene))
+{
+}
+
+StepHasBegun::~StepHasBegun() { begun = before; }
 
 long stepsLeft(const Scene& scene)
 {
@@ -176,8 +188,14 @@ long advance(const py::object& steps, const py::object& until, const py::object&
 	check(*scene);
 	const auto some = bodiesOf(view, *scene);
 	if (count == 0) return 0;
+	if (const auto* first = whoLooksFirst(
+	            *scene)) // engines may have been exchanged since an advance() showed nothing
+		Resident::of(*scene)->show({ named(*first) });
 	const Entered entered(*scene, count, end, !some);
-	Unlocked      unlocked;
+	const struct Ending {
+		~Ending() { endKept(); }
+	} ending; // after the lock is back
+	Unlocked unlocked;
 	using Steady                = std::chrono::steady_clock;
 	constexpr auto betweenLooks = std::chrono::milliseconds(20);
 	auto           looked       = Steady::now();

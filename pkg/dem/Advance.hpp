@@ -13,6 +13,18 @@ long advance(const boost::python::object& steps, const boost::python::object& un
 /// present length of the step, so ask after NonsmoothTimeStepper. An exception or a signal may end an advance() before.
 long stepsLeft(const Scene& scene);
 
+/// Says for as long as it lasts that a step of the scene has begun, though Scene::subStep does not: advance() is refused then.
+class StepHasBegun {
+public:
+	explicit StepHasBegun(const Scene& scene);
+	~StepHasBegun();
+	StepHasBegun(const StepHasBegun&)            = delete;
+	StepHasBegun& operator=(const StepHasBegun&) = delete;
+
+private:
+	const Scene* const before;
+};
+
 /// Whether all contacts are to have an interaction where other threads look: not within an advance() that leaves them out in the end.
 bool interactionsWanted(const Scene& scene);
 

@@ -19,13 +19,22 @@ namespace yade {
 class Arc : public Shape {
 public:
 	virtual ~Arc() = default;
+	/// A script has set a number: refused at once, since no disk could touch a wall of it.
+	void postLoad(Arc&) const
+	{
+		nscd::require(radius > 0 && nscd::isNumber(radius), "Arc", "radius", radius, "positive and finite [m]");
+		nscd::require(
+		        halfAngle > 0 && halfAngle <= Mathr::PI * (1 + 1e-12), "Arc", "halfAngle", halfAngle,
+		        "more than 0 and at most π [rad]");
+		nscd::require(sense >= -1 && sense <= 1, "Arc", "sense", sense, "1, -1 or 0, the side that acts");
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(Arc,Shape,
 R"""(Part of a circle in the x-y plane, or all of it, as a wall: the body's position is the centre of the circle, its local x axis points to the middle of the arc.
 Ends that meet those of :yref:`segments<Segment>` or other arcs are joints, see :yref:`Segment`. Spheres inside must be smaller than the circle. See :yref:`yade.nonsmooth.scene.arc`.)""",
-		((Real,radius,1,,"Radius of the circle [m]."))
-		((Real,halfAngle,Mathr::PI,,"Half of the angle of the arc [rad]; π: the whole circle, which has no ends."))
-		((int,sense,1,,"Side that acts: 1 the inside, −1 the outside, 0 both. A one-sided arc also pushes back a sphere whose centre is behind it by less than its radius."))
+		((Real,radius,1,Attr::triggerPostLoad,"Radius of the circle [m]."))
+		((Real,halfAngle,Mathr::PI,Attr::triggerPostLoad,"Half of the angle of the arc [rad]; π: the whole circle, which has no ends."))
+		((int,sense,1,Attr::triggerPostLoad,"Side that acts: 1 the inside, −1 the outside, 0 both. A one-sided arc also pushes back a sphere whose centre is behind it by less than its radius."))
 		,
 		createIndex();
 	);
@@ -63,10 +72,17 @@ public:
 	bool goReverse(
 	        const shared_ptr<Shape>& sphere, const shared_ptr<Shape>& arc, const State& state1, const State& state2,
 	        const Vector3r& shift2, const bool& force, const shared_ptr<Interaction>& interaction) override;
+	void postLoad(Ig2_Arc_Sphere_ScGeom&) const
+	{
+		nscd::require(
+		        interactionDetectionFactor >= 1 && nscd::isNumber(interactionDetectionFactor), getClassName(),
+		        "interactionDetectionFactor", interactionDetectionFactor,
+		        "1 or more, and finite, as 1 + reach of the law");
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Arc_Sphere_ScGeom,IGeomFunctor,
 R"""(Make or update the geometry (:yref:`SegmentGeom`) of an :yref:`Arc` and a :yref:`Sphere`, also while the gap is open.)""",
-		((Real,interactionDetectionFactor,1,,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
+		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
 	);
 	// clang-format on
 	FUNCTOR2D(Arc, Sphere);

@@ -15,15 +15,17 @@ BondPair bondPair(const Body& b1, const Body& b2)
 	return swap ? BondPair { &b2, &b1, true } : BondPair { &b1, &b2, false };
 }
 
-void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius)
+void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap)
 {
-	markPoints(phys, *pair.first->state, *pair.second->state, normal, secondRadius);
+	const auto* second = dynamic_cast<const Sphere*>(pair.second->shape.get());
+	markPoints(phys, *pair.first->state, *pair.second->state, normal, second ? second->radius : 0);
 	phys.restGap = nonsmooth::contact::plane::firstRestGap(gap);
 	phys.bonded  = true;
 	phys.yielded = phys.slid = phys.rolled = false;
 	phys.restSlip = phys.restTurn = 0;
 	phys.brokenMode               = NscdPhys::None;
 	phys.brokenStep               = -1;
+	phys.breaks                   = false;
 	phys.yieldPath                = Vector3r::Zero();
 }
 

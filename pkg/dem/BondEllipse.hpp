@@ -27,7 +27,7 @@ void markPoints(Marks& marks, const State& first, const State& second, const Vec
 }
 
 /// Marks the bond's points at its creation. `normal` points from the first body to the second, `gap` [m] may be negative.
-void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap, Real secondRadius);
+void markBond(NscdPhys& phys, const BondPair& pair, const Vector3r& normal, Real gap);
 
 /// Of the marked point, in the ellipse's axes; `Place`: a State, or anything else with `pos` and `ori`.
 template <class Marks, class Place>

@@ -1,6 +1,8 @@
 #include "BondEllipseEngine.hpp"
 #include "BondEllipse.hpp"
+#include "SameBody.hpp"
 #include "WallPhys.hpp"
+#include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
@@ -40,6 +42,7 @@ namespace {
 void BondEllipseEngine::add(
         int id1, int id2, Real ellipseNormal, Real ellipseTangential, Real friction, Real rollingArm)
 {
+	scene          = Omega::instance().getScene().get(); // which an engine gets in a step alone
 	const auto &b1 = Body::byId(id1, scene), &b2 = Body::byId(id2, scene);
 	const auto  contact = scene->interactions->find(id1, id2);
 	if (!b1 || !b2 || !contact || !holds(contact.get()))
@@ -55,6 +58,8 @@ void BondEllipseEngine::add(
 	Marks          marks;
 	nscd::markPoints(
 	        marks, *pair.first->state, *pair.second->state, along ? normal : Vector3r(-normal), second.radius);
+	learnContacts();
+	contacts.push_back(contact);
 	pairs.push_back(Vector2i(pair.first->getId(), pair.second->getId()));
 	anchors1.push_back(marks.anchor1);
 	anchors2.push_back(marks.anchor2);
@@ -63,12 +68,21 @@ void BondEllipseEngine::add(
 	residuals.push_back(Vector2r(friction, rollingArm));
 }
 
+/// Those of a scene that was loaded are the contacts that are there.
+void BondEllipseEngine::learnContacts()
+{
+	for (size_t k = contacts.size(); k < pairs.size(); ++k)
+		contacts.push_back(scene->interactions->find(pairs[k][0], pairs[k][1]));
+}
+
 void BondEllipseEngine::action()
 {
+	learnContacts();
 	size_t kept = 0;
 	for (size_t k = 0; k < pairs.size(); ++k) {
 		const auto contact = scene->interactions->find(pairs[k][0], pairs[k][1]);
-		if (!holds(contact.get())) continue;
+		// a later contact may have the same ids
+		if (!holds(contact.get()) || !nscd::isSame(contacts[k], contact)) continue;
 		const auto displacement = nscd::bondDisplacement(
 		        Marks { anchors1[k], anchors2[k], axes[k] }, *Body::byId(pairs[k][0], scene)->state,
 		        *Body::byId(pairs[k][1], scene)->state);
@@ -78,13 +92,14 @@ void BondEllipseEngine::action()
 			continue;
 		}
 		if (kept != k) {
-			pairs[kept] = pairs[k], anchors1[kept] = anchors1[k], anchors2[kept] = anchors2[k];
+			contacts[kept] = contacts[k], pairs[kept] = pairs[k], anchors1[kept] = anchors1[k],
+			anchors2[kept] = anchors2[k];
 			axes[kept] = axes[k], ellipses[kept] = ellipses[k], residuals[kept] = residuals[k];
 		}
 		++kept;
 	}
-	pairs.resize(kept), anchors1.resize(kept), anchors2.resize(kept), axes.resize(kept), ellipses.resize(kept),
-	        residuals.resize(kept);
+	contacts.resize(kept), pairs.resize(kept), anchors1.resize(kept), anchors2.resize(kept), axes.resize(kept),
+	        ellipses.resize(kept), residuals.resize(kept);
 }
 
 } // namespace yade

@@ -7,6 +7,7 @@
 // iterPeriod steps late, and the elastic part of a displacement counts.
 #pragma once
 
+#include <core/Interaction.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 
 namespace yade {
@@ -26,7 +27,7 @@ bond of the hard law lives (Taboada and Estrada 2009, section 2.2.2), and give t
 		((vector<Vector3r>,axes,,(Attr::readonly|Attr::hidden),"Normals at the beginning, in the frames of the first bodies."))
 		((vector<Vector2r>,ellipses,,(Attr::readonly|Attr::hidden),"Half-axes ε_n ℓ and ε_t ℓ [m]."))
 		((vector<Vector2r>,residuals,,(Attr::readonly|Attr::hidden),"Friction [-] and rolling arm [m] without the bond."))
-		((int,broken,0,,"Bonds broken by this engine so far."))
+		((int,broken,0,Attr::readonly,"Bonds broken by this engine so far."))
 		,
 		iterPeriod=20; initRun=false;
 		,
@@ -34,6 +35,11 @@ bond of the hard law lives (Taboada and Estrada 2009, section 2.2.2), and give t
 		.add_property("count",&BondEllipseEngine::count,"Bonds that are followed.")
 	);
 	// clang-format on
+private:
+	void learnContacts();
+
+	std::vector<boost::weak_ptr<Interaction>>
+	        contacts; // of the bonds, as far as they are known: none after loading
 };
 REGISTER_SERIALIZABLE(BondEllipseEngine);
 

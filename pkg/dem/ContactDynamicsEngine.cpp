@@ -28,13 +28,14 @@ void ContactDynamicsEngine::action()
 {
 	using nscd::Stage;
 	nscd::StageTimer timer(&clock, Stage::Gather);
+	const int        threads = nscd::threadsOf(*this);
+	nscd::Turn       turn(*this, threads); // first: a refusal shows what the engines before have left in the arrays
+	auto&            resident = turn.resident();
 	validate();
 	const auto gravity = nscd::gravityOf(*scene);
 	nscd::checkGravity(*scene, gravity, gravityRamp > 0 ? finalGravity : Vector3r(Vector3r::Zero()));
-	const int  threads = nscd::threadsOf(*this);
-	nscd::Turn turn(*this, threads);
-	auto&      resident = turn.resident();
 	if (!resident.hasContacts()) resident.takeContacts(*scene);
+	problemIsWhole = false;
 	if (steps > 0 && !givenMotions.empty() && stepSolved == 0) seam.givenMotion.setNumbers(givenMotions); // loaded
 	seam.gather(
 	        *scene, resident, gravity, { scene->dt, relaxationRate, correctionSpeed, correctionSlack, openGap },
@@ -56,6 +57,7 @@ void ContactDynamicsEngine::action()
 		return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get());
 	});
 	const auto sums   = seam.scatter(*scene, gravity, threads, adapts);
+	problemIsWhole    = true;
 	account(sums, resident);
 	reportRestitution(sums.mass * (scene->dt * scene->dt) * gravity.squaredNorm());
 	report(statistics, sums.bodies > 0 ? sums.mass / sums.bodies * gravity.norm() : 0);
@@ -97,10 +99,12 @@ void ContactDynamicsEngine::validate() const
 		fail("periodic scenes are not supported: set O.periodic = False and bound the scene by walls");
 	if (!(scene->dt > 0) || !std::isfinite(scene->dt))
 		fail("O.dt = " + number(scene->dt) + ": set a positive time step [s]");
-	if (!(tolerance > 0) || !std::isfinite(tolerance)) refuse("tolerance", tolerance, "positive and finite");
+	if (!(tolerance > 0 && nscd::isNumber(tolerance))) refuse("tolerance", tolerance, "positive and finite");
 	if (maxIterations < 1) fail("maxIterations = " + std::to_string(maxIterations) + ": it must be at least 1");
-	if (correctionSweeps < 0)
-		fail("correctionSweeps = " + std::to_string(correctionSweeps) + ": it must be 0 or more");
+	constexpr int most = 1000000; // of sweeps that are all made, whatever they leave
+	if (correctionSweeps < 0 || correctionSweeps > most)
+		fail("correctionSweeps = " + std::to_string(correctionSweeps) + ": it must be from 0 to "
+		     + std::to_string(most));
 	if (maxImpacts < 0) fail("maxImpacts = " + std::to_string(maxImpacts) + ": it must be 0 or more");
 	if (checkEvery < 1) fail("checkEvery = " + std::to_string(checkEvery) + ": it must be at least 1");
 	if (!(relaxationRate >= 0 && relaxationRate <= 1)) refuse("relaxationRate", relaxationRate, "from 0 to 1");
@@ -108,6 +112,7 @@ void ContactDynamicsEngine::validate() const
 	if (!(correctionSlack >= 0 && correctionSlack < 1))
 		refuse("correctionSlack", correctionSlack, "from 0 to less than 1 [ℓ]");
 	if (!(openGap >= 0)) refuse("openGap", openGap, "0 or more [ℓ]");
+	nscd::checkSureReach(*scene, openGap);
 	const auto known = [&](const char* name, const auto& look) {
 		try {
 			look();
@@ -162,8 +167,10 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 			                                       { "contactRolling", s.rolling },
 			                                       { "contactDebonding", s.debonding },
 			                                       { "contactImpact", s.impact } };
-		for (int k = 0; k < 4; ++k)
-			scene->energy->add(parts[k].second, parts[k].first, energyIx[k]);
+		for (const auto& [name, part] : parts) {
+			int place = -1; // looked up, since O.energy.clear() may have moved it
+			scene->energy->add(part, name, place);
+		}
 	}
 	candidates       = (int)seam.links.size();
 	contacts         = s.touching;
@@ -223,14 +230,20 @@ void ContactDynamicsEngine::view() const { nscd::Resident::of(*Omega::instance()
 
 void ContactDynamicsEngine::preSave(ContactDynamicsEngine&)
 {
+	const auto resident = nscd::Resident::of(*Omega::instance().getScene());
+	const auto guard    = resident->betweenTurns();
 	if (stepSolved != 0) givenMotions = seam.givenMotion.numbers();
-	nscd::Resident::of(*Omega::instance().getScene())->showForSaving();
+	resident->showForSaving();
 }
 
 void ContactDynamicsEngine::dump(const std::string& path) const
 {
 	if (stepSolved == 0)
 		throw std::runtime_error("ContactDynamicsEngine.dump: no step was made yet: call O.step() first");
+	const auto guard = nscd::Resident::of(*Omega::instance().getScene())->betweenTurns();
+	if (!problemIsWhole)
+		throw std::runtime_error(
+		        "ContactDynamicsEngine.dump: the last step was refused, and the problem of the one before is gone: mend what was refused, and call O.step() first");
 	contact::write(path, { seam.problem, seam.warmStart, stepSolved });
 }
 
@@ -349,6 +362,7 @@ namespace {
 int ContactDynamicsEngine::bond()
 {
 	scene             = Omega::instance().getScene().get();
+	const auto guard  = nscd::Resident::of(*scene)->betweenTurns();
 	auto [count, all] = nscd::Resident::of(*scene)->bondBare();
 	for (const auto& i : *scene->interactions) {
 		if (!i->isReal() || !hasBodies(*i, *scene)) continue;
@@ -357,11 +371,8 @@ int ContactDynamicsEngine::bond()
 		const Real  gap  = -geom.penetrationDepth;
 		all += phys && phys->bonded;
 		if (!phys || !phys->bondable || phys->bonded || gap > phys->creationDistance) continue;
-		const auto  pair   = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
-		const auto* sphere = dynamic_cast<const Sphere*>(pair.second->shape.get());
-		nscd::markBond(
-		        *phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap,
-		        sphere ? sphere->radius : 0);
+		const auto pair = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
+		nscd::markBond(*phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap);
 		phys->touched = true;
 		++count;
 		++all;
@@ -372,13 +383,15 @@ int ContactDynamicsEngine::bond()
 
 int ContactDynamicsEngine::unbond()
 {
-	scene = Omega::instance().getScene().get();
+	scene            = Omega::instance().getScene().get();
+	const auto guard = nscd::Resident::of(*scene)->betweenTurns();
 	view();
 	int count = 0;
 	for (const auto& i : *scene->interactions) {
 		auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr;
 		if (!phys || !phys->bonded) continue;
 		phys->bonded = false;
+		phys->axis   = Vector3r::Zero();
 		++count;
 	}
 	bonds = 0;
@@ -387,21 +400,34 @@ int ContactDynamicsEngine::unbond()
 
 void ContactDynamicsEngine::updateStrengths()
 {
-	scene = Omega::instance().getScene().get();
+	scene            = Omega::instance().getScene().get();
+	const auto guard = nscd::Resident::of(*scene)->betweenTurns();
 	view();
-	for (const auto& b : *scene->bodies) // before anything is changed
+	const auto eachContact = [this](auto take) {
+		for (const auto& i : *scene->interactions)
+			if (i->isReal() && hasBodies(*i, *scene) && dynamic_cast<NscdPhys*>(i->phys.get()))
+				take(*i, *Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
+	};
+	// before anything is changed
+	for (const auto& b : *scene->bodies)
 		if (const auto* material = b ? dynamic_cast<const NscdMat*>(b->material.get()) : nullptr)
 			material->validate();
-	for (const auto& i : *scene->interactions)
-		if (auto* phys = i->isReal() && hasBodies(*i, *scene) ? dynamic_cast<NscdPhys*>(i->phys.get())
-		                                                      : nullptr)
-			Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(
-			        *phys, *Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
+	eachContact([](Interaction&, const Body& b1, const Body& b2) {
+		Ip2_NscdMat_NscdMat_NscdPhys::checkMaterials(b1, b2);
+	});
+	eachContact(&Ip2_NscdMat_NscdMat_NscdPhys::renew);
+}
+
+void ContactDynamicsEngine::forgetBreaks()
+{
+	const auto guard = nscd::Resident::of(*Omega::instance().getScene())->betweenTurns();
+	breakLog.clear();
 }
 
 void ContactDynamicsEngine::forgetEnergies()
 {
-	energyStart = NaN;
+	const auto guard = nscd::Resident::of(*Omega::instance().getScene())->betweenTurns();
+	energyStart      = NaN;
 	for (Real* value : { &externalWork, &wallWork, &slidingLoss, &rollingLoss, &debondingLoss, &impactLoss,
 	                     &correctionEnergy, &broughtEnergy, &missedRestitution, &missedTold, &kineticMost })
 		*value = 0;
@@ -410,6 +436,7 @@ void ContactDynamicsEngine::forgetEnergies()
 
 boost::python::dict ContactDynamicsEngine::energies() const
 {
+	const auto          guard = nscd::Resident::of(*Omega::instance().getScene())->betweenTurns();
 	boost::python::dict d;
 	d["kinetic"]    = kineticEnergy;
 	d["potential"]  = potentialEnergy;
@@ -452,6 +479,7 @@ boost::python::object ContactDynamicsEngine::bodyTable() const
 
 boost::python::object ContactDynamicsEngine::breakTable() const
 {
+	const auto guard = nscd::Resident::of(*Omega::instance().getScene())->betweenTurns();
 	return nscd::asBytes<double>({ breakLog.begin(), breakLog.end() });
 }
 
@@ -460,7 +488,8 @@ boost::python::object ContactDynamicsEngine::contactTable() const
 	using Row                = std::array<double, 12>;
 	Scene&              here = *Omega::instance().getScene();
 	std::vector<double> rows;
-	const auto          add = [&](const Row& row) { rows.insert(rows.end(), row.begin(), row.end()); };
+	const auto          add   = [&](const Row& row) { rows.insert(rows.end(), row.begin(), row.end()); };
+	const auto          guard = nscd::Resident::of(here)->betweenTurns();
 	nscd::Resident::of(here)->showBare([&](const nscd::Reading& r, const Vector3r& at) {
 		add({ double(r.first), double(r.second), r.normal, r.tangential, r.torque, r.nx, r.ny, r.gap,
 		      double(r.bonded), double(NscdPhys::None), at[0], at[1] });

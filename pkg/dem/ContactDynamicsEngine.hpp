@@ -33,7 +33,7 @@ public:
 	void forgetEnergies();
 	/// While the ramp of gravity lasts: gives the integrator what is due in a step that begins at `time` [s]; ends the ramp when all of it is due.
 	void                  growGravity(NewtonIntegrator& newton, Real time);
-	void                  forgetBreaks() { breakLog.clear(); }
+	void                  forgetBreaks();
 	boost::python::dict   energies() const;
 	boost::python::dict   stageSeconds() const;
 	boost::python::object bodyTable() const;
@@ -168,8 +168,8 @@ private:
 
 	nscd::ContactSeam             seam;
 	nonsmooth::contact::Workspace workspace;
-	Real                          stepSolved  = 0; // h of the last step, 0 before it
-	int                           energyIx[4] = { -1, -1, -1, -1 };
+	Real                          stepSolved     = 0; // h of the last step, 0 before it
+	bool                          problemIsWhole = false; // and not half of it that of a step that was refused
 };
 REGISTER_SERIALIZABLE(ContactDynamicsEngine);
 

@@ -1,4 +1,5 @@
 #include "CourseRunner.hpp"
+#include "Advance.hpp"
 #include <core/Scene.hpp>
 #include <lib/pyutil/gil.hpp>
 
@@ -12,7 +13,9 @@ void CourseRunner::action()
 	if (engines.empty() || engines.front().get() != this)
 		throw std::runtime_error(
 		        "CourseRunner: it is not the first of O.engines, where the step before is over: put it there");
+	if (std::isnan(nextTime)) throw std::runtime_error("CourseRunner: nextTime = nan: give a time [s]");
 	if (command.empty()) return;
+	const nscd::StepHasBegun begun(*scene);
 	// a scene that is saved now is one between two steps
 	struct Between {
 		Scene& scene;

@@ -23,7 +23,8 @@ void Law2_ScGeom_NscdPhys_SignoriniCoulomb::followBond(
 	namespace plane = nonsmooth::contact::plane;
 	if (!plane::bondLives(
 	            nscd::bondDisplacement(phys, *pair.first->state, *pair.second->state),
-	            { phys.ellipseNormal, phys.ellipseTangential })) {
+	            { phys.ellipseNormal, phys.ellipseTangential })
+	    && phys.ellipseNormal > 0 && phys.ellipseTangential > 0) { // else it is refused in this step
 		breakBond(phys);
 		return;
 	}
@@ -48,7 +49,9 @@ bool Law2_ScGeom_NscdPhys_SignoriniCoulomb::go(shared_ptr<IGeom>& ig, shared_ptr
 	if (phys.bonded) {
 		const auto pair = nscd::bondPair(
 		        *Body::byId(interaction->getId1(), scene), *Body::byId(interaction->getId2(), scene));
-		followBond(phys, gap, pair.swapped ? Vector3r(-geom.normal) : geom.normal, pair);
+		const Vector3r normal = pair.swapped ? Vector3r(-geom.normal) : geom.normal;
+		if (phys.isBondWanted()) nscd::markBond(phys, pair, normal, gap);
+		followBond(phys, gap, normal, pair);
 	}
 	if (!keeps(phys, gap)) return false;
 	if (!phys.bonded && !phys.breaks)

@@ -25,6 +25,7 @@ public:
 	void breakBond(NscdPhys& phys) const
 	{
 		phys.bonded     = false;
+		phys.axis       = Vector3r::Zero();
 		phys.brokenMode = nscd::bondMode(phys.yieldPath);
 		phys.brokenStep = scene->iter;
 		phys.breaks     = true;

@@ -59,11 +59,15 @@ bool Law2_SegmentGeom_WallPhys_SlipWeakening::go(shared_ptr<IGeom>& ig, shared_p
 	if (trial > sliding) {
 		shear *= sliding / trial;
 		const Real slip = (trial - sliding) / phys.ks;
-		if (phys.wallMaterial) {
+		if (phys.wallMaterial || scene->trackEnergy) {
 			const std::lock_guard<std::mutex> guard(slipLock);
-			phys.wallMaterial->addSlip(phys.body, slip);
+			if (phys.wallMaterial) {
+				phys.wallMaterial->claim(Body::byId(phys.body, scene));
+				phys.wallMaterial->addSlip(phys.body, slip);
+			}
+			int place = -1; // looked up, since O.energy.clear() may have moved it
+			if (scene->trackEnergy) scene->energy->add(slip * sliding, "plastDissip", place);
 		}
-		if (scene->trackEnergy) scene->energy->add(slip * sliding, "plastDissip", slidingIx, false);
 	}
 	const Real rolling          = s.rollingArm * held;
 	phys.rollingTorque          = std::max(-rolling, std::min(rolling, phys.rollingTorque));

@@ -23,11 +23,9 @@ public:
 	bool go(shared_ptr<IGeom>& geom, shared_ptr<IPhys>& phys, Interaction* interaction) override;
 	FUNCTOR2D(SegmentGeom, WallPhys);
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(Law2_SegmentGeom_WallPhys_SlipWeakening,LawFunctor,
+	YADE_CLASS_BASE_DOC(Law2_SegmentGeom_WallPhys_SlipWeakening,LawFunctor,
 R"""(Springs with tension, friction and rolling limits at a wall of :yref:`Segments<Segment>`, for scenes with YADE's soft contact models. A wall
-of :yref:`SlipWeakeningMat` loses strength with slip as it does in Contact Dynamics (Taboada and Estrada 2009, section 5.3).)""",
-		((int,slidingIx,-1,(Attr::hidden|Attr::noSave),"Place of the sliding loss among the energies."))
-	);
+of :yref:`SlipWeakeningMat` loses strength with slip as it does in Contact Dynamics (Taboada and Estrada 2009, section 5.3).)""");
 	// clang-format on
 private:
 	std::mutex slipLock; // a material's slip is shared by contacts of all threads

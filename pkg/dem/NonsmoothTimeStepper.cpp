@@ -43,6 +43,14 @@ void NonsmoothTimeStepper::action()
 		throw std::runtime_error(
 		        "NonsmoothTimeStepper: O.engines has no ContactDynamicsEngine: add one, or set O.dt yourself");
 
+	// a step that was refused, or that an exception ended, is made again; only O.resetTime() lets a number come again, and there the solver has been through
+	const bool again = chosenIter == scene->iter && chosenTime == scene->time
+	        && (scene->iter > 0 || solver->steps == chosenSteps);
+	if (!again || scene->dt != chosen) before = scene->dt;
+	chosenIter  = scene->iter;
+	chosenTime  = scene->time;
+	chosenSteps = solver->steps;
+
 	Real       step  = largest;
 	const auto bound = [&](Real most, Limit why) {
 		if (most < step) {
@@ -54,12 +62,12 @@ void NonsmoothTimeStepper::action()
 	if (solver->contactRate > 0) bound(path / solver->contactRate, Contacts);
 	if (solver->bondRate > 0) bound(bondPath / solver->bondRate, Bonds);
 	const bool busy = solver->lastUnsolved || (sweeps > 0 && solver->lastIterations > sweeps);
-	bound(busy ? scene->dt : growth * scene->dt, busy ? Sweeps : Growth);
+	bound(busy ? before : growth * before, busy ? Sweeps : Growth);
 	if (step < smallest) {
 		step  = smallest;
 		limit = Smallest;
 	}
-	scene->dt = step;
+	scene->dt = chosen = step;
 }
 
 } // namespace yade

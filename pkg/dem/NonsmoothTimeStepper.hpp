@@ -5,7 +5,8 @@
 //     h ≤ path ℓ / |u|                         for every contact: its normal turns by less than `path` in a step, its overlap by path²/2 ;
 //     h ≤ bondPath / max(|ḋ_n|/(ε_n ℓ), |ḋ_t|/(ε_t ℓ))   for every bond: it crosses its ellipse in 1/bondPath steps or more.
 // Both rates are those of the last step's end. A step grows by the factor `growth` at most, and not at all after one that the solver left unsolved
-// or that took more than `sweeps` sweeps; it shrinks at once.
+// or that took more than `sweeps` sweeps; it shrinks at once. A step that is made again, since it was refused or an exception
+// ended it, begins with the same choice.
 #pragma once
 
 #include <core/GlobalEngine.hpp>
@@ -28,6 +29,11 @@ threads and after loading.)""",
 		((Real,growth,1.05,,"Largest ratio of a step to the one before."))
 		((int,sweeps,0,,"A step that took more sweeps is not followed by a larger one; 0: sweeps do not matter."))
 		((int,limit,Largest,Attr::readonly,"What decided the last step: 0 largest, 1 contacts, 2 bonds, 3 growth, 4 sweeps, 5 smallest."))
+		((Real,before,0,(Attr::readonly|Attr::hidden),"Step before the last one that was chosen [s]."))
+		((Real,chosen,0,(Attr::readonly|Attr::hidden),"The last one that was chosen [s], and below when: O.iter, O.time and ContactDynamicsEngine.steps."))
+		((long,chosenIter,-1,(Attr::readonly|Attr::hidden),""))
+		((Real,chosenTime,0,(Attr::readonly|Attr::hidden),""))
+		((long,chosenSteps,-1,(Attr::readonly|Attr::hidden),""))
 	);
 	// clang-format on
 private:

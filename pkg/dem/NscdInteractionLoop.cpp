@@ -74,6 +74,26 @@ namespace {
 		r.turn = static_cast<float>(error.turn);
 	}
 
+	/// Makes the bond that a script has asked for, see NscdPhys::isBondWanted.
+	void makeBond(
+	        Reading& r, plane::BondMarks& marks, const plane::Motion& first, const nscd::BodyReading& second,
+	        bool swap)
+	{
+		const contact::Point normal { swap ? -r.nx : r.nx, swap ? -r.ny : r.ny };
+		marks     = plane::markBond(first, second.motion, normal, second.radius);
+		r.broken  = NscdPhys::None;
+		r.restGap = plane::firstRestGap(r.gap);
+		r.path    = {};
+		r.yielded = r.slid = r.rolled = r.strained = false;
+		NscdPhys& phys                             = *r.phys;
+		phys.breaks                                = false;
+		phys.brokenMode                            = NscdPhys::None;
+		phys.brokenStep                            = -1;
+		phys.anchor1                               = Vector3r(marks.first.x, marks.first.y, 0);
+		phys.anchor2                               = Vector3r(marks.second.x, marks.second.y, 0);
+		phys.axis                                  = Vector3r(marks.normal.x, marks.normal.y, 0);
+	}
+
 	/// What functors will look at of a contact. Noted before the loop: in it other threads write readings.
 	struct Ahead {
 		const void *interaction, *geom, *phys;
@@ -139,18 +159,31 @@ namespace {
 	}
 }
 
+/// A list that was exchanged leaves its functors to the contacts that are there.
+void NscdInteractionLoop::keepFunctors()
+{
+	const auto keep = [this](const auto& functors) {
+		for (const auto& one : functors)
+			if (std::find(used.begin(), used.end(), one) == used.end()) used.push_back(one);
+	};
+	keep(geomDispatcher->functors);
+	keep(physDispatcher->functors);
+	keep(lawDispatcher->functors);
+}
+
 void NscdInteractionLoop::action()
 {
 	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Interactions);
-	auto&                  list = *scene->interactions;
+	auto&                  list    = *scene->interactions;
+	const int              threads = nscd::threadsOf(*this);
+	nscd::Turn      turn(*this, threads); // first: a refusal shows what the engines before have left in the arrays
+	nscd::Resident& resident = turn.resident();
 	nscd::refuseLimiter(*scene, "NscdInteractionLoop");
+	keepFunctors();
 	if (!nscd::hasSolver(*scene))
 		for (const auto& law : lawDispatcher->functors)
 			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get()))
 				throw std::runtime_error("NscdInteractionLoop: " + nscd::noSolver(*scene));
-	const int       threads = nscd::threadsOf(*this);
-	nscd::Turn      turn(*this, threads);
-	nscd::Resident& resident = turn.resident();
 	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0) {
 		resident.show();
 		resident.potentialOf = nscd::Resident::never;
@@ -247,7 +280,7 @@ void NscdInteractionLoop::action()
 NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, int slot, const Ours& ours) const
 {
 	Reading&    r    = resident.readings[slot];
-	const auto& bond = resident.bonds[slot];
+	auto&       bond = resident.bonds[slot];
 	const auto &p1 = resident.bodies[r.first], &p2 = resident.bodies[r.second];
 	const Real  dz = p2.z - p1.z; // disks may be a little out of one plane, see nscd::flatness
 	const auto  at = plane::diskContact(p1.motion.position, p2.motion.position, p1.radius, p2.radius, dz);
@@ -260,9 +293,12 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 	const bool swap    = r.first > r.second;
 	r.wasRead = r.stale = false;
 	if (r.bonded) {
+		if (bond.marks.normal.x == 0 && bond.marks.normal.y == 0)
+			makeBond(r, bond.marks, (swap ? p2 : p1).motion, swap ? p1 : p2, swap);
 		if (!plane::bondLives(
 		            plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion),
-		            bond.zone)) {
+		            bond.zone)
+		    && bond.zone.normal > 0 && bond.zone.tangential > 0) { // else it is refused in this step
 			if (r.bare) return Next::Unmade; // the interaction says how it broke, and when
 			r.phys->restGap   = r.restGap;
 			r.phys->yieldPath = nscd::vectorOf(r.path);

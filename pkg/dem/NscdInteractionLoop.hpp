@@ -45,7 +45,11 @@ private:
 	bool prepare(nscd::Resident& resident, const nscd::Resident::Pair& pair, const Ours& ours);
 	void visitOthers(nscd::Resident& resident, const std::vector<int>& others, const Ours& ours, int threads);
 
+	void keepFunctors();
+
 	Ours ours {}; // of the last turn
+	std::vector<shared_ptr<Functor>>
+	        used; // contacts and shapes keep theirs, and may be the last to do so where Python's lock is not held
 };
 REGISTER_SERIALIZABLE(NscdInteractionLoop);
 

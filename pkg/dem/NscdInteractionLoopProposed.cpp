@@ -96,9 +96,12 @@ bool NscdInteractionLoop::prepare(nscd::Resident& resident, const nscd::Resident
 	shared_ptr<Material> material = boost::make_shared<NscdMat>();
 	shared_ptr<IGeom>    geom     = recipe.geom;
 	shared_ptr<IPhys>    phys     = boost::make_shared<NscdPhys>();
-	recipe.geomFunctor            = geomDispatcher->getFunctor2D(b1->shape, b2->shape, swap);
-	recipe.physFunctor            = physDispatcher->getFunctor2D(material, material, swap);
-	recipe.law                    = lawDispatcher->getFunctor2D(geom, phys, swap);
+	nscd::letGo(recipe.geomFunctor);
+	nscd::letGo(recipe.physFunctor);
+	nscd::letGo(recipe.law);
+	recipe.geomFunctor = geomDispatcher->getFunctor2D(b1->shape, b2->shape, swap);
+	recipe.physFunctor = physDispatcher->getFunctor2D(material, material, swap);
+	recipe.law         = lawDispatcher->getFunctor2D(geom, phys, swap);
 	return recipe.geomFunctor.get() == ours.spheres && recipe.law.get() == ours.law && recipe.physFunctor
 	        && typeid(*recipe.physFunctor) == typeid(Ip2_NscdMat_NscdMat_NscdPhys);
 }

@@ -1,9 +1,12 @@
 #include "NscdMat.hpp"
 #include "PythonBytes.hpp"
 #include "Refusal.hpp"
+#include "SameBody.hpp"
 #include <contact/slip_weakening.hpp>
 #include <core/Omega.hpp>
+#include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
+#include <mutex>
 
 namespace yade {
 
@@ -17,22 +20,31 @@ void NscdMat::require(bool good, const char* name, Real value, const char* what)
 		        + what);
 }
 
-void NscdMat::validate() const
+void NscdMat::checkNumbers() const
 {
-	require(density > 0, "density", density, "positive [kg/m³], also for walls, which have no use for it");
-	require(tensileStrength >= 0, "tensileStrength", tensileStrength, "0 or more [Pa]");
-	require(residualTensileStrength >= 0, "residualTensileStrength", residualTensileStrength, "0 or more [Pa]");
+	using nscd::isNumber;
+	const auto notNegative = [](Real value) { return value >= 0 && isNumber(value); };
+	require(density > 0 && isNumber(density), "density", density,
+	        "positive and finite [kg/m³], also for walls, which have no use for it");
+	require(notNegative(tensileStrength), "tensileStrength", tensileStrength, "0 or more, and finite [Pa]");
+	require(notNegative(residualTensileStrength), "residualTensileStrength", residualTensileStrength,
+	        "0 or more, and finite [Pa]");
 	require(frictionAngle >= 0 && frictionAngle < Mathr::PI / 2, "frictionAngle", frictionAngle,
 	        "from 0 to below π/2 [rad]");
 	require(residualFrictionAngle < Mathr::PI / 2, "residualFrictionAngle", residualFrictionAngle,
 	        "below π/2 [rad], or negative for the peak value");
-	require(rollingFriction >= 0, "rollingFriction", rollingFriction, "0 or more");
-	require(!std::isnan(residualRollingFriction), "residualRollingFriction", residualRollingFriction,
-	        "0 or more, or negative for the peak value");
+	require(notNegative(rollingFriction), "rollingFriction", rollingFriction, "0 or more, and finite");
+	require(residualRollingFriction < 0 || isNumber(residualRollingFriction), "residualRollingFriction",
+	        residualRollingFriction, "0 or more, and finite, or negative for the peak value");
 	require(bondEllipseNormal > 0, "bondEllipseNormal", bondEllipseNormal, "positive (units of ℓ)");
 	require(bondEllipseTangential > 0, "bondEllipseTangential", bondEllipseTangential, "positive (units of ℓ)");
 	require(bondCreationDistance >= 0, "bondCreationDistance", bondCreationDistance, "0 or more (units of ℓ)");
 	require(restitution >= 0 && restitution <= 1, "restitution", restitution, "from 0 to 1");
+}
+
+void NscdMat::validate() const
+{
+	checkNumbers();
 	require(interfaceLaws.size() == interfaceLayers.size(), "len(interfaceLaws)", interfaceLaws.size(),
 	        "that of interfaceLayers: give a law for each");
 	for (const auto& law : interfaceLaws) {
@@ -70,16 +82,26 @@ const NscdMat* NscdMat::interfaceWith(const NscdMat& other) const
 void SlipWeakeningMat::validate() const
 {
 	NscdMat::validate();
+	checkWeakening();
+}
+
+void SlipWeakeningMat::checkWeakening() const
+{
 	require(weakenedFrictionAngle >= 0 && weakenedFrictionAngle < Mathr::PI / 2, "weakenedFrictionAngle",
 	        weakenedFrictionAngle, "from 0 to below π/2 [rad]");
-	require(weakenedTensileStrength >= 0, "weakenedTensileStrength", weakenedTensileStrength, "0 or more [Pa]");
-	nonsmooth::contact::slipWeakening(
-	        weakening, 0, criticalSlip); // throws for a name or a slip that it does not know
+	require(weakenedTensileStrength >= 0 && nscd::isNumber(weakenedTensileStrength), "weakenedTensileStrength",
+	        weakenedTensileStrength, "0 or more, and finite [Pa]");
+	try {
+		nonsmooth::contact::slipWeakening(
+		        weakening, 0, criticalSlip); // throws for a name or a slip that it does not know
+	} catch (const std::invalid_argument& error) {
+		throw std::invalid_argument(getClassName() + " '" + label + "': " + error.what());
+	}
 }
 
 Real SlipWeakeningMat::remaining(Body::id_t id) const
 {
-	// called by InteractionLoop's threads, which no exception may leave; ContactDynamicsEngine refuses such a material in the same step
+	// called by InteractionLoop's threads, which no exception may leave; refused where it was set, and by ContactDynamicsEngine
 	if (!nonsmooth::contact::knowsSlipWeakening(weakening) || !(criticalSlip > 0)) return 1;
 	return nonsmooth::contact::slipWeakening(weakening, slipOf(id), criticalSlip);
 }
@@ -91,6 +113,65 @@ void SlipWeakeningMat::weaken(Real& adhesion, Real& friction, Real length, Real 
 	};
 	adhesion = weakened(adhesion, weakenedTensileStrength * length);
 	friction = weakened(friction, std::tan(weakenedFrictionAngle));
+}
+
+namespace {
+	std::mutex claiming; // contacts are made by all threads of a loop; of all materials, as it is seldom
+}
+
+void SlipWeakeningMat::noteOwner(Body::id_t id, const shared_ptr<Body>& body)
+{
+	const auto& bodies = Omega::instance().getScene()->bodies;
+	if (home.lock() != bodies) {
+		const bool loaded = owners.empty();
+		if (!loaded) slip.clear(); // of another scene
+		ofStep.clear();
+		owners.clear();
+		home = bodies;
+		if (loaded) { // who is there is who has slipped, but for who was put in since
+			for (size_t k = 0; k < std::min(slip.size(), bodies->size()); ++k)
+				owners.push_back((*bodies)[k]);
+			for (const int k : bodies->insertedBodies)
+				if (size_t(k) < owners.size() && (*bodies)[k]
+				    && (*bodies)[k]->iterBorn == Omega::instance().getScene()->iter)
+					owners[k].reset();
+		}
+	}
+	if (id >= (Body::id_t)owners.size()) owners.resize(id + 1);
+	if (nscd::isSame(owners[id], body)) return;
+	owners[id] = body;
+	if (id < (Body::id_t)slip.size()) slip[id] = 0;
+	if (id < (Body::id_t)ofStep.size()) ofStep[id] = { -1, 0 };
+}
+
+void SlipWeakeningMat::claim(const shared_ptr<Body>& body)
+{
+	const std::lock_guard<std::mutex> guard(claiming);
+	noteOwner(body->getId(), body);
+}
+
+/// Of one that is gone the slip stays, until its id is used again.
+void SlipWeakeningMat::forgetOthers()
+{
+	const auto                        bodies = Omega::instance().getScene()->bodies;
+	const std::lock_guard<std::mutex> guard(claiming);
+	if (!owners.empty() && home.lock() != bodies) return; // what was in another scene can be read in this one
+	for (size_t id = 0; id < slip.size(); ++id)
+		if (bodies->exists(id)) noteOwner(id, (*bodies)[id]);
+}
+
+void SlipWeakeningMat::forgetSlip()
+{
+	const std::lock_guard<std::mutex> guard(claiming);
+	slip.clear();
+	ofStep.clear();
+	owners.clear();
+}
+
+Real SlipWeakeningMat::slipNow(Body::id_t id)
+{
+	forgetOthers();
+	return slipOf(id);
 }
 
 void SlipWeakeningMat::addSlip(Body::id_t id, Real distance)
@@ -112,18 +193,21 @@ void SlipWeakeningMat::addSlip(Body::id_t id, Real distance, long step)
 	most = distance;
 }
 
-boost::python::object SlipWeakeningMat::slipTable() const
+boost::python::object SlipWeakeningMat::slipTable()
 {
+	forgetOthers();
 	return nscd::asBytes(std::vector<double>(slip.begin(), slip.end()));
 }
 
-int SlipWeakeningMat::weakenedCount() const
+int SlipWeakeningMat::weakenedCount()
 {
+	forgetOthers();
 	return (int)std::count_if(slip.begin(), slip.end(), [this](Real s) { return s >= criticalSlip; });
 }
 
-Real SlipWeakeningMat::meanSlip() const
+Real SlipWeakeningMat::meanSlip()
 {
+	forgetOthers();
 	Real sum = 0;
 	for (const Real s : slip)
 		sum += s;
@@ -131,8 +215,9 @@ Real SlipWeakeningMat::meanSlip() const
 	return count > 0 ? sum / count : 0;
 }
 
-int SlipWeakeningMat::slippedCount() const
+int SlipWeakeningMat::slippedCount()
 {
+	forgetOthers();
 	return (int)std::count_if(slip.begin(), slip.end(), [](Real s) { return s > 0; });
 }
 

@@ -9,8 +9,10 @@ namespace yade {
 class NscdMat : public FrictMat {
 public:
 	virtual ~NscdMat() = default;
-	/// Checks the strengths; throws std::invalid_argument naming the attribute, its value and what would do.
+	/// Checks all of it; throws std::invalid_argument naming the attribute, its value and what would do.
 	virtual void validate() const;
+	/// A script has set a number: refused at once, since in scenes with soft contacts no exception may leave the threads of YADE's loop.
+	void postLoad(NscdMat&) { checkNumbers(); }
 	/// Whether the peak's friction angle has changed since it was last asked, and the residual one, which is a value of its own, has not.
 	bool changesPeakAlone();
 	/// The law of contacts with a body of another material, where one of the two says so for the other's layer; null where none does.
@@ -22,15 +24,15 @@ materials resists separation up to :math:`F_a=\sigma\ell`, sliding up to :math:`
 :math:`\mu_r\ell(F_a+N)`, with :math:`\ell` the mean diameter (the disk's diameter at a wall). Stiffnesses (``young``, ``poisson``) are
 not used. :yref:`frictionAngle<FrictMat.frictionAngle>` is the peak value, that of a bond; a negative residual value stands for "as the peak". Where none is given
 it is 0.5 rad (28.6°, μ = 0.546), as in every FrictMat, and not 0.)""",
-		((Real,tensileStrength,0,,"Tensile strength of a bond, σ_ext [Pa]; in two dimensions force per contact and metre of thickness is σ_ext ℓ."))
-		((Real,residualTensileStrength,0,,"Tensile strength σ_res [Pa] of a touching contact that is not bonded, between bodies of one :yref:`layer<NscdMat.layer>`."))
-		((Real,residualFrictionAngle,-1,,"Friction angle [rad] of a contact that is not bonded; negative: as frictionAngle."))
-		((Real,rollingFriction,0,,"Rolling friction μ_r [-] of a bond: arm of the resisting torque in units of ℓ (eq. 6)."))
-		((Real,residualRollingFriction,-1,,"Rolling friction [-] of a contact that is not bonded; negative: as rollingFriction."))
-		((Real,bondEllipseNormal,0.02,,"Half-axis ε_n of the ellipse in which a bond lives, along the contact normal [ℓ] (Figure 2b)."))
-		((Real,bondEllipseTangential,0.02,,"Half-axis ε_t of the ellipse along the tangent [ℓ]."))
-		((Real,bondCreationDistance,0.02,,"Bonds are made where the gap is below this distance Δ [ℓ] (Figure 2a), see :yref:`ContactDynamicsEngine.bond`."))
-		((Real,restitution,0,,"Newton's coefficient of restitution e [-], between 0 and 1; the larger of the two bodies' holds."))
+		((Real,tensileStrength,0,Attr::triggerPostLoad,"Tensile strength of a bond, σ_ext [Pa]; in two dimensions force per contact and metre of thickness is σ_ext ℓ."))
+		((Real,residualTensileStrength,0,Attr::triggerPostLoad,"Tensile strength σ_res [Pa] of a touching contact that is not bonded, between bodies of one :yref:`layer<NscdMat.layer>`."))
+		((Real,residualFrictionAngle,-1,Attr::triggerPostLoad,"Friction angle [rad] of a contact that is not bonded; negative: as frictionAngle."))
+		((Real,rollingFriction,0,Attr::triggerPostLoad,"Rolling friction μ_r [-] of a bond: arm of the resisting torque in units of ℓ (eq. 6)."))
+		((Real,residualRollingFriction,-1,Attr::triggerPostLoad,"Rolling friction [-] of a contact that is not bonded; negative: as rollingFriction."))
+		((Real,bondEllipseNormal,0.02,Attr::triggerPostLoad,"Half-axis ε_n of the ellipse in which a bond lives, along the contact normal [ℓ] (Figure 2b)."))
+		((Real,bondEllipseTangential,0.02,Attr::triggerPostLoad,"Half-axis ε_t of the ellipse along the tangent [ℓ]."))
+		((Real,bondCreationDistance,0.02,Attr::triggerPostLoad,"Bonds are made where the gap is below this distance Δ [ℓ] (Figure 2a), see :yref:`ContactDynamicsEngine.bond`."))
+		((Real,restitution,0,Attr::triggerPostLoad,"Newton's coefficient of restitution e [-], between 0 and 1; the larger of the two bodies' holds."))
 		((int,layer,0,,"Bonds and residual tensile strength exist only between bodies of the same layer; in a layer with a negative number no bonds are made. See bondsToAll for walls."))
 		((bool,bondsToAll,false,,"Make bonds with bodies of any layer: for walls, two of which have a tensile strength in Table 1. Section 2.2.2 tells of bonds between grains alone."))
 		((vector<int>,interfaceLayers,,,"Layers against which bodies of this material have a law of their own: an interface. It is enough that one of two materials says so."))
@@ -44,6 +46,7 @@ it is 0.5 rad (28.6°, μ = 0.546), as in every FrictMat, and not 0.)""",
 
 protected:
 	void require(bool good, const char* name, Real value, const char* what) const;
+	void checkNumbers() const;
 
 private:
 	Real knownPeak = NaN, knownResidual = NaN; // when it was last asked
@@ -64,32 +67,36 @@ public:
 	void weaken(Real& adhesion, Real& friction, Real length, Real left) const;
 	/// What is left of the strength that slip takes away, for body `id`: 1 is all, 0 is none.
 	Real remaining(Body::id_t id) const;
-	Real slipOf(Body::id_t id) const { return id < (Body::id_t)slip.size() ? slip[id] : 0; }
+	Real slipOf(Body::id_t id) const { return id >= 0 && id < (Body::id_t)slip.size() ? slip[id] : 0; }
+	/// Notes whose slip that of an id is from now on; that of another body which had the id before is forgotten. For any thread.
+	void claim(const shared_ptr<Body>& body);
 	void addSlip(Body::id_t id, Real distance);
-	/// The same along an interface, where a body may have several contacts: those of one `step` count as the longest of them.
-	void                  addSlip(Body::id_t id, Real distance, long step);
-	int                   weakenedCount() const;
-	Real                  meanSlip() const;
-	int                   slippedCount() const;
-	void                  forgetSlip() { slip.clear(); }
-	boost::python::object slipTable() const;
-	std::vector<std::pair<long, Real>>
-	        ofStep; // by body: the last step in which it slipped along an interface, and how far
+	/// The same along an interface, where a body may have several contacts: those of one `step`, which no other step has for its number, count as the longest of them.
+	void addSlip(Body::id_t id, Real distance, long step);
+	// for Python, of the present scene
+	Real                  slipNow(Body::id_t id);
+	int                   weakenedCount();
+	Real                  meanSlip();
+	int                   slippedCount();
+	void                  forgetSlip();
+	boost::python::object slipTable();
+	void                  postLoad(SlipWeakeningMat&) { checkWeakening(); }
+	void                  preSave(SlipWeakeningMat&) { forgetOthers(); }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SlipWeakeningMat,NscdMat,
 R"""(Material of a wall, or of an interface (:yref:`NscdMat.interfaceLaws`), that loses strength as bodies slip along it (Taboada and Estrada 2009, section 5.3). Friction and cohesion of a
 contact fall to the weakened values as a function of the distance that the body has slipped along this wall, counted over all bodies that
 share this material object, so that it survives the joints of a polyline. Rolling friction stays, with the threshold that cohesion
-leaves it.)""",
-		((Real,criticalSlip,5,,"Slip D_c [m] at which the strength is lost."))
-		((string,weakening,"step",,"Function of slip: 'step' (the paper's: all, then none from D_c on), 'linear' (to none at D_c) or 'exponential' (exp(−slip/D_c))."))
-		((Real,weakenedFrictionAngle,0,,"Friction angle [rad] that is left in the end."))
-		((Real,weakenedTensileStrength,0,,"Tensile strength [Pa] that is left in the end."))
+leaves it. Slip belongs to a body and not to its id: one that takes the id of an erased body begins with none. Raises ValueError where a value is set that weakens nothing.)""",
+		((Real,criticalSlip,5,Attr::triggerPostLoad,"Slip D_c [m] at which the strength is lost."))
+		((string,weakening,"step",Attr::triggerPostLoad,"Function of slip: 'step' (the paper's: all, then none from D_c on), 'linear' (to none at D_c) or 'exponential' (exp(−slip/D_c))."))
+		((Real,weakenedFrictionAngle,0,Attr::triggerPostLoad,"Friction angle [rad] that is left in the end."))
+		((Real,weakenedTensileStrength,0,Attr::triggerPostLoad,"Tensile strength [Pa] that is left in the end."))
 		((vector<Real>,slip,,(Attr::readonly|Attr::hidden),"Slip of each body along this wall [m], by body id."))
 		,
 		createIndex(); wall=true;
 		,
-		.def("slipOf",&SlipWeakeningMat::slipOf,(boost::python::arg("id")),"Distance [m] that the body has slipped along this wall.")
+		.def("slipOf",&SlipWeakeningMat::slipNow,(boost::python::arg("id")),"Distance [m] that the body has slipped along this wall.")
 		.def("slipTable",&SlipWeakeningMat::slipTable,"The same of all bodies up to the last that has slipped, by id, eight bytes each; see nonsmooth.tables.slip.")
 		.def("forgetSlip",&SlipWeakeningMat::forgetSlip,"Set the slip of all bodies to zero.")
 		.def("weakenedCount",&SlipWeakeningMat::weakenedCount,"Number of bodies that slipped further than criticalSlip.")
@@ -98,6 +105,16 @@ leaves it.)""",
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(SlipWeakeningMat, NscdMat);
+
+private:
+	void checkWeakening() const;
+	void forgetOthers();
+	void noteOwner(Body::id_t id, const shared_ptr<Body>& body);
+
+	std::vector<std::pair<long, Real>>
+	        ofStep; // by body: the last step in which it slipped along an interface, and how far
+	std::vector<boost::weak_ptr<Body>> owners; // by id: whose slip it is; none after loading
+	boost::weak_ptr<BodyContainer>     home; // whose bodies these are
 };
 REGISTER_SERIALIZABLE(SlipWeakeningMat);
 

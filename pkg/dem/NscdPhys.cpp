@@ -1,4 +1,5 @@
 #include "NscdPhys.hpp"
+#include "Refusal.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
@@ -18,10 +19,33 @@ const char* NscdPhys::unheard() const
 	return "normalForce or shearForce";
 }
 
+std::pair<const char*, Real> NscdPhys::senseless() const
+{
+	using Named         = std::pair<const char*, Real>;
+	const auto isGood   = [](Real value) { return value >= 0 && nscd::isNumber(value); };
+	const auto isSpoilt = [&](Real value) { return !isGood(value) && !isGood(tangensOfFrictionAngle); };
+	if (isSpoilt(friction) && isSpoilt(residualFriction))
+		return { "tangensOfFrictionAngle", tangensOfFrictionAngle };
+	for (const Named& one : { Named("normal", normal), Named("tangential", tangential), Named("torque", torque) })
+		if (!nscd::isNumber(one.second)) return one;
+	for (const Named& one :
+	     { Named("residualTensileForce", residualTensileForce), Named("residualFriction", residualFriction),
+	       Named("residualRollingArm", residualRollingArm), Named("tensileForce", tensileForce),
+	       Named("friction", friction), Named("rollingArm", rollingArm) })
+		if (!isGood(one.second)) return one;
+	if (!(restitution >= 0 && restitution <= 1)) return { "restitution", restitution };
+	if (!(creationDistance >= 0)) return { "creationDistance", creationDistance };
+	// of a contact that came without materials, as a plate's guide, they are 0
+	for (const Named& one :
+	     { Named("ellipseNormal", ellipseNormal), Named("ellipseTangential", ellipseTangential) })
+		if (bonded && !(one.second > 0)) return one;
+	return { nullptr, 0 };
+}
+
 void NscdPhys::hearFriction()
 {
-	// NaN too, which is refused in its place
-	if (tangensOfFrictionAngle != currentFriction) friction = residualFriction = tangensOfFrictionAngle;
+	// NaN too, which is refused in its place, but not once more where it is in force already: a script may have mended the strengths since
+	if (isFrictionWritten()) friction = residualFriction = tangensOfFrictionAngle;
 }
 
 void NscdPhys::follow(Real newLength)
@@ -55,8 +79,9 @@ void NscdPhys::updateThresholds(Real gap, Real adhesionRange)
 
 void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)
 {
-	const bool written = tangensOfFrictionAngle != currentFriction;
+	const bool written = isFrictionWritten();
 	NscdPhys::updateThresholds(gap, adhesionRange);
+	if (!wallMaterial) return; // made by a script
 	const Real wanted = currentFriction;
 	Real       left   = wallMaterial->remaining(body);
 	if (other >= 0) left = std::min(left, wallMaterial->remaining(other));
@@ -67,7 +92,10 @@ void SlipWeakeningPhys::updateThresholds(Real gap, Real adhesionRange)
 
 void SlipWeakeningPhys::addSlip(Real distance, long step)
 {
+	if (!wallMaterial) return; // made by a script
+	wallMaterial->claim(Body::byId(body));
 	if (other < 0) return wallMaterial->addSlip(body, distance);
+	wallMaterial->claim(Body::byId(other));
 	wallMaterial->addSlip(body, distance, step);
 	wallMaterial->addSlip(other, distance, step);
 }
@@ -113,29 +141,49 @@ void Ip2_NscdMat_NscdMat_NscdPhys::go(
 		interaction->phys = spoilt;
 		return;
 	}
-	shared_ptr<NscdPhys> phys;
-	const auto           weak1 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1),
-	           weak2           = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
-	const auto* law            = static_cast<const NscdMat&>(*m1).interfaceWith(static_cast<const NscdMat&>(*m2));
-	if (const auto* weakLaw = dynamic_cast<const SlipWeakeningMat*>(law)) {
-		auto weak          = boost::make_shared<SlipWeakeningPhys>();
-		weak->wallMaterial = boost::static_pointer_cast<SlipWeakeningMat>(
-		        const_cast<SlipWeakeningMat*>(weakLaw)->shared_from_this());
-		weak->body  = std::min(interaction->getId1(), interaction->getId2());
-		weak->other = std::max(interaction->getId1(), interaction->getId2());
-		phys        = weak;
-	} else if (!law && (weak1 || weak2)) {
-		auto weak          = boost::make_shared<SlipWeakeningPhys>();
-		weak->wallMaterial = weak1 ? weak1 : weak2;
-		weak->body         = weak1 ? interaction->getId2() : interaction->getId1();
-		phys               = weak;
-	} else
-		phys = boost::make_shared<NscdPhys>();
-	setStrengths(*phys, b1, b2);
-	interaction->phys = phys;
+	interaction->phys = make(m1, m2, *interaction);
+	setStrengths(static_cast<NscdPhys&>(*interaction->phys), b1, b2);
 }
 
-void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, const Body& b2)
+shared_ptr<NscdPhys> Ip2_NscdMat_NscdMat_NscdPhys::make(
+        const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const Interaction& interaction)
+{
+	const auto weak1 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1),
+	           weak2 = boost::dynamic_pointer_cast<SlipWeakeningMat>(m2);
+	const auto* law  = static_cast<const NscdMat&>(*m1).interfaceWith(static_cast<const NscdMat&>(*m2));
+	const auto* weak = dynamic_cast<const SlipWeakeningMat*>(law);
+	if (!weak && (law || (!weak1 && !weak2))) return boost::make_shared<NscdPhys>();
+	const auto id1 = interaction.getId1(), id2 = interaction.getId2();
+	const auto phys = boost::make_shared<SlipWeakeningPhys>();
+	if (weak) {
+		phys->wallMaterial = boost::static_pointer_cast<SlipWeakeningMat>(
+		        const_cast<SlipWeakeningMat*>(weak)->shared_from_this());
+		phys->body  = std::min(id1, id2);
+		phys->other = std::max(id1, id2);
+	} else {
+		phys->wallMaterial = weak1 ? weak1 : weak2;
+		phys->body         = weak1 ? id2 : id1;
+	}
+	for (const auto id : { phys->body, phys->other })
+		if (id >= 0) phys->wallMaterial->claim(Body::byId(id));
+	return phys;
+}
+
+void Ip2_NscdMat_NscdMat_NscdPhys::renew(Interaction& interaction, const Body& b1, const Body& b2)
+{
+	auto&      old  = static_cast<NscdPhys&>(*interaction.phys);
+	const auto made = make(b1.material, b2.material, interaction);
+	setStrengths(old, b1, b2);
+	const auto *was = dynamic_cast<const SlipWeakeningPhys*>(&old),
+	           *is  = dynamic_cast<const SlipWeakeningPhys*>(made.get());
+	if (!was && !is) return;
+	if (was && is && was->wallMaterial == is->wallMaterial && was->body == is->body && was->other == is->other)
+		return;
+	static_cast<NscdPhys&>(*made) = old;
+	interaction.phys              = made;
+}
+
+void Ip2_NscdMat_NscdMat_NscdPhys::checkMaterials(const Body& b1, const Body& b2)
 {
 	for (const Body* body : { &b1, &b2 }) {
 		const string who = "body #" + std::to_string(body->getId());
@@ -145,6 +193,11 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, 
 			        who + " has a " + body->material->getClassName()
 			        + " in a rigid contact: give it an NscdMat");
 	}
+}
+
+void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Body& b1, const Body& b2)
+{
+	checkMaterials(b1, b2);
 	setStrengths(
 	        phys, strengthsOf(static_cast<const NscdMat&>(*b1.material), static_cast<const NscdMat&>(*b2.material)),
 	        nscd::meanDiameter(b1, b2));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "NscdMat.hpp"
+#include "PythonMade.hpp"
 #include <contact/plane/thresholds.hpp>
 #include <core/Dispatching.hpp>
 #include <optional>
@@ -19,13 +20,21 @@ public:
 	virtual ~NscdPhys() = default;
 	/// Sets F_a [N], μ_s and μ_r ℓ [m] of the next step for a gap [m]; adhesionRange in units of ℓ.
 	virtual void updateThresholds(Real gap, Real adhesionRange);
-	/// Notes a way [m] slipped in a step, by its number.
+	/// Notes a way [m] slipped in a step, by a number that no other step has.
 	virtual void addSlip(Real, long) { }
 	virtual bool countsSlip() const { return false; }
 	/// A script has set an attribute; nscd::Resident takes it up. C++ that changes one where no engine has its turn sets this too.
-	void postLoad(NscdPhys&) { touched = true; }
+	void postLoad(NscdPhys&)
+	{
+		touched = true;
+		if (!bonded) axis = Vector3r::Zero();
+	}
+	/// Whether a script has set `bonded` where no bond was made: the next loop makes it, as the bodies are then.
+	bool isBondWanted() const { return bonded && axis == Vector3r::Zero(); }
+	/// An attribute whose number makes no sense in the law, and the number; null where all do.
+	std::pair<const char*, Real> senseless() const;
 	/// Whether somebody has written into an attribute of FrictPhys since it was last set here: those of YADE's own classes leave no mark.
-	bool isWritten() const { return tangensOfFrictionAngle != currentFriction || isReset() || unheard(); }
+	bool isWritten() const { return isFrictionWritten() || isReset() || unheard(); }
 	/// The attribute of YADE's own classes that was written to and that a rigid contact cannot hear; null where there is none.
 	const char* unheard() const;
 	/// Whether somebody has set the forces of a step to zero.
@@ -33,6 +42,13 @@ public:
 	{
 		return !std::isnan(forcesNoted) && forcesNoted != 0 && normalForce == Vector3r::Zero()
 		        && shearForce == Vector3r::Zero();
+	}
+	/// Takes up that they were: what the next step finds is not written over by it.
+	void hearReset()
+	{
+		if (!isReset()) return;
+		normal = tangential = torque = 0;
+		noteForces();
 	}
 	/// Notes that the forces are those of a step.
 	void noteForces() { forcesNoted = sumOfForces(); }
@@ -63,7 +79,7 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 		((Real,correction,0,(Attr::readonly|Attr::hidden),"Pseudo-impulse of the last correction of positions [kg m], from which the next one starts."))
 		((long,brokenStep,-1,Attr::readonly,"Step at which the bond broke; -1: none did since the last one was made."))
 		((int,brokenMode,None,Attr::readonly,"How the bond broke: 0 not broken, 1 tension, 2 shear, 3 torque, 4 mixed."))
-		((bool,bonded,false,Attr::triggerPostLoad,"A bond holds."))
+		((bool,bonded,false,Attr::triggerPostLoad,"A bond holds. Set to True by a script where none does, it is made in the next step, as :yref:`ContactDynamicsEngine.bond` makes it, whatever the gap; set to False it ends, and does not count as broken."))
 		((bool,yielded,false,(Attr::readonly|Attr::hidden),"The bond yielded in tension in the last step."))
 		((bool,slid,false,(Attr::readonly|Attr::hidden),"The bond yielded in shear in the last step."))
 		((bool,rolled,false,(Attr::readonly|Attr::hidden),"The bond yielded in rolling in the last step."))
@@ -73,7 +89,7 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 		((Real,errorSlip,0,(Attr::readonly|Attr::hidden|Attr::noSave),"What it has slipped without having yielded [m]: an error of position."))
 		((Real,errorTurn,0,(Attr::readonly|Attr::hidden|Attr::noSave),"The same of turning [rad]."))
 		((bool,bondable,false,Attr::triggerPostLoad,"A bond may be made here on request."))
-		((bool,breaks,false,(Attr::readonly|Attr::hidden|Attr::noSave),"The bond broke in this step, and is not counted yet; not brokenStep == O.iter, which O.resetTime() makes true again."))
+		((bool,breaks,false,(Attr::readonly|Attr::hidden),"The bond broke in this step, and is not counted yet, also where the scene is saved within the step; not brokenStep == O.iter, which O.resetTime() makes true again."))
 		((Vector3r,yieldPath,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Path [m] yielded in tension, shear and rolling, by which a break is classified."))
 		((Real,residualTensileForce,0,Attr::triggerPostLoad,"F_a of a touching contact that is not bonded [N]."))
 		((Real,residualFriction,0,Attr::triggerPostLoad,"μ_s of a contact that is not bonded."))
@@ -94,6 +110,11 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 	REGISTER_CLASS_INDEX(NscdPhys, FrictPhys);
 
 protected:
+	bool isFrictionWritten() const
+	{
+		return tangensOfFrictionAngle != currentFriction
+		        && !(std::isnan(tangensOfFrictionAngle) && std::isnan(currentFriction));
+	}
 	/// Takes a friction that somebody has written for that of the contact, with a bond and without.
 	void hearFriction();
 
@@ -105,7 +126,7 @@ REGISTER_SERIALIZABLE(NscdPhys);
 
 class SlipWeakeningPhys : public NscdPhys {
 public:
-	virtual ~SlipWeakeningPhys() = default;
+	virtual ~SlipWeakeningPhys() { nscd::letGo(wallMaterial); }
 	void updateThresholds(Real gap, Real adhesionRange) override;
 	void addSlip(Real distance, long step) override;
 	bool countsSlip() const override { return true; }
@@ -119,7 +140,7 @@ along that wall, or of that one's of the two which has slipped farther.)""",
 		,
 		createIndex();
 		,
-		.add_property("slip",+[](const SlipWeakeningPhys& p) { return p.wallMaterial ? p.wallMaterial->slipOf(p.body) : 0; },"Slip [m] of the body along the wall.")
+		.add_property("slip",+[](const SlipWeakeningPhys& p) { return p.wallMaterial ? p.wallMaterial->slipNow(p.body) : 0; },"Slip [m] of the body along the wall.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(SlipWeakeningPhys, NscdPhys);
@@ -136,6 +157,10 @@ public:
 	void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2,
 	        const shared_ptr<Interaction>& interaction) override;
 	FUNCTOR2D(NscdMat, NscdMat);
+	/// Throws std::runtime_error, naming the body, where one of two has no NscdMat.
+	static void checkMaterials(const Body& b1, const Body& b2);
+	/// Takes up the materials that the bodies of a contact have now, and makes its physics one of another class where they ask for that; bond and reactions stay.
+	static void renew(Interaction& interaction, const Body& b1, const Body& b2);
 	/// Sets strengths and lengths of a contact from the materials of its bodies; bond and reactions stay.
 	static void setStrengths(NscdPhys& phys, const Body& b1, const Body& b2);
 	static void setStrengths(NscdPhys& phys, const nonsmooth::contact::plane::Strengths& strengths, Real length);
@@ -150,6 +175,10 @@ R"""(Make a :yref:`NscdPhys` from two :yref:`NscdMats<NscdMat>`, or a :yref:`Sli
 Between particles the weaker of two values holds; at a wall the wall's strengths hold alone (Taboada and Estrada 2009, section 3.3), and so do those of an
 interface (:yref:`NscdMat.interfaceLaws`; section 3.2.1).)""");
 	// clang-format on
+private:
+	/// A physics of the class that two materials ask for, without strengths.
+	static shared_ptr<NscdPhys>
+	make(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const Interaction& interaction);
 };
 REGISTER_SERIALIZABLE(Ip2_NscdMat_NscdMat_NscdPhys);
 

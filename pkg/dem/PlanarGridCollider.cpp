@@ -1,5 +1,7 @@
 #include "PlanarGridCollider.hpp"
+#include "PythonMade.hpp"
 #include "Refusal.hpp"
+#include "SameBody.hpp"
 #include "SceneCheck.hpp"
 #include "StageClock.hpp"
 #include "YadeFeatures.hpp"
@@ -27,21 +29,19 @@ namespace {
 void PlanarGridCollider::action()
 {
 	const nscd::StageTimer timer(nscd::StageClock::of(*scene), nscd::Stage::Collide);
-	nscd::refuseLimiter(*scene, "PlanarGridCollider"); // before it has its turn
-	if (scene->isPeriodic)
-		throw std::runtime_error(
-		        "PlanarGridCollider: periodic scenes are not supported, with any collider: set O.periodic = False and bound the scene by walls");
-	if (!(sureReach >= 0))
-		throw std::runtime_error(
-		        "PlanarGridCollider: sureReach = " + nscd::number(sureReach)
-		        + ": give a gap in units of ℓ that is not negative");
-	if (!std::isfinite(verletDist))
-		throw std::runtime_error(
-		        "PlanarGridCollider: verletDist = " + nscd::number(verletDist)
-		        + ": give a length [m], or a negative number of smallest radii");
 	threads = nscd::threadsOf(*this);
 	ranIn   = never; // until all is done; a step's number comes again after O.resetTime()
+	// what is changed here and what was noted before would not fit together where an exception leaves
+	struct Whole {
+		PlanarGridCollider& collider;
+		const int           exceptions = std::uncaught_exceptions();
+		~Whole()
+		{
+			if (std::uncaught_exceptions() > exceptions) collider.reference.clear();
+		}
+	} whole { *this };
 	nscd::Turn turn(*this, threads);
+	validate();
 	resident           = &turn.resident();
 	const auto& bodies = resident->bodies;
 	if (!resident->hasContacts() && scene->interactions->size() == 0) resident->takeContacts(*scene);
@@ -80,22 +80,39 @@ void PlanarGridCollider::action()
 	resident = nullptr;
 }
 
+void PlanarGridCollider::validate() const
+{
+	nscd::refuseLimiter(*scene, "PlanarGridCollider");
+	if (scene->isPeriodic)
+		throw std::runtime_error(
+		        "PlanarGridCollider: periodic scenes are not supported, with any collider: set O.periodic = False and bound the scene by walls");
+	if (!(sureReach >= 0))
+		throw std::runtime_error(
+		        "PlanarGridCollider: sureReach = " + nscd::number(sureReach)
+		        + ": give a gap in units of ℓ that is not negative");
+	if (!std::isfinite(verletDist))
+		throw std::runtime_error(
+		        "PlanarGridCollider: verletDist = " + nscd::number(verletDist)
+		        + ": give a length [m], or a negative number of smallest radii");
+}
+
 /// Ends the contacts of bodies whose shape was replaced: they hold what was made for the old one. Returns whether there are any.
 bool PlanarGridCollider::renewShapes(bool turned)
 {
 	std::vector<Body::id_t> renewed;
 	for (size_t id = 0; turned && id < disks.size(); ++id)
 		if (hasTurned(id)) renewed.push_back(Body::id_t(id));
-	for (const Side& side : sides) {
-		const auto& b = Body::byId(side.id, scene);
-		if (b && b->shape != side.shape) renewed.push_back(side.id);
+	for (const Side& side : sides) { // nobody tells of bodies that are erased without redirection
+		const bool isThere = scene->bodies->exists(side.id); // O.bodies.clear() leaves fewer
+		if (!isThere || !nscd::isSame(side.shape, Body::byId(side.id, scene)->shape))
+			renewed.push_back(side.id);
 	}
 	if (!renewed.empty()) resident->show();
 	if (!resident->hasBodies()) resident->takeBodies(*scene);
 	for (const Body::id_t id : renewed) {
-		const auto& b = Body::byId(id, scene);
-		if (!b) continue;
-		const auto contacts = b->intrs; // a copy, as erasing changes it
+		if (!scene->bodies->exists(id)) continue;
+		const auto& b        = Body::byId(id, scene);
+		const auto  contacts = b->intrs; // a copy, as erasing changes it
 		for (const auto& [other, contact] : contacts)
 			scene->interactions->erase(id, other, contact->linIx);
 	}
@@ -110,10 +127,12 @@ bool PlanarGridCollider::changed()
 		if (const auto* sphere = dynamic_cast<const Bo1_Sphere_Aabb*>(functor.get()))
 			if (sphere->aabbEnlargeFactor > 0) wanted = sphere->aabbEnlargeFactor;
 	auto&      all = *scene->bodies;
-	const bool is  = wanted != factor || verletDist != verletDistOfLists || reference.size() != all.size()
-	        || scene->doSort || scene->interactions->dirty || !all.checkedByCollider;
+	const bool is  = wanted != factor || verletDist != verletDistOfLists || sureReach != sureReachOfLists
+	        || reference.size() != all.size() || scene->doSort || scene->interactions->dirty
+	        || !all.checkedByCollider || !all.enableRedirection;
 	factor            = wanted;
 	verletDistOfLists = verletDist;
+	sureReachOfLists  = sureReach;
 	scene->doSort = scene->interactions->dirty = false;
 	if (!all.checkedByCollider) {
 		if (all.enableRedirection) all.updateRealBodies();
@@ -133,6 +152,7 @@ void PlanarGridCollider::listSides()
 	boundDispatcher->updateScenePtr();
 	for (const auto& b : *scene->bodies) {
 		if (!b || !b->shape || !b->isBounded() || resident->bodies[b->getId()].plain) continue;
+		nscd::letGo(b->shape->boundFunctor);
 		b->shape->boundFunctor = boundDispatcher->getFunctor1D(b->shape);
 		if (b->shape->boundFunctor) sides.push_back({ b->getId(), {}, {}, b->shape });
 	}

@@ -37,6 +37,7 @@ public:
 	/// Whether two disks that far apart [m], within the reach, should have an interaction in this step.
 	bool wants(Body::id_t a, Body::id_t b, Real distance) const
 	{
+		if (size_t(std::max(a, b)) >= fastest.size()) return true; // a body that came after it ran
 		return distance <= wantedWithin(a, b, std::max(fastest[a], fastest[b]));
 	}
 	// clang-format off
@@ -56,9 +57,9 @@ private:
 	using Box = nonsmooth::neighbours::Box;
 	/// A body that is no sphere, and where its box was when pairs were looked up.
 	struct Side {
-		Body::id_t        id;
-		Box               box, reference;
-		shared_ptr<Shape> shape; // that its contacts were made for
+		Body::id_t             id;
+		Box                    box, reference;
+		boost::weak_ptr<Shape> shape; // that its contacts were made for
 	};
 	struct SidePair {
 		int  side; // place in `sides`
@@ -72,6 +73,7 @@ private:
 	}
 	/// Whether a body is a disk now and was none when pairs were looked up, or the other way round.
 	bool hasTurned(size_t id) const { return id < reference.size() && (disks[id].r < 0) != (reference[id].r < 0); }
+	void validate() const;
 	bool changed();
 	bool renewShapes(bool turned);
 	void listSides();
@@ -99,11 +101,11 @@ private:
 	int  threads = 1;
 	long sizeLeft
 	        = 0; // of O.interactions at the end of the last run, without those that were made for the arrays' contacts
-	Real                                     factor            = 1; // reach of disks in sums of radii
-	Real                                     verletDistOfLists = 0; // the attribute as it was when they were made
-	nscd::Resident*                          resident          = nullptr; // during a turn
-	static constexpr long                    never             = std::numeric_limits<long>::min();
-	long                                     ranIn             = never; // step
+	Real            factor            = 1; // reach of disks in sums of radii
+	Real            verletDistOfLists = 0, sureReachOfLists = -1; // attributes as they were when they were made
+	nscd::Resident* resident                       = nullptr; // during a turn
+	static constexpr long                    never = std::numeric_limits<long>::min();
+	long                                     ranIn = never; // step
 	std::vector<nonsmooth::neighbours::Disk> disks,
 	        reference; // by body, now and when pairs were looked up; none where that must be done anew
 	nonsmooth::neighbours::DiskGrid grid;

@@ -56,13 +56,14 @@ void checkGravity(const Scene& scene, const Vector3r& gravity, const Vector3r& f
 		        + (along ? " in a scene whose heights are y (scripts with z up need z and y exchanged)" : "");
 	};
 	const auto check = [&](const Vector3r& g, const string& name) {
-		if (!std::isfinite(g.sum())) fail(name + " = " + text(g) + " m/s²: give finite components");
+		if (!isNumber(g.cwiseAbs().maxCoeff()) || std::isnan(g.sum()))
+			fail(name + " = " + text(g) + " m/s²: give finite components");
 		if (leaves(g)) fail(name + " = " + text(g) + " m/s²" + remedy(g));
 	};
+	check(final, "finalGravity"); // first: the integrator's is a part of it
 	for (const auto& engine : scene.engines)
 		if (!engine->dead && dynamic_cast<const NewtonIntegrator*>(engine.get()))
 			check(gravity, named(*engine) + ".gravity");
-	check(final, "finalGravity");
 }
 
 bool leavesPlane(const Vector3r& force, const Vector3r& torque, Real mass, Real inertia, const Vector3r& gravity)

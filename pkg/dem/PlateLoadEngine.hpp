@@ -44,7 +44,10 @@ private:
 	void         validate() const;
 	Real         presentWidth(const nscd::Resident& resident, const Vector3r& way) const;
 	Interaction* guide();
+	void         dropFormerGuide(nscd::Resident& resident);
 	void         hold(nscd::Resident& resident, const Vector3r& way);
+
+	Body::id_t guidedBy = -2; // the rail of the last step; −2: not known
 };
 REGISTER_SERIALIZABLE(PlateLoadEngine);
 

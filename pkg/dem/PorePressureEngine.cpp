@@ -2,8 +2,10 @@
 #include "Gravity.hpp"
 #include "PythonBytes.hpp"
 #include "Refusal.hpp"
+#include "SameBody.hpp"
 #include "YadeFeatures.hpp"
 #include "seam/Resident.hpp"
+#include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <lib/high-precision/Constants.hpp>
 
@@ -28,13 +30,23 @@ void PorePressureEngine::validate() const
 {
 	for (const auto& [name, value] : { std::pair("unitWeight", unitWeight), std::pair("volumeFactor", volumeFactor),
 	                                   std::pair("thickness", thickness) })
-		if (!std::isfinite(value)) refuse(name, value);
-	if (std::isnan(releaseDistance)) refuse("releaseDistance", releaseDistance);
+		nscd::require(
+		        value >= 0 && nscd::isNumber(value), "PorePressureEngine", name, value,
+		        "0 or more, and finite");
+	nscd::require(
+	        releaseDistance >= 0, "PorePressureEngine", "releaseDistance", releaseDistance,
+	        "0 or more [m]; infinite, and water acts on a body wherever it goes");
 	for (const auto& [name, values] :
 	     { std::pair("planePoint", &planePoint), std::pair("planeNormal", &planeNormal),
 	       std::pair("pressureGradient", &pressureGradient) })
 		for (int k = 0; k < 3; ++k)
-			if (!std::isfinite((*values)[k])) refuse(name, k, (*values)[k]);
+			if (!nscd::isNumber((*values)[k])) refuse(name, k, (*values)[k]);
+	for (const auto& [name, values] :
+	     { std::pair("planeNormal", &planeNormal), std::pair("pressureGradient", &pressureGradient) })
+		if ((*values)[2] != 0)
+			throw std::invalid_argument(
+			        string("PorePressureEngine: ") + name + "[2] = " + nscd::number((*values)[2])
+			        + ": give 0, as bodies stay in the x-y plane");
 	if (planeNormal == Vector3r::Zero())
 		throw std::invalid_argument(
 		        "PorePressureEngine: planeNormal = (0, 0, 0): give the direction from the sliding plane to the water");
@@ -53,8 +65,12 @@ Real PorePressureEngine::heightAt(Real time) const
 	check("times", times);
 	check("heights", heights);
 	if (times.empty()) return 0;
-	if (!std::is_sorted(times.begin(), times.end()))
-		throw std::invalid_argument("PorePressureEngine: times must rise");
+	for (size_t k = 1; k < times.size(); ++k)
+		if (times[k] < times[k - 1])
+			throw std::invalid_argument(
+			        "PorePressureEngine: times[" + std::to_string(k - 1)
+			        + "] = " + nscd::number(times[k - 1]) + " and times[" + std::to_string(k)
+			        + "] = " + nscd::number(times[k]) + ": times must rise");
 	if (time <= times.front()) return heights.front();
 	if (time >= times.back()) return heights.back();
 	const size_t k = std::upper_bound(times.begin(), times.end(), time) - times.begin();
@@ -83,11 +99,59 @@ void PorePressureEngine::pyHandleCustomCtorArgs(boost::python::tuple&, boost::py
 	if (named.has_key("gradient")) setGradient(boost::python::extract<Vector3r>(named.attr("pop")("gradient")));
 }
 
+/// What was noted of bodies whose id another one has now. Of one that is gone it stays.
+void PorePressureEngine::forgetOthers(const nscd::Resident& resident)
+{
+	const auto& bodies = *scene->bodies;
+	if (lookedAt.lock().get() == &resident && looked == resident.taken && owners.size() == bodies.size()) return;
+	lookedAt = nscd::Resident::of(*scene);
+	looked   = resident.taken;
+	if (owners.empty()) // new, or loaded: those that are there are those that were, but for what was put in since
+		for (const int id : bodies.insertedBodies)
+			if (bodies.exists(id) && bodies[id]->iterBorn == scene->iter) forgetWayOf(id);
+	const size_t known = owners.size();
+	owners.resize(bodies.size());
+	for (size_t id = 0; id < owners.size(); ++id) {
+		if (!bodies[id]) continue;
+		if (id < known && !nscd::isSame(owners[id], bodies[id])) forgetWayOf(id);
+		owners[id] = bodies[id];
+	}
+	for (size_t id = 0; id < reference.size(); ++id)
+		if (std::isnan(reference[id][0]) && bodies.exists(id)) reference[id] = resident.bodies[id].place();
+}
+
+void PorePressureEngine::forgetWayOf(size_t id)
+{
+	if (id < reference.size()) reference[id].setConstant(NaN); // until the body is met
+	if (id < moved.size()) moved[id] = 0;
+	if (id < everWet.size()) everWet[id] = 0;
+}
+
+void PorePressureEngine::preSave(PorePressureEngine&)
+{
+	const auto& bodies = *Omega::instance().getScene()->bodies;
+	if (const auto resident = lookedAt.lock(); resident != nscd::Resident::of(*Omega::instance().getScene()))
+		return;
+	for (size_t id = 0; id < std::min(owners.size(), bodies.size()); ++id)
+		if (bodies[id] && !nscd::isSame(owners[id], bodies[id])) {
+			forgetWayOf(id);
+			owners[id] = bodies[id];
+		}
+}
+
 void PorePressureEngine::action()
 {
+	nscd::Turn turn(
+	        *this,
+	        nscd::threadsOf(*this)); // first: a refusal shows what the engines before have left in the arrays
 	validate();
-	const Vector3r gravity   = nscd::gravityOf(*scene);
-	const Vector3r normal    = planeNormal.normalized();
+	const Vector3r gravity = nscd::gravityOf(*scene);
+	const Vector3r normal  = planeNormal.normalized();
+	if (gravity.dot(normal) > 0)
+		throw std::invalid_argument(
+		        "PorePressureEngine: planeNormal = (" + nscd::number(planeNormal[0]) + ", "
+		        + nscd::number(planeNormal[1])
+		        + ", 0) points along gravity: give the direction from the sliding plane up into the slope");
 	const Real     cosDip    = gravity.norm() > 0 ? -gravity.normalized().dot(normal) : 1;
 	const Vector3r down      = gravity - gravity.dot(normal) * normal;
 	const Vector3r downhill  = down.norm() > 1e-9 * gravity.norm() ? Vector3r(down.normalized())
@@ -99,12 +163,12 @@ void PorePressureEngine::action()
 	releasedCount            = 0;
 	totalForce               = Vector3r::Zero();
 
-	nscd::Turn   turn(*this, nscd::threadsOf(*this));
 	const auto&  bodies = turn.resident().bodies;
 	const size_t size   = bodies.size();
 	moved.resize(size, 0);
 	everWet.resize(size, 0);
 	wet.assign(size, 0);
+	forgetOthers(turn.resident());
 	for (size_t id = reference.size(); id < size; ++id)
 		reference.push_back(bodies[id].present ? bodies[id].place() : Vector3r(Vector3r::Zero()));
 	for (size_t id = 0; id < size; ++id) {

@@ -13,10 +13,16 @@
 
 namespace yade {
 
+namespace nscd {
+	class Resident;
+}
+
 class PorePressureEngine : public GlobalEngine {
 public:
 	void action() override;
 	void pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& named) override;
+	/// A file has nothing of bodies whose id another one has now.
+	void preSave(PorePressureEngine&);
 	Real heightAt(Real time) const;
 	/// Throws std::invalid_argument, naming it, for a number that is none.
 	void validate() const;
@@ -25,6 +31,7 @@ public:
 		moved.clear();
 		everWet.clear();
 		reference.clear();
+		owners.clear();
 	}
 	bool isWet(int id) const { return id < (int)wet.size() && wet[id] != 0; }
 	bool wasWet(int id) const { return id < (int)everWet.size() && everWet[id] != 0; }
@@ -73,6 +80,12 @@ private:
 	// `0 -` leaves no negative zeros
 	Vector3r minusPressureGradient() const { return Vector3r::Zero() - pressureGradient; }
 	void     setGradient(const Vector3r& perVolume);
+	void     forgetOthers(const nscd::Resident& resident);
+	void     forgetWayOf(size_t id);
+
+	std::vector<boost::weak_ptr<Body>> owners; // by id: whose way and water are noted; none after loading
+	std::weak_ptr<nscd::Resident>      lookedAt; // where bodies were compared with these, and
+	long                               looked = 0; // when, by Resident::taken
 };
 REGISTER_SERIALIZABLE(PorePressureEngine);
 

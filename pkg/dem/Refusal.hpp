@@ -10,6 +10,18 @@ namespace yade::nscd {
 
 [[noreturn]] inline void fail(const string& why) { throw std::runtime_error("ContactDynamicsEngine: " + why); }
 
+/// Up to here squares and products of numbers are numbers; whatever is larger is a slip of the pen.
+constexpr Real hugest = 1e100;
+inline bool    isNumber(Real value) { return std::abs(value) <= hugest; } // false for what is none
+
+inline string number(Real value);
+
+/// Refuses an attribute where a script sets it. Throws std::invalid_argument, ValueError in Python.
+inline void require(bool good, const string& who, const char* name, Real value, const char* what)
+{
+	if (!good) throw std::invalid_argument(who + ": " + name + " = " + number(value) + ": it must be " + what);
+}
+
 /// In as few digits as tell it, as Python writes it: 1000000, 0.001, 1e+20.
 inline string number(Real value)
 {

@@ -2,6 +2,7 @@
 #include "Arc.hpp"
 #include "ContactDynamicsEngine.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
+#include "PlanarGridCollider.hpp"
 #include "Refusal.hpp"
 #include "Segment.hpp"
 #include <cmath>
@@ -192,8 +193,7 @@ namespace {
 			fail(body(wall.getId()) + " is a wall with " + name + " = " + number(value) + ": " + remedy);
 		};
 		const auto check = [&](const char* name, Real length, int sense) {
-			if (!(length > 0 && std::isfinite(length)))
-				refuseShape(name, length, "give a positive length [m]");
+			if (!(length > 0 && isNumber(length))) refuseShape(name, length, "give a positive length [m]");
 			if (sense < -1 || sense > 1) refuseShape("sense", sense, "give 1, -1 or 0, the side that acts");
 		};
 		const auto* segment = dynamic_cast<const Segment*>(wall.shape.get());
@@ -240,6 +240,31 @@ namespace {
 				        collider, box->getClassName(), "aabbEnlargeFactor", box->aabbEnlargeFactor,
 				        "give a finite factor, as 1 + reach of the law");
 	}
+}
+
+void checkSureReach(const Scene& scene, Real openGap)
+{
+	const PlanarGridCollider* collider = nullptr;
+	for (const auto& engine : scene.engines)
+		if (const auto* found = engine->dead ? nullptr : dynamic_cast<const PlanarGridCollider*>(engine.get()))
+			collider = found;
+	if (!collider) return;
+	Real reach = 0;
+	for (const auto& functor : collider->boundDispatcher->functors)
+		if (const auto* box = dynamic_cast<const Bo1_Sphere_Aabb*>(functor.get()))
+			reach = std::max(reach, box->aabbEnlargeFactor - 1);
+	const auto refuse = [&](const string& what, Real least) {
+		// what nobody has within the reach does not matter
+		if (collider->sureReach < std::min(least, reach))
+			fail("PlanarGridCollider.sureReach = " + number(collider->sureReach) + " is below " + what
+			     + " = " + number(least)
+			     + ": slow disks so far apart would have no contact: raise it to that");
+	};
+	refuse("openGap", openGap);
+	for (const auto& material : scene.materials)
+		if (const auto* nscd = dynamic_cast<const NscdMat*>(material.get()))
+			refuse("bondCreationDistance of " + nscd->getClassName() + " '" + nscd->label + "'",
+			       nscd->bondCreationDistance);
 }
 
 void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped)
@@ -318,10 +343,12 @@ void refuseContact(const Scene& scene, const Reading& reading)
 		     + number(reading.nz) + "; centres at z = " + number(b1->state->pos[2]) + " and "
 		     + number(b2->state->pos[2]) + " m): put all disks at one z, and walls upright to the plane");
 	if (const char* name = reading.phys->unheard()) refuseWritten(pair, *reading.phys, name);
+	const auto [name, value] = reading.phys->senseless();
 	fail(pair + " has numbers without sense: friction " + number(reading.friction) + ", tensile force "
 	     + number(reading.adhesion) + " N, rolling arm " + number(reading.rollingArm) + " m, mean diameter "
 	     + number(reading.length) + " m, restitution " + number(reading.restitution)
-	     + "; all must be finite and not negative, the diameter positive, restitution from 0 to 1: set them in its phys, or take them from the materials with "
+	     + (name ? string(", phys.") + name + " " + number(value) : "")
+	     + "; all must be finite and not negative, the diameter and a bond's ellipse positive, restitution from 0 to 1: set them in its phys, or take them from the materials with "
 	       "ContactDynamicsEngine.updateStrengths()");
 }
 

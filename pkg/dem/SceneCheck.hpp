@@ -19,6 +19,9 @@ void checkEngines(const Scene& scene, const Engine& solver);
 void refuseLimiter(const Scene& scene, const char* who);
 
 /// Refuses bodies that could be touched and never are, since the engines have no functor for their shapes; `shaped`: those that are no disks and of no clump.
+/// Refuses a collider whose sure reach leaves out contacts that are solved or could be bonded; `openGap` [ℓ] is the solver's.
+void checkSureReach(const Scene& scene, Real openGap);
+
 /// Throws std::runtime_error.
 void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped);
 

@@ -1,6 +1,8 @@
 // A wall in two dimensions: a line segment at any angle, alone or as a piece of a polyline.
 #pragma once
 
+#include "Refusal.hpp"
+
 #include <core/Dispatching.hpp>
 #include <core/Shape.hpp>
 #include <contact/plane/motion.hpp>
@@ -12,14 +14,22 @@ namespace yade {
 class Segment : public Shape {
 public:
 	virtual ~Segment() = default;
+	/// A script has set a number: refused at once, since no disk could touch a wall of it.
+	void postLoad(Segment&) const
+	{
+		nscd::require(
+		        halfLength > 0 && nscd::isNumber(halfLength), "Segment", "halfLength", halfLength,
+		        "positive and finite [m]");
+		nscd::require(sense >= -1 && sense <= 1, "Segment", "sense", sense, "1, -1 or 0, the side that acts");
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(Segment,Shape,
 R"""(Line segment in the x-y plane: centred on the body's position, along the body's local x axis. Segments and :yref:`arcs<Arc>` whose ends meet are one wall, however
 they were made, and as long as they meet: a sphere at a joint has one contact, with the wall above whose length the sphere's centre stands,
 or with that of lower id where the centre stands in the wedge outside a convex corner. Walls meet where their ends are nearer than a millionth of the shorter one's length, or where an end lies on
 the other wall; those of different :yref:`groupMask<Body.groupMask>` do not. See :yref:`yade.nonsmooth.scene.segments`.)""",
-		((Real,halfLength,1,,"Half of the length [m]."))
-		((int,sense,0,,"Side that acts: 0 both, 1 that of local +y only, −1 that of local −y only. A one-sided segment also pushes back a sphere whose centre is behind it by less than its radius."))
+		((Real,halfLength,1,Attr::triggerPostLoad,"Half of the length [m]."))
+		((int,sense,0,Attr::triggerPostLoad,"Side that acts: 0 both, 1 that of local +y only, −1 that of local −y only. A one-sided segment also pushes back a sphere whose centre is behind it by less than its radius."))
 		((Vector3r,nextDirection,Vector3r::Zero(),,"Not zero: this segment has the corner at its local +x end before the one that begins there with :yref:`hasPrevious<Segment.hasPrevious>`, whichever has the lower id. Direction of that one in this one's frame, pointing away from the joint."))
 		((bool,hasPrevious,false,,"The segment that ends at this one's local −x end has their corner, see :yref:`nextDirection<Segment.nextDirection>`."))
 		((Vector3r,previousDirection,Vector3r::Zero(),,"The same as :yref:`nextDirection<Segment.nextDirection>` at the local −x end, for one that ends there with :yref:`hasNext<Segment.hasNext>`; pointing to the joint."))
@@ -100,10 +110,17 @@ public:
 	        const shared_ptr<Shape>& sphere, const shared_ptr<Shape>& segment, const State& state1,
 	        const State& state2, const Vector3r& shift2, const bool& force,
 	        const shared_ptr<Interaction>& interaction) override;
+	void postLoad(Ig2_Segment_Sphere_ScGeom&) const
+	{
+		nscd::require(
+		        interactionDetectionFactor >= 1 && nscd::isNumber(interactionDetectionFactor), getClassName(),
+		        "interactionDetectionFactor", interactionDetectionFactor,
+		        "1 or more, and finite, as 1 + reach of the law");
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Ig2_Segment_Sphere_ScGeom,IGeomFunctor,
 R"""(Make or update the geometry of a :yref:`Segment` and a :yref:`Sphere`, also while the gap is open.)""",
-		((Real,interactionDetectionFactor,1,,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
+		((Real,interactionDetectionFactor,1,Attr::triggerPostLoad,"A contact exists where the gap is below (factor − 1) times the sphere's diameter; at least 1, as for :yref:`Ig2_Sphere_Sphere_ScGeom.interactionDetectionFactor`."))
 	);
 	// clang-format on
 	FUNCTOR2D(Segment, Sphere);

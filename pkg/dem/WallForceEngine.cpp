@@ -1,5 +1,6 @@
 #include "WallForceEngine.hpp"
 #include "Gravity.hpp"
+#include "Refusal.hpp"
 
 namespace yade {
 
@@ -11,6 +12,11 @@ void WallForceEngine::action()
 	if (along.size() != ids.size())
 		fail(std::to_string(ids.size()) + " ids and " + std::to_string(along.size())
 		     + " directions: give one along each piece");
+	for (size_t k = 0; k < along.size(); ++k)
+		if (!(std::abs(along[k].norm() - 1) <= 1e-6) || along[k][2] != 0)
+			fail("along[" + std::to_string(k) + "] = (" + nscd::number(along[k][0]) + ", "
+			     + nscd::number(along[k][1]) + ", " + nscd::number(along[k][2])
+			     + "): give a unit vector in the x-y plane");
 	if (period < 1) fail("period = " + std::to_string(period) + ": it must be at least 1");
 	const auto& engines = scene->engines;
 	const auto  before  = std::find_if(engines.begin(), engines.end(), [this](const auto& e) {
@@ -22,6 +28,7 @@ void WallForceEngine::action()
 		fail("it stands before the integrator in O.engines, where forces are not yet whole: put it behind");
 	if ((scene->iter + 1) % period != 0) return;
 
+	scene->forces.sync(); // a script may have added one since the integrator had its turn
 	Real inwards = 0, onwards = 0;
 	for (size_t k = 0; k < ids.size();) {
 		const Vector3r& way = along[k];

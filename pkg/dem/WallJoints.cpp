@@ -70,12 +70,15 @@ WallJoints& WallJoints::of(Scene& scene)
 	return *(last = found);
 }
 
+/// A number that is another one in the next step, also after O.resetTime().
+long WallJoints::stepOf(const Scene& scene) { return scene.iter + long(scene.forces.syncCount << 32); }
+
 const WallEnds& WallJoints::endsOf(const Scene& scene, Body::id_t id, bool anew)
 {
 	static const WallEnds free;
-	if (anew || looked != scene.iter) {
+	if (anew || looked != stepOf(scene)) {
 		const std::lock_guard<std::mutex> guard(mutex);
-		if (anew || looked != scene.iter) {
+		if (anew || looked != stepOf(scene)) {
 			std::vector<int> all(scene.bodies->size());
 			std::iota(all.begin(), all.end(), 0);
 			find(scene, all);
@@ -97,7 +100,7 @@ void WallJoints::find(const Scene& scene, const std::vector<int>& ids)
 			placeOf[walls[k].id] = int(k);
 		meet();
 	}
-	looked = scene.iter;
+	looked = stepOf(scene);
 }
 
 /// Takes a body that is a wall in the plane and can be touched.

@@ -85,15 +85,16 @@ private:
 	struct Meeting {
 		int wall, end;
 	};
-	bool isOf(const Scene& scene) const { return !container.expired() && bodies == scene.bodies.get(); }
-	void note(const Body* body);
-	void meet();
-	bool isBefore(int wall, int end, const Meeting& other, bool alone) const;
+	static long stepOf(const Scene& scene);
+	bool        isOf(const Scene& scene) const { return !container.expired() && bodies == scene.bodies.get(); }
+	void        note(const Body* body);
+	void        meet();
+	bool        isBefore(int wall, int end, const Meeting& other, bool alone) const;
 
 	boost::weak_ptr<BodyContainer>      container;
 	const BodyContainer*                bodies = nullptr;
 	std::mutex                          mutex;
-	std::atomic<long>                   looked { std::numeric_limits<long>::min() }; // step
+	std::atomic<long>                   looked { std::numeric_limits<long>::min() }; // step, see stepOf
 	std::vector<Wall>                   walls, now; // of the last look, and of this one
 	std::vector<std::array<WallTip, 2>> tips; // by place in walls, as
 	std::vector<WallEnds>               ends;

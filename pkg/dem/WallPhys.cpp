@@ -1,4 +1,5 @@
 #include "WallPhys.hpp"
+#include "Refusal.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
@@ -7,6 +8,25 @@
 namespace yade {
 
 YADE_PLUGIN((WallPhys)(Ip2_NscdMat_FrictMat_WallPhys));
+
+void WallPhys::postLoad(WallPhys&) const
+{
+	for (const auto& [name, value] :
+	     { std::pair("length", length), std::pair("tensileForce", tensileForce), std::pair("friction", friction),
+	       std::pair("residualFriction", residualFriction), std::pair("rollingArm", rollingArm),
+	       std::pair("residualRollingArm", residualRollingArm), std::pair("kr", kr) })
+		nscd::require(value >= 0 && nscd::isNumber(value), "WallPhys", name, value, "0 or more, and finite");
+	for (const auto& [name, value] :
+	     { std::pair("rollingTorque", rollingTorque), std::pair("restPenetration", restPenetration) })
+		nscd::require(nscd::isNumber(value), "WallPhys", name, value, "finite");
+}
+
+void Ip2_NscdMat_FrictMat_WallPhys::postLoad(Ip2_NscdMat_FrictMat_WallPhys&) const
+{
+	nscd::require(
+	        rollingRatio >= 0 && nscd::isNumber(rollingRatio), getClassName(), "rollingRatio", rollingRatio,
+	        "0 or more, and finite");
+}
 
 void Ip2_NscdMat_FrictMat_WallPhys::go(
         const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
@@ -29,6 +49,7 @@ void Ip2_NscdMat_FrictMat_WallPhys::go(
 	phys->residualRollingArm = nscd::residual(wall.residualRollingFriction, wall.rollingFriction) * phys->length;
 	phys->body               = interaction->getId2();
 	phys->wallMaterial       = boost::dynamic_pointer_cast<SlipWeakeningMat>(m1);
+	if (phys->wallMaterial) phys->wallMaterial->claim(Body::byId(phys->body));
 	phys->tangensOfFrictionAngle = phys->residualFriction;
 	interaction->phys            = phys;
 }

@@ -1,4 +1,5 @@
 """Small scenes that several tests share."""
+import contextlib
 import math
 import os
 import random
@@ -21,6 +22,14 @@ def material(mu=0.3, rolling=0.0, kind=NscdMat, **more):
     made = kind(density=2500, frictionAngle=math.atan(mu), rollingFriction=rolling, **more)
     O.materials.append(made)
     return made
+
+
+def spoilt(thing, **values):
+    """With values without sense, which it has though they are refused where they are set; steps refuse them too."""
+    for name, value in values.items():
+        with contextlib.suppress(ValueError):
+            setattr(thing, name, value)
+    return thing
 
 
 def begin(gravity=(0, -G, 0), dt=1e-3, **options):

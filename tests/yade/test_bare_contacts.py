@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 import pytest
-from contact_scenes import begin, engine, free_disk, material
+from contact_scenes import begin, engine, free_disk, material, spoilt
 from test_view import busy, everything
 from yade import O, utils
 from yade.nonsmooth import scene
@@ -246,7 +246,7 @@ def test_what_is_saved_unseen_goes_on_with_the_same_bits(tmp_path):
 
 
 def test_a_material_without_sense_is_refused_in_the_words_of_the_law():
-    lattice(lambda k: NscdMat(density=2500, frictionAngle=-0.1) if k == 7 else None)
+    lattice(lambda k: spoilt(NscdMat(density=2500), frictionAngle=-0.1) if k == 7 else None)
     with pytest.raises(RuntimeError, match="frictionAngle = -0.1"):
         engine().advance(3, view=False)
 

@@ -2,7 +2,7 @@
 import math
 
 import pytest
-from contact_scenes import G, begin, contacts, material
+from contact_scenes import G, begin, contacts, material, spoilt
 from yade import O
 from yade.nonsmooth import scene
 from yade.nonsmooth.stepping import advance
@@ -182,8 +182,8 @@ def test_saved_and_loaded_an_interface_goes_on(tmp_path):
     "laws, message",
     [
         ([], "that of interfaceLayers"),
-        ([NscdMat(frictionAngle=2.0)], "frictionAngle"),
-        ([SlipWeakeningMat(criticalSlip=-1.0)], "criticalSlip"),
+        ([spoilt(NscdMat(), frictionAngle=2.0)], "frictionAngle"),
+        ([spoilt(SlipWeakeningMat(), restitution=2.0)], "restitution"),
     ],
 )
 def test_an_interface_that_is_none_is_refused(laws, message):

@@ -8,7 +8,7 @@ from yade.minieigenHP import Quaternion
 from yade.nonsmooth import scene
 from yade.wrapper import ContactDynamicsEngine, ForceResetter, PorePressureEngine, WallForceEngine
 
-from contact_scenes import begin, contacts, engine, floor, free_disk, material, run
+from contact_scenes import begin, contacts, engine, floor, free_disk, material, run, spoilt
 
 pytestmark = pytest.mark.usefixtures("empty")
 NAN, INF = math.nan, math.inf
@@ -40,7 +40,7 @@ def test_a_wall_that_no_disk_could_touch(kind, name, value, in_a_run):
     begin()
     if in_a_run:
         run(3)
-    setattr(O.bodies[wall].shape, name, value)
+    spoilt(O.bodies[wall].shape, **{name: value})
     refused(f"body #{wall} is a wall with {name} = .*: give")
 
 
@@ -75,7 +75,7 @@ def test_functors_that_look_for_less_than_contacts(which, value):
     free_disk(0, 0.5, stuff=stuff)
     begin()
     functor = O.engines[2].geomDispatcher.functors[which]
-    functor.interactionDetectionFactor = value
+    spoilt(functor, interactionDetectionFactor=value)
     if value >= 1 and math.isfinite(value):
         return run(2)
     refused(rf"{type(functor).__name__}\.interactionDetectionFactor = .*: give 1 or more")
@@ -102,7 +102,7 @@ def test_water_of_no_weight(name, value):
     begin()
     water = PorePressureEngine(times=[0], heights=[5], **{name: value})
     O.engines = [O.engines[0], water, *O.engines[1:]]
-    with pytest.raises(ValueError, match=f"{name} = .*: give a finite number"):
+    with pytest.raises(ValueError, match=f"{name} = .*: it must be 0 or more, and finite"):
         run(1)
 
 

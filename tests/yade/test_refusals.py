@@ -35,7 +35,7 @@ from yade.wrapper import (
     SlipWeakeningMat,
 )
 
-from contact_scenes import G, begin, contacts, engine, launch, material, refused, run
+from contact_scenes import G, begin, contacts, engine, launch, material, refused, run, spoilt
 
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -359,7 +359,7 @@ def test_a_material_given_straight_to_a_body(kind, values, words, loop):
     disk = rests_on_a_floor()
     body = 0 if kind is SlipWeakeningMat else disk
     # not one of O.materials, which are looked at in every step
-    O.bodies[body].material = kind(**{"density": 2500.0, "frictionAngle": 0.3, **values})
+    O.bodies[body].material = spoilt(kind(density=2500.0, frictionAngle=0.3), **values)
     loop()
     refused(f"body #{body}", words, "must be")
     O.bodies[body].material = O.materials[0]
@@ -388,7 +388,8 @@ def test_strengths_set_by_hand(name, value, word):
 
 
 @pytest.mark.parametrize(
-    "stuff, word", [(FrictMat(), "FrictMat"), (NscdMat(restitution=3.0), "restitution = 3"), (None, "no material")]
+    "stuff, word",
+    [(FrictMat(), "FrictMat"), (spoilt(NscdMat(), restitution=3.0), "restitution = 3"), (None, "no material")],
 )
 def test_update_strengths_from_materials_that_have_none(stuff, word):
     disk = rests_on_a_floor()

@@ -67,11 +67,10 @@ bool takesTurns(const Engine& engine)
 	        PlanarNewtonIntegrator>(engine);
 }
 
-bool mayAct(const Engine& engine, long iter, Real time)
+bool mayAct(const Engine& engine, long iter, Real time, Real step)
 {
 	if (isBlind(engine)) return false;
-	if (isOneOf<CourseRunner>(engine))
-		return static_cast<const CourseRunner&>(engine).isDue(time, engine.scene->dt);
+	if (isOneOf<CourseRunner>(engine)) return static_cast<const CourseRunner&>(engine).isDue(time, step);
 	const auto* periodic = isRunnerOrRecorder(engine) ? dynamic_cast<const PeriodicEngine*>(&engine) : nullptr;
 	if (!periodic) return true;
 	const PeriodicEngine& p = *periodic;
@@ -97,6 +96,31 @@ bool onlyPythonBefore(const Scene& scene, const Engine& engine)
 	return true;
 }
 
+bool isTooLate(const Scene& scene, const Engine& engine)
+{
+	const auto& all  = scene.engines;
+	auto        here = placeOf(scene, engine);
+	while (here != all.end() && here != all.begin()) {
+		const Engine& before = **--here;
+		if (before.dead) continue;
+		if (takesTurns(before)) return false;
+		// of others it cannot be told afterwards whether they have acted
+		if (!isBlind(before) && !dynamic_cast<const PeriodicEngine*>(&before) && !isOneOf<CourseRunner>(before))
+			return true;
+	}
+	return false;
+}
+
+const Engine* whoLooksFirst(const Scene& scene)
+{
+	for (const auto& engine : scene._nextEngines.empty() ? scene.engines : scene._nextEngines) {
+		if (engine->dead) continue;
+		if (takesTurns(*engine)) return nullptr;
+		if (mayAct(*engine, scene.iter, scene.time, scene.dt)) return engine.get();
+	}
+	return nullptr;
+}
+
 Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
 {
 	const auto& all  = scene.engines;
@@ -106,7 +130,7 @@ Viewer whoLooksAfter(const Scene& scene, const Engine& engine)
 	const auto passes = [&](const Engine& e, long iter, Real time) {
 		if (e.dead) return false;
 		if (takesTurns(e)) return true;
-		if (!mayAct(e, iter, time)) return false;
+		if (!mayAct(e, iter, time, scene.dt)) return false;
 		found.isPython = isRunnerOrRecorder(e) && (found.name.empty() || found.isPython);
 		if (found.name.empty()) found.name = named(e);
 		return false;

@@ -132,7 +132,7 @@ inline void readThresholds(Reading& r)
 	r.friction           = phys.currentFriction;
 	r.rollingArm         = phys.currentRollingArm;
 	r.residualAdhesion   = phys.residualTensileForce;
-	r.usable             = makeSense(r) && !phys.unheard();
+	r.usable             = makeSense(r) && !phys.unheard() && !phys.senseless().first;
 }
 
 /// What an interaction itself says; `geom` is null where it is not real.

@@ -222,7 +222,8 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		if (!std::isfinite(
 		            v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + s.motion.rotation.z
 		            + s.motion.rotation.w + w.x + w.y + w.w)
-		    || (moves && (d & planar) != planar) || s.clumped || w.x < 0 || w.y < 0 || w.w < 0
+		    || (moves && (d & planar) != planar) || s.clumped || (!(d & State::DOF_X) && !(w.x > 0))
+		    || (!(d & State::DOF_Y) && !(w.y > 0)) || (!(d & State::DOF_RZ) && !(w.w > 0))
 		    || (moves && out && leavesPlane(f, m, s.mass, s.inertia, gravity))
 		    || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
 			bad = std::max(bad, (int)id);
@@ -239,13 +240,16 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		if (!std::isfinite(s.ori.coeffs().sum()))
 			refuse(body, "has an orientation that is not finite",
 			       "set state.ori = Quaternion((0, 0, 1), angle)");
-		const unsigned free = ~s.blockedDOFs;
-		if (((free & (State::DOF_X | State::DOF_Y)) && !(s.mass > 0))
-		    || ((free & State::DOF_RZ) && !(s.inertia[2] > 0)))
+		const unsigned free    = ~s.blockedDOFs;
+		const auto     resists = [](Real value) {
+                        return value > 0 && std::isfinite(value) && std::isfinite(1 / value);
+		};
+		if (((free & (State::DOF_X | State::DOF_Y)) && !resists(s.mass))
+		    || ((free & State::DOF_RZ) && !resists(s.inertia[2])))
 			refuse(body,
 			       "can move but has mass = " + number(s.mass) + " kg and inertia = " + number(s.inertia[2])
 			               + " kg m² about z",
-			       "set state.mass and state.inertia to positive values, or block its DOFs");
+			       "set state.mass and state.inertia to positive values of the body's size, or block its DOFs");
 		if (read[bad].radius > 0 && !(std::abs(s.pos[2] - plane) <= flatness * read[bad].radius))
 			refuse(body,
 			       "is at z = " + number(s.pos[2]) + " m and body #" + std::to_string(first - read.begin())

@@ -2,6 +2,7 @@
 #include "ContactSeam.hpp"
 #include "Prefetch.hpp"
 #include <algorithm>
+#include <atomic>
 #include <contact/law.hpp>
 #include <contact/plane/bond.hpp>
 
@@ -200,7 +201,9 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 		}
 	}
 
-	// slip goes into materials that many contacts share, so one after the other
+	// slip goes into materials that many contacts share, so one after the other; O.iter would come again after O.resetTime()
+	static std::atomic<long> allSteps { 0 };
+	const long               number = ++allSteps;
 	for (size_t part = 0; part < chunksC; ++part)
 		for (size_t k = part * sumChunk; slip[part] && k < std::min((part + 1) * sumChunk, count); ++k) {
 			const Contact& c = problem.contacts[k];
@@ -208,7 +211,7 @@ StepSums ContactSeam::scatter(Scene& scene, const Vector3r& gravity, int threadC
 			if (!r.slips || impulseOfStep(k).n + c.adhesion <= 0) continue;
 			const auto apart = contact::relativeVelocity(
 			        c, problem.velocities[c.i], problem.velocities[c.j]);
-			r.phys->addSlip(std::abs(h * apart.t), scene.iter);
+			r.phys->addSlip(std::abs(h * apart.t), number);
 		}
 	broken.clear();
 	for (size_t part = 0; part < chunksC; ++part)

@@ -1,5 +1,7 @@
 #include "GivenMotion.hpp"
 #include "../Refusal.hpp"
+#include "../SameBody.hpp"
+#include "Audience.hpp"
 #include <algorithm>
 
 namespace yade::nscd {
@@ -73,12 +75,31 @@ void GivenMotion::followBody(Body& body, const BodyReading& now, Real smallest)
 	one(2, State::DOF_RZ, angleBetween(was.rotation, m.rotation), 1, m.velocity.w, widest, widest, "state.ori");
 }
 
+/// A velocity that another thread has set between the solve and the integrator moves the body otherwise than it was left to: that is no move of the body by its position.
+void GivenMotion::expectVelocity(Body& body, const plane::Motion& m) const
+{
+	auto&      was    = body.left;
+	const auto follow = [this](Real& left, Real now, Real velocity, Real before) {
+		const Real way = step * (velocity - before);
+		if (!isMove(now - left - way, now, step * velocity)) left = now;
+	};
+	follow(was.position.x, m.position.x, m.velocity.x, was.velocity.x);
+	follow(was.position.y, m.position.y, m.velocity.y, was.velocity.y);
+	const Real turned = angleBetween(was.rotation, m.rotation);
+	if (!isMove(turned - step * (m.velocity.w - was.velocity.w), 1, step * m.velocity.w)) was.rotation = m.rotation;
+}
+
 const std::vector<GivenMotion::Given>& GivenMotion::take(const Scene& scene, const Resident& resident)
 {
 	given.clear();
 	told.clear();
-	Real smallest = -1; // asked for where somebody has moved
-	auto at       = bodies.begin();
+	if (taken) bodies = before; // the step was refused, and begins anew
+	else
+		before = bodies;
+	taken               = true;
+	Real       smallest = -1; // asked for where somebody has moved
+	auto       at       = bodies.begin();
+	const bool beside   = othersMayLook(scene);
 	for (const int id : resident.driven) {
 		while (at != bodies.end() && at->id < id)
 			++at;
@@ -86,13 +107,14 @@ const std::vector<GivenMotion::Given>& GivenMotion::take(const Scene& scene, con
 		if (at->id != id) continue;
 		const BodyReading& now = resident.bodies[id];
 		const auto &       m = now.motion, &was = at->left;
-		const bool         stands = m.position.x == was.position.x && m.position.y == was.position.y
+		if (beside) expectVelocity(*at, m);
+		const bool stands = m.position.x == was.position.x && m.position.y == was.position.y
 		        && m.rotation.z == was.rotation.z && m.rotation.w == was.rotation.w;
 		const bool idle = std::all_of(at->series.begin(), at->series.end(), [](const Series& s) {
 			return s.steps < 0;
 		});
 		if (stands && idle) continue;
-		if (at->known && !at->is((*scene.bodies)[id])) {
+		if (at->known && !isSame(at->body, (*scene.bodies)[id])) {
 			at->series = {};
 			continue;
 		}
@@ -107,6 +129,8 @@ const std::vector<GivenMotion::Given>& GivenMotion::take(const Scene& scene, con
 
 void GivenMotion::leave(const Scene& scene, const Resident& resident, Real h)
 {
+	taken            = false;
+	step             = h;
 	const auto& ids  = resident.driven;
 	const bool  same = bodies.size() == ids.size()
 	        && std::equal(bodies.begin(), bodies.end(), ids.begin(),
@@ -127,7 +151,7 @@ void GivenMotion::leave(const Scene& scene, const Resident& resident, Real h)
 		plane::integrate(b.left, {}, 1, 1, plane::blockedAll, {}, h);
 		for (Series& s : b.series)
 			if (s.steps >= 0) s.time += h;
-		if (const auto& body = (*scene.bodies)[b.id]; !b.known || !b.is(body)) {
+		if (const auto& body = (*scene.bodies)[b.id]; !b.known || !isSame(b.body, body)) {
 			if (b.known) b.series = {};
 			b.body  = body;
 			b.known = true;
@@ -138,7 +162,7 @@ void GivenMotion::leave(const Scene& scene, const Resident& resident, Real h)
 std::vector<Real> GivenMotion::numbers() const
 {
 	std::vector<Real> all;
-	for (const Body& b : bodies) {
+	for (const Body& b : taken ? before : bodies) {
 		const auto& m = b.left;
 		all.insert(all.end(), { Real(b.id), m.position.x, m.position.y, m.rotation.z, m.rotation.w });
 		for (const Series& s : b.series)

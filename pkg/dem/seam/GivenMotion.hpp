@@ -51,19 +51,16 @@ private:
 		int                               id = -1;
 		nonsmooth::contact::plane::Motion left; // where the integrator leaves it
 		std::array<Series, 3>             series; // along x, along y, about z
-		// an id may be another body's later. It is not held: what Python has made may end under Python's lock alone
-		boost::weak_ptr<yade::Body> body;
-		bool                        known = false; // else it was loaded
-
-		bool is(const shared_ptr<yade::Body>& other) const
-		{
-			return !body.owner_before(other) && !other.owner_before(body);
-		}
+		boost::weak_ptr<yade::Body>       body; // an id may be another's later
+		bool                              known = false; // else it was loaded
 	};
 	void takeMove(Series& series, Real moved, Real own, bool far, bool jumps, const Body& body, const char* what);
+	void expectVelocity(Body& body, const nonsmooth::contact::plane::Motion& now) const;
 	void followBody(Body& body, const BodyReading& now, Real smallest);
 
-	std::vector<Body>  bodies; // in the order of ids
+	std::vector<Body>  bodies, before; // in the order of ids; and as they were before the last take
+	bool               taken = false; // and not left yet
+	Real               step  = 0; // length of the last one [s]
 	std::vector<Given> given;
 };
 

@@ -27,6 +27,7 @@ std::shared_ptr<Resident> Resident::of(Scene& scene)
 void Resident::takeBodies(Scene& scene)
 {
 	const double begin = steadySeconds();
+	++taken;
 	followSizes(scene, readBodies(scene, threads, bodies));
 	shaped.clear();
 	driven.clear();
@@ -38,7 +39,7 @@ void Resident::takeBodies(Scene& scene)
 	}
 	asShown.resize(othersMayLook(scene) ? bodies.size() : 0);
 	for (size_t id = 0; id < asShown.size(); ++id)
-		asShown[id] = bodies[id].motion;
+		asShown[id] = { bodies[id].motion, (*scene.bodies)[id] };
 	bodiesOwned = true;
 	costOfLook += steadySeconds() - begin;
 }
@@ -76,6 +77,8 @@ void Resident::takeContacts(Scene& scene)
 	bonds.resize(count);
 	rests.resize(count);
 	surelySolved.resize(count);
+	for (Holder& one : holders)
+		one.letGo();
 	holders.clear();
 	freeHolders.clear();
 	freeSlots.clear();
@@ -112,7 +115,9 @@ void Resident::readSlot(const Found& found, int slot)
 	read(found, r, bonds[slot], rests[slot]);
 	r.number           = number;
 	surelySolved[slot] = false;
-	if (r.phys && r.phys->touched) r.phys->touched = false;
+	if (!r.phys) return;
+	if (r.phys->touched) r.phys->touched = false;
+	r.phys->hearReset();
 }
 
 /// Takes contacts again that only Python can have changed since they were shown; returns false where all interactions have to be gone through.
@@ -243,11 +248,13 @@ void Resident::merge(InteractionContainer& list)
 			--bare;
 		} else {
 			const auto interaction = list[r.interaction->linIx];
+			nscd::letGo(interaction->geom);
+			nscd::letGo(interaction->phys);
 			list.requestErase(interaction);
 			addPotential(interaction);
 		}
 		if (held && !r.bare) {
-			holders[r.number] = {};
+			holders[r.number].letGo();
 			freeHolders.push_back(r.number);
 		}
 		r = Reading {};
@@ -312,8 +319,9 @@ void Resident::forgetErased(InteractionContainer& list)
 bool Resident::isBehind(const Scene& scene) const
 {
 	auto& list = *scene.interactions;
-	return bodies.size() != scene.bodies->size() || !scene.bodies->checkedByCollider || list.dirty
-	        || list.size() != interactionsSeen;
+	// without redirection nobody tells of bodies that come and go
+	return bodies.size() != scene.bodies->size() || !scene.bodies->checkedByCollider
+	        || !scene.bodies->enableRedirection || list.dirty || list.size() != interactionsSeen;
 }
 
 } // namespace yade::nscd

@@ -20,6 +20,7 @@
 // O.forces stays where forces are added up, in every step: it is not kept twice.
 #pragma once
 
+#include "../PythonMade.hpp"
 #include "BodyReading.hpp"
 #include "ContactReading.hpp"
 #include <atomic>
@@ -48,6 +49,12 @@ public:
 	/// A pair of disks within reach that is no contact, and the step since which it has been known; its interaction would not be real.
 	struct Pair {
 		int low, high, born;
+	};
+
+	/// What a state had when it was last written or read, and whose it was: others may have changed it since, or put another body in its place.
+	struct Shown {
+		nonsmooth::contact::plane::Motion motion;
+		boost::weak_ptr<Body>             body;
 	};
 
 	/// What interactions go through that are made for bare contacts, and a geometry to begin with, of which a part can be set by YADE's functors alone.
@@ -79,7 +86,9 @@ public:
 	/// Writes all into YADE's objects, which own it from now on.
 	void show(const Look& look);
 	void show() { show(Look()); }
-	/// The same where no turn is going on in this thread: at the end of the one that another thread is in.
+	/// Where no turn is going on in this thread: waits for the end of the one that another thread is in, and keeps others from beginning.
+	std::unique_lock<std::recursive_mutex> betweenTurns();
+	/// Shows there.
 	void showBetweenTurns();
 	/// The same where the scene is about to be saved; steps that another thread makes wait until it is, so that what is written is of one moment.
 	void showForSaving();
@@ -149,6 +158,7 @@ public:
 	std::vector<nonsmooth::contact::Point> places;
 	static constexpr long                  never = std::numeric_limits<long>::min();
 
+	long   taken = 0; // times so far that bodies were read, which others may be then
 	long   shown = 0; // times so far
 	string shownTo; // who looked the last time
 
@@ -158,27 +168,38 @@ private:
 		shared_ptr<Interaction> interaction;
 		shared_ptr<IGeom>       geom;
 		shared_ptr<IPhys>       phys;
+
+		void letGo()
+		{
+			nscd::letGo(geom);
+			nscd::letGo(phys);
+			if (interaction
+			    && interaction.use_count() == 1) { // it ends here, with what a script has put into it since
+				nscd::letGo(interaction->geom);
+				nscd::letGo(interaction->phys);
+			}
+			nscd::letGo(interaction);
+		}
 	};
 	/// Of places, or of interactions that are not real: in the order of ids.
 	template <class Item> static bool isBefore(const Item& a, const Item& b)
 	{
 		return std::make_pair(a.low, a.high) < std::make_pair(b.low, b.high);
 	}
-	std::unique_lock<std::recursive_mutex> betweenTurns();
-	bool                                   takeKnown(Scene& scene);
-	void                                   takeShown(Scene& scene);
-	void                                   followSizes(Scene& scene, const std::vector<FormerSize>& changed);
-	int                                    freeSlot();
-	void                                   hold(Reading& reading, const shared_ptr<Interaction>& interaction);
-	void                                   showContact(int slot) const;
-	shared_ptr<Interaction>                interactionOf(int slot) const;
-	void                                   insert(int slot, const shared_ptr<Interaction>& interaction);
-	bool                                   insert(const shared_ptr<Interaction>& interaction, int born);
-	bool                                   isGone(int id) const;
-	void                                   makeAll();
-	void                                   sort();
-	void                                   repack();
-	bool                                   isBehind(const Scene& scene) const;
+	bool                    takeKnown(Scene& scene);
+	void                    takeShown(Scene& scene);
+	void                    followSizes(Scene& scene, const std::vector<FormerSize>& changed);
+	int                     freeSlot();
+	void                    hold(Reading& reading, const shared_ptr<Interaction>& interaction);
+	void                    showContact(int slot) const;
+	shared_ptr<Interaction> interactionOf(int slot) const;
+	void                    insert(int slot, const shared_ptr<Interaction>& interaction);
+	bool                    insert(const shared_ptr<Interaction>& interaction, int born);
+	bool                    isGone(int id) const;
+	void                    makeAll();
+	void                    sort();
+	void                    repack();
+	bool                    isBehind(const Scene& scene) const;
 
 	int                  threads = 1; // those of the last turn
 	std::recursive_mutex lock; // an engine's turn, or a look from another thread
@@ -189,11 +210,10 @@ private:
 	boost::weak_ptr<BodyContainer>        container;
 	boost::weak_ptr<InteractionContainer> interactions;
 	bool                                  bodiesOwned = false, contactsOwned = false, held = false;
-	bool             contactsKnown    = false; // not owned, but as they were shown unless Python has changed them
-	size_t           interactionsSeen = 0; // at the end of the last turn
-	std::vector<int> shownAlone; // bodies that a script may have changed since, see showOnly
-	std::vector<nonsmooth::contact::plane::Motion>
-	        asShown; // during a run in the background: what the states had when they were last written or read
+	bool                contactsKnown = false; // not owned, but as they were shown unless Python has changed them
+	size_t              interactionsSeen = 0; // at the end of the last turn
+	std::vector<int>    shownAlone; // bodies that a script may have changed since, see showOnly
+	std::vector<Shown>  asShown; // by id: during a run in the background; none else
 	std::vector<Holder> holders; // of interactions, by Reading::number
 	std::vector<int>    freeSlots, freeHolders;
 	std::vector<int>    bareSlots; // of bare contacts, and of some that are so no longer

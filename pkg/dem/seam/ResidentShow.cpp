@@ -1,4 +1,5 @@
 // How YADE's objects get what the arrays have, all of them or some.
+#include "../SameBody.hpp"
 #include "../StageClock.hpp"
 #include "PlaneMotion.hpp"
 #include "Prefetch.hpp"
@@ -11,24 +12,33 @@
 namespace yade::nscd {
 
 namespace {
-	/// Whether a state has what was written into it, or read from it, the last time.
-	bool isAs(const State& s, const nonsmooth::contact::plane::Motion& m)
+	/// Writes a motion into a state, but for those of its numbers that somebody else has set since they were as in `shown`; these are taken up when bodies are read
+	/// again. A script sets state.vel as a whole, or state.vel[0] alone.
+	void
+	setUntouched(State& s, const nonsmooth::contact::plane::Motion& m, nonsmooth::contact::plane::Motion& shown)
 	{
-		return s.pos[0] == m.position.x && s.pos[1] == m.position.y && s.vel[0] == m.velocity.x
-		        && s.vel[1] == m.velocity.y && s.angVel[2] == m.velocity.w && s.ori.z() == m.rotation.z
-		        && s.ori.w() == m.rotation.w;
+		const auto set = [](Real& number, Real now, Real& known) {
+			if (number == known) number = known = now;
+		};
+		set(s.pos[0], m.position.x, shown.position.x);
+		set(s.pos[1], m.position.y, shown.position.y);
+		set(s.vel[0], m.velocity.x, shown.velocity.x);
+		set(s.vel[1], m.velocity.y, shown.velocity.y);
+		set(s.angVel[2], m.velocity.w, shown.velocity.w);
+		if (s.ori.z() != shown.rotation.z || s.ori.w() != shown.rotation.w) return;
+		s.ori.z() = shown.rotation.z = m.rotation.z;
+		s.ori.w() = shown.rotation.w = m.rotation.w;
 	}
 
-	/// Brings the state of the body of that id up to date, but for one that is gone, or was changed by somebody else since it was as in `asShown`.
-	void
-	write(BodyReading& b, const shared_ptr<Body>& body, size_t id,
-	      std::vector<nonsmooth::contact::plane::Motion>& asShown)
+	/// Brings the state of the body of that id up to date, but for one that is gone, and what was changed by somebody else since it was as in `asShown`.
+	void write(BodyReading& b, const shared_ptr<Body>& body, size_t id, std::vector<Resident::Shown>& asShown)
 	{
 		if (!b.moved) return;
 		b.moved = false;
-		if (!body || !body->state || (id < asShown.size() && !isAs(*body->state, asShown[id]))) return;
-		setMotion(*body->state, b.motion);
-		if (id < asShown.size()) asShown[id] = b.motion;
+		if (!body || !body->state) return;
+		if (id >= asShown.size()) setMotion(*body->state, b.motion);
+		else if (isSame(asShown[id].body, body))
+			setUntouched(*body->state, b.motion, asShown[id].motion);
 	}
 }
 
@@ -77,25 +87,29 @@ Vector3r Resident::contactPoint(const Reading& r) const
 	return at + (bodies[r.first].radius - 0.5 * -r.gap) * normal;
 }
 
-/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor.
+/// Writes a contact that the arrays keep into its interaction, with the sums and products of the functor. What somebody has written into its physics since it was
+/// read stays, and is read again.
 void Resident::showContact(int slot) const
 {
 	const Reading& r = readings[slot];
-	if (r.keeper != Reading::Arrays || !r.phys || r.phys->touched || r.phys->isWritten()) return;
-	ScGeom&   geom = *r.geom;
-	NscdPhys& phys = *r.phys;
+	if (r.keeper != Reading::Arrays || !r.phys) return;
+	ScGeom&    geom      = *r.geom;
+	NscdPhys&  phys      = *r.phys;
+	const bool isWritten = phys.touched || phys.isWritten();
 	if (!r.wasRead) {
 		geom.contactPoint     = contactPoint(r);
 		geom.penetrationDepth = -r.gap;
 		geom.radius1          = bodies[r.first].radius;
 		geom.radius2          = bodies[r.second].radius;
 		geom.normal           = Vector3r(r.nx, r.ny, r.nz);
-		phys.adhesion         = r.adhesion;
+	}
+	if (!r.wasRead && !isWritten) {
+		phys.adhesion        = r.adhesion;
 		phys.currentFriction = phys.tangensOfFrictionAngle = r.friction;
 		phys.currentRollingArm                             = r.rollingArm;
 	}
 	phys.joins = r.joins; // of a bond that broke since, too
-	if (r.bonded) {
+	if (r.bonded && phys.bonded) {
 		phys.restGap   = r.restGap;
 		phys.yieldPath = vectorOf(r.path);
 		phys.yielded   = r.yielded;
@@ -103,8 +117,10 @@ void Resident::showContact(int slot) const
 		phys.rolled    = r.rolled;
 		phys.restSlip  = r.strained ? rests[slot].slip : 0;
 		phys.restTurn  = r.strained ? rests[slot].turn : 0;
+		phys.errorSlip = r.slip; // which the loop has found for the solve of this step
+		phys.errorTurn = r.turn;
 	}
-	if (r.reacts) writeReactions(r);
+	if (r.reacts && !isWritten) writeReactions(r);
 }
 
 void Resident::show(const Look& look)
@@ -144,8 +160,9 @@ void Resident::show(const Look& look)
 		shownTo = look.who;
 	}
 	bodiesOwned = contactsOwned = false;
-	lastShown                   = steadySeconds();
-	costOfLook                  = lastShown - begin;
+	shownAlone.clear();
+	lastShown  = steadySeconds();
+	costOfLook = lastShown - begin;
 }
 
 std::unique_lock<std::recursive_mutex> Resident::betweenTurns()
@@ -200,7 +217,7 @@ void Resident::takeShown(Scene& scene)
 			return;
 		}
 		b = now;
-		if (size_t(id) < asShown.size()) asShown[id] = now.motion;
+		if (size_t(id) < asShown.size()) asShown[id] = { now.motion, (*scene.bodies)[id] };
 	}
 }
 

@@ -1,8 +1,10 @@
 // An engine's turn: what it takes when it begins, and to whom it shows what it has done when it ends.
 #include "../Advance.hpp"
+#include "../PythonMade.hpp"
 #include "../StageClock.hpp"
 #include "Audience.hpp"
 #include "Resident.hpp"
+#include <core/Omega.hpp>
 #include <lib/pyutil/gil.hpp>
 #include <thread>
 
@@ -34,11 +36,20 @@ Turn::Turn(Engine& engine_, int threads)
 		locked.lock();
 		data->beingSaved = false;
 	}
+	endKept();
 	Scene& scene  = *engine.scene;
 	data->threads = threads;
 	if (data->isBehind(scene)) {
 		if (data->bodiesOwned || data->contactsOwned) data->show();
 		data->contactsKnown = false;
+	}
+	// whoever comes after one of our turns is known at its end, unless O.engines was changed since
+	if ((data->bodiesOwned || data->contactsOwned) && !Omega::instance().isRunning() && isTooLate(scene, engine)) {
+		data->show();
+		throw std::runtime_error(
+		        engine.getClassName()
+		        + ": O.engines was changed while O.bodies was not up to date (advance(view=False)), and engines of YADE's own have acted in this step on bodies as they were before: call"
+		          " ContactDynamicsEngine.view() before O.engines is changed. All is up to date now, and the step may be made again");
 	}
 	if (!data->bodiesOwned) data->takeBodies(scene);
 	else if (!data->shownAlone.empty())
@@ -51,7 +62,11 @@ void Turn::end()
 {
 	Scene&       scene  = *engine.scene;
 	const Viewer viewer = whoLooksAfter(scene, engine);
+	if (!scene._nextEngines.empty()) // which take their places where the step ends, whoever has Python's lock then
+		for (const auto& one : scene.engines)
+			keepUntilLocked(one);
 	if (viewer.name.empty() && othersMayLook(scene)) {
+		if (data->contactsOwned) data->hold(); // another thread may erase what the arrays point to
 		// others may look at any time: as often as it costs a fiftieth, with what is taken again afterwards; seldom where the script said that nobody does
 		threadEnd.last     = data;
 		const bool   all   = interactionsWanted(scene);
@@ -66,7 +81,10 @@ void Turn::end()
 
 Turn::~Turn()
 {
-	if (!ended) data->show();
+	if (ended) return;
+	data->show();
+	engine.scene->forces
+	        .sync(); // else ForceResetter leaves what was added, and the step that is made again has it twice
 }
 
 } // namespace yade::nscd

@@ -1,5 +1,5 @@
 """The table of mutants. A new one goes into the file of its subject; see tests/README.md."""
-from . import between, course, drawing, engines, impacts, laboratory, law, plane, solver, walls
+from . import between, course, drawing, engines, impacts, laboratory, law, plane, solver, state, walls
 
 MUTANTS = (
     law.MUTANTS
@@ -7,6 +7,7 @@ MUTANTS = (
     + plane.MUTANTS
     + engines.MUTANTS
     + between.MUTANTS
+    + state.MUTANTS
     + impacts.MUTANTS
     + walls.MUTANTS
     + course.MUTANTS

@@ -28,8 +28,6 @@ MUTANTS = (
            MOTION + "::test_jumps_and_moves_after_long_are_places_and_are_told_of"),
     mutant("given-angle", GIVEN, "to.z * from.w - to.w * from.z", "to.w * from.z - to.z * from.w", "a wheel turns the other way",
            MOTION + "::test_a_disk_is_turned_by_a_wheel_that_is_turned_by_its_orientation"),
-    mutant("given-body", GIVEN, "at->known && !at->is((*scene.bodies)[id])", "false", "another body of the same id has moved",
-           MOTION + "::test_another_body_of_the_same_id_has_not_moved"),
     mutant("given-saved", ENGINE, "if (stepSolved != 0) givenMotions = seam.givenMotion.numbers();", "", "a motion is forgotten in a saved scene",
            MOTION + "::test_the_motion_goes_on_after_a_load_with_the_same_bits"),
     # ---- sizes
