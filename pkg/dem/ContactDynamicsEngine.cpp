@@ -234,6 +234,9 @@ void ContactDynamicsEngine::preSave(ContactDynamicsEngine&)
 	const auto guard    = resident->betweenTurns();
 	if (stepSolved != 0) givenMotions = seam.givenMotion.numbers();
 	resident->showForSaving();
+	for (const auto& i : *Omega::instance().getScene()->interactions)
+		if (auto* phys = i->isReal() ? dynamic_cast<NscdPhys*>(i->phys.get()) : nullptr)
+			phys->savedGap = phys->gapOf(static_cast<const ScGeom&>(*i->geom));
 }
 
 void ContactDynamicsEngine::dump(const std::string& path) const
@@ -368,9 +371,10 @@ int ContactDynamicsEngine::bond()
 		if (!i->isReal() || !hasBodies(*i, *scene)) continue;
 		auto*       phys = dynamic_cast<NscdPhys*>(i->phys.get());
 		const auto& geom = static_cast<const ScGeom&>(*i->geom);
-		const Real  gap  = -geom.penetrationDepth;
 		all += phys && phys->bonded;
-		if (!phys || !phys->bondable || phys->bonded || gap > phys->creationDistance) continue;
+		if (!phys || !phys->bondable || phys->bonded) continue;
+		const Real gap = phys->gapOf(geom);
+		if (!(gap <= phys->creationDistance)) continue;
 		const auto pair = nscd::bondPair(*Body::byId(i->getId1(), scene), *Body::byId(i->getId2(), scene));
 		nscd::markBond(*phys, pair, pair.swapped ? Vector3r(-geom.normal) : geom.normal, gap);
 		phys->touched = true;
@@ -499,7 +503,7 @@ boost::python::object ContactDynamicsEngine::contactTable() const
 		if (!phys) continue;
 		const auto& g = static_cast<const ScGeom&>(*i->geom);
 		add({ double(i->getId1()), double(i->getId2()), double(phys->normal), double(phys->tangential),
-		      double(phys->torque), double(g.normal[0]), double(g.normal[1]), double(-g.penetrationDepth),
+		      double(phys->torque), double(g.normal[0]), double(g.normal[1]), double(phys->gapOf(g)),
 		      double(phys->bonded), double(phys->brokenMode), double(g.contactPoint[0]),
 		      double(g.contactPoint[1]) });
 	}

@@ -21,6 +21,7 @@ void NonsmoothTimeStepper::validate() const
 	if (!(largest >= smallest) || !std::isfinite(largest))
 		fail("largest = " + nscd::number(largest)
 		     + ": it must not be below smallest = " + nscd::number(smallest));
+	if (sweeps < 0) fail("sweeps = " + std::to_string(sweeps) + ": it must be 0 or more");
 	if (!(growth >= 1)) fail("growth = " + nscd::number(growth) + ": it must be at least 1");
 	// a CourseRunner looks at the step before
 	const auto& all   = scene->engines;

@@ -7,6 +7,7 @@
 #include <core/Dispatching.hpp>
 #include <optional>
 #include <pkg/dem/FrictPhys.hpp>
+#include <pkg/dem/ScGeom.hpp>
 
 namespace yade {
 
@@ -49,6 +50,11 @@ public:
 		if (!isReset()) return;
 		normal = tangential = torque = 0;
 		noteForces();
+	}
+	/// Gap [m] of a contact with that geometry.
+	Real gapOf(const ScGeom& geom) const
+	{
+		return std::isnan(geom.penetrationDepth) ? savedGap : -geom.penetrationDepth;
 	}
 	/// Notes that the forces are those of a step.
 	void noteForces() { forcesNoted = sumOfForces(); }
@@ -103,6 +109,7 @@ the solver finds them, and so are stiffnesses ``kn`` and ``ks``, which rigid con
 		((Vector3r,anchor2,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"The material point that must stay in the ellipse, in the frame of the other body."))
 		((Vector3r,axis,Vector3r::Zero(),(Attr::readonly|Attr::hidden),"Normal axis of the ellipse in the frame of the first of the two."))
 		((Real,creationDistance,0,Attr::triggerPostLoad,"Δ ℓ [m]."))
+		((Real,savedGap,NaN,(Attr::readonly|Attr::hidden),"Gap when the scene was saved [m]: the geometry of a loaded scene has none before its first step."))
 		,
 		createIndex();
 	);

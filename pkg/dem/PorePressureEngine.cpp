@@ -47,7 +47,7 @@ void PorePressureEngine::validate() const
 			throw std::invalid_argument(
 			        string("PorePressureEngine: ") + name + "[2] = " + nscd::number((*values)[2])
 			        + ": give 0, as bodies stay in the x-y plane");
-	if (planeNormal == Vector3r::Zero())
+	if (planeNormal.norm() < 1 / nscd::hugest)
 		throw std::invalid_argument(
 		        "PorePressureEngine: planeNormal = (0, 0, 0): give the direction from the sliding plane to the water");
 }
@@ -60,7 +60,7 @@ Real PorePressureEngine::heightAt(Real time) const
 		        + std::to_string(heights.size()) + ": give as many of both");
 	const auto check = [](const char* name, const vector<Real>& values) {
 		for (size_t k = 0; k < values.size(); ++k)
-			if (!std::isfinite(values[k])) refuse(name, k, values[k]);
+			if (!nscd::isNumber(values[k])) refuse(name, k, values[k]);
 	};
 	check("times", times);
 	check("heights", heights);
@@ -133,7 +133,9 @@ void PorePressureEngine::preSave(PorePressureEngine&)
 	if (const auto resident = lookedAt.lock(); resident != nscd::Resident::of(*Omega::instance().getScene()))
 		return;
 	for (size_t id = 0; id < std::min(owners.size(), bodies.size()); ++id)
-		if (bodies[id] && !nscd::isSame(owners[id], bodies[id])) {
+		if (!nscd::isSame(
+		            owners[id],
+		            bodies[id])) { // of one that is gone, too: who takes its id later could not be told from it
 			forgetWayOf(id);
 			owners[id] = bodies[id];
 		}
