@@ -105,9 +105,9 @@ MUTANTS = (
            "test_tables.py::test_bodies_are_those_of_the_scene"),
     mutant("engine-rows", SHOW, "rows + columns * before[part]", "rows + part * chunk * columns", "rows of disks stand where they would if nobody was missing",
            "test_tables.py::test_rows_of_many_bodies_with_gaps"),
-    mutant("engine-gap", ENGINE, "double(-g.penetrationDepth)", "double(g.penetrationDepth)", "the table of contacts has overlaps for gaps",
+    mutant("engine-gap", ENGINE, "double(phys->gapOf(g))", "double(g.penetrationDepth)", "the table of contacts has overlaps for gaps",
            "test_tables.py::test_contacts_are_those_of_the_scene"),
-    mutant("engine-bond-distance", ENGINE, "gap > phys->creationDistance", "gap > 0", "no bonds over a gap",
+    mutant("engine-bond-distance", ENGINE, "!(gap <= phys->creationDistance)", "gap > 0", "no bonds over a gap",
            "test_bonds.py::test_bonds_are_made_below_the_creation_distance"),
     # ---- time stepper
     mutant("stepper-growth", STEPPER, "growth * before", "before", "a step never grows", "test_time_stepper.py::test_grows_to_the_largest_where_nothing_moves"),
