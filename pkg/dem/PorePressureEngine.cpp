@@ -99,7 +99,7 @@ void PorePressureEngine::pyHandleCustomCtorArgs(boost::python::tuple&, boost::py
 	if (named.has_key("gradient")) setGradient(boost::python::extract<Vector3r>(named.attr("pop")("gradient")));
 }
 
-/// What was noted of bodies whose id another one has now. Of one that is gone it stays.
+/// What was noted of bodies that are gone, or whose id another one has now.
 void PorePressureEngine::forgetOthers(const nscd::Resident& resident)
 {
 	const auto& bodies = *scene->bodies;
@@ -112,7 +112,6 @@ void PorePressureEngine::forgetOthers(const nscd::Resident& resident)
 	const size_t known = owners.size();
 	owners.resize(bodies.size());
 	for (size_t id = 0; id < owners.size(); ++id) {
-		if (!bodies[id]) continue;
 		if (id < known && !nscd::isSame(owners[id], bodies[id])) forgetWayOf(id);
 		owners[id] = bodies[id];
 	}
