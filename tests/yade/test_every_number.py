@@ -16,6 +16,7 @@ from types import SimpleNamespace
 import pytest
 from contact_scenes import G, begin, engine, floor, free_disk, material, run
 from shell import ROOT
+from test_soft_walls import ROCK, WALL
 from yade import O, wrapper
 from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene, section, soft
@@ -426,23 +427,6 @@ def arc_functor():
 # ---- springs
 
 STIFFNESS = 1e9
-ROCK = section.Material(
-    "rock",
-    friction=0.9,
-    residual_friction=0.9,
-    rolling_friction=0.3,
-    residual_rolling_friction=0.3,
-    density=2500.0,
-    bonded=False,
-)
-WALL = section.Material(
-    "wall",
-    friction=0.5,
-    residual_friction=0.3,
-    rolling_friction=0.2,
-    residual_rolling_friction=0.1,
-    tensile_strength=1e5,
-)
 WEAK = dataclasses.replace(
     WALL,
     bonded=False,
