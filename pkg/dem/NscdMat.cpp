@@ -31,11 +31,11 @@ void NscdMat::checkNumbers() const
 	        "0 or more, and finite [Pa]");
 	require(frictionAngle >= 0 && frictionAngle < Mathr::PI / 2, "frictionAngle", frictionAngle,
 	        "from 0 to below π/2 [rad]");
-	require(residualFrictionAngle < Mathr::PI / 2, "residualFrictionAngle", residualFrictionAngle,
-	        "below π/2 [rad], or negative for the peak value");
+	require(residualFrictionAngle < Mathr::PI / 2 && isNumber(residualFrictionAngle), "residualFrictionAngle",
+	        residualFrictionAngle, "below π/2 [rad] and finite, negative for the peak value");
 	require(notNegative(rollingFriction), "rollingFriction", rollingFriction, "0 or more, and finite");
-	require(residualRollingFriction < 0 || isNumber(residualRollingFriction), "residualRollingFriction",
-	        residualRollingFriction, "0 or more, and finite, or negative for the peak value");
+	require(isNumber(residualRollingFriction), "residualRollingFriction", residualRollingFriction,
+	        "finite, negative for the peak value");
 	require(bondEllipseNormal > 0, "bondEllipseNormal", bondEllipseNormal, "positive (units of ℓ)");
 	require(bondEllipseTangential > 0, "bondEllipseTangential", bondEllipseTangential, "positive (units of ℓ)");
 	require(bondCreationDistance >= 0, "bondCreationDistance", bondCreationDistance, "0 or more (units of ℓ)");
