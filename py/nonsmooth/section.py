@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import free_surface, geometry, roles
+from . import free_surface, geometry, roles, section_data, section_values
 from .section_parts import (
     Disks,
     End,
@@ -71,7 +71,7 @@ MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million ta
 @dataclass(frozen=True)
 class Section:
     """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `source`: file read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are
-    then as large (see :mod:`.similar`), or None."""
+    then as large (see :mod:`.similar`), or None; `given`: what it was made from, see :mod:`.section_values`."""
 
     name: str
     description: str
@@ -89,6 +89,7 @@ class Section:
     pressed: bool = False
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
+    given: section_values.Given | None = dataclasses.field(default=None, compare=False, repr=False)
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
@@ -274,21 +275,19 @@ class Section:
         return tuple(int(n) for n in np.diff(ends, prepend=0))
 
     def with_disks(self, count: int) -> Section:
-        """The same slope with about `count` disks, all diameters scaled alike (paper, section 3.2.2).
+        """The same slope with about `count` disks, all diameters of its file scaled alike (paper, section 3.2.2).
 
         Raises SectionError where such disks are too large for the layers.
         """
         if isinstance(count, bool) or not 1 <= count <= MOST_DISKS or int(count) != count:
             raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1 to {MOST_DISKS}")
         if self.like:
-            original, factor = self.like[0].with_disks(count), self.like[1]
-            layers = tuple(
-                dataclasses.replace(mine, disks=theirs.with_disks(factor).disks)
-                for mine, theirs in zip(self.layers, original.layers)
-            )
-            return dataclasses.replace(
-                self, disks=original.disks.scaled(factor), layers=layers, scale=original.scale, like=(original, factor)
-            )
+            from . import similar
+
+            made = similar.with_disks_of(self, self.like[0].with_disks(count), self.like[1])
+            return section_values.keep_value(made, self, "disks.count", int(count))
+        if self.disks.count:  # from the diameters that were given
+            return self.with_values({"disks.count": int(count)})
         m = self.disks.mean_square
         phi = self.disks.packing_fraction
         if self.mixed:  # count = full / s² - strip / s
@@ -316,20 +315,22 @@ class Section:
                 f"{self.source}: {count} disks: the smallest, {scaled.smallest:.4g} m, would fall past its own diameter in a step of "
                 f"{self.numerics.time_step:g} s; lower numerics.time_step below {scaled.longest_step:.2g} s, or ask for fewer disks"
             )
-        return scaled
+        return section_values.keep_value(scaled, self, "disks.count", int(count))
 
-    def with_rock(self, rock: Material) -> Section:
-        """The same slope with all layers of `rock`; the names of their materials stay. Raises SectionError for a rock without density."""
-        if rock.density is None:
+    def with_rock(self, rock: Material | Mapping) -> Section:
+        """The same slope with all layers of `rock`; the names of their materials stay.
+
+        `rock`: a Material, all of whose values count as given, or the plain data of one (`laboratory.materials.data`), whose residual values follow the peak where
+        they are left out. Raises SectionError for a rock without density, and for what is no material.
+        """
+        data = dict(rock) if isinstance(rock, Mapping) else section_data.material(rock)
+        if "density" not in data:
+            name = "rock" if isinstance(rock, Mapping) else rock.name
             raise SectionError(
-                f"{rock.name}: no density, and layers are to be made of it; add `density` (kg/m³, of the disks)"
+                f"{name}: no density, and layers are to be made of it; add `density` (kg/m³, of the disks)"
             )
-        names = {layer.material for layer in self.layers}
-        made = {
-            k: dataclasses.replace(rock, name=k, slip_weakening=None) if k in names else m
-            for k, m in self.materials.items()
-        }
-        return dataclasses.replace(self, materials=MappingProxyType(made))
+        data.pop("slip_weakening", None)
+        return self.with_values({("materials", layer.material): data for layer in self.layers})
 
     def with_critical_slip(self, distance: float) -> Section:
         """The same slope with one critical distance D_c [m], as in the paper: of all its slip surfaces that weaken, and of the release from water.
@@ -344,18 +345,18 @@ class Section:
                 f"{self.source}: a critical slip of {distance:g} m, and no slip surface weakens; add `slip_weakening` to the material of one"
             )
         weak = {one.material for one in self.sliding if one.name in slips}
-        made = {
-            k: (
-                dataclasses.replace(
-                    m, slip_weakening=dataclasses.replace(m.slip_weakening, critical_slip=float(distance))
-                )
-                if k in weak
-                else m
-            )
-            for k, m in self.materials.items()
-        }
-        water = self.water and dataclasses.replace(self.water, release_distance="critical_slip")
-        return dataclasses.replace(self, materials=MappingProxyType(made), water=water)
+        values = {("materials", name, "slip_weakening", "critical_slip"): float(distance) for name in sorted(weak)}
+        if self.water:
+            values["water.release_distance"] = "critical_slip"
+        return self.with_values(values)
+
+    def with_values(self, values: Mapping, source: str | None = None) -> Section:
+        """The same slope with other values, {key: value}: what a file that says them gives, so that what follows from them follows (:func:`.section_values.with_values`).
+
+        A key is the way to a value in a section file with dots, ``materials.soil.friction``, ``walls.DP.material``, or its words, ``("materials", "soil", "friction")``.
+        `source`: what messages begin with instead of the section's. Raises SectionError for a key that leads nowhere, and for what is no section.
+        """
+        return section_values.with_values(self, values, source)
 
     @property
     def longest_step(self) -> float:

@@ -88,7 +88,7 @@ def read(args) -> section.Section:
     if args.disks is not None:
         s = s.with_disks(args.disks)
     if args.rock is not None:
-        s = s.with_rock(materials.load(args.rock))
+        s = s.with_rock(materials.data(args.rock))
     if args.seed is not None:
         s = dataclasses.replace(s, seed=args.seed)
     if args.water and s.water is None:
@@ -96,7 +96,7 @@ def read(args) -> section.Section:
             f"--water {args.water:g}: {s.source} has no water; add the key `water` to it, or leave --water out"
         )
     if args.water is not None and s.water is not None:
-        s = dataclasses.replace(s, water=dataclasses.replace(s.water, table=((0.0, 0.0),), rate=args.water))
+        s = s.with_values({"water.table": {"rate": args.water}})
     if args.critical_slip is not None:
         s = s.with_critical_slip(args.critical_slip)
     return s

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 from types import MappingProxyType
 
-from . import geometry, roles, section_checks, section_defaults
+from . import geometry, roles, section_checks, section_defaults, section_values
 from .section import Section
 from .section_parts import (
     Disks,
@@ -29,6 +30,7 @@ def build(document, source: str) -> Section:
     """Section from a document that meets the schema; the checks that a schema cannot make."""
     section_checks.check_extent(document)
     _take_old_names(document)
+    given = copy.deepcopy(document.data)
     raw = document.data = section_defaults.filled(document.data)
     walls = section_checks.walls(document)
     size = raw["disks"]
@@ -79,9 +81,8 @@ def build(document, source: str) -> Section:
             release = section_defaults.release_distance(section.area)
             section = dataclasses.replace(section, water=dataclasses.replace(section.water, release_distance=release))
         section_checks.check_release(section, document)
-    if "count" in size:
-        section = section.with_disks(size["count"])
-    return section
+    section = section_values.keep(section, given)
+    return section.with_disks(size["count"]) if "count" in size else section
 
 
 def _take_old_names(document) -> None:

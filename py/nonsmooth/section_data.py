@@ -8,7 +8,7 @@ import yaml
 
 from .whole_files import write_atomically
 
-__all__ = ["FILE", "plain", "write"]
+__all__ = ["FILE", "material", "plain", "write"]
 
 FILE = "section.yaml"  # in the folder of a run
 
@@ -57,7 +57,7 @@ def plain(section) -> dict:
             }
             for i in section.interfaces
         ],
-        "materials": {name: _material(m) for name, m in section.materials.items()},
+        "materials": {name: material(m) for name, m in section.materials.items()},
         "disks": disks(section.disks) | ({"pressed": True} if section.pressed else {}),
         "stages": {
             "settle": dataclasses.asdict(stages.settle),
@@ -87,7 +87,8 @@ def plain(section) -> dict:
     return data
 
 
-def _material(m) -> dict:
+def material(m) -> dict:
+    """The keys and values of a Material in a section file."""
     found = {k: v for k, v in dataclasses.asdict(m).items() if k != "name" and v is not None}
     return found | {"bond_ellipse": list(m.bond_ellipse)}
 

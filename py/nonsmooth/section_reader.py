@@ -20,7 +20,7 @@ import yaml
 
 from .errors import OldNameWarning, UserError
 
-__all__ = ["Document", "SectionError", "read", "take", "values"]
+__all__ = ["Document", "SectionError", "read", "schema", "take", "values"]
 
 # What a file may ask for, so that reading it ends within seconds; the shipped section has 17 kB, 400 values and 6 levels.
 LARGEST_FILE = 500_000  # bytes
@@ -288,13 +288,12 @@ def _explain(error) -> tuple[tuple, str, str]:
 
 
 @cache
-def _schema(path: str, part: tuple):
+def schema(path: str, part: tuple):
     """The schema, or its `part` (keys), with what it refers to."""
-    whole = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-    schema = whole
+    whole = found = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
     for key in part:
-        schema = schema[key]
-    return {"$defs": whole.get("$defs", {}), **schema}
+        found = found[key]
+    return {"$defs": whole.get("$defs", {}), **found}
 
 
 def _whole(schema, value):
@@ -330,11 +329,11 @@ def _as_plain(value):
 def _checked(document, schema_path, part) -> Document:
     data = document.data
     _plain(document, data)
-    schema = _schema(str(schema_path), tuple(part))
-    found = [_explain(e) for e in islice(jsonschema.Draft202012Validator(schema).iter_errors(data), MOST_ERRORS)]
+    rules = schema(str(schema_path), tuple(part))
+    found = [_explain(e) for e in islice(jsonschema.Draft202012Validator(rules).iter_errors(data), MOST_ERRORS)]
     if found:
         keys, what, remedy = min(found, key=lambda f: (document.line(f[0]), len(f[0]), str(f)))
         more = f" (and {len(found) - 1} more to correct)" if len(found) > 1 else ""
         document.refuse(keys, what, remedy + more)
-    document.data = _whole(schema, data)
+    document.data = _whole(rules, data)
     return document

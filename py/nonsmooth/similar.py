@@ -6,30 +6,74 @@ stresses and so strengths in the ratio s, forces on walls in the ratio s² (per 
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import math
-from types import MappingProxyType
 
+from . import section_building, section_data, section_values
 from .section import Section, SectionError
+from .section_reader import Document
 
-__all__ = ["mirrored", "mirrored_packing", "scaled", "scaled_packing"]
+__all__ = ["mirrored", "mirrored_packing", "original_value", "scaled", "scaled_packing", "with_disks_of"]
 
 FACTORS = (1e-5, 1e3)  # of sizes: a slope of 2 km from 2 cm to 2,000 km
+
+# Powers of the ratio of lengths with which values go, by their keys without the names of items; for a list of pairs one each. What is not here has no unit, or that
+# of a density, of gravity or of a weight by volume.
+TIME, LENGTH, SPEED, STRESS = 0.5, 1, 0.5, 1
+POWERS = {
+    "walls.vertices": LENGTH,
+    "layers.vertices": LENGTH,
+    "layers.disks.diameter": LENGTH,
+    "disks.diameter": LENGTH,
+    "materials.tensile_strength": STRESS,
+    "materials.residual_tensile_strength": STRESS,
+    "materials.slip_weakening.critical_slip": LENGTH,
+    "materials.slip_weakening.tensile_strength": STRESS,
+    "materials.envelope.cohesion": STRESS,
+    "water.plane.point": LENGTH,
+    "water.table.rate": SPEED,
+    "water.table.points": (TIME, LENGTH),
+    "water.release_distance": LENGTH,
+    "stages.settle.ramp": TIME,
+    "stages.settle.time_max": TIME,
+    "stages.settle.speed_rest": SPEED,
+    "stages.dry": TIME,
+    "stages.water.hold": LENGTH,
+    "stages.end.time": TIME,
+    "stages.end.rest_hold": TIME,
+    "numerics.time_step": TIME,
+}
+_NAMED = ("walls", "layers", "interfaces", "materials")  # whose items have names
 
 
 def mirrored(section: Section) -> Section:
     """The Section with left and right exchanged: every x changes its sign. Mirrored twice it is as it was, to the last bit."""
-    flipped = lambda vertices: tuple((0.0 - x, y) for x, y in reversed(vertices))  # noqa: E731
-    walls = tuple(dataclasses.replace(w, vertices=flipped(w.vertices)) for w in reversed(section.walls))
-    layers = tuple(dataclasses.replace(layer, vertices=flipped(layer.vertices)) for layer in section.layers)
-    water = section.water
-    if water is not None:
-        (x, y), slope = water.point, water.pressure_gradient
-        if not isinstance(slope, str):
-            slope = (0.0 - slope[0], slope[1])
-        water = dataclasses.replace(water, point=(0.0 - x, y), dip=0.0 - water.dip, pressure_gradient=slope)
+    made = _rebuilt(section, _mirrored(section_data.plain(section)))
     like = section.like and (mirrored(section.like[0]), section.like[1])
-    return dataclasses.replace(section, walls=walls, layers=layers, water=water, like=like)
+    made = dataclasses.replace(made, like=like, disks=section.disks, scale=section.scale)
+    return section_values.keep(made, _mirrored(section_values.given(section)))
+
+
+def _mirrored(data):
+    """Plain data of a section, mirrored."""
+    flipped = lambda points: [[0.0 - x, y] for x, y in points]  # noqa: E731
+    data = copy.deepcopy(data)
+    data["walls"] = [wall | {"vertices": flipped(reversed(wall["vertices"]))} for wall in reversed(data["walls"])]
+    data["layers"] = [layer | {"vertices": flipped(reversed(layer["vertices"]))} for layer in data["layers"]]
+    water = data.get("water", {})
+    if isinstance(water.get("plane"), dict):
+        point, dip = water["plane"]["point"], water["plane"]["dip"]
+        water["plane"] = {"point": flipped([point])[0], "dip": 0.0 - dip}
+    if isinstance(water.get("pressure_gradient"), list):
+        x, y = water["pressure_gradient"]
+        water["pressure_gradient"] = [0.0 - x, y]
+    return data
+
+
+def _rebuilt(section, data):
+    """The Section of plain data that were those of a checked one, under its name."""
+    return section_building.build(Document(section.source, data), section.source)
 
 
 def mirrored_packing(packing):
@@ -48,57 +92,58 @@ def scaled(section: Section, factor: float) -> Section:
         raise SectionError(
             f"{section.source}: {factor:g} times as large; give a factor from {FACTORS[0]:g} to {FACTORS[1]:g}"
         )
-    s, t = factor, math.sqrt(factor)
-    grown = lambda vertices: tuple((s * x, s * y) for x, y in vertices)  # noqa: E731
-    sizes = lambda items: tuple(
-        dataclasses.replace(item, vertices=grown(item.vertices)) for item in items
-    )  # noqa: E731
-    materials = {name: _material(m, s) for name, m in section.materials.items()}
-    water, stages = section.water, section.stages
-    if water is not None:
-        release = water.release_distance
-        table = tuple((t * when, s * height) for when, height in water.table)
-        water = dataclasses.replace(
-            water,
-            point=grown([water.point])[0],
-            table=table,
-            rate=t * water.rate,
-            release_distance=release if isinstance(release, str) else s * release,
-        )
-    settle = dataclasses.replace(
-        stages.settle,
-        ramp=t * stages.settle.ramp,
-        time_max=t * stages.settle.time_max,
-        speed_rest=t * stages.settle.speed_rest,
-    )
-    end = dataclasses.replace(stages.end, time=t * stages.end.time, rest_hold=t * stages.end.rest_hold)
-    hold = stages.water_hold if isinstance(stages.water_hold, str) else s * stages.water_hold
-    numerics = dataclasses.replace(section.numerics, time_step=t * section.numerics.time_step)
-    return dataclasses.replace(
-        section,
-        walls=sizes(section.walls),
-        layers=tuple(layer.with_disks(s) for layer in sizes(section.layers)),
-        materials=MappingProxyType(materials),
-        disks=section.disks.scaled(s),
-        water=water,
-        stages=dataclasses.replace(stages, settle=settle, dry=t * stages.dry, water_hold=hold, end=end),
-        numerics=numerics,
-        like=(section.like[0], s * section.like[1]) if section.like else (section, s),
-    )
+    made = _rebuilt(section, _scaled(section_data.plain(section), factor))
+    original, whole = (section.like[0], factor * section.like[1]) if section.like else (section, factor)
+    disks = section.disks.scaled(factor)  # with the count that was asked for
+    made = dataclasses.replace(made, disks=disks, scale=section.scale, like=(original, whole))
+    return section_values.keep(made, _scaled(section_values.given(section), factor))
 
 
-def _material(material, s):
-    weak, envelope = material.slip_weakening, material.envelope
-    if weak is not None:
-        weak = dataclasses.replace(
-            weak, critical_slip=s * weak.critical_slip, tensile_strength=s * weak.tensile_strength
-        )
-    if envelope is not None:
-        envelope = dataclasses.replace(envelope, cohesion=s * envelope.cohesion)
-    return dataclasses.replace(
-        material,
-        tensile_strength=s * material.tensile_strength,
-        residual_tensile_strength=s * material.residual_tensile_strength,
-        slip_weakening=weak,
-        envelope=envelope,
+def with_disks_of(section: Section, original: Section, factor: float) -> Section:
+    """The Section as one that is packed as ``original``, ``factor`` times as large."""
+    layers = tuple(
+        dataclasses.replace(mine, disks=theirs.with_disks(factor).disks)
+        for mine, theirs in zip(section.layers, original.layers)
     )
+    disks = original.disks.scaled(factor)
+    return dataclasses.replace(section, disks=disks, layers=layers, scale=original.scale, like=(original, factor))
+
+
+def original_value(key, value, factor):
+    """The value of a key of a section (see :mod:`.section_values`) that is ``factor`` times as large as its original, for the original."""
+    words = section_values.words(key)
+    if len(words) == 1:
+        return _scaled({words[0]: value}, 1 / factor)[words[0]]
+    return _value(".".join(words[:1] + words[2:] if words[0] in _NAMED else words), value, 1 / factor)
+
+
+def _scaled(data, factor):
+    """Plain data of a section, ``factor`` times as large."""
+    made = {}
+    for key, value in data.items():
+        if key not in _NAMED:
+            made[key] = _value(key, value, factor)
+        elif isinstance(value, dict):
+            made[key] = {name: _value(key, item, factor) for name, item in value.items()}
+        else:
+            made[key] = [_value(key, item, factor) for item in value]
+    return made
+
+
+def _value(key, value, factor):
+    if isinstance(value, dict):
+        return {word: _value(f"{key}.{word}", inside, factor) for word, inside in value.items()}
+    power = POWERS.get(key)
+    return copy.deepcopy(value) if power is None else _times(value, power, factor)
+
+
+def _times(value, power, factor):
+    if isinstance(value, (list, tuple)):
+        pairs = isinstance(power, tuple)
+        return [
+            _times(v, power[k] if pairs and not isinstance(v, (list, tuple)) else power, factor)
+            for k, v in enumerate(value)
+        ]
+    if isinstance(value, str) or not isinstance(value, (int, float)):
+        return value  # a word, as critical_slip; or what the schema will refuse
+    return (math.sqrt(factor) if power == 0.5 else factor) * value

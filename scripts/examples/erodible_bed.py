@@ -5,14 +5,14 @@
 from pathlib import Path
 
 from yade import utils
-from yade.nonsmooth import experiment, figures, records, section, section_data
+from yade.nonsmooth import experiment, figures, records, section, section_values
 
 utils.readParamsFromTable(section="interface", disks=1500, folder="out/beds", noTableOk=True)
 from yade.params import table
 
 chosen = section.load(table.section)
-slope = section_data.plain(chosen.with_disks(table.disks) if table.disks else chosen)
-slope["layers"] = [layer for layer in slope["layers"] if layer["role"] != "obstacle"]
+slope = section_values.given(chosen.with_disks(table.disks) if table.disks else chosen)
+slope["layers"] = [layer for layer in slope["layers"] if layer.get("role") != "obstacle"]
 rock, gravel, base = (slope["materials"][name] for name in ("rock", "gravel", "base"))
 cement = dict(bonded=True, bond_creation_distance=0.05)
 BEDS = {

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from .. import checkpoints, experiment, kept_runs, section
+from .. import checkpoints, experiment, kept_runs, section, similar
 
 __all__ = ["run"]
 
 
-def run(folder, data, end=None, figures=False):
-    """Runs the section of the plain ``data`` in the folder until it is over, or to ``end`` [s] of simulated time, and returns its summary; see experiment.begin."""
+def run(folder, data, end=None, figures=False, like=None):
+    """Runs the section of the plain ``data`` in the folder until it is over, or to ``end`` [s] of simulated time, and returns its summary; see experiment.begin.
+
+    ``like``: where it is packed as another one, ``data`` of that and the ``factor`` by which it is larger.
+    """
     made = section.of(data, str(folder))
+    if like:
+        made = similar.with_disks_of(made, section.of(like["data"], str(folder)), like["factor"])
     note = kept_runs.Progress(folder)
     start = experiment.resume if checkpoints.exists(folder) else experiment.begin
     course = start(made, folder, progress=lambda stage, now, foreseen: note(now / max(foreseen, now)))

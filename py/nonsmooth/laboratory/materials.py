@@ -10,7 +10,7 @@ from pathlib import Path
 
 import yaml
 
-from .. import section, section_building
+from .. import section, section_building, section_values
 from ..whole_files import write_atomically
 from ..section_reader import SectionError, read
 
@@ -24,18 +24,23 @@ def load(name_or_path):
     Raises SectionError, naming file, line, key, value and remedy.
     """
     name = str(name_or_path)
+    return section_building.material_from(name if name in SHIPPED else Path(name).stem, data(name))
+
+
+def data(name_or_path) -> dict:
+    """The plain data of a material, nothing filled in: what its file, or that of the shipped section, says. Raises as :func:`load`."""
+    name = str(name_or_path)
     if name in SHIPPED:
-        return dataclasses.replace(section.load("jiufengershan").materials[SHIPPED[name]], name=name)
+        return section_values.given(section.load("jiufengershan"))["materials"][SHIPPED[name]]
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and not path.exists():
         raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
     document = read(
         path, section.FOLDER / "section.schema.yaml", part=("properties", "materials", "additionalProperties")
     )
-    material = section_building.material_from(path.stem, document.data)
-    if material.density is None:
+    if "density" not in document.data:
         document.refuse((), "the key 'density' is missing", "add it (kg/m³, of the disks)")
-    return material
+    return document.data
 
 
 def bare(material):

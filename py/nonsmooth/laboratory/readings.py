@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import keys, section, section_data, side_by_side
-from ..campaign.sweep import FUNCTION, put
+from .. import keys, section, section_data, section_values, side_by_side
+from ..campaign.sweep import FUNCTION
 from ..statistics import over_seeds, told
 from . import biaxial_test, campaign, pressing
 
@@ -105,10 +105,10 @@ READINGS = {
 
 
 def section_of(reading):
-    """The shipped section as a Reading has it."""
-    data = section_data.plain(section.load("jiufengershan"))
+    """The shipped section as a Reading has it, as if its file said so."""
+    data = section_values.given(section.load("jiufengershan"))
     for key, value in reading.keys.items():
-        put(data, key, value)
+        section_values.put(data, key, value)
     if reading.shape:
         reading.shape(data)
     return section.of(data, reading.label)

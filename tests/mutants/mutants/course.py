@@ -8,7 +8,9 @@ COURSE, RESULTS, TABLES = (PY + name for name in ("experiment.py", "results.py",
 SERIES, BREAKS = (PY + f"records/{name}.py" for name in ("series", "breaks"))
 TIMES = PY + "characteristic_times.py"
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "worlds.py", "toe.py"))
-SECTION, READER, CHECKS, GEOMETRY = (PY + name for name in ("section.py", "section_reader.py", "section_checks.py", "geometry.py"))
+SECTION, READER, CHECKS, GEOMETRY, VALUES = (
+    PY + name for name in ("section.py", "section_reader.py", "section_checks.py", "geometry.py", "section_values.py")
+)
 RULES = PY + "course.py"
 FREE_SURFACE, SLOPE_PACKING = PY + "free_surface.py", PY + "slope_packing.py"
 PACKING, PACKING_CHECKS, PACKING_FILES = (PY + name for name in ("packing.py", "packing_checks.py", "packing_files.py"))
@@ -162,8 +164,15 @@ MUTANTS = (
            "test_section_keys.py::test_a_key_acts[water-release_distance0]"),
     mutant("section-release", SECTION, "slips.get(self.water.wall)", "next(iter(slips.values()))", "of several critical slips the first releases disks, whatever the water's plane",
            "plain:test_critical_slip.py::test_the_release_from_water_goes_by_the_critical_slip"),
-    mutant("section-one-distance", SECTION, "water = self.water and dataclasses.replace(self.water, release_distance=\"critical_slip\")", "water = self.water",
+    mutant("section-one-distance", SECTION, 'values["water.release_distance"] = "critical_slip"', "pass",
            "--critical-slip sets that of slip and leaves the release", "plain:test_critical_slip.py::test_one_distance_is_set_for_all_that_weakens"),
+    mutant("values-filled", PY + "section_building.py", "given = copy.deepcopy(document.data)\n    raw = document.data = section_defaults.filled(document.data)", "raw = given = document.data = section_defaults.filled(document.data)",
+           "what was filled in counts as given: a time step stays with another gravity", "test_section_values.py::test_what_follows_follows"),
+    mutant("values-replaced", VALUES, "    if changed:\n", "    if False:\n", "what dataclasses.replace has changed is lost with the next value", "test_section_values.py::test_with_and_replace_count_as_given"),
+    mutant("values-groups", VALUES, "place[word] = {}", "pass", "a group of keys that the file has not cannot be varied", "test_section_values.py::test_groups_that_a_file_has_not_are_made"),
+    mutant("values-rock", PY + "section_arguments.py", "materials.data(args.rock)", "materials.load(args.rock)", "a sweep over the friction of --rock keeps the residual one", "test_section_values.py::test_arguments_of_a_command_are_given_values"),
+    mutant("values-original", VALUES, "similar.original_value(key, v, factor)", "v", "the section that a similar one is packed as gets values of the other size", "test_section_values.py::test_a_value_gives_what_a_file_with_it_gives[materials-*-tensile_strength0-what must be]"),
+    mutant("sweep-like", CAMPAIGN + "slope_run.py", "    if like:\n", "    if False:\n", "a slope of another size in a sweep gets a packing of its own", "test_section_values.py::test_a_run_of_a_similar_section_is_packed_as_its_original"),
     mutant("section-notes", CHECKS, " or release in slips.values()", "", "a section with one distance is said to have two",
            "plain:test_critical_slip.py::test_two_distances_are_noted_in_one_line"),
     mutant("slope-gravity", SLOPE, "gravity=(0, -section.gravity, 0)", "gravity=(0, -9.81, 0)", "a section's gravity is that of the earth",
@@ -183,10 +192,10 @@ MUTANTS = (
     mutant("roles-chord", PY + "roles.py", "way[1] > 0 or", "way[1] < 0 or", "slopes fall upwards", "plain:test_roles.py::test_roles_follow_from_what_walls_do_and_not_from_their_names"),
     mutant("roles-mass", PY + "roles.py", 'if layer.role == "mass"]', "if layer]", "what a bed leans against is a backstop",
            "plain:test_roles.py::test_what_a_bed_leans_against_is_no_backstop"),
-    mutant("similar-strength", PY + "similar.py", "tensile_strength=s * material.tensile_strength", "tensile_strength=material.tensile_strength",
+    mutant("similar-strength", PY + "similar.py", '    "materials.tensile_strength": STRESS,\n', "",
            "a smaller slope is as strong", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
-    mutant("similar-time", PY + "similar.py", "s, t = factor, math.sqrt(factor)", "s, t = factor, factor", "times go with lengths", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
-    mutant("similar-water", PY + "similar.py", "dip=0.0 - water.dip", "dip=water.dip", "the water's plane is not mirrored", "plain:test_roles.py::test_a_mirrored_section_is_checked_like_any_other"),
+    mutant("similar-time", PY + "similar.py", "(math.sqrt(factor) if power == 0.5 else factor) * value", "factor * value", "times go with lengths", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
+    mutant("similar-water", PY + "similar.py", '"dip": 0.0 - dip', '"dip": dip', "the water's plane is not mirrored", "test_section_values.py::test_a_value_gives_what_a_file_with_it_gives[water-plane-dip0-what must be]"),
     mutant("wall-side", PY + "wall_series.py", "(normal, self._side * shear, peak) for name", "(normal, shear, peak) for name", "shear of a slope to the left has the wrong sign",
            "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits"),
     mutant("wall-across", PY + "wall_series.py", 'c["normal"] * c["nx"] - c["tangential"] * c["ny"]', 'c["normal"] * c["nx"] + c["tangential"] * c["ny"]',
@@ -206,7 +215,7 @@ MUTANTS = (
            "plain:test_section.py::test_water_that_flows_along_the_plane_lifts_and_drags"),
     mutant("section-old-sign", PY + "section_building.py", "[0.0 - float(g) for g in old]", "[float(g) for g in old]", "the old name's vector is taken for the gradient itself",
            "plain:test_section.py::test_the_old_name_of_the_pressure_gradient_is_read_with_one_warning"),
-    mutant("similar-gradient", PY + "similar.py", "slope = (0.0 - slope[0], slope[1])", "pass", "a vector of the pressure's gradient is not mirrored",
+    mutant("similar-gradient", PY + "similar.py", "[0.0 - x, y]\n    return data", "[x, y]\n    return data", "a vector of the pressure's gradient is not mirrored",
            "plain:test_roles.py::test_a_mirrored_section_is_checked_like_any_other"),
     mutant("reader-line", READER, "return line + 1", "return line", "messages name the line before", "plain:test_section.py::test_line_number"),
     mutant("reader-largest", READER, "abs(value) > LARGEST_NUMBER", "abs(value) < LARGEST_NUMBER", "every usual number is too large",
@@ -249,7 +258,7 @@ MUTANTS = (
     mutant("cache-words", PY + "keys.py", "del node.body[0]", "node.body[0]", "a word in a docstring makes all caches anew", "test_keys.py::test_words_and_layout_do_not_count"),
     mutant("runs-begun", PY + "side_by_side.py", "resume and go_on and kept_runs.begun(r.folder, r.key)", "resume and go_on", "a run goes on from what other code has left",
            "test_side_by_side.py::test_a_resume_takes_nothing_of_other_engines_or_code"),
-    mutant("sweep-names", CAMPAIGN + "sweep.py", "place[names.index(word)]", "place[-1]", "the last item of a list is varied, whatever its name",
+    mutant("sweep-names", VALUES, "place[names.index(word)]", "place[-1]", "the last item of a list is varied, whatever its name",
            "test_campaign.py::test_items_of_lists_go_by_their_names_and_lists_are_values_too"),
     mutant("sweep-work", CAMPAIGN + "sweep.py", "float(sum(made.disk_counts()))", "1.0", "all runs of a sweep count as equally long",
            "test_campaign.py::test_all_combinations_are_planned_and_each_has_its_values"),
@@ -259,7 +268,7 @@ MUTANTS = (
     mutant("array-last", CAMPAIGN + "cluster.py", "last=len(keys) - 1", "last=len(keys)", "an array job has a task too many", "test_campaign.py::test_the_files_for_a_cluster_name_all_runs"),
     mutant("command-status", PY + "commands.py", "INTERRUPTED = 130", "INTERRUPTED = 1", "Ctrl-C ends a command as an error does",
            "test_commands.py::test_a_command_ends_with_its_status_and_one_line"),
-    mutant("script-water", PY + "section_arguments.py", "table=((0.0, 0.0),), rate=args.water", "table=((0.0, 0.0),), rate=1e-3 * args.water",
+    mutant("script-water", PY + "section_arguments.py", '{"rate": args.water}', '{"rate": 1e-3 * args.water}',
            "--water is read as millimetres a second", "test_options.py::test_an_option_acts[jiufengershan--water]"),
     mutant("script-confining", "scripts/biaxial.py", "            1e6 * p,\n            pressing.Shape(", "            1e3 * p,\n            pressing.Shape(", "--confining is read as kilopascals",
            "test_options.py::test_an_option_acts[biaxial--confining]"),

@@ -1,0 +1,238 @@
+"""A value that is changed in a section gives what a file with this value gives, whatever follows from it and however it is changed: key by key of the schema, by
+campaigns, after --disks, in a mirror and at another size."""
+
+import argparse
+import copy
+import dataclasses
+import tempfile
+from pathlib import Path
+
+import pytest
+import yaml
+from test_section_keys import BASE, WHERE
+from yade.nonsmooth import (
+    campaign,
+    packing,
+    section,
+    section_arguments,
+    section_data,
+    section_reader,
+    section_values,
+    similar,
+)
+from yade.nonsmooth.campaign import slope_run
+from yade.nonsmooth.laboratory import materials
+
+# with the numbers as a section file has them
+with tempfile.TemporaryDirectory() as folder:
+    (Path(folder) / "base.yaml").write_text(yaml.safe_dump(BASE, sort_keys=False))
+    BASE = section_reader.read(Path(folder) / "base.yaml", section.FOLDER / "section.schema.yaml").data
+# what a file need not say: it follows from the rest
+FILLED = ("gravity", "seed", "stages", "numerics", "description")
+BARE = {k: v for k, v in copy.deepcopy(BASE).items() if k not in FILLED}
+BARE["disks"] = {"diameter": BASE["disks"]["diameter"]}
+BARE["water"] = {"plane": "DP", "table": {"rate": 1.0}}
+for rock in BARE["materials"].values():
+    rock.pop("residual_friction", None)
+    rock.pop("residual_rolling_friction", None)
+BASES = {"all is said": BASE, "what must be": BARE}
+
+
+def changes():
+    """Changes of test_section_keys for every key of the schema: (name, {way: value})."""
+    for way, cases in WHERE.items():
+        for k, (change, *_) in enumerate(cases if isinstance(cases, list) else [cases]):
+            if change:
+                yield pytest.param(change, id=f"{'-'.join(way)}{k}")
+
+
+def with_(base, change):
+    """Data of a file with these values, put in by hand; without those that are None."""
+    made = copy.deepcopy(base)
+    for way, value in change.items():
+        place = made
+        for word in way[:-1]:
+            place = place.setdefault(word, {}) if isinstance(place, dict) else place[word]
+        if value is None:
+            place.pop(way[-1], None)
+        else:
+            place[way[-1]] = copy.deepcopy(value)
+    return made
+
+
+def keys_of(change, base):
+    """The same change with the keys of an override: words, and names for the numbers of items."""
+    found, made = {}, copy.deepcopy(base)
+    for way, value in change.items():
+        words, place = [], made
+        for word in way:
+            place = place.get(word, {}) if isinstance(place, dict) else place[word] if isinstance(place, list) else {}
+            words.append(place["name"] if isinstance(word, int) else word)
+        found[tuple(words)] = value
+        made = with_(made, {way: value})
+    return found
+
+
+def same(one, other):
+    """Whether two Sections are equal, but for where they come from."""
+    return dataclasses.replace(one, source="") == dataclasses.replace(other, source="")
+
+
+@pytest.mark.parametrize("base", BASES.values(), ids=BASES)
+@pytest.mark.parametrize("change", changes())
+def test_a_value_gives_what_a_file_with_it_gives(change, base, tmp_path):
+    path = tmp_path / "hill.yaml"
+    base = with_(base, {way: None for way, value in change.items() if value is None})
+    change = {way: value for way, value in change.items() if value is not None}
+    try:
+        path.write_text(yaml.safe_dump(with_(base, change), sort_keys=False))
+        wanted = section.load(str(path))
+    except section.SectionError as refused:  # then the override is refused alike
+        with pytest.raises(section.SectionError) as too:
+            section.of(base).with_values(keys_of(change, base))
+        assert str(too.value).partition(": ")[2] == str(refused).split(": ", 2)[2]
+        return
+    path.write_text(yaml.safe_dump(base, sort_keys=False))
+    hill, values = section.load(str(path)), keys_of(change, base)
+    made = hill.with_values(values)
+    assert same(made, wanted) and made.source == hill.source
+    if not any("." in word for words in values for word in words):
+        [run] = campaign.sweep(hill, {".".join(words): [value] for words, value in values.items()}).runs
+        # a count has become diameters there
+        assert same(section.of(run.arguments["data"]), section.of(section_data.plain(wanted)))
+    if ("disks", "count") not in change:
+        assert same(hill.with_disks(400).with_values(values), wanted.with_disks(400))
+    if base["disks"] == BASE["disks"]:
+        return
+    # four times as large: powers of two, so to the last bit
+    large = {words: similar.original_value(words, value, 1 / 4) for words, value in values.items()}
+    there, asked = similar.scaled(hill, 4).with_values(large), similar.scaled(wanted, 4)
+    assert same(there, asked)
+    assert same(there.like[0], wanted) and there.like[1] == 4
+    assert same(section.of(section_values.given(similar.mirrored(wanted))), similar.mirrored(wanted))
+
+
+def test_what_follows_follows():
+    hill = section.of(BARE)
+    surface = hill.with_values({"materials.dp.friction": 0.33}).materials["dp"]
+    assert (surface.friction, surface.residual_friction) == (0.33, 0.33)
+    moon = hill.with_values({"gravity": 9.81 / 4})
+    assert moon.water.unit_weight == pytest.approx(hill.water.unit_weight / 4, rel=1e-15)
+    assert moon.numerics.time_step == pytest.approx(2 * hill.numerics.time_step, rel=1e-15)  # √(d/g)
+    assert moon.stages.end.time == pytest.approx(2 * hill.stages.end.time, rel=1e-15)
+    # what is said stays
+    said = section.of(with_(BARE, {("materials", "dp", "residual_friction"): 0.4, ("water", "unit_weight"): 9000.0}))
+    changed = said.with_values({"materials.dp.friction": 0.33, "gravity": 2.0})
+    assert changed.materials["dp"].residual_friction == 0.4 and changed.water.unit_weight == 9000.0
+
+
+def test_a_sweep_over_friction_is_one_over_friction():
+    plan = campaign.sweep(section.of(BARE), {"materials.dp.friction": [0.45, 0.5, 0.55]})
+    frictions = [section.of(one.arguments["data"]).materials["dp"].residual_friction for one in plan.runs]
+    assert frictions == [0.45, 0.5, 0.55]
+
+
+def test_with_and_replace_count_as_given():
+    hill = section.of(BARE)
+    later = dataclasses.replace(hill, seed=7).with_values({"gravity": 4.0})
+    assert later.seed == 7 and same(later, section.of({**BARE, "seed": 7, "gravity": 4.0}))
+    # numerics that were replaced are said, so that the step stays
+    coarse = dataclasses.replace(hill, numerics=dataclasses.replace(hill.numerics, time_step=1e-3))
+    assert coarse.with_values({"gravity": 4.0}).numerics.time_step == 1e-3
+    dry = dataclasses.replace(hill, water=None).with_values({"gravity": 4.0})
+    assert dry.water is None and dry.gravity == 4.0
+    slid = hill.with_critical_slip(3.0).with_values({"gravity": 4.0})
+    assert slid.critical_slips == {"DP": 3.0} and slid.release_distance == 3.0
+    assert slid.water.unit_weight == pytest.approx(4000.0)
+    assert hill.with_disks(80).with_disks(60) == hill.with_disks(60)
+    pressed = dataclasses.replace(hill, pressed=True).with_values({"seed": 3})
+    assert pressed.pressed and pressed.seed == 3
+
+
+def test_a_rock_has_what_its_file_says(tmp_path):
+    path = tmp_path / "clay.yaml"
+    path.write_text("friction: 0.3\nrolling_friction: 0.1\ntensile_strength: 2.0e4\ndensity: 2100\n")
+    by_file = section.of(BARE).with_rock(materials.data(path)).with_values({"materials.rock.friction": 0.6})
+    assert by_file.materials["rock"].residual_friction == 0.6 and by_file.materials["rock"].density == 2100.0
+    whole = section.of(BARE).with_rock(materials.load(path)).with_values({"materials.rock.friction": 0.6})
+    assert whole.materials["rock"].residual_friction == 0.3  # a Material says all its values
+    assert section.of(BARE).with_rock(materials.load("wwr")).materials["rock"] == dataclasses.replace(
+        materials.load("wwr"), name="rock"
+    )
+    with pytest.raises(section.SectionError, match="no density, and layers are to be made of it"):
+        section.of(BARE).with_rock(dataclasses.replace(materials.load(path), density=None))
+
+
+def test_arguments_of_a_command_are_given_values(tmp_path):
+    rock, hill = tmp_path / "clay.yaml", tmp_path / "hill.yaml"
+    rock.write_text("friction: 0.3\nrolling_friction: 0.1\ntensile_strength: 2.0e4\ndensity: 2100\n")
+    hill.write_text(yaml.safe_dump(BARE, sort_keys=False))
+    parser = argparse.ArgumentParser()
+    section_arguments.add(parser)
+    words = [
+        "--section",
+        str(hill),
+        "--rock",
+        str(rock),
+        "--water",
+        "5",
+        "--seed",
+        "3",
+        "--disks",
+        "400",
+        "--critical-slip",
+        "2",
+    ]
+    made = section_arguments.read(parser.parse_args(words)).with_values(
+        {"gravity": 4.0, "materials.rock.friction": 0.6, "materials.dp.friction": 0.2}
+    )
+    assert made.materials["rock"].residual_friction == 0.6 and made.materials["dp"].residual_friction == 0.2
+    assert (made.water.rate, made.water.unit_weight, made.seed, made.disks.count) == (5.0, 4000.0, 3, 400)
+    assert made.critical_slips == {"DP": 2.0} and made.numerics == section.of({**BARE, "gravity": 4.0}).numerics
+
+
+def test_a_run_of_a_similar_section_is_packed_as_its_original(monkeypatch, tmp_path):
+    hill = section.of(BASE).with_disks(60)
+    large = similar.scaled(hill, 3.0)
+    [run] = campaign.sweep(large, {"materials.rock.tensile_strength": [1e4]}).runs
+    begun = []
+
+    class Stop(Exception):
+        pass
+
+    def begin(made, folder, progress):
+        begun.append(made)
+        raise Stop
+
+    monkeypatch.setattr(slope_run.experiment, "begin", begin)
+    with pytest.raises(Stop):
+        slope_run.run(tmp_path, **run.arguments)
+    made, there = packing.pack(begun[0], 5), similar.scaled_packing(packing.pack(hill, 5), 3.0)
+    assert made.checksum == there.checksum
+    assert begun[0].materials["rock"].tensile_strength == 1e4  # as it is run, not as the file's
+
+
+@pytest.mark.parametrize(
+    "key, message",
+    [
+        ("materials.rok.friction", "there is no 'rok' in materials of the section; did you mean 'rock'"),
+        ("walls.no.material", "there is no 'no' in walls of the section; there are DP, FB, SS"),
+        ("seed.more", "there is no 'more' in seed of the section; nothing can be varied there"),
+        ("stages.dry.more", "there is no 'more' in stages.dry of the section; nothing can be varied there"),
+        ("walls.DP", "'DP' is an item of walls and no value; give one of its keys, walls.DP.material"),
+        ("nothing.of.this", "there is no 'nothing' in the section; there are name, description"),
+    ],
+)
+def test_a_key_that_leads_nowhere_is_named(key, message):
+    with pytest.raises(section_values.NoSuchKey) as refused:
+        section.of(BASE).with_values({key: 1})
+    assert str(refused.value).startswith(f"{key}: {message}")
+
+
+def test_groups_that_a_file_has_not_are_made():
+    bare = {k: v for k, v in BARE.items() if k != "water"}
+    made = section.of(bare).with_values({"stages.end.time": 12.0, "layers.L1.disks.diameter": [0.9, 1.1]})
+    assert made.stages.end.time == 12.0 and made.layers[0].disks.d_min == 0.9
+    with pytest.raises(section.SectionError, match="water: the key 'plane' is missing"):
+        section.of(bare).with_values({"water.table.rate": 1.0})
+    assert section.of(bare).water is None  # the first is as it was
