@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from test_section_keys import BASE, WHERE
+from test_section_keys import BASE, SCHEMA, WHERE
 from yade.nonsmooth import (
     campaign,
     packing,
@@ -210,6 +210,37 @@ def test_a_run_of_a_similar_section_is_packed_as_its_original(monkeypatch, tmp_p
     made, there = packing.pack(begun[0], 5), similar.scaled_packing(packing.pack(hill, 5), 3.0)
     assert made.checksum == there.checksum
     assert begun[0].materials["rock"].tensile_strength == 1e4  # as it is run, not as the file's
+
+
+# powers of the ratio of lengths, by Froude with the same gravity and density
+UNITS = {"m": 1, "Pa": 1, "s": 0.5, "m/s": 0.5, "N/m³": 0, "kg/m³": 0, "m/s²": 0, "degrees": 0}
+
+
+def units(part):
+    """Units that a schema's description names, as ``[m]`` or ``in s and m``."""
+    words = part.get("description", "").replace(",", " ").replace("[t h]", "").split("; or")[0]
+    return [u for word in words.replace("[", " ").replace("]", " ").split() if (u := word.strip("().;:")) in UNITS]
+
+
+def test_a_value_grows_with_the_slope_as_its_unit_does():
+    found = {}
+    for way in WHERE:
+        place = SCHEMA
+        for word in way:
+            inside = place["items"] if place.get("type") == "array" else place
+            if word == "*":
+                place = inside if inside is not place else inside["additionalProperties"]
+            else:
+                place = inside["properties"][word]
+        if "$ref" in place:
+            place = SCHEMA["$defs"]["point"]
+        named = units(place)
+        key = ".".join(word for word in way if word != "*")
+        if key == "water.table.points":
+            named = ["s", "m"]
+        powers = [UNITS[u] for u in dict.fromkeys(named)]
+        found[key] = tuple(powers) if len(powers) > 1 else powers[0] if powers else 0
+    assert {key: power for key, power in found.items() if power} == similar.POWERS
 
 
 @pytest.mark.parametrize(
