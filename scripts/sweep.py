@@ -23,7 +23,7 @@ else:  # YADE runs in processes of its own
     from nonsmooth.laboratory import arguments
 
 NOTES = 3  # on what runs do, that are printed
-SHOWN = ("times_s.t0", "water_at_failure_m", "front_travel_m", "deposit_thickness_max_m")
+SHOWN = ("verdict", "water_highest_m", "water_at_failure_m", "front_travel_m", "deposit_thickness_max_m")
 
 
 def read_arguments():

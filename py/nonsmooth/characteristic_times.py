@@ -9,7 +9,9 @@ Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
   this is ``moving`` of course.py. Friction and pore pressure are whole then, but for a slope that had slipped and stopped before;
 * t3: the mean of T_DP, the shear force on the slip surfaces, over one second has fallen by 90 % of its value at t2, and weakening has begun; none without weakening;
 * t4: the largest kinetic energy since t2;
-* t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum since t2 for good.
+* t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum since t2 for good;
+* they come in this order: a t3 after t4, where weakening takes less than 90 % of the shear force and the deposit happens to bear little, is none of triggering, and a
+  t5 before t4 no rest. Such a time did not come, and :func:`missing` says why.
 
 Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces. A slope that failed dry has t4 and t5 of all of its rows.
 One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another (scales.py).
@@ -23,7 +25,7 @@ import numpy as np
 
 from . import records, scales
 
-__all__ = ["COLUMNS", "NAMES", "chosen_rows", "kept_rows", "mean_of", "of_run", "weakening_begins"]
+__all__ = ["COLUMNS", "NAMES", "chosen_rows", "kept_rows", "mean_of", "missing", "of_run", "weakening_begins"]
 
 NAMES = ("t0", "t1", "t2", "t3", "t4", "t5")
 #: Columns of the series that the times follow from.
@@ -71,10 +73,46 @@ def _means(series, name, span):
 
 def of_run(series, section, state) -> dict[str, float | None]:
     """t0 … t5 [s] of a run; None for those that did not come. ``series``: its :func:`chosen_rows`; ``state``: the fields of course.State as a mapping."""
-    return _of_run(series, section, state, scales.of(section))
+    found = _of_run(series, section, state, scales.of(section))
+    return {name: None if name in _out_of_order(found) else time for name, time in found.items()}
+
+
+def _out_of_order(found):
+    """{name: why} of times that are none, as they do not come in their order."""
+    why, (t3, t4, t5) = {}, (found[name] for name in ("t3", "t4", "t5"))
+    if None not in (t3, t4) and t3 > t4 + SAME:
+        why["t3"] = f"the shear force had fallen by 90 % only at {t3:.1f} s, after the kinetic energy was largest (t4)"
+    if None not in (t4, t5) and t5 < t4 - SAME:
+        why["t5"] = f"the mean speed was small from {t5:.1f} s on, before the kinetic energy was largest (t4)"
+    return why
+
+
+def missing(series, section, state) -> dict[str, str]:
+    """{name: why} of the times that did not come, in words. Arguments as of :func:`of_run`."""
+    found = _of_run(series, section, state, scales.of(section))
+    why = {name: _reason(name, series, section, state) for name in NAMES if found[name] is None}
+    return dict(sorted((why | _out_of_order(found)).items()))
+
+
+def _reason(name, series, section, state):
+    over = "the run ended" if state["stage"] == "done" else "the run was stopped"
+    if name == "t5" and (state.get("failed_dry") is not None or state["moving"] is not None):
+        return f"the slope had not come to rest when {over}"
+    if state.get("failed_dry") is not None:
+        return "the slope moved before the water came"
+    if state["t0"] is None:
+        return f"{over} before the water began to rise"
+    if state["moving"] is None:
+        return "the slope did not move"
+    if not section.slip_surfaces:
+        return "there is no slip surface"
+    if weakening_begins(series, section, state) is None:
+        return "no slip surface weakened"
+    return "the shear force did not fall by 90 %"
 
 
 def _of_run(series, section, state, scale):
+    """As :func:`of_run`, in whatever order they come."""
     times = dict.fromkeys(NAMES)
     if state.get("failed_dry") is not None:
         return times | _of_motion(series, section)

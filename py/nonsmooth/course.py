@@ -4,8 +4,9 @@ Rules:
 
 * bonds are made in the packing as it is, without load; then gravity grows to its value during ``stages.settle.ramp``;
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
-* failed dry: the mean speed has reached 2 m/s before t0, or is 0.2 m/s then, or comes to that without having been below 0.02 m/s since. The water does not
-  rise, or no further; the slope is followed until it rests;
+* failed dry: before t0 the mean speed has reached 2 m/s, or the mass has collapsed: its centre has gone :data:`COLLAPSED` of its size sideways, or
+  :data:`CRACKED_WAY` of it with :data:`CRACKED` of the bonds broken; or the mean speed is 0.2 m/s at t0, or comes to that without having been below
+  0.02 m/s since. The water does not rise, or no further; the slope is followed until it rests. What moved it, its weight or something else, says :mod:`.verdict`;
 * t0: the dry rest ends, the water begins to rise;
 * moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
   is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there
@@ -16,7 +17,9 @@ Rules:
 * rows and snapshots are of the first steps that end at, or less than half a step before, whole multiples of their distance in time, from the beginning on;
 * speeds and times in this list are those of the shipped section, and scaled for another (:mod:`.scales`);
 * with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the integrator's damping;
-* end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or ``end.time`` has passed.
+* end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and nothing is left that could change it, or
+  ``end.time`` has passed. It stands where for ``rest_hold`` seconds the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other
+  disk got wet, and the water table stays where it is or above all disks; a script that may do more to it says so.
 """
 
 from __future__ import annotations
@@ -35,6 +38,7 @@ __all__ = [
     "gravity_share",
     "keeps_frame",
     "noted",
+    "stands",
     "next_row",
     "tolerance",
     "water_table",
@@ -44,6 +48,10 @@ STAGES = ("settle", "dry", "water")  # by their number in the series
 FRAME_ROWS = 5  # between two snapshots, for the video and the figures
 SLOW_FRACTION = 0.1  # of the largest mean speed, see above
 STILL_SHARE = 0.25  # the tolerance of a slope that is still, of itself
+# Slopes of some hundred disks that stand move their centre by less than 0.002 of their size while they are loaded, and lose 2 % of their bonds at most, rocks that fall
+# off their face included; those that collapse go 0.03 and more, and lose 14 % and more.
+COLLAPSED = 0.01  # way of the mass's centre, in its size (the root of its area)
+CRACKED, CRACKED_WAY = 0.1, 0.002  # of the bonds, with such a way
 # for the progress bar alone
 # s of a usual settling and of a usual avalanche; m of water that a usual slope bears
 SETTLING, MOTION, RISE = (8.0, 55.0, 25.0)
@@ -58,6 +66,9 @@ class State:
     t0: float | None = None
     moving: float | None = None
     failed_dry: float | None = None  # the slope did not wait for the water
+    rested: float | None = None  # it first was at rest under all of its weight, before it moved
+    outside: float | None = 0.0  # J/m, the most that came from elsewhere than weight and water until it moved; None where nobody counts it
+    wet: bool = False  # water has acted on a disk before it moved
     stood: bool = False  # at t0 or since, before it moved
     water_hold: float | None = None
     table: float = 0.0  # height of the water table ...
@@ -65,6 +76,11 @@ class State:
     water_delay: float = 0.0  # how long the table stood still while the slope moved and came to rest again
     front0: float | None = None
     speed_max: float = 0.0
+    speed_before: float = 0.0  # the largest before t0
+    centre: float | None = None  # x of the mass's centre as it was packed [m]
+    quiet_since: float | None = None  # the slope stands and nothing is left that could change it
+    quiet_broken: float = 0.0  # what must not change meanwhile: the part of bonds that is broken ...
+    quiet_wet: int = 0  # ... and the number of wet disks
     resting_since: float | None = None
     bonds_initial: int = 0
     contacts_initial: int = 0
@@ -82,31 +98,48 @@ class State:
 @dataclass(frozen=True)
 class Seen:
     """What a row sees of the slope: ``time`` [s] and length of the last ``step`` [s], mean ``speed`` [m/s], height of the ``water`` table [m], None where
-    the section has none."""
+    the section has none.
+
+    ``way``: of the mass's centre since it was packed, sideways, in its size; ``broken``: part of the bonds that is broken; ``wet``: number of wet disks; ``top``: height of the
+    highest disk's centre above the water's plane [m]; ``outside``: energy from elsewhere than weight and water [J/m], None where nobody counts it; ``more``: whether
+    a script may do more to the slope, whatever the course is.
+    """
 
     time: float
     step: float
     speed: float
     water: float | None = None
+    way: float = 0.0
+    broken: float = 0.0
+    wet: int = 0
+    top: float = math.inf
+    outside: float | None = 0.0
+    more: bool = True
 
 
 # ---- the state --------------------------------------------------------------------------------------
 def noted(state, seen, scales):
-    """The State with what counts before a row is written: whether the slope got going before the water, and its largest mean speed since it counts."""
-    failed_dry = (
-        seen.time
-        if state.stage != "water" and state.failed_dry is None and seen.speed >= scales.going_speed
-        else state.failed_dry
-    )
-    return replace(
-        state,
-        failed_dry=failed_dry,
-        speed_max=max(state.speed_max, seen.speed) if state.stage == "water" or failed_dry is not None else 0.0,
-    )
+    """The State with what counts before a row is written: whether the slope got going or collapsed before the water, its largest mean speed since it counts, and what has acted on it."""
+    before = state.stage != "water"
+    s = replace(state, speed_before=max(state.speed_before, seen.speed) if before else state.speed_before)
+    if s.failed_dry is None and s.moving is None:
+        none = s.outside is None or seen.outside is None
+        s = replace(s, outside=None if none else max(s.outside, seen.outside), wet=s.wet or seen.wet > 0)
+    if before and s.failed_dry is None and (seen.speed >= scales.going_speed or _collapsed(seen)):
+        return replace(s, failed_dry=seen.time, speed_max=s.speed_before)
+    return replace(s, speed_max=0.0 if before and s.failed_dry is None else max(s.speed_max, seen.speed))
+
+
+def _collapsed(seen):
+    return seen.way >= COLLAPSED or (seen.broken >= CRACKED and seen.way >= CRACKED_WAY)
 
 
 def after(state, seen, section, scales):
     """The State after a row that :func:`noted` has seen: in the same stage, or in the next."""
+    settle = section.stages.settle
+    if state.rested is None and state.failed_dry is None and state.moving is None:
+        if seen.time >= settle.ramp and seen.speed <= settle.speed_rest:
+            state = replace(state, rested=seen.time)
     return {"settle": _settle, "dry": _dry, "water": _water}[state.stage](state, seen, section, scales)
 
 
@@ -150,14 +183,37 @@ def _water(state, seen, section, scales):
     resting = s.moving is not None and seen.speed < stages.end.rest_fraction * s.speed_max
     since = (seen.time if s.resting_since is None else s.resting_since) if resting else None
     height = seen.water if rises else 0.0
+    s = _quieted(s, seen, section)
     over = _passed(seen, s.settled + stages.end.time) or (resting and _passed(seen, stages.end.rest_hold, since))
     return replace(
         s,
-        stage="done" if over else "water",
+        stage="done" if over or (not seen.more and stands(s, seen, section)) else "water",
         resting_since=since,
         table=height,
         table_since=s.table_since if height == s.table else seen.time,
     )
+
+
+def _quieted(s, seen, section):
+    """The State with the time since when the slope has been at rest, with the same bonds and the same wet disks, under the last load that comes."""
+    calm = s.moving is None and seen.speed <= section.stages.settle.speed_rest and _load_stays(s, seen, section)
+    same = (s.quiet_broken, s.quiet_wet) == (seen.broken, seen.wet)
+    since = None if not calm else s.quiet_since if s.quiet_since is not None and same else seen.time
+    return replace(s, quiet_since=since, quiet_broken=seen.broken, quiet_wet=seen.wet)
+
+
+def _load_stays(s, seen, section):
+    """Whether no disk gets wet or dry by the table any more: it stays where it is, or above all of them."""
+    table = water_table(s, section)
+    if table is None:
+        return True
+    coming = [seen.water, *(height for time, height in zip(*table) if time > seen.time)]
+    return min(coming) == max(coming) or min(coming) > seen.top
+
+
+def stands(state, seen, section):
+    """Whether the slope has stood so long under the last load that comes that nothing is left which could change it."""
+    return state.quiet_since is not None and _passed(seen, section.stages.end.rest_hold, state.quiet_since)
 
 
 def _passed(seen, time, since=0.0):

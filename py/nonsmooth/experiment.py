@@ -19,7 +19,7 @@ import numpy as np
 
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator
+from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator, PartialEngine, PyRunner
 
 from . import (
     checkpoints,
@@ -87,6 +87,8 @@ class Experiment:
         # disks of the mass, where others are bed or obstacles
         mass = np.array([layer.role == "mass" for layer in self.section.layers])
         self.mass = None if mass.all() else mass[self.layers]
+        self.size = math.sqrt(sum(layer.area for layer, counts in zip(self.section.layers, mass) if counts))  # m
+        self.stands = False  # see run
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         if state is None:
@@ -113,12 +115,16 @@ class Experiment:
             self._begin()
 
     # ---- the course ---------------------------------------------------------------------------
-    def run(self, end=None):
+    def run(self, end=None, stands=None):
         """Runs until the experiment is over, or until ``end`` [s] of simulated time.
+
+        ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see :mod:`.course`). Otherwise it goes on to its longest time, so that a script can do
+        more to it. Unless given, that ends a run without ``end`` in a scene that has no engines of a script (PyRunner, and those that push or move bodies).
 
         Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted. O.bodies and O.interactions are up to date when it ends; within ``progress``
         they are after the engine's ``view()``.
         """
+        self.stands = end is None and not _scripted() if stands is None else stands
         with interrupts.noted() as interrupted:
             try:
                 self._run(end, interrupted)
@@ -163,9 +169,10 @@ class Experiment:
 
         return run_figures.draw(self.folder, self.section, json.loads((self.folder / results.SUMMARY).read_text()))
 
-    def attach(self):
+    def attach(self, stands=False):
         """Lets steps by O.run(), O.step(), the viewer and yade-batch go through the course: a CourseRunner becomes the first of O.engines, which does what :meth:`run` does
-        between steps, and pauses the run where the course is over; that ends with the step that has begun. Returns the engine.
+        between steps, and pauses the run where the course is over; that ends with the step that has begun. Returns the engine. ``stands``: as of :meth:`run`; unless
+        given, a slope that stands goes on to its longest time, as a script or a hand may do more to it between two steps.
 
         Raises ExperimentError for soft contacts, whose gravity :meth:`run` makes grow.
         """
@@ -174,7 +181,7 @@ class Experiment:
             raise ExperimentError(
                 "a slope of soft contacts is driven by Experiment.run() alone: its gravity grows in Python; call that instead of O.run()"
             )
-        _attached = self
+        _attached, self.stands = self, stands
         self.runner = CourseRunner(
             label="slopeCourse", command="import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()"
         )
@@ -224,8 +231,37 @@ class Experiment:
             self.checkpoint()
 
     def _seen(self, disks):
-        water = self.slope.water
-        return course.Seen(O.time, O.dt, self._mean_speed(disks), water.height if water else None)
+        e, water, made = self.slope.solver, self.slope.water, self.state.bonds_initial
+        return course.Seen(
+            O.time,
+            O.dt,
+            self._mean_speed(disks),
+            water.height if water else None,
+            way=0.0 if self.state.centre is None else abs(self._centroid(disks)[0] - self.state.centre) / self.size,
+            broken=(e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed) / made if made else 0.0,
+            wet=water.wetCount if water else 0,
+            top=self._top(disks),
+            outside=self._outside(e),
+            more=not self.stands,
+        )
+
+    def _top(self, t):
+        """Height of the highest disk's centre above the water's plane [m]; the table acts on those whose centres are below it."""
+        water = self.section.water
+        if water is None:
+            return -math.inf
+        (x, y), (nx, ny) = water.point, water.normal
+        return float(np.max((t["x"] - x) * nx + (t["y"] - y) * ny))
+
+    def _outside(self, e):
+        """Energy that came from elsewhere than weight and water [J/m]: of walls that move, of what a script did between steps since the slope settled (until then gravity, which grows,
+        is counted there too) and, as long as all is dry, of forces that others put on disks. None with soft contacts, which nobody counts. It is 0 to the last bit where nobody has
+        done anything."""
+        if not self.hard:
+            return None
+        wet = self.state.wet or (self.slope.water is not None and self.slope.water.wetCount > 0)
+        brought = 0.0 if self.state.stage == "settle" else abs(e.broughtEnergy)
+        return brought + abs(e.wallWork) + (0.0 if wet else abs(e.externalWork))
 
     def _decide(self, seen):
         """Goes on to the next state, and does what the change means."""
@@ -255,6 +291,7 @@ class Experiment:
             s.bonds_initial = solver.bond()
         advance(view=False)
         s.contacts_initial = solver.contacts
+        s.centre = self._centroid(tables.bodies(solver))[0]
         self.walls.forget()
         if self.hard:  # from here on it grows by itself
             solver.finalGravity, solver.gravityBegin, solver.gravityRamp = (
@@ -444,6 +481,11 @@ class Experiment:
         self.frames.saved()
         self._saved = time.monotonic()
         self._saving = self._saved - now
+
+
+def _scripted():
+    """Whether the scene has engines that a script has put there, which may do more to the slope."""
+    return any(isinstance(e, (PyRunner, PartialEngine)) and not e.dead for e in O.engines)
 
 
 _attached = None  # that a CourseRunner drives

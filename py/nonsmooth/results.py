@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from . import frames, records, scales, toe
-from .characteristic_times import chosen_rows, mean_of, of_run, weakening_begins
+from . import frames, records, scales, toe, verdict
+from .characteristic_times import chosen_rows, mean_of, missing, of_run, weakening_begins
 from .measure import energy, force_stages, toe_bands
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import remove, remove_parts, whole, write_json
 
-__all__ = ["summarise", "forget", "forget_later", "while_it_fails"]
+__all__ = ["summarise", "forget", "forget_later", "moved_before_water", "while_it_fails"]
 
 ENTRAINED = 2.0  # mean diameters
 EARLIER = "left from an earlier run"
@@ -65,6 +65,12 @@ def forget_later(folder, stage, step):
     later = [path for path in whole(folder / SNAPSHOTS, "*.npz") if path.stem.isdecimal() and int(path.stem) > step]
     remove(later + [folder / BEGIN] * (stage in ("settle", "dry")) + [folder / END] * (stage != "done"), EARLIER)
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW, folder / "checkpoint")
+
+
+def moved_before_water(summary):
+    """When a run's slope moved before t0 [s], as course.State has it as ``failed_dry``; None for one that did not. ``summary``: that of :func:`summarise`, or of a version before."""
+    before = summary["failed_dry_s"] if summary["failed_dry_s"] is not None else summary.get("moved_dry_s")
+    return before if summary["times_s"]["t0"] is None else None
 
 
 def _difference(a, b):
@@ -198,8 +204,11 @@ def summarise(folder, section, state, threads=None) -> dict:
             series["centroid_y_m"][-1] - series["centroid_y_m"][after][0],
         )
     turned = energy.turned_over(balanced)
+    found = verdict.of(every, section, state, times, None if start is None else len(start.x))
     summary = {
         "section": section.name,
+        "verdict": found.kind,
+        "verdict_says": found.says,
         "finished": finished,
         "disks": int(len(start.x)) if start is not None else None,
         "contacts_initial": state["contacts_initial"],
@@ -220,9 +229,11 @@ def summarise(folder, section, state, threads=None) -> dict:
         "residual_p95_over_tolerance": float(np.percentile(series["residual"] / series["tolerance"], 95)),
         "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])),
         "overlap_mean_rel": float(np.max(series["overlap_mean_rel"])),
-        "failed_dry_s": failed_dry,
+        "failed_dry_s": found.before if found.kind == verdict.DRY else None,
+        "moved_dry_s": found.before if found.kind == verdict.MOVED else None,
         "times_s": times,
-        "water_at_failure_m": at("water_m", t1, 0.0),
+        "times_missing": missing(series, section, state),
+        "water_at_failure_m": at("water_m", t1, 0.0) if found.before is None else None,
         "water_highest_m": float(np.max(series["water_m"])) if t0 is not None else None,
         "fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0),
         "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", t1),

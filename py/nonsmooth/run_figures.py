@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
 
-from . import figures, frames, paraview, records, results, scales, video
+from . import figures, frames, paraview, records, results, scales, verdict, video
 from .characteristic_times import chosen_rows
 
 __all__ = ["Drawing", "draw"]
@@ -16,12 +16,9 @@ class Drawing:
     """Draws the figures of the run in ``folder``, of a Section, with its ``summary``."""
 
     def __init__(self, folder, section, summary):
-        self.folder, self.section, self.times, self.failed_dry = (
-            Path(folder),
-            section,
-            summary["times_s"],
-            summary["failed_dry_s"],
-        )
+        self.folder, self.section, self.times = Path(folder), section, summary["times_s"]
+        self.failed_dry = results.moved_before_water(summary)
+        self.verdict = summary.get("verdict")  # versions before had none
         self.window = scales.of(section).mean_seconds
 
     @cached_property
@@ -60,7 +57,7 @@ class Drawing:
             elif self.shots:
                 found.append((name, records.read_snapshot(frames.nearest(self.shots, t))))
         if self.times["t5"] is None and self.last is not None and not (found and found[-1][1].step == self.last.step):
-            found.append(("end", self.last))
+            found.append((f"end, {self.verdict}" if self.verdict == verdict.STOOD else "end", self.last))
         return found
 
     def figure(self, name, path=None):
@@ -82,6 +79,8 @@ class Drawing:
             return None
         if name == "force_chains":
             return figures.force_chains(self.first, self.section, path)
+        if self.verdict == verdict.STOOD:  # nothing was deposited
+            return None
         return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
 
     def _toe(self, path):
@@ -101,11 +100,11 @@ class Drawing:
 def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
     """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
     drawing = Drawing(folder, section, summary)
-    notes = (
-        ["no figures of force chains and deposit: the slope was on the move already when they would begin"]
-        if drawing.failed_dry is not None
-        else []
-    )
+    notes = []
+    if drawing.failed_dry is not None:
+        notes.append("no figures of force chains and deposit: the slope was on the move already when they would begin")
+    if drawing.verdict == verdict.STOOD:
+        notes.append("no figures of the toe's failure and of a deposit: the slope stood")
     made = [
         path for name in results.PICTURES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None
     ]

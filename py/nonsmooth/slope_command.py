@@ -29,6 +29,8 @@ from . import (
 __all__ = ["run"]
 
 QUIET = 5.0  # s between two lines of the progress bar in a file
+#: Which characteristic times numbers of the summary need, those first whose lack tells more.
+OF_TIMES = {"water_at_failure_m": ("t1",), "triggering_s": ("t2", "t3"), "weakening_s": ("t3",), "motion_s": ("t3", "t5")}
 
 
 def arguments(name, about, default):
@@ -88,16 +90,23 @@ class Bar:
             self.bar.refresh()
 
 
-def dry_failure(since):
-    """What is said of a slope that did not wait for the water, or nothing."""
+def verdict_lines(summary):
+    """What became of the slope, and what helps where it did not wait for the water."""
+    said = summary["verdict_says"]
+    said = said[0].upper() + said[1:] + ".\n"
+    if summary["failed_dry_s"] is None:
+        return said
     return (
-        ""
-        if since is None
-        else (
-            f"\nTHE SLOPE FAILED DRY, at {since:.1f} s: it does not bear its own weight, so nothing here is a failure by water. "
-            "Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the plane.\n\n"
-        )
+        f"\nTHE SLOPE FAILED DRY. {said}Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the "
+        "plane.\n\n"
     )
+
+
+def number_line(name, summary):
+    """A number of the summary; of one that there is not, why."""
+    value = summary[name]
+    why = next((f"{time}: {summary['times_missing'][time]}" for time in OF_TIMES.get(name, ()) if time in summary["times_missing"]), "")
+    return f"  {name:28s} {(f'-  ({why})' if why else '-') if value is None else f'{value:.4g}'}"
 
 
 def run(name, about, default=None):
@@ -127,9 +136,8 @@ def run(name, about, default=None):
             print(sentence, flush=True)
     course.progress = Bar()
     with commands.closing(course.progress.bar):
-        course.run(end=args.end)
-    if course.state.stage == "settle":
-        print(dry_failure(course.state.failed_dry), end="")
+        course.run(end=args.end, stands=True)
+    if course.state.stage == "settle" and course.state.failed_dry is None:
         print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
         return
     summary = course.summarise(args.threads or os.cpu_count())
@@ -149,13 +157,12 @@ def run(name, about, default=None):
         "deposit_thickness_max_m",
         "energy_error_rel",
     ):
-        value = summary[name]
-        print(f"  {name:28s} {'-' if value is None else f'{value:.4g}'}")
+        print(number_line(name, summary))
     if summary.get("water_at_failure_over_passive"):
         print(
             f"the toe's passive strength, from the measured envelope, is reached at {summary['water_passive_m']:.1f} m of water "
             f"and a push of {1e-6 * summary['passive_force_N_per_m']:.0f} MN/m; the slope failed at {summary['water_at_failure_over_passive']:.2f} of that height, "
             f"with {summary['fb_force_at_failure_over_passive']:.2f} of that force on the backstop"
         )
-    print(dry_failure(summary["failed_dry_s"]), end="")
+    print(verdict_lines(summary), end="")
     print(f"results: {', '.join([f'{out}/summary.json', 'series.csv', *(p.name for p in made)])}")

@@ -54,6 +54,7 @@ def series():
         "time_s": t,
         "stage": np.where(settling, 0, np.where(t <= 10 + 1e-9, 1, 2)),
         "water_m": 0.5 * np.clip(t - 10, 0, 20.5),
+        "wet_disks": np.where(t > 15, 110, 0),
         "dp_shear_N_per_m": np.where(settling, 900e6, shear),
         "fb_normal_N_per_m": np.where(settling, 500e6, back),
         # by weakening 8 of the 765 disks that fit along DP; those before t0 are none of the water's

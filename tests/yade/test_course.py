@@ -445,10 +445,11 @@ def test_slopes_of_other_sizes_do_the_same_in_their_units(name, size, gravity, h
     assert scales.of(other).row_seconds == pytest.approx(0.1 * time, rel=1e-12)
     reference, found = play(small, history), play(other, lambda t: speed * history(t / time))
     assert len(found) == len(reference)
-    units = {"speed_max": speed, "table": size, "water_hold": size}
-    units |= {
-        name: time for name in ("settled", "t0", "moving", "failed_dry", "table_since", "water_delay", "resting_since")
-    }
+    units = {"speed_max": speed, "speed_before": speed, "table": size, "water_hold": size}
+    units |= dict.fromkeys(
+        ("settled", "t0", "moving", "failed_dry", "rested", "table_since", "water_delay", "resting_since", "quiet_since"),
+        time,
+    )
     for a, b in zip(reference, found):
         for field in dataclasses.fields(a.state):
             value, scaled_value = getattr(a.state, field.name), getattr(b.state, field.name)

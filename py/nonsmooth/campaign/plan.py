@@ -4,7 +4,7 @@
     Snakefile, array.sh    the same for a cluster, see :mod:`cluster`
     runs/NAME/             a run: its request, its records, and result.json once it has ended
     table.csv              a row for each run: its values and its results
-    means.json             where seeds were varied: the results' means over them, for each combination of the other values
+    means.json             where seeds were varied: the results' means over them, for each combination of the other values and each verdict
 
 A result is kept with the key of its input, the engines and this package's code; another's is made anew, and never collected.
 """
@@ -28,6 +28,7 @@ __all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "read", "
 
 FILE, TABLE, MEANS, FORMAT = "plan.json", "table.csv", "means.json", 1
 SEED = "seed"  # the key whose values are packings of one slope
+VERDICT = "verdict"  # of a slope's run, a text
 
 
 class PlanError(UserError, RuntimeError):
@@ -127,7 +128,7 @@ def run_one(out, which):
 
 def collect(out) -> dict:
     """Writes the table of the plan in the folder ``out``, and returns it: {column: list, a value for each run}; columns are the varied values, ``run`` (the
-    name), and the numbers that the results have, None where one has no meaning.
+    name), what became of slopes (``verdict``), and the numbers that the results have, None where one has no meaning.
 
     Raises PlanError where runs have not ended, or are of other input, engines or code.
     """
@@ -155,29 +156,35 @@ def collect(out) -> dict:
 
 
 def means(table, varied) -> list:
-    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys: dictionaries with ``values`` of these keys, ``seeds``, and
-    ``numbers``, {name: see statistics.over_seeds}. Where no seed was varied each run is a row of its own."""
+    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`.verdict.MEANINGS`), as a slope that
+    stood and one that failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None in a table that has none), ``seeds``,
+    ``of``, the number of runs of this combination whatever became of them, and ``numbers``, {name: see statistics.over_seeds}. Where no seed was varied each run is a row of its own."""
     others = [key for key in varied if key != SEED]
-    rows = {}
+    verdicts = table.get(VERDICT, [None] * len(table["run"]))
+    rows, number = {}, {}
     for k in range(len(table["run"])):
-        rows.setdefault(repr([table[key][k] for key in others]), []).append(k)
-    results = [name for name in table if name not in ("run", *varied)]
+        values = repr([table[key][k] for key in others])
+        rows.setdefault((values, verdicts[k]), []).append(k)
+        number[values] = number.get(values, 0) + 1
+    results = [name for name in table if name not in ("run", VERDICT, *varied)]
     return [
         {
             "values": {key: table[key][found[0]] for key in others},
+            "verdict": verdict,
             "seeds": [table[SEED][k] for k in found] if SEED in varied else [],
+            "of": number[values],
             "numbers": {name: over_seeds([table[name][k] for k in found]) for name in results},
         }
-        for found in rows.values()
+        for (values, verdict), found in rows.items()
     ]
 
 
 def _numbers(result, prefix=""):
-    """The numbers of a result, those of its dictionaries as `key.key`; lists and texts are left out."""
+    """The verdict and the numbers of a result, those of its dictionaries as `key.key`; lists and other texts are left out."""
     found = {}
     for name, value in result.items():
         if isinstance(value, dict):
             found |= _numbers(value, f"{prefix}{name}.")
-        elif value is None or isinstance(value, (bool, int, float)):
+        elif value is None or isinstance(value, (bool, int, float)) or name == VERDICT:
             found[f"{prefix}{name}"] = None if isinstance(value, float) and not math.isfinite(value) else value
     return found

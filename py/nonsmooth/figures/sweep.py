@@ -1,50 +1,112 @@
 """Figure of a sweep: results against a value that was varied, with their scatter over seeds."""
 
-import numpy as np
+from collections import Counter
+
+from matplotlib.lines import Line2D
 
 from . import style
+
+#: Markers of verdicts (:data:`nonsmooth.verdict.MEANINGS`): filled where the slope moved off, open where it did not.
+MARKERS = {
+    "failed by water": ("s", True),
+    "stood": ("o", False),
+    "failed dry": ("v", True),
+    "moved dry": ("D", True),
+    "not at rest": ("^", False),
+    "not over": ("d", False),
+}
+PLAIN = ("s", True)  # of results that have no verdict
+APART = 0.012  # of the axis between verdicts at one value
 
 
 @style.styled
 def means(rows, key, names, path=None, pdf=False):
-    """Results against the values of ``key``, a panel for each of the ``names``; dots: runs, squares: means over seeds with their 95 % interval.
+    """Results against the values of ``key``, a panel for each of the ``names``; dots: runs, large markers: means over seeds with their 95 % interval, a kind of marker for each verdict.
+    A panel says which runs have no such result, by their verdicts.
 
     ``rows``: of `campaign.means`; those that differ in other keys too are lines of their own. Values that are no numbers stand side by side.
     """
-    fig = style.figure(3.6 * len(names) + 0.6, 3.8, layout="constrained")
+    fig = style.figure(3.6 * len(names) + 0.6, 4.4, layout="constrained")
     groups = {}
     for row in rows:
         groups.setdefault(", ".join(f"{k} = {v}" for k, v in row["values"].items() if k != key), []).append(row)
     values = list(dict.fromkeys(str(row["values"][key]) for row in rows))
     numeric = all(isinstance(row["values"][key], (int, float)) for row in rows)
+    verdicts = list(dict.fromkeys(row.get("verdict") for row in rows))
+    verdicts.sort(key=lambda one: list(MARKERS).index(one) if one in MARKERS else len(MARKERS))
+    place = {row["values"][key] if numeric else str(row["values"][key]): 0.0 for row in rows}
+    place = {value: float(value) if numeric else k for k, value in enumerate(place)}
+    ticks = sorted(place.values())
+    logarithmic = numeric and ticks[0] > 0 and ticks[-1] >= 5 * ticks[0]
+    colours = dict(zip(groups, style.line_colours(len(groups))))
     for ax, name in zip(fig.subplots(1, len(names), squeeze=False)[0], names):
-        for colour, (label, chosen) in zip(style.line_colours(len(groups)), groups.items()):
-            x = [row["values"][key] if numeric else values.index(str(row["values"][key])) for row in chosen]
-            found = [row["numbers"][name] for row in chosen]
-            for at, one in zip(x, found):
-                each = [v for v in one["values"] if v is not None]
-                ax.plot([at] * len(each), each, "o", ms=3.5, color=colour, alpha=0.35, mew=0)
-            ax.errorbar(
-                x,
-                [np.nan if one["mean"] is None else one["mean"] for one in found],
-                [one["half_width"] or 0.0 for one in found],
-                fmt="s-",
-                ms=5,
-                color=colour,
-                capsize=3,
-                lw=1.2,
-                label=style.plain(label),
-            )
-        ax.set(xlabel=style.plain(key), title=style.plain(name))
-        ticks = sorted({row["values"][key] for row in rows}) if numeric else range(len(values))
-        if numeric and min(ticks) > 0 and max(ticks) >= 5 * min(ticks):
+        if logarithmic:
             ax.set_xscale("log")
-        ax.set_xticks(list(ticks), [f"{t:g}" for t in ticks] if numeric else values)
+        for label, chosen in groups.items():
+            for verdict in verdicts:
+                of = [row for row in chosen if row.get("verdict") == verdict]
+                at = [place[row["values"][key] if numeric else str(row["values"][key])] for row in of]
+                shift = APART * (verdicts.index(verdict) - (len(verdicts) - 1) / 2)
+                x = [_beside(a, shift, ticks, logarithmic) for a in at]
+                _draw(ax, x, [row["numbers"][name] for row in of], colours[label], MARKERS.get(verdict, PLAIN))
+        ax.set(xlabel=style.plain(key), title=style.plain(name))
+        ax.set_xticks(ticks, [f"{t:g}" for t in ticks] if numeric else [style.plain(v) for v in values])
         ax.minorticks_off()
+        ax.margins(x=0.08)
         ax.grid(axis="y", color="#e3e3e3", lw=0.7)
+        _tell_absent(ax, rows, name)
         low, high = ax.get_ylim()
         if low > 0:
             ax.set_ylim(0, high)
-    if any(groups):
-        fig.axes[0].legend()
+    _legend(fig, colours, verdicts)
     return style.save(fig, path, pdf)
+
+
+def _beside(value, shift, ticks, logarithmic):
+    """A place a little beside a value, by a share of the axis."""
+    span = ticks[-1] / ticks[0] if logarithmic else (ticks[-1] - ticks[0] or abs(ticks[0]) or 1.0)
+    return value * span**shift if logarithmic else value + shift * span
+
+
+def _draw(ax, x, found, colour, marker):
+    """Runs and means of one group and one verdict."""
+    shape, filled = marker
+    for at, one in zip(x, found):
+        each = [v for v in one["values"] if v is not None]
+        if each:
+            ax.plot([at] * len(each), each, shape, ms=3.5, color=colour, alpha=0.35, mew=0 if filled else 0.8,
+                    mfc=colour if filled else "none")  # fmt: skip
+    told = [(at, one["mean"], one["half_width"] or 0.0) for at, one in zip(x, found) if one["mean"] is not None]
+    if told:
+        at, mean, half = zip(*told)
+        ax.errorbar(at, mean, half, fmt=f"{shape}-", ms=6, color=colour, mfc=colour if filled else "white", capsize=3, lw=1.2)  # fmt: skip
+
+
+def _tell_absent(ax, rows, name):
+    """Says how many runs have not this result and what became of them; in the middle of a panel where no run has it."""
+    without, present = Counter(), 0
+    for row in rows:
+        lacking = sum(v is None for v in row["numbers"][name]["values"])
+        present += len(row["numbers"][name]["values"]) - lacking
+        if lacking:
+            without[row.get("verdict") or "without a value"] += lacking
+    if not without:
+        return
+    kinds = "\n".join(f"{count} {kind}" for kind, count in without.items())
+    if present:
+        ax.text(0.5, -0.22, f"not drawn, without this value: {', '.join(kinds.splitlines())}", transform=ax.transAxes, ha="center", va="top",
+                fontsize=8, color="#555555")  # fmt: skip
+        return
+    ax.set_yticks([])
+    ax.text(0.5, 0.5, f"no run has this value:\n{kinds}", transform=ax.transAxes, ha="center", va="center", color="#555555")  # fmt: skip
+
+
+def _legend(fig, colours, verdicts):
+    """Colours are of other keys, markers of verdicts."""
+    handles = [Line2D([], [], color=colour, lw=1.5, label=style.plain(label)) for label, colour in colours.items() if label]
+    for verdict in verdicts:
+        if verdict is not None:
+            shape, filled = MARKERS.get(verdict, PLAIN)
+            handles.append(Line2D([], [], ls="", marker=shape, color="#444444", mfc="#444444" if filled else "white", label=verdict))  # fmt: skip
+    if handles:
+        fig.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), frameon=False)

@@ -65,8 +65,8 @@ def statements(series, times, friction, mean, backstop=True) -> dict[str, float 
     change = lambda name: at(name, t1) - at(name, t0)  # noqa: E731
     normal, effective, shear, push = "dp_normal_total", "dp_normal_effective", "dp_shear", "fb_normal"
     found["normal_change"] = _ratio(change(normal), at(normal, t0))
-    if friction:
-        rising = (t > t0) & (t <= t1)
+    rising = (t > t0) & (t <= t1)
+    if friction and rising.any():  # it may fail at once
         found["shear_drop"] = _ratio(-change(shear), friction * change("dp_water"))
         found["shear_share"] = _ratio(
             float(np.mean(series[f"{shear}_N_per_m"][rising])),
