@@ -67,7 +67,9 @@ class State:
     moving: float | None = None
     failed_dry: float | None = None  # the slope did not wait for the water
     rested: float | None = None  # it first was at rest under all of its weight, before it moved
-    outside: float | None = 0.0  # J/m, the most that came from elsewhere than weight and water until it moved; None where nobody counts it
+    outside: float | None = (
+        0.0  # J/m, the most that came from elsewhere than weight and water until it moved; None where nobody counts it
+    )
     wet: bool = False  # water has acted on a disk before it moved
     stood: bool = False  # at t0 or since, before it moved
     water_hold: float | None = None

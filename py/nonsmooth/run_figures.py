@@ -63,7 +63,10 @@ class Drawing:
     def figure(self, name, path=None):
         """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it."""
         if name == "forces":
-            return figures.forces_against_time(self.series, self.times, path, window=self.window, walls=self.section)
+            said = verdict.TITLES.get(self.verdict)
+            return figures.forces_against_time(
+                self.series, self.times, path, window=self.window, walls=self.section, verdict=said
+            )
         if name == "energy":
             return figures.energy(records.since_settled(self.every), path, times=self.times)
         if name == "solver":

@@ -24,13 +24,19 @@ from . import (
     section_checks,
     slope,
     slope_packing,
+    verdict,
 )
 
 __all__ = ["run"]
 
 QUIET = 5.0  # s between two lines of the progress bar in a file
 #: Which characteristic times numbers of the summary need, those first whose lack tells more.
-OF_TIMES = {"water_at_failure_m": ("t1",), "triggering_s": ("t2", "t3"), "weakening_s": ("t3",), "motion_s": ("t3", "t5")}
+OF_TIMES = {
+    "water_at_failure_m": ("t1",),
+    "triggering_s": ("t2", "t3"),
+    "weakening_s": ("t3",),
+    "motion_s": ("t3", "t5"),
+}
 
 
 def arguments(name, about, default):
@@ -105,7 +111,16 @@ def verdict_lines(summary):
 def number_line(name, summary):
     """A number of the summary; of one that there is not, why."""
     value = summary[name]
-    why = next((f"{time}: {summary['times_missing'][time]}" for time in OF_TIMES.get(name, ()) if time in summary["times_missing"]), "")
+    if name == "energy_error_rel" and summary["verdict"] == verdict.STOOD:
+        return f"  {name:28s} -  (the slope stood: it turned over too little energy to set an error beside)"
+    why = next(
+        (
+            f"{time}: {summary['times_missing'][time]}"
+            for time in OF_TIMES.get(name, ())
+            if time in summary["times_missing"]
+        ),
+        "",
+    )
     return f"  {name:28s} {(f'-  ({why})' if why else '-') if value is None else f'{value:.4g}'}"
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import scales
 
-__all__ = ["MEANINGS", "Verdict", "of"]
+__all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
 
 STOOD, DRY, MOVED, WATER, RESTLESS, UNFINISHED = (
     "stood",
@@ -33,6 +33,17 @@ MEANINGS = {
 }
 
 
+#: A title for each, of figures.
+TITLES = {
+    STOOD: "the slope stood",
+    DRY: "the slope failed dry",
+    MOVED: "the slope moved dry",
+    WATER: "the slope failed by water",
+    RESTLESS: "the slope did not come to rest",
+    UNFINISHED: "the run is not over",
+}
+
+
 @dataclass(frozen=True)
 class Verdict:
     """``kind``: one of :data:`MEANINGS`; ``says``: a sentence; ``before``: when it moved [s], where that was before water acted on it."""
@@ -49,7 +60,11 @@ def of(series, section, state, times, disks=None) -> Verdict:
     moved = state["failed_dry"] if state.get("failed_dry") is not None else state["moving"]
     if moved is None:
         return _unmoved(series, section, state, last, over, disks)
-    rest = "" if times["t5"] is not None else f"; it had not come to rest at {last:.1f} s, when the run {'ended' if over else 'was stopped'}"
+    rest = (
+        ""
+        if times["t5"] is not None
+        else f"; it had not come to rest at {last:.1f} s, when the run {'ended' if over else 'was stopped'}"
+    )
     if state.get("failed_dry") is not None or not _wet(series, moved):
         return _dry(series, section, state, moved, rest)
     fast = float(np.max(series["speed_mean_m_per_s"][series["time_s"] >= moved - 1e-9]))
@@ -71,10 +86,7 @@ def _unmoved(series, section, state, last, over, disks):
     if not over:
         doing = {"settle": "settled", "dry": "rested dry"}.get(state["stage"])
         water = "" if doing else _water(series, section, disks)
-        return Verdict(
-            UNFINISHED,
-            f"the run was stopped at {last:.1f} s, while the slope {doing or 'stood'}{water}",
-        )
+        return Verdict(UNFINISHED, f"the run was stopped at {last:.1f} s, while the slope {doing or 'stood'}{water}")
     speed, water = float(series["speed_mean_m_per_s"][-1]), _water(series, section, disks)
     if speed >= scales.of(section).stopped_speed:
         return Verdict(

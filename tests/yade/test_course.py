@@ -38,8 +38,8 @@ class Row:
     table: tuple | None
 
 
-def play(s, speed, start=None):
-    """Rows of a slope whose mean speed at a time is ``speed(time)``, until it is done; ``start``: a State to go on from, and its time."""
+def play(s, speed, start=None, also=lambda time: {}):
+    """Rows of a slope whose mean speed at a time is ``speed(time)``, until it is done; ``start``: a State to go on from, and its time; ``also(time)``: what else is seen then."""
     at = scales.of(s)
     state, time = start or (course.State(), 0.0)
     table, rows = course.water_table(state, s), []
@@ -48,7 +48,7 @@ def play(s, speed, start=None):
         time = row * at.row_seconds
         # as the engine has it in the step that ends the row
         height = None if s.water is None else float(np.interp(time, *table)) if table else 0.0
-        seen = course.Seen(time, STEP, speed(time), height)
+        seen = course.Seen(time, STEP, speed(time), height, **also(time))
         given = dataclasses.astuple(state)
         new = course.noted(state, seen, at)
         assert dataclasses.astuple(state) == given  # a function changes nothing that it is given
@@ -264,6 +264,41 @@ def test_a_slope_that_has_stood_fails_by_water(speed, moving):
     assert last.failed_dry is None and last.moving == close(moving) and last.stood and last.water_hold == close(3.5)
 
 
+# a mass that has gone so far of its size since it was packed, with so many of its bonds broken
+@pytest.mark.parametrize(
+    "way, broken, collapsed",
+    [(0.0101, 0.0, True), (0.0099, 0.09, False), (0.0021, 0.101, True), (0.0019, 0.9, False), (0.0099, 0.101, True)],
+)
+@pytest.mark.parametrize("since", [0.4, 1.2])  # while gravity grows, and in the dry rest
+def test_a_mass_that_collapses_slowly_has_not_waited_for_the_water(way, broken, collapsed, since):
+    """At 1.9 m/s and less, and at rest again before the water would rise."""
+    speed = steps((since - 0.1, 1.9), (since, 0.1), (since + 0.1, 1e-3))
+    rows = play(
+        slope(end=12.0), speed, also=lambda t: dict(way=way, broken=broken) if t >= since - ROUNDING else dict(way=0.0)
+    )
+    last = rows[-1].state
+    assert (last.failed_dry == close(since)) if collapsed else last.failed_dry is None
+    assert max(row.height for row in rows) == close(0.0 if collapsed else 11.5)
+    if collapsed:  # it rests by a part of the speed that it had had before it counted
+        assert last.speed_max == 1.9 and last.moving == close(since) and rows[-1].time < 8.0
+
+
+def test_a_slope_that_has_failed_by_water_does_not_collapse_dry():
+    rows = play(slope(end=20.0), steps((5.0, 9.0), (9.0, 0.0)), also=lambda t: dict(way=0.3 if t > 5 else 0.0, broken=0.5))
+    assert rows[-1].state.failed_dry is None and rows[-1].state.moving == close(5.0)
+
+
+def test_what_acted_on_it_until_it_moved_is_kept():
+    """Energy from elsewhere, and whether a disk had been wet: what comes later does not count."""
+    seen = lambda t: dict(outside=7.0 if 1.2 < t < 1.4 else 3.0 if t < 5.05 else 99.0, wet=int(t > 5.05))  # noqa: E731
+    last = play(slope(end=12.0), steps((5.0, 3.0), (9.0, 0.0)), also=seen)[-1].state
+    assert (last.outside, last.wet, last.moving, last.rested) == (7.0, False, close(5.0), close(1.0))
+    wet = play(slope(end=12.0), steps((5.0, 3.0)), also=lambda t: dict(wet=int(t > 4.0), outside=None))[-1].state
+    assert wet.wet and wet.outside is None
+    # not while gravity grows, nor above the speed of rest
+    assert play(slope(end=12.0), steps((0.0, 6e-3), (7.0, 5e-3)))[-1].state.rested == close(7.0)
+
+
 def test_one_that_failed_dry_waits_for_no_water():
     """It stops, has never got going, and is the same failure still."""
     rows = play(slope(rest_hold=1e9, end=20.0), steps((1.45, 0.3), (4.0, 0.0), (8.0, 0.3), (9.0, 0.0)))
@@ -333,6 +368,50 @@ def test_it_ends_when_its_time_has_passed():
     assert play(slope(end=12.0), steps((5.0, 40.0)))[-1].time == close(13.0)  # after settling, at 1 s
     rows = play(slope(end=12.0, rest_hold=1.0), steps())
     assert rows[-1].time == close(13.0) and rows[-1].state.resting_since is None  # one that does not move does not rest
+
+
+def standing(**seen):
+    return lambda time: dict(more=False) | {name: one(time) if callable(one) else one for name, one in seen.items()}
+
+
+@pytest.mark.parametrize(
+    "hold, rate, points, top, ends",
+    [
+        ("motion", 1.0, [(0.0, 0.0)], 10.0, 11.6 + 5.0),  # the table is above 10 m from 11.6 s on, and rises
+        ("motion", 1.0, [(0.0, 0.0)], 100.0, 81.0),  # it never comes so far
+        (4.0, 1.0, [(0.0, 0.0)], 10.0, 5.5 + 5.0),  # held at 4 m
+        ("never", 0.0, [(0.0, 0.0)], 10.0, 1.6 + 5.0),  # it stays at 0
+        ("never", 0.0, [(0.0, 0.0), (2.0, 6.0)], 10.0, 3.5 + 5.0),
+        ("never", 0.0, [(0.0, 0.0), (2.0, 20.0), (30.0, 20.0), (32.0, 3.0)], 10.0, 33.5 + 5.0),  # it will fall again
+    ],
+)
+def test_a_slope_that_stands_under_its_last_load_ends_its_run(hold, rate, points, top, ends):
+    """t0 is 1.5 s; rest_hold is 5 s."""
+    rows = play(slope(hold, rate, tuple(points)), steps(), also=standing(top=top))
+    assert rows[-1].time == pytest.approx(ends, abs=0.1 + ROUNDING)  # a row
+    longest = play(slope(hold, rate, tuple(points)), steps(), also=standing(top=top, more=True))
+    assert longest[-1].time == close(81.0)  # where a script may do more to it
+    assert [dataclasses.astuple(row.state) for row in longest[: len(rows) - 1]] == [
+        dataclasses.astuple(row.state) for row in rows[:-1]
+    ]
+
+
+def test_a_slope_without_water_that_stands_ends_its_run():
+    assert play(slope(water=False), steps(), also=standing())[-1].time == close(1.6 + 5.0)
+
+
+# what goes on until 9 s
+@pytest.mark.parametrize(
+    "speed, seen",
+    [
+        (steps((0.0, 0.0051), (9.0, 0.005)), {}),  # it creeps
+        (steps(), dict(broken=lambda t: 1e-3 * min(90, round(10 * t)))),  # bonds break
+        (steps(), dict(wet=lambda t: min(90, round(10 * t)))),  # disks get wet
+    ],
+)
+def test_as_long_as_anything_goes_on_it_does_not_end(speed, seen):
+    rows = play(slope("never", 0.0), speed, also=standing(**seen))
+    assert rows[-1].time == close(9.0 + 5.0)
 
 
 # ---- rows -------------------------------------------------------------------------------------------
@@ -447,7 +526,17 @@ def test_slopes_of_other_sizes_do_the_same_in_their_units(name, size, gravity, h
     assert len(found) == len(reference)
     units = {"speed_max": speed, "speed_before": speed, "table": size, "water_hold": size}
     units |= dict.fromkeys(
-        ("settled", "t0", "moving", "failed_dry", "rested", "table_since", "water_delay", "resting_since", "quiet_since"),
+        (
+            "settled",
+            "t0",
+            "moving",
+            "failed_dry",
+            "rested",
+            "table_since",
+            "water_delay",
+            "resting_since",
+            "quiet_since",
+        ),
         time,
     )
     for a, b in zip(reference, found):

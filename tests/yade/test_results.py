@@ -175,6 +175,42 @@ def test_t4_and_t5_are_the_top_and_the_last_fall():
     ] == pytest.approx(82.3, abs=1e-9)
 
 
+def missing_of(series, **state):
+    state = STATE | state
+    return characteristic_times.missing(characteristic_times.chosen_rows(series, state), SHIPPED, state)
+
+
+def test_times_come_in_their_order_or_say_why_not():
+    """The shear force falls to a tenth after the kinetic energy was largest, before and after the slope is at rest; and that is largest after it is at rest."""
+    known = known_slope.series()
+    for at, shown in ((60.0, "60.9"), (90.0, "90.9")):
+        late = changed(dp_shear_N_per_m=lambda t: np.where(t > at, 0.0, 365e6))
+        found = times_of(late)
+        assert found == pytest.approx(TIMES | {"t3": None}, abs=1e-9)
+        assert missing_of(late) == {
+            "t3": f"the shear force had fallen by 90 % only at {shown} s, after the kinetic energy was largest (t4)"
+        }
+    early = changed(dp_shear_N_per_m=lambda t: np.where(t > 54.0, 0.0, 365e6))
+    assert times_of(early)["t3"] == pytest.approx(54.9, abs=1e-9) and missing_of(early) == {}  # just before t4, 55 s
+    turns = changed(energy_kinetic_J=lambda t: np.where(np.abs(t - 95) < 0.05, 9e9, known["energy_kinetic_J"]))
+    assert (times_of(turns)["t4"], times_of(turns)["t5"]) == (95.0, None) and list(missing_of(turns)) == ["t5"]
+
+
+def test_each_time_that_did_not_come_has_its_reason():
+    known = known_slope.series()
+    assert missing_of(known) == {}
+    assert missing_of(known, moving=None) == dict.fromkeys(("t1", "t2", "t3", "t4", "t5"), "the slope did not move")
+    dry = missing_of(until(9.0), stage="dry", t0=None, moving=None)
+    assert set(dry.values()) == {"the run was stopped before the water began to rise"} and len(dry) == 6
+    assert missing_of(changed(weakened_disks=lambda t: 0 * t)) == {"t3": "no slip surface weakened"}
+    kept = changed(dp_shear_N_per_m=lambda t: np.full(len(t), 365e6))
+    assert missing_of(kept) == {"t3": "the shear force did not fall by 90 %"}
+    failed = missing_of(until(84.0), failed_dry=3.0)
+    assert failed == dict.fromkeys(("t0", "t1", "t2", "t3"), "the slope moved before the water came") | {
+        "t5": "the slope had not come to rest when the run ended"
+    }
+
+
 def test_a_slope_that_does_not_move_has_no_failure():
     nothing = dict.fromkeys(TIMES)
     assert times_of(known_slope.series(), moving=None) == nothing | {"t0": 10.0}

@@ -158,7 +158,8 @@ def collect(out) -> dict:
 def means(table, varied) -> list:
     """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`.verdict.MEANINGS`), as a slope that
     stood and one that failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None in a table that has none), ``seeds``,
-    ``of``, the number of runs of this combination whatever became of them, and ``numbers``, {name: see statistics.over_seeds}. Where no seed was varied each run is a row of its own."""
+    ``of``, the number of runs of this combination whatever became of them, and ``numbers``, {name: see statistics.over_seeds}. Where no seed was varied each run is a row of its own.
+    """
     others = [key for key in varied if key != SEED]
     verdicts = table.get(VERDICT, [None] * len(table["run"]))
     rows, number = {}, {}

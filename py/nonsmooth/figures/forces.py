@@ -227,7 +227,7 @@ def _sketch(ax, side, name, back, wet):
 
 
 @style.styled
-def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=None):
+def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=None, verdict=None):
     """Forces on the slip surfaces and the backstops against time (the paper's Figure 12).
 
     ``series``: dict of columns (:func:`nonsmooth.records.read_series`). ``times``: dict t0 to t5 [s], or an object
@@ -236,7 +236,7 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     the water table (right axis); (b) shear force on them, normal force on the backstops (FB), and their changes since t0. What a slope has not, a backstop or
     water, is left out. On the left
     the whole run, on the right the failure and triggering alone (when t1 and t3 are known). Lines are means over
-    ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind.
+    ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind. ``verdict``: what became of the slope, in words.
     """
     time, water, total, effective, pore, shear, back = style.need(
         series, "time_s", "water_m", "dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_water_N_per_m",
@@ -287,7 +287,7 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     )
     fig.text(
         0.062, 0.938, "per metre of width. " + (f"From $t_3$ on: lines are means over {window:g} s, pale: every value."
-        if "t3" in t else "Every value is shown."), fontsize=9.5, color="#555555", va="top",
+        if "t3" in t else "Every value is shown.") + (f" {verdict[0].upper()}{verdict[1:]}." if verdict else ""), fontsize=9.5, color="#555555", va="top",
     )  # fmt: skip
     _sketch(fig.add_axes([0.71, 0.865, 0.23, 0.135]), 1.0 if ground is None else ground.side, name, rest, wet)
     legend = []

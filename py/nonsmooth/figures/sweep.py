@@ -103,7 +103,9 @@ def _tell_absent(ax, rows, name):
 
 def _legend(fig, colours, verdicts):
     """Colours are of other keys, markers of verdicts."""
-    handles = [Line2D([], [], color=colour, lw=1.5, label=style.plain(label)) for label, colour in colours.items() if label]
+    handles = [
+        Line2D([], [], color=colour, lw=1.5, label=style.plain(label)) for label, colour in colours.items() if label
+    ]
     for verdict in verdicts:
         if verdict is not None:
             shape, filled = MARKERS.get(verdict, PLAIN)
