@@ -203,7 +203,8 @@ def summarise(folder, section, state, threads=None) -> dict:
             series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
             series["centroid_y_m"][-1] - series["centroid_y_m"][after][0],
         )
-    turned = energy.turned_over(balanced)
+    counted = all(name in every for name in records.LOSSES)  # soft contacts sum up no energies, and have no solver
+    turned = energy.turned_over(balanced) if counted else 0.0
     found = verdict.of(every, section, state, times, None if start is None else len(start.x))
     summary = {
         "section": section.name,
@@ -221,12 +222,14 @@ def summarise(folder, section, state, threads=None) -> dict:
         "wall_s": state["wall_s"],
         "wall_packing_s": state["wall_packing_s"],
         "threads": threads,
-        "iterations_mean": float(np.mean(series["iterations"])),
+        "iterations_mean": float(np.mean(series["iterations"])) if counted else None,
         "tolerance": section.numerics.tolerance,
         "tolerance_moving": section.numerics.tolerance_moving,
-        "residual_p95": float(np.percentile(series["residual"], 95)),
-        "residual_N_per_m_p95": float(np.percentile(series["residual_N_per_m"], 95)),
-        "residual_p95_over_tolerance": float(np.percentile(series["residual"] / series["tolerance"], 95)),
+        "residual_p95": float(np.percentile(series["residual"], 95)) if counted else None,
+        "residual_N_per_m_p95": float(np.percentile(series["residual_N_per_m"], 95)) if counted else None,
+        "residual_p95_over_tolerance": float(np.percentile(series["residual"] / series["tolerance"], 95))
+        if counted
+        else None,
         "overlap_worst_rel": float(np.max(series["overlap_worst_rel"])),
         "overlap_mean_rel": float(np.max(series["overlap_mean_rel"])),
         "failed_dry_s": found.before if found.kind == verdict.DRY else None,
@@ -251,11 +254,17 @@ def summarise(folder, section, state, threads=None) -> dict:
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
         "deposit_thickness_max_m": thickness,
         "bulking_factor": bulking,
-        "energy_dissipated_J_per_m": energy.dissipated(series),
-        "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES},
+        "energy_dissipated_J_per_m": energy.dissipated(series) if counted else None,
+        "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES}
+        if counted
+        else None,
         "sliding_on_walls_J_per_m": _sliding_on_walls(folder / "walls.csv"),
-        "energy_correction_rel": float(series["energy_correction_J"][-1]) / turned if turned > 0 else 0.0,
-        "energy_error_rel": float(np.max(np.abs(energy.balance_error(balanced)))),
+        "energy_correction_rel": None
+        if not counted
+        else float(series["energy_correction_J"][-1]) / turned
+        if turned > 0
+        else 0.0,
+        "energy_error_rel": float(np.max(np.abs(energy.balance_error(balanced)))) if counted else None,
     }
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
     summary["force_stages"] = _force_stages(series, section, times, second, leans)

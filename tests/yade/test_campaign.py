@@ -6,6 +6,7 @@ import json
 import shutil
 import subprocess
 import sys
+import warnings
 
 import oracles
 import pytest
@@ -135,6 +136,7 @@ def called(monkeypatch):
         if made.materials["rock"].friction == 0.9:
             raise processes.RunError("it broke")
         return {
+            "verdict": "failed by water",
             "rest": None,
             "twice": 2 * made.seed,
             "text": "left out",
@@ -160,6 +162,7 @@ def test_the_table_has_values_and_numbers_of_each_run(tmp_path, called):
         "run": [one.name for one in planned().runs],
         "materials.rock.friction": [0.3, 0.3, 0.6, 0.6],
         "seed": [1, 2, 1, 2],
+        "verdict": ["failed by water"] * 4,
         "rest": [None] * 4,
         "twice": [2, 4, 2, 4],
         "worst": [None] * 4,
@@ -190,6 +193,59 @@ def test_the_means_are_over_seeds_alone(tmp_path, called):
         assert row["numbers"]["rest"] == {"mean": None, "half_width": None, "values": [None, None]}
     campaign.sweep(SHIPPED, {"materials.rock.friction": [0.3]}).run(tmp_path / "one", 1)
     assert not (tmp_path / "one" / "means.json").exists()  # no seed was varied
+
+
+def table_of_kinds():
+    """Five slopes of one friction, three of which failed by water, and two of another, which stood."""
+    return {
+        "run": list("abcdefg"),
+        "friction": [0.3] * 5 + [0.6] * 2,
+        "seed": [1, 2, 3, 4, 5, 1, 2],
+        "verdict": ["failed by water", "stood", "failed by water", "failed by water", "stood", "stood", "stood"],
+        "height": [10.0, None, 11.0, 12.0, None, None, None],
+        "travel": [100.0, 0.0, 110.0, 120.0, 1.0, 0.0, 2.0],
+    }
+
+
+def test_no_mean_is_over_slopes_that_stood_and_slopes_that_failed():
+    rows = campaign.means(table_of_kinds(), ["friction", "seed"])
+    assert [(row["values"]["friction"], row["verdict"], row["seeds"], row["of"]) for row in rows] == [
+        (0.3, "failed by water", [1, 3, 4], 5),
+        (0.3, "stood", [2, 5], 5),
+        (0.6, "stood", [1, 2], 2),
+    ]
+    assert [row["numbers"]["height"]["mean"] for row in rows] == [11.0, None, None]
+    assert [row["numbers"]["travel"]["mean"] for row in rows] == [110.0, 0.5, 1.0]
+    assert all("verdict" not in row["numbers"] for row in rows)
+    alone = {name: values[:1] for name, values in table_of_kinds().items() if name != "verdict"}
+    assert campaign.means(alone, ["friction", "seed"])[0]["verdict"] is None  # of another function
+
+
+def test_panels_keep_kinds_apart_and_say_who_has_no_result():
+    rows = campaign.means(table_of_kinds(), ["friction", "seed"])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fig = figures.means(rows, "friction", ["travel", "height"])
+        none = figures.means(rows[1:], "friction", ["height"])
+        fig.draw_without_rendering()
+        none.draw_without_rendering()
+    travel, height = fig.axes
+    squares = [
+        one
+        for one in travel.lines
+        if one.get_marker() == "s" and len(one.get_xdata()) == 1 and one.get_markersize() == 6
+    ]
+    circles = [
+        one
+        for one in travel.lines
+        if one.get_marker() == "o" and len(one.get_xdata()) == 2 and one.get_markersize() == 6
+    ]
+    assert [one.get_ydata().tolist() for one in squares] == [[110.0]]
+    assert [one.get_ydata().tolist() for one in circles] == [[0.5, 1.0]]
+    assert {t.get_text() for t in fig.legends[0].get_texts()} == {"failed by water", "stood"}
+    assert not travel.texts and "without this value: 4 stood" in height.texts[0].get_text()
+    (empty,) = none.axes
+    assert empty.texts[0].get_text() == "no run has this value:\n4 stood" and not empty.lines
 
 
 def test_results_are_drawn_against_what_was_varied(tmp_path, called):

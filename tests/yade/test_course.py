@@ -284,7 +284,9 @@ def test_a_mass_that_collapses_slowly_has_not_waited_for_the_water(way, broken, 
 
 
 def test_a_slope_that_has_failed_by_water_does_not_collapse_dry():
-    rows = play(slope(end=20.0), steps((5.0, 9.0), (9.0, 0.0)), also=lambda t: dict(way=0.3 if t > 5 else 0.0, broken=0.5))
+    rows = play(
+        slope(end=20.0), steps((5.0, 9.0), (9.0, 0.0)), also=lambda t: dict(way=0.3 if t > 5 else 0.0, broken=0.5)
+    )
     assert rows[-1].state.failed_dry is None and rows[-1].state.moving == close(5.0)
 
 

@@ -48,7 +48,9 @@ def test_a_failure_by_water_has_its_height(mirrored):
     found = of(section)
     assert found.kind == "failed by water" and found.before is None and "with the table at 9.55 m" in found.says
     shaken = of(section, outside=2e6)
-    assert shaken.kind == "failed by water" and "2e+06 J/m before, so it may not have been the water alone" in shaken.says
+    assert (
+        shaken.kind == "failed by water" and "2e+06 J/m before, so it may not have been the water alone" in shaken.says
+    )
 
 
 def test_a_slope_that_stood_says_how_far_the_water_came():

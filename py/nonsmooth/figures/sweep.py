@@ -16,6 +16,7 @@ MARKERS = {
     "not over": ("d", False),
 }
 PLAIN = ("s", True)  # of results that have no verdict
+PANEL, HEIGHT = 3.8, 4.6  # inches
 APART = 0.012  # of the axis between verdicts at one value
 
 
@@ -26,7 +27,11 @@ def means(rows, key, names, path=None, pdf=False):
 
     ``rows``: of `campaign.means`; those that differ in other keys too are lines of their own. Values that are no numbers stand side by side.
     """
-    fig = style.figure(3.6 * len(names) + 0.6, 4.4, layout="constrained")
+    fig = style.figure(PANEL * len(names) + 0.4, HEIGHT)
+    panels = fig.subplots(1, len(names), squeeze=False)[0]
+    fig.subplots_adjust(
+        0.7 / fig.get_figwidth(), 1.0 / HEIGHT, 1 - 0.2 / fig.get_figwidth(), 1 - 0.95 / HEIGHT, wspace=0.32
+    )
     groups = {}
     for row in rows:
         groups.setdefault(", ".join(f"{k} = {v}" for k, v in row["values"].items() if k != key), []).append(row)
@@ -39,7 +44,7 @@ def means(rows, key, names, path=None, pdf=False):
     ticks = sorted(place.values())
     logarithmic = numeric and ticks[0] > 0 and ticks[-1] >= 5 * ticks[0]
     colours = dict(zip(groups, style.line_colours(len(groups))))
-    for ax, name in zip(fig.subplots(1, len(names), squeeze=False)[0], names):
+    for ax, name in zip(panels, names):
         if logarithmic:
             ax.set_xscale("log")
         for label, chosen in groups.items():
@@ -94,7 +99,7 @@ def _tell_absent(ax, rows, name):
         return
     kinds = "\n".join(f"{count} {kind}" for kind, count in without.items())
     if present:
-        ax.text(0.5, -0.22, f"not drawn, without this value: {', '.join(kinds.splitlines())}", transform=ax.transAxes, ha="center", va="top",
+        ax.text(0.5, -0.2, f"not drawn, without this value: {', '.join(kinds.splitlines())}", transform=ax.transAxes, ha="center", va="top",
                 fontsize=8, color="#555555")  # fmt: skip
         return
     ax.set_yticks([])
@@ -111,4 +116,4 @@ def _legend(fig, colours, verdicts):
             shape, filled = MARKERS.get(verdict, PLAIN)
             handles.append(Line2D([], [], ls="", marker=shape, color="#444444", mfc="#444444" if filled else "white", label=verdict))  # fmt: skip
     if handles:
-        fig.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), frameon=False)
+        fig.legend(handles=handles, loc="upper center", ncol=min(len(handles), 4), frameon=False)
