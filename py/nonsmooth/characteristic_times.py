@@ -25,7 +25,17 @@ import numpy as np
 
 from . import records, scales
 
-__all__ = ["COLUMNS", "NAMES", "chosen_rows", "kept_rows", "mean_of", "missing", "of_run", "weakening_begins"]
+__all__ = [
+    "COLUMNS",
+    "NAMES",
+    "chosen_rows",
+    "kept_rows",
+    "mean_of",
+    "missing",
+    "of_run",
+    "reason_of",
+    "weakening_begins",
+]
 
 NAMES = ("t0", "t1", "t2", "t3", "t4", "t5")
 #: Columns of the series that the times follow from.
@@ -39,6 +49,15 @@ COLUMNS = (
     "speed_mean_m_per_s",
     "energy_kinetic_J",
 )
+#: Which times numbers of a summary are of, those first whose lack tells most.
+NEEDED = {
+    "water_at_failure_m": ("t1",),
+    "fb_force_at_failure_N_per_m": ("t1",),
+    "dp_shear_at_failure_N_per_m": ("t1",),
+    "triggering_s": ("t2", "t3"),
+    "weakening_s": ("t3",),
+    "motion_s": ("t3", "t5"),
+} | {f"times_s.{name}": (name,) for name in NAMES}
 LEVEL = 0.98  # of the strength of the foot
 WEAKENED = 0.01  # of the disks along the slip surfaces
 FALLEN = 0.1  # of the shear force that is left at t3
@@ -81,9 +100,9 @@ def _out_of_order(found):
     """{name: why} of times that are none, as they do not come in their order."""
     why, (t3, t4, t5) = {}, (found[name] for name in ("t3", "t4", "t5"))
     if None not in (t3, t4) and t3 > t4 + SAME:
-        why["t3"] = f"the shear force had fallen by 90 % only at {t3:.1f} s, after the kinetic energy was largest (t4)"
+        why["t3"] = "the shear force had fallen by 90 % only after the kinetic energy was largest (t4)"
     if None not in (t4, t5) and t5 < t4 - SAME:
-        why["t5"] = f"the mean speed was small from {t5:.1f} s on, before the kinetic energy was largest (t4)"
+        why["t5"] = "the kinetic energy was largest (t4) after the mean speed had become small for good"
     return why
 
 
@@ -92,6 +111,11 @@ def missing(series, section, state) -> dict[str, str]:
     found = _of_run(series, section, state, scales.of(section))
     why = {name: _reason(name, series, section, state) for name in NAMES if found[name] is None}
     return dict(sorted((why | _out_of_order(found)).items()))
+
+
+def reason_of(name, times_missing):
+    """Why a run has not the number ``name`` of its summary, from its ``times_missing``; None where that does not tell."""
+    return next((times_missing[time] for time in NEEDED.get(name, ()) if times_missing.get(time)), None)
 
 
 def _reason(name, series, section, state):

@@ -14,6 +14,7 @@ from tqdm import tqdm
 from yade import O
 
 from . import (
+    characteristic_times,
     commands,
     experiment,
     output_folder,
@@ -30,13 +31,6 @@ from . import (
 __all__ = ["run"]
 
 QUIET = 5.0  # s between two lines of the progress bar in a file
-#: Which characteristic times numbers of the summary need, those first whose lack tells more.
-OF_TIMES = {
-    "water_at_failure_m": ("t1",),
-    "triggering_s": ("t2", "t3"),
-    "weakening_s": ("t3",),
-    "motion_s": ("t3", "t5"),
-}
 
 
 def arguments(name, about, default):
@@ -113,15 +107,10 @@ def number_line(name, summary):
     value = summary[name]
     if name == "energy_error_rel" and summary["verdict"] == verdict.STOOD:
         return f"  {name:28s} -  (the slope stood: it turned over too little energy to set an error beside)"
-    why = next(
-        (
-            f"{time}: {summary['times_missing'][time]}"
-            for time in OF_TIMES.get(name, ())
-            if time in summary["times_missing"]
-        ),
-        "",
-    )
-    return f"  {name:28s} {(f'-  ({why})' if why else '-') if value is None else f'{value:.4g}'}"
+    if value is not None:
+        return f"  {name:28s} {value:.4g}"
+    why = characteristic_times.reason_of(name, summary["times_missing"])
+    return f"  {name:28s} -" + (f"  ({why})" if why else "")
 
 
 def run(name, about, default=None):

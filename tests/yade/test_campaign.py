@@ -204,6 +204,8 @@ def table_of_kinds():
         "verdict": ["failed by water", "stood", "failed by water", "failed by water", "stood", "stood", "stood"],
         "height": [10.0, None, 11.0, 12.0, None, None, None],
         "travel": [100.0, 0.0, 110.0, 120.0, 1.0, 0.0, 2.0],
+        "motion_s": [30.0, None, None, 40.0, None, None, None],
+        "times_missing.t3": [None, "it did not move", "nothing weakened", None, *["it did not move"] * 3],
     }
 
 
@@ -216,7 +218,8 @@ def test_no_mean_is_over_slopes_that_stood_and_slopes_that_failed():
     ]
     assert [row["numbers"]["height"]["mean"] for row in rows] == [11.0, None, None]
     assert [row["numbers"]["travel"]["mean"] for row in rows] == [110.0, 0.5, 1.0]
-    assert all("verdict" not in row["numbers"] for row in rows)
+    assert all(set(row["numbers"]) == {"height", "travel", "motion_s"} for row in rows)
+    assert rows[0]["times_missing"] == {"t3": [None, "nothing weakened", None]}
     alone = {name: values[:1] for name, values in table_of_kinds().items() if name != "verdict"}
     assert campaign.means(alone, ["friction", "seed"])[0]["verdict"] is None  # of another function
 
@@ -225,11 +228,14 @@ def test_panels_keep_kinds_apart_and_say_who_has_no_result():
     rows = campaign.means(table_of_kinds(), ["friction", "seed"])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        fig = figures.means(rows, "friction", ["travel", "height"])
+        fig = figures.means(rows, "friction", ["travel", "height", "motion_s"])
         none = figures.means(rows[1:], "friction", ["height"])
         fig.draw_without_rendering()
         none.draw_without_rendering()
-    travel, height = fig.axes
+    travel, height, motion = fig.axes
+    said = " ".join(motion.texts[0].get_text().split())
+    assert said.endswith("without this value: 1 failed by water: nothing weakened; 4 stood: it did not move")
+    assert len({ax.get_xlim() for ax in (*fig.axes, *none.axes)}) == 1
     squares = [
         one
         for one in travel.lines

@@ -183,12 +183,12 @@ def missing_of(series, **state):
 def test_times_come_in_their_order_or_say_why_not():
     """The shear force falls to a tenth after the kinetic energy was largest, before and after the slope is at rest; and that is largest after it is at rest."""
     known = known_slope.series()
-    for at, shown in ((60.0, "60.9"), (90.0, "90.9")):
+    for at in (60.0, 90.0):
         late = changed(dp_shear_N_per_m=lambda t: np.where(t > at, 0.0, 365e6))
         found = times_of(late)
         assert found == pytest.approx(TIMES | {"t3": None}, abs=1e-9)
         assert missing_of(late) == {
-            "t3": f"the shear force had fallen by 90 % only at {shown} s, after the kinetic energy was largest (t4)"
+            "t3": "the shear force had fallen by 90 % only after the kinetic energy was largest (t4)"
         }
     early = changed(dp_shear_N_per_m=lambda t: np.where(t > 54.0, 0.0, 365e6))
     assert times_of(early)["t3"] == pytest.approx(54.9, abs=1e-9) and missing_of(early) == {}  # just before t4, 55 s

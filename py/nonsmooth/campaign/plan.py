@@ -28,7 +28,7 @@ __all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "read", "
 
 FILE, TABLE, MEANS, FORMAT = "plan.json", "table.csv", "means.json", 1
 SEED = "seed"  # the key whose values are packings of one slope
-VERDICT = "verdict"  # of a slope's run, a text
+VERDICT, MISSING = "verdict", "times_missing."  # of a slope's run, texts
 
 
 class PlanError(UserError, RuntimeError):
@@ -128,7 +128,7 @@ def run_one(out, which):
 
 def collect(out) -> dict:
     """Writes the table of the plan in the folder ``out``, and returns it: {column: list, a value for each run}; columns are the varied values, ``run`` (the
-    name), what became of slopes (``verdict``), and the numbers that the results have, None where one has no meaning.
+    name), what became of slopes (``verdict``) and why times did not come (``times_missing.t3``), and the numbers that the results have, None where one has no meaning.
 
     Raises PlanError where runs have not ended, or are of other input, engines or code.
     """
@@ -158,7 +158,8 @@ def collect(out) -> dict:
 def means(table, varied) -> list:
     """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`.verdict.MEANINGS`), as a slope that
     stood and one that failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None in a table that has none), ``seeds``,
-    ``of``, the number of runs of this combination whatever became of them, and ``numbers``, {name: see statistics.over_seeds}. Where no seed was varied each run is a row of its own.
+    ``of``, the number of runs of this combination whatever became of them, ``times_missing``, {time: why it did not come, a list, one a run}, and ``numbers``, {name: see
+    statistics.over_seeds}. Where no seed was varied each run is a row of its own.
     """
     others = [key for key in varied if key != SEED]
     verdicts = table.get(VERDICT, [None] * len(table["run"]))
@@ -167,13 +168,15 @@ def means(table, varied) -> list:
         values = repr([table[key][k] for key in others])
         rows.setdefault((values, verdicts[k]), []).append(k)
         number[values] = number.get(values, 0) + 1
-    results = [name for name in table if name not in ("run", VERDICT, *varied)]
+    reasons = [name for name in table if name.startswith(MISSING)]
+    results = [name for name in table if name not in ("run", VERDICT, *reasons, *varied)]
     return [
         {
             "values": {key: table[key][found[0]] for key in others},
             "verdict": verdict,
             "seeds": [table[SEED][k] for k in found] if SEED in varied else [],
             "of": number[values],
+            "times_missing": {name.removeprefix(MISSING): [table[name][k] for k in found] for name in reasons},
             "numbers": {name: over_seeds([table[name][k] for k in found]) for name in results},
         }
         for (values, verdict), found in rows.items()
@@ -181,11 +184,13 @@ def means(table, varied) -> list:
 
 
 def _numbers(result, prefix=""):
-    """The verdict and the numbers of a result, those of its dictionaries as `key.key`; lists and other texts are left out."""
+    """The numbers of a result, those of its dictionaries as `key.key`, its verdict and why times are missing; lists and other texts are left out."""
     found = {}
     for name, value in result.items():
         if isinstance(value, dict):
             found |= _numbers(value, f"{prefix}{name}.")
-        elif value is None or isinstance(value, (bool, int, float)) or name == VERDICT:
+        elif (
+            value is None or isinstance(value, (bool, int, float)) or f"{prefix}{name}" == VERDICT or prefix == MISSING
+        ):
             found[f"{prefix}{name}"] = None if isinstance(value, float) and not math.isfinite(value) else value
     return found

@@ -1,9 +1,11 @@
 """Figure of a sweep: results against a value that was varied, with their scatter over seeds."""
 
+import textwrap
 from collections import Counter
 
 from matplotlib.lines import Line2D
 
+from ..characteristic_times import reason_of
 from . import style
 
 #: Markers of verdicts (:data:`nonsmooth.verdict.MEANINGS`): filled where the slope moved off, open where it did not.
@@ -16,7 +18,7 @@ MARKERS = {
     "not over": ("d", False),
 }
 PLAIN = ("s", True)  # of results that have no verdict
-PANEL, HEIGHT = 3.8, 4.6  # inches
+PANEL, HEIGHT = 3.8, 4.8  # inches
 APART = 0.012  # of the axis between verdicts at one value
 
 
@@ -30,7 +32,7 @@ def means(rows, key, names, path=None, pdf=False):
     fig = style.figure(PANEL * len(names) + 0.4, HEIGHT)
     panels = fig.subplots(1, len(names), squeeze=False)[0]
     fig.subplots_adjust(
-        0.7 / fig.get_figwidth(), 1.0 / HEIGHT, 1 - 0.2 / fig.get_figwidth(), 1 - 0.95 / HEIGHT, wspace=0.32
+        0.7 / fig.get_figwidth(), 1.15 / HEIGHT, 1 - 0.2 / fig.get_figwidth(), 1 - 0.95 / HEIGHT, wspace=0.32
     )
     groups = {}
     for row in rows:
@@ -57,7 +59,7 @@ def means(rows, key, names, path=None, pdf=False):
         ax.set(xlabel=style.plain(key), title=style.plain(name))
         ax.set_xticks(ticks, [f"{t:g}" for t in ticks] if numeric else [style.plain(v) for v in values])
         ax.minorticks_off()
-        ax.margins(x=0.08)
+        ax.set_xlim(*(_beside(end, way, ticks, logarithmic) for end, way in ((ticks[0], -0.08), (ticks[-1], 0.08))))
         ax.grid(axis="y", color="#e3e3e3", lw=0.7)
         _tell_absent(ax, rows, name)
         low, high = ax.get_ylim()
@@ -88,22 +90,26 @@ def _draw(ax, x, found, colour, marker):
 
 
 def _tell_absent(ax, rows, name):
-    """Says how many runs have not this result and what became of them; in the middle of a panel where no run has it."""
+    """Says how many runs have not this result, what became of them and, where that is known, why; in the middle of a panel where no run has it."""
     without, present = Counter(), 0
     for row in rows:
-        lacking = sum(v is None for v in row["numbers"][name]["values"])
-        present += len(row["numbers"][name]["values"]) - lacking
-        if lacking:
-            without[row.get("verdict") or "without a value"] += lacking
+        for k, value in enumerate(row["numbers"][name]["values"]):
+            if value is not None:
+                present += 1
+                continue
+            why = reason_of(name, {time: each[k] for time, each in row.get("times_missing", {}).items()})
+            without[": ".join(word for word in (row.get("verdict"), why) if word) or "without a value"] += 1
     if not without:
         return
-    kinds = "\n".join(f"{count} {kind}" for kind, count in without.items())
+    kinds = [f"{count} {kind}" for kind, count in without.items()]
     if present:
-        ax.text(0.5, -0.2, f"not drawn, without this value: {', '.join(kinds.splitlines())}", transform=ax.transAxes, ha="center", va="top",
-                fontsize=8, color="#555555")  # fmt: skip
+        told = textwrap.fill(f"not drawn, without this value: {'; '.join(kinds)}", 58)
+        ax.text(0.5, -0.19, told, transform=ax.transAxes, ha="center", va="top", fontsize=8, color="#555555")
         return
     ax.set_yticks([])
-    ax.text(0.5, 0.5, f"no run has this value:\n{kinds}", transform=ax.transAxes, ha="center", va="center", color="#555555")  # fmt: skip
+    told = "\n".join(textwrap.fill(kind, 34) for kind in kinds)
+    told = f"no run has this value:\n{told}"
+    ax.text(0.5, 0.5, told, transform=ax.transAxes, ha="center", va="center", color="#555555")
 
 
 def _legend(fig, colours, verdicts):

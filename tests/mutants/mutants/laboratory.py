@@ -71,7 +71,7 @@ MUTANTS = (
            "test_section.py::test_a_block_of_rock_is_filled_as_high_as_it_is"),
     mutant("lab-conjugate", LAB + "campaign.py", "left * right < 0 and abs(left + right)", "abs(left - right)", "two bands that lean to one side count as conjugate",
            "test_laboratory.py::test_a_test_is_measured_from_its_records"),
-    mutant("campaign-means", "py/nonsmooth/campaign/plan.py", "rows.setdefault(repr([table[key][k] for key in others]), [])", "rows.setdefault(0, [])",
+    mutant("campaign-means", "py/nonsmooth/campaign/plan.py", "rows.setdefault((values, verdicts[k]), [])", "rows.setdefault(('', verdicts[k]), [])",
            "the means of a sweep are over all its runs", "test_campaign.py::test_the_means_are_over_seeds_alone"),
     # ---- soft
     mutant("soft-restitution", SOFT + "parameters.py", "math.sqrt((1 - self.damping) / (1 + self.damping))", "math.sqrt((1 - self.damping) / (1 + 2 * self.damping))",
