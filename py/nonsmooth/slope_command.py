@@ -92,12 +92,11 @@ class Bar:
 
 def verdict_lines(summary):
     """What became of the slope, and what helps where it did not wait for the water."""
-    said = summary["verdict_says"]
-    said = said[0].upper() + said[1:] + ".\n"
-    if summary["failed_dry_s"] is None:
-        return said
+    said, title = summary["verdict_says"], verdict.TITLES[verdict.DRY]
+    if summary["verdict"] != verdict.DRY:
+        return f"{said[0].upper()}{said[1:]}.\n"
     return (
-        f"\nTHE SLOPE FAILED DRY. {said}Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the "
+        f"\n{said.replace(title, title.upper(), 1)}. Take more disks (a foot of few disks is weak by chance; another seed may stand), a stronger rock, or more friction on the "
         "plane.\n\n"
     )
 

@@ -134,6 +134,18 @@ class Summary:
     def failed_dry_s(self):
         return None
 
+    def moved_dry_s(self):
+        return None
+
+    def times_missing(self):
+        return {}
+
+    def verdict(self):
+        return "failed by water"
+
+    def verdict_says(self):
+        return f"the slope failed by water, with the table at {self.water_at_failure_m():.4g} m; it began to move at {self.times['t2']:.1f} s"
+
     def water_at_failure_m(self):
         return self.at("water_m", self.times["t1"], 0)
 

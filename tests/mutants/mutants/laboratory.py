@@ -71,6 +71,8 @@ MUTANTS = (
            "test_section.py::test_a_block_of_rock_is_filled_as_high_as_it_is"),
     mutant("lab-conjugate", LAB + "campaign.py", "left * right < 0 and abs(left + right)", "abs(left - right)", "two bands that lean to one side count as conjugate",
            "test_laboratory.py::test_a_test_is_measured_from_its_records"),
+    mutant("campaign-kinds", "py/nonsmooth/campaign/plan.py", 'verdicts = table.get(VERDICT, [None] * len(table["run"]))', 'verdicts = [None] * len(table["run"])',
+           "slopes that stood and slopes that failed have one mean", "test_campaign.py::test_no_mean_is_over_slopes_that_stood_and_slopes_that_failed"),
     mutant("campaign-means", "py/nonsmooth/campaign/plan.py", "rows.setdefault((values, verdicts[k]), [])", "rows.setdefault(('', verdicts[k]), [])",
            "the means of a sweep are over all its runs", "test_campaign.py::test_the_means_are_over_seeds_alone"),
     # ---- soft
