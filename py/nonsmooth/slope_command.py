@@ -140,7 +140,8 @@ def run(name, about, default=None):
     course.progress = Bar()
     with commands.closing(course.progress.bar):
         course.run(end=args.end, stands=True)
-    if course.state.stage == "settle" and course.state.failed_dry is None:
+    if course.state.stage == "settle":
+        print(verdict_lines(course.summarise(args.threads or os.cpu_count())), end="")
         print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")
         return
     summary = course.summarise(args.threads or os.cpu_count())

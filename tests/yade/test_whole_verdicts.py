@@ -157,6 +157,21 @@ def test_a_resumed_run_ends_where_it_would_have(tmp_path):
         assert (tmp_path / "halved" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
 
 
+def test_a_run_that_is_stopped_while_it_settles_has_a_verdict_too(tmp_path, in_process):
+    """In a sweep, and by the command; one that has failed by then says so."""
+    run = begun(made(tmp_path, **wet(4.0)), tmp_path / "sweep")
+    run.run(0.1)
+    summary = told(run)
+    assert summary["verdict"] == "not over" and summary["verdict_says"].endswith("while the slope settled")
+    assert summary["simulated_s"] == pytest.approx(0.1, abs=1e-9)
+    run.state = dataclasses.replace(run.state, failed_dry=0.06)
+    assert told(run)["verdict"] == "failed dry"
+    source = write_changed(tmp_path, lambda data: None)
+    done = in_process("slope.py", "--section", source, "--end", 0.1, "--out", tmp_path / "out", "--no-figures")
+    assert done.status == 0 and "The run was stopped at 0.1 s, while the slope settled." in done.out
+    assert "go on with --resume" in done.out
+
+
 def test_soft_contacts_have_a_verdict_too(tmp_path):
     """Of its settling, and of what follows: softer and slower, so that its stages are short here."""
     chosen = made(tmp_path, **wet(0.0))
