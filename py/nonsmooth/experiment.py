@@ -118,7 +118,7 @@ class Experiment:
     def run(self, end=None, stands=None):
         """Runs until the experiment is over, or until ``end`` [s] of simulated time.
 
-        ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see :mod:`.course`). Otherwise it goes on to its longest time, so that a script can do
+        ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see :mod:`yade.nonsmooth.course`). Otherwise it goes on to its longest time, so that a script can do
         more to it. Unless given, that ends a run without ``end`` in a scene that has no engines of a script (PyRunner, and those that push or move bodies).
 
         Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted. O.bodies and O.interactions are up to date when it ends; within ``progress``

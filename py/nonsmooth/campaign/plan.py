@@ -156,7 +156,7 @@ def collect(out) -> dict:
 
 
 def means(table, varied) -> list:
-    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`.verdict.MEANINGS`), as a slope that
+    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`yade.nonsmooth.verdict.MEANINGS`), as a slope that
     stood and one that failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None in a table that has none), ``seeds``,
     ``of``, the number of runs of this combination whatever became of them, ``times_missing``, {time: why it did not come, a list, one a run}, and ``numbers``, {name: see
     statistics.over_seeds}. Where no seed was varied each run is a row of its own.
