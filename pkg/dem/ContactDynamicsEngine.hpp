@@ -12,6 +12,7 @@
 #pragma once
 
 #include "Advance.hpp"
+#include "BackgroundRun.hpp"
 #include "seam/ContactSeam.hpp"
 #include "StageClock.hpp"
 #include <contact/solver.hpp>
@@ -149,6 +150,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		.def("breakTable",&ContactDynamicsEngine::breakTable,"All bonds that broke since forgetBreaks, as bytes of doubles in rows (step, time, id1, id2, mode, x, y); see :yref:`yade.nonsmooth.tables`.")
 		.def("forgetBreaks",&ContactDynamicsEngine::forgetBreaks,"Empty the list of broken bonds (their numbers by mode stay).")
 		.def("dump",&ContactDynamicsEngine::dump,(boost::python::arg("path")),"Write the contact problem of the last step, with what the solve began with and what it found, as an HDF5 file; see nonsmooth.contact.")
+		; nscd::watchBackgroundRuns() // a statement after the class's: nothing else of ours is called at every start of YADE
 	);
 	// clang-format on
 	DECLARE_LOGGER;

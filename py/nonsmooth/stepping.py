@@ -19,8 +19,8 @@ def advance(steps=None, until=None, view=True):
     either; one if nothing is said. Returns how many. ``view``: what of O.bodies and O.interactions is up to date afterwards, all of it, the states of some bodies
     (their ids), or nothing (False) until ``ContactDynamicsEngine.view()``. Raises StepError where an engine refuses one.
 
-    This is ``ContactDynamicsEngine.advance`` in scenes of any engines. ``O.run(steps, wait=True)`` makes them in a thread of YADE's own. A refusal there is lost
-    where it comes before the waiting begins, and the script goes on with a scene that has stopped; 0 steps never end; and Ctrl-C is not heard before the last.
+    This is ``ContactDynamicsEngine.advance`` in scenes of any engines. ``O.run(steps, wait=True)`` makes them in a thread of YADE's own, where 0 steps never end and
+    Ctrl-C is not heard before the last.
     """
     if steps is None and until is None:
         steps = 1

@@ -17,8 +17,8 @@ def environment(**changes):
     return {**os.environ, "NONSMOOTH_BUILD": str(BUILD), **changes}
 
 
-def run(program, *arguments, limit=600, cwd=None, **changes):
-    """Runs a program, one of scripts/ by its name, to its end; ``changes``: of the environment; ``limit`` [s].
+def run(program, *arguments, limit=600, cwd=None, given=None, **changes):
+    """Runs a program, one of scripts/ by its name, to its end; ``given``: by standard input; ``changes``: of the environment; ``limit`` [s].
 
     Returns a subprocess.CompletedProcess with text."""
     if (SCRIPTS / program).exists():
@@ -27,6 +27,7 @@ def run(program, *arguments, limit=600, cwd=None, **changes):
         [str(word) for word in (program, *arguments)],
         env=environment(**changes),
         cwd=cwd,
+        input=given,
         text=True,
         capture_output=True,
         timeout=limit,

@@ -237,11 +237,55 @@ def test_launcher_refuses_bad_calls(script, tmp_path):
         # YADE crashed
         ([script(""), "--threads", "100000"], "--threads 100000 is more than this machine has a use for"),
         ([script(""), "--threads", "9" * 30], "give at most"),
+        (["-j", "0", script("")], "wants a positive number, not '0'"),
+        (["-j"], "-j wants a number"),
+        (["--cores=0,1", script("")], "YADE's option --cores=0,1 is none of the launcher's"),
+        (["-f3", script("")], os.path.join("prefix", "bin", "yade --help")),
+        (["-nq", script("")], "there is no option -q"),
+        (["-xi", script("")], "give one of them"),
+        (["-i", "-"], "give a file"),
     ):
         result = run([LAUNCHER, *arguments])
         assert result.returncode == 2 and message in result.stderr
     result = run([LAUNCHER, script("")], NONSMOOTH_BUILD=str(tmp_path / "nowhere"))
     assert result.returncode == 2 and "setup.sh" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "options, own",
+    [
+        (["-x", "-j1"], ["--", "-x", "-j3", "--cores", "", "a b"]),
+        (["-nxj", "1", "--"], ["-h"]),
+        (["-j", "1"], ["-1", "-"]),
+    ],
+)
+def test_yades_options_and_the_scripts_own(options, own, script):
+    path = script("print('seen', sys.argv, O.numThreads)")
+    result = run([LAUNCHER, *options, path, *own])
+    assert f"seen {[str(path), *own]} 1\n" in result.stdout, result.stdout + result.stderr
+    assert result.returncode == 0
+
+
+@pytest.mark.parametrize("words", [[], ["-", "--", "-x"]])
+def test_a_script_from_standard_input(words):
+    text = "import sys\nprint('seen', sys.argv, O.iter)\ndef fail():\n    raise ValueError('of ' + 'a pipe')\nfail()\n"
+    result = run([LAUNCHER, "-j1", *words], given=text)
+    assert f"seen {['-', *words[1:]]} 0\n" in result.stdout, result.stdout + result.stderr
+    # the traceback shows the lines
+    assert result.returncode == 1 and "    raise ValueError('of ' + 'a pipe')\nValueError: of a pipe" in result.stderr
+
+
+def test_standard_input_without_a_script():
+    result = run([LAUNCHER], given="\n")
+    assert result.returncode == 2 and "standard input holds no script" in result.stderr
+
+
+def test_a_prompt_behind_a_script(script):
+    path = script("answer = 6 * int(sys.argv[1])")
+    result = run([LAUNCHER, "-i", "-j1", path, "7"], given="print('it is', answer)\nprint(O.iter, 'steps')\n")
+    assert result.returncode == 0 and "it is 42" in result.stdout and "0 steps" in result.stdout, result.stderr
+    result = run([LAUNCHER, "-i", "-j1"], given="print('it is', 6 * 7)\n")
+    assert result.returncode == 0 and "it is 42" in result.stdout, result.stderr
 
 
 def test_script_started_as_it_is_finds_the_launcher(tmp_path, script):

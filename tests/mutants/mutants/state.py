@@ -6,6 +6,7 @@ MAT, PHYS, PHYS_H, COLLIDER = "pkg/dem/NscdMat.cpp", "pkg/dem/NscdPhys.cpp", "pk
 LOOP, ENGINE, WATER, PLATE = "pkg/dem/NscdInteractionLoop.cpp", "pkg/dem/ContactDynamicsEngine.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlateLoadEngine.cpp"
 GIVEN, STEPPER, ELLIPSE, CHECK = "pkg/dem/seam/GivenMotion.cpp", "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/BondEllipseEngine.cpp", "pkg/dem/SceneCheck.cpp"
 OUTLIVED, EVENTS, NUMBERS, EVERY = "test_outlived_state.py", "test_state_events.py", "test_numbers_without_sense.py", "test_every_number.py"
+BACKGROUND, WATCHED = "py/nonsmooth/background.py", "test_background.py"
 
 MUTANTS = (
     # ---- written to beside a run
@@ -48,6 +49,16 @@ MUTANTS = (
     mutant("advance-within", "pkg/dem/Advance.cpp", "begun == &scene", "false", "advance() makes steps within a step", OUTLIVED + "::test_an_advance_within_a_step_is_refused"),
     mutant("engines-unseen", "pkg/dem/seam/Turn.cpp", "isTooLate(scene, engine)", "false", "YADE's engines work on bodies as they were", OUTLIVED + "::test_engines_that_are_exchanged_while_nothing_is_shown"),
     mutant("forces-late", "pkg/dem/WallForceEngine.cpp", "scene->forces.sync();", "", "a force that is added late ends the run", OUTLIVED + "::test_the_sums_of_a_wall_after_a_force_was_added_behind_the_integrator"),
+    # ---- runs in the background
+    mutant("background-late", BACKGROUND, "if message is not None:\n        _heard(message)", "if False:\n        _heard(message)", "an error before the waiting begins is not raised",
+           WATCHED + "::test_what_ended_a_run_is_raised_by_who_waits_later_and_once"),
+    mutant("background-anew", BACKGROUND, "        _keep(stop=True)\n", "", "an error is forgotten where a scene is loaded", WATCHED + "::test_an_error_that_nobody_has_heard_of_ends_the_process_with_1"),
+    mutant("background-status", BACKGROUND, "status or 1", "status", "a process whose run was ended by an error ends as done", WATCHED + "::test_an_error_that_nobody_has_heard_of_ends_the_process_with_1"),
+    mutant("background-heard", BACKGROUND, "_unheard.remove(message)", "pass", "a script that has heard of an error ends with it", WATCHED + "::test_the_same_error_heard_later_is_heard"),
+    mutant("background-step", "pkg/dem/BackgroundRun.cpp", "free.owns_lock()", "true", "an error in the last step of a run that was paused is forgotten",
+           WATCHED + "::test_an_error_in_the_last_step_of_a_run_that_is_stopped"),
+    mutant("launcher-dashes", "scripts/yade-nonsmooth", '"-j$threads" -- "${script[@]}"', '"-j$threads" "${script[@]}"', "a script does not get its first --",
+           "test_load.py::test_yades_options_and_the_scripts_own"),
     # ---- numbers
     mutant("sense-arc", CHECK, "arc->halfAngle > 0 && arc->halfAngle <= Mathr::PI * (1 + 1e-12)", "true", "an arc without an opening is no wall", NUMBERS + "::test_a_wall_that_no_disk_could_touch"),
     mutant("sense-reach", CHECK, "value >= 0 && std::isfinite(value)", "true", "a law that looks nowhere lets disks through", NUMBERS + "::test_a_law_that_looks_nowhere"),
