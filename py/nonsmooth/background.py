@@ -68,9 +68,14 @@ def ended(status=0):
     return status
 
 
+def _may_wait():
+    """For a run's thread: that thread itself, which makes O.run() from within an engine, would wait for ever."""
+    return threading.current_thread() is threading.main_thread()
+
+
 def _keep(stop=False):
     """Keeps what YADE is about to forget; ``stop``: a run that goes on ends with the present step."""
-    if threading.current_thread() is threading.main_thread():  # the run's own thread would wait for itself
+    if _may_wait():
         if stop:
             Omega().pause()
         while not (Omega().running or _is_over()):
@@ -89,6 +94,8 @@ def _heard(message):
 def _run_and_raise(self, nSteps=-1, wait=False):
     _keep()
     _run(self, nSteps)
+    while _may_wait() and self.running and _is_over():
+        time.sleep(_LOOK / 100)  # until its thread has begun: YADE crashes where a scene is reset before
     if wait:
         self.wait()
 
