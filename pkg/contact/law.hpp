@@ -79,6 +79,18 @@ visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseM
 	return { n, t, r };
 }
 
+/// Impulses of a contact whose relative velocities `u` are given, so that no impulse changes them: what the graphs say, and where they allow a range the least of it.
+/// It is the limit of bodies whose masses grow without end. Where the bodies approach (U_n < 0) no finite impulse obeys the law: none.
+inline Impulse impulseOfGivenMotion(const Contact& c, const Impulse& u)
+{
+	if (u.n < 0) return {};
+	const double n       = u.n > 0 ? 0 - c.adhesion : 0; // and no negative zero
+	const auto   against = [](double speed, double threshold) {
+                return speed > 0 ? 0 - threshold : speed < 0 ? threshold : 0;
+	};
+	return { n, against(u.t, slidingThreshold(c, n)), against(u.r, rollingThreshold(c, n)) };
+}
+
 /// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s].
 /// `u`: relative velocity without bias; `inverse`: inverseDelassus of the contact.
 inline Impulse naturalMapDefect(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)

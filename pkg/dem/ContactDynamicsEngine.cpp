@@ -50,6 +50,7 @@ void ContactDynamicsEngine::action()
 		statistics       = contact::solve(seam.problem, settings(), &workspace);
 		statistics.iterations += before;
 	}
+	seam.answerGivenMotion();
 	timer.next(Stage::Correct);
 	seam.correct(settings(), workspace, correctionSweeps);
 	timer.next(Stage::Scatter);
@@ -180,6 +181,7 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	overlapWorstEver = std::max(overlapWorstEver, overlapWorst);
 	overlapWorstPair = Vector2i(s.worstIds[0], s.worstIds[1]);
 	reportOverlap();
+	reportDriven();
 	brokenTension += s.broken[NscdPhys::Tension];
 	brokenShear += s.broken[NscdPhys::Shear];
 	brokenTorque += s.broken[NscdPhys::Torque];
@@ -262,6 +264,17 @@ void ContactDynamicsEngine::reportOverlap()
 	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors."
 	           " Where none of that is so, the solve leaves overlaps: lower tolerance (it is "
 	        << tolerance << "), or raise maxIterations where steps end above it (" << unconverged << " so far).");
+}
+
+void ContactDynamicsEngine::reportDriven()
+{
+	if (!(seam.drivenTogether > 0) || !nscd::seldom(++drivenSteps)) return;
+	LOG_WARN(
+	        "step " << scene->iter << ": bodies #" << seam.drivenIds[0] << " and #" << seam.drivenIds[1]
+	                << " are driven into each other by " << seam.drivenTogether << " m/s, and the DOFs of both are blocked ("
+	                << drivenSteps
+	                << " such steps so far). No finite force answers that between rigid bodies, and their contact bears none. Free one of them"
+	                   " along the normal (state.blockedDOFs) and press it by O.forces.setPermF.");
 }
 
 /// `settling`: twice what gravity gives bodies at rest in a step [J]; those that are placed a little above their places lose as much.

@@ -96,6 +96,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,overlapWorstEver,0,Attr::readonly,"Largest overlap of any step so far [ℓ]."))
 		((Vector2i,overlapWorstPair,Vector2i(-1,-1),(Attr::readonly|Attr::noSave),"Bodies with the largest overlap at the beginning of the last step, the lower id first; (-1, -1): none overlap."))
 		((int,overlappedSteps,0,Attr::readonly,"Steps so far that began with an overlap of 0.05 ℓ or more, of which a warning tells."))
+		((int,drivenSteps,0,Attr::readonly,"Steps so far in which two bodies whose DOFs are all blocked were driven into each other, of which a warning tells."))
 		((int,contacts,0,(Attr::readonly|Attr::noSave),"Contacts that touch or carry force."))
 		((int,candidates,0,(Attr::readonly|Attr::noSave),"Contacts in the solve, open ones included."))
 		((int,bonds,0,(Attr::readonly|Attr::noSave),"Living bonds: of the last step, or those that there were after a bond() or unbond() since."))
@@ -165,6 +166,7 @@ private:
 	void   report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
 	string tellWorstPair();
 	void   reportOverlap();
+	void   reportDriven();
 	void   reportRestitution(Real settling);
 	void   reportChanges(nscd::Resident& resident);
 

@@ -35,10 +35,11 @@
 #include <pkg/dem/ScGeom.hpp>
 #include <pkg/dem/UniaxialStrainer.hpp>
 // clang-format off
-// its header has Gl1_Wall too, whose code a YADE without OpenGL has not: this library must load whatever the macros were
+// their headers have classes that draw too, whose code a YADE without OpenGL has not: this library must load whatever the macros were
 #pragma push_macro("YADE_OPENGL")
 #undef YADE_OPENGL
 #include <pkg/common/Wall.hpp>
+#include <pkg/dem/DomainLimiter.hpp>
 #pragma pop_macro("YADE_OPENGL")
 // clang-format on
 
@@ -188,6 +189,11 @@ void checkLayout()
 	if (not static_cast<const TorqueEngine&>(*turn).ids.empty()
 	    or static_cast<const TorqueEngine&>(*turn).moment != Vector3r::Zero())
 		misplaced("TorqueEngine.moment");
+	check("LawTester", "displIsRel", &LawTester::displIsRel, false);
+	check("LawTester", "rotWeight", &LawTester::rotWeight, 0.6875);
+	const auto tester = make<LawTester>("LawTester");
+	if (not static_cast<const LawTester&>(*tester).disPath.empty() or not static_cast<const LawTester&>(*tester).rotPath.empty())
+		misplaced("LawTester.disPath");
 	check("UniaxialStrainer", "active", &UniaxialStrainer::active, false);
 	check("UniaxialStrainer", "asymmetry", &UniaxialStrainer::asymmetry, 1);
 	check("UniaxialStrainer", "crossSectionArea", &UniaxialStrainer::crossSectionArea, 2.375);

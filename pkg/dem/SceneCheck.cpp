@@ -16,6 +16,7 @@
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/UniaxialStrainer.hpp>
+#include <map>
 #include <set>
 
 namespace yade::nscd {
@@ -68,12 +69,41 @@ namespace {
 			fail("NewtonIntegrator.densityScaling = True, which would change the masses behind the solver's back: set densityScaling=False (rigid contacts need none)");
 	}
 
-	/// Engines of YADE that move walls by the stiffness of their contacts.
-	bool asksForStiffness(const Engine& engine)
+	/// Engines of YADE's that steer by what rigid contacts and flat scenes have not, with what does their work; by name, since not every YADE has all of them.
+	void refuseController(const Engine& engine)
 	{
-		const string kind = engine.getClassName();
-		return kind == "TriaxialStressController" || kind == "TriaxialCompressionEngine"
-		        || kind == "ThreeDTriaxialEngine";
+		static const string stress
+		        = " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would go to and fro at max_vel: load plates instead (yade.nonsmooth.scene.plate), set the state.vel of walls that are to move at a given rate, or shear a sample by scripts/biaxial.py";
+		static const string lid
+		        = " holds the load on its lid by the stiffness of the contacts, and rigid contacts have none, so that the lid would keep its height: load the lid by yade.nonsmooth.scene.plate, and set the state.vel of the parts that are to move";
+		static const string cell
+		        = " steers a periodic cell, and periodic scenes are not supported: bound the scene by walls and load them by yade.nonsmooth.scene.plate, or shear a sample by scripts/biaxial.py";
+		static const string record
+		        = " reads a triaxial engine, and those move walls by the stiffness of contacts, which rigid ones have not: read O.forces.f of the walls after the integrator, or load and width of what yade.nonsmooth.scene.plate returns";
+		static const std::map<string, const string*> refused {
+			{ "TriaxialStressController", &stress },      { "TriaxialCompressionEngine", &stress },
+			{ "ThreeDTriaxialEngine", &stress },          { "SampleCapillaryPressureEngine", &stress },
+			{ "KinemCNLEngine", &lid },                   { "KinemCNSEngine", &lid },
+			{ "PeriIsoCompressor", &cell },               { "PeriTriaxController", &cell },
+			{ "Peri3dController", &cell },                { "TriaxialStateRecorder", &record },
+		};
+		if (const auto found = refused.find(engine.getClassName()); found != refused.end())
+			fail(named(engine) + *found->second);
+	}
+
+	/// Refuses paths of a LawTester that leave the plane: of its axes the third one, and of its angles the first two, do.
+	void checkTester(const LawTester& tester)
+	{
+		const auto flat = [&](const char* name, const vector<Vector3r>& path, auto leaves, const char* what) {
+			for (size_t k = 0; k < path.size(); ++k)
+				if (leaves(path[k]))
+					fail(named(tester) + "." + name + "[" + std::to_string(k) + "] = (" + number(path[k][0])
+					     + ", " + number(path[k][1]) + ", " + number(path[k][2]) + ") " + what);
+		};
+		flat("disPath", tester.disPath, [](const Vector3r& p) { return p[2] != 0; },
+		     "moves a disk out of the x-y plane: leave the third number 0, the first one pulls and the second one shears");
+		flat("rotPath", tester.rotPath, [](const Vector3r& p) { return p[0] != 0 || p[1] != 0; },
+		     "turns a disk out of the x-y plane: leave the first two numbers 0, the third one rolls");
 	}
 
 	/// Of an attribute of YADE's own classes of physics that was written to.
@@ -136,9 +166,7 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		if (stepper && stepper->active && !stepper->dead)
 			fail(stepper->getClassName()
 			     + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
-		if (!engine.dead && asksForStiffness(engine))
-			fail(named(engine)
-			     + " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would go to and fro at max_vel: load plates instead, see yade.nonsmooth.scene.plate");
+		if (!engine.dead) refuseController(engine);
 		if (dynamic_cast<const ForceResetter*>(&engine)) {
 			resetters.take(engine, passed);
 			reset = reset || !engine.dead;
@@ -152,9 +180,7 @@ void checkEngines(const Scene& scene, const Engine& solver)
 			     + (dynamic_cast<const UniaxialStrainer*>(&engine)
 			                ? ", with blockDisplacements=True and blockRotations=True"
 			                : ""));
-		if (!engine.dead && dynamic_cast<const LawTester*>(&engine))
-			fail(named(engine)
-			     + " blocks all DOFs of its two bodies, and a contact of bodies that are held has no reaction: leave one of them free and load it by O.forces.setPermF, or free it along one direction and set its state.vel");
+		if (const auto* tester = dynamic_cast<const LawTester*>(&engine); tester && !tester->dead) checkTester(*tester);
 		if (passed && !newton && !engine.dead && !between) between = &engine;
 	}
 	integrators.require("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");

@@ -100,8 +100,14 @@ void ContactSeam::bend(const Reading& reading, Contact& c) const
 		}
 	}
 	if (reading.curved) bend(reading, c);
-	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed())
+	if (problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed()) {
+		const auto u = contact::relativeVelocity(c, before[c.i], before[c.j]);
+		if (u.n != 0 || u.t != 0 || u.r != 0) {
+#pragma omp atomic write
+			slides = 1;
+		}
 		return {}; // no reaction is found, so none may stay
+	}
 	return { h * reading.normal, h * reading.tangential, h * reading.torque };
 }
 
@@ -110,6 +116,7 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 	relaxation = how;
 	recalls    = 0;
 	meets      = 0;
+	slides     = 0;
 	followed   = false;
 	threads    = threadCount;
 	resident   = &from;

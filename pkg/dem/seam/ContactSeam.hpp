@@ -75,7 +75,12 @@ public:
 	/// After a solve: takes in the contacts left out of it that its velocities would close, in the order of ids; returns how many. They need another solve. After
 	/// a few rounds it takes in all.
 	size_t recall();
-	/// After the last solve: finds how far bodies are to be displaced to take back overlaps, bonds' errors of length, and what bonds of bodies that turn as one have slipped
+	/// After the last solve, which nothing of it changes: the reactions of contacts whose two bodies both have a given motion (law.hpp, impulseOfGivenMotion).
+	void answerGivenMotion();
+	/// Of the last answer: how fast two such bodies are driven into each other, the fastest ones [m/s]; 0 where none are.
+	Real drivenTogether = 0;
+	int  drivenIds[2]   = { -1, -1 };
+	/// After all solves: finds how far bodies are to be displaced to take back overlaps, bonds' errors of length, and what bonds of bodies that turn as one have slipped
 	/// and turned; scatter moves them.
 	void
 	correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace,
@@ -144,6 +149,7 @@ private:
 	bool turnsFar(const nonsmooth::contact::Contact& contact) const;
 	bool sticks(size_t k, const nonsmooth::contact::Impulse& u) const;
 	nonsmooth::contact::PositionError errorOf(size_t k, const nonsmooth::contact::Impulse& u, bool turns) const;
+	nonsmooth::contact::Impulse       givenVelocity(const nonsmooth::contact::Contact& c) const;
 	void                              turnBack();
 	void                              turnBack(size_t k);
 	void                              displace(size_t begin, size_t end);
@@ -188,6 +194,7 @@ private:
 	std::vector<nonsmooth::contact::Twist>         begun; // before these; of a step with any
 	nonsmooth::contact::ImpactSequence             sequence;
 	mutable char                                   meets    = 0; // contacts with restitution close in this step
+	mutable char                                   slides   = 0; // and contacts of two given bodies move
 	bool                                           followed = false; // impacts were, in this step
 	std::vector<nonsmooth::contact::Twist>         external; // force and torque of other engines [N, N m]
 	std::vector<nonsmooth::contact::Twist>         force; // the same with the contacts', at the end of the step
