@@ -7,6 +7,7 @@ import dataclasses
 import os
 import sys
 
+import numpy as np
 from yade.nonsmooth import figures, section
 from yade.nonsmooth.figures import style
 
@@ -40,17 +41,53 @@ def _the_recipes(folder):
     style.save(figure, f"{folder}/recipes.png", dpi=110)
 
 
+@style.styled
+def _the_tester(folder):
+    """What LawTester finds, of springs and of rigid disks, beside the law's thresholds."""
+    curves = {}
+    for world, title in reversed(_WORLDS):  # the rigid ones' names stay
+        _end_of(f"{_ROOT}/scripts/examples/{world}_tester.py")
+        curves[title] = globals()["curves"]
+    bond, arms = BOND, dict(pull=1, shear=table.friction, roll=ROLLING * LENGTH)
+    figure = style.figure(11.0, 3.9)
+    panels = (
+        ("pull", "Pulled", "gap [mm]", 1e3, "tension [kN]", "F_a"),
+        ("shear", "Sheared", "slip [mm]", 1e3, "shear force [kN]", r"\mu_s\,(F_a+N)"),
+        ("roll", "Rolled", "angle [rad]", 1, "torque [kN m]", r"\mu_r\ell\,(F_a+N)"),
+    )
+    for ax, (way, title, across, unit, up, threshold) in zip(figure.subplots(1, 3), panels):
+        for world, rows in curves.items():
+            for (what, load), row in rows.items():
+                if what != way:
+                    continue
+                x, _, y = np.array([(0, 0, 0), *row]).T
+                look = dict(color=style.LINES["blue" if load else "orange"], ls="-" if world == "rigid disks" else (0, (2, 1.2)))
+                ax.plot(unit * x, 1e-3 * y, **look, lw=2.2 if world == "rigid disks" else 1.4, label=f"{world}, N = {'F_a' if load else '0'}".replace("F_a", "$F_a$"))
+                ax.plot(unit * x[-2], 1e-3 * y[-2], "o", ms=4.5, color=look["color"])
+                if world == "rigid disks":
+                    ax.axhline(1e-3 * arms[way] * (bond + load), color="#999999", lw=0.8, zorder=0.5)
+        ax.set(title=f"{title}: ${threshold}$", xlabel=across, ylabel=up, ylim=(0, None))
+        ax.margins(y=0.12)
+    handles = figure.axes[1].get_legend_handles_labels()
+    figure.legend(*handles, loc="lower center", ncol=4)
+    figure.subplots_adjust(left=0.06, right=0.99, top=0.91, bottom=0.26, wspace=0.28)
+    style.save(figure, f"{folder}/lesson_tester.png", dpi=110)
+
+
 _parser = argparse.ArgumentParser(description=__doc__)
 _parser.add_argument("folder")
 _parser.add_argument("pictures", nargs="*", metavar="LESSON")
 _parser.add_argument("--threads", help="read by the launcher")
 _given = _parser.parse_args()
-for _name in _given.pictures or ("law", "recipes", "beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "wedge"):
+for _name in _given.pictures or ("law", "recipes", "beam", "column", "drum", "incline", "pile", "press", "shear", "slope", "tester", "wedge"):
     if _name == "law":
         _the_law(_given.folder)
         continue
     if _name == "recipes":
         _the_recipes(_given.folder)
+        continue
+    if _name == "tester":
+        _the_tester(_given.folder)
         continue
     _flat = _name in ("beam", "column")  # one above the other; others beside each other
     _figure = style.figure(9.0, 4.6) if _flat else style.figure(11.0, 5.5)

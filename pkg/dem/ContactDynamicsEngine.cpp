@@ -270,11 +270,12 @@ void ContactDynamicsEngine::reportDriven()
 {
 	if (!(seam.drivenTogether > 0) || !nscd::seldom(++drivenSteps)) return;
 	LOG_WARN(
-	        "step " << scene->iter << ": bodies #" << seam.drivenIds[0] << " and #" << seam.drivenIds[1]
-	                << " are driven into each other by " << seam.drivenTogether << " m/s, and the DOFs of both are blocked ("
-	                << drivenSteps
-	                << " such steps so far). No finite force answers that between rigid bodies, and their contact bears none. Free one of them"
-	                   " along the normal (state.blockedDOFs) and press it by O.forces.setPermF.");
+	        "step "
+	        << scene->iter << ": bodies #" << seam.drivenIds[0] << " and #" << seam.drivenIds[1]
+	        << " are driven into each other by " << seam.drivenTogether
+	        << " m/s, and the DOFs of both are blocked (" << drivenSteps
+	        << " such steps so far). No finite force answers that between rigid bodies, and their contact bears none. Free one of them"
+	           " along the normal (state.blockedDOFs) and press it by O.forces.setPermF.");
 }
 
 /// `settling`: twice what gravity gives bodies at rest in a step [J]; those that are placed a little above their places lose as much.

@@ -192,7 +192,8 @@ void checkLayout()
 	check("LawTester", "displIsRel", &LawTester::displIsRel, false);
 	check("LawTester", "rotWeight", &LawTester::rotWeight, 0.6875);
 	const auto tester = make<LawTester>("LawTester");
-	if (not static_cast<const LawTester&>(*tester).disPath.empty() or not static_cast<const LawTester&>(*tester).rotPath.empty())
+	if (not static_cast<const LawTester&>(*tester).disPath.empty()
+	    or not static_cast<const LawTester&>(*tester).rotPath.empty())
 		misplaced("LawTester.disPath");
 	check("UniaxialStrainer", "active", &UniaxialStrainer::active, false);
 	check("UniaxialStrainer", "asymmetry", &UniaxialStrainer::asymmetry, 1);

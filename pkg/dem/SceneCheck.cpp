@@ -81,11 +81,16 @@ namespace {
 		static const string record
 		        = " reads a triaxial engine, and those move walls by the stiffness of contacts, which rigid ones have not: read O.forces.f of the walls after the integrator, or load and width of what yade.nonsmooth.scene.plate returns";
 		static const std::map<string, const string*> refused {
-			{ "TriaxialStressController", &stress },      { "TriaxialCompressionEngine", &stress },
-			{ "ThreeDTriaxialEngine", &stress },          { "SampleCapillaryPressureEngine", &stress },
-			{ "KinemCNLEngine", &lid },                   { "KinemCNSEngine", &lid },
-			{ "PeriIsoCompressor", &cell },               { "PeriTriaxController", &cell },
-			{ "Peri3dController", &cell },                { "TriaxialStateRecorder", &record },
+			{ "TriaxialStressController", &stress },
+			{ "TriaxialCompressionEngine", &stress },
+			{ "ThreeDTriaxialEngine", &stress },
+			{ "SampleCapillaryPressureEngine", &stress },
+			{ "KinemCNLEngine", &lid },
+			{ "KinemCNSEngine", &lid },
+			{ "PeriIsoCompressor", &cell },
+			{ "PeriTriaxController", &cell },
+			{ "Peri3dController", &cell },
+			{ "TriaxialStateRecorder", &record },
 		};
 		if (const auto found = refused.find(engine.getClassName()); found != refused.end())
 			fail(named(engine) + *found->second);
@@ -97,13 +102,16 @@ namespace {
 		const auto flat = [&](const char* name, const vector<Vector3r>& path, auto leaves, const char* what) {
 			for (size_t k = 0; k < path.size(); ++k)
 				if (leaves(path[k]))
-					fail(named(tester) + "." + name + "[" + std::to_string(k) + "] = (" + number(path[k][0])
-					     + ", " + number(path[k][1]) + ", " + number(path[k][2]) + ") " + what);
+					fail(named(tester) + "." + name + "[" + std::to_string(k) + "] = ("
+					     + number(path[k][0]) + ", " + number(path[k][1]) + ", "
+					     + number(path[k][2]) + ") " + what);
 		};
-		flat("disPath", tester.disPath, [](const Vector3r& p) { return p[2] != 0; },
-		     "moves a disk out of the x-y plane: leave the third number 0, the first one pulls and the second one shears");
-		flat("rotPath", tester.rotPath, [](const Vector3r& p) { return p[0] != 0 || p[1] != 0; },
-		     "turns a disk out of the x-y plane: leave the first two numbers 0, the third one rolls");
+		flat(
+		        "disPath", tester.disPath, [](const Vector3r& p) { return p[2] != 0; },
+		        "moves a disk out of the x-y plane: leave the third number 0, the first one pulls and the second one shears");
+		flat(
+		        "rotPath", tester.rotPath, [](const Vector3r& p) { return p[0] != 0 || p[1] != 0; },
+		        "turns a disk out of the x-y plane: leave the first two numbers 0, the third one rolls");
 	}
 
 	/// Of an attribute of YADE's own classes of physics that was written to.
@@ -180,7 +188,8 @@ void checkEngines(const Scene& scene, const Engine& solver)
 			     + (dynamic_cast<const UniaxialStrainer*>(&engine)
 			                ? ", with blockDisplacements=True and blockRotations=True"
 			                : ""));
-		if (const auto* tester = dynamic_cast<const LawTester*>(&engine); tester && !tester->dead) checkTester(*tester);
+		if (const auto* tester = dynamic_cast<const LawTester*>(&engine); tester && !tester->dead)
+			checkTester(*tester);
 		if (passed && !newton && !engine.dead && !between) between = &engine;
 	}
 	integrators.require("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");

@@ -86,6 +86,51 @@ TEST(Law, InverseDelassusOfBodiesThatAreHeavierOneWay)
 	EXPECT_NEAR(level.r, 5 * 0.25, 1e-14);
 }
 
+TEST(Law, GivenMotionIsTheLimitOfGrowingMasses)
+{
+	// what one contact's solve leaves between bodies that already move so, the heavier the nearer; velocities as they would be without the contact
+	const Contact c = contact(3, 0.5, 0.25);
+	for (const double n : { 0.0, 0.2 })
+		for (const double t : { -0.1, 0.0, 0.3 })
+			for (const double r : { -0.4, 0.0, 0.1 }) {
+				Contact at          = c;
+				at.nx               = 1;
+				at.leverTi          = 0.5;
+				at.leverTj          = -0.5;
+				const double      m = 1e-9; // inverse mass
+				const InverseMass mass { m, m, m };
+				Twist             vi { 0, 0, 0 }, vj { n, t + 0.5 * r, r };
+				Impulse           solved {};
+				for (int k = 0; k < 3; ++k)
+					solved = visit(at, solved, inverseDelassus(at, mass, mass), mass, mass, vi, vj);
+				const Impulse given = impulseOfGivenMotion(at, { n, t, r });
+				// 1e-9 of velocities of 0.1 to 0.4: a zero of the three is met to what the other impulses give
+				EXPECT_NEAR(given.n, solved.n, 1e-6) << n << " " << t << " " << r;
+				EXPECT_NEAR(given.t, t == 0 ? 0 : solved.t, 1e-6) << n << " " << t << " " << r;
+				EXPECT_NEAR(given.r, r == 0 ? 0 : solved.r, 1e-6) << n << " " << t << " " << r;
+			}
+}
+
+TEST(Law, GivenMotionByHand)
+{
+	const Contact c     = contact(3, 0.5, 0.25);
+	const auto    given = [&](double n, double t, double r) { return impulseOfGivenMotion(c, { n, t, r }); };
+	const auto    is    = [](const Impulse& p, double n, double t, double r) {
+                EXPECT_EQ(p.n, n);
+                EXPECT_EQ(p.t, t);
+                EXPECT_EQ(p.r, r);
+	};
+	is(given(0, 0, 0), 0, 0, 0); // where the law allows a range, the least of it
+	is(given(0.1, 0, 0), -3, 0, 0); // eq. (1)
+	is(given(0.1, 0.1, -0.1), -3, 0, 0); // a contact that opens bears neither shear nor torque, eqs (4) and (6)
+	is(given(0, 0.1, 0), 0, -1.5, 0); // eq. (3) at N = 0
+	is(given(0, -0.1, 0), 0, 1.5, 0);
+	is(given(0, 0, 0.1), 0, 0, -0.75); // eq. (5)
+	is(given(0, 0, -0.1), 0, 0, 0.75);
+	is(given(-0.1, 0.1, 0.1), 0, 0, 0); // rigid bodies that are driven into each other: no finite impulse
+	EXPECT_FALSE(std::signbit(impulseOfGivenMotion(contact(0, 0.5, 0), { 0.1, 0.1, 0.1 }).n));
+}
+
 TEST(Law, ProjectionIsIdempotent)
 {
 	const Contact c = contact(1, 0.5, 0.1);

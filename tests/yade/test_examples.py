@@ -27,6 +27,7 @@ LESSONS = {
     "press": ["numerics", "material", "functors, engines, time step"],
     "shear": ["numerics", "material", "functors, engines, time step"],
     "drum": ["numerics", "material", "functors, engines, time step"],
+    "tester": ["numerics", "material", "functors, engines, bonds"],
 }
 #: what may be set inside the marks
 NAMES = {"numerics", "rock", "joint", "O.engines", "O.dt", "newton.gravity"}

@@ -4,15 +4,7 @@ import math
 import pytest
 from yade import O
 from yade.nonsmooth import scene
-from yade.wrapper import (
-    ForceEngine,
-    LawTester,
-    NewtonIntegrator,
-    PlanarNewtonIntegrator,
-    PyRunner,
-    TorqueEngine,
-    UniaxialStrainer,
-)
+from yade.wrapper import ForceEngine, NewtonIntegrator, PlanarNewtonIntegrator, PyRunner, TorqueEngine, UniaxialStrainer
 
 from contact_scenes import G, begin, engine, floor, free_disk, material, refused, run
 
@@ -133,12 +125,6 @@ def test_a_strainer_finds_the_strength():
         peak = max(peak, O.engines[-1].avgStress)
     # three bonds of 1e5 Pa times 1 m on an area of 3 m
     assert peak == pytest.approx(1e5, rel=1e-3)
-
-
-def test_a_law_tester_holds_what_would_have_to_answer():
-    block_of_rock()
-    O.engines = O.engines[:3] + [LawTester(ids=[0, 1], disPath=[(1e-3, 0, 0)], pathSteps=[10])] + O.engines[3:]
-    refused("LawTester blocks all DOFs", "setPermF")
 
 
 def test_readers_of_forces_before_the_solver_are_refused():

@@ -238,15 +238,3 @@ def test_values_without_sense_are_refused(attribute, value, words):
     with pytest.raises(RuntimeError) as error:
         O.step()
     assert words in str(error.value)
-
-
-def test_a_servo_that_asks_for_stiffness_is_refused():
-    """YADE's triaxial engines move a wall by its force over the contacts' stiffness; without any by max_vel, to and fro."""
-    from yade.wrapper import TriaxialStressController
-
-    begin()
-    box(0.0)
-    O.engines = O.engines[:3] + [TriaxialStressController(thickness=1, label="servo")] + O.engines[3:]
-    with pytest.raises(RuntimeError) as error:
-        O.engines[4]()
-    assert "TriaxialStressController 'servo'" in str(error.value) and "scene.plate" in str(error.value)

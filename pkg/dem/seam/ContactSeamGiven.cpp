@@ -15,15 +15,17 @@ using contact::Impulse;
 Impulse ContactSeam::givenVelocity(const Contact& c) const
 {
 	constexpr Real rounding = 1e-12; // of a diameter, or rad, in a step
-	const Real     h = relaxation.step;
+	const Real     h        = relaxation.step;
 	const auto &   vi = before[c.i], &vj = before[c.j];
-	Impulse        u        = contact::relativeVelocity(c, vi, vj);
-	const Real     ri = radius[c.i], rj = radius[c.j], smallest = ri > 0 && rj > 0 ? std::min(ri, rj) : std::max(ri, rj);
-	const Real     turn = h * (std::abs(contact::passingSpeed(c, vi, vj)) / smallest + std::max(std::abs(vi.w), std::abs(vj.w)));
-	const auto     count = [h](Real speed, Real least) { return std::abs(h * speed) > least ? speed : 0; };
-	u.n                  = count(u.n, c.length * (turn * turn + rounding));
-	u.t                  = count(u.t, c.length * (turn * turn * turn + rounding));
-	u.r                  = count(u.r, rounding);
+	Impulse        u  = contact::relativeVelocity(c, vi, vj);
+	const Real     ri = radius[c.i], rj = radius[c.j],
+	           smallest = ri > 0 && rj > 0 ? std::min(ri, rj) : std::max(ri, rj);
+	const Real turn     = h
+	        * (std::abs(contact::passingSpeed(c, vi, vj)) / smallest + std::max(std::abs(vi.w), std::abs(vj.w)));
+	const auto count = [h](Real speed, Real least) { return std::abs(h * speed) > least ? speed : 0; };
+	u.n              = count(u.n, c.length * (turn * turn + rounding));
+	u.t              = count(u.t, c.length * (turn * turn * turn + rounding));
+	u.r              = count(u.r, rounding);
 	return u;
 }
 
@@ -34,8 +36,8 @@ void ContactSeam::answerGivenMotion()
 	for (size_t k = 0; k < links.size(); ++k) {
 		const Contact& c = problem.contacts[k];
 		if (!problem.inverseMass[c.i].isFixed() || !problem.inverseMass[c.j].isFixed()) continue;
-		const Impulse  u = givenVelocity(c);
-		const Reading& r = readingOf(links[k]);
+		const Impulse  u    = givenVelocity(c);
+		const Reading& r    = readingOf(links[k]);
 		problem.impulses[k] = contact::impulseOfGivenMotion(c, u);
 		if (-u.n > drivenTogether && (r.bonded || r.gap <= 0)) {
 			drivenTogether = -u.n;

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Pairs of bonded disks that YADE's LawTester pulls, shears and rolls: prints the most that each contact bears, beside the thresholds of the law.
+
+soft_tester.py and hard_tester.py are twins: an ordinary YADE script with springs at the contacts, and the same with Contact Dynamics.
+They differ between the lines "# [" and "# ]" only. A LawTester gives both disks of its pair their motion. So nothing presses them together; where a
+load shall, one disk is let go along the normal, and a force presses it. The law says F_a = σ ℓ, T_max = μ_s (F_a + N) and Γ_max = μ_r ℓ (F_a + N).
+Parameters come from a table (yade-batch), or are those below.
+"""
+import os, sys
+if "yade" not in sys.modules:  # started as it is: hand over to the launcher
+    launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "yade-nonsmooth")
+    os.execv(launcher, [launcher, os.path.realpath(__file__), "--threads", "1", *sys.argv[1:]])
+
+import math
+
+from yade import utils
+from yade.nonsmooth.scene import disk
+
+# [ numerics
+numerics = dict(dt=1e-3, tolerance=1e-9)
+# ]
+# strength [Pa] and friction of the bonds, load [of F_a] on half of the pairs, steps of a path
+utils.readParamsFromTable(strength=1e5, friction=0.5, load=1, steps=1000, **numerics)
+from yade.params import table
+
+RADIUS, DENSITY, ROLLING = 0.5, 2500, 0.125
+LENGTH = 2 * RADIUS              # ℓ [m]
+BOND = table.strength * LENGTH   # F_a [N]
+# what the second disk does to the first: along the normal and across it [ℓ], and about z [rad]
+PATHS = dict(pull=dict(disPath=[(0, 0, 0), (0.03, 0, 0)]), shear=dict(disPath=[(0, 0, 0), (0, 0.03, 0)]), roll=dict(rotPath=[(0, 0, 0), (0, 0, 0.5)]))
+REST = 500                       # steps in which the load arrives, before the path begins
+
+# [ material
+rock = NscdMat(density=DENSITY, frictionAngle=math.atan(table.friction), rollingFriction=ROLLING, tensileStrength=table.strength)
+# ]
+O.materials.append(rock)
+
+tests = []  # what is done, load [N], LawTester
+for way, load in (("pull", 0), ("shear", 0), ("shear", table.load * BOND), ("roll", 0), ("roll", table.load * BOND)):
+    y = -3 * RADIUS * len(tests)
+    ids = [O.bodies.append(disk((x, y), RADIUS, rock, fixed=True)) for x in (0, LENGTH)]
+    tests.append((way, load, LawTester(ids=ids, pathSteps=[REST, table.steps], idWeight=0.5, **PATHS[way])))
+    O.forces.setPermF(ids[1], (-load, 0, 0))
+curves = {(way, load): [] for way, load, _ in tests}  # rows: displacement [m, rad], normal force [N], and the force that answers [N, N m]
+
+
+def let_go():
+    """A LawTester blocks all: a disk under a load may move along the normal again."""
+    for _, load, tester in tests:
+        if load:
+            O.bodies[tester.ids[1]].state.blockedDOFs = "yzXYZ"
+
+
+def record():
+    for way, load, tester in tests:
+        if tester.dead or O.iter <= REST:
+            continue
+        first, second = (O.bodies[i] for i in tester.ids)
+        force, torque = O.forces.f(first.id), O.forces.t(first.id)  # that of the contact alone; the load is on the other disk
+        done = tester.uuPrev
+        way_done, answer = dict(pull=(done[0] * LENGTH, force[0]), shear=(done[1] * LENGTH, force[1]), roll=(done[5], torque[2]))[way]
+        curves[way, load].append((way_done, -force[0], abs(answer)))
+        if not bonded(*tester.ids):  # it ends here: a LawTester needs a contact
+            tester.dead = True
+            for body in (first, second):
+                body.state.vel = body.state.angVel = (0, 0, 0)
+
+
+# [ functors, engines, bonds
+def bonded(a, b):
+    return O.interactions.has(a, b, True) and O.interactions[a, b].phys.bonded
+
+
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05)], verletDist=0.05),
+    InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.05)],
+        [Ip2_NscdMat_NscdMat_NscdPhys()],
+        [Law2_ScGeom_NscdPhys_SignoriniCoulomb()]),
+    *(tester for _, _, tester in tests),
+    PyRunner(command="let_go()", iterPeriod=1),
+    ContactDynamicsEngine(tolerance=table.tolerance, label="contactDynamics"),
+    NewtonIntegrator(damping=0, gravity=(0, 0, 0)),
+]
+O.dt = table.dt
+O.step()
+contactDynamics.bond()
+# ]
+O.engines += [PyRunner(command="record()", iterPeriod=1)]
+O.run(REST + table.steps, wait=True)
+
+
+def threshold(way, normal):
+    return dict(pull=BOND, shear=table.friction * (BOND + normal), roll=ROLLING * LENGTH * (BOND + normal))[way]
+
+
+print("test    load [kN]  largest [kN, kN m]  threshold [kN, kN m]  bond ends at [m, rad]")
+for (way, load), rows in curves.items():
+    most = max(rows, key=lambda row: row[2])
+    ends = "%.4f" % rows[-1][0] if not bonded(*next(t.ids for w, p, t in tests if (w, p) == (way, load))) else "it holds"
+    print("%-7s %9.1f %19.4f %21.4f  %s" % (way, 1e-3 * load, 1e-3 * most[2], 1e-3 * threshold(way, max(0, most[1])), ends))
+print(f"steps {O.iter}")
+utils.waitIfBatch()
