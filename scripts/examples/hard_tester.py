@@ -20,14 +20,15 @@ from yade.nonsmooth.scene import disk
 numerics = dict(dt=1e-3, tolerance=1e-9)
 # ]
 # strength [Pa] and friction of the bonds, load [of F_a] on half of the pairs, steps of a path
-utils.readParamsFromTable(strength=1e5, friction=0.5, load=1, steps=1000, **numerics)
+utils.readParamsFromTable(strength=1e5, friction=0.5, load=1, steps=4000, **numerics)
 from yade.params import table
 
 RADIUS, DENSITY, ROLLING = 0.5, 2500, 0.125
 LENGTH = 2 * RADIUS              # ℓ [m]
 BOND = table.strength * LENGTH   # F_a [N]
-# what the second disk does to the first: along the normal and across it [ℓ], and about z [rad]
-PATHS = dict(pull=dict(disPath=[(0, 0, 0), (0.03, 0, 0)]), shear=dict(disPath=[(0, 0, 0), (0, 0.03, 0)]), roll=dict(rotPath=[(0, 0, 0), (0, 0, 0.5)]))
+# what the second disk does to the first: along the normal and across it [ℓ], and about z [rad]; LawTester takes angles for angular velocities, and so for 1/dt of them
+PATHS = dict(pull=dict(disPath=[(0, 0, 0), (0.03, 0, 0)]), shear=dict(disPath=[(0, 0, 0), (0, 0.03, 0)]),
+             roll=dict(rotPath=[(0, 0, 0), (0, 0, 0.5 / table.dt)]))
 REST = 500                       # steps in which the load arrives, before the path begins
 
 # [ material
@@ -41,6 +42,7 @@ for way, load in (("pull", 0), ("shear", 0), ("shear", table.load * BOND), ("rol
     ids = [O.bodies.append(disk((x, y), RADIUS, rock, fixed=True)) for x in (0, LENGTH)]
     tests.append((way, load, LawTester(ids=ids, pathSteps=[REST, table.steps], idWeight=0.5, **PATHS[way])))
     O.forces.setPermF(ids[1], (-load, 0, 0))
+ended = []
 curves = {(way, load): [] for way, load, _ in tests}  # rows: displacement [m, rad], normal force [N], and the force that answers [N, N m]
 
 
@@ -51,19 +53,26 @@ def let_go():
             O.bodies[tester.ids[1]].state.blockedDOFs = "yzXYZ"
 
 
+def end_broken():
+    """A LawTester needs its contact: where the bond has ended, so does the test, and both disks stay."""
+    for _, _, tester in tests:
+        if O.iter > 0 and not tester.dead and not bonded(*tester.ids):
+            tester.dead = True
+            for i in tester.ids:
+                O.bodies[i].state.vel = O.bodies[i].state.angVel = (0, 0, 0)
+
+
 def record():
     for way, load, tester in tests:
-        if tester.dead or O.iter <= REST:
+        rows = curves[way, load]
+        if O.iter <= REST or tester in ended:
             continue
-        first, second = (O.bodies[i] for i in tester.ids)
-        force, torque = O.forces.f(first.id), O.forces.t(first.id)  # that of the contact alone; the load is on the other disk
+        if tester.dead:  # the last row: what is left
+            ended.append(tester)
+        force, torque = (of(tester.ids[0]) for of in (O.forces.f, O.forces.t))  # of the contact alone: the load is on the other disk
         done = tester.uuPrev
-        way_done, answer = dict(pull=(done[0] * LENGTH, force[0]), shear=(done[1] * LENGTH, force[1]), roll=(done[5], torque[2]))[way]
-        curves[way, load].append((way_done, -force[0], abs(answer)))
-        if not bonded(*tester.ids):  # it ends here: a LawTester needs a contact
-            tester.dead = True
-            for body in (first, second):
-                body.state.vel = body.state.angVel = (0, 0, 0)
+        way_done, answer = dict(pull=(done[0] * LENGTH, force[0]), shear=(done[1] * LENGTH, force[1]), roll=(done[5] * O.dt, torque[2]))[way]
+        rows.append((way_done, -force[0], abs(answer)))
 
 
 # [ functors, engines, bonds
@@ -78,6 +87,7 @@ O.engines = [
         [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.05)],
         [Ip2_NscdMat_NscdMat_NscdPhys()],
         [Law2_ScGeom_NscdPhys_SignoriniCoulomb()]),
+    PyRunner(command="end_broken()", iterPeriod=1),
     *(tester for _, _, tester in tests),
     PyRunner(command="let_go()", iterPeriod=1),
     ContactDynamicsEngine(tolerance=table.tolerance, label="contactDynamics"),
@@ -96,9 +106,10 @@ def threshold(way, normal):
 
 
 print("test    load [kN]  largest [kN, kN m]  threshold [kN, kN m]  bond ends at [m, rad]")
-for (way, load), rows in curves.items():
+for way, load, tester in tests:
+    rows = curves[way, load]
     most = max(rows, key=lambda row: row[2])
-    ends = "%.4f" % rows[-1][0] if not bonded(*next(t.ids for w, p, t in tests if (w, p) == (way, load))) else "it holds"
+    ends = "%.4f" % rows[-1][0] if tester in ended else "it holds"
     print("%-7s %9.1f %19.4f %21.4f  %s" % (way, 1e-3 * load, 1e-3 * most[2], 1e-3 * threshold(way, max(0, most[1])), ends))
 print(f"steps {O.iter}")
 utils.waitIfBatch()

@@ -3,20 +3,20 @@ import math
 
 import pytest
 import yade.wrapper
-from yade import O
-from yade.minieigenHP import Quaternion, Vector3
+from yade import O, utils
+from yade.minieigenHP import Vector3
 from yade.nonsmooth import scene
 from yade.wrapper import (
     BicyclePedalEngine,
-    Box,
+    Bo1_Box_Aabb,
     CombinedKinematicEngine,
     ForceEngine,
     HarmonicMotionEngine,
     HarmonicRotationEngine,
+    Ig2_Box_Sphere_ScGeom,
     KinemCNDEngine,
     KinemCTDEngine,
     RotationEngine,
-    ServoPIDController,
     StepDisplacer,
     TorqueEngine,
     TranslationEngine,
@@ -121,14 +121,12 @@ def test_a_disk_gets_the_speed_of_a_wall_that_an_engine_moves(motion):
 
 
 def shear_box():
-    """Six boxes as YADE's engines for simple shear want them, front and back ones far away; their ids as options, and that of a disk between floor and lid."""
+    """Six boxes as YADE's engines of simple shear want them, the sides and what is in front far from the disk between floor and lid; ids as options, and the disk's."""
     stuff = material(0)
-    from yade import utils
-
     ids = {}
     for name, centre, half in (
-        ("id_boxleft", (-1.1, 0, 0), (0.1, 1, 2)),
-        ("id_boxright", (1.1, 0, 0), (0.1, 1, 2)),
+        ("id_boxleft", (-4.1, 0, 0), (0.1, 1, 2)),
+        ("id_boxright", (4.1, 0, 0), (0.1, 1, 2)),
         ("id_boxfront", (0, 0, 3), (2, 2, 0.1)),
         ("id_boxback", (0, 0, -3), (2, 2, 0.1)),
         ("id_topbox", (0, 1.1, 0), (2, 0.1, 2)),
@@ -136,4 +134,57 @@ def shear_box():
     ):
         ids[name] = O.bodies.append(utils.box(centre, half, fixed=True, material=stuff))
         O.bodies[ids[name]].bounded = name in ("id_topbox", "id_boxbas")
-    return ids, O.bodies.append(scene.disk((0, 0.5), 0.5, stuff))
+    disk = O.bodies.append(scene.disk((0, 0.5), 0.5, stuff))
+    begin(gravity=(0, 0, 0))
+    collider, loop = O.engines[1], O.engines[2]
+    collider.boundDispatcher.functors = list(collider.boundDispatcher.functors) + [Bo1_Box_Aabb()]
+    loop.geomDispatcher.functors = list(loop.geomDispatcher.functors) + [
+        Ig2_Box_Sphere_ScGeom(interactionDetectionFactor=1.05)
+    ]
+    return ids, disk
+
+
+def test_a_shear_box_that_is_driven_presses_and_shears():
+    ids, disk = shear_box()
+    O.engines = O.engines + [
+        KinemCTDEngine(compSpeed=0.2, targetSigma=1e9, Key="", **ids)
+    ]  # after the integrator: it reads forces
+    run(20)
+    assert O.bodies[disk].state.vel[1] == pytest.approx(-0.2, rel=1e-9)
+    O.engines = O.engines[:-1] + [KinemCNDEngine(shearSpeed=0.3, gammalim=1, Key="", **ids)]
+    run(5)
+    assert O.bodies[ids["id_topbox"]].state.vel == Vector3(0.3, 0, 0)
+
+
+# ---- what only loads bodies ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "load, share",
+    [
+        (lambda disk: ForceEngine(ids=[disk], force=(0, -1e4, 0)), 1e4),
+        # a spring of 1e5 N/m that begins 0.1 m below
+        (lambda disk: VESupportEngine(bIds=[disk], k1=1e5, k2=1e5, c1=0, c2=0), 1e4),
+    ],
+    ids=["force", "support"],
+)
+def test_a_floor_bears_what_an_engine_loads_on_a_disk(load, share):
+    stuff = material(0.5)
+    ground = floor(stuff)
+    disk = free_disk(0, 0.5, stuff=stuff)
+    begin()
+    O.bodies[disk].state.refPos = O.bodies[disk].state.pos - Vector3(0, 0.1, 0)
+    others = list(O.engines)
+    O.engines = others[:3] + [load(disk)] + others[3:]
+    run(20)
+    # a share of 1e-4 ℓ of the way to the spring's foot may be an overlap that stays
+    assert -O.forces.f(ground)[1] == pytest.approx(O.bodies[disk].state.mass * G + share, rel=1e-3)
+
+
+def test_a_torque_turns_a_free_disk():
+    disk = free_disk()
+    begin(gravity=(0, 0, 0))
+    others = list(O.engines)
+    O.engines = others[:3] + [TorqueEngine(ids=[disk], moment=(0, 0, 50))] + others[3:]
+    run(10)
+    assert O.bodies[disk].state.angVel[2] == pytest.approx(50 * 0.01 / O.bodies[disk].state.inertia[2], rel=1e-9)

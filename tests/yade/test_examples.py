@@ -361,3 +361,22 @@ def test_the_block_of_the_front_page_slides_as_it_says(tmp_path):
     # (sin 30° − 0.2 cos 30°) g t from rest; three digits are printed, and the block settles onto the slope within the first steps
     assert float(speed) == pytest.approx(9.81 * (0.5 - 0.2 * math.cos(math.pi / 6)), rel=0.01)
     assert int(bonds) == int(re.search(r"bonds made: (\d+)", done.stdout).group(1))
+
+
+def test_a_law_tester_finds_the_thresholds_of_the_law(output):
+    """F_a, μ_s (F_a + N) and μ_r ℓ (F_a + N) of bonds of 100 kPa between disks of 1 m, with N = 0 and N = F_a; kN and kN m."""
+    known = {("pull", 0.0): 100, ("shear", 0.0): 50, ("shear", 100.0): 100, ("roll", 0.0): 12.5, ("roll", 100.0): 25}
+    # the digits printed; a spring snaps within a step of the path, which is a 30th of what it bears, and its pair under a load has turned by 0.007
+    for world, steps, within in (("hard", 500, 1e-4), ("soft", 4000, 0.03)):
+        text = output(f"{world}_tester.py", steps=steps)
+        found = {}
+        for line in text[text.index("test ") :].splitlines()[1:6]:
+            way, load, largest, threshold, *end = line.split()
+            found[way, float(load)] = float(largest), float(threshold), end[0]
+        assert set(found) == set(known)
+        for key, (largest, threshold, end) in found.items():
+            assert threshold == pytest.approx(known[key], rel=within), (world, key)
+            assert largest == pytest.approx(known[key], rel=within), (world, key)
+            # of the hard bond that of its ellipse: 0.02 ℓ, and where a roll has brought the mark so far along the normal, r φ²/4
+            if world == "hard":
+                assert float(end) == pytest.approx(0.4 if key[0] == "roll" else 0.02, rel=0.02), key

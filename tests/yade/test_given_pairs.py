@@ -37,8 +37,10 @@ def pair(angle=0.0, radii=(0.5, 0.5), swapped=False, stuff=None):
     return length
 
 
-def tested(steps=1000, after=(), **path):
-    """Gives the two disks their path; the LawTester stands before the solver."""
+def give_path(steps=1000, after=(), roll=0.0, **path):
+    """Gives the two disks their path; the LawTester stands before the solver. ``roll`` [rad]: LawTester's own rotPath is one of angular velocities."""
+    if roll:
+        path["rotPath"] = [(0, 0, roll / O.dt)]
     tester = LawTester(ids=[0, 1], pathSteps=[steps], **{**dict(idWeight=0.5), **path})
     others = list(O.engines)
     O.engines = others[:3] + [tester, *after] + others[3:]
@@ -68,7 +70,7 @@ TURNS = [0.0, 1.0, 2.5, -0.7]
 @pytest.mark.parametrize("angle", TURNS)
 def test_a_bond_that_is_pulled_bears_its_tensile_strength(angle, radii, swapped):
     length = pair(angle, radii, swapped)
-    tested(steps=300, disPath=[(0.03, 0, 0)])
+    give_path(steps=300, disPath=[(0.03, 0, 0)])
     force, zone = STRENGTH * length, 0.02 * length
     for _ in range(19):
         run(10)
@@ -85,7 +87,7 @@ def test_a_bond_that_is_pulled_bears_its_tensile_strength(angle, radii, swapped)
 @pytest.mark.parametrize("angle", TURNS)
 def test_a_bond_that_is_sheared_bears_its_shear_threshold(angle, weight):
     length = pair(angle)
-    tested(steps=300, disPath=[(0, 0.03, 0)], rotWeight=weight)
+    give_path(steps=300, disPath=[(0, 0.03, 0)], rotWeight=weight)
     force, zone = MU * STRENGTH * length, 0.02 * length
     for _ in range(19):
         run(10)
@@ -105,7 +107,7 @@ def test_a_bond_that_is_sheared_bears_its_shear_threshold(angle, weight):
 @pytest.mark.parametrize("radii", [(0.5, 0.5), (0.2, 0.6)])
 def test_a_bond_that_is_rolled_bears_its_torque_threshold(radii):
     length = pair(0.4, radii)
-    tested(steps=300, rotPath=[(0, 0, 0.15)])
+    give_path(steps=300, roll=0.15)
     torque = ROLLING * length * STRENGTH * length
     for _ in range(30):
         run(10)
@@ -116,18 +118,16 @@ def test_a_bond_that_is_rolled_bears_its_torque_threshold(radii):
 
 def test_what_opens_bears_neither_shear_nor_torque():
     pair()
-    tested(steps=300, disPath=[(0.01, 0.005, 0)], rotPath=[(0, 0, 0.01)])
+    give_path(steps=300, disPath=[(0.01, 0.005, 0)], roll=0.01)
     run(100)
     assert borne() == pytest.approx((-STRENGTH, 0, 0), rel=1e-12, abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    "way, share", [({"disPath": [(0, 0.01, 0)]}, (MU, 0)), ({"rotPath": [(0, 0, 0.1)]}, (0, ROLLING))]
-)
+@pytest.mark.parametrize("way, share", [({"disPath": [(0, 0.01, 0)]}, (MU, 0)), ({"roll": 0.1}, (0, ROLLING))])
 @pytest.mark.parametrize("load", [0.5, 1, 3])
 def test_a_load_along_the_normal_raises_the_thresholds(load, way, share):
     pair()
-    tested(steps=200, after=[PyRunner(command="O.bodies[1].state.blockedDOFs = 'yzXYZ'", iterPeriod=1)], **way)
+    give_path(steps=200, after=[PyRunner(command="O.bodies[1].state.blockedDOFs = 'yzXYZ'", iterPeriod=1)], **way)
     O.forces.setPermF(1, (-load * STRENGTH, 0, 0))
     run(100)
     (contact,) = contacts()
@@ -140,7 +140,7 @@ def test_a_load_along_the_normal_raises_the_thresholds(load, way, share):
 
 def test_what_stands_or_goes_together_bears_nothing():
     pair(0.3)
-    tested(steps=100, disPath=[(0, 0.005, 0)])
+    give_path(steps=100, disPath=[(0, 0.005, 0)])
     run(100)
     assert borne()[1] > 0
     run(5)  # the path has come to its end
@@ -212,5 +212,5 @@ def test_bodies_that_are_driven_into_each_other_are_told_of(capfd):
 )
 def test_paths_that_leave_the_plane_are_refused(path, words):
     pair()
-    tested(label="tester", **path)
+    give_path(label="tester", **path)
     refused("LawTester 'tester'", *words)

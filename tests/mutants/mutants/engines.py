@@ -3,7 +3,7 @@ from mutant import mutant
 
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
-TO_PLANE = "pkg/dem/seam/PlaneMotion.hpp"
+TO_PLANE, GIVEN = "pkg/dem/seam/PlaneMotion.hpp", "pkg/dem/seam/ContactSeamGiven.cpp"
 RESIDENT, SHOW, MAKE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp", "pkg/dem/seam/ResidentMake.cpp"
 COME, BARE_BONDS = "test_bare_contacts.py::test_contacts_that_come_and_go_are_the_same_once_they_are_seen", "test_bare_contacts.py::test_bonds_of_contacts_that_nobody_has_seen"
 AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
@@ -306,4 +306,14 @@ MUTANTS = (
            "water is released where disks have moved upslope", "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
     mutant("paper-friction", "py/nonsmooth/scene.py", "weakenedFrictionAngle=math.atan(weak.friction)", "weakenedFrictionAngle=math.atan(m.friction)", "DP keeps its friction beyond D_c",
            "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
+    # ---- two bodies of given motion, and engines that steer
+    mutant("given-answer", ENGINE, "seam.answerGivenMotion();", ";", "contacts of two driven bodies bear nothing", "test_given_pairs.py::test_a_bond_that_is_pulled_bears_its_tensile_strength"),
+    mutant("given-turn", GIVEN, "c.length * (turn * turn * turn + rounding)", "c.length * rounding", "disks of a driven wheel rub on each other while it turns",
+           "test_given_pairs.py::test_a_driven_wheel_of_bonded_disks_bears_nothing_while_it_turns"),
+    mutant("given-pressed", GIVEN, "-u.n > drivenTogether", "u.n > drivenTogether", "it is told of bodies that are driven apart",
+           "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
+    mutant("check-tester", "pkg/dem/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
+           "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
+    mutant("check-controller", "pkg/dem/SceneCheck.cpp", '{ "KinemCNSEngine", &lid }', '{ "KinemCNSEngine\'s", &lid }', "an engine that asks for stiffness is let run",
+           "test_controllers.py::test_what_steers_by_stiffness_or_cell_is_refused_with_what_works"),
 )

@@ -177,4 +177,9 @@ MUTANTS = (
     mutant("regions-place", REGIONS, "places[table[at]] == place", "true", "squares are one where a hash of theirs is", "gtest:Regions.*"),
     mutant("regions-extent", REGIONS, "std::max(e.yMax, o.yMax)", "e.yMax", "differences of velocities do not know the squares around, upwards", "gtest:Regions.*"),
     mutant("regions-around", REGIONS, "places[s].y + k / 3 - 1", "places[s].y + k / 3 - 2", "the squares around are two below", "gtest:Regions.*"),
+    # ---- law of a given motion
+    mutant("law-given-tension", LAW, "u.n > 0 ? 0 - c.adhesion : 0", "u.n > 0 ? c.adhesion : 0", "bodies that are driven apart are pushed apart",
+           "gtest:Law.GivenMotion*"),
+    mutant("law-given-closing", LAW, "if (u.n < 0) return {};", ";", "bodies that are driven into each other rub as if nothing pressed them",
+           "gtest:Law.GivenMotionByHand"),
 )
