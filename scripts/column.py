@@ -13,7 +13,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import argparse
 from pathlib import Path
 
-from yade.nonsmooth import commands, output_folder
+from yade.nonsmooth import commands, film, output_folder
 from yade.nonsmooth.figures import columns as figures
 from yade.nonsmooth.heaps import grains, report, study
 from yade.nonsmooth.laboratory import arguments
@@ -203,6 +203,14 @@ def main():
     drawn = [report.draw_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
     if any(summary["fits"].values()) and args.kind == "column":
         drawn.append(figures.runout({f"{report.counts(found)}, {args.world}": report.group(found)}, out / "runout.png"))
+    films = (
+        []
+        if film.missing()
+        else [report.film_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
+    )
+    drawn += [path for path in films if path]
+    if film.missing():
+        print(f"no videos: {film.missing()}")
     print(f"results: {out}/summary.json, {', '.join(str(p) for p in drawn[-3:])}{' …' if len(drawn) > 3 else ''}")
 
 

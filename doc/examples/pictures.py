@@ -1,4 +1,4 @@
-"""Pictures of the documentation that take seconds, as PNGs in a folder: the law drawn, the end of each lesson, hard and soft, of the recipes, and of the README's script.
+"""Pictures of the documentation that take seconds, as PNGs in a folder: the law drawn, the end of each lesson, hard (-1) and soft (-2), of the recipes, and of the README's script.
 
   scripts/yade-nonsmooth doc/examples/pictures.py FOLDER [law] [recipes] [LESSON …]
 """
@@ -31,14 +31,31 @@ def _the_law(folder):
     figures.water_forces(slope.water.dip, 2.0, rock.density, slope.water.unit_weight, slope.gravity, f"{folder}/water_forces.png")
 
 
+def _drawn(script, title, path, flat=False):
+    """The end of a script as a picture, with a title."""
+    _end_of(script)
+    figure = style.figure(9.0, 2.6) if flat else style.figure(5.6, 5.6)
+    axes = figure.add_axes([0.01, 0.0, 0.98, 0.88 if flat else 0.93])
+    figures.draw(O, ax=axes)
+    axes.set_title(title, fontsize=13, fontweight="bold")
+    return figure, axes, path
+
+
 def _the_recipes(folder):
-    figure = style.figure(11.0, 8.0)
     for k, (name, title) in enumerate((("conveyor", "a conveyor belt"), ("feeding", "feeding and erasing"), ("boulder", "a boulder"), ("gas", "a gas"))):
-        _end_of(f"{_ROOT}/doc/examples/{name}.py")
-        axes = figure.add_axes([0.02 + 0.5 * (k % 2), 0.02 + 0.5 * (1 - k // 2), 0.46, 0.42])
-        figures.draw(O, ax=axes)
-        axes.set_title(title, fontsize=13, fontweight="bold")
-    style.save(figure, f"{folder}/recipes.png", dpi=110)
+        figure, _, path = _drawn(f"{_ROOT}/doc/examples/{name}.py", title, f"{folder}/recipes-{k + 1}.png")
+        style.save(figure, path, dpi=110)
+
+
+def _the_lesson(name, folder):
+    for k, (world, title) in enumerate(_WORLDS):
+        # flat ones stand one above the other, others beside each other
+        figure, axes, path = _drawn(f"{_ROOT}/scripts/examples/{world}_{name}.py", title, f"{folder}/lesson_{name}-{k + 1}.png", name in ("beam", "column"))
+        if name == "incline":  # of the lesson's own names
+            for body, ratio in zip(blocks, RATIOS):
+                place = O.bodies[body].state.pos
+                axes.annotate(f"μ = {ratio:g} tan θ", (place[0], place[1]), (9, 7), textcoords="offset points", fontsize=9)
+        style.save(figure, path, dpi=110)
 
 
 @style.styled
@@ -89,14 +106,7 @@ for _name in _given.pictures or ("law", "recipes", "beam", "column", "drum", "in
     if _name == "tester":
         _the_tester(_given.folder)
         continue
-    _flat = _name in ("beam", "column")  # one above the other; others beside each other
-    _figure = style.figure(9.0, 4.6) if _flat else style.figure(11.0, 5.5)
-    for _k, (_world, _title) in enumerate(_WORLDS):
-        _end_of(f"{_ROOT}/scripts/examples/{_world}_{_name}.py")
-        _axes = _figure.add_axes([0.01, 0.5 * (1 - _k), 0.98, 0.43] if _flat else [0.01 + 0.5 * _k, 0.0, 0.48, 0.93])
-        figures.draw(O, ax=_axes)
-        _axes.set_title(_title, fontsize=13, fontweight="bold")
-    style.save(_figure, f"{_given.folder}/lesson_{_name}.png", dpi=110)
+    _the_lesson(_name, _given.folder)
 if not _given.pictures:
     _end_of(f"{_ROOT}/doc/examples/falling_block.py")
     figures.draw(O, f"{_given.folder}/falling_block.png")

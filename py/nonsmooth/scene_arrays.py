@@ -14,12 +14,15 @@ from .records import RecordsError
 
 __all__ = ["Scene", "read"]
 
+UNSET = (1.0, 1.0, 1.0)  # of a Sphere that nobody gave a colour
+
 
 @dataclass(frozen=True, eq=False)
 class Scene:
     """What is in a scene. Disks: ``x``, ``y``, ``r`` [m], ``material`` (order in which materials come), ``fixed``: arrays (n,). ``walls``: list of arrays (2, 2), lines from point to
     point; ``axes``: list of (0 or 1, place [m]), lines along y or x. Contacts: disks ``ci``, ``cj`` (negative: a wall), points ``cx``, ``cy`` [m], normal force ``cn`` [N],
-    compression positive, ``bonded``: arrays (c,)."""
+    compression positive, ``bonded``: arrays (c,). ``colour``: (n, 3), the bodies' own as shares of red, green and blue; None where nobody has chosen them, see :func:`read`.
+    """
 
     x: np.ndarray
     y: np.ndarray
@@ -34,17 +37,27 @@ class Scene:
     cy: np.ndarray
     cn: np.ndarray
     bonded: np.ndarray
+    colour: np.ndarray | None = None
+
+    @property
+    def nbytes(self):
+        """Bytes of its arrays."""
+        return sum(a.nbytes for a in vars(self).values() if isinstance(a, np.ndarray))
 
 
 def read(O) -> Scene:
-    """The scene in a YADE ``O``. Raises RecordsError where there is no disk in it."""
-    disks, walls, axes, order, kinds = [], [], [], {}, {}
+    """The scene in a YADE ``O``. Raises RecordsError where there is no disk in it.
+
+    YADE gives each body a random colour where a script gives none. So colours count as chosen where disks share them: where there are half as many as disks, or fewer.
+    """
+    disks, walls, axes, order, kinds, colours = [], [], [], {}, {}, []
     for b in O.bodies:
         if b is None or b.shape is None:
             continue
         kind, (x, y) = type(b.shape).__name__, (b.state.pos[0], b.state.pos[1])
         if kind == "Sphere":
             order[b.id] = len(disks)
+            colours.append(tuple(b.shape.color))
             disks.append(
                 (
                     x,
@@ -76,8 +89,9 @@ def read(O) -> Scene:
         if contacts
         else (np.zeros(0, int), np.zeros(0, int), *np.zeros((3, 0)), np.zeros(0, bool))
     )
+    own = np.clip(colours, 0, 1) if 2 * len(set(colours)) <= len(colours) and set(colours) != {UNSET} else None
     return Scene(
-        x, y, r, material.astype(int), fixed.astype(bool), walls, axes, ci, cj, cx, cy, cn, bonded.astype(bool)
+        x, y, r, material.astype(int), fixed.astype(bool), walls, axes, ci, cj, cx, cy, cn, bonded.astype(bool), own
     )
 
 

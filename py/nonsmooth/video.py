@@ -4,13 +4,12 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
-from matplotlib.animation import FFMpegWriter
 from matplotlib.patches import Patch
 
+from . import film
 from .figures import style
 from .measure.ground import ground_of
 from .records import RecordsError, read_snapshot
-from .whole_files import beside
 
 FORCES = (  # column, symbol, meaning, role of the walls, colour
     ("dp_normal_effective_N_per_m", "N'", "effective normal force", "slip", "blue"),
@@ -19,12 +18,12 @@ FORCES = (  # column, symbol, meaning, role of the walls, colour
 )
 
 
-class _Frames:
-    """The artists of one video; the fixed ones are drawn once, the others on top of their picture."""
+class _Frames(film.Stage):
+    """The artists of one video."""
 
     def __init__(self, ground, view, first, size, series, times, window, longest):
         width, height = size
-        self.fig = style.figure(width / 100, height / 100, dpi=100)
+        super().__init__(style.figure(width / 100, height / 100, dpi=100))
         self.slope, self.extent, self.longest = ground, view[1] - view[0], longest
         room = 0.355 if series is not None else 0.0
         self.ax = self.fig.add_axes([0, room, 1, 0.91 - room])
@@ -49,12 +48,7 @@ class _Frames:
         self.cursors = []
         if series is not None:
             self._forces(series, times, window)
-        for artist in self.moving:
-            artist.set_visible(False)
-        self.fig.canvas.draw()
-        self.ground = self.fig.canvas.copy_from_bbox(self.fig.bbox)
-        for artist in self.moving:
-            artist.set_visible(True)
+        self.set()
 
     def _legend(self):
         handles = [
@@ -90,12 +84,10 @@ class _Frames:
 
     def show(self, snapshot):
         """Draw one snapshot; returns the picture as bytes (RGBA)."""
-        canvas = self.fig.canvas
-        canvas.restore_region(self.ground)
         self.disks.set_offsets(np.column_stack([snapshot.x, snapshot.y]))
         self.disks.set_facecolors(style.state_colours(snapshot))
         if self.water is not None:
-            self.water.set_data(*self.slope.water_points(snapshot.water_m).T)
+            self.water.set_data(*style.water_table(self.ax, self.slope, snapshot.water_m).T)
             self.water.set_visible(snapshot.water_m > 0)
         self.clock.set_text(f"t = {style.seconds(snapshot.time_s, self.longest)}")
         water = f"water table {style.length(snapshot.water_m, self.extent, 1)}    " if self.water is not None else ""
@@ -104,20 +96,7 @@ class _Frames:
         )
         for cursor in self.cursors:
             cursor.set_xdata([snapshot.time_s, snapshot.time_s])
-        for artist in sorted(self.moving, key=lambda a: a.get_zorder()):
-            (artist.axes or self.fig).draw_artist(artist)
-        return canvas.buffer_rgba()
-
-
-class _Writer(FFMpegWriter):
-    """FFMpegWriter that is handed finished pictures instead of drawing the figure again for each."""
-
-    @property
-    def frame_size(self):
-        return self.fig.canvas.get_width_height()
-
-    def add(self, picture):
-        self._proc.stdin.write(picture)
+        return self.picture()
 
 
 def _sample(paths):
@@ -141,35 +120,24 @@ def write_mp4(
     paths, path, ground = [Path(p) for p in snapshot_paths], Path(path), ground_of(walls)
     if not paths:
         raise RecordsError("there are no snapshots to make a video of; let the run write some first")
-    if not FFMpegWriter.isAvailable():
-        return None, "no video: ffmpeg is not installed (apt install ffmpeg)"
+    if film.missing():
+        return None, f"no video: {film.missing()}"
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(style.RC)
         sample = _sample(paths)
         frames = _Frames(ground, style.view(sample, ground), sample[0], size, series, times, window, sample[-1].time_s)
-        # yuv420p plays everywhere; the last frame stays for a second and a half.
-        writer = _Writer(
-            fps=fps, codec="h264", bitrate=-1,
-            extra_args=["-pix_fmt", "yuv420p", "-crf", "20", "-preset", "veryfast", "-threads", "1",
-                        "-vf", "tpad=stop_mode=clone:stop_duration=1.5", "-movflags", "+faststart"],
-        )  # fmt: skip
-        try:
-            with beside(path) as part, writer.saving(frames.fig, str(part), dpi=100):
-                for done, name in enumerate(paths, start=1):
-                    snapshot = read_snapshot(name)
-                    if len(snapshot.x) != len(sample[0].x):
-                        raise RecordsError(
-                            f"{name}: {len(snapshot.x)} disks, but {paths[0]} has {len(sample[0].x)}; give snapshots "
-                            "of one run only"
-                        )
-                    writer.add(frames.show(snapshot))
-                    if progress:
-                        progress(done, len(paths))
-        except (OSError, RuntimeError) as error:
-            return None, f"no video: ffmpeg failed, or there is no place for it ({error})"
-        except Exception as error:  # subprocess.CalledProcessError carries ffmpeg's words
-            if isinstance(error, RecordsError) or not hasattr(error, "returncode"):
-                raise
-            return None, f"no video: ffmpeg failed ({str(getattr(error, 'stderr', None) or error)[-300:]})"
-    return path, None
+
+        def pictures():
+            for done, name in enumerate(paths, start=1):
+                snapshot = read_snapshot(name)
+                if len(snapshot.x) != len(sample[0].x):
+                    raise RecordsError(
+                        f"{name}: {len(snapshot.x)} disks, but {paths[0]} has {len(sample[0].x)}; give snapshots of one run only"
+                    )
+                yield frames.show(snapshot)
+                if progress:
+                    progress(done, len(paths))
+
+        note = film.write(path, frames.fig, pictures(), fps)
+    return (None, note) if note else (path, None)

@@ -33,10 +33,10 @@ def material(friction):
 
 along, up = (math.cos(ANGLE), -math.sin(ANGLE)), (math.sin(ANGLE), math.cos(ANGLE))
 blocks = []
-for k, ratio in enumerate(RATIOS):  # one incline each, side by side: the lanes lie 10 m apart
+for k, ratio in enumerate(RATIOS):  # one incline each, one above the other: the lanes lie 1.6 m apart
     stuff = material(ratio * math.tan(ANGLE))
     O.materials.append(stuff)
-    x, y = 0, 10 * k
+    x, y = 1.6 * k * up[0], 1.6 * k * up[1]
     O.bodies.append(segments([(x - 2 * along[0], y - 2 * along[1]), (x + 50 * along[0], y + 50 * along[1])], stuff, piece=4, sense=1))
     body = disk((x + RADIUS * up[0], y + RADIUS * up[1]), RADIUS, stuff)
     body.state.blockedDOFs = "zXYZ"

@@ -94,7 +94,7 @@ begun = O.time
 states = [O.bodies[i].state for i in disks]
 start, first, made = [s.pos for s in states], front(), bonds()
 print(f"disks {len(disks)}, bonds {made}")
-failure = None
+failure = broken = None
 steps = round(0.1 / O.dt)
 for k in range(1, round(table.seconds / (steps * O.dt)) + 1):
     O.run(steps, wait=True)
@@ -102,6 +102,9 @@ for k in range(1, round(table.seconds / (steps * O.dt)) + 1):
     if failure is None and moved > 0.02:
         failure = water.height
         print(f"water at failure [m] {failure:.3f}")
+    if broken is None and bonds() < made:
+        broken = O.time - begun
+        print(f"first bond broken after [s] {broken:.1f}")
     if k % 30 == 0:
         print("%5.1f s: water %6.3f m, mean displacement %9.4f m, bonds %d" % (O.time - begun, water.height, moved, bonds()), flush=True)
 

@@ -62,19 +62,27 @@ def test_bars_are_as_wide_as_the_scale_says(chains):
     # the strongest but 0.5 % is 0.6 of a median diameter, of 2 m, wide
     assert per_force == pytest.approx(0.6 * 2 / np.quantile([4e6, 2e6, 3e6, 1e6, 0.5e6], 0.995), rel=1e-9)
     window = chains.axes[2]
-    steps = [patch for patch in window.patches if drawn.colour(patch) == BLUE]
-    told = [
-        (t.get_position()[1], float(t.get_text().removesuffix(" MN/m")))
-        for t in window.texts
-        if t.get_text().endswith(" MN/m")
-    ]
-    assert [f for _, f in told] == [2.0, 1.0, 0.5] and len(
-        steps
-    ) == 3  # the largest round force that is not above the largest drawn, and two below
-    for bar, (y, force) in zip(steps, told):
-        assert bar.get_height() / (1e6 * force) == pytest.approx(
-            per_force[0], rel=1e-9
-        ) and bar.get_y() + bar.get_height() / 2 == pytest.approx(y, **exact)
+    points = (
+        72 * chains.get_figwidth() * window.get_position().width / np.ptp(window.get_xlim())
+    )  # a metre in the window
+    told = {
+        float(words.removesuffix(" MN/m")): mark.get_linewidth()
+        for words, mark in drawn.handles(chains).items()
+        if words.endswith(" MN/m")
+    }
+    # the largest round force that is not above the largest drawn, and two below
+    assert list(told) == [2.0, 1.0, 0.5]
+    # the window's shape and that of its limits agree to a per cent
+    for force, wide in told.items():
+        assert wide / points == pytest.approx(1e6 * force * per_force[0], rel=0.01)
+    assert not [t for t in window.texts if "MN" in t.get_text()]  # nothing lies on the chains
+
+
+def test_the_second_window_is_a_close_up_also_of_few_disks():
+    """600 disks, eight in the slope's height: 26 diameters would be nearly all of the first window."""
+    few = records.Snapshot(**synthetic.snapshot_arrays(600))
+    wide, tight = (np.ptp(ax.get_xlim()) for ax in figures.force_chains(few, synthetic.Section()).axes[1:])
+    assert 2.5 <= wide / tight * (1 + 1e-9)
 
 
 def test_the_whole_slope_is_drawn_by_layers(slope, chains):
@@ -216,6 +224,26 @@ def test_legends_have_the_colours_of_their_lines_and_of_the_sketch(courses):
     for name, label in (("$N_{DP}$", TOTAL), ("$T_{DP}$", SHEAR), ("$N'_{FB}$", BACK)):
         assert style.to_rgba_array([by_name[name]])[0] == pytest.approx(style.to_rgba_array([told[label]])[0])
     assert style.to_rgba_array([by_name["$h_w$"]])[0] == pytest.approx(style.to_rgba_array([style.WATER])[0])
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_sketch_has_the_water_table_of_the_slope(side):
+    """Parallel to the surface where it follows it; level where it is a reservoir's, from the surface to the backstop, or beyond the toe where there is none."""
+
+    def table(**options):
+        ax = style.figure(3, 2).add_axes([0, 0, 1, 1])
+        forces._sketch(ax, side, "DP", wet=True, **options)
+        (one,) = (line for line in ax.lines if drawn.colour(line) == style.WATER)
+        return drawn.points(one) * (side, 1)
+
+    down = -np.tan(np.radians(21))
+    (a, b), (c, d) = table(back="FB"), table(back="FB", rise=0.0)
+    assert (b - a)[1] / (b - a)[0] == pytest.approx(down, rel=1e-9)
+    assert c[1] == d[1] and c[1] == pytest.approx(down * c[0], rel=1e-9) and d[0] == pytest.approx(1.6 / 2.6, abs=0.01)
+    a, b = table(back="", rise=-0.1)
+    assert b[0] > 2 and (b - a)[1] / (b - a)[0] == pytest.approx(-0.1, rel=1e-9)
+    assert forces.ground_of(synthetic.load("section").load("chair")).table_slope == 0  # a reservoir
+    assert forces.ground_of(WALLS).table_slope is None
 
 
 def test_the_sketch_shows_what_the_walls_exert_on_the_mass(courses):

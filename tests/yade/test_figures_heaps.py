@@ -114,3 +114,20 @@ def test_runout_and_height_with_fits_and_published_laws():
     fit = drawn.line(right, "fit: $0.50\\,a^{0.25\\pm0.00}$")
     assert drawn.points(fit) == pytest.approx(np.array([[0.7, 0.5 * 0.7**0.25], [8.0, 0.5 * 8**0.25]]))
     assert [f"{t:g}" for t in left.get_xticks()] == ["0.5", "1", "2", "5"]
+
+
+@pytest.mark.parametrize("aspects", [[0.5, 1.0], [0.5, 8.0], [4.0, 8.0]])
+def test_each_published_law_has_its_name_once(aspects):
+    """Also where all columns are lower than the change of exponent, or higher."""
+    a = np.array(aspects)
+    group = {
+        "aspect": a,
+        "runout": 2 * a,
+        "height": a**0.3,
+        "fits": {"runout": (None, None), "height": (None, None)},
+        "changes": {"runout": 2.0, "height": 1.0},
+    }
+    for ax in columns.runout({"ours": group}).axes:
+        lines = {drawn.colour(one) for one in ax.lines if one.get_linestyle() not in ("None", "-")}
+        told = [(words, mark) for words, mark in drawn.handles(ax).items() if words != "ours"]
+        assert len(told) == 2 and {drawn.colour(mark) for _, mark in told} == lines

@@ -288,6 +288,80 @@ def test_a_table_over_a_plane_of_its_own_dips_with_it():
     assert ground.ground_of(dataclasses.replace(made, water=None)).water_points(1.0) is None
 
 
+# a valley: 3 : 4 down to the origin, 20 m of floor, 1 : 1 up to a crest
+VALLEY = [("back", [[-80.0, 60.0], [0.0, 0.0]], "slip"), ("valley", [[0.0, 0.0], [20.0, 0.0], [60.0, 40.0]], "ground")]
+
+
+def over(walls, normal):
+    """The Ground with a water table from a plane of its own through the origin."""
+    made = ground.ground_of(walls)
+    way = np.array([[-50.0, 50.0 * normal[0] / normal[1]], [0.0, 0.0]])
+    return ground.Ground(made.walls, made.side, (way, np.array(normal)))
+
+
+def axes(x0, x1, y0, y1):
+    ax = style.figure(6, 4).add_axes([0, 0, 1, 1])
+    style.frame(ax, x0, x1, y0, y1)
+    return ax
+
+
+def drawn_table(line):
+    """Both ends of what is seen of a line, of which nothing between them may be missing."""
+    x, y = drawn.points(line).T
+    (seen,) = np.nonzero(np.isfinite(y))
+    assert np.array_equal(seen, np.arange(seen[0], seen[-1] + 1))
+    return x[seen[[0, -1]]], y[seen[[0, -1]]]
+
+
+def test_a_reservoir_ends_at_the_ground_on_both_sides():
+    """Its level meets the slip surface and the far side of the valley; a picture that shows neither has it from side to side."""
+    x, y = drawn_table(style.water_line(axes(-100, 100, -10, 60), over(VALLEY, (0.0, 1.0)), 30.0))
+    assert y.tolist() == [30, 30]
+    assert x == pytest.approx([-40, 50], abs=0.11)  # 2,001 places across 200 m
+    x, _ = drawn_table(style.water_line(axes(-10, 15, -10, 60), over(VALLEY, (0.0, 1.0)), 30.0))
+    assert x.tolist() == [-10, 15]
+    # one that dips by 1 : 10 with the slope: 0.75 s = 30 + 0.1 s on the slip surface, x − 20 = 30 − 0.1 x before it
+    tilted = over(VALLEY, np.array([0.1, 1.0]) / np.hypot(0.1, 1))
+    assert tilted.table_slope == pytest.approx(-0.1)
+    x, y = drawn_table(style.water_line(axes(-100, 100, -10, 60), tilted, 30.0 / np.hypot(0.1, 1) * 1.01))
+    assert x == pytest.approx([-30.3 / 0.65, (20 + 30.3) / 1.1], abs=0.2)
+    # where it follows a wall it is the moved wall, as ever
+    assert drawn.points(style.water_line(axes(-100, 100, -10, 60), ground.ground_of(WALLS), 10.0)) == pytest.approx(
+        ground.ground_of(WALLS).water_points(10.0)
+    )
+
+
+def test_the_ground_goes_on_to_the_sides_of_the_picture():
+    found = ground.ground_of(VALLEY)
+    left, right = found.beyond(-100.0, 100.0)
+    # on at 3 : 4; the far side is as steep as 45°, so it goes on level
+    assert left == pytest.approx(np.array([[-100, 75], [-80, 60]])) and right == pytest.approx(
+        np.array([[60, 40], [100, 40]])
+    )
+    assert found.beyond(-50.0, 40.0) == []
+    assert found.surface(np.array([-100.0, -40.0, 10.0, 40.0, 90.0])) == pytest.approx([75, 30, 0, 20, 40])
+    # a mirrored valley goes on in the mirrored way
+    right, left = ground.ground_of(mirror(VALLEY)).beyond(-100.0, 100.0)
+    assert left == pytest.approx(np.array([[80, 60], [100, 75]])) and right == pytest.approx(
+        np.array([[-100, 40], [-60, 40]])
+    )
+    # filled below: nothing but ground stands in the lower corners
+    ax = axes(-100, 100, -10, 60)
+    style.draw_walls(ax, found)
+    ax.figure.canvas.draw()
+    picture = np.asarray(ax.figure.canvas.buffer_rgba())
+    for place in ((-95.0, -8.0), (95.0, -8.0)):
+        across, up = np.rint(ax.transData.transform(place)).astype(int)
+        assert "#{:02x}{:02x}{:02x}".format(*picture[-1 - up, across, :3]) == style.GROUND
+
+
+def test_what_a_panel_says_lies_on_the_water_table(two):
+    (lower,) = (ax for ax in two.axes if any("on the way" in t for t in drawn.texts(ax)))
+    (water,) = (one for one in lower.lines if drawn.colour(one) == style.WATER)
+    for begin in ("on the way", "water table 12"):
+        assert drawn.text(lower, begin).get_zorder() > water.get_zorder()
+
+
 def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
     left, right = synthetic.few([-50.0, -10.0], [10.0, 40.0]), synthetic.few([-40.0, 120.0], [5.0, 30.0])
     x0, x1, y0, y1 = style.view([left, right], ground.ground_of(WALLS))
@@ -341,6 +415,7 @@ def test_runouts_are_drawn_with_the_way_of_their_fronts():
         )
         ((start, end, _, way),) = drawn.arrows(ax)
         assert way == "-|>" and (start[0], end[0]) == pytest.approx(ends, abs=1e-9)
+    assert list(drawn.handles(fig)) == ["layer 1", "front of the mass, before and after"]
     upper, lower = fig.axes
     assert upper.get_xlim() == lower.get_xlim() and upper.get_position().y0 >= lower.get_position().y1 - 1e-9
     with pytest.raises(records.RecordsError, match="no run to draw"):

@@ -11,7 +11,7 @@ import yaml
 from shell import SCRIPTS
 from slope_scenes import SMALL
 from yade.nonsmooth import campaign as campaigns
-from yade.nonsmooth import errors, experiment, packing, section, slope
+from yade.nonsmooth import errors, experiment, lessons, packing, section, slope
 from yade.nonsmooth.benchmark import scale, suite
 from yade.nonsmooth.comparison import cost, course
 from yade.nonsmooth.heaps import study
@@ -81,6 +81,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
     "benchmark.py": (suite, "run"),
     "soak.py": (soak, "run"),
     "sweep.py": (campaigns, "sweep"),
+    "lessons.py": (lessons, "run"),
     "readings.py": (readings, "run"),
     "table1.py": (table1, "run"),
     "verify.py": (runner, "run_checks"),
@@ -359,6 +360,12 @@ WHERE = {
         "--number": (("--number", 1), lambda a: a.words[1], 1),
         "--collect": (("--collect",), lambda a: str(a.words[0]), "{out}"),
     },
+    "lessons.py": {
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[2], 7),
+        "--resume": (("--resume",), lambda a: a.words[3], True),
+        "--no-films": (("--no-films",), lambda a: a.words[5], False),
+    },
     "readings.py": {
         "--only": (("--only", "packed", "half"), lambda a: sorted(a.words[0]), ["half", "packed"]),
         "--disks": (("--disks", 66), lambda a: a.words[2], 66),
@@ -413,6 +420,14 @@ RUN = {
         "--end": "test_any_slope.py::test_every_shipped_section_begins",
         "--no-figures": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits",
         "--list": "test_any_slope.py::test_shipped_sections_are_listed",
+    },
+    "film.py": {
+        "--out": "test_moving.py::test_any_script_is_filmed_as_it_is",
+        "--frames": "test_moving.py::test_any_script_is_filmed_as_it_is",
+        "--threads": "test_moving.py::test_any_script_is_filmed_as_it_is",
+        "--period": "test_moving.py::test_options_of_the_command_reach_the_film",
+        "--fps": "test_moving.py::test_options_of_the_command_reach_the_film",
+        "--no-forces": "test_moving.py::test_options_of_the_command_reach_the_film",
     },
     "sweep.py": {"--draw": "test_campaign.py::test_results_are_drawn_against_what_was_varied"},
     "soak.py": {"--out": "test_soak.py::test_a_short_soak", "--threads": "test_soak.py::test_a_short_soak"},

@@ -12,7 +12,7 @@ from matplotlib.collections import EllipseCollection
 import drawn
 import synthetic_slope as synthetic
 
-records, video, style = (synthetic.load(name) for name in ("records", "video", "figures.style"))
+records, video, film, style = (synthetic.load(name) for name in ("records", "video", "film", "figures.style"))
 RecordsError = records.RecordsError
 WALLS = [
     ("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"),
@@ -62,7 +62,7 @@ def series():
 @pytest.fixture
 def shown(monkeypatch, tmp_path):
     """A function that makes a video without ffmpeg: (figure, [what each frame showed]), with its picture (rows from the top)."""
-    monkeypatch.setattr(video.FFMpegWriter, "isAvailable", classmethod(lambda cls: True))
+    monkeypatch.setattr(film.FFMpegWriter, "isAvailable", classmethod(lambda cls: True))
 
     class Kept:
         def __init__(self, **options):
@@ -92,7 +92,7 @@ def shown(monkeypatch, tmp_path):
             )
 
     told = types.SimpleNamespace(fig=None, options=None, frames=[])
-    monkeypatch.setattr(video, "_Writer", Kept)
+    monkeypatch.setattr(film, "_Writer", Kept)
 
     def make(files, **options):
         assert video.write_mp4(files, WALLS, tmp_path / "v.mp4", **options) == (tmp_path / "v.mp4", None)
@@ -145,6 +145,17 @@ def test_frames_are_pictures_of_one_view(shown, files):
     everything = np.vstack([told.frames[0].centres, told.frames[2].centres])
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
     assert (everything > (x0, y0)).all() and (everything < (x1, y1)).all()
+
+
+def test_the_ground_has_no_end_within_a_frame(shown, files, monkeypatch):
+    """A frame is wider than these walls, 90 m of them."""
+    short = [("DP", [[-70.0, 52.5], [0.0, 0.0]], "slip"), ("SS", [[0.0, 0.0], [20.0, 0.0]], "ground")]
+    monkeypatch.setitem(globals(), "WALLS", short)
+    told = shown(files, fps=10)
+    (x0, x1), picture = told.fig.axes[0].get_xlim(), told.frames[0].picture
+    assert x0 < -80 and x1 > 30
+    lowest = {"#{:02x}{:02x}{:02x}".format(*picture[-2, k, :3]) for k in (1, 300, 900, -2)}
+    assert lowest == {style.GROUND}
 
 
 def test_the_strip_of_forces_has_a_cursor_at_the_time_of_the_frame(shown, files):
@@ -216,7 +227,7 @@ def test_video(tmp_path, files):
 
 
 def test_video_without_ffmpeg_is_a_note(tmp_path, files, monkeypatch):
-    monkeypatch.setattr(video.FFMpegWriter, "isAvailable", classmethod(lambda cls: False))
+    monkeypatch.setattr(film.FFMpegWriter, "isAvailable", classmethod(lambda cls: False))
     path, note = video.write_mp4(files, WALLS, tmp_path / "v.mp4", 10)
     assert path is None and "ffmpeg is not installed" in note
 

@@ -1,4 +1,4 @@
-"""Figures of a run, made from its records alone, and sketches of the law (no YADE, no display).
+"""Figures of a run, made from its records alone, and sketches of the law (no YADE, no display); pictures and videos of any scene.
 
 Every function takes data and returns the matplotlib Figure it draws. With the ``path`` of a PNG it writes the figure
 there instead and returns the path; ``pdf=True`` writes a PDF beside it (disks and bars rasterised, text and lines as
@@ -8,6 +8,7 @@ that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data that lack som
 
 from .forces import force_chains, forces_against_time
 from .law import bond_zone, contact_law, water_forces
+from .moving import animate, record, recording
 from .profiles import deposit, snapshots
 from .numerics import energy, solver
 from .runouts import runouts
@@ -22,6 +23,9 @@ __all__ = [
     "snapshots",
     "deposit",
     "draw",
+    "animate",
+    "record",
+    "recording",
     "energy",
     "means",
     "runouts",

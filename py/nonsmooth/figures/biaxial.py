@@ -9,7 +9,9 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
 from ..laboratory import strength
-from . import forces, style
+from ..records import RecordsError
+from ..scene_arrays import Scene
+from . import forces, moving, style
 
 MEGA = 1e6
 PAPER = {4e6: "#000000", 8e6: "#6e6e6e", 16e6: "#b4b4b4"}  # Pa, and the greys of its Figure 10
@@ -144,6 +146,46 @@ def _frame(ax, *snapshots):
     style.frame(ax, x0 - m, x0 + width + m, s.y.min() - m, s.y.min() + height + m)
 
 
+def film(paths, words, path):
+    """A video of a sample in the colours of :func:`rotations`: ``paths`` of its frames (:meth:`.laboratory.biaxial.Course.frame`), ``words`` beside the time. Returns the ``path``, .mp4 or .gif.
+
+    Raises RecordsError where there is no frame, and for a file that cannot be made.
+    """
+    shots, none, ids = [], np.zeros(0), np.zeros(0, int)
+    for one in paths:
+        with np.load(one, allow_pickle=False) as data:
+            shots.append({name: data[name] for name in data})
+    if not shots:
+        raise RecordsError("there are no frames to make a video of; let the test write some first")
+    turned = [s["angle"] - shots[0]["angle"] for s in shots]
+    scale, strains = _turns(turned), {}
+    frames = []
+    for s, angle in zip(shots, turned):
+        count = len(s["x"])
+        time = float(s["time_s"])
+        strains[time] = float(s["strain"])
+        frames.append(
+            (
+                time,
+                Scene(
+                    *(s[name].astype(float) for name in ("x", "y", "r")), np.zeros(count, int), np.zeros(count, bool), [],
+                    [(1, float(at)) for at in s["bottom_top"]] + [(0, float(at)) for at in s["left_right"]],
+                    ids, ids, none, none, none, none > 0, scale.to_rgba(angle)[:, :3],
+                ),
+            )
+        )  # fmt: skip
+    return moving.write(
+        frames, path, words=lambda t, _: f"ε₁ = {100 * strains[t]:.2f} %,  {words}",
+        bar=(scale, "rotation [rad], counterclockwise positive"),
+    )  # fmt: skip
+
+
+def _turns(turned):
+    """The colours of rotations, arrays [rad] of which a fiftieth may be beyond the scale's ends."""
+    limit = max(0.02, style.nice(float(np.quantile(np.abs(np.concatenate(turned)), 0.98))))
+    return ScalarMappable(Normalize(-limit, limit), "RdBu_r")
+
+
 @style.styled
 def rotations(begin, panels, path=None, pdf=False):
     """The sample coloured by the rotation of its disks since the begin of shear (the paper's Figure 9).
@@ -156,8 +198,7 @@ def rotations(begin, panels, path=None, pdf=False):
     fig = style.figure(width * len(panels) + 0.9, width * ratio + 0.5, layout="constrained")
     axes = fig.subplots(1, len(panels), squeeze=False)[0]
     turned = [s.angle - begin.angle for _, s in panels]
-    limit = max(0.02, style.nice(float(np.quantile(np.abs(np.concatenate(turned)), 0.98))))
-    scale = ScalarMappable(Normalize(-limit, limit), "RdBu_r")
+    scale = _turns(turned)
     for ax, (title, s), angle in zip(axes, panels, turned):
         _frame(ax, s, *shown)
         style.draw_disks(ax, s, scale.to_rgba(angle), edge="#00000030", width=0.15)

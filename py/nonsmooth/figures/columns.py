@@ -4,12 +4,43 @@ import numpy as np
 
 from ..heaps import measures, scaling
 from ..records import RecordsError
-from . import style
+from ..scene_arrays import Scene
+from . import moving, style
 from .style import LINES
 
-__all__ = ["collapse", "runout"]
+__all__ = ["collapse", "film", "runout"]
 
 MARKERS = ("o", "s", "^", "D", "v", "P")
+
+
+def _stripes(x):
+    """RGBA (n, 4): five colours from left to right, of disks where they began."""
+    return style.layer_colours(np.minimum(4, np.argsort(np.argsort(x, kind="stable"), kind="stable") * 5 // len(x)))
+
+
+def film(times, places, r, unit, path, gate=None):
+    """A video of a heap's course in the colours of :func:`collapse`: arguments as there; ``path`` ends in .mp4 or .gif. The gate is there at the first time only.
+
+    Returns the path. Raises RecordsError where there is no place, and for a file that cannot be made.
+    """
+    if not len(times):
+        raise RecordsError("no places are kept: run the heap with frames")
+    colours, none = _stripes(places[0][0])[:, :3], np.zeros(0)
+    ends = [measures.fronts(x, r, measures.connected(x, y, r)) for x, y in (places[0], places[-1])]
+    left, right, high = min(e[0] for e in ends), max(e[1] for e in ends), max(float(np.max(y + r)) for _, y in places)
+    margin = 0.04 * max(right - left, high)
+    view = (left - margin, right + margin, -2.2 * margin, high + margin)  # room for the scale
+    whole = np.zeros(len(r), int)
+    frames = []
+    for k, (t, (x, y)) in enumerate(zip(times, places)):
+        gates = [np.array([[g, 0.0], [g, high]]) for g in gate or () if k == 0]
+        ids = np.zeros(0, int)
+        frames.append(
+            (t, Scene(x, y, r, whole, whole > 0, gates, [(1, 0.0)], ids, ids, none, none, none, none > 0, colours))
+        )
+    return moving.write(
+        frames, path, fps=15, words=lambda t, _: f"{t / unit:.1f} T,  $T=\\sqrt{{H_0/g}}={unit:.2f}$ s", view=view
+    )
 
 
 @style.styled
@@ -39,10 +70,7 @@ def collapse(times, places, r, unit, path=None, width=None, gate=None, pdf=False
         fig.add_axes((margin / whole[0], bottom / whole[1], wide / whole[0], h / whole[1]))
         for bottom, h in zip(tops, tall)
     ]
-    first = places[0][0]
-    colours = style.layer_colours(
-        np.minimum(4, np.argsort(np.argsort(first, kind="stable"), kind="stable") * 5 // len(first))
-    )
+    colours = _stripes(places[0][0])
     for k, (ax, t, (x, y), mass) in enumerate(zip(axes, times, places, joined)):
         shown = type("Disks", (), dict(x=x / scale, y=y / scale, r=r / scale))
         style.draw_disks(ax, shown, colours)
@@ -78,10 +106,12 @@ def runout(groups, path=None, pdf=False):
         every = np.concatenate([g["aspect"] for g in groups.values()])
         low, high = 0.85 * every.min(), 1.15 * every.max()
         for law, colour, dash in zip(laws, (LINES["orange"], LINES["green"]), ("--", ":")):
+            named = law.source  # of the first of its lines that is drawn
             for k, ends in enumerate(((low, min(law.change, high)), (max(law.change, low), high))):
                 if ends[0] < ends[1]:
                     c, n = law.pieces[k]
-                    ax.plot(ends, [c * a**n for a in ends], color=colour, ls=dash, label=law.source if k else None)
+                    ax.plot(ends, [c * a**n for a in ends], color=colour, ls=dash, label=named)
+                    named = None
         for (group, g), colour, marker in zip(
             groups.items(), (LINES["blue"], LINES["purple"], LINES["sky"], LINES["grey"]) * 3, MARKERS * 2
         ):

@@ -9,6 +9,7 @@ from ..measure.ground import ground_of
 from . import style
 from .style import COMPRESSION, INK, LINES, TENSION
 
+CLOSER = 2.5  # of the second window on force chains to the first one, at least
 SKETCHED = {"slip": "DP", "backstop": "FB"}  # names of the paper's walls, where nobody gives others
 
 
@@ -51,37 +52,25 @@ def _close_up(ax, snapshot, ground, box, reference, width, outline):
         )  # fmt: skip
 
 
-def _force_scale(ax, reference, width, side):
-    """Bars of round forces, drawn as wide as in the window, in its lower corner on the side of the crown, below the slip surface."""
-    x0, x1 = ax.get_xlim()
-    y0, y1 = ax.get_ylim()
+def _force_scale(ax, reference, width):
+    """Handles of a legend: lines as wide as bars of round forces are in the window ``ax``, which has its place and limits; the largest is not above ``reference``, of ``width`` [m]."""
     forces = [style.nice(reference)]
     while len(forces) < 3:
         forces.append(style.nice(0.6 * forces[-1]))
     newtons, unit = style.force_unit(forces[0])
-    length, pitch = 0.09 * (x1 - x0), 0.075 * (y1 - y0)
-    begin = 0.0 if side > 0 else 0.7
-    ax.add_patch(
-        Rectangle(
-            (x0 + begin * (x1 - x0), y0), 0.3 * (x1 - x0), 0.32 * (y1 - y0), fc="white", ec="none", alpha=0.75, zorder=8
+    ax.apply_aspect()
+    points = 72 / ax.figure.dpi * ax.get_window_extent().width / abs(np.subtract(*ax.get_xlim()))  # a metre
+    return [
+        Line2D(
+            [],
+            [],
+            color=COMPRESSION,
+            lw=width * force / reference * points,
+            solid_capstyle="butt",
+            label=f"{force / newtons:g} {unit}",
         )
-    )
-    ax.text(begin + 0.02, 0.30, "normal force", transform=ax.transAxes, va="top", fontsize=9, zorder=9)
-    for k, force in enumerate(forces):
-        y = y0 + 0.2 * (y1 - y0) - k * pitch
-        w = width * force / reference
-        ax.add_patch(
-            Rectangle((x0 + (begin + 0.02) * (x1 - x0), y - w / 2), length, w, color=COMPRESSION, lw=0, zorder=9)
-        )
-        ax.text(
-            x0 + (begin + 0.13) * (x1 - x0),
-            y,
-            f"{force / newtons:g} {unit}",
-            va="center",
-            fontsize=9,
-            color=INK,
-            zorder=9,
-        )
+        for force in forces
+    ]
 
 
 @style.styled
@@ -105,7 +94,7 @@ def force_chains(snapshot, walls, path=None, pdf=False):
     size = 2 * np.median(snapshot.r)
     aspect = 4.95 / 4.1
     wide = max(1.35 * height * aspect, 30 * size)
-    tight = 26 * size
+    tight = min(26 * size, wide / CLOSER)
     boxes = []
     for w, right, below in ((wide, 0.2, 0.07), (tight, 0.22, 0.13)):
         h = w / aspect
@@ -167,12 +156,10 @@ def force_chains(snapshot, walls, path=None, pdf=False):
             fontweight="bold",
             zorder=7,
         )
-        if letter == "b":
-            _force_scale(ax, reference, width, ground.side)
     fig.legend(
-        handles=[Patch(color=COMPRESSION, label="compression"), Patch(color=TENSION, label="tension")]
-        + [Line2D([], [], ls="", label="bars: contacts and bonds, from centre to centre; width is proportional to the normal force")],
-        loc="lower center", ncol=3, bbox_to_anchor=(0.5, -0.006), handlelength=1.4, columnspacing=1.5,
+        handles=[Patch(color=COMPRESSION, label="compression"), Patch(color=TENSION, label="tension"),
+                 Line2D([], [], ls="", label="normal forces of contacts and bonds; in b:"), *_force_scale(ax, reference, width)],
+        loc="lower center", ncol=6, bbox_to_anchor=(0.5, -0.006), handlelength=2.2, columnspacing=1.5,
     )  # fmt: skip
     return style.save(fig, path, pdf)
 
@@ -186,9 +173,10 @@ def _limits(curves, shown):
     return low - pad, high + pad
 
 
-def _sketch(ax, side, name, back, wet):
-    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none. Names that are no
-    index have no room."""
+def _sketch(ax, side, name, back, wet, rise=None):
+    """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none; ``rise``: of a water table
+    that is a plane of its own, over its way down the slope, 0 where it is level. Names that are no index have no room.
+    """
     symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(
         style.symbol(letter, of)
     )  # noqa: E731
@@ -199,10 +187,17 @@ def _sketch(ax, side, name, back, wet):
     wall = np.array([[0, 0], [1.0, 2.6]])
     ax.add_patch(Polygon(at([plane[0], plane[1], wall[1], (-10, 10 * slope + 1.9)]), fc="#ead9b5", ec="none"))
     ax.plot(*at(np.vstack([plane, wall, [4.4, 2.4]] if back else [plane, [4.4, -0.4]])).T, color=style.WALL, lw=1.5)
-    if wet:
+    if wet and rise is None:
         water = plane + 0.85 * np.array([np.sin(np.radians(21)), np.cos(np.radians(21))])
         ax.plot(*at(water).T, color=style.WATER, lw=1.2, ls=(0, (4, 2)))
         ax.text(*at((-10.4, 4.75)), "$h_w$", color=style.WATER, ha="center", va="center", fontsize=9)
+    elif wet:
+        # from where it meets the slip surface, as far as the backstop, or out over the valley
+        low, rise = 1.6, max(rise, 0.2 - slope)
+        begin, end = -low / (slope + rise), 0.62 if back else 4.0
+        water = np.array([[begin, low + rise * begin], [end, low + rise * end]])
+        ax.plot(*at(water).T, color=style.WATER, lw=1.2, ls=(0, (4, 2)))
+        ax.text(*at(water[1] + (0.35, 0.75)), "$h_w$", color=style.WATER, ha="center", va="center", fontsize=9)
     arrow = {"arrowstyle": "-|>", "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
     normal, down = np.array([0.358, 0.934]), np.array([0.934, -0.358])
     middle = np.array([-5.2, 5.2 * slope])
@@ -289,7 +284,8 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
         0.062, 0.938, "per metre of width. " + (f"From $t_3$ on: lines are means over {window:g} s, pale: every value."
         if "t3" in t else "Every value is shown.") + (f" {verdict[0].upper()}{verdict[1:]}." if verdict else ""), fontsize=9.5, color="#555555", va="top",
     )  # fmt: skip
-    _sketch(fig.add_axes([0.71, 0.865, 0.23, 0.135]), 1.0 if ground is None else ground.side, name, rest, wet)
+    rise = None if ground is None or ground.table_slope is None else ground.side * ground.table_slope
+    _sketch(fig.add_axes([0.71, 0.865, 0.23, 0.135]), 1.0 if ground is None else ground.side, name, rest, wet, rise)
     legend = []
     for column, (span, left, width) in enumerate(zip(spans, lefts, widths)):
         strip = fig.add_axes([left, 0.795, width, 0.03])

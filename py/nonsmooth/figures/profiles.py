@@ -112,7 +112,7 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
         meaning, at = style.TIME_NAMES.get(label), style.seconds(snapshot.time_s, longest)
         ax.text(
             edge, 0.93, f"{_time_label(label)} = {at}" if meaning else f"{style.plain(label)}: {at}",
-            transform=ax.transAxes, ha=align, va="top", fontsize=13, fontweight="bold", color=INK,
+            transform=ax.transAxes, ha=align, va="top", fontsize=13, fontweight="bold", color=INK, zorder=8, path_effects=style.EDGE,
         )  # fmt: skip
         lines = [meaning] if meaning else []
         lines += [f"water table {style.length(snapshot.water_m, extent, 1)}" if snapshot.water_m > 0 else "no water"]
@@ -121,7 +121,7 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
         ]
         ax.text(
             edge, 0.93 - 0.27 / height, "\n".join(lines), transform=ax.transAxes, ha=align, va="top", fontsize=9.5,
-            linespacing=1.35, color="#444444",
+            linespacing=1.35, color="#444444", zorder=8, path_effects=style.EDGE,
         )  # fmt: skip
         if k:
             ax.plot([0, 1], [1, 1], transform=ax.transAxes, color="#bbbbbb", lw=0.8, clip_on=False, zorder=8)

@@ -1,6 +1,7 @@
 """Deposits of several runs of one slope, one below the other, with how far their fronts have come."""
 
 import numpy as np
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..measure.fronts import front
@@ -59,8 +60,9 @@ def runouts(cases, walls, path=None, pdf=False):
     style.scale_bar(ax, 0.2 if ground.side > 0 else 0.95, 0.1, 0.15)
     layers = np.unique(np.concatenate([last.layer for *_, last in cases]))
     fig.legend(
-        handles=[Patch(color=style.LAYERS[n % len(style.LAYERS)], label=style.plain(ground.layer(n))) for n in layers],
+        handles=[Patch(color=style.LAYERS[n % len(style.LAYERS)], label=style.plain(ground.layer(n))) for n in layers]
+        + [Line2D([], [], color=INK, lw=0.9, ls=":", label="front of the mass, before and after")],
         loc="upper center",
-        ncol=len(layers),
+        ncol=len(layers) + 1,
     )
     return style.save(fig, path, pdf)

@@ -40,6 +40,7 @@ RC = {
     "xtick.labelsize": 9, "ytick.labelsize": 9, "legend.frameon": False, "mathtext.default": "it", "pdf.fonttype": 42,
 }  # fmt: skip
 
+FINE = 2001  # places across a picture where the water table is compared with the ground
 SCARCE = 0.04  # of the picture's width or height: of a wall that shows less of itself the name is left out
 
 #: What the characteristic times of the paper (section 6) mark, and the phases between them.
@@ -180,7 +181,7 @@ def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, 
 
 
 def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
-    """Walls as lines with the ground below them filled, and the names of those whose role is in ``named`` (all where None) beside them.
+    """Walls as lines with the ground below them filled, to the sides of the picture, and the names of those whose role is in ``named`` (all where None) beside them.
 
     ``ground``: a :class:`~nonsmooth.measure.ground.Ground`.
     """
@@ -191,6 +192,8 @@ def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
             continue
         points = wall.vertices
         ax.fill_between(points[:, 0], points[:, 1], y0 - (y1 - y0), color=GROUND, lw=0.6, zorder=0.5)
+    for points in ground.beyond(x0, x1):
+        ax.fill_between(points[:, 0], points[:, 1], y0 - (y1 - y0), color=GROUND, lw=0.6, zorder=0.4)
     for wall in ground.walls:
         ax.plot(
             wall.vertices[:, 0],
@@ -275,9 +278,20 @@ def scale_bar(ax, x=0.97, y=0.07, share=0.2):
     )
 
 
-def water_line(ax, ground, height, **options):
-    """The water table: its plane moved by ``height`` [m] along its normal; returns the line, or None where no plane is known."""
+def water_table(ax, ground, height):
+    """Points (n, 2) [m] of the water table in a picture: its plane moved by ``height`` [m] along its normal. A plane of its own, as a reservoir's, goes on to the sides of the picture, and is
+    left out (NaN) where it is in the ground below the walls. None where no plane is known."""
     points = ground.water_points(height)
+    if points is None or ground.table_slope is None:
+        return points
+    x = np.linspace(*sorted(ax.get_xlim()), FINE)
+    y = points[0, 1] + ground.table_slope * (x - points[0, 0])
+    return np.column_stack([x, np.where(y > ground.surface(x), y, np.nan)])
+
+
+def water_line(ax, ground, height, **options):
+    """The water table as a line, see :func:`water_table`; returns it, or None where no plane is known."""
+    points = water_table(ax, ground, height)
     if points is None:
         return None
     options = {"color": WATER, "lw": 1.3, "ls": (0, (5, 2)), "zorder": 5, **options}

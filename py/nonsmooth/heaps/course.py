@@ -44,6 +44,7 @@ SETTLE_LIMIT = 10.0  # T
 DURATION = 15.0  # T
 WEIGHT_OVERLAP = 0.05  # diameters, largest overlap under the heap's own weight that is let through
 FRAMES = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # T
+FILM = 0.1  # T, between two frames of a video
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +119,7 @@ class Result:
     ``series``: {name: array (rows,)} by :data:`COLUMNS`: step and time since the release; ``front_m``, ``front_left_m``: right and left edge of
     the connected disks (:func:`measures.connected`), ``farthest_m``: of any disk; ``height_m``: highest point of their surface; centre of mass; energies
     of all disks; overlaps by :func:`measures.overlap`; wall time of the steps.
-    ``x``, ``y``, ``r``: disks in the end [m], (n,); ``connected``: bool (n,). ``frames``: {time [s]: (x, y)} on the way.
+    ``x``, ``y``, ``r``: disks in the end [m], (n,); ``connected``: bool (n,). ``frames``: {time [s]: (x, y)} on the way; ``film``: the same at equal distances of :data:`FILM`, in single precision.
     ``rested``: it came to rest within the time given. ``steps``, ``time_step`` [s], ``wall_s``: of the course after the release.
     """
 
@@ -135,6 +136,7 @@ class Result:
     rested: bool
     time_step: float
     frames: dict = field(default_factory=dict)
+    film: dict = field(default_factory=dict)
 
     @property
     def aspect(self):
@@ -269,7 +271,7 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
             f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping"
         )
     begin = O.iter
-    rows, kept, wall, calm = [], {}, 0.0, 0
+    rows, kept, film, wall, calm = [], {}, {}, 0.0, 0
     waiting = sorted(frames)
     scene.release()
     adapt = _Damping(scene, damping_moving) if damping_moving is not None else lambda: None
@@ -283,6 +285,9 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
             waiting.pop(0)
             t = preparation.disk_table(scene.stand)
             kept[now] = (t["x"], t["y"])
+        if now >= (len(film) * FILM - 1e-9) * unit:
+            t = preparation.disk_table(scene.stand)
+            film[now] = (t["x"].astype(np.float32), t["y"].astype(np.float32))
         calm = calm + 1 if now > unit and scene.rms_speed(joined) < REST_SPEED else 0
         progress(min(1.0, now / (duration * unit)))
         if calm * every * O.dt >= REST_TIME * unit or now >= duration * unit:
@@ -309,4 +314,5 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
         calm * every * O.dt >= REST_TIME * unit,
         O.dt,
         kept,
+        film,
     )

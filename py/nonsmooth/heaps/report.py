@@ -11,7 +11,7 @@ from ..figures import columns as figures
 from . import measures, scaling, study
 from .grains import HeapError
 
-__all__ = ["CHANGES", "by_front", "counts", "draw_collapse", "group", "summarise", "table"]
+__all__ = ["CHANGES", "by_front", "counts", "draw_collapse", "film_collapse", "group", "summarise", "table"]
 
 #: Aspect ratios between the two fits: where Staron and Hinch's laws change.
 CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[0].change}
@@ -150,10 +150,27 @@ def table(found, summary):
     return "\n".join(lines)
 
 
+def _gates(heap):
+    """x [m] of the sides that are taken away."""
+    place = heap.place()
+    return [x for x, side in ((place, "left"), (place + heap.box()[0], "right")) if side in heap.gates()]
+
+
 def draw_collapse(heap, run, folder):
     """``collapse.png`` of a run in its folder; returns the path."""
     folder = Path(folder)
     times, places, r = study.frames(folder)
-    width, place = run["width_m"], heap.place()
-    gates = [x for x, side in ((place, "left"), (place + heap.box()[0], "right")) if side in heap.gates()]
-    return figures.collapse(times, places, r, run["fall_time_s"], folder / "collapse.png", width=width, gate=gates)
+    return figures.collapse(
+        times, places, r, run["fall_time_s"], folder / "collapse.png", width=run["width_m"], gate=_gates(heap)
+    )
+
+
+def film_collapse(heap, run, folder):
+    """``collapse.mp4`` of a run in its folder; returns the path, None where a run of an earlier version has kept no frames. Raises RecordsError where ffmpeg is missing."""
+    folder = Path(folder)
+    times, places, r = study.film(folder)
+    return (
+        figures.film(times, places, r, run["fall_time_s"], folder / "collapse.mp4", gate=_gates(heap))
+        if times
+        else None
+    )

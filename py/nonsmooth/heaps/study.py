@@ -13,7 +13,7 @@ from .column import Column
 from .grains import PATH_PER_STEP, HeapError
 from .pile import Pile
 
-__all__ = ["KINDS", "frames", "key_of", "one", "run", "world_of"]
+__all__ = ["KINDS", "film", "frames", "key_of", "one", "run", "world_of"]
 
 KINDS = {"column": Column, "pile": Pile}
 TOLERANCE = 1e-4
@@ -56,7 +56,7 @@ def key_of(heap, world, duration):
 def one(folder, kind, heap, world, duration):
     """Runs a heap in the running scene; ``kind``: of :data:`KINDS`, ``heap``: its parameters, ``world``: arguments of :func:`world_of`, a dictionary.
 
-    Writes ``series.csv`` and ``places.npz`` to ``folder``, its share done to ``progress``, and returns the :meth:`~course.Result.summary`.
+    Writes ``series.csv``, ``places.npz`` and ``film.npz`` to ``folder``, its share done to ``progress``, and returns the :meth:`~course.Result.summary`.
     """
     from . import course
 
@@ -83,6 +83,13 @@ def one(folder, kind, heap, world, duration):
         y_end=result.y,
         connected=result.connected,
     )
+    write_arrays(
+        folder / "film.npz",
+        compressed=True,
+        time=list(result.film),
+        x=[x for x, _ in result.film.values()],
+        y=[y for _, y in result.film.values()],
+    )
     return result.summary()
 
 
@@ -95,6 +102,15 @@ def frames(folder):
             [*zip(data["x"], data["y"]), (data["x_end"], data["y_end"])],
             data["r"],
         )
+
+
+def film(folder):
+    """Places for the video of a run below ``folder``: times [s] at equal distances, a list of (x, y) for each, and radii [m]; three empty ones where a run of an earlier version has kept none."""
+    path = Path(folder) / "film.npz"
+    if not path.exists():
+        return [], [], np.zeros(0)
+    with np.load(path, allow_pickle=False) as data, np.load(Path(folder) / "places.npz", allow_pickle=False) as places:
+        return data["time"].tolist(), [*zip(data["x"].astype(float), data["y"].astype(float))], places["r"]
 
 
 def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda share: None):

@@ -22,13 +22,14 @@ from yade import O
 from .. import checkpoints, interrupts, records, tables
 from ..errors import UserError
 from ..kept_runs import Progress
-from ..whole_files import remove_parts
+from ..whole_files import remove_parts, write_arrays
 from . import membrane, sample
 from .biaxial_test import Test, key_of
 from .walls import Walls
 
 RAMP = 0.002  # strain in which the platens reach their speed
 ROW_STRAIN = 1e-4  # between two rows of series.csv
+FILM = 100  # frames of a video, besides the first
 SNAPSHOTS = (0.01, 0.02, 0.04)  # strains, besides the begin and the end
 CHECKPOINT_SECONDS = 60  # of wall time
 
@@ -149,6 +150,7 @@ class Course:
         s, test, engine, walls = self.state, self.test, self.sample.engine, self.sample.walls
         per_row = max(1, round(ROW_STRAIN / (s["rate"] * O.dt)))
         taken = [strain for strain in SNAPSHOTS if strain < test.strain - 1e-9]
+        self.frame(0)
         while self.strain < test.strain - 1e-9:
             sums, sweeps, worst, missed, began = (
                 {},
@@ -174,6 +176,7 @@ class Course:
             for strain in taken:
                 if before < strain <= s["strain"]:
                     self.snapshot(f"{100 * strain:g}")
+            self.frame(int(FILM * s["strain"] / test.strain + 1e-9))
             if progress:
                 progress(s["strain"] / test.strain)
             if interrupted() or time.monotonic() - self._saved > CHECKPOINT_SECONDS:
@@ -257,6 +260,23 @@ class Course:
             ),
         )
 
+    def frame(self, number):
+        """Keeps disks and walls for the video as ``frames/NUMBER.npz``, once for a ``number`` of :data:`FILM`, in single precision."""
+        if number <= self.state.get("frame", -1):
+            return
+        self.state["frame"] = number
+        t, walls = tables.bodies(self.sample.engine), self.sample.walls
+        (self.folder / "frames").mkdir(parents=True, exist_ok=True)
+        write_arrays(
+            self.folder / "frames" / f"{number:04d}.npz",
+            compressed=True,
+            time_s=O.time - self.state["begin_time"],
+            strain=self.strain,
+            bottom_top=[walls.place(name)[1] for name in ("bottom", "top")],
+            left_right=[walls.place(name)[0] for name in ("left", "right") if name in walls.ids],
+            **{key: np.asarray(t[key], np.float32) for key in ("x", "y", "r", "angle")},
+        )
+
     def checkpoint(self):
         """Saves all that :meth:`resume` needs."""
         self._count_time()
@@ -286,7 +306,7 @@ def run(folder, **plain):
     ``wall_s`` counts all but making the sample, ``wall_steps_s`` the steps alone, without records and checkpoints [s]. The share done is kept in the file ``progress``.
     """
     test, folder = Test.of(plain), Path(folder)
-    remove_parts(folder, folder / "snapshots", folder / "checkpoint")
+    remove_parts(folder, folder / "snapshots", folder / "frames", folder / "checkpoint")
     course = Course.resume(test, folder) if checkpoints.exists(folder) else Course.begin(test, folder)
     course.run(Progress(folder))
     s, engine = course.state, course.sample.engine

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .. import paraview, records
+from .. import film, paraview, records
 from ..figures import biaxial as figures
 from ..statistics import told
 from ..whole_files import whole
@@ -83,6 +83,9 @@ def draw(out, summary):
         _paraview(frames, home / "vtk")
         if t is shown:
             made += _pictures(t, frames, out)
+            shots = whole(home / "frames", "*.npz")
+            if shots and not film.missing():
+                made.append(figures.film(shots, f"σ₃ = {t['confining_Pa'] / 1e6:g} MPa", out / "biaxial.mp4"))
     return made
 
 

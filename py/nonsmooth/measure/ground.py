@@ -59,6 +59,41 @@ class Ground:
         points = np.vstack([wall.vertices for wall in slip])
         return points[np.argmax(self.side * points[:, 0])]
 
+    def beyond(self, x0, x1):
+        """How the ground goes on from the outermost ends of the walls to the limits ``x0`` and ``x1`` [m] of a picture: pieces [(2, 2)] from left to right, none where walls reach that far. As
+        the wall does where it is less steep than 45°, else level."""
+        open_walls = [wall.vertices for wall in self.walls if not wall.buried]
+        pieces = []
+        for sense, limit in ((-1, x0), (1, x1)) if open_walls else ():
+            line, place = max(
+                ((line, k) for line in open_walls for k in range(len(line))),
+                key=lambda one: (sense * one[0][one[1], 0], one[0][one[1], 1]),
+            )
+            end = line[place]
+            if sense * (limit - end[0]) <= 0:
+                continue
+            inner = [line[k] for k in (place - 1, place + 1) if 0 <= k < len(line)]
+            slopes = [(end[1] - y) / (end[0] - x) for x, y in inner if x != end[0]]
+            slope = slopes[0] if slopes and abs(slopes[0]) < 1 else 0.0
+            pieces.append(np.array(sorted([[limit, end[1] + slope * (limit - end[0])], end.tolist()])))
+        return pieces
+
+    def surface(self, x):
+        """Height [m] of the ground at places ``x`` [m], an array (n,) that rises: that of the highest wall."""
+        lines = [wall.vertices for wall in self.walls if not wall.buried] + self.beyond(x[0], x[-1])
+        height = np.full(len(x), -np.inf)
+        for line in lines:
+            for a, b in zip(line[:-1], line[1:]):
+                (xa, ya), (xb, yb) = sorted([a.tolist(), b.tolist()])
+                on = (x >= xa) & (x <= xb)
+                height[on] = np.maximum(height[on], np.interp(x[on], [xa, xb], [ya, yb]))
+        return height
+
+    @property
+    def table_slope(self):
+        """Rise of the water table over its way in x, where it is a plane of its own, as that of a reservoir, which is 0; None where it follows a wall, or there is none."""
+        return None if self._water is None or self.base is not None else -self._water[1][0] / self._water[1][1]
+
     def water_points(self, height):
         """Vertices (n, 2) [m] of a water table ``height`` [m] above its plane, along the plane's normal; None where no plane is known."""
         if self._water is None:

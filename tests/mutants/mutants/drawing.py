@@ -7,15 +7,34 @@ PARAVIEW = "py/nonsmooth/paraview.py"
 
 GROUND, FRONTS, SURFACE, WEAKENING = ("py/nonsmooth/measure/" + name for name in ("ground.py", "fronts.py", "surface.py", "weakening.py"))
 
-SCENE = FIGURES + "scene.py"
+SCENE, MOVING = FIGURES + "scene.py", FIGURES + "moving.py"
 LAW = FIGURES + "law.py"
 
 MUTANTS = (
-    mutant("scene-sign", SCENE, "for sign, colour in ((1, COMPRESSION), (-1, TENSION)):", "for sign, colour in ((-1, COMPRESSION), (1, TENSION)):", "tension is drawn as compression",
+    mutant("scene-sign", SCENE, '(1, COMPRESSION, "compression"), (-1, TENSION, "tension")', '(-1, COMPRESSION, "compression"), (1, TENSION, "tension")', "tension is drawn as compression",
            "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-bonds", SCENE, "held = (scene.cj >= 0) & scene.bonded", "held = scene.cj >= 0", "all contacts are drawn as bonds", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-turn", "py/nonsmooth/scene_arrays.py", "turn[1, k] * c[k] for k", "turn[k, 1] * c[k] for k", "walls are turned the other way", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-fixed", SCENE, "colours[scene.fixed] = to_rgba(FIXED)", "pass", "disks that are held look like others", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
+    mutant("scene-scale", SCENE, "lw=look.width * force / look.reference * points", "lw=look.width * points", "the scale of forces shows another bar than the picture",
+           "test_moving.py::test_the_scale_of_forces_is_one_for_all_frames_and_told"),
+    mutant("scene-colours", "py/nonsmooth/scene_arrays.py", "2 * len(set(colours)) <= len(colours)", "colours", "YADE's random colours count as chosen",
+           "test_moving.py::test_bodies_own_colours_are_taken_where_they_were_chosen"),
+    mutant("moving-thin", MOVING, "self.frames = self.frames[::2]", "self.frames = self.frames[1:]", "a recorder forgets the beginning",
+           "test_moving.py::test_a_recorder_keeps_a_bounded_number_of_frames_at_equal_times"),
+    mutant("moving-due", MOVING, "math.floor(met / period + 1e-9) + 1", "math.floor(met / period + 1e-9)", "each step is kept, whatever the period",
+           "test_moving.py::test_frames_do_not_drift_where_the_period_is_no_multiple_of_the_step"),
+    mutant("moving-raised", MOVING, "if kind is None and self.path is not None:", "if self.path is not None:", "a video is written of a run that failed",
+           "test_moving.py::test_what_is_filmed_is_taken_out_again_and_nothing_is_written_where_the_block_raises"),
+    mutant("moving-view", MOVING, "pictures.Look([s for _, s in frames], **drawn)", "pictures.Look([s for _, s in frames[:1]], **drawn)", "the view is that of the first frame",
+           "test_moving.py::test_a_fall_is_filmed_at_equal_times_with_one_view"),
+    mutant("ground-beyond", GROUND, "slopes and abs(slopes[0]) < 1 else", "slopes else", "the ground goes on up a cliff",
+           "plain:test_figures_slope.py::test_the_ground_goes_on_to_the_sides_of_the_picture"),
+    mutant("style-reservoir", STYLE, "np.where(y > ground.surface(x), y, np.nan)", "y", "a reservoir lies in the rock", "plain:test_figures_slope.py::test_a_reservoir_ends_at_the_ground_on_both_sides"),
+    mutant("chains-window", FORCES, "min(26 * size, wide / CLOSER)", "26 * size", "both windows on few disks show the same",
+           "plain:test_figures_forces.py::test_the_second_window_is_a_close_up_also_of_few_disks"),
+    mutant("columns-named", FIGURES + "columns.py", "named = None", "pass", "a published law stands twice in the legend",
+           "plain:test_figures_heaps.py::test_each_published_law_has_its_name_once"),
     mutant("law-graph", LAW, "threshold = slope * (adhesion + normal) / factor", "threshold = slope * normal / factor", "shear and torque are drawn without cohesion",
            "plain:test_figures_law.py::test_shear_and_torque_are_against_their_velocities"),
     mutant("law-sense", LAW, "[threshold, threshold, -threshold, -threshold]", "[-threshold, -threshold, threshold, threshold]", "friction is drawn along the motion",
