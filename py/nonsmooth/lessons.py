@@ -18,6 +18,7 @@ __all__ = ["CASES", "Case", "LessonError", "collect", "numbers", "one", "run", "
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "scripts" / "examples"
 FILM_SECONDS = 8  # of a lesson's video
+WALL = ("wall_s", "process_wall_s")  # what differs from run to run
 
 
 class LessonError(UserError):
@@ -77,7 +78,7 @@ def numbers(text):
         if re.match(r"\s*-?\d", line):
             rows.append([float(value) for value in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?", line)])
             continue
-        for words, value in re.findall(r"([^\W\d][^:,]*?)\s+(-?\d[\d.]*(?:e[+-]?\d+)?)(?=\s*(?:,|$|\s\s|\())", line):
+        for words, value in re.findall(r"([^\W\d][^:]*?)\s+(-?\d[\d.]*(?:e[+-]?\d+)?)(?=\s*(?:,|$|\s\s|\())", line):
             found["_".join(re.findall(r"[a-z0-9]+", words.lower()))] = float(value)
     return found | ({"rows": rows} if rows else {})
 
@@ -133,9 +134,7 @@ def run(chosen, out, threads=1, resume=False, progress=lambda share, ended: None
     results = side_by_side.run(runs, threads, resume, LessonError, progress=progress)
     found = {}
     for (name, key, seed), result in zip(order, results):
-        found.setdefault(name, {}).setdefault(key, []).append(
-            {k: v for k, v in result.items() if k != "process_wall_s"}
-        )
+        found.setdefault(name, {}).setdefault(key, []).append({k: v for k, v in result.items() if k not in WALL})
     return {name: {key: collect(several) for key, several in cases.items()} for name, cases in found.items()}
 
 

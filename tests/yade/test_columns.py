@@ -11,7 +11,7 @@ import shell
 
 import drawn
 from yade import O
-from yade.nonsmooth import errors, packing, processes, records, worlds
+from yade.nonsmooth import errors, film, packing, processes, records, worlds
 from yade.nonsmooth.figures import columns as figures
 from yade.nonsmooth.heaps import column, course, grains, pile, preparation, report, scaling, study
 from yade.wrapper import NewtonIntegrator
@@ -491,6 +491,11 @@ def test_command_writes_series_summary_and_figures(tmp_path):
         series = records.read_series(tmp_path / "runs" / name / "series.csv")
         assert series["front_m"][-1] == run["front_m"] and (np.diff(series["time_s"]) > 0).all()
         assert (tmp_path / "runs" / name / "collapse.png").stat().st_size > 10_000
+        assert film.missing() or (tmp_path / "runs" / name / "collapse.mp4").stat().st_size > 10_000
+        times, places, r = study.film(tmp_path / "runs" / name)
+        # a tenth of T apart, to a record of a twentieth, from the release to the end
+        assert np.diff(times) / run["fall_time_s"] == pytest.approx(0.1, abs=0.051) and len(times) in (20, 21)
+        assert all(len(x) == len(y) == len(r) == run["disks"] for x, y in places)
         assert 2 <= run["time_s"] / run["fall_time_s"] < 2.1  # one record later at most
     # two aspect ratios, still moving: no fit and no figure of it
     assert summary["at_rest"] == 0 and not any(summary["fits"].values()) and "did not come to rest" in done.stdout

@@ -8,8 +8,8 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-columns, scaling, style, records = (
-    synthetic.load(name) for name in ("figures.columns", "heaps.scaling", "figures.style", "records")
+columns, scaling, style, records, moving = (
+    synthetic.load(name) for name in ("figures.columns", "heaps.scaling", "figures.style", "records", "figures.moving")
 )
 
 
@@ -131,3 +131,23 @@ def test_each_published_law_has_its_name_once(aspects):
         lines = {drawn.colour(one) for one in ax.lines if one.get_linestyle() not in ("None", "-")}
         told = [(words, mark) for words, mark in drawn.handles(ax).items() if words != "ours"]
         assert len(told) == 2 and {drawn.colour(mark) for _, mark in told} == lines
+
+
+def test_a_film_of_a_collapse_has_its_colours_floor_and_gate(fallen, monkeypatch, tmp_path):
+    told = {}
+    monkeypatch.setattr(moving, "write", lambda frames, path, **how: told.update(frames=frames, **how) or path)
+    times, places, r = fallen
+    assert columns.film(times, places, r, 1.25, tmp_path / "c.mp4", gate=[5.0]) == tmp_path / "c.mp4"
+    (_, before), (_, after) = told["frames"]
+    assert [t for t, _ in told["frames"]] == times and np.array_equal(after.x, places[1][0])
+    # as in the figure: five stripes from the left, kept by the disks
+    assert np.array_equal(before.colour, after.colour)
+    assert drawn.hexes(before.colour) == [fill for fill in style.LAYERS for _ in range(8)]
+    assert before.axes == after.axes == [(1, 0.0)] and after.walls == []
+    (gate,) = before.walls
+    assert gate.tolist() == [[5, 0], [5, 8]]
+    x0, x1, y0, y1 = told["view"]  # the mass, 10 m long and 8 m high; the disk at 30 m is out of sight
+    assert -1 < x0 < 0 and 10 < x1 < 11 and y0 < 0 and 8 < y1 < 9
+    assert told["words"](2.5, None).startswith("2.0 T")
+    with pytest.raises(records.RecordsError, match="no places"):
+        columns.film([], [], r, 1.0, tmp_path / "c.mp4")

@@ -12,7 +12,7 @@ import shell
 
 import drawn
 from yade import O
-from yade.nonsmooth import errors, processes, records, section
+from yade.nonsmooth import errors, film, processes, records, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import (
     biaxial,
@@ -602,9 +602,19 @@ def test_the_script_writes_a_summary_and_figures(tmp_path):
         "bands.png",
         "force_chains.png",
         "tests/0.2MPa-seed1/vtk/biaxial.pvd",
+        *([] if film.missing() else ["biaxial.mp4"]),
     ):
         assert (tmp_path / name).stat().st_size > 300
     assert sorted(folder.name for folder in (tmp_path / "tests").iterdir()) == ["0.02MPa-seed1", "0.2MPa-seed1"]
+    shots = [np.load(path) for path in sorted((tmp_path / "tests" / "0.2MPa-seed1" / "frames").glob("*.npz"))]
+    # at each hundredth of the strain, to a row of 0.01 %, from the begin to the end
+    assert len(shots) == 101
+    assert [float(s["strain"]) for s in shots] == pytest.approx(0.03 * np.linspace(0, 1, 101), abs=2e-4)
+    first, last = shots[0], shots[-1]
+    heights = [np.diff(s["bottom_top"])[0] for s in (first, last)]
+    assert 1 - heights[1] / heights[0] == pytest.approx(float(last["strain"]), rel=1e-6)
+    # single precision at some tens of metres, and overlaps of some thousandths of a disk
+    assert all((s["y"] - s["r"] > s["bottom_top"][0] - 0.02).all() for s in shots)
     leftovers.plant(
         tmp_path,
         "summary.json",

@@ -1,0 +1,95 @@
+"""The numbers of doc/lessons.rst: what is read from what a lesson prints, and that the lessons still print what the page says."""
+import json
+import re
+
+import pytest
+import shell
+from yade.nonsmooth import film, lessons
+
+MEASURED = json.loads((shell.ROOT / "doc" / "measured" / "lessons.json").read_text())
+PRINTED = """disks 288, bonds 777
+run-out, by the column's width 2.638
+water at failure by statics [m] 2.232 (3 of 8 rows)
+disks 321, column [m]: 1.000 wide, 2.074 high
+friction/tan(slope)   slid [m]
+              0.50    4.141
+              1.10   -1e-03
+  3.0 s: water  0.900 m, mean displacement    0.0012 m, bonds 770
+load 0.240  deflection of the tip [mm] 1.5000
+load 0.480  deflection of the tip [mm] 3.2500
+creep after 5 s [mm/min] 0.370000
+kinetic energy [J] 8.56e-06
+the slab stands
+steps 1250
+"""
+
+
+def test_numbers_are_read_from_what_a_lesson_prints():
+    assert lessons.numbers(PRINTED) == {
+        "disks": 321,
+        "bonds": 777,
+        "run_out_by_the_column_s_width": 2.638,
+        "water_at_failure_by_statics_m": 2.232,
+        "load": 0.48,
+        "deflection_of_the_tip_mm": 3.25,
+        "creep_after_5_s_mm_min": 0.37,
+        "kinetic_energy_j": 8.56e-06,
+        "steps": 1250,
+        "rows": [[0.5, 4.141], [1.1, -1e-3], [3.0, 0.9, 0.0012, 770]],
+    }
+
+
+def test_seeds_become_a_mean_with_its_interval():
+    found = lessons.collect([dict(steps=1.0, rows=[[1.0]]), dict(steps=3.0, rows=[])])
+    # of two values: Student's t of one degree of freedom, 12.706, by half of their distance
+    assert found == {"steps": dict(mean=2.0, half_width=pytest.approx(12.706, rel=1e-4), values=[1.0, 3.0])}
+    assert lessons.collect([dict(steps=1.0)]) == dict(steps=1.0)
+
+
+def test_the_file_has_all_cases_and_the_page_reads_them():
+    assert {name: set(cases) for name, cases in MEASURED.items()} == {
+        name: set(cases) for name, cases in lessons.CASES.items()
+    }
+    page = (shell.ROOT / "doc" / "lessons.rst").read_text()
+    told = set(re.findall(r":measured:`lessons (\w+)\.(\w+)\.", page))
+    assert len(told) > 12 and all(case in MEASURED[name] for name, case in told)
+    # no number of a run is typed: digits stand in prose as parameters of scripts, counts and times asked for
+    assert not re.search(r"\d\.\d+ ± ", page)
+
+
+def test_a_lesson_that_is_not_there_is_refused_before_anything_is_run(in_process, tmp_path):
+    done = in_process("lessons.py", "incline", "seesaw", "--out", tmp_path / "out")
+    assert done.status == 1 and "lesson 'seesaw': there is none of this name; give some of incline, pile" in done.last
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_command_runs_a_lesson_and_keeps_numbers_and_video(tmp_path):
+    done = shell.run("lessons.py", "beam", "--out", tmp_path, "--threads", 1, "--no-films", limit=300)
+    assert done.returncode == 0, done.stderr
+    found = json.loads((tmp_path / "lessons.json").read_text())
+    assert list(found) == ["beam"]
+    for case, values in MEASURED["beam"].items():  # the same bits on any machine, printed with five digits
+        assert found["beam"][case] == pytest.approx(values, rel=1e-3, abs=1e-3), case
+    # statics: the row breaks at 1, and at 0.97 it holds
+    assert found["beam"]["soft"]["broken_at_the_load_of_that_of_statics"] == pytest.approx(1.0, abs=0.01)
+    assert "broken_at_the_load_of_that_of_statics" not in found["beam"]["hard_held"]
+    assert not list(tmp_path.rglob("film.mp4"))
+
+
+def test_a_lessons_video_stands_beside_what_it_printed(tmp_path):
+    """Called as the command calls it, in this process."""
+    import sys
+
+    from yade import O
+
+    names, before = vars(sys.modules["__main__"]), dict(vars(sys.modules["__main__"]))
+    O.reset()
+    try:
+        found = lessons.one(tmp_path, "hard_incline.py", dict(seconds=0.2), seconds=1.0)
+    finally:
+        names.clear()
+        names.update(before)
+        O.reset()
+    assert found["steps"] == 40 and len(found["rows"]) == 6
+    assert "steps 40" in (tmp_path / "output.txt").read_text()
+    assert (tmp_path / "film.mp4").exists() == (film.missing() is None)
