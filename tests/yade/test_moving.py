@@ -203,6 +203,15 @@ def test_what_is_filmed_is_taken_out_again_and_nothing_is_written_where_the_bloc
     assert type(O).run is usual and not any(hasattr(e, "command") for e in O.engines)
 
 
+def test_no_video_is_written_of_a_scene_that_still_runs(tmp_path):
+    falling()
+    made = figures.record(O)
+    made._O = types.SimpleNamespace(running=True, time=O.time, dt=O.dt)  # as between O.run() and O.wait()
+    with pytest.raises(records.RecordsError, match="fall.gif: the scene still runs; call O.wait"):
+        made.write(tmp_path / "fall.gif")
+    assert not list(tmp_path.iterdir())
+
+
 def test_bodies_own_colours_are_taken_where_they_were_chosen(shown, tmp_path):
     red, blue = (0.9, 0.1, 0.1), (0.1, 0.1, 0.9)
     falling(colours=(red, blue, red, blue))
@@ -218,6 +227,20 @@ def test_bodies_own_colours_are_taken_where_they_were_chosen(shown, tmp_path):
     )
     with pytest.raises(records.RecordsError, match="give bodies a color"):
         figures.draw(O, colours="bodies")
+
+
+def test_the_view_is_around_what_moves_and_not_along_a_floor_of_disks():
+    stuff = material(0.5, layer=0)
+    O.materials.append(stuff)
+    O.bodies.append([scene.disk((k, -0.5), 0.5, stuff, fixed=True) for k in range(-50, 51)])
+    O.bodies.append([scene.disk((k, 0.5), 0.5, stuff) for k in range(10)])
+    x0, x1, y0, _ = figures.draw(O).axes[0].get_xlim() + figures.draw(O).axes[0].get_ylim()
+    # 10 m of disks, a fifth of it on both sides, and 6 % of all this around
+    assert (x0, x1) == pytest.approx((-0.5 - 2 - 0.84, 9.5 + 2 + 0.84)) and y0 < -1
+    O.reset()
+    O.materials.append(stuff)
+    O.bodies.append([scene.disk((k, 0), 0.5, stuff, fixed=True) for k in range(3)])
+    assert figures.draw(O).axes[0].get_xlim() == pytest.approx((-0.5 - 0.18, 2.5 + 0.18))
 
 
 def test_a_view_of_ones_own_is_kept(shown, tmp_path):

@@ -113,9 +113,13 @@ class Recorder:
     def write(self, path=None, fps=FPS):
         """Writes the frames, and the scene as it stands at last, as a video, ``fps`` frames a second; ``path``: ends in .mp4 (by ffmpeg) or .gif. Returns the path.
 
-        The file is replaced only by a whole one. Raises RecordsError where there is no frame, and for a file that cannot be made.
+        The file is replaced only by a whole one. Raises RecordsError where there is no frame, while the scene runs, and for a file that cannot be made.
         """
         path = film.check(self.path if path is None else path)
+        if self._O.running:
+            raise RecordsError(
+                f"{path}: the scene still runs; call O.wait() before its video is written, or run it by O.run(..., wait=True)"
+            )
         if not self.frames or self._O.time > self.frames[-1][0] + 0.5 * abs(self._O.dt):
             self.take()
         return write(self.frames, path, fps, **self.drawn)
@@ -124,7 +128,8 @@ class Recorder:
         return self
 
     def __exit__(self, kind, error, trace):
-        self.detach()
+        if not self._O.running:
+            self.detach()
         if kind is None and self.path is not None:
             self.write()
 
@@ -265,7 +270,7 @@ def write(frames, path, fps=FPS, words=None, bar=None, **drawn):
         place = stage.fig.add_axes([1 - side + 12 / width, 0.15, 16 / width, 0.6])
         stage.fig.colorbar(bar[0], cax=place, label=bar[1], extend="both")
     style.frame(ax, *look.box)
-    pictures.scales(ax, look)
+    pictures.scales(ax, look, size=11)
     clock = stage.fig.text(12 / width, 1 - 8 / height, "", fontsize=15, fontweight="bold", va="top")
     said = stage.fig.text(1 - 12 / width, 1 - 11 / height, "", fontsize=11.5, va="top", ha="right", color="#444444")
     stage.set()

@@ -19,6 +19,7 @@ __all__ = ["Look", "draw", "paint"]
 
 MATERIALS = ("#dcc9a0", "#b8d3ea", "#cfe3c4", "#e9c9d8", "#f3e2a9", "#d9d2e9")  # pale, as forces are drawn on them
 FIXED = "#c9c9c6"
+NEAR = 0.2  # of what moves, its length or height: how far around it disks that are held are shown
 BAR = 0.35  # diameters, width of the bar of the reference force
 PALER = 0.5  # share of white in bodies' own colours, where forces are drawn on them
 COLOURS = ("bodies", "materials")
@@ -60,17 +61,27 @@ class Look:
 
 
 def _box(scenes):
-    """Limits around all disks at all times."""
-    ends = [
-        (np.min(s.x - s.r), np.max(s.x + s.r), np.min(s.y - s.r), np.max(s.y + s.r))
-        for s in scenes
-        if np.isfinite(s.x).all() and np.isfinite(s.y).all()
-    ]
-    if not ends:
+    """Limits around all disks at all times that can move, with those near them that cannot, as of a long floor; around all where none can move."""
+    scenes = [s for s in scenes if np.isfinite(s.x).all() and np.isfinite(s.y).all()]
+    if not scenes:
         raise RecordsError("places of disks are not finite numbers; the scene cannot be drawn")
-    left, right, low, high = (float(f(side)) for f, side in zip((min, max, min, max), zip(*ends)))
+    whole = _ends([(s, slice(None)) for s in scenes])
+    free = _ends([(s, ~s.fixed) for s in scenes if not s.fixed.all()] or [(s, slice(None)) for s in scenes])
+    extent = max(free[1] - free[0], free[3] - free[2])
+    near = NEAR * extent
+    left, low = max(whole[0], free[0] - near), max(whole[2], free[2] - near)
+    right, high = min(whole[1], free[1] + near), min(whole[3], free[3] + near)
     margin = 0.06 * max(right - left, high - low)
     return left - margin, right + margin, low - 1.8 * margin, high + margin  # room for the scale
+
+
+def _ends(chosen):
+    """The outermost edges (left, right, low, high) [m] of disks, pairs of a scene and which of its disks."""
+    ends = [
+        (np.min((s.x - s.r)[k]), np.max((s.x + s.r)[k]), np.min((s.y - s.r)[k]), np.max((s.y + s.r)[k]))
+        for s, k in chosen
+    ]
+    return tuple(float(f(side)) for f, side in zip((min, max, min, max), zip(*ends)))
 
 
 def checked_colours(colours):
@@ -110,8 +121,8 @@ def paint(ax, scene, look):
     return made
 
 
-def scales(ax, look):
-    """The scale of lengths in the lower right corner of the axes, and that of forces in the left one: bars of a round force, as wide as they are in the picture."""
+def scales(ax, look, size=8.5):
+    """The scale of lengths in the lower right corner of the axes, and that of forces in the left one, in letters of ``size`` points: bars of a round force, as wide as they are in the picture."""
     style.scale_bar(ax, 0.97, 0.02, 0.2)
     if not look.signs:
         return
@@ -126,7 +137,7 @@ def scales(ax, look):
                    label=f"{word} {force / newtons:g} {unit.removesuffix('/m')}")
             for _, colour, word in look.signs
         ],
-        loc="lower left", bbox_to_anchor=(0.0, -0.01), borderaxespad=0.2, fontsize=8.5, handlelength=1.8, frameon=True, facecolor="white", edgecolor="none", framealpha=0.85,
+        loc="lower left", bbox_to_anchor=(0.0, -0.01), borderaxespad=0.2, fontsize=size, handlelength=1.8, frameon=True, facecolor="white", edgecolor="none", framealpha=0.85,
         ncol=2 if extent.width * 72 / ax.figure.dpi > 330 else 1, columnspacing=1.2, labelspacing=0.25,
     ).set_zorder(8)  # fmt: skip
 
