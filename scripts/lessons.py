@@ -12,9 +12,14 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import argparse
 from pathlib import Path
 
-from yade.nonsmooth import commands, film, lessons, output_folder
+from yade.nonsmooth import commands, film, lessons, output_folder, statistics
 from yade.nonsmooth.laboratory import arguments
 from yade.nonsmooth.whole_files import write_json
+
+
+def shown(value):
+    """A number, or a mean over seeds with its interval."""
+    return statistics.told(value["mean"], value["half_width"], 3) if isinstance(value, dict) else f"{value:g}"
 
 
 def main():
@@ -39,7 +44,7 @@ def main():
     write_json(out / "lessons.json", found)
     for name, cases in found.items():
         for key, values in cases.items():
-            told = [f"{k} {v['mean'] if isinstance(v, dict) else v:g}" for k, v in values.items() if k != "rows"]
+            told = [f"{k} {shown(v)}" for k, v in values.items() if k != "rows"]
             print(f"{name:8s} {key:15s} {', '.join(told)}")
     print(f"results: {out}/lessons.json, runs/*/output.txt{', film.mp4' if args.films and not film.missing() else ''}")
 

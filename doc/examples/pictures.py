@@ -8,8 +8,9 @@ import os
 import sys
 
 import numpy as np
-from yade.nonsmooth import figures, section
+from yade.nonsmooth import figures, scene_arrays, section
 from yade.nonsmooth.figures import style
+from yade.nonsmooth.figures.scene import Look as _Look
 
 _ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(sys.argv[0]))))
 _WORLDS = (("hard", "rigid disks"), ("soft", "springs"))
@@ -31,11 +32,13 @@ def _the_law(folder):
     figures.water_forces(slope.water.dip, 2.0, rock.density, slope.water.unit_weight, slope.gravity, f"{folder}/water_forces.png")
 
 
-def _drawn(script, title, path, flat=False):
-    """The end of a script as a picture, with a title."""
+def _drawn(script, title, path, width=5.6):
+    """The end of a script as a picture ``width`` inches wide and as high as the scene asks for, with a title."""
     _end_of(script)
-    figure = style.figure(9.0, 2.6) if flat else style.figure(5.6, 5.6)
-    axes = figure.add_axes([0.01, 0.0, 0.98, 0.88 if flat else 0.93])
+    x0, x1, y0, y1 = _Look([scene_arrays.read(O)]).box
+    height = width * min(1.0, (y1 - y0) / (x1 - x0)) + 0.4
+    figure = style.figure(width, height)
+    axes = figure.add_axes([0.01, 0.0, 0.98, 1 - 0.4 / height])
     figures.draw(O, ax=axes)
     axes.set_title(title, fontsize=13, fontweight="bold")
     return figure, axes, path
@@ -50,11 +53,12 @@ def _the_recipes(folder):
 def _the_lesson(name, folder):
     for k, (world, title) in enumerate(_WORLDS):
         # flat ones stand one above the other, others beside each other
-        figure, axes, path = _drawn(f"{_ROOT}/scripts/examples/{world}_{name}.py", title, f"{folder}/lesson_{name}-{k + 1}.png", name in ("beam", "column"))
+        figure, axes, path = _drawn(f"{_ROOT}/scripts/examples/{world}_{name}.py", title, f"{folder}/lesson_{name}-{k + 1}.png", 9.0 if name in ("beam", "column") else 5.6)
         if name == "incline":  # of the lesson's own names
             for body, ratio in zip(blocks, RATIOS):
                 place = O.bodies[body].state.pos
-                axes.annotate(f"μ = {ratio:g} tan θ", (place[0], place[1]), (9, 7), textcoords="offset points", fontsize=9)
+                label = f"μ = {ratio:g} tan θ" if ratio else "μ = 0"
+                axes.annotate(label, (place[0], place[1]), (9, 7), textcoords="offset points", fontsize=9, zorder=6, path_effects=style.EDGE)
         style.save(figure, path, dpi=110)
 
 

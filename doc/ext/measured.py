@@ -33,6 +33,12 @@ def at(name, key, env):
     return value
 
 
+def written(value, form):
+    """As Python's ``form`` has it; what rounds to nothing has no sign."""
+    text = format(value, form)
+    return text.lstrip("-") if not text.strip("-0.,") else text
+
+
 def number(text, env):
     """What the role's text stands for. Raises ValueError that says what is wrong."""
     try:
@@ -44,9 +50,9 @@ def number(text, env):
         upper, _, lower = key.partition("/")
         value, unit = at(name, upper, env), float(factor or 1) / (at(name, lower, env) if lower else 1)
         if not isinstance(value, dict):
-            return format(value * unit, form)
+            return written(value * unit, form)
         half = "" if value["half_width"] is None else f" ± {format(value['half_width'] * unit, form)}"
-        return format(value["mean"] * unit, form) + half
+        return written(value["mean"] * unit, form) + half
     except (OSError, LookupError, TypeError, ValueError, ZeroDivisionError) as error:
         raise ValueError(f"{text!r}: {type(error).__name__} {error}") from None
 

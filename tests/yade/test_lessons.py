@@ -53,7 +53,7 @@ def test_the_file_has_all_cases_and_the_page_reads_them():
     page = (shell.ROOT / "doc" / "lessons.rst").read_text()
     told = set(re.findall(r":measured:`lessons (\w+)\.(\w+)\.", page))
     assert len(told) > 12 and all(case in MEASURED[name] for name, case in told)
-    # no number of a run is typed: digits stand in prose as parameters of scripts, counts and times asked for
+    # no mean of runs is typed
     assert not re.search(r"\d\.\d+ ± ", page)
 
 
@@ -68,7 +68,7 @@ def test_the_command_runs_a_lesson_and_keeps_numbers_and_video(tmp_path):
     assert done.returncode == 0, done.stderr
     found = json.loads((tmp_path / "lessons.json").read_text())
     assert list(found) == ["beam"]
-    for case, values in MEASURED["beam"].items():  # the same bits on any machine, printed with five digits
+    for case, values in MEASURED["beam"].items():  # eight disks in a row: no grain can go another way
         assert found["beam"][case] == pytest.approx(values, rel=1e-3, abs=1e-3), case
     # statics: the row breaks at 1, and at 0.97 it holds
     assert found["beam"]["soft"]["broken_at_the_load_of_that_of_statics"] == pytest.approx(1.0, abs=0.01)
