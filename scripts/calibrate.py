@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Finds contact parameters of a granular rock for a wanted cohesion and angle of friction.
 
-  scripts/calibrate.py --cohesion KPA --friction DEG [--residual-cohesion KPA --residual-friction DEG] --out material.yaml
+  scripts/calibrate.py --cohesion KPA --friction DEG [--residual-cohesion KPA --residual-friction DEG] [--quick] --out material.yaml
+
+It says first how long it takes. Where c and φ are within the table of calibrated rocks, a section may ask for them straight, without a search:
+materials.NAME: {cohesion: PA, friction_angle: DEG}.
 """
 import os, sys
 
@@ -14,7 +17,7 @@ import dataclasses
 import time
 from pathlib import Path
 
-from yade.nonsmooth import commands, output_folder, section
+from yade.nonsmooth import commands, output_folder, rocks, section
 from yade.nonsmooth.laboratory import arguments, calibration, materials
 from yade.nonsmooth.whole_files import write_json
 
@@ -31,13 +34,23 @@ def read_arguments():
         "--start", default="wwr", metavar="NAME|FILE", help="material whose other parameters are kept (default: wwr)"
     )
     parser.add_argument(
-        "--coarse", type=int, default=1500, metavar="N", help="disks of the coarse samples (default: %(default)s)"
+        "--quick",
+        action="store_true",
+        help="the coarse samples alone: minutes, and an answer as good as these samples, which is said",
     )
     parser.add_argument(
-        "--fine", type=int, default=5000, metavar="N", help="disks of the fine samples (default: %(default)s)"
+        "--coarse",
+        type=int,
+        metavar="N",
+        help=f"disks of the coarse samples (default: 1500, with --quick {calibration.QUICK})",
     )
+    parser.add_argument("--fine", type=int, metavar="N", help="disks of the fine samples (default: 5000)")
     parser.add_argument(
-        "--seeds", type=int, nargs="+", default=[11, 12], metavar="S", help="seeds of the samples (default: 11 12)"
+        "--seeds",
+        type=int,
+        nargs="+",
+        metavar="S",
+        help="seeds of the samples (default: 11 12, with --quick 11 to 14: smaller samples scatter more)",
     )
     parser.add_argument(
         "--out",
@@ -50,17 +63,28 @@ def read_arguments():
     )
     parser.add_argument("--resume", action="store_true", help="keep the trials of an interrupted search")
     args = parser.parse_args()
+    if args.quick and args.fine is not None:
+        parser.error(f"--fine {args.fine} with --quick, which has no fine samples: leave one of them out")
+    if args.coarse is None:
+        args.coarse = calibration.QUICK if args.quick else 1500
+    if args.fine is None:
+        args.fine = 5000
+    if args.seeds is None:
+        args.seeds = [11, 12, 13, 14] if args.quick else [11, 12]
     for name in ("cohesion", "friction"):
         if not getattr(args, name) > 0:
             parser.error(f"--{name} {getattr(args, name):g}: it must be positive")
-    if not 6 < args.friction < 60:
+    low, high = rocks.REACHED
+    if not low < args.friction < high:
         parser.error(
-            f"--friction {args.friction:g}: granular samples reach 6° (no friction between disks) to about 60°"
+            f"--friction {args.friction:g}: granular samples reach {low:g}° (no friction between disks) to about {high:g}°"
         )
     if (args.residual_cohesion is None) != (args.residual_friction is None):
         parser.error("give both --residual-cohesion and --residual-friction, or neither")
-    if args.residual_friction is not None and not 6 < args.residual_friction <= args.friction:
-        parser.error(f"--residual-friction {args.residual_friction:g}: give more than 6° and no more than --friction")
+    if args.residual_friction is not None and not low < args.residual_friction <= args.friction:
+        parser.error(
+            f"--residual-friction {args.residual_friction:g}: give more than {low:g}° and no more than --friction"
+        )
     if args.residual_cohesion is not None and not 0 <= args.residual_cohesion <= args.cohesion:
         parser.error(f"--residual-cohesion {args.residual_cohesion:g}: give 0 or more, and no more than --cohesion")
     return args
@@ -80,23 +104,33 @@ def main():
         search = calibration.Calibration(
             wanted, materials.load(args.start), work, args.threads, say, args.resume, progress
         )
-        best, report = search.run((args.coarse, args.seeds), (args.fine, args.seeds))
+        kinds = [(args.coarse, args.seeds)] if args.quick else [(args.coarse, args.seeds), (args.fine, args.seeds)]
+        best, report = search.run(*kinds, **({"trials": (calibration.QUICK_TRIALS, 0)} if args.quick else {}))
     write_json(work / "report.json", {**report, "wall_s": time.monotonic() - began})
     c, angle = report["found"][:2]
+    known = report["uncertainty_95"]
     measured = section.Envelope(*map(float, (c, angle)))
+    told = (
+        f"c = {1e-3 * c:.1f} ± {1e-3 * c * known['cohesion_rel']:.1f} kPa",
+        f"φ = {angle:.2f} ± {known['friction_deg']:.1f}°",
+    )
+    samples = f"{known['samples']} sample{'s' if known['samples'] > 1 else ''} of {known['disks']} disks"
     materials.save(
         dataclasses.replace(best, envelope=measured),
         path,
-        f"Calibrated by scripts/calibrate.py for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
-        f"Samples of {args.fine} disks gave c = {1e-3 * c:.1f} kPa, φ = {angle:.2f}°.",
+        f"Calibrated by scripts/calibrate.py{' --quick' if args.quick else ''} for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
+        f"{samples[0].upper()}{samples[1:]} gave {told[0]}, {told[1]} (95 %, from the scatter of such samples).",
     )
     print(
-        f"{path}: c = {1e-3 * c:.1f} kPa (wanted {args.cohesion:g}), φ = {angle:.2f}° (wanted {args.friction:g}); report: {work}/report.json"
+        f"{path}: {told[0]} (wanted {args.cohesion:g}), {told[1]} (wanted {args.friction:g}), 95 % from the scatter of {samples}; report: {work}/report.json"
     )
-    known = ", ".join(f"{name} to {100 * error:.0f} %" for name, error in report["parameter_error_rel"].items())
-    print(
-        f"{report['given']}. With strengths known to {100 * calibration.SCALE:g} % and {calibration.DEGREES:g}°: {known}"
-    )
+    if args.quick:
+        print("a quick search; without --quick samples are larger, and the report says how unique the answer is")
+    else:
+        errors = ", ".join(f"{name} to {100 * error:.0f} %" for name, error in report["parameter_error_rel"].items())
+        print(
+            f"{report['given']}. With strengths known to {100 * calibration.SCALE:g} % and {calibration.DEGREES:g}°: {errors}"
+        )
     if not report["reached"]:
         print(
             f"NOT REACHED: the best trial misses the wanted strengths by up to {max(map(abs, report['misfit_in_tolerances'])):.1f} times the tolerance of "

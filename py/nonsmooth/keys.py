@@ -33,8 +33,8 @@ def engines_key() -> str:
 
 @functools.cache
 def code_key() -> str:
-    """Key of this package as it is: all of its Python and its schemas. The shipped sections are input."""
-    files = sorted(path for pattern in ("*.py", "*.schema.yaml") for path in HOME.rglob(pattern))
+    """Key of this package as it is: all of its Python, its schemas and its table of rocks. The shipped sections are input."""
+    files = sorted(path for pattern in ("*.py", "*.schema.yaml", "rocks.json") for path in HOME.rglob(pattern))
     return key_of([[str(path.relative_to(HOME)), digest(path)] for path in files])
 
 

@@ -6,7 +6,7 @@ import copy
 import dataclasses
 from types import MappingProxyType
 
-from . import geometry, roles, section_checks, section_defaults, section_values
+from . import geometry, rocks, roles, section_checks, section_defaults, section_values
 from .section import Section
 from .section_parts import (
     Disks,
@@ -56,7 +56,9 @@ def build(document, source: str) -> Section:
         gravity=float(raw["gravity"]),
         walls=walls,
         layers=layers,
-        materials=MappingProxyType({k: material_from(k, v) for k, v in raw["materials"].items()}),
+        materials=MappingProxyType(
+            {k: material_from(k, v, document, ("materials", k)) for k, v in raw["materials"].items()}
+        ),
         disks=disks,
         water=None,
         stages=Stages(
@@ -122,9 +124,12 @@ def _floats(mapping) -> dict:
     return {k: float(v) for k, v in mapping.items()}
 
 
-def material_from(name: str, raw: dict) -> Material:
-    """A Material from its data, which meet the schema."""
-    raw = dict(raw)
+def material_from(name: str, raw: dict, document, keys=()) -> Material:
+    """A Material from its data, which meet the schema; one that is asked for by cohesion and angle of friction has contact parameters of the table (:mod:`.rocks`).
+
+    ``keys``: of the data in the ``document``, whose SectionError says what cannot be had.
+    """
+    raw = dict(rocks.resolved(raw, lambda below, what, remedy: document.refuse((*keys, *below), what, remedy)))
     raw.setdefault("residual_friction", raw["friction"])
     raw.setdefault("residual_rolling_friction", raw["rolling_friction"])
     if "bond_ellipse" in raw:

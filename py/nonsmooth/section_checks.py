@@ -7,7 +7,7 @@ import math
 import numpy as np
 from shapely.geometry import LineString, MultiPoint
 
-from . import geometry
+from . import geometry, rocks
 from .section import Section
 from .section_parts import Layer, Wall, points_of
 
@@ -107,15 +107,43 @@ def check_release(section: Section, document) -> None:
 
 
 def notes(section: Section) -> list[str]:
-    """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical slip, where the paper has one for both."""
+    """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical slip, where the paper has one for both; and
+    what materials that are asked for by cohesion and angle of friction are made of, with what else they depend on."""
+    return [*_release_notes(section), *_rock_notes(section)]
+
+
+def _release_notes(section):
     slips, release = section.critical_slips, section.release_distance
     if release is None or not slips or release in slips.values():
-        return []
+        return
     listed = ", ".join(f"{value:g} m ({name})" for name, value in slips.items())
-    return [
+    yield (
         f"{section.source}: disks are released from the water after {release:g} m downslope, and the critical slip is {listed}; for one distance leave "
         "water.release_distance out, or give --critical-slip"
-    ]
+    )
+
+
+def _rock_notes(section):
+    rough = [(w.name, w.material) for w in section.walls] + [(i.name, i.material) for i in section.interfaces]
+    for name, material in section.materials.items():
+        found = rocks.asked(material)
+        if found is None:
+            continue
+        e = material.envelope
+        yield (
+            f"{section.source}: {name} has c = {1e-3 * e.cohesion:.4g} kPa ± {100 * found.cohesion_95_rel:.0f} % and φ = {e.friction_deg:.4g} ± "
+            f"{found.friction_angle_95_deg:.1f}° (95 % of samples of {rocks.table()['scatter']['disks']} disks), by contacts with σ_ext = {1e-3 * found.tensile_strength:g} kPa and μ_s = {found.friction:g}"
+        )
+        if borders := [border for border, of in rough if of == name]:
+            yield (
+                f"{section.source}: {', '.join(borders)} has the friction of the contacts of {name}, {found.friction:g}, and not its angle of friction; "
+                f"for a surface of {e.friction_deg:.4g}° give it a material of its own with friction: {math.tan(math.radians(e.friction_deg)):.3g}"
+            )
+        made = [layer for layer in section.layers if layer.material == name]
+        if made and (differs := rocks.other_samples([layer.disks or section.disks for layer in made], section.pressed)):
+            yield (
+                f"{section.source}: {name} was measured on samples with {differs}; scripts/biaxial.py measures what others have"
+            )
 
 
 def _check_names(section, document) -> None:
@@ -171,7 +199,7 @@ def _check_interfaces(section, document) -> None:
 def _check_materials(section, document) -> None:
     for name, material in section.materials.items():
         raw = document.data["materials"][name]
-        if material.bonded and "tensile_strength" not in raw:
+        if material.bonded and not {"tensile_strength", "cohesion"} & raw.keys():
             document.refuse(
                 ("materials", name),
                 "a bonded material without tensile_strength",

@@ -276,7 +276,8 @@ def _explain(error) -> tuple[tuple, str, str]:
         return (*keys, key), "unknown key", f"{hint}: {', '.join(known)}"
     if error.validator == "required":
         key = next(k for k in error.validator_value if k not in value)
-        about = schema["properties"][key].get("description", "")
+        # what is required under a condition is described with the condition
+        about = schema.get("properties", {}).get(key, schema).get("description", "")
         return keys, f"the key {key!r} is missing", f"add it ({about})" if about else "add it"
     if error.validator == "type" and error.validator_value == "integer" and isinstance(value, float):
         return keys, f"{value!r} is no whole number", needed

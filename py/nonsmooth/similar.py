@@ -31,6 +31,7 @@ POWERS = {
     "materials.slip_weakening.critical_slip": LENGTH,
     "materials.slip_weakening.tensile_strength": STRESS,
     "materials.envelope.cohesion": STRESS,
+    "materials.cohesion": STRESS,
     "water.plane.point": LENGTH,
     "water.table.rate": SPEED,
     "water.table.points": (TIME, LENGTH),

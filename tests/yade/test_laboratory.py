@@ -12,7 +12,7 @@ import shell
 
 import drawn
 from yade import O
-from yade.nonsmooth import errors, film, processes, records, section
+from yade.nonsmooth import errors, film, processes, records, rocks, section
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import (
     biaxial,
@@ -156,6 +156,9 @@ def test_slides_run_side_by_side_and_are_kept(tmp_path):
 class MadeUpRock(calibration.Calibration):
     """A rock whose strengths are known functions of its contacts, a little stronger in coarse samples."""
 
+    def timed(self):
+        return 3e-6, 1.5
+
     def test(self, material, disks, seeds):
         m, coarse = material, 1.03 if disks < 1000 else 1.0
         share = m.residual_tensile_strength / m.tensile_strength
@@ -201,6 +204,121 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
             raise AssertionError("a trial was computed again")
 
     assert Refuses(*options, resume=True).run((600, [1, 2]), (2500, [1]), trials=(12, 8))[1]["found"] == report["found"]
+
+
+def test_a_search_says_first_how_long_it_takes(tmp_path):
+    """By hand: 2 trials of 8 tests on 2 threads are 8 rounds of 1.5 s and 3,000 steps of 1,000 disks at 3 µs, to 3 % of strain, or 10,000 steps to 10 %."""
+    said = []
+    search = MadeUpRock(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 2, said.append)
+    assert search.seconds([(2, 1000, [1, 2])], (3e-6, 1.5)) == pytest.approx(8 * (1.5 + 9.0))
+    late = MadeUpRock(calibration.Wanted(60e3, 34.0, 6e3, 25.0), materials.load("wwr"), tmp_path, 2)
+    assert late.seconds([(2, 1000, [1, 2])], (3e-6, 1.5)) == pytest.approx(8 * (1.5 + 30.0))
+    wide = MadeUpRock(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 16)
+    # more threads than tests help nobody
+    assert wide.seconds([(1, 1000, [1])], (3e-6, 1.5)) == pytest.approx(1.5 + 9.0)
+    search.run((1000, [1, 2]), trials=(4, 0))
+    # 4 rounds of 10.5 s a trial
+    assert said[0] == (
+        "1 to 4 trials of 8 tests (1000 disks) on 2 threads take about 42 s to 2.8 min: measured, a step takes 3 µs for each disk"
+    )
+    search.run((1000, [1, 2]), (5000, [1, 2]))
+    # and two for the derivatives; fine ones take 4 rounds of 46.5 s
+    found = next(text for text in said[1:] if "take about" in text)
+    assert "4 to 11 trials of 8 tests (1000 and 5000 disks) on 2 threads take about 5.2 min to 17 min" in found
+    assert [calibration.lasting(s) for s in (0.2, 89, 90, 600, 5399, 7300)] == [
+        "1 s",
+        "89 s",
+        "1.5 min",
+        "10 min",
+        "90 min",
+        "2.0 h",
+    ]
+
+
+def test_a_step_is_timed_by_short_tests(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration, "TIMED", (200, 0.004))
+    search = calibration.Calibration(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 2)
+    each, start = search.timed()
+    assert 1e-8 < each < 1e-2 and 0 <= start < 600  # a step of a disk is no less than some instructions, and no second
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_bar_counts_what_may_still_come(tmp_path):
+    """Trials that a search did without are no work that is left: shares rise to 1."""
+    shares = []
+
+    class Shown(MadeUpRock):
+        def test(self, material, disks, seeds):
+            show = self._show(disks * len(seeds))
+            show(0.5, "half")
+            show(1.0, "whole")
+            return super().test(material, disks, seeds)
+
+    wwr = materials.load("wwr")
+    search = Shown(
+        calibration.Wanted(60e3, 34.0),
+        wwr,
+        tmp_path,
+        2,
+        lambda text: None,
+        progress=lambda share, _: shares.append(share),
+    )
+    search.run((600, [1]), (2500, [1]))
+    assert shares == sorted(shares) and shares[-1] == 1.0
+    # of the coarse trials, at the end: 600 (n + 2) of as much and 4 fine ones
+    disks = [t["disks"] for t in search.trials]
+    coarse = disks.count(600)
+    assert shares[2 * coarse - 1] == pytest.approx(600 * coarse / (600 * coarse + 4 * 2500))
+
+
+def test_a_quick_search_is_of_coarse_samples_and_says_how_good_it_is(tmp_path):
+    wwr = materials.load("wwr")
+    search = MadeUpRock(calibration.Wanted(60e3, 34.0), wwr, tmp_path, 2, lambda text: None)
+    material, report = search.run((1000, [1, 2, 3, 4]), trials=(4, 0))
+    assert report["quick"] and {t["disks"] for t in search.trials} == {1000} and len(search.trials) <= 4
+    assert "sensitivity" not in report and asdict(material) == report["material"]
+    s = rocks.table()["scatter"]
+    t = {4: 2.7764}[s["freedom"]]  # Student's, 95 %
+    assert report["uncertainty_95"]["cohesion_rel"] == pytest.approx(t * s["cohesion_rel"] / 2, rel=1e-4)
+    assert report["uncertainty_95"]["friction_deg"] == pytest.approx(t * s["friction_angle_deg"] / 2, rel=1e-4)
+    small, large = (calibration.uncertainty(n * s["disks"], [1]) for n in (0.25, 4))
+    # sixteen times as many disks scatter a quarter as much
+    assert small["friction_deg"] == pytest.approx(4 * large["friction_deg"])
+
+
+def test_larger_samples_scatter_less_as_the_table_and_table_1_have_it():
+    """Five samples of 5,000 disks beside the scatter that the table's smaller ones give them by the root of the number of disks: with four degrees of freedom the ratio of variances is between 0.121 and 2.786
+    in 95 % of all cases (χ²/4)."""
+    table1 = json.loads((shell.ROOT / "doc" / "measured" / "table1.json").read_text())
+    s = rocks.table()["scatter"]
+    fits = []
+    for seed in table1["rock"]["seeds"]:
+        # without the pressures that the table has not
+        tests = [t for t in table1["rock"]["tests"] if t["seed"] == seed and t["confining_Pa"] in (0.25e6, 1e6, 4e6)]
+        fits.append(strength.envelope([t["sigma3_peak_Pa"] for t in tests], [t["sigma1_peak_Pa"] for t in tests]))
+    ratio = np.var([f.friction_deg for f in fits], ddof=1) / (
+        s["friction_angle_deg"] ** 2 * s["disks"] / table1["disks"]
+    )
+    assert 0.121 < ratio < 2.786
+
+
+def test_a_search_begins_with_the_rock_of_the_table(tmp_path):
+    wwr, wanted = materials.load("wwr"), calibration.Wanted(60e3, 34.0)
+    known = rocks.contacts(60e3, 34.0)
+    first = MadeUpRock(wanted, wwr, tmp_path, 2)
+    assert np.exp(first.x0) == pytest.approx([known.tensile_strength, known.friction])
+    # another rolling friction is none of the table's
+    other = MadeUpRock(wanted, dataclasses.replace(wwr, rolling_friction=0.2), tmp_path, 2)
+    assert np.exp(other.x0) == pytest.approx([66e3, 0.3])
+    outside = MadeUpRock(calibration.Wanted(60e3, 59.0), wwr, tmp_path, 2)
+    assert np.exp(outside.x0) == pytest.approx([66e3, 0.3])
+
+
+def test_samples_that_are_too_small_are_refused_before_a_search(tmp_path):
+    search = calibration.Calibration(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 2)
+    with pytest.raises(pressing.SampleError, match="ask for more disks"):
+        search.run((40, [1]), trials=(4, 0))
+    assert not list(tmp_path.iterdir())
 
 
 def test_uniqueness_is_the_error_that_strengths_leave():

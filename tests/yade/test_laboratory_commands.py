@@ -29,6 +29,7 @@ def trials(monkeypatch):
         return made_up(material, disks, self.wanted.with_residual)
 
     monkeypatch.setattr(calibration.Calibration, "test", test)
+    monkeypatch.setattr(calibration.Calibration, "timed", lambda self: (3e-6, 1.5))
     return made
 
 
@@ -65,14 +66,36 @@ def test_calibrate_writes_a_material_that_has_the_strengths(in_process, trials, 
     assert {disks for _, disks, _ in trials} == {600, 2500} and all(seeds == [1, 2] for *_, seeds in trials)
     report = json.loads((tmp_path / "granite-calibration" / "report.json").read_text())
     assert report["reached"] is True and report["wall_s"] >= 0 and len(report["trials"]) == len(trials)
-    assert (
-        f"{out}: c = {1e-3 * strengths[0]:.1f} kPa (wanted 60), φ = {strengths[1]:.2f}° (wanted 34)" in done.out
-        and "NOT REACHED" not in done.err
+    known = calibration.uncertainty(2500, [1, 2])
+    told = (
+        f"c = {1e-3 * strengths[0]:.1f} ± {1e-3 * strengths[0] * known['cohesion_rel']:.1f} kPa",
+        f"φ = {strengths[1]:.2f} ± {known['friction_deg']:.1f}°",
     )
-    assert "# Calibrated by scripts/calibrate.py for c = 60 kPa, φ = 34°." in out.read_text()
+    assert f"{out}: {told[0]} (wanted 60), {told[1]} (wanted 34)" in done.out and "NOT REACHED" not in done.err
+    text = out.read_text()
+    assert "# Calibrated by scripts/calibrate.py for c = 60 kPa, φ = 34°." in text
+    assert f"# 2 samples of 2500 disks gave {told[0]}, {told[1]} (95 %, from the scatter of such samples)." in text
     count = len(trials)
     again = in_process("calibrate.py", *words, "--resume")
     assert again.status == 0 and len(trials) == count and materials.load(out) == found  # all trials were kept
+
+
+def test_a_quick_calibration_is_of_small_samples_and_says_so(in_process, trials, tmp_path):
+    out = tmp_path / "quick.yaml"
+    done = in_process("calibrate.py", "--cohesion", 60, "--friction", 34, "--quick", "--threads", 2, "--out", out)
+    assert done.status == 0, done.err
+    # how long it takes is said before any trial
+    assert done.out.splitlines()[0].startswith(
+        "1 to 4 trials of 16 tests (1000 disks) on 2 threads take about 84 s to 5.6 min"
+    )
+    assert {disks for _, disks, _ in trials} == {1000} and len(trials) <= 4
+    strengths = made_up(materials.load(out), 1000, False)
+    assert strengths[0] == pytest.approx(60e3, rel=0.021) and strengths[1] == pytest.approx(34, abs=0.71)
+    known = calibration.uncertainty(1000, [11, 12, 13, 14])
+    assert f"φ = {strengths[1]:.2f} ± {known['friction_deg']:.1f}° (wanted 34)" in done.out
+    assert "4 samples of 1000 disks gave c = " in out.read_text() and "calibrate.py --quick for" in out.read_text()
+    report = json.loads((tmp_path / "quick-calibration" / "report.json").read_text())
+    assert report["quick"] is True and report["uncertainty_95"] == pytest.approx(known)
 
 
 def test_calibrate_says_what_it_has_not_reached(in_process, trials, tmp_path):

@@ -15,7 +15,7 @@ from yade.nonsmooth import errors, experiment, lessons, packing, section, slope
 from yade.nonsmooth.benchmark import scale, suite
 from yade.nonsmooth.comparison import cost, course
 from yade.nonsmooth.heaps import study
-from yade.nonsmooth.laboratory import calibration, campaign, effects, readings, table1, wall_shear
+from yade.nonsmooth.laboratory import calibration, campaign, effects, readings, rock_table, table1, wall_shear
 from yade.nonsmooth.verification import runner, soak
 
 COMMANDS = sorted(path.name for path in SCRIPTS.glob("*.py"))
@@ -84,6 +84,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
     "lessons.py": (lessons, "run"),
     "readings.py": (readings, "run"),
     "table1.py": (table1, "run"),
+    "rocks.py": (rock_table, "run"),
     "verify.py": (runner, "run_checks"),
     "wedge.py": (subprocess, "run"),
 }
@@ -245,6 +246,11 @@ WHERE = {
             25.0,
         ),
         "--start": (("--start", "{files}/stone.yaml"), lambda a: a.words[1].rolling_friction, 0.11),
+        "--quick": (
+            ("--quick",),
+            lambda a: (len(a.run.words), a.run.named, a.run.words[0][0]),
+            (1, {"trials": (4, 0)}, 1000),
+        ),
         "--coarse": (("--coarse", 301), lambda a: a.run.words[0][0], 301),
         "--fine": (("--fine", 302), lambda a: a.run.words[1][0], 302),
         "--seeds": (("--seeds", 4, 5, 6), lambda a: [kind[1] for kind in a.run.words], [[4, 5, 6]] * 2),
@@ -374,6 +380,15 @@ WHERE = {
         "--out": ((), lambda a: str(a.words[1]), "{out}"),
         "--threads": (("--threads", 7), lambda a: a.named["threads"], 7),
         "--resume": (("--resume",), lambda a: a.named["resume"], True),
+    },
+    "rocks.py": {
+        "--check": (("--check",), lambda a: [e.name for e in a.words[1]][0], "c-20-phi-25"),
+        "--disks": (("--disks", 321), lambda a: a.words[1][0].count, 321),
+        "--frictions": (("--frictions", 0.5, 0.6), lambda a: [e.material.friction for e in a.words[1][:2]], [0.5, 0.6]),
+        "--seeds": (("--seeds", 7, 8), lambda a: a.words[2], [7, 8]),
+        "--out": ((), lambda a: str(a.words[0]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.words[3], 7),
+        "--resume": (("--resume",), lambda a: a.words[4], True),
     },
     "table1.py": {
         "--material": (("--material", "{files}/stone.yaml"), lambda a: Path(a.words[7]).name, "stone.yaml"),
@@ -521,6 +536,9 @@ def test_checks_are_listed(in_process):
         ("calibrate.py", ("--cohesion", 0, "--friction", 30), "--cohesion 0: it must be positive"),
         ("calibrate.py", ("--cohesion", 50, "--friction", 5), "--friction 5: granular samples reach 6°"),
         ("calibrate.py", ("--cohesion", 50, "--friction", 61), "--friction 61"),
+        ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--quick", "--fine", 900), "--fine 900 with --quick"),
+        ("rocks.py", ("--seeds", 1), "--seeds 1: give 2 or more, each once"),
+        ("rocks.py", ("--frictions", 0.3, 0.3), "--frictions 0.3 0.3: give 2 or more, each once"),
         ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--residual-friction", 20), "give both"),
         (
             "calibrate.py",

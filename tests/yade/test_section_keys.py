@@ -9,7 +9,7 @@ import yaml
 from slope_scenes import SMALL
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import experiment, packing, records, results, section, slope, toe
+from yade.nonsmooth import experiment, packing, records, results, rocks, section, slope, toe
 from yade.wrapper import NewtonIntegrator, NonsmoothTimeStepper, PlanarGridCollider
 
 SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
@@ -185,6 +185,8 @@ FAR = [{"name": "far", "material": "ss", "vertices": [[70.0, 30.0], [72.0, 30.0]
 SEAT = [{"name": "seat", "material": "ss", "vertices": [[70.0, 40.0], [80.0, 38.0]], "apart": True}]
 BASE = data()
 
+OF_TABLE = {(*ROCK,): {"cohesion": 2e3, "friction_angle": 34.0, "density": 2500.0}}
+
 #: key: changes, where they are found, and what is found there; a list where a key acts in several places or takes several kinds of values.
 #: The last item, where there is one, is how far the slope is run [s], None: to its end.
 WHERE = {
@@ -290,6 +292,17 @@ WHERE = {
             0.02,
         ),
     ],
+    # of the table of calibrated rocks
+    ("materials", "*", "cohesion"): (
+        {**OF_TABLE, (*ROCK, "cohesion"): 4e3},
+        lambda m: m.disk(0).material.tensileStrength,
+        rocks.contacts(4e3, 34.0).tensile_strength,
+    ),
+    ("materials", "*", "friction_angle"): (
+        {**OF_TABLE, (*ROCK, "friction_angle"): 30.0},
+        lambda m: m.disk(0).material.frictionAngle,
+        angle(rocks.contacts(2e3, 30.0).friction),
+    ),
     ("materials", "*", "tensile_strength"): [
         ({(*ROCK, "tensile_strength"): 7e3}, lambda m: m.disk(0).material.tensileStrength, 7e3),
         ({(*DP, "tensile_strength"): 3e3}, lambda m: m.wall("DP").tensileStrength, 3e3),

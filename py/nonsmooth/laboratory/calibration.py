@@ -4,7 +4,10 @@ Unknown: σ_ext, μ_s, and where residual strengths are wanted too, μ_r and σ_
 the next, so that differences are those of the material: c, φ at the peak, and c_res, φ_res on the plateau. By dimensional analysis c is
 proportional to σ_ext as long as σ₃/σ_ext is kept, and φ hardly depends on it; so logarithms of the parameters are used, with a Jacobian that begins
 as this guess and learns from every trial (Broyden's update). `scipy.optimize.least_squares` chooses the trials. Samples are coarse first; fine
-ones then correct what the size of the sample does.
+ones then correct what the size of the sample does, unless the search is a quick one. The first trial is what the table of calibrated rocks (:mod:`..rocks`) says, where it holds.
+
+How long a search takes is said before it starts: a test costs so many disks times steps, and a short test of a small sample measures what one disk and step take on
+this machine.
 
 How unique the answer is, trials say that are made for it: coarse samples, one parameter changed at a time. With J the derivatives of the strengths, each in
 units of what it may miss, by the logarithms of the parameters, a parameter is known to the relative error √((JᵀJ)⁻¹)ₖₖ if each strength is known to one
@@ -17,19 +20,27 @@ import dataclasses
 import json
 import math
 import shutil
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from scipy.optimize import least_squares
 
-from .. import keys
+from .. import keys, rocks
+from ..statistics import half_width
 from ..whole_files import write_json
 from . import biaxial_test, campaign, pressing
 
 # σ₃ over the wanted cohesion. Under three times the cohesion, 3 % of σ₁ (what samples of 5,000 disks differ by) are 15 % of c; under half of it, 5 %.
 PRESSURES = (0.5, 3.0, 12.0, 48.0)
 PEAK_STRAIN = 0.03  # at the end of tests of which only the peak is wanted
+QUICK = 1000  # disks of the samples of a quick search; the peak of 2,000 is the same (biaxial_effects.py)
+QUICK_TRIALS = 4  # of a quick search at most; from the table two or three reach the tolerances
+TIMED = (
+    500,
+    0.006,
+)  # disks, and strain at the end, of the tests that measure what a step takes; sweeps a step are about as many until 3 %
 BOUNDS = {
     "tensile_strength": (1e2, 1e9),
     "friction": (0.02, 2.0),
@@ -91,9 +102,10 @@ class Calibration:
         self.trials = []
         self.known = self._kept() if resume else []
         share = start.residual_tensile_strength / start.tensile_strength if start.tensile_strength > 0 else 0.25
+        strength, friction = self._guess()
         first = {
-            "tensile_strength": 1.1 * wanted.cohesion,
-            "friction": start.friction,
+            "tensile_strength": strength,
+            "friction": friction,
             "rolling_friction": start.rolling_friction,
             "residual_share": max(share, 0.02),
         }
@@ -101,6 +113,14 @@ class Calibration:
         self.share = share
         self.jacobian, self.last = self._first_jacobian(), None
         self._done, self._whole = 0.0, 1.0  # disks of the trials behind us, and of all that may come
+
+    def _guess(self):
+        """σ_ext [Pa] and μ_s of the first trial: of the table of rocks where the other parameters are its own."""
+        low, high = rocks.interval()
+        if low <= self.wanted.friction_deg <= high and rocks.like_table(self.start):
+            found = rocks.contacts(self.wanted.cohesion, self.wanted.friction_deg)
+            return found.tensile_strength, found.friction
+        return 1.1 * self.wanted.cohesion, self.start.friction
 
     def _first_jacobian(self):
         return np.array([SLOPES[name] for name in self.names], float).T[: 4 if self.wanted.with_residual else 2]
@@ -169,10 +189,13 @@ class Calibration:
         """What a trial's strengths depend on."""
         return keys.run_key([dataclasses.asdict(test) for test in self._tests(material, disks, seeds)])
 
+    @property
+    def _strain(self):
+        return biaxial_test.Test.strain if self.wanted.with_residual else PEAK_STRAIN
+
     def _tests(self, material, disks, seeds):
-        strain = biaxial_test.Test.strain if self.wanted.with_residual else PEAK_STRAIN
         return [
-            biaxial_test.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), strain)
+            biaxial_test.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), self._strain)
             for seed in seeds
             for p in PRESSURES
         ]
@@ -196,6 +219,50 @@ class Calibration:
         number, before, self._done = len(self.trials) + 1, self._done, self._done + disks
         return lambda share, doing: self.progress(
             min(1.0, (before + share * disks) / self._whole), f"trial {number}: {doing}"
+        )
+
+    # ---- how long it takes ----------------------------------------------------------------------
+    def timed(self):
+        """(seconds that a step takes for each disk of a test, seconds that a test takes besides), measured on this machine by short tests under the lowest and the
+        highest pressure, as many at a time as there are threads. Raises as :meth:`measure` does."""
+        disks, strain = TIMED
+        tests = [
+            biaxial_test.Test(self.material(self.x0), p * self.wanted.cohesion, pressing.Shape(disks, 1), strain)
+            for p in (PRESSURES[0], PRESSURES[-1])
+        ]
+        folder = self.out / "timed"
+        pressing.prepare(tests[0].shape, folder / "pressing")
+        began = time.monotonic()
+        measured = campaign.run(tests, folder, self.threads)
+        taken = (time.monotonic() - began) * min(self.threads, len(tests)) / len(tests)
+        shutil.rmtree(folder, ignore_errors=True)
+        steps = sum(m["wall_steps_s"] for m in measured)
+        return steps / sum(m["steps"] * disks for m in measured), max(0.0, taken - steps / len(tests))
+
+    def seconds(self, kinds, timed):
+        """Seconds that trials take: ``kinds``, a list of (number of trials, disks, seeds); ``timed``: as :meth:`timed` returns it."""
+        each, start = timed
+        steps = self._strain / (biaxial_test.Test.inertia * biaxial_test.Test.step)
+        found = 0.0
+        for number, disks, seeds in kinds:
+            tests = len(PRESSURES) * len(seeds)
+            rounds = math.ceil(tests / min(self.threads, tests))  # on so many threads
+            found += number * rounds * (start + disks * steps * each)
+        return found
+
+    def _say_how_long(self, coarse, fine, trials):
+        """Says how long the search takes at least, and at most; pressing.SampleError for samples that are too small."""
+        for disks, seeds in filter(None, (coarse, fine)):
+            pressing.Shape(disks, seeds[0]).section()
+        timed, unknown = self.timed(), 0 if fine is None else len(self.names)
+        least = [(1 + unknown, *coarse)] + ([] if fine is None else [(1, *fine)])
+        most = [(trials[0] + unknown, *coarse)] + ([] if fine is None else [(trials[1], *fine)])
+        tests = len(PRESSURES) * len(coarse[1])
+        sizes = f"{coarse[0]} disks" if fine is None else f"{coarse[0]} and {fine[0]} disks"
+        number = [sum(n for n, *_ in kinds) for kinds in (least, most)]
+        self.say(
+            f"{number[0]} to {number[1]} trials of {tests} tests ({sizes}) on {self.threads} thread{'s' if self.threads > 1 else ''} take about "
+            f"{lasting(self.seconds(least, timed))} to {lasting(self.seconds(most, timed))}: measured, a step takes {1e6 * timed[0]:.2g} µs for each disk"
         )
 
     def misfits(self, found):
@@ -256,22 +323,33 @@ class Calibration:
             columns.append((self.misfits(self.measure(beside, disks, seeds)) - here) / step)
         return np.column_stack(columns)
 
-    def run(self, coarse, fine, trials=(5, 4)):
-        """Coarse search, trials for the derivatives there, then a fine search; ``coarse``, ``fine``: (disks, seeds). Returns the material and a report, a
-        dictionary. Raises as :meth:`measure` does."""
-        sizes = [kind[0] * len(kind[1]) for kind in (coarse, fine)]
-        self._whole = sizes[0] * (trials[0] + len(self.names)) + sizes[1] * trials[1]
-        x, _ = self.search(*coarse, self.x0, trials[0], COARSE)
-        self._done = sizes[0] * trials[0]
-        certain = uniqueness(self.names, self.derivatives(*coarse, x))
-        self._done = sizes[0] * (trials[0] + len(self.names))
-        x, misfit = self.search(*fine, x, trials[1])
+    def run(self, coarse, fine=None, trials=(5, 4)):
+        """Coarse search, trials for the derivatives there, then a fine search; ``coarse``, ``fine``: (disks, seeds). Without ``fine`` a quick search: the
+        coarse samples alone, without the derivatives. Returns the material and a report, a dictionary. Says first how long it takes. Raises as :meth:`measure` does.
+        """
+        quick = fine is None
+        self._say_how_long(coarse, fine, trials)
+        sizes = [kind[0] * len(kind[1]) for kind in (coarse, fine) if kind]
+        derived = 0 if quick else sizes[0] * len(self.names)
+        self._whole = sizes[0] * trials[0] + derived + (0 if quick else sizes[1] * trials[1])
+        x, misfit = self.search(*coarse, self.x0, trials[0], 1.0 if quick else COARSE)
+        certain = {}
+        if not quick:
+            # what was spared is no work that is left
+            self._whole = self._done + derived + sizes[1] * trials[1]
+            certain = uniqueness(self.names, self.derivatives(*coarse, x))
+            self._whole = self._done + sizes[1] * trials[1]
+            x, misfit = self.search(*fine, x, trials[1])
+        self.progress(1.0, "found")
+        last = coarse if quick else fine
         material = self.material(x)
-        found = next(t["found"] for t in self.trials if t["key"] == self._key(material, *fine))
+        found = next(t["found"] for t in self.trials if t["key"] == self._key(material, *last))
         return material, {
             "material": dataclasses.asdict(material),
             "wanted": dataclasses.asdict(self.wanted),
             "found": found,
+            "quick": quick,
+            "uncertainty_95": uncertainty(*last),
             "misfit_in_tolerances": misfit.tolist(),
             "tolerances": {"cohesion_rel": SCALE, "friction_deg": DEGREES},
             "reached": bool(np.abs(misfit).max() <= 1),
@@ -281,6 +359,28 @@ class Calibration:
             if not self.wanted.with_residual
             else "four parameters from four strengths",
         }
+
+
+def uncertainty(disks, seeds):
+    """How far peak strengths that samples of so many ``disks`` have, one for each of the ``seeds``, may be from the mean of all such samples: half of the 95 % intervals, a dictionary
+    with ``cohesion_rel`` and ``friction_deg``.
+
+    Samples scatter as those of the table of rocks do, less or more by the root of the number of disks; with it the table's give what the samples of Table 1 have.
+    """
+    known = rocks.table()["scatter"]
+    factor = math.sqrt(known["disks"] / disks / len(seeds))
+    return {
+        name: half_width(factor * known[of], known["freedom"])
+        for name, of in (("cohesion_rel", "cohesion_rel"), ("friction_deg", "friction_angle_deg"))
+    } | {"samples": len(seeds), "disks": disks}
+
+
+def lasting(seconds):
+    """A time in words, to two digits: "40 s", "12 min", "2.1 h"."""
+    for unit, name in ((3600.0, "h"), (60.0, "min")):
+        if seconds >= 1.5 * unit:
+            return f"{seconds / unit:.{0 if seconds >= 9.95 * unit else 1}f} {name}"
+    return f"{max(1.0, seconds):.0f} s"
 
 
 def uniqueness(names, derivatives):

@@ -12,7 +12,7 @@ import yaml
 
 from .. import section, section_building, section_values
 from ..whole_files import write_atomically
-from ..section_reader import SectionError, read
+from ..section_reader import Document, SectionError, read
 
 #: Names of the paper's Table 1, with the materials of the shipped section that hold their parameters.
 SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
@@ -23,24 +23,29 @@ def load(name_or_path):
 
     Raises SectionError, naming file, line, key, value and remedy.
     """
-    name = str(name_or_path)
-    return section_building.material_from(name if name in SHIPPED else Path(name).stem, data(name))
+    name, document = _document(name_or_path)
+    return section_building.material_from(name, document.data, document)
 
 
 def data(name_or_path) -> dict:
     """The plain data of a material, nothing filled in: what its file, or that of the shipped section, says. Raises as :func:`load`."""
+    return _document(name_or_path)[1].data
+
+
+def _document(name_or_path):
+    """The name of a material and its checked Document."""
     name = str(name_or_path)
     if name in SHIPPED:
-        return section_values.given(section.load("jiufengershan"))["materials"][SHIPPED[name]]
+        return name, Document(name, section_values.given(section.load("jiufengershan"))["materials"][SHIPPED[name]])
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and not path.exists():
         raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
     document = read(
         path, section.FOLDER / "section.schema.yaml", part=("properties", "materials", "additionalProperties")
     )
-    if "density" not in document.data:
+    if section_building.material_from(path.stem, document.data, document).density is None:
         document.refuse((), "the key 'density' is missing", "add it (kg/m³, of the disks)")
-    return document.data
+    return path.stem, document
 
 
 def bare(material):

@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""Measures the table of calibrated rocks, from which a section takes contact parameters for a cohesion and an angle of friction.
+
+  scripts/rocks.py [--check] [--disks N] [--frictions MU …] [--seeds S …] [--out DIR] [--threads T] [--resume]
+
+The shipped table, py/nonsmooth/sections/rocks.json, is the rocks.json that it writes. With --check it asks that table for rocks, and measures them on other samples.
+"""
+import argparse
+import sys
+from pathlib import Path
+
+from tabulate import tabulate
+
+if "yade" in sys.modules:  # started by the launcher
+    from yade.nonsmooth import commands, output_folder
+    from yade.nonsmooth.figures import rocks as figures
+    from yade.nonsmooth.laboratory import arguments, rock_table
+    from yade.nonsmooth.whole_files import write_json
+else:  # YADE runs in processes of its own
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
+    from nonsmooth import commands, output_folder
+    from nonsmooth.figures import rocks as figures
+    from nonsmooth.laboratory import arguments, rock_table
+    from nonsmooth.whole_files import write_json
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(prog="rocks.py", description=__doc__.splitlines()[0])
+    parser.add_argument(
+        "--check", action="store_true", help="measure rocks that the shipped table was asked for, on samples of its own"
+    )
+    parser.add_argument(
+        "--disks", type=int, default=rock_table.COUNT, metavar="N", help="disks of a sample (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--frictions",
+        type=arguments.positive,
+        nargs="+",
+        default=list(rock_table.FRICTIONS),
+        metavar="MU",
+        help="friction coefficients of contacts (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--seeds",
+        type=int,
+        nargs="+",
+        metavar="S",
+        help=f"seeds of the samples, two or more (default: {' '.join(map(str, rock_table.SEEDS))}; with --check {' '.join(map(str, rock_table.CHECK_SEEDS))})",
+    )
+    arguments.add_runs(parser, "out/rocks", "tests")
+    args = parser.parse_args()
+    if args.seeds is None:
+        args.seeds = list(rock_table.CHECK_SEEDS if args.check else rock_table.SEEDS)
+    for name, least in (("seeds", 2), ("frictions", 2)):
+        values = getattr(args, name)
+        if len(set(values)) < max(least, len(values)):
+            parser.error(f"--{name} {' '.join(map(str, values))}: give {least} or more, each once")
+    return args
+
+
+def main():
+    args = read_arguments()
+    out, command = Path(args.out), " ".join(["scripts/rocks.py", *sys.argv[1:]])
+    output_folder.claim(out, "rocks.py", args.resume)
+    usual = rock_table.entries(args.frictions, args.disks)
+    wanted = rock_table.checks(args.disks) if args.check else usual + rock_table.variants(args.disks)
+    with arguments.bar() as progress:
+        found = rock_table.run(out, wanted, args.seeds, args.threads, args.resume, progress)
+    if args.check:
+        told, path = rock_table.check(found, command), out / "rocks_check.json"
+    else:
+        told, path = rock_table.table(found[: len(usual)], found[len(usual) :], command), out / "rocks.json"
+    write_json(path, told)
+    if not args.check:
+        figures.table(told, out / "rocks.png")
+    for caption, heads, lines in told["tables"]:
+        print(f"\n{caption}\n" + tabulate(lines, heads, disable_numparse=True))
+    print(f"results: {path}, */tests/*/series.csv")
+
+
+commands.run(main, "what has ended is kept, go on with --resume")
