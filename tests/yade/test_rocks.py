@@ -417,13 +417,16 @@ def test_rocks_that_were_calibrated_are_those_of_the_table(k):
 
 
 def test_a_sample_of_a_rock_that_was_asked_for_has_its_strengths(tmp_path):
-    """Biaxial tests of a material file with c and φ. The sample has half of the disks of the table's, so it may differ √2 times as much; it is sheared past its first maximum, which is at
+    """Biaxial tests of a material file with c and φ, under the lowest and the highest pressure of the table. The sample has half of the disks of the table's, so it may differ √2 times as much; it is sheared past its first maximum, which is at
     0.12 % of strain."""
     path = tmp_path / "asked.yaml"
     path.write_text("{cohesion: 60e3, friction_angle: 34, density: 2500}")
     rock, known = materials.load(path), rocks.contacts(60e3, 34.0)
     shape = pressing.Shape(500, 1)
-    tests = [biaxial_test.Test(rock, p * rock.tensile_strength, shape, strength.SHORTEST) for p in rock_table.PRESSURES]
+    tests = [
+        biaxial_test.Test(rock, p * rock.tensile_strength, shape, strength.SHORTEST)
+        for p in (rock_table.PRESSURES[0], rock_table.PRESSURES[-1])
+    ]
     found = campaign.summarise(rock, campaign.run(tests, tmp_path / "tests", 2))
     assert all(t["strain_peak"] < 0.003 for t in found["tests"])
     wider = math.sqrt(rocks.table()["scatter"]["disks"] / 500)

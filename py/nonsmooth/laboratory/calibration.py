@@ -123,7 +123,11 @@ class Calibration:
         return 1.1 * self.wanted.cohesion, self.start.friction
 
     def _first_jacobian(self):
-        return np.array([SLOPES[name] for name in self.names], float).T[: 4 if self.wanted.with_residual else 2]
+        slopes = np.array([SLOPES[name] for name in self.names], float).T[: 4 if self.wanted.with_residual else 2]
+        if self.wanted.with_residual:
+            # its misfit is not in parts of itself but of the peak cohesion; where none is wanted a little is left to begin with
+            slopes[2] *= max(0.05, self.wanted.residual_cohesion / self.wanted.cohesion)
+        return slopes
 
     # ---- parameters -----------------------------------------------------------------------------
     def parameters(self, x):
