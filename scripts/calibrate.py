@@ -126,6 +126,10 @@ def main():
     )
     if args.quick:
         print("a quick search; without --quick samples are larger, and the report says how unique the answer is")
+        if args.coarse < calibration.QUICK:
+            print(
+                f"samples of fewer than {calibration.QUICK} disks have less cohesion and more scatter than that: take --coarse {calibration.QUICK} or more"
+            )
     else:
         errors = ", ".join(f"{name} to {100 * error:.0f} %" for name, error in report["parameter_error_rel"].items())
         print(

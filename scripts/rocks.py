@@ -13,13 +13,13 @@ from tabulate import tabulate
 
 if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth import commands, output_folder
-    from yade.nonsmooth.figures import rocks as figures
+    from yade.nonsmooth.figures import rock_table as figures
     from yade.nonsmooth.laboratory import arguments, rock_table
     from yade.nonsmooth.whole_files import write_json
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import commands, output_folder
-    from nonsmooth.figures import rocks as figures
+    from nonsmooth.figures import rock_table as figures
     from nonsmooth.laboratory import arguments, rock_table
     from nonsmooth.whole_files import write_json
 
