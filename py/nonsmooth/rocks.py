@@ -151,6 +151,15 @@ def resolved(raw: dict, refuse) -> dict:
                 f"leave {key} out, or let {search} --start FILE search the contact parameters of such a rock",
             )
     found = contacts(cohesion, angle)
+    for key, span in table()["open"].items():
+        # what was rounded to some digits is not refused
+        least, most = (_rounded(span[end] * getattr(found, span["of"])) for end in ("from", "to"))
+        if key in raw and not least * (1 - 1e-3) <= raw[key] <= most * (1 + 1e-3):
+            refuse(
+                (key,),
+                f"{raw[key]} {beside}, of which the table of calibrated rocks was measured with {least:g} to {most:g}",
+                f"give a value within, leave {key} out, or let {search} --start FILE search the contact parameters of such a rock",
+            )
     usual = table()["usual"]
     made = {
         "friction": found.friction,

@@ -131,6 +131,14 @@ def test_what_the_table_leaves_open_may_be_given():
     assert (made.friction, made.tensile_strength) == (rock_of().friction, rock_of().tensile_strength)
 
 
+def test_residual_values_are_given_within_what_was_measured():
+    """Half of the friction, and no residual strength, are the table's variants; the ends are within."""
+    found = rocks.contacts(60e3, 34.0)
+    for residual, strength_left in ((found.friction, found.tensile_strength / 4), (found.friction / 2, 0.0)):
+        made = rock_of(residual_friction=residual, residual_tensile_strength=strength_left)
+        assert (made.residual_friction, made.residual_tensile_strength) == (residual, strength_left)
+
+
 def test_a_run_keeps_the_contact_parameters():
     made = section.of(of())
     kept = section_data.plain(made)["materials"]["rock"]
@@ -170,6 +178,9 @@ BESIDE = "is given beside cohesion: 60000 and friction_angle: 34"
         ({"bond_ellipse": [0.02, 0.03]}, "measured with [0.02, 0.02]"),
         ({"bond_creation_distance": 0.05}, "measured with 0.025"),
         ({"restitution": 0.5}, "measured with 0.0"),
+        ({"residual_friction": 0.9}, f"rock.residual_friction: 0.9 {BESIDE}, of which the table"),
+        ({"residual_friction": 0.05}, "measured with 0.11"),
+        ({"residual_tensile_strength": 80e3}, "measured with 0 to 2"),
         ({"cohesion": None}, "the key 'cohesion' is missing; add it (a rock of the table is asked for by"),
         ({"friction_angle": None}, "the key 'friction_angle' is missing"),
         ({"cohesion": 0}, "cohesion: 0 is not allowed; needed: peak cohesion"),
@@ -331,7 +342,7 @@ def test_the_shipped_table_is_what_its_rocks_make():
     table = rocks.table()
     made = rock_table.table(table["rocks"], table["variants"], table["command"])
     assert made.keys() == table.keys()
-    for key in ("fixed", "usual", "samples", "scatter", "mean_95", "one_sample_95"):
+    for key in ("fixed", "usual", "open", "samples", "scatter", "mean_95", "one_sample_95"):
         assert made[key].keys() == table[key].keys()
         for name, value in table[key].items():
             assert made[key][name] == (pytest.approx(value) if isinstance(value, float) else value), (key, name)

@@ -71,6 +71,8 @@ MUTANTS = (
            "test_rocks.py::test_a_rock_of_the_table_is_given_back"),
     mutant("rocks-fixed", "py/nonsmooth/rocks.py", "if key in raw and raw[key] != value:", "if key in raw and raw[key] == value:", "a rock of the table takes what the table was not measured with",
            "test_rocks.py::test_what_the_table_cannot_give_is_one_message"),
+    mutant("rocks-open", "py/nonsmooth/rocks.py", "not least * (1 - 1e-3) <= raw[key] <= most * (1 + 1e-3)", "not raw[key] <= most * (1 + 1e-3)", "a rock of the table has any residual value below the peak",
+           "test_rocks.py::test_what_the_table_cannot_give_is_one_message"),
     mutant("rocks-sample", LAB + "rock_table.py", "error(1 + 1 / len(seeds))", "error(1 / len(seeds))", "one sample is known as well as the mean",
            "test_rocks.py::test_a_made_up_table_by_hand"),
     mutant("rocks-wall", "py/nonsmooth/section_checks.py", "rough if of == name", "rough if of != name", "other walls than those of the rock are noted", "test_rocks.py::test_a_wall_of_the_rock_is_noted"),
