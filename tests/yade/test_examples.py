@@ -264,7 +264,11 @@ def test_beams_break_at_the_root_at_the_load_of_statics(output):
         assert number(text, "gravity at which statics breaks the row [m/s2]") == pytest.approx(
             2 * 0.125 * 2.5e6 * 0.5 / (64 * 2500 * math.pi * 0.25**2), abs=1e-4
         )
-        assert "the row holds" in output(f"{world}_beam.py", seconds=seconds, load=0.97)
+        held = output(f"{world}_beam.py", seconds=seconds, load=0.97)
+        assert "the row holds" in held
+        if world == "hard":  # the soft ones of the page grow as slowly as these
+            as_kept("beam", "hard", text)
+            as_kept("beam", "hard_held", held)
 
 
 def test_columns_run_out_alike_and_farther_the_higher_they_are(output):

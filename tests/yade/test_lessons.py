@@ -2,6 +2,7 @@
 import json
 import re
 
+import numpy as np
 import pytest
 import shell
 from yade.nonsmooth import film, lessons
@@ -63,17 +64,19 @@ def test_a_lesson_that_is_not_there_is_refused_before_anything_is_run(in_process
     assert not (tmp_path / "out").exists()
 
 
-def test_the_command_runs_a_lesson_and_keeps_numbers_and_video(tmp_path):
-    done = shell.run("lessons.py", "beam", "--out", tmp_path, "--threads", 1, "--no-films", limit=300)
+def test_the_command_runs_a_lesson_and_keeps_its_numbers(tmp_path):
+    done = shell.run("lessons.py", "incline", "--out", tmp_path, "--threads", 1, "--no-films", limit=300)
     assert done.returncode == 0, done.stderr
     found = json.loads((tmp_path / "lessons.json").read_text())
-    assert list(found) == ["beam"]
-    for case, values in MEASURED["beam"].items():  # eight disks in a row: no grain can go another way
-        assert found["beam"][case] == pytest.approx(values, rel=1e-3, abs=1e-3), case
-    # statics: the row breaks at 1, and at 0.97 it holds
-    assert found["beam"]["soft"]["broken_at_the_load_of_that_of_statics"] == pytest.approx(1.0, abs=0.01)
-    assert "broken_at_the_load_of_that_of_statics" not in found["beam"]["hard_held"]
-    assert not list(tmp_path.rglob("film.mp4"))
+    assert list(found) == ["incline"] and set(found["incline"]) == set(MEASURED["incline"])
+    for case, values in found["incline"].items():
+        # six blocks that touch nothing but their inclines: the digits printed
+        assert values["steps"] == MEASURED["incline"][case]["steps"]
+        assert np.array(values["rows"]) == pytest.approx(np.array(MEASURED["incline"][case]["rows"]), abs=1e-3)
+    # g (sin θ − μ cos θ) at 25°
+    for ratio, _, _, acceleration, _ in found["incline"]["hard"]["rows"]:
+        assert acceleration == pytest.approx(9.81 * np.sin(np.radians(25)) * max(0, 1 - ratio), abs=2e-4)
+    assert "incline  soft_undamped   steps 10000" in done.stdout and not list(tmp_path.rglob("film.mp4"))
 
 
 def test_a_lessons_video_stands_beside_what_it_printed(tmp_path):
@@ -93,3 +96,23 @@ def test_a_lessons_video_stands_beside_what_it_printed(tmp_path):
     assert found["steps"] == 40 and len(found["rows"]) == 6
     assert "steps 40" in (tmp_path / "output.txt").read_text()
     assert (tmp_path / "film.mp4").exists() == (film.missing() is None)
+
+
+def test_every_picture_of_the_pages_is_there_and_panels_come_in_order(monkeypatch):
+    import sys
+
+    pytest.importorskip("docutils")
+    monkeypatch.syspath_prepend(str(shell.ROOT / "doc" / "ext"))
+    import pictures
+
+    monkeypatch.delitem(sys.modules, "pictures")
+    pages = "\n".join(path.read_text() for path in (shell.ROOT / "doc").rglob("*.rst"))
+    named = re.findall(r"\.\. picture:: (\S+)", pages)
+    assert len(named) > 40 and not [name for name in named if not pictures.files(name)]
+    assert [path.name for path in pictures.files("recipes.png")] == [f"recipes-{k}.png" for k in (1, 2, 3, 4)]
+    assert [path.name for path in pictures.files("wedge.png")] == ["wedge.png"] and pictures.files("none.png") == []
+    # all that lies there is on a page
+    shown = {path.name for name in named for path in pictures.files(name)}
+    kept = {path.name for path in (shell.ROOT / "doc" / "figures").glob("*.png")}
+    assert kept - shown <= {"falling_block.png"}  # of the README
+    assert pictures.shape(shell.ROOT / "doc" / "figures" / "lesson_beam-1.png") > 2 > pictures.WIDE
