@@ -25,6 +25,7 @@ extensions = [
     "package_modules",  # modules of the package, from their docstrings
     "section_keys",  # keys of a section file, from the schema
     "records_columns",  # columns of series.csv, from the package
+    "needed_packages",  # what a plain Python needs, from the package's list
     "measured",  # numbers and tables, from files that commands wrote
     "pictures",  # figures that a run has made, where they are there
     "checked_script",  # the README's script is the one that the tests run

@@ -200,7 +200,10 @@ def main():
         summary["exponents_by_front"] = report.by_front(found, {name: out / "runs" / name for name in found})
     write_json(out / "summary.json", summary)
     print(report.table(found, summary))
-    drawn = [report.draw_collapse(cases[name][0], found[name], out / "runs" / name) for name in cases]
+    drawn = []
+    for name, (heap, _) in cases.items():
+        folder = out / "runs" / name
+        drawn.append(report.draw_collapse(heap, found[name], folder, folder / "collapse.png"))
     if any(summary["fits"].values()) and args.kind == "column":
         drawn.append(figures.runout({f"{report.counts(found)}, {args.world}": report.group(found)}, out / "runout.png"))
     films = (

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Sets everything up: Debian packages, YADE, the plugin. Can be called again at any time; what is there
-# already is left alone. Usage: scripts/setup.sh
+# already is left alone. Usage: scripts/setup.sh [--notebooks]
+#
+#   --notebooks           also the programs that show notebooks (Debian's jupyter-notebook), see doc/notebooks.rst
 #
 #   YADE_TARBALL=FILE     the source tarball of YADE, where the Debian mirror does not serve it
 #   YADE_PREFIX=FOLDER    a YADE install to use instead of the one that would be chosen
@@ -17,7 +19,9 @@ if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
     sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"
     exit 0
 fi
-[ $# -eq 0 ] || die "setup.sh takes no arguments, but was given: $*"
+notebooks=
+if [ "${1:-}" = --notebooks ]; then notebooks=yes; shift; fi
+[ $# -eq 0 ] || die "setup.sh takes no arguments but --notebooks, and was given: $*"
 
 # one set-up at a time: checkouts share the cache
 mkdir -p "$(cache_dir)" || die "the cache folder $(cache_dir) cannot be made"
@@ -27,6 +31,8 @@ flock -n 9 || { note "waiting for another set-up to end"; flock 9; }
 setup_estimate
 packages_install "${PACKAGES_PROJECT[@]}"
 packages_install_known "${PACKAGES_ORACLE[@]}"
+[ -z "$notebooks" ] || packages_install "${PACKAGES_NOTEBOOKS[@]}"
 yade_provide
 plugin_build
 note "YADE in $YADE_PREFIX, plugin in $BUILD: run scripts with scripts/yade-nonsmooth SCRIPT"
+if [ -n "$notebooks" ]; then note "notebooks: PYTHONPATH=$ROOT/py jupyter notebook $ROOT/doc/notebooks"; fi

@@ -6,6 +6,10 @@ __all__ = ["OldNameWarning", "UserError"]
 class UserError(Exception):
     """Bad input, a file or folder that cannot be used, a run that cannot go on; the message names what is wrong and what helps."""
 
+    def _render_traceback_(self):
+        """What IPython shows in place of a traceback, by its own name: in a notebook the message stands alone too."""
+        return [f"{type(self).__name__}: {self}"]
+
 
 class OldNameWarning(FutureWarning):
     """An old name that is still read; the message says where it stands and what to write instead."""

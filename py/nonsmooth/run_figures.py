@@ -48,6 +48,25 @@ class Drawing:
         path = self.folder / results.END
         return records.read_snapshot(path) if path.exists() else None
 
+    @cached_property
+    def video_shots(self):
+        """Paths of the snapshots that the video has, one a frame."""
+        return [path for _, path in frames.regular(self.shots, self.every, self.section, self.failed_dry)]
+
+    def video(self, progress=None):
+        """Writes ``avalanche.mp4`` into the folder: (its path, None), or (None, why there is none); None where the run has no snapshots."""
+        if not self.video_shots:
+            return None
+        return video.write_mp4(
+            self.video_shots,
+            self.section,
+            self.folder / "avalanche.mp4",
+            series=self.series,
+            times=self.times,
+            window=self.window,
+            progress=progress,
+        )
+
     def cases(self):
         """[(name, Snapshot)] at the characteristic times, and at the end of a slope that never fails or is stopped."""
         found = []
@@ -111,19 +130,10 @@ def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]
     made = [
         path for name in results.PICTURES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None
     ]
-    files = [p for _, p in frames.regular(drawing.shots, drawing.every, section, drawing.failed_dry)]
-    if files:
+    if drawing.video_shots:
         with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
             written = beside.submit(paraview.write_run, drawing.folder, section, drawing.shots)
-            path, note = video.write_mp4(
-                files,
-                section,
-                drawing.folder / "avalanche.mp4",
-                series=drawing.series,
-                times=drawing.times,
-                window=drawing.window,
-                progress=progress,
-            )
+            path, note = drawing.video(progress)
             made.append(written.result())
         (made if path else notes).append(path or note)
     return [Path(p) for p in made], notes

@@ -1,4 +1,4 @@
-"""A finished (or interrupted) run of a slope, opened from its folder: its section, numbers, tables and figures. Needs no YADE.
+"""A finished (or interrupted) run of a slope, opened from its folder: its section, numbers, tables, figures and video. Needs no YADE.
 
 Like this::
 
@@ -6,6 +6,9 @@ Like this::
     run.summary["water_at_failure_m"]
     run.series["front_m"]              # {column: array}; run.frame("series") is a pandas.DataFrame
     run.figure("forces")               # a matplotlib Figure, with axes to draw on
+    run.video()                        # the video, in the page of a notebook
+
+Runs of other kinds (:mod:`.campaign`) are opened by what runs them; they have in common what :class:`Opened` has.
 """
 
 from __future__ import annotations
@@ -14,23 +17,77 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from . import frames, records, results, section, section_data
+from . import frames, records, requirements, results, section, section_data
 from .errors import UserError
+from .whole_files import whole
 
-__all__ = ["FIGURES", "Run", "RunError", "open_run"]
+__all__ = ["FIGURES", "Opened", "Run", "RunError", "open_run"]
 
 FIGURES = results.PICTURES
+VIDEOS = (".mp4", ".gif")  # as files of a run end
 
 
 class RunError(UserError, ValueError):
     """A folder that is no run, or what a run has not; the message says which and what helps."""
 
 
-class Run:
-    """``folder``: of the run, which is read where something is asked for."""
+class Opened:
+    """The folder of a run of any kind. ``folder``: of the run, which is read where something is asked for."""
+
+    #: Names of the tables that :meth:`frame` knows.
+    TABLES = ("series",)
 
     def __init__(self, folder):
         self.folder = Path(folder)
+
+    def frame(self, name="series"):
+        """One of :attr:`TABLES` as a pandas.DataFrame. Raises RunError for another name, and where pandas is not installed."""
+        if name not in self.TABLES:
+            *first, last = self.TABLES
+            raise RunError(
+                f"{self.folder}: no table is called {name!r}; give {', '.join(first)}{' or ' * bool(first)}{last}"
+            )
+        try:
+            import pandas
+        except ImportError:
+            arrays = " and ".join(f"run.{one}" for one in self.TABLES)
+            raise RunError(
+                f"pandas is not installed: {requirements.remedy('pandas')}, or take the arrays of {arrays}"
+            ) from None
+        return pandas.DataFrame(getattr(self, name))
+
+    def video(self, name=None, width=720):
+        """The video that lies in the run's folder, with its bytes in it: what a notebook shows in its page (an object of IPython.display).
+
+        ``name``: of the file, where there are several; ``width``: of the page [pixels]. Raises RunError where there is no video, MissingPackage without IPython.
+        """
+        found = {path.name: path for ending in VIDEOS for path in whole(self.folder, f"*{ending}")}
+        if name is None and len(found) == 1:
+            (name,) = found
+        if name not in found:
+            which = "no video" if name is None else f"no video called {name!r}"
+            advice = f"give one of {', '.join(sorted(found))}" if found else self._no_video()
+            raise RunError(f"{self.folder}: {which} to show; {advice}")
+        from IPython import display
+
+        if name.endswith(".gif"):
+            return display.Image(filename=str(found[name]), width=width)
+        return display.Video(str(found[name]), embed=True, width=width)
+
+    def _no_video(self):
+        return "a run of this kind has one where it wrote one into its folder"
+
+    def _file(self, name):
+        path = self.folder / name
+        if not path.is_file():
+            raise RunError(f"{path}: missing; the run has not come so far, or nothing of the kind was run here")
+        return path
+
+
+class Run(Opened):
+    """A run of a slope."""
+
+    TABLES = ("series", "walls", "breaks")
 
     @cached_property
     def section(self):
@@ -57,18 +114,6 @@ class Run:
         """Broken bonds: {name: array}, see records.read_breaks."""
         return records.read_breaks(self._file(results.BREAKS))
 
-    def frame(self, name):
-        """``series``, ``walls`` or ``breaks`` as a pandas.DataFrame. Raises RunError for another name, and where pandas is not installed."""
-        if name not in ("series", "walls", "breaks"):
-            raise RunError(f"{self.folder}: no table is called {name!r}; give series, walls or breaks")
-        try:
-            import pandas
-        except ImportError:
-            raise RunError(
-                "pandas is not installed: apt install python3-pandas, or take the arrays of run.series, run.walls and run.breaks"
-            ) from None
-        return pandas.DataFrame(getattr(self, name))
-
     def snapshot(self, name) -> records.Snapshot:
         """The disks at "t0" or "end", with their contacts, or at a time [s], that of the nearest snapshot."""
         if isinstance(name, str):
@@ -89,17 +134,22 @@ class Run:
             )
         return found
 
+    def video(self, name=None, width=720):
+        """As :meth:`Opened.video`; where the run has left no video, it is drawn from its snapshots first, which takes a while. Raises RunError where there are none, or no ffmpeg."""
+        if name is None and not whole(self.folder, "*.mp4"):
+            made = self._drawing.video()
+            if made is not None and made[0] is None:
+                raise RunError(f"{self.folder}: {made[1]}")
+        return super().video(name, width)
+
+    def _no_video(self):
+        return "the run has written no snapshot yet: let it go on with --resume"
+
     @cached_property
     def _drawing(self):
         from . import run_figures  # brings matplotlib, which a reader of numbers need not wait for
 
         return run_figures.Drawing(self.folder, self.section, self.summary)
-
-    def _file(self, name):
-        path = self.folder / name
-        if not path.is_file():
-            raise RunError(f"{path}: missing; the run has not come so far, or nothing of the kind was run here")
-        return path
 
 
 def open_run(folder) -> Run:

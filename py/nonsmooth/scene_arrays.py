@@ -6,13 +6,14 @@ Disks are :class:`Sphere`; walls are Segment, Arc, Wall (along an axis), Box and
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, fields
 
 import numpy as np
 
 from .records import RecordsError
+from .whole_files import write_arrays
 
-__all__ = ["Scene", "read"]
+__all__ = ["Scene", "load", "read", "save"]
 
 UNSET = (1.0, 1.0, 1.0)  # of a Sphere that nobody gave a colour
 
@@ -46,10 +47,12 @@ class Scene:
 
 
 def read(O) -> Scene:
-    """The scene in a YADE ``O``. Raises RecordsError where there is no disk in it.
+    """The scene in a YADE ``O``; a Scene as it is. Raises RecordsError where there is no disk in it.
 
     YADE gives each body a random colour where a script gives none. So colours count as chosen where disks share them: where there are half as many as disks, or fewer.
     """
+    if isinstance(O, Scene):
+        return O
     disks, walls, axes, order, kinds, colours = [], [], [], {}, {}, []
     for b in O.bodies:
         if b is None or b.shape is None:
@@ -93,6 +96,23 @@ def read(O) -> Scene:
     return Scene(
         x, y, r, material.astype(int), fixed.astype(bool), walls, axes, ci, cj, cx, cy, cn, bonded.astype(bool), own
     )
+
+
+def save(scene, path):
+    """Writes a Scene to a file, whole or not at all, which :func:`load` reads without YADE."""
+    kept = {name: np.array(value) for name, value in vars(scene).items() if value is not None}
+    write_arrays(path, compressed=True, **kept)
+
+
+def load(path) -> Scene:
+    """The Scene that :func:`save` wrote. Raises RecordsError for another file."""
+    try:
+        with np.load(path, allow_pickle=False) as data:
+            found = {one.name: data[one.name] for one in fields(Scene) if one.default is MISSING or one.name in data}
+    except (OSError, ValueError, KeyError) as error:
+        raise RecordsError(f"{path}: is no scene that can be read ({error}); run the script again") from None
+    found["axes"] = [(int(axis), float(at)) for axis, at in found["axes"]]
+    return Scene(**found)
 
 
 def _id_of(material):

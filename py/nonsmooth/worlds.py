@@ -9,18 +9,16 @@
     O.engines, O.dt = world.engines(), world.step_for([m])
     world.bond([(m, ids)])
 
-A world has a ``name``, "hard" or "soft", and nothing else that a scene needs to ask.
+A world has a ``name``, "hard" or "soft", and nothing else that a scene needs to ask. Its values can be set and checked in any Python; what makes materials, engines
+and bonds is asked for within YADE.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from yade import O
-from yade.wrapper import NewtonIntegrator
-from . import scene, soft
+from . import soft
 from .errors import UserError
-from .stepping import advance
 
 __all__ = ["Hard", "Soft", "WorldError"]
 
@@ -48,14 +46,20 @@ class Hard:
 
     def material(self, m, layer=0, **others):
         """The material of disks for the section.Material ``m``, not yet in the scene. Disks of different ``layer`` are never bonded."""
+        from . import scene
+
         return scene.material(m, layer=layer if m.bonded else -2 - layer, **others)
 
     def wall_material(self, m, **others):
         """The material of a wall; with ``m.slip_weakening`` it loses its strength as disks slip."""
+        from . import scene
+
         return scene.wall_material(m, **others)
 
     def interface(self, lower, upper, m):
         """Gives contacts between disks of two materials of the scene, of different layers, the law of the section.Material ``m``."""
+        from . import scene
+
         lower.interfaceLayers, lower.interfaceLaws = [*lower.interfaceLayers, upper.layer], [
             *lower.interfaceLaws,
             scene.wall_material(m, wall=False),
@@ -67,6 +71,8 @@ class Hard:
 
     def engines(self, gravity=(0, -9.81, 0), before=(), after=()):
         """The list O.engines; ``before``: engines that add forces, ``after``: engines after the integrator."""
+        from . import scene
+
         return scene.engines(
             gravity=gravity,
             reach=self.reach,
@@ -82,6 +88,12 @@ class Hard:
         """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step without gravity, which finds the contacts: call it
         in a scene at rest. ``groups``: not needed here, see :meth:`Soft.bond`.
         """
+        from yade import O
+        from yade.wrapper import NewtonIntegrator
+
+        from . import scene
+        from .stepping import advance
+
         newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         gravity, newton.gravity = newton.gravity, (0, 0, 0)
         advance(view=False)
@@ -133,6 +145,8 @@ class Soft:
 
     def wall_material(self, m, **others):
         """As :meth:`Hard.wall_material`."""
+        from . import scene
+
         return scene.wall_material(m, **{**dict(young=self.stiffness, poisson=self.shear_ratio), **others})
 
     def interface(self, lower, upper, m):

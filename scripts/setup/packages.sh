@@ -7,7 +7,7 @@ PACKAGES_PROJECT=(
     libboost-all-dev libeigen3-dev zlib1g-dev libgtest-dev libbenchmark-dev libhdf5-dev pybind11-dev
     python3-numpy python3-scipy python3-matplotlib python3-shapely python3-yaml python3-jsonschema
     python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-pytest python3-hypothesis python3-docutils python3-jinja2 ffmpeg
-    python3-sphinx furo python3-sphinx-copybutton python3-sphinxcontrib.bibtex python3-nbsphinx python3-nbconvert python3-ipykernel pandoc)
+    python3-sphinx furo python3-sphinx-copybutton python3-sphinxcontrib.bibtex python3-nbsphinx python3-nbconvert python3-ipykernel python3-ipython pandoc)
 
 # To configure, build and run the slim YADE.
 PACKAGES_YADE_BUILD=(
@@ -19,6 +19,9 @@ PACKAGES_YADE_BUILD=(
 PACKAGES_YADE_STOCK=(
     yade bzip2 libvtk9-dev libgts-dev libbz2-dev libmpfrc++-dev libmpc-dev libopenmpi-dev
     libmpfr-dev libgmp-dev libopengl-dev libglu1-mesa-dev freeglut3-dev)
+
+# To show notebooks in a browser, where asked for (setup.sh --notebooks); what runs them is needed by the tests too, and stands above.
+PACKAGES_NOTEBOOKS=(jupyter-notebook)
 
 # Another solver to compare with, where the distribution has it: Debian 12 does, Debian 13 does not.
 PACKAGES_ORACLE=(libsiconos-numerics-dev)

@@ -273,7 +273,7 @@ def test_a_heap_draws_its_places_in_widths_with_its_gate(kept, tmp_path):
         for step, time in ((1, 0.0), (2, 4.5)):
             file.write({"step": step, "time_s": time})
     heap = column.Column(disks=200, aspect=1.5)
-    path = heap_report.draw_collapse(heap, {"width_m": 4.0, "fall_time_s": 0.8}, tmp_path)
+    path = heap_report.draw_collapse(heap, {"width_m": 4.0, "fall_time_s": 0.8}, tmp_path, tmp_path / "collapse.png")
     fig = kept[path.name]
     # 1.25, to even
     assert [drawn.texts(ax) for ax in fig.axes] == [

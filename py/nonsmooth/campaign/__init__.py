@@ -1,18 +1,54 @@
-"""Many runs as one plan: made and checked before any begins, run side by side here or on a cluster, collected into one table. Needs no YADE: each run has a
-process of its own.
+"""Many runs as one plan: made and checked before any begins, run side by side here or on a cluster, collected into one table; and single runs of every kind. Needs
+no YADE: each run has a process of its own.
 
 * :mod:`sweep`: a slope with some of its values varied, and a slope alone;
 * :mod:`plan`: a plan in its folder: run, resumed, collected;
 * :mod:`cluster`: the same plan for Snakemake and for Slurm;
-* :mod:`slope_run`: what a process does (in YADE).
+* :mod:`slope_run`: what a process does with a slope (in YADE);
+* :mod:`heaps`: columns and piles;
+* :mod:`scripts`: lessons and any script; :mod:`script_run`: what a process does with one (in YADE);
+* :mod:`comparisons`: hard against soft.
 
 Like this::
 
     plan = campaign.sweep(section.load("circle").with_disks(600), {"materials.soil.friction": [0.3, 0.5], "seed": [1, 2]})
     table = plan.run("out/sweep", threads=2)      # a dictionary of columns; pandas.DataFrame(table) where one likes
+    run = campaign.run_column(column.Column(disks=300), "out/column")
+    run = campaign.run_lesson("incline", "out/incline", world="soft", slope=30)
 """
 
+from .comparisons import ComparisonRun, open_comparison, run_comparison
+from .heaps import HeapRun, open_heap, run_column, run_heaps, run_pile
 from .plan import SEED, Plan, PlanError, Planned, collect, means, read, run_one
+from .scripts import LESSONS, ScriptError, ScriptRun, lesson, lessons, open_script, run_lesson, run_script, run_scripts
 from .sweep import run_slope, sweep
 
-__all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "read", "run_one", "run_slope", "sweep"]
+__all__ = [
+    "LESSONS",
+    "SEED",
+    "ComparisonRun",
+    "HeapRun",
+    "Plan",
+    "PlanError",
+    "Planned",
+    "ScriptError",
+    "ScriptRun",
+    "collect",
+    "lesson",
+    "lessons",
+    "means",
+    "open_comparison",
+    "open_heap",
+    "open_script",
+    "read",
+    "run_column",
+    "run_comparison",
+    "run_heaps",
+    "run_lesson",
+    "run_one",
+    "run_pile",
+    "run_script",
+    "run_scripts",
+    "run_slope",
+    "sweep",
+]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+from .. import kept_runs
 from ..benchmark import machine
 from ..whole_files import write_json
 from . import (
@@ -22,7 +23,7 @@ from . import (
 )
 from .cases import HARD_NUMERICS, ComparisonError, plan
 
-__all__ = ["PARTS", "SCENARIOS", "check_stiffnesses", "compare", "lacks"]
+__all__ = ["PARTS", "SCENARIOS", "answered", "check_stiffnesses", "compare", "lacks"]
 
 #: Experiment (see :mod:`outcomes`) and report of each scenario.
 SCENARIOS = {
@@ -118,6 +119,13 @@ def compare(
         told["machine"],
     )
     return told, questions
+
+
+def answered(folder, **arguments):
+    """:func:`compare` in a process of its own: writes into the folder and returns ``questions`` with their answers, (text, verdict, sentences) each."""
+    note = kept_runs.Progress(folder)
+    _, questions = compare(out=folder, progress=lambda share, doing: note(share), **arguments)
+    return {"questions": questions}
 
 
 def check_stiffnesses(experiment, sweep):

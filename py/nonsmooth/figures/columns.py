@@ -8,7 +8,7 @@ from ..scene_arrays import Scene
 from . import moving, style
 from .style import LINES
 
-__all__ = ["collapse", "film", "runout"]
+__all__ = ["beside", "collapse", "film", "runout"]
 
 MARKERS = ("o", "s", "^", "D", "v", "P")
 
@@ -87,6 +87,60 @@ def collapse(times, places, r, unit, path=None, width=None, gate=None, pdf=False
         ax.text(0.99, 0.93, f"{name} ({t:.2f} s)", transform=ax.transAxes, ha="right", va="top")
         ax.set_ylabel("$y/L_0$" if width else "$y$ [m]")
     axes[-1].set_xlabel(("$x/L_0$" if width else "$x$ [m]") + f"          $T=\\sqrt{{H_0/g}}={unit:.2f}$ s")
+    return style.save(fig, path, pdf)
+
+
+@style.styled
+def beside(runs, path=None, pdf=False):
+    """Several runs of one heap: the deposit of each, one below the other and to one scale, and beside them the fall of the centres of mass.
+
+    ``runs``: {label: run}, each with ``summary`` and ``series`` of heaps.course.Result, ``places()`` as heaps.study.frames and its ``heap``, as a campaign.HeapRun. Lengths are
+    in units of L₀, times in T = √(H₀/g) of each.
+    """
+    if not runs:
+        raise RecordsError("there are no runs to set beside each other; give one or more")
+    shown = []
+    for label, run in runs.items():
+        _, places, r = run.places()
+        x, y, width = *places[-1], run.summary["width_m"]
+        mass = measures.connected(x, y, r)
+        first = places[0][0]
+        colours = np.minimum(4, np.argsort(np.argsort(first, kind="stable"), kind="stable") * 5 // len(first))
+        disks = type("Disks", (), dict(x=(x - run.heap.place()) / width, y=y / width, r=r / width))
+        shown.append((label, run, disks, mass, style.layer_colours(colours)))
+    left = min(float((d.x - d.r)[m].min()) for _, _, d, m, _ in shown)
+    right = max(float((d.x + d.r)[m].max()) for _, _, d, m, _ in shown)
+    top = max(float((d.y + d.r)[m].max()) for _, _, d, m, _ in shown)
+    margin = 0.03 * (right - left)
+    tall = 5.6 * (top + 2 * margin) / (right - left + 2 * margin) + 0.35
+    fig = style.figure(11.0, max(3.4, 0.7 + tall * len(shown)), layout="constrained")
+    grid = fig.add_gridspec(len(shown), 2, width_ratios=(1.35, 1))
+    for k, (label, _, disks, _, colours) in enumerate(shown):
+        ax = fig.add_subplot(grid[k, 0])
+        style.draw_disks(ax, disks, colours)
+        ax.axhline(0, color=style.WALL, lw=1.2)
+        ax.set_xlim(left - margin, right + margin)
+        ax.set_ylim(-margin, top + margin)
+        ax.set_aspect("equal")
+        ax.set_ylabel("$y/L_0$")
+        ax.set_title(label, loc="left")
+        if k < len(shown) - 1:
+            ax.set_xticklabels([])
+    ax.set_xlabel("$x/L_0$")
+    way = fig.add_subplot(grid[:, 1])
+    tints = (LINES["blue"], LINES["orange"], LINES["green"], LINES["purple"], LINES["sky"], LINES["grey"])
+    for k, (label, run, *_) in enumerate(shown):
+        s, told = run.series, run.summary
+        way.plot(
+            s["time_s"] / told["fall_time_s"],
+            s["centroid_y_m"] / s["centroid_y_m"][0],
+            color=tints[k % len(tints)],
+            label=f"{label}: run-out {told['runout_rel']:.2f}",
+        )
+    way.set_xlabel("time since the release, $t/T$")
+    way.set_ylabel("height of the centre of mass, by that at the release")
+    way.grid(color="#e3e3e3", lw=0.7)
+    way.legend(loc="upper right", fontsize=9)
     return style.save(fig, path, pdf)
 
 

@@ -147,7 +147,7 @@ def draw(O, path=None, pdf=False, ax=None, forces=True, view=None, colours=None)
     """The scene of any script in one line, ``figures.draw(O, "scene.png")``: disks, walls black, bonds thin lines, and with ``forces`` bars from centre to centre, as wide as the
     normal force is large: blue compression, red tension, with their scale in the left corner.
 
-    ``ax``: axes to draw on, of a figure of one's own, which is then returned and not written. ``view``: limits (x0, x1, y0, y1) [m]; None: around all disks. ``colours``: "bodies",
+    ``O``: YADE's, or a scene_arrays.Scene; ``ax``: axes to draw on, of a figure of one's own, which is then returned and not written. ``view``: limits (x0, x1, y0, y1) [m]; None: around all disks. ``colours``: "bodies",
     the colours that the bodies have (``shape.color``), paler where forces are drawn on them; "materials", a colour for each material, and grey for disks that cannot move; None:
     those of the bodies where they have been chosen (see :func:`nonsmooth.scene_arrays.read`), else those of the materials. :func:`animate` makes a video.
     Raises RecordsError for a scene without disks, and for a view or colours that cannot be used.

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .course import build, run
 from .grains import Heap, HeapError
 
 __all__ = ["Column", "build", "run"]
@@ -41,3 +40,12 @@ class Column(Heap):
     def gates(self):
         """The right side is taken away."""
         return ("right",)
+
+
+def __getattr__(name):
+    """``build`` and ``run`` of :mod:`.course` need YADE, and are imported when they are asked for."""
+    if name in ("build", "run"):
+        from . import course
+
+        return getattr(course, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -14,9 +14,9 @@ from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 from .. import course as stages
 from ..stepping import advance, until
 from . import measures, preparation
-from .grains import Heap, HeapError
+from .grains import Heap, HeapError, check_damping
 
-__all__ = ["COLUMNS", "Result", "Scene", "build", "check_damping", "run"]
+__all__ = ["COLUMNS", "Result", "Scene", "build", "run"]
 
 #: Columns of the series; units are in the names, see :class:`Result`.
 COLUMNS = (
@@ -222,18 +222,6 @@ def build(heap, world):
             f"give {weight / WEIGHT_OVERLAP:.2g} or more"
         )
     return Scene(heap, world, ready, preparation.put(heap, world, ready.x, ready.y, ready.r))
-
-
-def check_damping(world, moving):
-    """Raises HeapError for a damping on the move that cannot be used in a world; None is none of its own."""
-    if moving is None:
-        return
-    if world.name != "soft":
-        raise HeapError(
-            f"damping_moving {moving!r}: {world.name} contacts have no damping; leave it out, or take the soft world"
-        )
-    if not 0 <= moving < 1:
-        raise HeapError(f"damping_moving {moving!r}: give a number from 0 to less than 1")
 
 
 class _Damping:

@@ -13,7 +13,7 @@ from ..errors import UserError
 from ..section import Material
 from ..soft.parameters import ROLLING_MODELS
 
-__all__ = ["BASES", "FRACTION", "Heap", "HeapError"]
+__all__ = ["BASES", "FRACTION", "Heap", "HeapError", "check_damping"]
 
 BASES = ("smooth", "rough")
 FRACTION = 0.82  # of the disks as they are packed, before they settle: loose enough for disks of one size
@@ -167,6 +167,18 @@ class Heap:
     def plain(self):
         """All parameters as JSON holds them, and for a packing file its content's checksum in place of its path."""
         return {"kind": type(self).__name__, **asdict(self), "packing": self.read().checksum if self.packing else None}
+
+
+def check_damping(world, moving):
+    """Raises HeapError for a damping on the move that cannot be used in a world; None is none of its own."""
+    if moving is None:
+        return
+    if world.name != "soft":
+        raise HeapError(
+            f"damping_moving {moving!r}: {world.name} contacts have no damping; leave it out, or take the soft world"
+        )
+    if not 0 <= moving < 1:
+        raise HeapError(f"damping_moving {moving!r}: give a number from 0 to less than 1")
 
 
 def sizes_along(heap, length, side):

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .course import build, run
 from .grains import Heap, HeapError
 
 __all__ = ["Pile", "build", "run"]
@@ -40,3 +39,12 @@ class Pile(Heap):
     def gates(self):
         """Both sides are taken away."""
         return ("left", "right")
+
+
+def __getattr__(name):
+    """``build`` and ``run`` of :mod:`.course` need YADE, and are imported when they are asked for."""
+    if name in ("build", "run"):
+        from . import course
+
+        return getattr(course, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

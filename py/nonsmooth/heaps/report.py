@@ -156,13 +156,10 @@ def _gates(heap):
     return [x for x, side in ((place, "left"), (place + heap.box()[0], "right")) if side in heap.gates()]
 
 
-def draw_collapse(heap, run, folder):
-    """``collapse.png`` of a run in its folder; returns the path."""
-    folder = Path(folder)
+def draw_collapse(heap, run, folder, path=None):
+    """The collapse of a run, from its ``folder`` and its summary ``run``: the matplotlib Figure, or the ``path`` that it is written to."""
     times, places, r = study.frames(folder)
-    return figures.collapse(
-        times, places, r, run["fall_time_s"], folder / "collapse.png", width=run["width_m"], gate=_gates(heap)
-    )
+    return figures.collapse(times, places, r, run["fall_time_s"], path, width=run["width_m"], gate=_gates(heap))
 
 
 def film_collapse(heap, run, folder):

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+import math
+from dataclasses import asdict, fields
 from pathlib import Path
 
 import numpy as np
 
-from .. import kept_runs, keys, records, side_by_side
+from .. import kept_runs, keys, records, side_by_side, worlds
 from ..whole_files import write_arrays
 from .column import Column
-from .grains import PATH_PER_STEP, HeapError
+from .grains import PATH_PER_STEP, HeapError, check_damping
 from .pile import Pile
 
-__all__ = ["KINDS", "film", "frames", "key_of", "one", "run", "world_of"]
+__all__ = ["KINDS", "DURATION", "film", "frames", "key_of", "one", "planned", "run", "world_of"]
 
 KINDS = {"column": Column, "pile": Pile}
 TOLERANCE = 1e-4
+_SOFT = tuple(one.name for one in fields(worlds.Soft) if one.name != "diameter")
+DURATION = 15.0  # T, the longest course after the release
 
 
 def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, damping_moving=None, **soft):
@@ -25,9 +28,13 @@ def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, damping
 
     Raises HeapError or SoftError for values that cannot be used, and HeapError for a model without the rolling resistance that the grains have.
     """
-    from .. import worlds
-    from . import course
-
+    if name == "hard" and soft:
+        raise HeapError(
+            f"{', '.join(f'{key} {value!r}' for key, value in soft.items())} with world 'hard': rigid disks have no such value; leave it out, or take world 'soft'"
+        )
+    unknown = [key for key in soft if key not in _SOFT]
+    if unknown:
+        raise HeapError(f"{', '.join(unknown)}: no value of the soft world; give some of {', '.join(_SOFT)}")
     if name == "hard":
         made = worlds.Hard(time_step=heap.time_step(path), tolerance=tolerance)
     elif name == "soft":
@@ -42,7 +49,7 @@ def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, damping
         heap.check_model(made.model)
     else:
         raise HeapError(f"world {name!r}: give hard or soft")
-    course.check_damping(made, damping_moving)
+    check_damping(made, damping_moving)
     return made
 
 
@@ -113,26 +120,33 @@ def film(folder):
         return data["time"].tolist(), [*zip(data["x"].astype(float), data["y"].astype(float))], places["r"]
 
 
-def run(cases, out, threads=1, resume=False, duration=15.0, progress=lambda share: None):
+def planned(name, folder, heap, world, duration=DURATION) -> side_by_side.Run:
+    """A run as side_by_side.run takes it, checked: ``name``: for messages; ``world``: arguments of :func:`world_of`, a dictionary; ``duration``: see course.run.
+
+    Raises what :func:`world_of` raises, and HeapError for what is no heap and for a duration that is no number above 0.
+    """
+    kind = next((kind for kind, made in KINDS.items() if type(heap) is made), None)
+    if kind is None:
+        raise HeapError(f"{heap!r}: is no heap; give a Column or a Pile")
+    if not 0 < duration < math.inf:
+        raise HeapError(f"duration {duration!r}: give a number above 0, in units of T = √(H/g)")
+    return side_by_side.Run(
+        name,
+        Path(folder),
+        one,
+        {"kind": kind, "heap": asdict(heap), "world": world, "duration": duration},
+        key_of(heap, world, duration),
+        heap.disks * heap.box()[1] / heap.mean_diameter(),
+    )
+
+
+def run(cases, out, threads=1, resume=False, duration=DURATION, progress=lambda share: None):
     """Runs ``cases``, {name: (heap, arguments of world_of)}, as many at a time as ``threads``, in ``out/runs/NAME``; returns {name: summary}.
 
     ``resume``: keep runs of these parameters that have ended. ``progress``: called with the share done, now and then; runs count by disks and fall height.
-    Raises HeapError with the first failure after the others have ended.
+    Raises what :func:`planned` raises, before anything runs, and HeapError with the first failure after the others have ended.
     """
-    made = []
-    for name, (heap, world) in cases.items():
-        kind = next(k for k, v in KINDS.items() if type(heap) is v)
-        arguments = {"kind": kind, "heap": asdict(heap), "world": world, "duration": duration}
-        made.append(
-            side_by_side.Run(
-                name,
-                Path(out) / "runs" / name,
-                one,
-                arguments,
-                key_of(heap, world, duration),
-                heap.disks * heap.box()[1] / heap.mean_diameter(),
-            )
-        )
+    made = [planned(name, Path(out) / "runs" / name, heap, world, duration) for name, (heap, world) in cases.items()]
     return dict(
         zip(cases, side_by_side.run(made, threads, resume, HeapError, progress=lambda share, ended: progress(share)))
     )

@@ -99,7 +99,7 @@ MUTANTS = (
            "plain:test_frames.py::test_a_checkpoint_that_was_written_and_not_cleaned_up_after"),
     mutant("frames-regular", PY + "frames.py", "if not regular and row", "if row", "regular snapshots go once they are no characteristic times",
            "plain:test_frames.py::test_snapshots_are_of_equal_distances_and_of_what_is_wanted"),
-    mutant("frames-video", PY + "run_figures.py", "frames.regular(drawing.shots, drawing.every, section, drawing.failed_dry)", "drawing.shots",
+    mutant("frames-video", PY + "run_figures.py", "frames.regular(self.shots, self.every, self.section, self.failed_dry)", "self.shots",
            "the video has frames at unequal distances", "test_drawn_reports.py::test_a_run_hands_its_records_to_its_figures"),
     mutant("frames-after", COURSE, "asdict(course.after(s, seen, self.section, self.scales))", "asdict(s)", "the row that decides is told from the state before it",
            "test_whole_slope.py::test_the_characteristic_times_have_snapshots_of_their_own", slow=True),

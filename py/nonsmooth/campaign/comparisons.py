@@ -1,0 +1,72 @@
+"""Hard and soft contacts compared from any Python, as scripts/compare_hard_soft.py does it, and the result opened from its folder.
+
+    from nonsmooth import campaign
+
+    found = campaign.run_comparison("column", "out/compare", seeds=[1, 2, 3], disks=200, stiffnesses=[1e8, 1e9])
+    print(found)
+    found.summary["stiffnesses_Pa"], found.figures()
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from pathlib import Path
+
+from .. import output_folder, processes, runs
+from ..whole_files import whole
+
+__all__ = ["ComparisonRun", "open_comparison", "run_comparison"]
+
+COMMAND = "compare_hard_soft.py"  # which writes the same records
+FUNCTION = "comparison.course:answered"
+ANSWERS = "found.json"
+
+
+class ComparisonRun(runs.Opened):
+    """A comparison; printed, its questions with their answers."""
+
+    TABLES = ()
+
+    @cached_property
+    def summary(self) -> dict:
+        """``summary.json``, see :mod:`..comparison.summary`."""
+        return json.loads(self._file("summary.json").read_text())
+
+    @cached_property
+    def questions(self) -> list:
+        """(question, verdict, sentences) of each. Raises RunError where the command made the comparison, which does not keep them."""
+        return [tuple(one) for one in json.loads(self._file(ANSWERS).read_text())["questions"]]
+
+    @property
+    def report(self) -> Path:
+        """Path of the page with all figures and tables."""
+        return self._file("report.html")
+
+    def figures(self) -> dict:
+        """Paths of the figures (PNG), by their names."""
+        return {path.stem: path for path in sorted(whole(self.folder / "figures", "*.png"))}
+
+    def __str__(self):
+        return "\n\n".join("\n  ".join([f"{text} {verdict}", *lines]) for text, verdict, lines in self.questions)
+
+
+def open_comparison(folder) -> ComparisonRun:
+    """The ComparisonRun in a folder. Raises RunError where it is none."""
+    found = ComparisonRun(folder)
+    if not all((found.folder / name).is_file() for name in ("summary.json", "report.html")):
+        raise runs.RunError(f"{folder}: no comparison has ended here; give the folder that was given to it")
+    return found
+
+
+def run_comparison(scenario, out, seeds, threads=1, resume=False, **options) -> ComparisonRun:
+    """Runs a comparison in the folder ``out``, as many runs at a time as ``threads``, and opens it.
+
+    ``scenario``: "slope", "biaxial", "column" or "pile"; ``seeds``: of the packings; ``options``: ``disks``, ``stiffnesses`` [Pa], ``without`` and the others of
+    comparison.course.compare; ``resume``: keep runs that have ended. Raises processes.RunError where values cannot be used, with the reason, or where a run fails; FolderError
+    where another process works in the folder.
+    """
+    with output_folder.claimed(out, COMMAND, resume):
+        arguments = {"scenario": scenario, "seeds": list(seeds), "threads": threads, "resume": resume, **options}
+        processes.call(FUNCTION, out, arguments)
+    return ComparisonRun(out)

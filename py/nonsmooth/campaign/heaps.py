@@ -1,0 +1,112 @@
+"""Columns and piles from any Python: each runs in a YADE process of its own, and is opened from its folder.
+
+    from nonsmooth import campaign
+    from nonsmooth.heaps import column
+
+    c = column.Column(disks=300, aspect=1.5)
+    runs = campaign.run_heaps({"hard": (c, {}), "soft": (c, dict(name="soft", stiffness=1e8))}, "out/columns", threads=2)
+    runs["hard"].summary["runout_rel"], runs["soft"].figure()
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from pathlib import Path
+
+from .. import output_folder, records, runs, side_by_side
+from ..heaps import column, pile, study
+from ..heaps.grains import HeapError
+
+__all__ = ["HeapRun", "open_heap", "run_column", "run_heaps", "run_pile"]
+
+COMMAND = "column.py"  # which writes the same records
+RESULT = "result.json"
+
+
+class HeapRun(runs.Opened):
+    """A run of a column or a pile."""
+
+    @cached_property
+    def _asked(self):
+        return json.loads(self._file("request.json").read_text())["arguments"]
+
+    @cached_property
+    def heap(self):
+        """The Column or Pile that was run."""
+        return study.KINDS[self._asked["kind"]](**self._asked["heap"])
+
+    @property
+    def world(self) -> dict:
+        """What the world was asked for with, see heaps.study.world_of."""
+        return self._asked["world"]
+
+    @cached_property
+    def summary(self) -> dict:
+        """Numbers of the run, see heaps.course.Result.summary. Raises RunError where it has not ended."""
+        return json.loads(self._file(RESULT).read_text())["found"]
+
+    @cached_property
+    def series(self) -> dict:
+        """Columns of ``series.csv``: {name: array (rows,)}, see heaps.course.Result."""
+        return records.read_series(self._file("series.csv"))
+
+    def places(self):
+        """Times [s] with the end last, a list of (x, y) of all disks for each, arrays (n,) [m], and radii (n,) [m]."""
+        self._file("places.npz")
+        return study.frames(self.folder)
+
+    def figure(self, name="collapse"):
+        """``collapse``: the disks at several times, as a matplotlib Figure that is not written. Raises RunError for another name."""
+        if name != "collapse":
+            raise runs.RunError(f"{self.folder}: no figure is called {name!r}; give collapse")
+        from ..heaps import report  # brings matplotlib, which a reader of numbers need not wait for
+
+        self._file("places.npz")
+        return report.draw_collapse(self.heap, self.summary, self.folder)
+
+
+def open_heap(folder) -> HeapRun:
+    """The HeapRun in a folder: that of run_column or run_pile, or one of ``runs`` below that of run_heaps or scripts/column.py. Raises RunError where it is none."""
+    run = HeapRun(folder)
+    if not (run.folder / RESULT).is_file() or run._asked.get("kind") not in study.KINDS:
+        raise runs.RunError(
+            f"{folder}: no run of a column or pile has ended here; give the folder that was given to it"
+        )
+    return run
+
+
+def run_heaps(cases, out, threads=1, resume=False, duration=study.DURATION) -> dict:
+    """Runs ``cases``, {name: (Column or Pile, world)}, as many at a time as ``threads``, in ``out/runs/NAME``; returns {name: HeapRun}.
+
+    ``world``: a dictionary, arguments of heaps.study.world_of: {} is rigid disks, ``dict(name="soft", stiffness=1e8)`` springs, from the same places. ``resume``: keep runs of
+    these parameters that have ended; ``duration``: see heaps.course.run. Raises HeapError or SoftError for values that cannot be used, before anything runs, HeapError
+    where a run fails, after the others have ended, and FolderError where another process works in the folder.
+    """
+    made = [study.planned(name, Path(out) / "runs" / name, *case, duration) for name, case in cases.items()]
+    with output_folder.claimed(out, COMMAND, resume):
+        side_by_side.run(made, threads, resume, HeapError)
+    return {one.name: HeapRun(one.folder) for one in made}
+
+
+def run_column(made, out, world="hard", duration=study.DURATION, resume=False, **numerics) -> HeapRun:
+    """Runs one Column in the folder ``out``, in a process of its own, and opens the run.
+
+    ``world``: "hard", or "soft" with its ``stiffness`` [Pa]; ``numerics``: other arguments of heaps.study.world_of, as ``tolerance``, ``damping`` or ``model``. The rest as for
+    :func:`run_heaps`, which does several side by side.
+    """
+    return _alone(made, column.Column, out, world, duration, resume, numerics)
+
+
+def run_pile(made, out, world="hard", duration=study.DURATION, resume=False, **numerics) -> HeapRun:
+    """As :func:`run_column`, one Pile."""
+    return _alone(made, pile.Pile, out, world, duration, resume, numerics)
+
+
+def _alone(made, kind, out, world, duration, resume, numerics):
+    if type(made) is not kind:
+        raise HeapError(f"{made!r}: is no {kind.__name__}; give a heaps.{kind.__name__.lower()}.{kind.__name__}")
+    one = study.planned(str(out), out, made, {"name": world, **numerics}, duration)
+    with output_folder.claimed(out, COMMAND, resume):
+        side_by_side.run([one], 1, resume, HeapError)
+    return HeapRun(out)

@@ -1,0 +1,207 @@
+"""YADE scripts from any Python, the lessons among them: each runs in a YADE process of its own, and is opened from its folder.
+
+    from nonsmooth import campaign
+
+    run = campaign.run_lesson("incline", "out/incline", world="hard", slope=30)
+    run.number("steps"), run.table("friction/tan(slope)")["slid [m]"]
+    run.figure()                                             # the scene at the end
+    campaign.run_script("my_script.py", "out/mine", friction=0.4)
+
+A script takes parameters by ``utils.readParamsFromTable``, as in YADE's batch runs.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import math
+import re
+from functools import cached_property
+from pathlib import Path
+
+from .. import keys, output_folder, runs, side_by_side
+from ..errors import UserError
+
+__all__ = [
+    "LESSONS",
+    "ScriptError",
+    "ScriptRun",
+    "lesson",
+    "lessons",
+    "open_script",
+    "parameters_of",
+    "run_lesson",
+    "run_script",
+    "run_scripts",
+]
+
+LESSONS = Path(__file__).resolve().parents[3] / "scripts" / "examples"
+WORLDS = ("hard", "soft")
+COMMAND = "run_script"  # the name under which a folder is held
+FUNCTION = "campaign.script_run:run"
+OUTPUT, SCENE = "output.txt", "scene.npz"  # what a script has printed; its scene at the end, see scene_arrays.save
+
+
+class ScriptError(UserError, ValueError):
+    """A script or a parameter that cannot be used; the message says which and what would do."""
+
+
+class ScriptRun(runs.Opened):
+    """A run of a script."""
+
+    TABLES = ()
+
+    @cached_property
+    def output(self) -> str:
+        """All that the script has printed."""
+        return self._file(OUTPUT).read_text(encoding="utf-8")
+
+    def number(self, key) -> float:
+        """The number behind ``key`` at the begin of a line of the output. Raises RunError where there is none."""
+        found = re.search(rf"^{re.escape(key)} +(\S+)", self.output, re.M)
+        try:
+            return float(found.group(1))
+        except (AttributeError, ValueError):
+            raise runs.RunError(
+                f"{self.folder}: the output has no line with {key!r} and a number behind it; run.output is all of it"
+            ) from None
+
+    def table(self, first) -> dict:
+        """Columns of the table whose line of names begins with ``first``: {name: list of numbers}. Two or more spaces part the names. Raises RunError where there is none."""
+        lines = self.output.splitlines()
+        at = next((k for k, line in enumerate(lines) if line.startswith(first)), None)
+        if at is None:
+            raise runs.RunError(f"{self.folder}: no line of the output begins with {first!r}; run.output is all of it")
+        names, rows = re.split(r"\s{2,}", lines[at].strip()), []
+        for line in lines[at + 1 :]:
+            try:
+                row = [float(word) for word in line.split()]
+            except ValueError:
+                break
+            if len(row) != len(names):
+                break
+            rows.append(row)
+        return {name: [row[k] for row in rows] for k, name in enumerate(names)}
+
+    def scene(self):
+        """The scene at the end, a scene_arrays.Scene. Raises RunError where the script has left no disk in it."""
+        from .. import scene_arrays
+
+        return scene_arrays.load(self._file(SCENE))
+
+    def figure(self, name="scene", ax=None):
+        """The ``scene`` at the end, as figures.draw draws it; ``ax``: axes to draw on, of a figure of one's own. Raises RunError for another name, and where there is none."""
+        if name != "scene":
+            raise runs.RunError(f"{self.folder}: no figure is called {name!r}; give scene")
+        from .. import figures  # brings matplotlib, which a reader of numbers need not wait for
+
+        return figures.draw(self.scene(), ax=ax)
+
+
+def open_script(folder) -> ScriptRun:
+    """The ScriptRun in a folder. Raises RunError where it is none."""
+    if not (Path(folder) / OUTPUT).is_file():
+        raise runs.RunError(f"{folder}: no script has run here; give the folder of one")
+    return ScriptRun(folder)
+
+
+def lessons() -> tuple:
+    """Names of the lessons (scripts/examples): those that have both a hard and a soft script."""
+    return tuple(
+        sorted(
+            path.stem.removeprefix("hard_")
+            for path in LESSONS.glob("hard_*.py")
+            if path.with_name(path.name.replace("hard_", "soft_", 1)).exists()
+        )
+    )
+
+
+def lesson(name, world="hard") -> Path:
+    """The script of a lesson, ``hard`` or ``soft``. Raises ScriptError for another lesson or world."""
+    known = lessons()
+    if name not in known:
+        raise ScriptError(
+            f"lesson {name!r}: there is no such lesson; give one of {', '.join(known)}"
+            if known
+            else f"{LESSONS}: the lessons are not there; run them from a checkout of yade-nonsmooth"
+        )
+    if world not in WORLDS:
+        raise ScriptError(f"world {world!r}: give hard or soft")
+    return LESSONS / f"{world}_{name}.py"
+
+
+def run_lesson(name, out, world="hard", resume=False, **parameters) -> ScriptRun:
+    """Runs the ``hard`` or ``soft`` script of a lesson. Raises what :func:`lesson` raises; the rest as for :func:`run_script`."""
+    return run_script(lesson(name, world), out, resume, **parameters)
+
+
+def run_script(script, out, resume=False, **parameters) -> ScriptRun:
+    """Runs one YADE script in the folder ``out``, with its ``parameters``, and opens the run; the rest as for :func:`run_scripts`."""
+    one = _planned(str(out), out, script, parameters)
+    with output_folder.claimed(out, COMMAND, resume):
+        side_by_side.run([one], 1, resume, ScriptError)
+    return ScriptRun(out)
+
+
+def run_scripts(cases, out, threads=1, resume=False) -> dict:
+    """Runs ``cases``, {name: (script, parameters)}, as many at a time as ``threads``, each in a process of its own and in the folder ``out/runs/NAME``, which is its working folder;
+    returns {name: ScriptRun}.
+
+    ``script``: path of a YADE script, as :func:`lesson` gives it; ``parameters``: {name: number or text}, what it reads by ``utils.readParamsFromTable``; ``resume``: keep runs
+    of the same script and parameters that have ended. Raises ScriptError for a script that is not there and for parameters that it does not read, before anything runs,
+    and where a script fails, after the others have ended; FolderError where another process works in the folder.
+    """
+    made = [_planned(name, Path(out) / "runs" / name, *case) for name, case in cases.items()]
+    with output_folder.claimed(out, COMMAND, resume):
+        side_by_side.run(made, threads, resume, ScriptError)
+    return {one.name: ScriptRun(one.folder) for one in made}
+
+
+def _planned(name, folder, script, parameters):
+    script = Path(script).resolve()
+    known = parameters_of(script)
+    for key, value in parameters.items():
+        if known is not None and key not in known:
+            near = difflib.get_close_matches(key, known, 1)
+            advice = (
+                f"did you mean {near[0]!r}?" if near else f"it reads {', '.join(known)}" if known else "it reads none"
+            )
+            raise ScriptError(f"{key}: {script.name} reads no such parameter; {advice}")
+        if not isinstance(value, (bool, int, float, str)) or isinstance(value, float) and not math.isfinite(value):
+            raise ScriptError(f"{key} {value!r}: give a finite number or a text")
+    arguments = {"script": str(script), "parameters": parameters}
+    return side_by_side.Run(
+        name, Path(folder), FUNCTION, arguments, keys.key_of([script.read_text(encoding="utf-8"), parameters])
+    )
+
+
+def parameters_of(script):
+    """Names that a script gives to ``utils.readParamsFromTable``, in order, read from its source; None where they cannot be read from it. Raises ScriptError for a
+    script that is not there or no Python."""
+    try:
+        tree = ast.parse(Path(script).read_bytes())
+    except OSError as error:
+        raise ScriptError(
+            f"{script}: the script cannot be read ({error.strerror}); give the path of a YADE script"
+        ) from None
+    except (SyntaxError, ValueError) as error:
+        raise ScriptError(f"{script}: is no Python ({error}); give the path of a YADE script") from None
+    given, found = {}, []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name) and _calls(node.value, "dict"):
+            given[node.targets[0].id] = [one.arg for one in node.value.keywords]
+    for node in ast.walk(tree):
+        if _calls(node, "readParamsFromTable"):
+            for one in node.keywords:
+                if one.arg is not None:
+                    found += [one.arg]
+                elif isinstance(one.value, ast.Name) and one.value.id in given:
+                    found += given[one.value.id]
+                else:
+                    return None
+    return [name for name in found if name not in ("tableFileLine", "noTableOk", "unknownOk")]
+
+
+def _calls(node, name):
+    """Whether a node calls what is called so, as a name or as an attribute."""
+    return isinstance(node, ast.Call) and name in (getattr(node.func, "id", None), getattr(node.func, "attr", None))
