@@ -14,7 +14,7 @@ import math
 from yade import utils
 from yade.nonsmooth.scene import disk, engines, segments
 
-# friction of the joint, friction when it has lost its strength, the slip D_c [m] at which it has, law: linear or sudden; speed [m/s] of the block; time step [s]
+# friction of the joint, friction when it has lost its strength, the slip D_c [m] at which it has, law: linear, step or exponential; speed [m/s] of the block; time step [s]
 utils.readParamsFromTable(friction=0.6, weakened=0.1, critical=0.5, law="linear", speed=0.1, dt=5e-3)
 from yade.params import table
 

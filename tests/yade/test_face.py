@@ -171,6 +171,21 @@ def test_a_frame_has_the_columns(whole, monkeypatch):
         run.frame("series")
 
 
+def test_a_slopes_video_is_drawn_where_it_is_missing(whole, tmp_path):
+    """Of the small slope's run, whose folder has none of its own."""
+    for path in whole.folder.iterdir():
+        (tmp_path / path.name).symlink_to(path)
+    (tmp_path / "avalanche.mp4").unlink(missing_ok=True)
+    shown = runs.open_run(tmp_path).video()
+    assert (tmp_path / "avalanche.mp4").read_bytes()[4:8] == b"ftyp" and "data:video/mp4;base64" in shown._repr_html_()
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    for name in ("section.yaml", "series.csv", "summary.json"):
+        (empty / name).symlink_to(whole.folder / name)
+    with pytest.raises(runs.RunError, match="written no snapshot yet"):
+        runs.open_run(empty).video()
+
+
 PLAIN = """\
 import sys
 sys.path.insert(0, {py!r})
@@ -198,7 +213,8 @@ PURE = (
     "rocks section section_data section_values section_defaults section_checks section_reader roles similar scales geometry free_surface packing packing_files packing_checks course records runs results characteristic_times verdict frames toe run_figures "
     "measure measure.ground measure.fronts measure.surface measure.energy measure.force_stages measure.weakening figures figures.moving figures.runouts figures.biaxial figures.columns figures.law figures.rock_table film video paraview lessons whole_files kept_runs tables errors scene_arrays figures.scene "
     "statistics report report.page keys installation checkpoints processes side_by_side output_folder section_arguments campaign campaign.plan campaign.sweep campaign.cluster laboratory.biaxial_test "
-    "laboratory.campaign laboratory.strength laboratory.fluctuations measure.bands measure.toe_bands laboratory.report laboratory.effects laboratory.calibration laboratory.wall_shear laboratory.readings laboratory.table1 laboratory.rock_table laboratory.pressing"
+    "laboratory.campaign laboratory.strength laboratory.fluctuations measure.bands measure.toe_bands laboratory.report laboratory.effects laboratory.calibration laboratory.wall_shear laboratory.readings laboratory.table1 laboratory.rock_table laboratory.pressing "
+    "requirements worlds heaps.column heaps.pile heaps.grains heaps.study heaps.report campaign.heaps campaign.scripts campaign.comparisons soft"
 )
 
 
@@ -242,7 +258,7 @@ def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
 
 @pytest.mark.parametrize(
     "module",
-    "experiment campaign campaign.slope_run laboratory.biaxial comparison.slopes heaps.column benchmark.steps".split(),
+    "experiment campaign campaign.slope_run campaign.script_run laboratory.biaxial comparison.slopes heaps.column benchmark.steps".split(),
 )
 def test_a_process_that_draws_nothing_waits_for_no_library_that_draws(module):
     """They take as long as the rest of a start, and a sweep starts hundreds."""

@@ -28,7 +28,7 @@ def said(path):
     return texts, [sum("image/png" in out.get("data", {}) for out in cell["outputs"]) for cell in cells(path)]
 
 
-@pytest.mark.parametrize("name, pictures", [("slope", 3), ("laboratory", 2)])
+@pytest.mark.parametrize("name, pictures", [("slope", 3), ("columns", 4), ("laboratory", 2), ("exercises", 3)])
 def test_a_notebook_says_what_stands_in_the_documentation(tmp_path, name, pictures):
     """Word for word: the runs have the same bits wherever the same engines run."""
     mine = shutil.copy(NOTEBOOKS / f"{name}.ipynb", tmp_path)
@@ -56,6 +56,9 @@ def test_a_notebook_says_what_stands_in_the_documentation(tmp_path, name, pictur
         cell["outputs"] and any(out.get("name") == "stderr" for out in cell["outputs"])
         for cell in cells(tmp_path / f"{name}.ipynb")
     )
+    if name == "exercises":  # the numbers of doc/exercises.rst, which come from it
+        written = tmp_path / "out" / "exercises" / "exercises.json"
+        assert json.loads(written.read_text()) == json.loads((ROOT / "doc" / "measured" / "exercises.json").read_text())
 
 
 def test_the_documentation_has_all_of_them():

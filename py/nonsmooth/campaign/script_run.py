@@ -35,7 +35,8 @@ def run(folder, script, parameters):
     """
     folder, home = Path(folder).resolve(), Path.cwd()
     if parameters:
-        row = ["notebook", *(repr(value) for value in parameters.values())]
+        # a table's words are parted by spaces, and what follows a # is no part of it
+        row = ["notebook", *(repr(value).replace(" ", r"\x20").replace("#", r"\x23") for value in parameters.values())]
         (folder / TABLE).write_text(f"{' '.join(['description', *parameters])}\n{' '.join(row)}\n")
         os.environ["YADE_BATCH"] = f"{folder / TABLE}:2"
     sys.argv = [script]
