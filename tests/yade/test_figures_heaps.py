@@ -1,6 +1,7 @@
 """Figures of columns and piles, read from their artists. Needs no YADE."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -24,6 +25,39 @@ def fallen():
     (x, y), (far, low) = block(0, 5, 8), block(0, 10, 4)
     far[-1], low[-1] = 30.0, 0.5
     return [0.5, 2.5], [(x, y), (far[::-1], low[::-1])], np.full(40, 0.5)
+
+
+def run_of(places, r, height, place=0.0, runout=1.0):
+    """As a campaign.HeapRun: of a box 5 m wide that stands at ``place``, whose centre of mass has sunk to ``height`` of that of the release within 10 s, four T."""
+    return SimpleNamespace(
+        summary=dict(width_m=5.0, fall_time_s=2.5, runout_rel=runout),
+        series=dict(time_s=np.array([0.0, 10.0]), centroid_y_m=np.array([4.0, 4.0 * height])),
+        places=lambda: ([0.5, 2.5], places, r),
+        heap=SimpleNamespace(place=lambda: place),
+    )
+
+
+def test_runs_stand_below_each_other_to_one_scale_and_their_falls_in_one_panel(fallen):
+    _, (before, after), r = fallen
+    shorter = tuple(0.5 * np.array(one) for one in after)
+    runs = {"rigid": run_of([before, after], r, 0.4), "soft": run_of([before, shorter], 0.5 * r, 0.6, runout=0.5)}
+    fig = columns.beside(runs)
+    upper, lower, falls = fig.axes
+    assert [ax.get_title(loc="left") for ax in (upper, lower)] == ["rigid", "soft"]
+    # the connected mass of both, 10 m of 5 m; the disk ahead is out of sight
+    assert upper.get_xlim() == lower.get_xlim() == pytest.approx((-0.06, 2.06)) and upper.get_ylim() == lower.get_ylim()
+    for ax, (x, y) in ((upper, after), (lower, shorter)):
+        assert drawn.disks(ax)[0] == pytest.approx(np.column_stack([x, y]) / 5)
+    assert {line.get_label(): drawn.points(line).tolist() for line in falls.lines} == {
+        "rigid: run-out 1.00": [[0.0, 1.0], [4.0, pytest.approx(0.4)]],
+        "soft: run-out 0.50": [[0.0, 1.0], [4.0, pytest.approx(0.6)]],
+    }
+    # a box that does not begin at 0, as a pile's: the same picture
+    moved = [(x - 2.5, y) for x, y in (before, after)]
+    again = columns.beside({"pile": run_of(moved, r, 0.4, place=-2.5)})
+    assert drawn.disks(again.axes[0])[0] == pytest.approx(drawn.disks(upper)[0])
+    with pytest.raises(records.RecordsError, match="no runs to set beside each other"):
+        columns.beside({})
 
 
 @pytest.mark.parametrize("width, unit", [(5.0, "L_0"), (None, "m")])

@@ -321,4 +321,16 @@ MUTANTS = (
            "test_free_surface.py::test_an_edge_is_cut_where_its_wall_ends"),
     mutant("raised-slide", FREE_SURFACE, "if is_free[e] else 0.0 for e", "if is_free[e] else 1.0 for e", "the raised surface leaves the wall that it meets",
            "test_free_surface.py::test_a_raised_surface_is_higher_by_the_share_of_the_thickness_below_it"),
+    # ---- runs of a plain Python
+    mutant("alone-world", CAMPAIGN + "heaps.py", '{"name": world, **numerics}', '{"name": "hard", **numerics}', "every column has rigid disks",
+           "test_plain_runs.py::test_a_wrong_value_is_refused_before_anything_runs"),
+    mutant("script-home", CAMPAIGN + "script_run.py", "        os.chdir(home)\n", "", "a script's folder stays the working folder", "test_plain_runs.py::test_a_plain_python_runs_a_lesson"),
+    mutant("script-names", CAMPAIGN + "script_run.py", "        names.update(before)\n", "", "a script's names are those of the process",
+           "test_plain_runs.py::test_a_script_has_its_parameters_and_leaves_what_it_says_and_its_scene"),
+    mutant("script-key", CAMPAIGN + "scripts.py", 'keys.key_of([script.read_text(encoding="utf-8"), parameters])', 'keys.key_of([script.read_text(encoding="utf-8")])',
+           "a resume keeps a script's run of other parameters", "test_plain_runs.py::test_a_script_runs_without_parameters_and_again_with_a_resume_only_where_it_has_changed"),
+    mutant("needed-others", PY + "requirements.py", 'if not f"{user}.".startswith(f"{__package__}."):', "if False:", "whoever misses a package of the list is told of this one's",
+           "test_plain_runs.py::test_a_missing_package_is_one_message"),
+    mutant("beside-place", PY + "figures/columns.py", "dict(x=(x - run.heap.place()) / width, y=y / width", "dict(x=x / width, y=y / width", "a pile's box is drawn where it stands",
+           "plain:test_figures_heaps.py::test_runs_stand_below_each_other_to_one_scale_and_their_falls_in_one_panel"),
 )
