@@ -2,8 +2,10 @@
 
 ``.. section-keys::``        the keys at the top
 ``.. section-keys:: NAME``   the keys below one of them
+``.. section-hints::``       keys that a section does not have, and what to do instead, from the package
 """
 import pathlib
+import re
 
 import yaml
 from docutils.parsers.rst import Directive
@@ -81,6 +83,31 @@ class SectionKeys(Directive):
         return rst.parse(self, rst.table(("key", "value", "needed", "meaning"), table, (32, 16, 9, 43)), str(SCHEMA))
 
 
+class SectionHints(Directive):
+    def run(self):
+        from yade.nonsmooth import section_hints
+
+        self.state.document.settings.env.note_dependency(section_hints.__file__)
+        rows = []
+        for hint in section_hints.HINTS:
+            place = (
+                f", below ``{hint.inside}``"
+                if hint.inside
+                else f", not below ``{hint.outside}``"
+                if hint.outside
+                else ""
+            )
+            # as in the message, with the marks of code that reStructuredText has
+            text = re.sub(r"`([^`]+)`", r"``\1``", hint.instead[0].upper() + hint.instead[1:] + ".")
+            rows.append((hint.about, ", ".join(f"``{key}``" for key in hint.keys.split()) + place, text))
+        return rst.parse(
+            self,
+            rst.table(("about", "keys that are refused", "what to do instead"), rows, (18, 37, 45)),
+            section_hints.__file__,
+        )
+
+
 def setup(app):
     app.add_directive("section-keys", SectionKeys)
+    app.add_directive("section-hints", SectionHints)
     return {"parallel_read_safe": True}

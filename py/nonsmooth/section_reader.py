@@ -18,6 +18,7 @@ from typing import NoReturn
 import jsonschema
 import yaml
 
+from . import section_hints
 from .errors import OldNameWarning, UserError
 
 __all__ = ["Document", "SectionError", "read", "schema", "take", "values"]
@@ -264,13 +265,16 @@ def _brief(value) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _explain(error) -> tuple[tuple, str, str]:
-    """Key path, what is wrong, and the remedy of a schema error."""
+def _explain(error, part=()) -> tuple[tuple, str, str]:
+    """Key path, what is wrong, and the remedy of a schema error; ``part``: keys that lead to the schema's part, as `read` takes them."""
     keys, value, schema = tuple(error.absolute_path), error.instance, error.schema
     needed = f"needed: {schema['description']}" if "description" in schema else "correct it"
     if error.validator == "additionalProperties":
         known = [name for name, below in schema["properties"].items() if not below.get("deprecated")]
         key = next(k for k in value if k not in known)
+        instead = section_hints.instead_of(key, (*part[1:2], *keys))
+        if instead:
+            return (*keys, key), "unknown key", f"{instead} (more on the page 'What a section cannot say')"
         near = difflib.get_close_matches(key, known, 1)
         hint = f"did you mean {near[0]!r}? Known here" if near else "known here"
         return (*keys, key), "unknown key", f"{hint}: {', '.join(known)}"
@@ -331,7 +335,7 @@ def _checked(document, schema_path, part) -> Document:
     data = document.data
     _plain(document, data)
     rules = schema(str(schema_path), tuple(part))
-    found = [_explain(e) for e in islice(jsonschema.Draft202012Validator(rules).iter_errors(data), MOST_ERRORS)]
+    found = [_explain(e, part) for e in islice(jsonschema.Draft202012Validator(rules).iter_errors(data), MOST_ERRORS)]
     if found:
         keys, what, remedy = min(found, key=lambda f: (document.line(f[0]), len(f[0]), str(f)))
         more = f" (and {len(found) - 1} more to correct)" if len(found) > 1 else ""

@@ -1,0 +1,163 @@
+"""What to do instead of keys that people try in a section and that it does not have. The page "What a section cannot say" shows the same table."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+__all__ = ["HINTS", "Hint", "instead_of"]
+
+
+class Hint(NamedTuple):
+    """Keys that ask for one thing, and what to do instead of them."""
+
+    about: str  # the thing, as the documentation names it
+    keys: str  # separated by blanks; in small letters, with _ between words
+    instead: str  # one or two sentences, without the full stop
+    inside: str = ""  # the hint holds below this key of the section alone
+    outside: str = ""  # the hint does not hold below this one
+
+
+HINTS = (
+    Hint(
+        "earthquakes",
+        "earthquake earthquakes seismic seismicity seismic_coefficient kh kv k_h k_v pga accelerogram acceleration horizontal_acceleration ground_motion shaking",
+        "a section has no earthquake: its gravity is constant and points down. Let a script set NewtonIntegrator.gravity while the slope runs (doc/examples/shaken_slope.py); "
+        "for a constant coefficient kh turn a dry section by atan(kh) and multiply `gravity` by sqrt(1 + kh²)",
+    ),
+    Hint(
+        "factors of safety, yield coefficients",
+        "ky k_y kc yield_coefficient yield_acceleration critical_acceleration fs fos factor_of_safety safety_factor",
+        "this is a result and not an input: vary what fails the slope, with scripts/sweep.py --over materials.NAME.friction=..., or tilt the section, and see which runs stand",
+    ),
+    Hint(
+        "lines of the water table",
+        "phreatic phreatic_line phreatic_surface piezometric piezometric_line piezometric_surface piezometer groundwater ground_water groundwater_level gwl water_table water_level head "
+        "hydraulic_head total_head",
+        "the water table of a section is a straight line, parallel to `water.plane`: give water: {plane: NAME, table: {points: [[t, h], ...]}}, with h the height above the plane, along its normal",
+    ),
+    Hint(
+        "reservoirs",
+        "reservoir reservoir_level lake lake_level pond pool sea sea_level tailwater drawdown",
+        "give still water with a level table: water: {plane: {point: [0, y], dip: 0}, pressure_gradient: hydrostatic, table: {points: [[t, h], ...]}}, with the level at y + h; "
+        "h may fall, and water inside the slope and outside then falls alike",
+    ),
+    Hint(
+        "pore pressure ratios",
+        "ru r_u pore_pressure pore_pressures pore_pressure_ratio pore_pressure_coefficient pwp bbar suction",
+        "a section takes heights of the water table and no pore pressures: with the ratio ru give water.volume: bulk and in water.table the height h = ru γ H / (γ_w cos² β), H being the thickness "
+        "along the normal of the slip surface, β its dip, and γ the unit weight of the rock",
+    ),
+    Hint(
+        "flow of water",
+        "rain rainfall infiltration recharge permeability conductivity hydraulic_conductivity k_sat ksat storage seepage consolidation drainage drain drains",
+        "a section computes no flow of water: give the height of the table over time in water.table.points, as a gauge or a flow computation has it, and the gradient in water.pressure_gradient",
+    ),
+    Hint(
+        "strengths outside of a material",
+        "cohesion c friction_angle phi angle_of_friction internal_friction angle_of_internal_friction friction strength tensile_strength",
+        "a strength belongs to a material: give it below materials.NAME, and the layer or the wall `material: NAME`",
+        outside="materials",
+    ),
+    Hint(
+        "strengths of a rock, in a material",
+        "phi c phi_peak phi_residual c_peak c_residual su undrained_strength ucs uniaxial_compressive_strength compressive_strength gsi hoek_brown mohr_coulomb shear_strength",
+        "a material has the strengths of a contact, `friction` and `tensile_strength`, from which that of the rock follows: scripts/calibrate.py finds them for an angle of friction and a cohesion",
+        inside="materials",
+    ),
+    Hint(
+        "stiffness and damping",
+        "young youngs_modulus young_modulus modulus elastic_modulus e_modulus e poisson poisson_ratio poissons_ratio nu stiffness kn ks normal_stiffness shear_stiffness bulk_modulus shear_modulus "
+        "damping viscosity viscous_damping",
+        "contacts are rigid and have neither stiffness nor damping: leave it out. scripts/compare_hard_soft.py --scenario slope runs a section with YADE's soft contacts",
+    ),
+    Hint(
+        "dilatancy",
+        "dilatancy dilation dilatation dilation_angle dilatancy_angle psi",
+        "dilatancy follows from the packing and the friction: scripts/biaxial.py measures it",
+    ),
+    Hint(
+        "weight of a rock",
+        "unit_weight gamma specific_weight weight bulk_density dry_density saturated_density",
+        "give the material the `density` of its disks [kg/m³]: unit weight / gravity / packing fraction",
+    ),
+    Hint(
+        "porosity",
+        "porosity void_ratio relative_density compaction",
+        "give `disks.packing_fraction`, the area of disks by area of bulk: 1 - porosity, in two dimensions",
+    ),
+    Hint(
+        "sizes of grains",
+        "radius radii rmin rmax rmean d50 d10 grain_size grain_sizes particle_size psd grading gradation block_size",
+        "give `disks.diameter: [smallest, largest]` in m and `disks.distribution`; a layer may have a `disks` of its own",
+    ),
+    Hint(
+        "ground and shape of the slope",
+        "topography topo surface profile terrain dem elevation bedrock ground geometry boundary boundaries slope_angle slope_height",
+        "the ground is a polyline in `walls`, with role: ground or slip, and what may slide is a polygon in `layers`",
+    ),
+    Hint(
+        "joints and weak layers",
+        "fault faults joint joints joint_set joint_sets discontinuity discontinuities fracture fractures bedding weak_layer weak_plane slip_surface slip_surfaces failure_surface dfn",
+        "a slip surface is a wall with role: slip, or an item of `interfaces` between two layers; a set of many joints is not possible",
+    ),
+    Hint(
+        "loads",
+        "load loads surcharge force forces pressure stress foundation building traffic",
+        "a section has no loads but weight and water: lay a layer with a `density` of its own on the slope, or let a script push bodies by ForceEngine while the slope runs (Experiment.attach)",
+    ),
+    Hint(
+        "support and barriers",
+        "anchor anchors bolt bolts rock_bolt rock_bolts nail nails soil_nail geotextile geogrid reinforcement support retaining_wall gabion barrier barriers dam dams net pile piles",
+        "what stands in the way is a wall or a layer with role: obstacle, whose forces are in walls.csv; anchors, nets and nails are not possible",
+    ),
+    Hint(
+        "excavation and construction",
+        "excavation excavate cut construction fill undercut erosion_rate",
+        "a section does not change its shape: let a script erase bodies while the slope runs (Experiment.attach)",
+    ),
+    Hint(
+        "the third dimension",
+        "thickness width depth out_of_plane z third_dimension length_z",
+        "the model is a slice of 1 m: forces, masses and energies are per metre of thickness",
+    ),
+    Hint(
+        "shapes of grains",
+        "shape shapes sphericity angularity roundness clump clumps polygons blocks block",
+        "all grains are disks: `rolling_friction` of their material stands for their shape, and bonded disks for blocks",
+    ),
+    Hint(
+        "rheology of the flow",
+        "rheology voellmy xi turbulence turbulent_friction basal_friction mu_i inertial_number entrainment erosion",
+        "the mass moves by the law of its contacts and has no rheology: give the ground's `friction` in its material; a layer with role: bed is what may be eroded",
+    ),
+    Hint(
+        "time, heat, weathering",
+        "temperature thermal freeze thaw freeze_thaw ice permafrost weathering creep ageing aging healing fatigue",
+        "nothing changes by time alone: a wall or an interface weakens with slip (`slip_weakening`), and the water table moves (`water.table`)",
+    ),
+    Hint("units", "unit units unit_system", "units are always m, s, kg, N and Pa, and degrees for a dip"),
+    Hint(
+        "time steps and duration",
+        "dt timestep time_stepping duration end_time total_time t_end tmax max_time",
+        "the step is `numerics.time_step`, and the latest end of a run `stages.end.time`, both in s",
+    ),
+    Hint(
+        "how a command runs",
+        "threads cores cpus out output outputs output_folder folder resume figures plots vtk video checkpoint",
+        "this is an option of the command and not of the slope: see scripts/slope.py --help",
+    ),
+)
+
+
+def instead_of(key: str, keys) -> str | None:
+    """What to do instead of the unknown ``key`` below the key path ``keys`` of a section, a sentence without its full stop; None where nothing is known of it."""
+    word = "_".join(key.lower().replace("-", "_").split())
+    top = keys[0] if keys else ""
+    for hint in HINTS:
+        if (
+            word in hint.keys.split()
+            and (not hint.inside or top == hint.inside)
+            and (not hint.outside or top != hint.outside)
+        ):
+            return hint.instead
+    return None
