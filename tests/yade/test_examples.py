@@ -29,6 +29,9 @@ LESSONS = {
     "shear": ["numerics", "material", "functors, engines, time step"],
     "drum": ["numerics", "material", "functors, engines, time step"],
     "tester": ["numerics", "material", "functors, engines, bonds"],
+    "bounce": ["numerics", "material", "functors, engines, time step"],
+    "deposit": ["numerics", "material", "functors, engines, time step"],
+    "oedometer": ["numerics", "material", "functors, engines, time step"],
 }
 #: what may be set inside the marks
 NAMES = {"numerics", "rock", "joint", "O.engines", "O.dt", "newton.gravity"}
@@ -343,6 +346,39 @@ def test_a_drum_carries_its_disks_up_alike_in_both_worlds(output):
         and all(18 < a < 33 for a in angles)
         and abs(angles[0] - angles[1]) < 5
     )
+
+
+def test_a_disk_rises_to_the_share_that_restitution_or_damping_leaves_it(output):
+    """Rigid: e². Springs: damping λ brakes fall and rise, (1 − λ)/(1 + λ), and an elastic impact alike (Equivalent.restitution)."""
+    hard = number(output("hard_bounce.py"), "height of bounce 1 [of the height before]")
+    assert hard == pytest.approx(
+        0.9**2, rel=5e-3
+    )  # the speed of the impact is that of a step's end: g dt = 0.01 of 4.4 m/s
+    soft = number(output("soft_bounce.py", bounces=1), "height of bounce 1 [of the height before]")
+    assert soft == pytest.approx((0.95 / 1.05) ** 2, rel=1e-3)  # springs of 50 MN/m sink in by 2 mm of 1 m
+
+
+def test_a_box_bears_the_grains_that_fell_into_it(output):
+    for world in ("hard", "soft"):
+        text = output(f"{world}_deposit.py", radius=0.05)
+        # forces are in balance but for 2 %, which is where the script ends
+        assert number(text, "floor and sides bear [of the weight]") == pytest.approx(1, abs=0.03), world
+        assert number(text, "unbalanced force [-]") < 0.02 and 1 <= number(text, "time [s]") < 3
+        assert 0.6 < number(text, "height of the highest disk [m]") < 1.3  # some 75 disks of 0.1 m in a box of 1 m
+
+
+def test_an_oedometer_springs_back_and_rigid_grains_do_not(output):
+    last = {}
+    for world in ("hard", "soft"):
+        table = rows(output(f"{world}_oedometer.py", seconds=0.2, stress=8e4), "stress [Pa]")
+        assert [stress for stress, _ in table] == [2e4, 4e4, 8e4, 1e4]
+        last[world] = table[-2][1], table[-1][1]
+    pressed, released = last["hard"]
+    # grains of 0.07 m slide into place by some hundredths of their size, as long as it takes, and nothing brings them back; what is left is the creep that the tolerance allows
+    assert 1e-5 < pressed < 6e-3 and abs(released - pressed) < 0.2 * pressed
+    pressed, released = last["soft"]
+    # k = E R for each of some 13 layers of 14 disks: 8e4 Pa m / 14 / (1e9 Pa · 0.035 m) of each, 2 mm, and half as much again since the layers lie askew
+    assert 0.002 < pressed < 0.010 and released < 0.5 * pressed
 
 
 def test_the_wedge_runs_what_is_not_there_and_draws_all(in_process, tmp_path):
