@@ -90,20 +90,14 @@ class SectionHints(Directive):
         self.state.document.settings.env.note_dependency(section_hints.__file__)
         rows = []
         for hint in section_hints.HINTS:
-            place = (
-                f", below ``{hint.inside}``"
-                if hint.inside
-                else f", not below ``{hint.outside}``"
-                if hint.outside
-                else ""
-            )
+            where = f" (below ``{hint.inside}``)" if hint.inside else ""
+            where = where or (f" (not below ``{hint.outside}``)" if hint.outside else "")
+            keys = ", ".join(f"``{key}``" for key in hint.keys.split())
             # as in the message, with the marks of code that reStructuredText has
             text = re.sub(r"`([^`]+)`", r"``\1``", hint.instead[0].upper() + hint.instead[1:] + ".")
-            rows.append((hint.about, ", ".join(f"``{key}``" for key in hint.keys.split()) + place, text))
+            rows.append((f"**{hint.about[0].upper()}{hint.about[1:]}**{where}\n\n{keys}", text))
         return rst.parse(
-            self,
-            rst.table(("about", "keys that are refused", "what to do instead"), rows, (18, 37, 45)),
-            section_hints.__file__,
+            self, rst.table(("keys that are refused", "what to do instead"), rows, (42, 58)), section_hints.__file__
         )
 
 

@@ -495,7 +495,7 @@ def row():
     """What the CourseRunner of :meth:`Experiment.attach` calls. Raises ExperimentError where there is no such Experiment, as after O.load()."""
     if _attached is None or _attached.runner not in O.engines:
         raise ExperimentError(
-            "this scene's course is not known to this process, its scene was loaded by itself: go on with experiment.resume(section, folder).attach()"
+            "this process does not know the stages of this slope, as the scene was loaded without its run: continue with experiment.resume(section, folder).attach()"
         )
     _attached._row_came()
 

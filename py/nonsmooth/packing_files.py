@@ -88,7 +88,7 @@ def save(packing: Packing, path) -> None:
 def load(path) -> Packing:
     """Read what `save` wrote. Raises PackingError where the file is missing, truncated or changed."""
     path = Path(path)
-    remedy = "delete the file, and it is made anew"
+    remedy = "delete the file, and the command makes it again"
     try:
         with np.load(path, allow_pickle=False) as data:
             version, checksum = int(data["format"]), str(data["checksum"])
@@ -190,7 +190,7 @@ def read_text(path) -> Packing:
         raise PackingError(f"{path}: holds no disk; give lines of x y r [layer]")
     if announced is not None and announced != len(rows):
         raise PackingError(
-            f"{path}: holds {len(rows)} disks of the {announced} it announces; " "it is truncated: write it anew"
+            f"{path}: holds {len(rows)} disks of the {announced} it announces; " "it is truncated: write it again"
         )
     x, y, r, layer = map(np.array, zip(*rows))
     return Packing(x, y, r, layer)

@@ -80,7 +80,7 @@ class Opened:
     def _file(self, name):
         path = self.folder / name
         if not path.is_file():
-            raise RunError(f"{path}: missing; the run has not come so far, or nothing of the kind was run here")
+            raise RunError(f"{path}: missing; the run has not reached that stage, or this folder holds no such run")
         return path
 
 
@@ -120,7 +120,7 @@ class Run(Opened):
             return records.read_snapshot(self._file(f"{name}.npz"))
         shots = frames.of_run(self.folder, self.series)
         if not shots:
-            raise RunError(f"{self.folder}: the run has written no snapshot yet; let it go on with --resume")
+            raise RunError(f"{self.folder}: the run has written no snapshot yet; continue it with --resume")
         return records.read_snapshot(frames.nearest(shots, name))
 
     def figure(self, name):
@@ -130,7 +130,7 @@ class Run(Opened):
         found = self._drawing.figure(name)
         if found is None:
             raise RunError(
-                f"{self.folder}: the run has not come to what {name} shows, failed before it, or has no wall or too few disks for it; let it go on with --resume if it has not ended"
+                f"{self.folder}: the figure {name} needs a later stage, a wall or more disks than this run has; continue the run with --resume if it has not ended"
             )
         return found
 

@@ -3,6 +3,7 @@
 import ast
 import dataclasses
 import json
+import re
 import subprocess
 import sys
 
@@ -280,3 +281,17 @@ def test_a_slope_of_ones_own_in_some_lines(tmp_path):
         and run.summary["water_at_failure_m"] > 0.5
         and run.summary["front_travel_m"] > 5
     )
+
+
+def test_the_page_of_the_package_begins_with_what_people_build_on():
+    """doc/python.rst names the public modules of doc/house.rst, the face first, and none of the judges."""
+    page = (ROOT / "doc" / "python.rst").read_text(encoding="utf-8")
+    named = [name for line in re.findall(r"^\.\. package-modules:: (.+)$", page, re.M) for name in line.split()]
+    house = (ROOT / "doc" / "house.rst").read_text(encoding="utf-8")
+    public = re.findall(
+        r"``([a-z_.]+)``", house[house.index("Scripts and notebooks may build on") : house.index("These names stay")]
+    )
+    assert set(public) - {"__all__"} <= set(named) and len(named) == len(set(named))
+    face = ["section", "experiment", "runs", "campaign", "scene", "figures", "laboratory"]
+    assert [name for name in named if name in face] == face and named[0] == "section"
+    assert not {name.split(".")[0] for name in named} & {"verification", "comparison", "benchmark"}

@@ -100,12 +100,12 @@ def read(out) -> Plan:
     try:
         content = json.loads(path.read_text())
         if content["format"] != FORMAT:
-            raise PlanError(f"{path}: another version of this package wrote this plan; plan it anew")
+            raise PlanError(f"{path}: another version of this package wrote this plan; make it again with --plan")
         return Plan(content["title"], content["function"], tuple(Planned(**one) for one in content["runs"]))
     except FileNotFoundError:
         raise PlanError(f"{path}: there is no plan; make one with --plan, or give the folder of one") from None
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        raise PlanError(f"{path}: the plan cannot be read ({error}); plan it anew") from None
+        raise PlanError(f"{path}: the plan cannot be read ({error}); make it again with --plan") from None
 
 
 def run_one(out, which):

@@ -103,7 +103,7 @@ def load(shape):
     except FileNotFoundError:
         raise SampleError(f"{path}: there is no such sample; prepare it first") from None
     except Exception as error:  # numpy and zipfile raise what they like for a damaged file
-        raise SampleError(f"{path}: no sample ({error}); delete the file, and it is made anew") from None
+        raise SampleError(f"{path}: no sample ({error}); delete the file, and the command makes it again") from None
 
 
 def prepare(shape, folder):

@@ -38,7 +38,7 @@ def kept(path, mark):
     """What was in a series' file at a :meth:`SeriesWriter.mark`, bytes; RecordsError where it is no longer there."""
     path = Path(path)
     if not path.exists():
-        raise RecordsError(f"{path}: missing, so the run cannot be resumed; start it anew without --resume")
+        raise RecordsError(f"{path}: missing, so the run cannot be resumed; start a new run without --resume")
     with open(path, "rb") as file:
         data = file.read(mark["bytes"])
     if len(data) < mark["bytes"] or hashlib.sha256(data).hexdigest() != mark["sha256"]:
@@ -48,8 +48,8 @@ def kept(path, mark):
             else "has been changed since"
         )
         raise RecordsError(
-            f"{path}: does not match the checkpoint, it {wrong}; restore the file from a copy, or start the "
-            "run anew without --resume"
+            f"{path}: does not match the checkpoint, it {wrong}; restore the file from a copy, or start a "
+            "new run without --resume"
         )
     return data
 
@@ -111,7 +111,7 @@ class SeriesWriter:
             found = data.split(b"\n", 1)[0].decode(errors="replace")
             raise RecordsError(
                 f"{self.path}: its columns are not those of this run (found '{found[:120]}'); resume with the version "
-                "that wrote it, or start anew without --resume"
+                "that wrote it, or start a new run without --resume"
             )
         self.last_step = mark["last_step"]
         return data

@@ -8,8 +8,8 @@ COURSE, RESULTS, TABLES = (PY + name for name in ("experiment.py", "results.py",
 SERIES, BREAKS = (PY + f"records/{name}.py" for name in ("series", "breaks"))
 TIMES = PY + "characteristic_times.py"
 SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "worlds.py", "toe.py"))
-SECTION, READER, CHECKS, GEOMETRY, VALUES = (
-    PY + name for name in ("section.py", "section_reader.py", "section_checks.py", "geometry.py", "section_values.py")
+SECTION, READER, CHECKS, GEOMETRY, VALUES, HINTS = (
+    PY + f"{name}.py" for name in ("section", "section_reader", "section_checks", "geometry", "section_values", "section_hints")
 )
 RULES = PY + "course.py"
 FREE_SURFACE, SLOPE_PACKING = PY + "free_surface.py", PY + "slope_packing.py"
@@ -235,6 +235,10 @@ MUTANTS = (
            "plain:test_section.py::test_the_old_name_of_the_pressure_gradient_is_read_with_one_warning"),
     mutant("similar-gradient", PY + "similar.py", "[0.0 - x, y]\n    return data", "[x, y]\n    return data", "a vector of the pressure's gradient is not mirrored",
            "plain:test_roles.py::test_a_mirrored_section_is_checked_like_any_other"),
+    mutant("hints-part", READER, "section_hints.instead_of(key, (*part[1:2], *keys))", "section_hints.instead_of(key, keys)", "a material file has the hints of a section",
+           "plain:test_section_hints.py::test_a_material_file_has_the_hints_of_materials"),
+    mutant("hints-outside", HINTS, "top != hint.outside", "True", "a strength in a material is sent to a material", "plain:test_section_hints.py::test_a_key_that_people_try"),
+    mutant("hints-words", HINTS, 'key.lower().replace("-", "_")', "key.lower()", "a key with a hyphen has no hint", "plain:test_section_hints.py::test_a_key_that_people_try"),
     mutant("reader-line", READER, "return line + 1", "return line", "messages name the line before", "plain:test_section.py::test_line_number"),
     mutant("reader-largest", READER, "abs(value) > LARGEST_NUMBER", "abs(value) < LARGEST_NUMBER", "every usual number is too large",
            "plain:test_section.py::test_is_the_slope_of_the_paper"),
