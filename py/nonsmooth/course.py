@@ -18,7 +18,7 @@ Rules:
 * speeds and times in this list are those of the shipped section, and scaled for another (:mod:`.scales`);
 * with soft contacts there is no tolerance: what goes from one value to another while the slope moves is the integrator's damping;
 * end: the mean speed has been below ``rest_fraction`` of its maximum for ``rest_hold`` seconds, or the slope stands and nothing is left that could change it, or
-  ``end.time`` has passed. It stands where for ``rest_hold`` seconds the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other
+  ``end.time`` has passed. It stands where for 5 s, and for ``rest_hold`` seconds more, the mean speed has been no more than ``stages.settle.speed_rest``, no bond broke and no other
   disk got wet, and the water table stays where it is or above all disks; a script that may do more to it says so.
 """
 
@@ -189,7 +189,7 @@ def _water(state, seen, section, scales):
     over = _passed(seen, s.settled + stages.end.time) or (resting and _passed(seen, stages.end.rest_hold, since))
     return replace(
         s,
-        stage="done" if over or (not seen.more and stands(s, seen, section)) else "water",
+        stage="done" if over or (not seen.more and stands(s, seen, section, scales)) else "water",
         resting_since=since,
         table=height,
         table_since=s.table_since if height == s.table else seen.time,
@@ -213,9 +213,10 @@ def _load_stays(s, seen, section):
     return min(coming) == max(coming) or min(coming) > seen.top
 
 
-def stands(state, seen, section):
-    """Whether the slope has stood so long under the last load that comes that nothing is left which could change it."""
-    return state.quiet_since is not None and _passed(seen, section.stages.end.rest_hold, state.quiet_since)
+def stands(state, seen, section, scales):
+    """Whether the slope has stood so long under the last load that comes that nothing is left which could change it: until it is solved more tightly, and at rest since."""
+    hold = scales.still_seconds + section.stages.end.rest_hold
+    return state.quiet_since is not None and _passed(seen, hold, state.quiet_since)
 
 
 def _passed(seen, time, since=0.0):

@@ -379,16 +379,16 @@ def standing(**seen):
 @pytest.mark.parametrize(
     "hold, rate, points, top, ends",
     [
-        ("motion", 1.0, [(0.0, 0.0)], 10.0, 11.6 + 5.0),  # the table is above 10 m from 11.6 s on, and rises
+        ("motion", 1.0, [(0.0, 0.0)], 10.0, 11.6 + 10.0),  # the table is above 10 m from 11.6 s on, and rises
         ("motion", 1.0, [(0.0, 0.0)], 100.0, 81.0),  # it never comes so far
-        (4.0, 1.0, [(0.0, 0.0)], 10.0, 5.5 + 5.0),  # held at 4 m
-        ("never", 0.0, [(0.0, 0.0)], 10.0, 1.6 + 5.0),  # it stays at 0
-        ("never", 0.0, [(0.0, 0.0), (2.0, 6.0)], 10.0, 3.5 + 5.0),
-        ("never", 0.0, [(0.0, 0.0), (2.0, 20.0), (30.0, 20.0), (32.0, 3.0)], 10.0, 33.5 + 5.0),  # it will fall again
+        (4.0, 1.0, [(0.0, 0.0)], 10.0, 5.5 + 10.0),  # held at 4 m
+        ("never", 0.0, [(0.0, 0.0)], 10.0, 1.6 + 10.0),  # it stays at 0
+        ("never", 0.0, [(0.0, 0.0), (2.0, 6.0)], 10.0, 3.5 + 10.0),
+        ("never", 0.0, [(0.0, 0.0), (2.0, 20.0), (30.0, 20.0), (32.0, 3.0)], 10.0, 33.5 + 10.0),  # it will fall again
     ],
 )
 def test_a_slope_that_stands_under_its_last_load_ends_its_run(hold, rate, points, top, ends):
-    """t0 is 1.5 s; rest_hold is 5 s."""
+    """t0 is 1.5 s; it is still after 5 s, and rest_hold is 5 s."""
     rows = play(slope(hold, rate, tuple(points)), steps(), also=standing(top=top))
     assert rows[-1].time == pytest.approx(ends, abs=0.1 + ROUNDING)  # a row
     longest = play(slope(hold, rate, tuple(points)), steps(), also=standing(top=top, more=True))
@@ -399,7 +399,7 @@ def test_a_slope_that_stands_under_its_last_load_ends_its_run(hold, rate, points
 
 
 def test_a_slope_without_water_that_stands_ends_its_run():
-    assert play(slope(water=False), steps(), also=standing())[-1].time == close(1.6 + 5.0)
+    assert play(slope(water=False), steps(), also=standing())[-1].time == close(1.6 + 10.0)
 
 
 # what goes on until 9 s
@@ -413,7 +413,7 @@ def test_a_slope_without_water_that_stands_ends_its_run():
 )
 def test_as_long_as_anything_goes_on_it_does_not_end(speed, seen):
     rows = play(slope("never", 0.0), speed, also=standing(**seen))
-    assert rows[-1].time == close(9.0 + 5.0)
+    assert rows[-1].time == close(9.0 + 10.0)
 
 
 # ---- rows -------------------------------------------------------------------------------------------

@@ -62,9 +62,9 @@ def test_a_slope_that_stands_ends_where_nothing_more_can_come(mirrored, size, tm
     run.run()
     summary, series = told(run), records.read_series(tmp_path / "series.csv")
     assert summary["verdict"] == "stood" and summary["finished"] and "disks wet (100 %)" in summary["verdict_says"]
-    # the highest disks' centres are some 5 m above the plane, and the table rises by 4 m/s; then it rests 0.3 s
+    # the highest disks' centres are some 5 m above the plane, and the table rises by 4 m/s; then it is still for 1.06 s and 0.3 s
     span = (series["time_s"][-1] - summary["times_s"]["t0"]) / np.sqrt(size)
-    assert 1.2 < span < 4.0 < chosen.stages.end.time / np.sqrt(size) == pytest.approx(30.0)
+    assert 2.2 < span < 5.0 < chosen.stages.end.time / np.sqrt(size) == pytest.approx(30.0)
     assert summary["water_highest_m"] > 5.0 * size and (series["wet_disks"][-2:] == summary["disks"]).all()
     assert summary["water_at_failure_m"] is None and summary["failed_dry_s"] is None
     assert summary["times_missing"] == dict.fromkeys(("t1", "t2", "t3", "t4", "t5"), "the slope did not move")
@@ -79,7 +79,7 @@ def test_a_dry_slope_that_stands_ends_soon(kind, tmp_path):
     run = begun(chosen, tmp_path)
     run.run()
     summary = told(run)
-    assert summary["verdict"] == "stood" and O.time < 3.0  # t0 at 0.5 s at the earliest, and 0.3 s of rest
+    assert summary["verdict"] == "stood" and O.time < 3.0  # t0 at 0.5 s at the earliest, and 1.36 s of rest
     assert ("without water" if kind == "no water" else ", dry") in summary["verdict_says"]
 
 
@@ -102,11 +102,11 @@ def test_a_run_waits_for_what_a_script_may_do(tmp_path):
         O.engines = O.engines + engines
         run.run(end, stands=stands)
         ended = 3.0 if end else run.state.settled + 4.0
-        assert (O.time == pytest.approx(ended, abs=0.021)) == waits and (O.time < 2.0) != waits, k  # a row
+        assert (O.time == pytest.approx(ended, abs=0.021)) == waits and (O.time < 2.8) != waits, k  # a row
     run = begun(chosen, tmp_path / "attached")
     run.attach()
     O.run(500, True)  # 2.5 s, long after it would have ended
-    assert run.state.stage == "water" and run.state.quiet_since < O.time - 1.0
+    assert run.state.stage == "water" and run.state.quiet_since < O.time - 1.5
 
 
 def test_a_slope_that_collapses_slowly_has_not_failed_by_water(tmp_path):
