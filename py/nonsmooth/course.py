@@ -49,7 +49,7 @@ FRAME_ROWS = 5  # between two snapshots, for the video and the figures
 SLOW_FRACTION = 0.1  # of the largest mean speed, see above
 STILL_SHARE = 0.25  # the tolerance of a slope that is still, of itself
 # Slopes of some hundred disks that stand move their centre by less than 0.002 of their size while they are loaded, and lose 2 % of their bonds at most, rocks that fall
-# off their face included; those that collapse go 0.03 and more, and lose 14 % and more.
+# off their face included; those that collapse go 0.03 and more, and lose 12 % and more.
 COLLAPSED = 0.01  # way of the mass's centre, in its size (the root of its area)
 CRACKED, CRACKED_WAY = 0.1, 0.002  # of the bonds, with such a way
 # for the progress bar alone
