@@ -443,3 +443,22 @@ def test_a_sample_of_a_rock_that_was_asked_for_has_its_strengths(tmp_path):
     assert found["friction_peak_deg"] == pytest.approx(34.0, abs=known.friction_angle_95_deg)
     # the interval tells a rock from its contacts, whose angle of friction is 20° less
     assert known.cohesion_95_rel < 0.25 and math.degrees(math.atan(rock.friction)) < 34 - 15
+
+
+def test_the_command_writes_its_table_and_its_check(in_process, monkeypatch, tmp_path):
+    def run(out, wanted, seeds, *_):
+        law = lambda seed, mu: (mu * math.exp(0.05 * seed), 40 + 10 * math.log(mu / 0.3) + 0.1 * seed)  # noqa: E731
+        return [
+            rock_table.row(e, circles(e, seeds, lambda seed, mu=e.material.friction: law(seed, mu))) for e in wanted
+        ]
+
+    monkeypatch.setattr(rock_table, "run", run)
+    done = in_process("rocks.py", "--frictions", 0.2, 0.3, 0.5, "--seeds", 4, 5, "--out", tmp_path / "table")
+    assert done.status == 0, done.err
+    told = json.loads((tmp_path / "table" / "rocks.json").read_text())
+    assert [row["friction"] for row in told["rocks"]] == [0.2, 0.3, 0.5] and told["samples"]["seeds"] == [4, 5]
+    assert [row["name"] for row in told["variants"]] == [e.name for e in rock_table.variants()]
+    assert (tmp_path / "table" / "rocks.png").stat().st_size > 10_000 and "μ_s = 0.5" in done.out
+    assert in_process("rocks.py", "--check", "--out", tmp_path / "check").status == 0
+    told = json.loads((tmp_path / "check" / "rocks_check.json").read_text())
+    assert [row["seeds"] for row in told["rows"]] == [list(rock_table.CHECK_SEEDS)] * 3 and told["of"] == 24

@@ -288,8 +288,8 @@ def check(found, command):
         unit = rocks.contacts(cohesion, angle).tensile_strength
         row["asked"] = {"cohesion_Pa": cohesion, "friction_angle_deg": angle}
         row["cohesion_Pa"] = over_seeds([unit * v for v in row["cohesion_over_tensile_strength"]["values"]])
-        off = [abs(c / cohesion - 1) <= said["cohesion_rel"] for c in row["cohesion_Pa"]["values"]]
-        turned = [abs(phi - angle) <= said["friction_angle_deg"] for phi in row["friction_angle_deg"]["values"]]
+        off = [bool(abs(c / cohesion - 1) <= said["cohesion_rel"]) for c in row["cohesion_Pa"]["values"]]
+        turned = [bool(abs(phi - angle) <= said["friction_angle_deg"]) for phi in row["friction_angle_deg"]["values"]]
         row["within"] = {"cohesion": sum(off), "friction_angle": sum(turned)}
         within += off + turned
         c, phi = row["cohesion_Pa"], row["friction_angle_deg"]
