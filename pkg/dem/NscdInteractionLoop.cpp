@@ -14,6 +14,7 @@
 #include <core/Scene.hpp>
 #include <neighbours/thread_part.hpp>
 #include <pkg/common/Sphere.hpp>
+#include <pkg/dem/DomainLimiter.hpp>
 #include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -25,6 +26,14 @@ namespace {
 	using nscd::fetch, nscd::soon, nscd::later, nscd::Reading;
 	namespace contact = nonsmooth::contact;
 	namespace plane   = contact::plane;
+
+	/// A LawTester follows a contact by the axes that functors give it.
+	bool hasTester(const Scene& scene)
+	{
+		return std::any_of(scene.engines.begin(), scene.engines.end(), [](const auto& engine) {
+			return !engine->dead && dynamic_cast<const LawTester*>(engine.get());
+		});
+	}
 
 	/// Makes what soft laws need of a contact of disks zero, so that a contact is the same whether it was made just now, some steps ago, or loaded.
 	void forgetShear(const shared_ptr<Interaction>& I, Scene& scene)
@@ -184,7 +193,8 @@ void NscdInteractionLoop::action()
 		for (const auto& law : lawDispatcher->functors)
 			if (dynamic_cast<const Law2_ScGeom_NscdPhys_SignoriniCoulomb*>(law.get()))
 				throw std::runtime_error("NscdInteractionLoop: " + nscd::noSolver(*scene));
-	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0) {
+	if (scene->isPeriodic || loopOnSortedInteractions || !callbacks.empty() || list.iterColliderLastRun >= 0
+	    || hasTester(*scene)) {
 		resident.show();
 		resident.potentialOf = nscd::Resident::never;
 		InteractionLoop::action();
