@@ -314,6 +314,8 @@ MUTANTS = (
            "test_verification.py::test_quick_form_of_a_long_check_holds[paper]"),
     # ---- two bodies of given motion, and engines that steer
     mutant("given-answer", ENGINE, "seam.answerGivenMotion();", ";", "contacts of two driven bodies bear nothing", "test_given_pairs.py::test_a_bond_that_is_pulled_bears_its_tensile_strength"),
+    mutant("given-axes", LOOP, "hasTester(*scene)", "false", "a LawTester goes straight on while its pair turns",
+           "test_given_pairs.py::test_a_bond_that_is_sheared_bears_its_shear_threshold"),
     mutant("given-turn", GIVEN, "c.length * (turn * turn * turn + rounding)", "c.length * rounding", "disks of a driven wheel rub on each other while it turns",
            "test_given_pairs.py::test_a_driven_wheel_of_bonded_disks_bears_nothing_while_it_turns"),
     mutant("given-pressed", GIVEN, "-u.n > drivenTogether", "u.n > drivenTogether", "it is told of bodies that are driven apart",
