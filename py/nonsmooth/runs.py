@@ -8,7 +8,7 @@ Like this::
     run.figure("forces")               # a matplotlib Figure, with axes to draw on
     run.video()                        # the video, in the page of a notebook
 
-Runs of other kinds (:mod:`.campaign`) are opened by what runs them; they have in common what :class:`Opened` has.
+Runs of other kinds (``campaign``) are opened by what runs them; they have in common what :class:`Opened` has.
 """
 
 from __future__ import annotations
