@@ -55,11 +55,33 @@ namespace {
 		return nullptr;
 	}
 
-	string missing(const Interaction& I, const string& kind, const string& a, const string& b)
+	/// Of two bodies whose contact lacks a functor for what `a` and `b` have; `remedy`: which one, or what else would do.
+	[[noreturn]] void lacks(const Body& a, const Body& b, const string& functor, const string& remedy)
 	{
-		return "NscdInteractionLoop: bodies #" + std::to_string(I.getId1()) + " and #"
-		        + std::to_string(I.getId2()) + ": there is no functor " + kind + " for " + a + " and " + b
-		        + ": add one to the list";
+		throw std::runtime_error(
+		        "NscdInteractionLoop: bodies #" + std::to_string(a.getId()) + " and #"
+		        + std::to_string(b.getId()) + " touch, and its list has no functor " + functor + ": " + remedy);
+	}
+
+	/// A material of another class is the usual reason: that of YADE's makers of bodies is a FrictMat.
+	[[noreturn]] void lacksPhysics(const Body& a, const Body& b)
+	{
+		const string functor = "Ip2 for " + a.material->getClassName() + " and " + b.material->getClassName();
+		for (const Body* body : { &a, &b })
+			if (!dynamic_cast<const NscdMat*>(body->material.get()))
+				lacks(a, b, functor,
+				      "body #" + std::to_string(body->getId()) + " has another material, a "
+				              + body->material->getClassName() + ": give it an NscdMat");
+		lacks(a, b, functor, "add Ip2_NscdMat_NscdMat_NscdPhys() to the second list");
+	}
+
+	[[noreturn]] void lacksLaw(const Interaction& I, const Body& a, const Body& b)
+	{
+		const string functor = "Law2 for " + I.geom->getClassName() + " and " + I.phys->getClassName();
+		if (nscd::physOf(*I.phys))
+			lacks(a, b, functor, "add Law2_ScGeom_NscdPhys_SignoriniCoulomb() to the third list");
+		lacks(a, b, functor,
+		      "rigid contacts have an NscdPhys: give both bodies an NscdMat, and the loop Ip2_NscdMat_NscdMat_NscdPhys() and Law2_ScGeom_NscdPhys_SignoriniCoulomb()");
 	}
 
 	/// What a bond of two disks has slipped and turned; where it yielded so in the step before, it is at rest with that.
@@ -156,14 +178,11 @@ namespace {
 		if (!cache.geom->go(b1->shape, b2->shape, *b1->state, *b2->state, Vector3r::Zero(), false, I))
 			return !wasReal;
 		if (!cache.phys) cache.phys = loop.physDispatcher->getFunctor2D(b1->material, b2->material, swap);
-		if (!cache.phys)
-			throw std::runtime_error(
-			        missing(*I, "Ip2", b1->material->getClassName(), b2->material->getClassName()));
+		if (!cache.phys) lacksPhysics(*b1, *b2);
 		cache.phys->go(b1->material, b2->material, I);
 		if (!wasReal) I->iterMadeReal = scene.iter;
 		if (!cache.constLaw) cache.constLaw = loop.lawDispatcher->getFunctor2D(I->geom, I->phys, swap);
-		if (!cache.constLaw)
-			throw std::runtime_error(missing(*I, "Law2", I->geom->getClassName(), I->phys->getClassName()));
+		if (!cache.constLaw) lacksLaw(*I, *b1, *b2);
 		return cache.constLaw->go(I->geom, I->phys, I.get());
 	}
 }

@@ -71,7 +71,7 @@ Place it after :yref:`ForceResetter` and before :yref:`ContactDynamicsEngine`.)"
 		.def("isReleased",&PorePressureEngine::isReleased,(boost::python::arg("id")),"Was this body wet, and has it been released for good?")
 		.def("bodyTable",&PorePressureEngine::bodyTable,"Three bytes a body, by id: isWet, isReleased, wasWet; see nonsmooth.tables.water.")
 		.add_property("gradient",&PorePressureEngine::minusPressureGradient,&PorePressureEngine::setGradient,"|ydeprecated| −∇p [N/m³], the force per volume: the old name of :yref:`pressureGradient<PorePressureEngine.pressureGradient>`, which has the other sign.")
-		.def("forgetReleases",&PorePressureEngine::forgetReleases,"Count ways downslope anew from the present positions, and forget who was wet.")
+		.def("forgetReleases",&PorePressureEngine::forgetReleases,"Count ways downslope from the present positions again, and forget which bodies were wet.")
 	);
 	// clang-format on
 	DECLARE_LOGGER;

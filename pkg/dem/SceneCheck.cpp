@@ -53,7 +53,8 @@ namespace {
 		}
 		void requireBefore() const
 		{
-			if (after) fail(named(*first) + " stands after it in O.engines: put it before");
+			if (after)
+				fail(named(*first) + " stands after ContactDynamicsEngine in O.engines: put it before");
 		}
 	};
 
@@ -64,9 +65,9 @@ namespace {
 			     + ", which would change the impulses: set damping=0 (rigid contacts dissipate by themselves)");
 		if (newton.mask > 0)
 			fail("NewtonIntegrator.mask = " + std::to_string(newton.mask)
-			     + ": bodies outside of it would not move, and reactions are found as if they did: set mask=-1, and block the DOFs of bodies that must stay");
+			     + ": bodies outside of the mask would not move, and the solver would take them for moving: set mask=-1, and block the DOFs of bodies that must stay");
 		if (newton.densityScaling)
-			fail("NewtonIntegrator.densityScaling = True, which would change the masses behind the solver's back: set densityScaling=False (rigid contacts need none)");
+			fail("NewtonIntegrator.densityScaling = True, which changes masses that the solver does not see: set densityScaling=False (rigid contacts do not need it)");
 	}
 
 	/// Engines of YADE's that steer by what rigid contacts and flat scenes have not, with what does their work; by name, since not every YADE has all of them.
@@ -125,10 +126,10 @@ namespace {
 			     + " N/m, and a rigid contact has no stiffness: leave kn and ks 0");
 		if (name == "tangensOfFrictionAngle")
 			fail(pair
-			     + " was given another phys.tangensOfFrictionAngle, which slip has already weakened away: set the wall's frictionAngle and weakenedFrictionAngle, and call ContactDynamicsEngine.updateStrengths()");
+			     + " was given another phys.tangensOfFrictionAngle, but slip has already taken away the friction of this wall: set the wall's frictionAngle and weakenedFrictionAngle, and call ContactDynamicsEngine.updateStrengths()");
 		fail(pair + " was given phys.normalForce = " + vector(phys.normalForce)
 		     + " and phys.shearForce = " + vector(phys.shearForce)
-		     + " N by a script, and the solver finds these forces anew in each step: press bodies by O.forces.setPermF, or set both to zero to let the solve begin with none");
+		     + " N by a script, and the solver computes these forces in each step: press bodies by O.forces.setPermF, or set both to zero if the solver is to begin without a first guess");
 	}
 
 	/// Whether an engine of YADE's reads the forces on bodies when it acts.
@@ -160,7 +161,7 @@ void checkEngines(const Scene& scene, const Engine& solver)
 			continue;
 		}
 		if (dynamic_cast<const ContactDynamicsEngine*>(&engine) && !engine.dead)
-			fail("O.engines has two of them, and each would add its own reactions: take one out");
+			fail("O.engines has two engines ContactDynamicsEngine, and each would add its own reactions: take one out");
 		if (const auto* found = dynamic_cast<const NewtonIntegrator*>(&engine)) {
 			integrators.take(engine, passed);
 			if (engine.dead) continue;
@@ -184,7 +185,7 @@ void checkEngines(const Scene& scene, const Engine& solver)
 			loops.take(engine, passed);
 		else if (reset && !passed && !engine.dead && readsForces(engine))
 			fail(named(engine)
-			     + " reads forces and stands before it, where O.forces has no reaction of this step yet: put it after the integrator (engines(after=[...]))"
+			     + " reads forces and stands before ContactDynamicsEngine, where O.forces has no reaction of this step yet: put it after the integrator (engines(after=[...]))"
 			     + (dynamic_cast<const UniaxialStrainer*>(&engine)
 			                ? ", with blockDisplacements=True and blockRotations=True"
 			                : ""));
@@ -192,18 +193,20 @@ void checkEngines(const Scene& scene, const Engine& solver)
 			checkTester(*tester);
 		if (passed && !newton && !engine.dead && !between) between = &engine;
 	}
-	integrators.require("O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after it");
-	if (!integrators.after) fail("it stands after NewtonIntegrator in O.engines: put it before");
+	integrators.require(
+	        "O.engines has no NewtonIntegrator: add NewtonIntegrator(damping=0, gravity=...) after ContactDynamicsEngine");
+	if (!integrators.after)
+		fail("the engine stands after NewtonIntegrator in O.engines: put it before the integrator");
 	checkIntegrator(*newton);
 	loops.require(
-	        "O.engines has no InteractionLoop, so no contact would be known: add NscdInteractionLoop(...) before it, see yade.nonsmooth.scene.engines");
+	        "O.engines has no InteractionLoop, so no contact would be known: add NscdInteractionLoop(...) before ContactDynamicsEngine, see yade.nonsmooth.scene.engines");
 	loops.requireBefore();
 	colliders.require(
 	        "O.engines has no collider, so no contact would be found: add PlanarGridCollider(...) before InteractionLoop, see yade.nonsmooth.scene.engines");
 	colliders.requireBefore();
 	if (between)
-		fail(named(*between) + " stands between it and " + named(*newton)
-		     + " in O.engines, where a force or a velocity that it changes is one that no reaction answers: put it before this engine, or after the integrator");
+		fail(named(*between) + " stands between ContactDynamicsEngine and " + named(*newton)
+		     + " in O.engines, where no reaction answers the forces and velocities that it changes: put it before ContactDynamicsEngine if it adds forces, after the integrator if it reads them");
 	if (resetters.dead && !resetters.first) resetters.require("");
 	if (scene.forces.lastReset < scene.iter)
 		fail("O.forces were last reset in step " + std::to_string(scene.forces.lastReset)
@@ -344,6 +347,35 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 	}
 }
 
+void checkMaterials(const Scene& scene, const std::vector<BodyReading>& bodies)
+{
+	InteractionLoop* loop = nullptr;
+	for (const auto& engine : scene.engines)
+		if (auto* found = engine->dead ? nullptr : dynamic_cast<InteractionLoop*>(engine.get())) loop = found;
+	if (!loop) return;
+	const auto rigid = [](const Body& b) { return dynamic_cast<const NscdMat*>(b.material.get()); };
+	const auto disk  = std::find_if(bodies.begin(), bodies.end(), [&](const BodyReading& b) {
+                return b.present && b.radius > 0 && rigid(*(*scene.bodies)[&b - bodies.data()]);
+        });
+	if (disk == bodies.end()) return; // nothing here is rigid
+	auto&         ours = (*scene.bodies)[disk - bodies.begin()]->material;
+	std::set<int> known; // classes of materials
+	for (size_t id = 0; id < bodies.size(); ++id) {
+		const auto& b = (*scene.bodies)[id];
+		if (!b || !b->material || !b->isBounded() || bodies[id].clumped || rigid(*b)) continue;
+		bool swap = false;
+		if (b->material->getClassIndex() >= 0
+		    && (known.count(b->material->getClassIndex())
+		        || loop->physDispatcher->getFunctor2D(b->material, ours, swap))) {
+			known.insert(b->material->getClassIndex());
+			continue;
+		}
+		fail(body(id) + " has another material, a " + b->material->getClassName()
+		     + (b->material->label.empty() ? "" : " '" + b->material->label + "'") + ", and " + named(*loop)
+		     + " has no Ip2 functor for it and an NscdMat, so that its first contact would end the run: give it an NscdMat, or set the body's bounded = False if nothing is to touch it");
+	}
+}
+
 void refuseContact(const Scene& scene, const Reading& reading)
 {
 	const Interaction& i    = *reading.interaction;
@@ -370,7 +402,7 @@ void refuseContact(const Scene& scene, const Reading& reading)
 			return number(b.state->pos[0]) + ", " + number(b.state->pos[1]);
 		};
 		fail(pair + " has no normal: the centres are at one place, (" + place(*b1) + ") and (" + place(*b2)
-		     + ") m, or one of them is nowhere. They were put there, or something pressed one through the other in steps that were not solved: look at"
+		     + ") m, or a position is not finite. A script has put them there, or a load has pressed one through the other in steps that were not solved: check"
 		       " contactDynamics.overlapWorst and .unconverged of the steps before, and move one of them");
 	}
 	if (!reading.usable && std::abs(reading.nz) > flatness)
@@ -379,11 +411,11 @@ void refuseContact(const Scene& scene, const Reading& reading)
 		     + number(b2->state->pos[2]) + " m): put all disks at one z, and walls upright to the plane");
 	if (const char* name = reading.phys->unheard()) refuseWritten(pair, *reading.phys, name);
 	const auto [name, value] = reading.phys->senseless();
-	fail(pair + " has numbers without sense: friction " + number(reading.friction) + ", tensile force "
+	fail(pair + " has values out of their range: friction " + number(reading.friction) + ", tensile force "
 	     + number(reading.adhesion) + " N, rolling arm " + number(reading.rollingArm) + " m, mean diameter "
 	     + number(reading.length) + " m, restitution " + number(reading.restitution)
 	     + (name ? string(", phys.") + name + " " + number(value) : "")
-	     + "; all must be finite and not negative, the diameter and a bond's ellipse positive, restitution from 0 to 1: set them in its phys, or take them from the materials with "
+	     + "; all must be finite and not negative, the diameter and a bond's ellipse positive, restitution from 0 to 1: set them in its phys, or take the values of the materials with "
 	       "ContactDynamicsEngine.updateStrengths()");
 }
 

@@ -18,12 +18,16 @@ void checkEngines(const Scene& scene, const Engine& solver);
 /// Refuses YADE's DomainLimiter, for the engine `who`. Throws std::runtime_error.
 void refuseLimiter(const Scene& scene, const char* who);
 
-/// Refuses bodies that could be touched and never are, since the engines have no functor for their shapes; `shaped`: those that are no disks and of no clump.
-/// Refuses a collider whose sure reach leaves out contacts that are solved or could be bonded; `openGap` [ℓ] is the solver's.
+/// Refuses a collider whose sure reach leaves out contacts that are solved or could be bonded; `openGap` [ℓ] is the solver's. Throws std::runtime_error.
 void checkSureReach(const Scene& scene, Real openGap);
 
+/// Refuses bodies that could be touched and never are, since the engines have no functor for their shapes; `shaped`: those that are no disks and of no clump.
 /// Throws std::runtime_error.
 void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, const std::vector<int>& shaped);
+
+/// Refuses bodies of another material whose contacts with disks no functor could make: YADE's InteractionLoop ends the process there. Goes through all bodies, so
+/// it is asked where these have been read anew. Throws std::runtime_error.
+void checkMaterials(const Scene& scene, const std::vector<BodyReading>& bodies);
 
 /// Refuses a reading that is not Reading::usable, or has another physics: says why. Throws std::runtime_error.
 [[noreturn]] void refuseContact(const Scene& scene, const Reading& reading);

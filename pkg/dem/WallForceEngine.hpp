@@ -28,8 +28,8 @@ It changes nothing. Place it behind the integrator; :yref:`yade.nonsmooth.wall_f
 		,
 		/* ctor */
 		,
-		.def("take",&WallForceEngine::take,"Means of the normal and of the shear force and the largest normal force [N], a triple; begins anew. Raises RuntimeError where no step was counted.")
-		.def("forget",&WallForceEngine::forget,"Begin anew.")
+		.def("take",&WallForceEngine::take,"Means of the normal and of the shear force and the largest normal force [N], a triple; then restarts the sums. Raises RuntimeError if no step was counted.")
+		.def("forget",&WallForceEngine::forget,"Restart the sums.")
 	);
 	// clang-format on
 };

@@ -10,8 +10,10 @@ from yade.wrapper import (
     ContactDynamicsEngine,
     DomainLimiter,
     ForceResetter,
+    FrictMat,
     InsertionSortCollider,
     InteractionLoop,
+    Ip2_FrictMat_FrictMat_FrictPhys,
     Ip2_NscdMat_NscdMat_NscdPhys,
     NewtonIntegrator,
     NonsmoothTimeStepper,
@@ -224,7 +226,7 @@ def test_clumps_meet_the_solver():
     begin()
     swapped(InteractionLoop, plain_loop)
     swapped(NewtonIntegrator, lambda e: NewtonIntegrator(damping=0, gravity=e.gravity))
-    refused("ContactDynamicsEngine", "clump", "single spheres")
+    refused("ContactDynamicsEngine", "clump", "single disks, which bonds can hold together")
 
 
 def test_an_aspherical_body_that_may_turn_any_way_is_not_the_planar_integrators():
@@ -276,11 +278,18 @@ def test_a_collider_behind_the_solver():
         for engine_ in rest
         for e in ([engine_, collider] if isinstance(engine_, ContactDynamicsEngine) else [engine_])
     ]
-    refused("PlanarGridCollider stands after it", "before")
+    refused("PlanarGridCollider stands after ContactDynamicsEngine", "put it before")
 
 
 @pytest.mark.parametrize(
-    "without, words", [("physics", ("functor Ip2", "NscdMat")), ("laws", ("functor Law2", "SegmentGeom", "NscdPhys"))]
+    "without, words",
+    [
+        ("physics", ("functor Ip2 for NscdMat and NscdMat", "add Ip2_NscdMat_NscdMat_NscdPhys() to the second list")),
+        (
+            "laws",
+            ("functor Law2 for SegmentGeom and NscdPhys", "Law2_ScGeom_NscdPhys_SignoriniCoulomb() to the third list"),
+        ),
+    ],
 )
 def test_a_loop_without_a_functor(without, words):
     rests()
@@ -292,7 +301,57 @@ def test_a_loop_without_a_functor(without, words):
             [] if without == "laws" else e.lawDispatcher.functors,
         ),
     )
-    refused("NscdInteractionLoop", "#0", "#1", "add one to the list", *words)
+    refused("NscdInteractionLoop: bodies #0 and #1 touch", *words)
+
+
+def test_a_body_that_touches_with_another_material():
+    """The usual slip: YADE's makers give a body a FrictMat where a script names no material."""
+    disk = rests()
+    O.bodies[disk].material = FrictMat(label="default")
+    refused(
+        "NscdInteractionLoop: bodies #0 and #1", f"body #{disk} has another material, a FrictMat", "give it an NscdMat"
+    )
+    O.bodies[disk].material = O.bodies[0].material
+    O.step()
+
+
+def test_a_law_for_springs_in_a_rigid_scene():
+    rests()
+    swapped(
+        InteractionLoop,
+        lambda e: NscdInteractionLoop(
+            e.geomDispatcher.functors, [Ip2_FrictMat_FrictMat_FrictPhys()], e.lawDispatcher.functors
+        ),
+    )
+    refused(
+        "functor Law2 for SegmentGeom and FrictPhys", "give both bodies an NscdMat", "Ip2_NscdMat_NscdMat_NscdPhys()"
+    )
+
+
+@pytest.mark.parametrize("loop", [plain_loop, None])
+def test_another_material_is_refused_before_it_touches(loop):
+    """YADE's loop would end the process at the first contact."""
+    rests()
+    if loop:
+        swapped(InteractionLoop, loop)
+    far = free_disk(0, 30)
+    O.bodies[far].material = FrictMat(label="default")
+    refused(
+        f"body #{far} has another material, a FrictMat 'default'",
+        "no Ip2 functor",
+        "give it an NscdMat",
+        "bounded = False",
+    )
+    O.bodies[far].bounded = False
+    O.step()
+
+
+def test_another_material_with_a_functor_of_its_own_is_let_be():
+    rests()
+    loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
+    loop.physDispatcher.functors = [Ip2_NscdMat_NscdMat_NscdPhys(), Ip2_FrictMat_FrictMat_FrictPhys()]
+    O.bodies[free_disk(0, 30)].material = FrictMat()
+    O.step()
 
 
 def test_water_with_tables_that_do_not_fit():

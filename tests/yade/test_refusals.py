@@ -95,7 +95,7 @@ def scale_densities():
         ),
         (
             lambda: setattr(O, "engines", inserted(ContactDynamicsEngine, ContactDynamicsEngine())),
-            ("two of them", "take one out"),
+            ("two engines ContactDynamicsEngine", "take one out"),
         ),
         (
             lambda: setattr(O, "engines", replaced(ContactDynamicsEngine)),
@@ -133,7 +133,7 @@ def test_a_loop_behind_the_solver_is_refused():
     engines = replaced(InteractionLoop)
     at = engines.index(next(e for e in engines if isinstance(e, ContactDynamicsEngine)))
     O.engines = engines[: at + 1] + [loop] + engines[at + 1 :]
-    refused("NscdInteractionLoop stands after it", "before")
+    refused("NscdInteractionLoop stands after ContactDynamicsEngine", "put it before")
 
 
 def test_dead_engines_that_nobody_needs_are_let_be():

@@ -123,6 +123,8 @@ void ContactSeam::gather(Scene& scene, Resident& from, const Vector3r& gravity, 
 	gatherBodies(scene, gravity);
 	takeGivenMotion(scene);
 	checkShapes(scene, resident->bodies, resident->shaped);
+	if (materialsOf != resident->taken) checkMaterials(scene, resident->bodies);
+	materialsOf = resident->taken;
 	divide(scene);
 	const auto&  order = resident->order;
 	const size_t count = order.size(), solved = solvedBefore.back(), leftOut = leftBefore.back();
@@ -238,12 +240,13 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	if (bad >= 0) {
 		const Body& body = *(*scene.bodies)[bad];
 		if (body.isClump() || body.isClumpMember())
-			refuse(body, "belongs to a clump", "clumps are not supported; use single spheres");
+			refuse(body, "belongs to a clump",
+			       "clumps are not supported: use single disks, which bonds can hold together (contactDynamics.bond())");
 		resident->showBody(bad);
 		const State& s = *body.state;
 		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum()))
 			refuse(body, "has a position or velocity that is not finite",
-			       "look at the forces and velocities set by the script");
+			       "check the forces and velocities that the script sets");
 		if (!std::isfinite(s.ori.coeffs().sum()))
 			refuse(body, "has an orientation that is not finite",
 			       "set state.ori = Quaternion((0, 0, 1), angle)");
@@ -266,7 +269,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		                                   std::pair("torque", scene.forces.getTorque(bad)) })
 			if (!std::isfinite(value.sum()))
 				refuse(body, string("has a ") + what + " that is not finite",
-				       "look at the engines that add forces");
+				       "check the engines that add forces");
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
 		if ((s.blockedDOFs & planar) == planar) refuseForce(scene, bad);
 		refuse(body, "can leave the x-y plane",

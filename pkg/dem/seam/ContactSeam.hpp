@@ -187,8 +187,9 @@ private:
 	Relaxation                               relaxation { 1, 0, 0, 0, 0 };
 	std::vector<nonsmooth::contact::Contact> leftContacts; // left out of the solve, with
 	std::vector<Link>                        leftLinks; // their links
-	int                                      threads = 1;
-	int                                      recalls = 0; // of this step
+	int                                      threads     = 1;
+	int                                      recalls     = 0; // of this step
+	long                                     materialsOf = -1; // reading of bodies whose materials were looked at
 	std::vector<nonsmooth::contact::Twist>
 	        before; // velocities at the beginning of the step, after the impacts that were followed
 	std::vector<nonsmooth::contact::Twist>         begun; // before these; of a step with any
