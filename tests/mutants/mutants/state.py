@@ -55,8 +55,6 @@ MUTANTS = (
     mutant("background-anew", BACKGROUND, "        _keep(stop=True)\n", "", "an error is forgotten where a scene is loaded", WATCHED + "::test_an_error_that_nobody_has_heard_of_ends_the_process_with_1"),
     mutant("background-status", BACKGROUND, "status or 1", "status", "a process whose run was ended by an error ends as done", WATCHED + "::test_an_error_that_nobody_has_heard_of_ends_the_process_with_1"),
     mutant("background-heard", BACKGROUND, "_unheard.remove(message)", "pass", "a script that has heard of an error ends with it", WATCHED + "::test_the_same_error_heard_later_is_heard"),
-    mutant("background-step", "pkg/dem/BackgroundRun.cpp", "free.owns_lock()", "true", "an error in the last step of a run that was paused is forgotten",
-           WATCHED + "::test_an_error_in_the_last_step_of_a_run_that_is_stopped"),
     mutant("launcher-dashes", "scripts/yade-nonsmooth", '"-j$threads" -- "${script[@]}"', '"-j$threads" "${script[@]}"', "a script does not get its first --",
            "test_load.py::test_yades_options_and_the_scripts_own"),
     # ---- numbers
