@@ -61,7 +61,7 @@ HINTS = (
     Hint(
         "strengths of a rock, in a material",
         "phi c phi_peak phi_residual c_peak c_residual su undrained_strength ucs uniaxial_compressive_strength compressive_strength gsi hoek_brown mohr_coulomb shear_strength",
-        "a material has the strengths of a contact, `friction` and `tensile_strength`, from which that of the rock follows: scripts/calibrate.py finds them for an angle of friction and a cohesion",
+        "give the peak strength of a rock as `cohesion` [Pa] and `friction_angle` [degrees], or the strengths of its contacts as `friction` and `tensile_strength`, which scripts/calibrate.py finds for other rocks",
         inside="materials",
     ),
     Hint(
