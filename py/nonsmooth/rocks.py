@@ -36,7 +36,7 @@ FILE = Path(__file__).with_name("sections") / "rocks.json"
 ASKED = ("cohesion", "friction_angle")  # the keys that ask for a rock of the table
 # degrees of φ that samples of disks reach: without friction between disks, and with as much as there may be
 REACHED = (6.0, 60.0)
-DIGITS = 4  # of what comes out: the last bits of exponentials are a processor's own, and a slope grows them
+DIGITS = 4  # of exponentials, whose last bits are a processor's own, and a slope grows them; of these alone, so that strengths go with the cohesion to the last bit
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def contacts(cohesion: float, friction_angle: float) -> Contacts:
     sample = known["one_sample_95"]
     return Contacts(
         _rounded(math.exp(at)),
-        _rounded(cohesion / math.exp(over)),
+        cohesion / _rounded(math.exp(over)),
         math.hypot(sample["cohesion_rel"], known["curvature_rel"]),
         sample["friction_angle_deg"],
     )
@@ -153,7 +153,7 @@ def resolved(raw: dict, refuse) -> dict:
     found = contacts(cohesion, angle)
     for key, span in table()["open"].items():
         # what was rounded to some digits is not refused
-        least, most = (_rounded(span[end] * getattr(found, span["of"])) for end in ("from", "to"))
+        least, most = (span[end] * getattr(found, span["of"]) for end in ("from", "to"))
         if key in raw and not least * (1 - 1e-3) <= raw[key] <= most * (1 + 1e-3):
             refuse(
                 (key,),
@@ -165,9 +165,7 @@ def resolved(raw: dict, refuse) -> dict:
         "friction": found.friction,
         "tensile_strength": found.tensile_strength,
         "residual_friction": _rounded(usual["residual_friction_over_friction"] * found.friction),
-        "residual_tensile_strength": _rounded(
-            usual["residual_tensile_strength_over_tensile_strength"] * found.tensile_strength
-        ),
+        "residual_tensile_strength": usual["residual_tensile_strength_over_tensile_strength"] * found.tensile_strength,
         **fixed,
         **{k: v for k, v in raw.items() if k not in ASKED},
     }

@@ -6,7 +6,7 @@ PACKAGES_PROJECT=(
     g++ cmake ninja-build pkg-config ca-certificates python3 python3-dev
     libboost-all-dev libeigen3-dev zlib1g-dev libgtest-dev libbenchmark-dev libhdf5-dev pybind11-dev
     python3-numpy python3-scipy python3-matplotlib python3-shapely python3-yaml python3-jsonschema
-    python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-pytest python3-hypothesis python3-docutils python3-jinja2 ffmpeg
+    python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-pytest python3-hypothesis python3-docutils python3-jinja2 python3-pil ffmpeg
     python3-sphinx furo python3-sphinx-copybutton python3-sphinxcontrib.bibtex python3-nbsphinx python3-nbconvert python3-ipykernel python3-ipython pandoc)
 
 # To configure, build and run the slim YADE.

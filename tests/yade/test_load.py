@@ -173,6 +173,9 @@ LOOKED_AT = {
     "pkg/common/PyRunner": [],
     "pkg/common/Recorder": [],
     "lib/high-precision/Constants": [],
+    # the runner of O.run()'s thread, which no macro changes
+    "core/ThreadRunner": [],
+    "lib/base/Math": [],
     "lib/pyutil/gil": [],  # functions, a class that is only recognised, and numbers
 }
 

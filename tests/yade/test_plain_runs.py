@@ -177,7 +177,7 @@ def test_a_script_that_fails_or_is_not_there_is_told(script, tmp_path):
 def test_lessons_are_called_by_their_names(tmp_path):
     assert {"incline", "pile", "column", "wedge", "beam", "slope"} <= set(campaign.lessons())
     with pytest.raises(
-        campaign.ScriptError, match="lesson 'inclin': there is no such lesson; give one of beam, column"
+        campaign.ScriptError, match="lesson 'inclin': there is no such lesson; give one of beam, bounce, column"
     ):
         campaign.run_lesson("inclin", tmp_path / "out")
     with pytest.raises(campaign.ScriptError, match="world 'rigid': give hard or soft"):
