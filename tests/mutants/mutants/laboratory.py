@@ -65,7 +65,7 @@ MUTANTS = (
            "test_laboratory.py::test_a_quick_search_is_of_coarse_samples_and_says_how_good_it_is"),
     mutant("lab-residual", LAB + "calibration.py", "slopes[2] *= max(0.05, self.wanted.residual_cohesion / self.wanted.cohesion)", "slopes[2] *= 1.0",
            "a search takes a residual cohesion's misfit for one in parts of itself", "test_laboratory.py::test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped"),
-    mutant("rocks-strength", "py/nonsmooth/rocks.py", "_rounded(cohesion / math.exp(over))", "_rounded(cohesion * math.exp(over))", "a rock of the table has too weak bonds",
+    mutant("rocks-strength", "py/nonsmooth/rocks.py", "cohesion / _rounded(math.exp(over))", "cohesion * _rounded(math.exp(over))", "a rock of the table has too weak bonds",
            "test_rocks.py::test_a_rock_of_the_table_is_given_back"),
     mutant("rocks-linear", "py/nonsmooth/rocks.py", "return angle, np.log(mu), np.log(share)", "return angle, np.log(mu), np.log(share[::-1])", "cohesions of the table are in the wrong order",
            "test_rocks.py::test_a_rock_of_the_table_is_given_back"),
