@@ -1,6 +1,7 @@
 """Equations as MathML, which browsers show by themselves: pages need neither a network nor a TeX system."""
 import html
 import inspect
+import re
 
 from docutils import nodes
 from docutils.utils.math import latex2mathml
@@ -14,6 +15,8 @@ _OLD = "inline" in inspect.signature(latex2mathml.tex2mathml).parameters
 
 def _mathml(node, block):
     tex = node.astext()
+    if re.search(r"frac\s*\d", tex):  # docutils reads the 12 of \frac12 as one number
+        log.warning("this equation has a fraction without braces; write \\frac{1}{2}: %s", tex, location=node)
     try:
         return latex2mathml.tex2mathml(tex, **({"inline": not block} if _OLD else {"as_block": block}))
     except Exception as error:  # SyntaxError or MathError, as docutils has it
