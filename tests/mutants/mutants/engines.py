@@ -277,7 +277,7 @@ MUTANTS = (
            "test_messages.py::test_a_body_that_touches_with_another_material"),
     mutant("materials-looked-at", SEAM, "materialsOf != resident->taken", "false", "another material is met when it touches",
            "test_messages.py::test_another_material_is_refused_before_it_touches"),
-    mutant("materials-functor", "pkg/dem/SceneCheck.cpp", "loop->physDispatcher->getFunctor2D(b->material, ours, swap)", "false", "a material with a functor of its own is refused",
+    mutant("materials-functor", "pkg/dem/SceneCheck.cpp", "loop->physDispatcher->getFunctor2D(b->material, ours, swap)", "boost::shared_ptr<IPhysFunctor>()", "a material with a functor of its own is refused",
            "test_messages.py::test_another_material_with_a_functor_of_its_own_is_let_be"),
     mutant("surely-inactive", "pkg/dem/NscdInteractionLoop.cpp", "r.active && r.usable", "r.usable", "an interaction that a script has silenced is solved",
            "test_engine.py::test_an_interaction_that_is_silenced_bears_nothing"),
@@ -322,6 +322,6 @@ MUTANTS = (
            "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
     mutant("check-tester", "pkg/dem/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
-    mutant("check-controller", "pkg/dem/SceneCheck.cpp", '{ "KinemCNSEngine", &lid }', '{ "KinemCNSEngine\'s", &lid }', "an engine that asks for stiffness is let run",
+    mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"KinemCNSEngine"', '"KinemCNSEngines"', "an engine that asks for stiffness is let run",
            "test_controllers.py::test_what_steers_by_stiffness_or_cell_is_refused_with_what_works"),
 )
