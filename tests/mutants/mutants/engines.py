@@ -322,6 +322,6 @@ MUTANTS = (
            "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
     mutant("check-tester", "pkg/dem/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
-    mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"KinemCNSEngine"', '"KinemCNSEngines"', "an engine that asks for stiffness is let run",
+    mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"TriaxialStateRecorder"', '"TriaxialStateRecorders"', "an engine that reads what rigid contacts have not is let run",
            "test_controllers.py::test_what_steers_by_stiffness_or_cell_is_refused_with_what_works"),
 )
