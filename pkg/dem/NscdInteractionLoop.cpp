@@ -206,7 +206,7 @@ void NscdInteractionLoop::action()
 	const int              threads = nscd::threadsOf(*this);
 	nscd::Turn      turn(*this, threads); // first: a refusal shows what the engines before have left in the arrays
 	nscd::Resident& resident = turn.resident();
-	nscd::refuseLimiter(*scene, "NscdInteractionLoop");
+	nscd::refuseEarly(*scene, "NscdInteractionLoop");
 	keepFunctors();
 	if (!nscd::hasSolver(*scene))
 		for (const auto& law : lawDispatcher->functors)

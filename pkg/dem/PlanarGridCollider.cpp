@@ -82,7 +82,7 @@ void PlanarGridCollider::action()
 
 void PlanarGridCollider::validate() const
 {
-	nscd::refuseLimiter(*scene, "PlanarGridCollider");
+	nscd::refuseEarly(*scene, "PlanarGridCollider");
 	if (scene->isPeriodic)
 		throw std::runtime_error(
 		        "PlanarGridCollider: periodic scenes are not supported, with any collider: set O.periodic = False and bound the scene by walls");
@@ -255,10 +255,11 @@ bool PlanarGridCollider::moved()
 	paths.resize(size);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
 	for (long id = 0; id < size; ++id) {
-		paths[id] = { disks[id].x - reference[id].x, disks[id].y - reference[id].y };
-		other     = other || disks[id].r != reference[id].r
-		        || (regions.of(int(id)) >= 0
-		            && !(std::max(std::abs(paths[id].x), std::abs(paths[id].y)) <= farPath));
+		paths[id]        = { disks[id].x - reference[id].x, disks[id].y - reference[id].y };
+		const bool there = isThere(disks[id]);
+		// one that had no place when the lists were made, as one that was no number, has one now
+		other = other || disks[id].r != reference[id].r || there != (regions.of(int(id)) >= 0)
+		        || (there && !(std::abs(paths[id].x) <= farPath && std::abs(paths[id].y) <= farPath));
 	}
 	if (other) return true;
 	boundSpeeds();

@@ -18,6 +18,8 @@
 #include <pkg/dem/UniaxialStrainer.hpp>
 #include <map>
 #include <set>
+#include <typeindex>
+#include <unordered_set>
 
 namespace yade::nscd {
 
@@ -73,6 +75,9 @@ namespace {
 	/// Engines of YADE's that steer by what rigid contacts and flat scenes have not, with what does their work; by name, since not every YADE has all of them.
 	void refuseController(const Engine& engine)
 	{
+		thread_local std::unordered_set<std::type_index>
+		        others; // classes that are none of these: a name costs more than a type
+		if (others.count(typeid(engine))) return;
 		static const string stress
 		        = " moves walls by the stiffness of their contacts, and rigid contacts have none, so that walls would go to and fro at max_vel: load plates instead (yade.nonsmooth.scene.plate), set the state.vel of walls that are to move at a given rate, or shear a sample by scripts/biaxial.py";
 		static const string lid
@@ -95,6 +100,7 @@ namespace {
 		};
 		if (const auto found = refused.find(engine.getClassName()); found != refused.end())
 			fail(named(engine) + *found->second);
+		others.insert(typeid(engine));
 	}
 
 	/// Refuses paths of a LawTester that leave the plane: of its axes the third one, and of its angles the first two, do.
@@ -153,7 +159,7 @@ void checkEngines(const Scene& scene, const Engine& solver)
 	const Engine*           between = nullptr;
 	const NewtonIntegrator* newton  = nullptr;
 	bool                    reset   = false; // forces of the step before are gone
-	refuseLimiter(scene, "ContactDynamicsEngine");
+	refuseEarly(scene, "ContactDynamicsEngine");
 	for (const auto& pointer : scene.engines) {
 		const Engine& engine = *pointer;
 		if (&engine == &solver) {
@@ -175,7 +181,6 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		if (stepper && stepper->active && !stepper->dead)
 			fail(stepper->getClassName()
 			     + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
-		if (!engine.dead) refuseController(engine);
 		if (dynamic_cast<const ForceResetter*>(&engine)) {
 			resetters.take(engine, passed);
 			reset = reset || !engine.dead;
@@ -214,13 +219,16 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		     + ", so that reactions of steps before would act again: put ForceResetter() first in O.engines");
 }
 
-void refuseLimiter(const Scene& scene, const char* who)
+void refuseEarly(const Scene& scene, const char* who)
 {
-	for (const auto& engine : scene.engines)
-		if (!engine->dead && dynamic_cast<const DomainLimiter*>(engine.get()))
+	for (const auto& engine : scene.engines) {
+		if (engine->dead) continue;
+		refuseController(*engine);
+		if (dynamic_cast<const DomainLimiter*>(engine.get()))
 			throw std::runtime_error(
 			        string(who) + ": O.engines has a " + named(*engine)
 			        + ", which ends the process where it erases a body that Python has made: let a PyRunner at the end of the list erase it, as PyRunner(command='for b in [b for b in O.bodies if b.state.pos[1] < -3]: O.bodies.erase(b.id)', iterPeriod=20)");
+	}
 }
 
 namespace {
@@ -318,7 +326,13 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 	if (!loop || !collider) return; // separate dispatchers, which are YADE's own affair
 	checkReach(*loop, *collider);
 	const auto isDisk = [](const BodyReading& b) { return b.present && b.radius > 0 && !b.clumped; };
-	const auto first  = std::find_if(bodies.begin(), bodies.end(), isDisk);
+	for (const int id : shaped) {
+		const auto& b = (*scene.bodies)[id];
+		if (const Sphere* sphere = b->shape && b->isBounded() ? sphereOf(*b) : nullptr)
+			fail(body(id) + " is a Sphere of radius " + number(sphere->radius)
+			     + ": give it a positive radius [m]");
+	}
+	const auto first = std::find_if(bodies.begin(), bodies.end(), isDisk);
 	if (first == bodies.end()) return;
 	auto&      disk  = (*scene.bodies)[first - bodies.begin()]->shape;
 	const auto known = [&](shared_ptr<Shape>& shape) {
@@ -334,9 +348,6 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 		auto&       shape = b->shape;
 		if (!shape || !b->isBounded()) continue; // meant to touch nothing
 		checkWall(*b);
-		if (const Sphere* sphere = sphereOf(*b))
-			fail(body(id) + " is a Sphere of radius " + number(sphere->radius)
-			     + ": give it a positive radius [m]");
 		const auto lacks = [&](const Engine& engine, const string& functor) {
 			fail(body(id) + " has a " + shape->getClassName() + ", for which " + named(engine) + " has no "
 			     + functor

@@ -15,8 +15,9 @@ string named(const Engine& engine);
 /// Refuses lists of engines that leave out, double or disturb the solver's work. Throws std::runtime_error that names the engine and what would do.
 void checkEngines(const Scene& scene, const Engine& solver);
 
-/// Refuses YADE's DomainLimiter, for the engine `who`. Throws std::runtime_error.
-void refuseLimiter(const Scene& scene, const char* who);
+/// Refuses, for the engine `who`, engines of YADE's that could end the process before the solver has its turn: DomainLimiter, and those that steer by the stiffness
+/// of contacts or by a periodic cell. Throws std::runtime_error.
+void refuseEarly(const Scene& scene, const char* who);
 
 /// Refuses a collider whose sure reach leaves out contacts that are solved or could be bonded; `openGap` [ℓ] is the solver's. Throws std::runtime_error.
 void checkSureReach(const Scene& scene, Real openGap);

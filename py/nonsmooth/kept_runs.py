@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 
 from . import keys
-from .whole_files import WriteError, write_atomically, write_json
+from .whole_files import WriteError, list_of, write_atomically, write_json
 
-__all__ = ["Progress", "begin", "begun", "forget", "keep", "kept", "share"]
+__all__ = ["Progress", "begin", "begun", "foreign", "forget", "forsake", "keep", "kept", "share"]
 
 NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
 
@@ -40,6 +40,20 @@ def share(folder):
 def begin(folder, key):
     """Notes what a run is of, before it writes anything else; ``key``: of its input."""
     write_atomically(Path(folder) / "key", keys.run_key(key).encode())
+
+
+def forsake(folder):
+    """Notes that what is in the folder is of no run any more, and may be removed. Raises OSError."""
+    if Path(folder).exists():
+        write_atomically(Path(folder) / "key", b"")
+
+
+def foreign(folder, *spared):
+    """The name of a file or folder in a folder that no run has written to; None where a run has, or where it is empty but for what is ``spared``."""
+    folder = Path(folder)
+    if not folder.is_dir() or any((folder / name).exists() for name in ("key", "result.json")):
+        return None
+    return next((name for name in sorted(path.name for path in list_of(folder)) if name not in spared), None)
 
 
 def begun(folder, key):

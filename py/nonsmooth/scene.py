@@ -92,7 +92,15 @@ def disk(centre, radius, material, fixed=False, color=None):
 
     ``centre``: (x, y) [m]; ``radius`` [m]; ``material``: an NscdMat, whose density [kg/m³] gives the mass ρ π r² and the
     inertia m r²/2 per metre of thickness; its friction angle is 0.5 rad unless it says otherwise. Where ``shape.radius`` is changed later, mass and inertia follow. ``fixed``: block all degrees of freedom.
+
+    Raises ValueError for a radius that is not positive and finite, and for a centre out of the plane, as a script with z up has it.
     """
+    if not 0 < radius < math.inf:
+        raise ValueError(f"disk at {tuple(centre)}: radius {radius!r}; give a positive radius [m]")
+    if len(centre) > 2 and centre[2] != 0:
+        raise ValueError(
+            f"disk at {tuple(centre)}: disks lie in the plane z = 0, and y is up; give (x, y), from a script with z up its x and z"
+        )
     body = utils.sphere((centre[0], centre[1], 0), radius, material=material, fixed=fixed, color=color)
     return _as_disk(body, "xyzXYZ" if fixed else "zXY")
 

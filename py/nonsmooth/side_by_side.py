@@ -17,7 +17,7 @@ from . import checkpoints, kept_runs, output_folder, processes
 from .interrupts import Interrupted
 from .whole_files import WriteError, empty
 
-__all__ = ["Run", "check", "run"]
+__all__ = ["Run", "check", "folder_of", "run"]
 
 LOOK_SECONDS = 1.0  # between two looks at how far the runs are
 
@@ -43,6 +43,13 @@ def check(runs, error=processes.RunError, advice=""):
         raise error(f"{', '.join(sorted(folder.name for folder in twice))}: two runs of one name{advice}")
 
 
+def folder_of(out, name, error):
+    """The folder of a run below ``out``. Raises ``error``, a class, for a name that is no name of a folder in it."""
+    if not isinstance(name, str) or not name or name in (".", "..") or Path(name).name != name:
+        raise error(f"{name!r} as the name of a run: give a word that can be the name of a folder")
+    return Path(out) / "runs" / name
+
+
 def run(
     runs, threads, resume=False, error=processes.RunError, advice="", progress=lambda share, ended: None, go_on=False
 ):
@@ -50,13 +57,19 @@ def run(
     ``process_wall_s``: wall time of its process [s].
 
     ``resume``: keep what has ended; ``go_on``: keep also what halted runs of the same input, engines and code have written, since their function goes on from it. All
-    else in the folders is removed. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, before
+    else in the folders is removed; a folder that is not empty and has no run in it is refused. ``progress``: called about once a second with the share done of all work, and how many runs have ended. Raises ``error``, a class, before
     anything runs where Runs share a folder, and with the first failure (in the order of ``runs``) and the ``advice`` after the others have ended; interrupts.Interrupted
     after Ctrl-C.
     """
     runs = list(runs)
     check(runs, error)
     known = {r.folder: kept_runs.kept(r.folder, r.key) if resume else None for r in runs}
+    for r in runs:
+        found = kept_runs.foreign(r.folder, output_folder.LOCK)
+        if known[r.folder] is None and found is not None:
+            raise error(
+                f"{r.folder}: holds {found}, which no run has left there, and a run empties its folder; give an empty folder, a new one, or that of an earlier run"
+            )
     for r in runs:
         if known[r.folder] is None:
             kept_runs.forget(r.folder)
@@ -91,7 +104,10 @@ def _clear(folder):
     """Removes an earlier run; what another process might take for the new one's goes first, so that a kill on the way leaves none of it."""
     checkpoints.forget(folder)
     try:
-        empty(folder, output_folder.LOCK)  # that of a process which holds the folder
+        kept_runs.forsake(folder)
+        empty(
+            folder, output_folder.LOCK, "key"
+        )  # the lock of a process which holds the folder, and the mark that runs may empty it
     except OSError as error:
         raise WriteError(
             f"{folder}: what an earlier run left there cannot be removed ({error.strerror}); remove it, or give another --out"

@@ -88,10 +88,15 @@ def remove_parts_below(folder, held):
         remove_parts(path)
 
 
-def empty(folder, spared):
-    """Removes all that is in a folder, but for what has the name ``spared``; a folder that is not there is empty. Raises OSError."""
-    for path in Path(folder).iterdir() if Path(folder).exists() else ():
-        if path.name != spared:
+def list_of(folder):
+    """Paths of all that is in a folder; none where it is not there. Raises OSError."""
+    return [*Path(folder).iterdir()] if Path(folder).exists() else []
+
+
+def empty(folder, *spared):
+    """Removes all that is in a folder, but for what has one of the names ``spared``; a folder that is not there is empty. Raises OSError."""
+    for path in list_of(folder):
+        if path.name not in spared:
             shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
 
 

@@ -3,10 +3,12 @@
   scripts/yade-nonsmooth tests/mutants/server.py IN OUT --threads N      or python3 instead of the launcher
 
 IN and OUT are numbers of open pipes. A line in, {"arguments", "environment", "number", "output", "limit"}, all of them JSON, gives a line out: the status of
-pytest, null where the child was stopped after ``limit`` seconds. Nothing of the package under test is imported here, so a child reads it anew.
+pytest, null where the child was stopped after ``limit`` seconds. Nothing of the package under test stays imported here, so a child reads it anew.
 """
+import atexit
 import contextlib
 import ctypes
+import importlib
 import json
 import os
 import re
@@ -42,6 +44,8 @@ def child(job):
     choose(job["number"])
     status = 3
     try:
+        if watched:
+            importlib.import_module("yade.nonsmooth.background").watch(*watched)
         status = int(pytest.main(job["arguments"]))
     finally:
         sys.stdout.flush()
@@ -67,6 +71,24 @@ def serve(job):
     return os.waitstatus_to_exitcode(status)
 
 
+def forget_background():
+    """Takes back what the engines had yade.nonsmooth.background do when YADE loaded them, and forgets the package. Returns the arguments of its watch(), None without YADE."""
+    found = sys.modules.get("yade.nonsmooth.background")
+    if found is None:
+        return None
+    from yade.wrapper import Omega
+
+    Omega.run, Omega.wait, Omega.exitNoBacktrace = found._run, found._wait, found._leave
+    for name in found._BEGIN_ANEW:
+        setattr(Omega, name, getattr(Omega, name).__wrapped__)
+    atexit.unregister(found._last)
+    for name in [name for name in sys.modules if f"{name}.".startswith("yade.nonsmooth.")]:
+        del sys.modules[name]
+    vars(sys.modules["yade"]).pop("nonsmooth", None)
+    return found._take, found._is_over
+
+
+watched = forget_background()
 if "nonsmooth" in sys.modules or "yade.nonsmooth" in sys.modules:
     sys.exit("the package under test is imported already")
 with os.fdopen(int(sys.argv[1])) as jobs, os.fdopen(int(sys.argv[2]), "w") as answers:

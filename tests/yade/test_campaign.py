@@ -461,3 +461,10 @@ def test_a_run_that_was_killed_goes_on(swept, tmp_path):
     assert told(mine / "runs" / name) == told(out / "runs" / name)
     for file in ("series.csv", "walls.csv", "breaks.csv"):
         assert (mine / "runs" / name / file).read_bytes() == (out / "runs" / name / file).read_bytes()
+
+
+def test_a_sweep_over_diameters_beside_a_count_says_what_counts():
+    over = {"disks.diameter": [[1.0, 2.0], [1.5, 3.0]]}
+    assert campaign.sweep(SHIPPED, over).notes == ()
+    notes = campaign.sweep(SHIPPED.with_disks(500), over).notes
+    assert "of disks.diameter only the ratio counts" in notes[0]

@@ -324,3 +324,22 @@ def test_refuses_what_it_cannot_do(spoil, words):
     with pytest.raises(RuntimeError) as error:
         O.step()
     assert all(word in str(error.value) for word in words)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("wrong", [math.nan, math.inf])
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_place_that_was_no_number_and_is_mended_has_contacts_again(axis, wrong, beside):
+    stuff = material(0.5)
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff, sense=1))
+    disk = O.bodies.append(scene.disk((0, 0.5), 0.5, stuff))
+    if beside:
+        O.bodies.append(scene.disk((2, 0.5), 0.5, stuff))
+    begin()
+    run(10)
+    O.bodies[disk].state.pos = tuple(wrong if k == axis else v for k, v in enumerate((0, 0.5, 0)))
+    with pytest.raises(RuntimeError):
+        O.step()
+    O.bodies[disk].state.pos, O.bodies[disk].state.vel = (0, 0.5, 0), (0, 0, 0)
+    run(300)
+    assert O.bodies[disk].state.pos[1] == pytest.approx(0.5, abs=1e-3)  # it lies on the floor

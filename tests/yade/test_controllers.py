@@ -188,3 +188,17 @@ def test_a_torque_turns_a_free_disk():
     O.engines = others[:3] + [TorqueEngine(ids=[disk], moment=(0, 0, 50))] + others[3:]
     run(10)
     assert O.bodies[disk].state.angVel[2] == pytest.approx(50 * 0.01 / O.bodies[disk].state.inertia[2], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "kind", ["TriaxialStressController", "ThreeDTriaxialEngine", "KinemCNLEngine", "Peri3dController"]
+)
+def test_one_that_stands_before_the_solver_is_refused_before_it_acts(kind):
+    """Its walls are not there, so that it would end the process."""
+    floor(material(0.5))
+    free_disk(0, 0.5, stuff=material(0.5))
+    begin()
+    others = list(O.engines)
+    O.engines = others[:3] + [getattr(yade.wrapper, kind)()] + others[3:]
+    with pytest.raises(RuntimeError, match=f"PlanarGridCollider: .*{kind}|{kind} "):
+        O.step()

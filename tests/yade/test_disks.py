@@ -129,3 +129,19 @@ def test_spheres_of_clumps_are_refused(stuff):
     O.bodies.appendClumped([utils.sphere((k, 0, 0), 1, material=stuff) for k in (0, 1)])
     with pytest.raises(ValueError, match="clumps"):
         scene.disks([0, 1], stuff)
+
+
+@pytest.mark.parametrize(
+    "centre, radius, words",
+    [
+        ((0, 0, 1.5), 0.5, "disks lie in the plane z = 0, and y is up"),
+        ((0, 0), -0.5, "radius -0.5; give a positive radius"),
+        ((0, 0), 0.0, "radius 0.0; give a positive radius"),
+        ((0, 0), math.nan, "radius nan; give a positive radius"),
+        ((0, 0), math.inf, "radius inf; give a positive radius"),
+    ],
+)
+def test_what_is_no_disk_is_refused(stuff, centre, radius, words):
+    with pytest.raises(ValueError, match=words):
+        scene.disk(centre, radius, stuff)
+    assert scene.disk((0, 1, 0), 0.5, stuff).state.pos[1] == 1

@@ -391,3 +391,20 @@ O.run(100, wait=True)
     ):
         done = in_process("film.py", *bad)
         assert done.status == 2 and said in done.last
+
+
+@pytest.mark.parametrize(
+    "dt, seconds, options, frames",
+    [
+        (1e-2, 0.1, {}, 11),  # a frame a step, where there are fewer steps than frames
+        (2e-3, 0.1, {}, 51),
+        (1e-3, 0.05, {}, 51),
+        (1e-3, 0.1, dict(period=1.0), 1),  # what has been reached is added where it is written
+        (1e-2, 0.1, dict(period=1e-3), 11),
+        (1e-3, 0.5, dict(frames=7), 8),
+    ],
+)
+def test_a_scene_is_run_for_the_seconds_that_were_asked_for(dt, seconds, options, frames):
+    falling(dt=dt)
+    made = figures.animate(O, seconds=seconds, **options)
+    assert O.time == pytest.approx(seconds, abs=0.51 * dt) and len(made.frames) == frames

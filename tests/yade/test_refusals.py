@@ -574,3 +574,14 @@ print("counted", engine().unconverged, engine().unsolved)
     assert (
         counts[1][0] > 100 and counts[1][1] > 0 and "not solved" in heap.stderr and "Raise maxIterations" in heap.stderr
     ), (heap.stdout + heap.stderr)
+
+
+@pytest.mark.parametrize("radius", [-0.5, 0.0, math.nan])
+def test_a_radius_without_sense_is_refused_where_no_other_disk_is(radius):
+    stuff = material(0.5)
+    O.bodies.append(scene.segments([(-5, 0), (5, 0)], stuff, sense=1))
+    disk = O.bodies.append(scene.disk((0, 0.5), 0.5, stuff))
+    O.bodies[disk].shape.radius = radius
+    begin()
+    with pytest.raises(RuntimeError, match=f"body #{disk}.* is a Sphere of radius"):
+        O.step()

@@ -143,6 +143,9 @@ def test_a_mirrored_section_is_checked_like_any_other(tmp_path):
         "DP",
     )
     assert (read.water.point, read.water.dip, read.side) == ((0.0, 0.0), -JIUFENGERSHAN.water.dip, -1.0)
+    circle = section.load("circle").water  # whose plane is a point and a dip
+    there = similar.mirrored(section.load("circle")).water
+    assert (there.point, there.dip) == ((0.0 - circle.point[0], circle.point[1]), 0.0 - circle.dip)
     # to the last bit, as a vector too
     x, y = JIUFENGERSHAN.water.pressure_gradient_xy
     assert read.water.pressure_gradient_xy == (-x, y)

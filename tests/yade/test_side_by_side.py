@@ -84,8 +84,27 @@ def test_a_resume_takes_nothing_of_other_engines_or_code(tmp_path, called, monke
 def test_clearing_a_folder_leaves_the_lock_of_who_holds_it(tmp_path, called):
     output_folder.claim(tmp_path / "a", "a command")
     (tmp_path / "a" / "old" / "deep").mkdir(parents=True)
+    kept_runs.begin(tmp_path / "a", "another")  # the folder of an earlier run
     side_by_side.run(made(tmp_path, "a"), 1)
     assert (tmp_path / "a" / output_folder.LOCK).exists() and not (tmp_path / "a" / "old").exists()
+
+
+def test_a_folder_that_no_run_has_made_is_not_emptied(tmp_path, called):
+    (tmp_path / "a" / "notes").mkdir(parents=True)
+    (tmp_path / "a" / "thesis.tex").write_text("mine")
+    with pytest.raises(MadeUpError, match="a: holds notes, which no run has left there"):
+        side_by_side.run(made(tmp_path, "b", "a"), 1, error=MadeUpError)
+    assert called == [] and (tmp_path / "a" / "thesis.tex").read_text() == "mine" and not (tmp_path / "b").exists()
+    # halfway through the removal of an earlier run it is still one of a run
+    kept_runs.begin(tmp_path / "a", "another")
+    kept_runs.forsake(tmp_path / "a")
+    assert kept_runs.foreign(tmp_path / "a") is None and not kept_runs.begun(tmp_path / "a", "another")
+
+
+@pytest.mark.parametrize("name", ["", ".", "..", "a/b", "/tmp/a", 3])
+def test_a_run_stays_below_its_folder(name):
+    with pytest.raises(MadeUpError, match="as the name of a run: give a word"):
+        side_by_side.folder_of("out", name, MadeUpError)
 
 
 def test_a_failure_is_told_after_the_others_have_ended(tmp_path, called):

@@ -83,7 +83,10 @@ def run_heaps(cases, out, threads=1, resume=False, duration=study.DURATION) -> d
     these parameters that have ended; ``duration``: see heaps.course.run. Raises HeapError or SoftError for values that cannot be used, before anything runs, HeapError
     where a run fails, after the others have ended, and FolderError where another process works in the folder.
     """
-    made = [study.planned(name, Path(out) / "runs" / name, *case, duration) for name, case in cases.items()]
+    made = [
+        study.planned(name, side_by_side.folder_of(out, name, HeapError), *case, duration)
+        for name, case in cases.items()
+    ]
     with output_folder.claimed(out, COMMAND, resume):
         side_by_side.run(made, threads, resume, HeapError)
     return {one.name: HeapRun(one.folder) for one in made}

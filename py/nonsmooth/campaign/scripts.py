@@ -151,7 +151,7 @@ def run_scripts(cases, out, threads=1, resume=False) -> dict:
     of the same script and parameters that have ended. Raises ScriptError for a script that is not there and for parameters that it does not read, before anything runs,
     and where a script fails, after the others have ended; FolderError where another process works in the folder.
     """
-    made = [_planned(name, Path(out) / "runs" / name, *case) for name, case in cases.items()]
+    made = [_planned(name, side_by_side.folder_of(out, name, ScriptError), *case) for name, case in cases.items()]
     with output_folder.claimed(out, COMMAND, resume):
         side_by_side.run(made, threads, resume, ScriptError)
     return {one.name: ScriptRun(one.folder) for one in made}

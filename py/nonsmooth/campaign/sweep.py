@@ -47,6 +47,12 @@ def sweep(base, over, end=None, figures=False) -> Plan:
             raise PlanError(str(wrong)) from None
         notes += section_checks.notes(made)
         planned.append(Planned(name, values, arguments_of(made, end, figures), float(sum(made.disk_counts()))))
+    if "disks.diameter" in over and (base.disks.count or "disks.count" in over):
+        notes.insert(
+            0,
+            f"{base.source}: the number of disks is given too, by which all diameters are scaled: of disks.diameter only the ratio counts; leave --disks or "
+            "disks.count out to vary the size",
+        )
     return Plan(base.name, FUNCTION, tuple(planned), tuple(notes))
 
 

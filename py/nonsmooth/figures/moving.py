@@ -210,8 +210,8 @@ def recording(O, path=None, period=None, **options):
 def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **drawn):
     """Runs a scene for ``seconds`` [s] of its own time and makes a video of it: ``figures.animate(O, "fall.mp4", seconds=3)``.
 
-    ``frames``: how many, of equal distance in time, the first one not counted (default 100), or ``period`` [s]: the time between two of them; a frame takes one step at
-    least. ``fps``: frames a second in the video. ``forces``, ``view``, ``colours``: as of :func:`draw`; the view and the scale of forces are those of all frames together.
+    ``frames``: how many, of equal distance in time, the first one not counted (default 100), or ``period`` [s]: the time between two of them; there are no more
+    frames than steps. ``fps``: frames a second in the video. ``forces``, ``view``, ``colours``: as of :func:`draw`; the view and the scale of forces are those of all frames together.
 
     Returns the ``path``, which ends in .mp4 (by ffmpeg) or .gif; without one a :class:`Recorder`, which a notebook shows as a video. Raises RecordsError, before a step is
     made, for what cannot be used, and StepError where an engine refuses a step.
@@ -229,16 +229,25 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
     read(O)  # a scene without disks is refused now
     if not O.dt > 0:
         raise RecordsError(f"O.dt = {O.dt:g}: set the time step of the scene, above 0 s, before it is run")
-    period = seconds / (frames or 100) if period is None else period
-    count = max(1, round(seconds / period)) if _number("period", period) > 0 else 1
-    made = Recorder(O, period, most=max(2, count + 1), path=path, **drawn)
+    steps = max(1, round(seconds / O.dt))
+    if period is None:  # no more frames than steps
+        count = min(frames or 100, steps)
+        dues = [seconds * k / count for k in range(1, count + 1)]
+    else:
+        usable = _number("period", period) > 0  # the Recorder refuses others
+        period = max(period, O.dt) if usable else period
+        count = math.floor(seconds / period + 1e-9) if usable else 0
+        dues = [k * period for k in range(1, min(count, steps) + 1)] + [seconds]
+    made = Recorder(O, dues[0] if period is None else period, most=max(2, len(dues) + 1), path=path, **drawn)
     made.take()
     from ..stepping import advance
 
     begin = O.time
-    for k in range(1, count + 1):
-        advance(max(1, round((begin + k * period - O.time) / O.dt)))
-        made._keep(O.time)
+    for due in dues:
+        ahead = round((begin + due - O.time) / O.dt)
+        if ahead > 0 or O.time == begin:
+            advance(max(1, ahead))
+            made._keep(O.time)
     return made if path is None else made.write(fps=fps)
 
 

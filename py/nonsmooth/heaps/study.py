@@ -146,7 +146,10 @@ def run(cases, out, threads=1, resume=False, duration=DURATION, progress=lambda 
     ``resume``: keep runs of these parameters that have ended. ``progress``: called with the share done, now and then; runs count by disks and fall height.
     Raises what :func:`planned` raises, before anything runs, and HeapError with the first failure after the others have ended.
     """
-    made = [planned(name, Path(out) / "runs" / name, heap, world, duration) for name, (heap, world) in cases.items()]
+    made = [
+        planned(name, side_by_side.folder_of(out, name, HeapError), heap, world, duration)
+        for name, (heap, world) in cases.items()
+    ]
     return dict(
         zip(cases, side_by_side.run(made, threads, resume, HeapError, progress=lambda share, ended: progress(share)))
     )

@@ -213,7 +213,7 @@ MUTANTS = (
     mutant("similar-strength", PY + "similar.py", '    "materials.tensile_strength": STRESS,\n', "",
            "a smaller slope is as strong", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
     mutant("similar-time", PY + "similar.py", "(math.sqrt(factor) if power == 0.5 else factor) * value", "factor * value", "times go with lengths", "plain:test_roles.py::test_a_slope_of_another_size_has_the_scales_that_go_with_it"),
-    mutant("similar-water", PY + "similar.py", '"dip": 0.0 - dip', '"dip": dip', "the water's plane is not mirrored", "test_section_values.py::test_a_value_gives_what_a_file_with_it_gives[water-plane-dip0-what must be]"),
+    mutant("similar-water", PY + "similar.py", '"dip": 0.0 - dip', '"dip": dip', "the water's plane is not mirrored", "plain:test_roles.py::test_a_mirrored_section_is_checked_like_any_other"),
     mutant("wall-side", PY + "wall_series.py", "(normal, self._side * shear, peak) for name", "(normal, shear, peak) for name", "shear of a slope to the left has the wrong sign",
            "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits"),
     mutant("wall-across", PY + "wall_series.py", 'c["normal"] * c["nx"] - c["tangential"] * c["ny"]', 'c["normal"] * c["nx"] + c["tangential"] * c["ny"]',
