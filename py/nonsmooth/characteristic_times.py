@@ -127,7 +127,7 @@ def _reason(name, series, section, state):
     if state["t0"] is None:
         return f"{over} before the water began to rise"
     if state["moving"] is None:
-        return "the slope did not move"
+        return "the slope did not move off"
     if not section.slip_surfaces:
         return "there is no slip surface"
     if weakening_begins(series, section, state) is None:

@@ -5,16 +5,18 @@ The words, which stay: see :data:`MEANINGS`. What a summary, the command, a swee
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from . import scales
+from . import course, scales
 
 __all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
 
-STOOD, DRY, MOVED, WATER, RESTLESS, UNFINISHED = (
+STOOD, SLID, DRY, MOVED, WATER, RESTLESS, UNFINISHED = (
     "stood",
+    "slid",
     "failed dry",
     "moved dry",
     "failed by water",
@@ -24,6 +26,7 @@ STOOD, DRY, MOVED, WATER, RESTLESS, UNFINISHED = (
 #: The verdicts, and what each means.
 MEANINGS = {
     STOOD: "the slope had not moved off when the run ended, and was at rest",
+    SLID: "it slid so far that it did not stand, but never fast enough to move off, and was at rest when the run ended",
     DRY: "it collapsed or moved off by its own weight: before water acted on any disk, or without having come to rest before",
     MOVED: "it moved off so, and not, or not surely, by its weight: a script, or a wall that moves, had done work on it; or, with soft contacts, whose work nobody counts, it "
     "had been at rest under its weight",
@@ -36,6 +39,7 @@ MEANINGS = {
 #: A title for each, of figures.
 TITLES = {
     STOOD: "the slope stood",
+    SLID: "the slope slid and came to rest",
     DRY: "the slope failed dry",
     MOVED: "the slope moved dry",
     WATER: "the slope failed by water",
@@ -93,9 +97,24 @@ def _unmoved(series, section, state, last, over, disks):
             RESTLESS,
             f"the slope did not come to rest, nor move off, until the run ended at {last:.1f} s (mean speed then {speed:.2g} m/s){water}",
         )
+    slid = _slid(series, section, state)
+    if slid is not None:
+        return Verdict(
+            SLID,
+            f"the slope slid by {slid:.3g} m, its centre of mass sideways since {'the water began to rise' if state['t0'] is not None else 'it settled'}, at {np.max(series['speed_mean_m_per_s']):.2g} m/s "
+            f"at most, and was at rest when the run ended at {last:.1f} s{water}",
+        )
     early = state.get("quiet_since") is not None and last < state["settled"] + section.stages.end.time - 1e-6 * last
     why = "; it was at rest and nothing was to come that could change it" if early else ""
     return Verdict(STOOD, f"the slope stood until the run ended at {last:.1f} s{water}{why}")
+
+
+def _slid(series, section, state):
+    """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that of a mass that does not stand; None where it is not."""
+    size = math.sqrt(math.fsum(layer.area for layer in section.layers if layer.role == "mass") or section.area)
+    x = series["centroid_x_m"][series["time_s"] >= (state["t0"] if state["t0"] is not None else -math.inf) - 1e-9]
+    way = abs(float(x[-1] - x[0])) if len(x) else 0.0
+    return way if way >= course.COLLAPSED * size else None
 
 
 def _water(series, section, disks):

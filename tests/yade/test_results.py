@@ -199,7 +199,7 @@ def test_times_come_in_their_order_or_say_why_not():
 def test_each_time_that_did_not_come_has_its_reason():
     known = known_slope.series()
     assert missing_of(known) == {}
-    assert missing_of(known, moving=None) == dict.fromkeys(("t1", "t2", "t3", "t4", "t5"), "the slope did not move")
+    assert missing_of(known, moving=None) == dict.fromkeys(("t1", "t2", "t3", "t4", "t5"), "the slope did not move off")
     dry = missing_of(until(9.0), stage="dry", t0=None, moving=None)
     assert set(dry.values()) == {"the run was stopped before the water began to rise"} and len(dry) == 6
     assert missing_of(changed(weakened_disks=lambda t: 0 * t)) == {"t3": "no slip surface weakened"}

@@ -1,6 +1,7 @@
 """What is said of made-up runs of every kind. Needs no YADE."""
 
 import dataclasses
+import math
 import sys
 from pathlib import Path
 
@@ -16,7 +17,8 @@ characteristic_times, results, verdict = (
 )
 SHIPPED = known_slope.SHIPPED
 STATE = known_slope.STATE | {"outside": 0.0, "rested": 4.0, "quiet_since": None}
-RESTING = dict(speed_mean_m_per_s=lambda t: np.full(len(t), 1e-3))
+RESTING = dict(speed_mean_m_per_s=lambda t: np.full(len(t), 1e-3), centroid_x_m=lambda t: np.full(len(t), 40.0))
+SIZE = math.sqrt(SHIPPED.area)
 DRY = dict(wet_disks=lambda t: 0 * t, water_m=lambda t: 0 * t)
 
 
@@ -30,6 +32,18 @@ def of(section=SHIPPED, until=100.0, columns={}, **state):  # noqa: B006 (it is 
     return verdict.of(series, section, state, characteristic_times.of_run(chosen, section, state), disks=550)
 
 
+def slid(share):
+    """Columns of a slope whose centre creeps by a share of the mass's size in all, down to the left or to the right."""
+    return RESTING | dict(centroid_x_m=lambda t: 40.0 + share * SIZE * np.clip((t - 20.0) / 10.0, 0, 1))
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_slope_that_slid_and_was_held_has_not_stood(side):
+    found = of(moving=None, columns=slid(0.012 * side))
+    assert found.kind == "slid" and f"the slope slid by {0.012 * SIZE:.3g} m" in found.says
+    assert of(moving=None, columns=slid(0.008 * side)).kind == "stood"
+
+
 def test_every_verdict_is_said_and_each_has_its_meaning():
     found = {
         of().kind,
@@ -37,6 +51,7 @@ def test_every_verdict_is_said_and_each_has_its_meaning():
         of(failed_dry=3.0).kind,
         of(failed_dry=8.0, outside=1e6).kind,
         of(moving=None).kind,
+        of(moving=None, columns=slid(0.05)).kind,
         of(stage="dry", until=9.0, moving=None, t0=None).kind,
     }
     assert found | {verdict.RESTLESS} == set(verdict.MEANINGS) == set(verdict.TITLES)
@@ -67,7 +82,7 @@ def test_a_slope_that_stood_says_how_far_the_water_came():
 
 
 def test_one_that_neither_moves_off_nor_rests():
-    speed = lambda at: {"speed_mean_m_per_s": lambda t: np.full(len(t), at)}  # noqa: E731
+    speed = lambda at: RESTING | {"speed_mean_m_per_s": lambda t: np.full(len(t), at)}  # noqa: E731
     assert of(moving=None, columns=speed(0.0199)).kind == "stood"
     assert of(moving=None, columns=speed(0.0201)).kind == "not at rest"  # of the shipped section's 0.02 m/s
 

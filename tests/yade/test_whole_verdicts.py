@@ -67,7 +67,7 @@ def test_a_slope_that_stands_ends_where_nothing_more_can_come(mirrored, size, tm
     assert 2.2 < span < 5.0 < chosen.stages.end.time / np.sqrt(size) == pytest.approx(30.0)
     assert summary["water_highest_m"] > 5.0 * size and (series["wet_disks"][-2:] == summary["disks"]).all()
     assert summary["water_at_failure_m"] is None and summary["failed_dry_s"] is None
-    assert summary["times_missing"] == dict.fromkeys(("t1", "t2", "t3", "t4", "t5"), "the slope did not move")
+    assert summary["times_missing"] == dict.fromkeys(("t1", "t2", "t3", "t4", "t5"), "the slope did not move off")
     assert (tmp_path / "end.npz").exists()
 
 

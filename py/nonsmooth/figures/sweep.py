@@ -12,6 +12,7 @@ from . import style
 MARKERS = {
     "failed by water": ("s", True),
     "stood": ("o", False),
+    "slid": ("P", False),
     "failed dry": ("v", True),
     "moved dry": ("D", True),
     "not at rest": ("^", False),

@@ -320,6 +320,8 @@ MUTANTS = (
            "test_given_pairs.py::test_a_driven_wheel_of_bonded_disks_bears_nothing_while_it_turns"),
     mutant("given-pressed", GIVEN, "-u.n > drivenTogether", "u.n > drivenTogether", "it is told of bodies that are driven apart",
            "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
+    mutant("collider-mended", "pkg/dem/PlanarGridCollider.cpp", "there != (regions.of(int(id)) >= 0)", "false", "a disk whose place was no number has no contacts once that is mended",
+           "test_collider.py::test_a_place_that_was_no_number_and_is_mended_has_contacts_again"),
     mutant("check-tester", "pkg/dem/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
     mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"TriaxialStateRecorder"', '"TriaxialStateRecorders"', "an engine that reads what rigid contacts have not is let run",
