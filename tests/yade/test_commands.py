@@ -279,7 +279,9 @@ def test_an_old_run_is_taken_away_with_its_result_first(tmp_path, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         side_by_side.run([side_by_side.Run("a", tmp_path / "a", print, {}, "key")], 1)
     left = sorted(path.name for path in (tmp_path / "a").rglob("*") if path.is_file())
-    assert left == ["key", "series.csv"] and (tmp_path / "a" / "key").read_text() == ""  # the mark that runs may empty it
+    assert (
+        left == ["key", "series.csv"] and (tmp_path / "a" / "key").read_text() == ""
+    )  # the mark that runs may empty it
 
 
 def test_a_fresh_run_takes_all_records_of_the_old_one_away_and_nothing_else(tmp_path):
