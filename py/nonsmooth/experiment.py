@@ -87,7 +87,6 @@ class Experiment:
         # disks of the mass, where others are bed or obstacles
         mass = np.array([layer.role == "mass" for layer in self.section.layers])
         self.mass = None if mass.all() else mass[self.layers]
-        self.size = math.sqrt(sum(layer.area for layer, counts in zip(self.section.layers, mass) if counts))  # m
         self.stands = False  # see run
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
@@ -237,7 +236,9 @@ class Experiment:
             O.dt,
             self._mean_speed(disks),
             water.height if water else None,
-            way=0.0 if self.state.centre is None else abs(self._centroid(disks)[0] - self.state.centre) / self.size,
+            way=0.0
+            if self.state.centre is None
+            else abs(self._centroid(disks)[0] - self.state.centre) / self.section.mass_size,
             broken=(e.brokenTension + e.brokenShear + e.brokenTorque + e.brokenMixed) / made if made else 0.0,
             wet=water.wetCount if water else 0,
             top=self._top(disks),

@@ -128,6 +128,11 @@ class Section:
         """Area of all layers [m²]."""
         return math.fsum(layer.area for layer in self.layers)  # not sum, which Python 3.12 made another sum
 
+    @property
+    def mass_size(self) -> float:
+        """Size of the mass [m]: the root of the area of its layers, of all where none has this role."""
+        return math.sqrt(math.fsum(layer.area for layer in self.layers if layer.role == "mass") or self.area)
+
     @cached_property
     def dip(self) -> float:
         """β [degrees] of the slope, positive down to the right: of its slip surfaces from end to end, see :mod:`.roles`."""

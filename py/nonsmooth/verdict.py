@@ -111,10 +111,9 @@ def _unmoved(series, section, state, last, over, disks):
 
 def _slid(series, section, state):
     """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that of a mass that does not stand; None where it is not."""
-    size = math.sqrt(math.fsum(layer.area for layer in section.layers if layer.role == "mass") or section.area)
     x = series["centroid_x_m"][series["time_s"] >= (state["t0"] if state["t0"] is not None else -math.inf) - 1e-9]
     way = abs(float(x[-1] - x[0])) if len(x) else 0.0
-    return way if way >= course.COLLAPSED * size else None
+    return way if way >= course.COLLAPSED * section.mass_size else None
 
 
 def _water(series, section, disks):
