@@ -61,7 +61,7 @@ flock 8
 if [ $# -gt 0 ]; then inside "$@"; exit; fi
 
 start=$SECONDS status=0
-inside scripts/setup.sh
+inside scripts/setup.sh --tests
 say "Debian 13: the solver's tests and the documentation"
 inside env CTEST_OUTPUT_ON_FAILURE=1 ctest --test-dir /build -L '^(contact|doc)$' -j "$(nproc)" --no-tests=error --progress || status=1
 say "Debian 13: tests in YADE"

@@ -6,7 +6,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
 if [ "${1:-}" = --help ]; then sed -n '2,3s/^# //p' "${BASH_SOURCE[0]}"; exit 0; fi
 
-"$root/scripts/setup.sh"
+"$root/scripts/setup.sh" --tests
 export NONSMOOTH_BUILD=${NONSMOOTH_BUILD:-$root/build}
 if [ $# -gt 0 ]; then
     exec "$root/scripts/yade-nonsmooth" "$root/tests/yade/run_pytest.py" "$@"

@@ -4,7 +4,7 @@
 setup_estimate() {
     local low=0 high=0 parts=() python=yes
     [ -x /usr/bin/python3 ] || python=
-    if [ -n "$(packages_missing "${PACKAGES_PROJECT[@]}" ${notebooks:+"${PACKAGES_NOTEBOOKS[@]}"})" ]; then low=2 high=8 parts+=("Debian packages"); fi
+    if [ -n "$(packages_missing "${PACKAGES_PROJECT[@]}" ${tests:+"${PACKAGES_TESTS[@]}"} ${notebooks:+"${PACKAGES_NOTEBOOKS[@]}"})" ]; then low=2 high=8 parts+=("Debian packages"); fi
     # on a bare system apt has no lists yet, and the release tells
     if [ -z "${YADE_PREFIX:-}" ] && ! yade_stock_fits && ! grep -qs '^VERSION_CODENAME=trixie' /etc/os-release; then
         if [ -z "$python" ] || [ ! -f "$(yade_slim_prefix)/.complete" ]; then low=$((low + 12)) high=$((high + 20)) parts+=("a slim YADE"); fi

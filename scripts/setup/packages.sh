@@ -1,13 +1,18 @@
 # Debian packages: what the project needs, and installing what is missing.
 # shellcheck shell=bash
 
-# To build the plugin and the solver, to run scenarios, tests and documentation.
+# To build the plugin and the solver, and to run scenarios.
 PACKAGES_PROJECT=(
     g++ cmake ninja-build pkg-config ca-certificates python3 python3-dev
-    libboost-all-dev libeigen3-dev zlib1g-dev libgtest-dev libbenchmark-dev libhdf5-dev pybind11-dev
+    libboost-all-dev libeigen3-dev zlib1g-dev libhdf5-dev pybind11-dev
     python3-numpy python3-scipy python3-matplotlib python3-shapely python3-yaml python3-jsonschema
-    python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-pytest python3-hypothesis python3-docutils python3-jinja2 python3-pil ffmpeg
-    python3-sphinx furo python3-sphinx-copybutton python3-sphinxcontrib.bibtex python3-nbsphinx python3-nbconvert python3-ipykernel python3-ipython pandoc)
+    python3-tqdm python3-tabulate python3-pandas python3-h5py python3-h5py-serial python3-meshio python3-docutils python3-jinja2 python3-pil
+    python3-ipython ffmpeg)
+
+# To build and run the tests, and to build the documentation with its notebooks (setup.sh --tests).
+PACKAGES_TESTS=(
+    libgtest-dev libbenchmark-dev python3-pytest python3-hypothesis
+    python3-sphinx furo python3-sphinx-copybutton python3-sphinxcontrib.bibtex python3-nbsphinx python3-nbconvert python3-ipykernel pandoc)
 
 # To configure, build and run the slim YADE.
 PACKAGES_YADE_BUILD=(
@@ -20,10 +25,10 @@ PACKAGES_YADE_STOCK=(
     yade bzip2 libvtk9-dev libgts-dev libbz2-dev libmpfrc++-dev libmpc-dev libopenmpi-dev
     libmpfr-dev libgmp-dev libopengl-dev libglu1-mesa-dev freeglut3-dev)
 
-# To show notebooks in a browser, where asked for (setup.sh --notebooks); what runs them is needed by the tests too, and stands above.
-PACKAGES_NOTEBOOKS=(jupyter-notebook)
+# To show notebooks in a browser and to run their cells (setup.sh --notebooks).
+PACKAGES_NOTEBOOKS=(jupyter-notebook python3-ipykernel python3-nbconvert)
 
-# Another solver to compare with, where the distribution has it: Debian 12 does, Debian 13 does not.
+# Another solver that the tests compare with (setup.sh --tests), where the distribution has it: Debian 12 does, Debian 13 does not.
 PACKAGES_ORACLE=(libsiconos-numerics-dev)
 
 # To compile the solver for another processor, in .ci/run: 56 MB to fetch, 200 MB on the disk, so no user needs it.

@@ -49,7 +49,7 @@ def read_arguments():
     if unknown:
         parser.error(f"--only {' '.join(sorted(unknown))}: there is no such mutant; --list names them")
     if not args.list and not (args.build / "CMakeCache.txt").is_file():
-        parser.error(f"{args.build}: is no build folder; run scripts/setup.sh first, or give one")
+        parser.error(f"{args.build}: is no build folder; run scripts/setup.sh --tests first, or give one")
     return args
 
 

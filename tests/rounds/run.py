@@ -54,7 +54,7 @@ def read_arguments():
     parser.add_argument("--forget", action="store_true", help="begins anew: the list of tests and the rounds")
     args = parser.parse_args()
     if not (args.build / "CMakeCache.txt").is_file():
-        parser.error(f"{args.build}: is no build folder; run scripts/setup.sh first, or give one")
+        parser.error(f"{args.build}: is no build folder; run scripts/setup.sh --tests first, or give one")
     for name in ("rounds", "workers"):
         if getattr(args, name) < 1:
             parser.error(f"--{name} {getattr(args, name)}: give 1 or more")

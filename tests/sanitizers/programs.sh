@@ -10,7 +10,7 @@ build=$1
 export PATH=/usr/bin:/bin:/usr/sbin
 compiler=${CXX:-g++}
 known() { sed -n "s/^$1:[A-Z]*=//p" "$root/build/CMakeCache.txt"; }
-[ -r "$root/build/CMakeCache.txt" ] || { echo "build the plugin first: scripts/setup.sh" >&2; exit 1; }
+[ -r "$root/build/CMakeCache.txt" ] || { echo "build the plugin first: scripts/setup.sh --tests" >&2; exit 1; }
 
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_FLAGS="-O1 -g1 -fno-omit-frame-pointer -fsanitize=address" -DYADE_PREFIX="$(known YADE_PREFIX)" -DYADE_HEADERS="$(known YADE_HEADERS)" \

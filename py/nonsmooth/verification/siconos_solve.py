@@ -40,7 +40,9 @@ def program() -> Path:
     """Path of siconos_solve; raises OracleError where it was not built."""
     path = Path(os.environ.get("NONSMOOTH_BUILD", ROOT / "build")) / "oracle" / "siconos_solve"
     if not path.exists():
-        raise OracleError(f"{path} is not there: install libsiconos-numerics-dev and build again with scripts/setup.sh")
+        raise OracleError(
+            f"{path} is not there: install libsiconos-numerics-dev and build again with scripts/setup.sh --tests"
+        )
     return path
 
 
