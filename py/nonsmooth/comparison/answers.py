@@ -40,7 +40,8 @@ def spread(mean, sd, unit):
 
 
 def answer_same(summary, names):
-    """Sentences on whether both worlds agree in the quantities ``names``: (verdict, sentences); the verdict is "yes", "no" or "not told"."""
+    """Sentences on whether both worlds agree in the quantities ``names``: (verdict, sentences); the verdict is "yes", "no", "in part" where they agree in
+    some, or "not told" where one of them needs more seeds."""
     sentences, verdicts = [], []
     seeds = len(summary["seeds"])
     for name in names:
