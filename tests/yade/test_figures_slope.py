@@ -69,6 +69,23 @@ def test_panels_follow_in_time_from_the_top_with_one_scale(two):
     )
 
 
+@pytest.mark.parametrize(
+    "label, meaning",
+    [
+        ("t0", "water begins to rise"),
+        ("t1", "limit equilibrium"),
+        ("t2", "triggering begins"),
+        ("t3", "avalanche in motion"),
+        ("t4", "during motion"),
+        ("t5", "at rest"),
+    ],
+)
+def test_each_characteristic_time_says_what_it_marks(label, meaning):
+    """As section 6 of the paper has them."""
+    (ax,) = figures.snapshots([(label, state(time_s=5.0))], WALLS).axes
+    assert drawn.texts(ax)[-3:-1] == [f"$t_{{{label[1]}}}$ = 5.00 s", f"{meaning}\nno water\nwet 25 %, released 25 %"]
+
+
 def test_the_water_table_stands_at_its_height_above_the_plane(two):
     for owner, count in (
         (two.axes[0], 0),
@@ -221,6 +238,20 @@ def test_deposit_profile_measures_thickness_and_front():
     assert surface[there] - base[there] == pytest.approx(20.0)
     assert 197 < at[there].max() < 203 and at[there].min() < 3  # bins of 3 m
     assert fronts.front(s) == pytest.approx(200, abs=1)  # a disk
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_front_leaves_out_a_thousandth_of_the_area(side):
+    """Of 2,001 disks of one size in a row the front is the edge of the third from the end, whoever asks: the two beyond are 0.9995 of a thousandth. Where they have more, the last one is the front."""
+    x = np.r_[np.arange(1999.0), 1e5, 2e5]
+    s = synthetic.few(side * x, 0 * x, r=np.full(2001, 0.5))
+    assert fronts.front(s, side) == fronts.front_of(s.x, s.r, side) == side * 1998.5
+    large = synthetic.few(side * x, 0 * x, r=np.r_[np.full(2000, 0.5), 0.9])
+    assert fronts.front(large, side) == fronts.front_of(large.x, large.r, side) == side * (2e5 + 0.9)
+    # another share, and some layers alone
+    assert fronts.front(s, side, 0.99) == fronts.front_of(s.x, s.r, side, 0.99) == side * 1980.5
+    of_two = synthetic.few(side * x, 0 * x, r=np.full(2001, 0.5), layer=np.where(x < 1000, 0, 1))
+    assert fronts.front(of_two, side, layers=[0]) == side * (998.0 + 0.5)
 
 
 def test_thickness_is_above_the_lowest_wall():

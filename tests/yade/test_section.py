@@ -134,6 +134,26 @@ def test_sizes_by_quantile(distribution, median):
     assert disks.mean_square == pytest.approx(np.mean(disks.diameters(quantiles) ** 2), rel=1e-6)
 
 
+def test_the_smallest_and_the_largest_disk_are_of_all_layers(section):
+    """The shipped section has disks of 1 to 4 m; layers may have smaller and larger ones of their own, and where all have, the section's count no longer."""
+    of = lambda low, high: dataclasses.replace(section.disks, d_min=low, d_max=high)  # noqa: E731
+    own = lambda **sizes: dataclasses.replace(  # noqa: E731
+        section,
+        layers=tuple(
+            dataclasses.replace(layer, disks=of(*sizes[f"k{k}"]) if f"k{k}" in sizes else None)
+            for k, layer in enumerate(section.layers)
+        ),
+    )
+    assert (section.smallest, section.largest, section.mixed) == (1.0, 4.0, False)
+    for made, sizes in (
+        (own(k0=(2.0, 7.0)), (1.0, 7.0)),
+        (own(k1=(0.5, 2.0)), (0.5, 4.0)),
+        (own(k1=(0.5, 2.0), k3=(6.0, 9.0)), (0.5, 9.0)),
+        (own(**{f"k{k}": (2.0, 3.0) for k in range(len(section.layers))}), (2.0, 3.0)),
+    ):
+        assert (made.smallest, made.largest, made.mixed) == (*sizes, True)
+
+
 def test_table_1(section):
     m = section.materials
     assert [m[k].friction for k in ("rock", "dp", "fb", "ss")] == [0.3, 0.3, 0.7, 0.2]
