@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -194,6 +195,38 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
     assert run.newton.damping == pytest.approx(0.2 - 0.16 * 0.05, rel=1e-12)  # 0.1 of a tenth of 20 m/s
     decide(55.0, 0.1, 30.0)
     assert saved[3:] == [("end.npz", True)] and run.state.stage == "done"
+
+
+@pytest.mark.parametrize("side", ["left", "right", "below", "above"])
+def test_a_disk_that_leaves_the_section_is_refused(side):
+    """On each side a tenth of the section's longer side beyond its box, and where it is nowhere at all."""
+    run = SimpleNamespace(section=section.load("jiufengershan"), folder="out")
+    x0, y0, x1, y1 = run.section.bounds
+    margin = 0.1 * max(x1 - x0, y1 - y0)
+    middle = (0.5 * (x0 + x1), 0.5 * (y0 + y1))
+    axis, end, way = {"left": (0, x0, -1), "right": (0, x1, 1), "below": (1, y0, -1), "above": (1, y1, 1)}[side]
+    place = lambda at: tuple(at if k == axis else middle[k] for k in (0, 1))  # noqa: E731
+    table = lambda one: {"x": np.array([middle[0], one[0]]), "y": np.array([middle[1], one[1]])}  # noqa: E731
+    experiment.Experiment._inside(run, table(place(end + way * (margin - 1e-3))))
+    for lost in (end + way * (margin + 1e-3), way * 1e9, np.nan):
+        with pytest.raises(experiment.ExperimentError) as refused:
+            experiment.Experiment._inside(run, table(place(lost)))
+        x, y = place(lost)
+        assert str(refused.value).startswith(
+            f"disk 1 left the section at t = {O.time:.3f} s: it is at ({x:.1f}, {y:.1f}) m; "
+        )
+        assert f"close the walls of {run.section.source} there" in str(refused.value)
+
+
+def test_a_row_that_sees_a_lost_disk_ends_the_run_and_is_not_written(loaded, tmp_path):
+    run = experiment.Experiment(loaded, tmp_path)
+    loaded.solver.view()  # O.bodies are as the course has left them: what is written there counts
+    O.bodies[loaded.first_disk + 7].state.pos = (-5000, 300, 0)
+    with pytest.raises(
+        experiment.ExperimentError, match=r"^disk 7 left the section at t = 0.1\d\d s: it is at \(-5000.0, "
+    ):
+        run.run(end=0.3)
+    assert len(records.read_series(tmp_path / "series.csv")["step"]) == 0
 
 
 # ---- walls ----------------------------------------------------------------------------------------

@@ -2,12 +2,14 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import free_surface, geometry, packing, section, similar, slope_packing, tables
+from yade.wrapper import NewtonIntegrator
 
 SHIPPED = section.load("jiufengershan").with_disks(1500)
 
@@ -78,6 +80,35 @@ def test_radii_and_layers_are_those_of_the_packing_and_layers_stay_in_place(made
     assert np.mean(np.array(away) > 2 * after.r.mean()) < 0.03
     assert packing.overlaps(after).worst < 1e-3
     assert len(O.bodies) == 0  # nothing is left in the scene
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize(
+    "growth, looks",
+    [
+        ([2e-2, 3e-3, 1.1e-4, 0.9e-4], 4),  # of itself: the first below 1e-4 is the last
+        ([0.5e-4], 1),
+        ([-1e-3], 1),  # it has sprung back
+        ([2e-4] * 20, slope_packing.LONGEST),
+    ],
+)
+def test_pressing_ends_when_the_mean_depth_grows_no_more_at_any_size(monkeypatch, size, growth, looks):
+    """Depths are made up: of a slope of any size they grow by the same shares, and as many looks, √(H/g) apart, are made."""
+    made = dataclasses.replace(section.load(str(SMALL)), pressed=True)
+    packed = packing.Packing(np.zeros(3), np.arange(3.0), np.array([1.0, 2.0, 1.0]), np.zeros(3, int))
+    depths = [size * np.array([1.0, 2.0, 4.0])]
+    for share in growth:
+        depths.append(depths[-1] * (1 + share))
+    seen, times, shares = iter(depths), [], []
+    O.engines = [NewtonIntegrator()]
+    monkeypatch.setattr(slope_packing.slope, "build", lambda *_: SimpleNamespace(solver=None))
+    monkeypatch.setattr(slope_packing.free_surface, "inward", lambda *_: (np.zeros((3, 2)), next(seen)))
+    monkeypatch.setattr(slope_packing.tables, "bodies", lambda _: {"x": np.zeros(3), "y": np.zeros(3)})
+    monkeypatch.setattr(slope_packing, "_pull", lambda *_: None)
+    monkeypatch.setattr(slope_packing, "advance", lambda until: times.append(until))
+    slope_packing.press(made, packed, shares.append)
+    assert times == pytest.approx([(k + 1) * math.sqrt(4 * size / 9.81) for k in range(looks)], rel=1e-12)
+    assert shares == [(k + 1) / slope_packing.LONGEST for k in range(looks)]
 
 
 def test_it_is_kept_and_a_mirrored_and_a_similar_slope_have_it_too(tmp_path, monkeypatch):
