@@ -40,10 +40,10 @@ RAMP = 5e-3
 pytestmark = pytest.mark.usefixtures("empty")
 
 
-def on_a_wall(m, model="cohesion_moment", turned=False, gap=0.0, bond=True, **more):
-    """A disk at rest on a wall of the material, no gravity; returns its body."""
+def on_a_wall(m, model="cohesion_moment", turned=False, gap=0.0, bond=True, young=E, **more):
+    """A disk at rest on a wall of the material, no gravity; returns its body. ``young``: the wall's modulus [Pa]."""
     e = soft.equivalent(ROCK, E, model, diameter=LENGTH, **{**dict(damping=0.5), **more})
-    disks, wall = soft.material(e), soft.wall_material(e, m)
+    disks, wall = soft.material(e), soft.wall_material(e, m, young=young)
     O.materials.append([disks, wall])
     # enough pieces that the joint at x = 0 is near the disk
     O.bodies.append(scene.segments([(-5, 0), (5, 0)], wall, piece=2.5, sense=1))
@@ -68,6 +68,36 @@ def breaks_at(body, steps=8000, **most):
         if not contact.phys or not contact.phys.bonded:
             return 1.2 * k / steps
     return None
+
+
+@pytest.mark.parametrize("of_wall, ratio", [(E, 0.3), (3 * E, 0.3), (E, 0.7)])
+def test_springs_at_a_wall_are_force_over_displacement(of_wall, ratio):
+    """A bond that is strained by given motions, each below its threshold. Paired as YADE pairs disks: k_n = 2 R E₁ E₂/(E₁ + E₂), E R for equal ones; k_s is ``ratio`` times that; and
+    k_r = k_s R²."""
+    k_n = 2 * RADIUS * E * of_wall / (E + of_wall)
+    k_s = ratio * k_n
+    k_r, steps = k_s * RADIUS**2, 20
+    for velocity, spin, stiffness in (((0, -1, 0), 0, k_n), ((1, 0, 0), 0, k_s), ((-RADIUS, 0, 0), 1, k_r)):
+        O.reset()
+        body = on_a_wall(WALL, young=of_wall, shear_ratio=ratio)
+        body.state.blockedDOFs = "xyzXYZ"
+        speed = 0.01 * F_A / (stiffness * steps * O.dt)  # comes to a hundredth of F_a [N], or to F_a m of torque
+        body.state.vel, body.state.angVel = [speed * v for v in velocity], (0, 0, speed * spin)
+
+        def borne():
+            """By the spring that is strained: the force against the motion, or the rolling spring's torque."""
+            force = O.forces.f(body.id)
+            if not spin:
+                return -sum(f * v for f, v in zip(force, velocity))
+            assert abs(force[0]) < 1e-3 * F_A * 0.01  # it rolls: next to no shear
+            return -O.forces.t(body.id)[2]
+
+        O.run(5, wait=True)
+        before = borne()
+        O.run(steps, wait=True)
+        assert borne() - before == pytest.approx(0.01 * F_A, rel=1e-3)  # the lever is shorter by the overlap
+        phys = next(i.phys for i in O.interactions if body.id in (i.id1, i.id2))
+        assert phys.bonded and (phys.kn, phys.ks, phys.kr) == pytest.approx((k_n, k_s, k_r), rel=1e-12)
 
 
 @pytest.mark.parametrize("model", ["cohesion_moment", "jcfpm"])
