@@ -206,6 +206,22 @@ def test_calibration_finds_a_made_up_rock_and_goes_on_where_it_was_stopped(tmp_p
     assert Refuses(*options, resume=True).run((600, [1, 2]), (2500, [1]), trials=(12, 8))[1]["found"] == report["found"]
 
 
+@pytest.mark.parametrize("parameter", ["tensile_strength", "friction"])
+@pytest.mark.parametrize("end", [0, 1])
+def test_derivatives_at_a_bound_are_of_rocks_within_it(tmp_path, parameter, end):
+    """Whoever stands at the end of a parameter's range looks to the other side, and finds the same derivative: d ln c = d ln σ_ext + 0.2 d ln μ_s in units of 2 %, dφ = 7° d ln μ_s in units
+    of 0.7°."""
+    search = MadeUpRock(calibration.Wanted(60e3, 34.0), materials.load("wwr"), tmp_path, 1)
+    values = {"tensile_strength": 83850.0, "friction": 0.25} | {parameter: calibration.BOUNDS[parameter][end]}
+    found = search.derivatives(2000, [1], np.log([values[name] for name in search.names]))
+    assert found == pytest.approx(np.array([[50, 10], [0, 10]]), rel=1e-6, abs=1e-9)
+    tried = [trial["parameters"] for trial in search.trials]
+    assert len(tried) == 3  # there, and beside it in each of two directions
+    for name in search.names:
+        low, high = calibration.BOUNDS[name]
+        assert all(low <= one[name] <= high for one in tried) and len({one[name] for one in tried}) == 2
+
+
 def test_a_search_says_first_how_long_it_takes(tmp_path):
     """By hand: 2 trials of 8 tests on 2 threads are 8 rounds of 1.5 s and 3,000 steps of 1,000 disks at 3 µs, to 3 % of strain, or 10,000 steps to 10 %."""
     said = []
@@ -628,6 +644,50 @@ def test_a_row_of_a_test_by_hand(sides):
     assert rows == [pytest.approx(known, rel=1e-12)]  # division and subtraction round
 
 
+class MadeUpTest(biaxial.Course):
+    """A sample of 1 m that is pressed by ``path`` [m] in each row, to a strain of 0.05; notes the strain at which each snapshot was written."""
+
+    columns = ()
+
+    def __init__(self, path, **state):
+        walls = SimpleNamespace(
+            height=lambda: self.height, width=lambda: 1.0, drive=lambda *_: None, step=self.step, forces=dict
+        )
+        engine = SimpleNamespace(totalIterations=0, unconverged=0, residual=0.0)
+        self.sample, self.test = SimpleNamespace(engine=engine, walls=walls), dataclasses.replace(SMALL, strain=0.05)
+        O.dt, self.path, self.height, self.written = 1.0, path, 1.0 - state.get("strain", 0.0), []
+        self.state = {"rate": biaxial.ROW_STRAIN, "height": 1.0, "begin_time": 0.0, "wall_steps_s": 0.0, **state}
+        self.series, self._saved = SimpleNamespace(close=lambda: None), float("inf")
+
+    def step(self):
+        self.height -= self.path
+
+    def snapshot(self, name):
+        self.written.append((name, round(self.strain, 9)))
+
+    def nothing(self, *_):
+        pass
+
+    _row = frame = _count_time = nothing
+
+
+@pytest.mark.parametrize(
+    "path, state, written",
+    [
+        (0.0037, {}, [("1", 0.0111), ("2", 0.0222), ("4", 0.0407), ("end", 0.0518)]),
+        (0.005, {}, [("1", 0.01), ("2", 0.02), ("4", 0.04), ("end", 0.05)]),  # each at once where it is reached
+        (0.025, {}, [("1", 0.025), ("2", 0.025), ("4", 0.05), ("end", 0.05)]),  # two in a row
+        (0.0037, {"strain": 0.0222}, [("4", 0.0407), ("end", 0.0518)]),  # from a checkpoint
+    ],
+)
+def test_a_snapshot_is_of_the_row_in_which_its_strain_was_passed(path, state, written):
+    """And of no later one: the sample at 1 % of strain is not that of its end."""
+    course = MadeUpTest(path + 1e-12, **state)  # rounding
+    course._run(None, lambda: False)
+    assert [name for name, _ in course.written] == [name for name, _ in written]
+    assert [strain for _, strain in course.written] == pytest.approx([strain for _, strain in written], abs=1e-9)
+
+
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
 def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_path, sides):
     # rough platens: between smooth ones so small a sample in a membrane ends up on one slip plane, with a contact's friction and less
@@ -639,6 +699,9 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
     biaxial.run(whole, **asdict(test))
     series = records.read_series(whole / "series.csv")
     late = series["strain"] > 0.01
+    for name in ("1", "2"):  # %; of the first row that has come to it
+        shot = records.read_snapshot(whole / "snapshots" / f"{name}.npz")
+        assert shot.step == series["step"][np.argmax(100 * series["strain"] >= float(name))]
     for name in ("left", "right"):
         # each row is the mean of 10 steps; the wall's own inertia and the tolerance make the rest
         assert np.mean(series[f"sigma3_{name}_Pa"][late]) == pytest.approx(1e6, rel=0.01)
