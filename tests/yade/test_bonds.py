@@ -251,6 +251,26 @@ def test_a_break_is_named_by_what_makes_more_than_60_per_cent_of_the_path(openin
     assert contacts()[0].phys.brokenMode == mode
 
 
+@pytest.mark.parametrize("first, second", [(1, 2), (2, 1)])
+def test_a_bond_that_is_made_again_is_named_by_its_own_path(first, second):
+    """Broken in tension (1) and bonded again, a pair that is sheared off broke in shear (2), and the other way round: what the first bond had yielded is not the second one's."""
+    free = pair(rolling=0.0, tensileStrength=1.0, bondEllipseNormal=0.02, bondEllipseTangential=0.02)
+    s, e = O.bodies[free].state, engine()
+    s.blockedDOFs, O.dt = "zXYZ", 1e-3
+    for mode in (first, second):
+        if not e.bonds:
+            s.pos, s.vel = (LENGTH, 0, 0), (0, 0, 0)
+            run(1)
+            assert e.bond() == 1
+        s.vel, begun = ((0.5, 0, 0) if mode == 1 else (0, 0.5, 0)), O.iter
+        while e.bonds:  # one newton does not slow it down
+            run(1)
+            assert O.iter < begun + 100
+        assert contacts()[0].phys.brokenMode == mode
+    assert (e.brokenTension, e.brokenShear, e.brokenTorque, e.brokenMixed) == (1, 1, 0, 0)
+    assert tables.breaks(e)["mode"].tolist() == [first, second]
+
+
 def test_walls_bond_only_where_they_say_so():
     for to_all, bonds in ((False, 0), (True, 1)):
         O.reset()

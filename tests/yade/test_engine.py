@@ -9,7 +9,7 @@ import pytest
 from shell import BUILD
 from yade import O
 from yade.minieigenHP import Quaternion
-from yade.nonsmooth import contact, scene
+from yade.nonsmooth import contact, scene, tables
 from yade.wrapper import (
     Collider,
     ContactDynamicsEngine,
@@ -124,6 +124,36 @@ def test_gaps_that_stay_open_are_left_out():
     e.openGap = 0.2
     run(1)
     assert e.candidates == 2
+
+
+@pytest.mark.parametrize("other", ["disk", "wall"])
+def test_a_contact_that_pulled_and_is_left_out_bears_nothing(other):
+    """Residual adhesion holds a disk that is drawn away; moved off by a script, it is open, and neither table nor contact has a pull any more."""
+    stuff = material(0.3, residualTensileStrength=1e4)
+    if other == "disk":
+        O.bodies.append(scene.disk((0, 0), 0.5, stuff, fixed=True))
+        distance = 1.0
+    else:
+        O.bodies.append(scene.segments([(0, -3), (0, 3)], stuff))
+        distance = 0.5
+    disk = free_disk(distance, 0, stuff=stuff)
+    O.forces.setPermF(disk, (4e3, 1e3, 0))
+    e = begin(gravity=(0, 0, 0), reach=0.2, relaxationRate=0)
+    run(3)
+    (i,) = contacts()
+    pull = tables.contacts(e)
+    assert pull["normal"][0] == pytest.approx(-4e3, rel=1e-5) == i.phys.normal  # it rolls a little
+    O.forces.setPermF(disk, (0, 0, 0))
+    O.bodies[disk].state.pos += (0.15, 0, 0)  # 0.15 ℓ; what is wider than 0.05 ℓ and does not close is not solved
+    O.bodies[disk].state.vel = (0, 0, 0)
+    run(1)
+    assert e.candidates == 0
+    told = tables.contacts(e)
+    assert [told[name].tolist() for name in ("normal", "tangential", "torque")] == [[0.0]] * 3
+    (i,) = contacts()
+    assert (i.phys.normal, i.phys.tangential, i.phys.torque) == (0, 0, 0)
+    assert i.phys.normalForce.norm() == i.phys.shearForce.norm() == 0
+    assert O.bodies[disk].state.vel.norm() == 0
 
 
 # ---- walls that move, blocked directions, other engines -------------------------------------------

@@ -200,6 +200,23 @@ def test_released_are_those_alone_that_were_wet():
     assert told() == [wet, wet, wet] and w.releasedCount == 0  # ways are counted anew
 
 
+def test_what_was_wet_is_forgotten_with_the_ways():
+    """A disk that was wet, and is dry when ways are counted anew, counts as one that never was: going down the slope it is not released."""
+    (disk,) = disks_above_plane([5], releaseDistance=0.5, heights=(10, 10, 0, 0), times=(0, 0.05, 0.06, 1))
+    w = O.engines[3]
+    w.unitWeight = 1e-9  # a force too small to matter
+    next(e for e in O.engines if isinstance(e, NewtonIntegrator)).gravity = (0, 0, 0)
+    run(100)
+    told = lambda: tuple(bool(part[0]) for part in tables.water(w, disk, 1))  # noqa: E731
+    # wet, released, ever wet
+    assert w.wasWet(disk) and not w.isWet(disk) and told() == (False, False, True)
+    w.forgetReleases()
+    assert not w.wasWet(disk) and not w.isReleased(disk) and told() == (False, False, False)
+    O.bodies[disk].state.vel = 2.0 * DOWN
+    run(400)  # 0.8 m
+    assert not w.wasWet(disk) and not w.isReleased(disk) and w.releasedCount == 0 and told() == (False, False, False)
+
+
 def test_saved_and_loaded(tmp_path):
     ids = disks_above_plane([5, 15, 20, 5], releaseDistance=0.2, heights=(8, 12), times=(0, 10))
     O.bodies[ids[0]].state.vel = O.bodies[ids[1]].state.vel = 2.0 * DOWN

@@ -236,15 +236,21 @@ def test_residual_adhesion_acts_while_bodies_touch(other, gap, adhesive, share):
     s = O.bodies[disk].state
     O.forces.setPermF(disk, (share * strength, 0, 0))
     begin(gravity=(0, 0, 0), dt=h, relaxationRate=0)
-    run(1)
-    (i,) = contacts()
-    free = h * share * strength / s.mass
-    adhesion = strength if adhesive else 0.0
-    closing = -max(gap, 0) / h  # the fastest approach that the gap allows
-    speed = max(closing, free - h * adhesion / s.mass)
-    assert i.phys.adhesion == pytest.approx(adhesion, rel=1e-12)
-    assert s.vel[0] == pytest.approx(speed, abs=1e-12)
-    assert i.phys.normal == pytest.approx(s.mass * (speed - free) / h, abs=1e-6)  # N, of 2e4
+    speed, range_of = 0.0, 1e-3 * length
+    assert (gap <= range_of) == adhesive
+    # of new contacts the loop itself knows the thresholds; those of the steps after are an Interaction's, which a script has seen
+    for _ in range(4):
+        run(1)
+        (i,) = contacts()
+        free = speed + h * share * strength / s.mass
+        adhesion = strength if gap <= range_of else 0.0
+        closing = -max(gap, 0) / h  # the fastest approach that the gap allows
+        speed = max(closing, free - h * adhesion / s.mass)
+        assert i.phys.adhesion == pytest.approx(adhesion, rel=1e-12)
+        assert s.vel[0] == pytest.approx(speed, abs=1e-12)
+        assert i.phys.normal == pytest.approx(s.mass * (speed - free) / h, abs=1e-6)  # N, of 2e4
+        gap += h * speed
+        assert s.pos[0] == pytest.approx(at + gap, abs=1e-12)
 
 
 # ---- what a step sums up --------------------------------------------------------------------------
