@@ -1,5 +1,5 @@
 """The table of mutants. A new one goes into the file of its subject; see tests/README.md."""
-from . import between, course, drawing, engines, impacts, laboratory, law, plane, solver, state, walls
+from . import between, course, drawing, engines, impacts, laboratory, law, plane, results, solver, state, walls
 
 MUTANTS = (
     law.MUTANTS
@@ -11,6 +11,7 @@ MUTANTS = (
     + impacts.MUTANTS
     + walls.MUTANTS
     + course.MUTANTS
+    + results.MUTANTS
     + laboratory.MUTANTS
     + drawing.MUTANTS
 )
