@@ -247,9 +247,11 @@ def test_overlaps_are_of_contacts_that_touch():
 
 
 def test_without_contacts_there_is_no_overlap():
-    seen, _ = begin([(0, 0, 0.5), (3, 0, 0.8)])
+    """YADE knows a pair of which boxes alone meet; it is none."""
+    seen, ids = begin([(0, 0, 0.5), (1.35, 0, 0.8)])
     assert seen.bond() == 0
     run(1)
+    assert O.interactions.has(*ids, False) and not O.interactions[ids[0], ids[1]].isReal
     assert (seen.contacts, seen.bonds, seen.overlapMean, seen.overlapWorst, seen.overlapWorstEver) == (0, 0, 0, 0, 0)
     assert all(len(tables.contacts(seen)[name]) == 0 for name in ("id1", "normal"))
     assert tables.breaks(seen)["step"].tolist() == [] and seen.forgetEnergies() is None
@@ -258,6 +260,7 @@ def test_without_contacts_there_is_no_overlap():
 def test_masses_follow_the_disks_that_are_there():
     """A disk that is added is counted with its own mass."""
     seen, ids = begin([(0, 0, 0.5), (3, 0, 0.5)])
+    assert seen.disks is seen.disks  # read once a step
     assert seen.disks["mass"].tolist() == pytest.approx([2500 * math.pi * 0.25] * 2, rel=1e-12)
     assert seen.centroid == pytest.approx((1.5, 0.0))
     O.step()
