@@ -263,6 +263,11 @@ def test_masses_follow_the_disks_that_are_there():
     assert seen.disks is seen.disks  # read once a step
     assert seen.disks["mass"].tolist() == pytest.approx([2500 * math.pi * 0.25] * 2, rel=1e-12)
     assert seen.centroid == pytest.approx((1.5, 0.0))
+    O.bodies[ids[0]].state.vel = (1.0, 0, 0)
+    O.step()
+    assert seen.disks["mass"].tolist() == pytest.approx([2500 * math.pi * 0.25] * 2, rel=1e-12)
+    assert seen.disks["x"].tolist() == pytest.approx([O.dt, 3.0]) and seen.disks["vx"].tolist() == [1.0, 0.0]
+    O.bodies[ids[0]].state.pos, O.bodies[ids[0]].state.vel = (0, 0, 0), (0, 0, 0)
     O.step()
     more = O.bodies.append(scene.disk((3.0, 3.0), 1.0, O.bodies[ids[0]].material))
     assert seen.disks["id"].tolist() == [*ids, more]

@@ -66,9 +66,7 @@ class Measures:
         whole, rows, loose, weakened, weak = {}, [], {}, [], self._loose
         overlap = worst = 0.0
         touching = 0
-        for i in O.interactions:
-            if not i.isReal:
-                continue
+        for i in O.interactions:  # which leaves out those that are not real
             id1, id2, g, p = i.id1, i.id2, i.geom, i.phys
             normal, force, shear, point, depth = (
                 g.normal,
