@@ -178,7 +178,7 @@ def test_a_mirrored_slope_has_the_same_summary(tmp_path):
 
 # ---- beds ---------------------------------------------------------------------------------------------
 def bedded(side=1):
-    """The shipped section whose lowest layer is a bed of 1000 kg/m³ and disks of 2 to 8 m, 4 m in the mean of their squares, and whose second is an obstacle; the others are the
+    """The shipped section whose lowest layer is a bed of 1000 kg/m³ and disks of 2 to 8 m, √(2 · 8) m in the mean, and whose second is an obstacle; the others are the
     mass, of 2000 kg/m³ and disks of 1 to 4 m, 2 m in the mean."""
     disks = dataclasses.replace(SHIPPED.disks, d_min=2.0, d_max=8.0, distribution="uniform_by_volume")
     bed = dataclasses.replace(SHIPPED.layers[0], role="bed", material="gravel", disks=disks)
@@ -194,8 +194,8 @@ def bedded(side=1):
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_what_a_bed_gives_and_what_lies_beyond_the_foot(tmp_path, side):
-    """Disks of a bed that went 8.1 m, obliquely, are entrained, those that went 7.9 m are not, nor are ones of the mass; beyond the foot, x = 0, lies of the mass alone what counts as its
-    deposit, however little of it."""
+    """Disks of a bed whose mean diameter is 4 m are entrained once they went 8 m, along a slanting way; disks of the mass never are. Deposited is of the mass alone what lies beyond the foot,
+    at x = 0."""
     way = np.array([0.6, -0.8])
     start, moved, layer, r = (
         np.array([[-100, 90], [-90, 80], [-80, 70], [-70, 60], [-60, 50], [-50, 40], [-9, 9]], float),
@@ -203,9 +203,8 @@ def test_what_a_bed_gives_and_what_lies_beyond_the_foot(tmp_path, side):
         np.array([0, 0, 0, 1, 2, 3, 4]),
         np.array([1.0, 2.0, 1.5, 1.0, 2.0, 0.5, 1.2]),
     )
-    end = (
-        start + moved[:, None] * way
-    )  # the third and, as its centre is 6 cm short of it, not the last come beyond the foot
+    # beyond the foot comes the third, of the bed; the last one, of the mass, stops 6 cm short of it
+    end = start + moved[:, None] * way
 
     def shot(places):
         return synthetic.few(side * places[:, 0], places[:, 1], r=r, layer=layer)
@@ -219,7 +218,7 @@ def test_what_a_bed_gives_and_what_lies_beyond_the_foot(tmp_path, side):
         "mass_kg_per_m": 2000 * area[4:].sum(),
     }
     assert found == pytest.approx(wanted, rel=SAME)
-    end[5:, 0] = 0.01
+    end[5:, 0] = 0.01  # now two of the mass are 1 cm beyond
     found = results._of_bed(bedded(side), shot(start), shot(end))
     assert found == pytest.approx(wanted | {"deposited_kg_per_m": 2000 * area[5:].sum()}, rel=SAME)
 
