@@ -23,6 +23,7 @@ from yade.wrapper import ContactDynamicsEngine, CourseRunner, NewtonIntegrator, 
 
 from . import (
     checkpoints,
+    checks,
     course,
     frames,
     interrupts,
@@ -42,7 +43,7 @@ from .measure.fronts import front_of
 from .stepping import advance
 from .wall_series import WallSeries
 
-__all__ = ["Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
+__all__ = ["EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
 FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each step with hard ones
 CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
@@ -70,6 +71,10 @@ class ExperimentError(UserError, RuntimeError):
     """The run cannot go on; the message says why and what helps."""
 
 
+class EndError(ExperimentError, ValueError):
+    """An end of a run that is no time to come; nothing has been done then, and the run can go on with another."""
+
+
 class Experiment:
     """Runs a built :class:`~nonsmooth.slope.Slope` and writes its records into ``folder``.
 
@@ -88,6 +93,7 @@ class Experiment:
         mass = np.array([layer.role == "mass" for layer in self.section.layers])
         self.mass = None if mass.all() else mass[self.layers]
         self.stands = False  # see run
+        self.runner = None  # see attach
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         if state is None:
@@ -115,14 +121,25 @@ class Experiment:
 
     # ---- the course ---------------------------------------------------------------------------
     def run(self, end=None, stands=None):
-        """Runs until the experiment is over, or until ``end`` [s] of simulated time.
+        """Runs until the experiment is over, or until ``end`` [s] of simulated time, to the row that comes then or next. It may be called again, with a later ``end`` or none, and goes on from where it
+        was, also after :meth:`attach`, after Ctrl-C and after an error that has been mended. Where the experiment is over, nothing is left to do.
 
         ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see :mod:`yade.nonsmooth.course`). Otherwise it goes on to its longest time, so that a script can do
         more to it. Unless given, that ends a run without ``end`` in a scene that has no engines of a script (PyRunner, and those that push or move bodies).
 
         Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted. O.bodies and O.interactions are up to date when it ends; within ``progress``
         they are after the engine's ``view()``.
+
+        Raises EndError, which is a ValueError, for an ``end`` that is no number or not after the present time, before anything is done; StepError where an engine refuses a step, and ExperimentError
+        where a disk has left the section.
         """
+        if end is not None:
+            remedy = f"the run is at {O.time:.6g} s of simulated time; give a later time [s], or none to run until the experiment is over"
+            end = checks.number("end", end, EndError, remedy)
+            if _come_to(end):
+                raise EndError(f"end {end:g}: {remedy}")
+        self._open()
+        self._detach()
         self.stands = end is None and not _scripted() if stands is None else stands
         with interrupts.noted() as interrupted:
             try:
@@ -132,7 +149,7 @@ class Experiment:
                     self.slope.solver.view()
 
     def _run(self, end, interrupted):
-        while self.state.stage != "done" and (end is None or O.time < end - 0.5 * O.dt):
+        while not self.reached(end):
             row = course.next_row(O.time, O.dt, self.scales.row_seconds)
             first, began, ends = O.time, time.perf_counter(), row * self.scales.row_seconds
             while self.state.stage == "settle" and not self.hard and O.time < ends - 0.5 * O.dt:
@@ -152,6 +169,17 @@ class Experiment:
                 raise interrupts.Interrupted(f"at {O.time:.1f} s of simulated time; {kept}")
         self.checkpoint()
         self._close()
+
+    def reached(self, end=None):
+        """Whether the experiment is over, or has come to ``end`` [s] of simulated time."""
+        return self.state.stage == "done" or (end is not None and _come_to(end))
+
+    def _open(self):
+        """Records that an earlier part of the run has closed take rows again; the time since then is not the run's."""
+        if self.series.closed:
+            self._clock = time.monotonic()
+        self.series.reopen()
+        self.walls.file.reopen()
 
     def _close(self):
         self.series.close()
@@ -180,6 +208,7 @@ class Experiment:
             raise ExperimentError(
                 "a slope of soft contacts is driven by Experiment.run() alone: its gravity grows in Python; call that instead of O.run()"
             )
+        self._open()
         _attached, self.stands = self, stands
         self.runner = CourseRunner(
             label="slopeCourse", command="import yade.nonsmooth.experiment; yade.nonsmooth.experiment.row()"
@@ -187,6 +216,14 @@ class Experiment:
         O.engines = [self.runner, *(e for e in O.engines if not isinstance(e, CourseRunner))]
         self._wait()
         return self.runner
+
+    def _detach(self):
+        """Takes the engine of :meth:`attach` out again; the row that it would have written as the next step begins is written now."""
+        if self.runner is not None:
+            if not self.runner.dead and _come_to(self.runner.nextTime):
+                self._row_came()
+            O.engines = [e for e in O.engines if not isinstance(e, CourseRunner)]
+            self.runner = None
 
     def _wait(self):
         """For the next row, or, where the course is over, for none."""
@@ -482,6 +519,11 @@ class Experiment:
         self.frames.saved()
         self._saved = time.monotonic()
         self._saving = self._saved - now
+
+
+def _come_to(end):
+    """Whether less than half a step is missing to the time ``end`` [s]."""
+    return not O.time < end - 0.5 * O.dt
 
 
 def _scripted():

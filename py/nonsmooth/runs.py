@@ -36,25 +36,31 @@ class Opened:
 
     #: Names of the tables that :meth:`frame` knows.
     TABLES = ("series",)
+    #: Where the numbers of a run without tables stand.
+    NUMBERS = "its numbers are in run.summary"
 
     def __init__(self, folder):
         self.folder = Path(folder)
 
     def frame(self, name="series"):
         """One of :attr:`TABLES` as a pandas.DataFrame. Raises RunError for another name, and where pandas is not installed."""
+        if not self.TABLES:
+            raise RunError(f"{self.folder}: a run of this kind has no table; {self.NUMBERS}")
         if name not in self.TABLES:
             *first, last = self.TABLES
             raise RunError(
                 f"{self.folder}: no table is called {name!r}; give {', '.join(first)}{' or ' * bool(first)}{last}"
             )
+        arrays = " and ".join(f"run.{one}" for one in self.TABLES)
+        return self._as_frame(getattr(self, name), f"take the arrays of {arrays}")
+
+    def _as_frame(self, columns, instead):
+        """Columns as a pandas.DataFrame; ``instead``: what to do without pandas."""
         try:
             import pandas
         except ImportError:
-            arrays = " and ".join(f"run.{one}" for one in self.TABLES)
-            raise RunError(
-                f"pandas is not installed: {requirements.remedy('pandas')}, or take the arrays of {arrays}"
-            ) from None
-        return pandas.DataFrame(getattr(self, name))
+            raise RunError(f"pandas is not installed: {requirements.remedy('pandas')}, or {instead}") from None
+        return pandas.DataFrame(columns)
 
     def video(self, name=None, width=720):
         """The video that lies in the run's folder, with its bytes in it: what a notebook shows in its page (an object of IPython.display).

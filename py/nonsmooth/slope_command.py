@@ -139,7 +139,8 @@ def run(name, about, default=None):
             print(sentence, flush=True)
     course.progress = Bar()
     with commands.closing(course.progress.bar):
-        course.run(end=args.end, stands=True)
+        if not course.reached(args.end):  # nor is anything left to do but figures
+            course.run(end=args.end, stands=True)
     if course.state.stage == "settle":
         print(verdict_lines(course.summarise(args.threads or os.cpu_count())), end="")
         print(f"stopped while settling, at {O.time:.1f} s; go on with --resume")

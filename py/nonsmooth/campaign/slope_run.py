@@ -18,7 +18,8 @@ def run(folder, data, end=None, figures=False, like=None):
     note = kept_runs.Progress(folder)
     start = experiment.resume if checkpoints.exists(folder) else experiment.begin
     course = start(made, folder, progress=lambda stage, now, foreseen: note(now / max(foreseen, now)))
-    course.run(end=end, stands=True)
+    if not course.reached(end):  # else it was killed after its last checkpoint
+        course.run(end=end, stands=True)
     summary = course.summarise(threads=1)
     if figures:
         course.draw()

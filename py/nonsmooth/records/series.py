@@ -70,7 +70,7 @@ class SeriesWriter:
     def __init__(self, path, columns, resume_from=None, overwrite=False):
         self.path = Path(path)
         self.columns = tuple(columns)
-        self.last_step: Optional[int] = None
+        self.last_step = None
         self._file, self._sum = None, hashlib.sha256()
         if not self.columns or self.columns[0] != "step" or len(set(self.columns)) != len(self.columns):
             raise RecordsError(f"{self.path}: columns must be unique and begin with 'step', not {self.columns[:3]}...")
@@ -82,15 +82,35 @@ class SeriesWriter:
                 self._size = 0
                 self._append(self._header)
             else:
-                kept = self._kept(resume_from)
-                self._sum.update(kept)
-                self._size = len(kept)
-                self._file = open(self.path, "r+b", buffering=0)
-                self._file.truncate(self._size)
-                self._file.seek(self._size)
+                data = self._kept(resume_from)
+                self._sum.update(data)
+                self._go_on(len(data))
         except OSError as error:
             raise RecordsError(
                 f"{self.path}: cannot be written ({error.strerror}); choose a folder that exists and is writable"
+            ) from error
+
+    def _go_on(self, size):
+        """Opens the file, and keeps its first ``size`` bytes."""
+        self._file, self._size = open(self.path, "r+b", buffering=0), size
+        self._file.truncate(size)
+        self._file.seek(size)
+
+    @property
+    def closed(self):
+        """Whether :meth:`close` has been called, and no :meth:`reopen` since."""
+        return self._file is None
+
+    def reopen(self):
+        """Takes rows again after :meth:`close`; nothing happens to one that is open. Raises RecordsError where the file is no longer what it was then."""
+        if self._file is not None:
+            return
+        self._kept(self.mark())
+        try:
+            self._go_on(self._size)
+        except OSError as error:
+            raise RecordsError(
+                f"{self.path}: cannot be written ({error.strerror}); make it writable, or begin a new run in another folder"
             ) from error
 
     def _refuse_to_overwrite(self, overwrite):
@@ -142,7 +162,9 @@ class SeriesWriter:
         or a step that does not increase; the file is then unchanged.
         """
         if self._file is None:
-            raise RecordsError(f"{self.path}: the series has been closed; open a new SeriesWriter to go on")
+            raise RecordsError(
+                f"{self.path}: the series has been closed; call its reopen() to go on, or run() or attach() of the experiment that it belongs to"
+            )
         lines = [self._line(row) for row in rows]
         steps = {int(row["step"]) for row in rows}
         for step in steps:
