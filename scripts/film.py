@@ -14,7 +14,7 @@ import argparse
 from pathlib import Path
 
 from yade import O
-from yade.nonsmooth import commands, figures, film
+from yade.nonsmooth import commands, figures, film, section_arguments
 from yade.nonsmooth.figures import moving
 from yade.nonsmooth.laboratory import arguments
 
@@ -39,7 +39,9 @@ def read_arguments():
     )
     parser.add_argument(
         "--fps",
-        type=arguments.positive,
+        type=section_arguments.number(
+            float, moving.LEAST_FPS, moving.MOST_FPS, f"frames a second from {moving.LEAST_FPS:g} to {moving.MOST_FPS}"
+        ),
         default=moving.FPS,
         metavar="F",
         help="frames a second in the video (default: %(default)s)",

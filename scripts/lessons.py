@@ -34,6 +34,7 @@ def main():
     args = parser.parse_args()
     chosen, out = lessons.under(args.lessons), Path(args.out)
     output_folder.claim(out, "lessons.py", args.resume)
+    lessons.merged({}, out / "lessons.json")  # refused before anything is run
     if args.films and film.missing():
         print(f"no videos: {film.missing()}")
     count = sum(len(case.seeds or (None,)) for cases in chosen.values() for case in cases.values())
@@ -41,7 +42,7 @@ def main():
         found = lessons.run(
             chosen, out, args.threads, args.resume, lambda share, ended: progress(share, f"{count} runs"), args.films
         )
-    write_json(out / "lessons.json", found)
+    write_json(out / "lessons.json", lessons.merged(found, out / "lessons.json"))  # others keep their numbers
     for name, cases in found.items():
         for key, values in cases.items():
             told = [f"{k} {shown(v)}" for k, v in values.items() if k != "rows"]

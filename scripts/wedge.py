@@ -18,6 +18,7 @@ from tqdm import tqdm
 from yade.nonsmooth import commands, errors, keys, output_folder
 from yade.nonsmooth.figures.creep import creep
 from yade.nonsmooth.figures.style import LINES
+from yade.nonsmooth.measure.creep import rate
 from yade.nonsmooth.whole_files import write_atomically, write_json
 
 EXAMPLES = Path(sys.argv[0]).resolve().with_name("examples")
@@ -97,14 +98,13 @@ def main():
                 found = curve(
                     out, f"{case}_{model}", script, dict(seconds=args.seconds, **joint, **numerics), args.resume
                 )
-                late = found["t"] >= min(5, 0.5 * args.seconds)
                 rows.append(
                     dict(
                         case=case,
                         model=model,
                         displacement_mm=found["centroid"][-1],
                         largest_mm=found["largest"].max(),
-                        creep_mm_per_min=60 * np.polyfit(found["t"][late], found["centroid"][late], 1)[0],
+                        creep_mm_per_min=rate(found["t"], found["centroid"], args.seconds),
                     )
                 )
                 curves.append((label, colour, found["t"], found["centroid"]))

@@ -40,10 +40,11 @@ from . import (
 from .course import State
 from .errors import UserError
 from .measure.fronts import front_of
+from .section import Section
 from .stepping import advance
 from .wall_series import WallSeries
 
-__all__ = ["EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
+__all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
 FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each step with hard ones
 CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
@@ -69,6 +70,10 @@ OF_SOLVER = (
 
 class ExperimentError(UserError, RuntimeError):
     """The run cannot go on; the message says why and what helps."""
+
+
+class ArgumentError(ExperimentError, ValueError):
+    """What an experiment cannot be made of; nothing has been written then."""
 
 
 class EndError(ExperimentError, ValueError):
@@ -544,7 +549,8 @@ def row():
 
 
 def begin(section, folder, progress=None):
-    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises what slope_packing.of and slope.build raise."""
+    """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises ArgumentError for what is no Section or no folder, and what slope_packing.of and slope.build raise."""
+    _check(section, folder)
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
@@ -553,6 +559,13 @@ def begin(section, folder, progress=None):
     course = Experiment(slope.build(section, packed), folder, progress=progress)
     course.state.wall_packing_s = seconds
     return course
+
+
+def _check(section, folder):
+    """Raises ArgumentError for what is no Section, and for what is no folder."""
+    if not isinstance(section, Section):
+        raise ArgumentError(f"section {checks.shown(section)}: give a Section, as section.load('circle') returns one")
+    checks.path("folder", folder, ArgumentError, "give the path of a folder for the run")
 
 
 def run_key(section):
@@ -571,9 +584,10 @@ def run_key(section):
 def resume(section, folder, progress=None):
     """An :class:`Experiment` that goes on from the checkpoint in ``folder``.
 
-    Raises ExperimentError where there is none, where it is damaged, or where it belongs to another section, and RecordsError where the series is not as it
+    Raises ArgumentError for what is no Section or no folder, ExperimentError where there is no checkpoint, where it is damaged, or where it belongs to another section, and RecordsError where the series is not as it
     was then. Nothing has been written then.
     """
+    _check(section, folder)
     content = checkpoints.read(folder, run_key(section), ExperimentError)
     try:
         state, mark = State(**content["state"]), {"series": content["series"], "walls": content["wall_series"]}

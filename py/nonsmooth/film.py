@@ -6,6 +6,7 @@ from pathlib import Path
 
 from matplotlib.animation import FFMpegWriter, PillowWriter
 
+from . import checks
 from .records import RecordsError
 from .whole_files import beside
 
@@ -96,7 +97,7 @@ def missing():
 
 def check(path):
     """The path of a film that can be made, before anything is computed for it. Raises RecordsError for another suffix than .mp4 or .gif, and for an MP4 without ffmpeg."""
-    path = Path(path)
+    path = Path(checks.path("path", path, RecordsError, f"give the name of a file that ends in {' or '.join(KINDS)}"))
     if path.suffix.lower() not in KINDS:
         raise RecordsError(f"{path}: a video ends in {' or '.join(KINDS)}; give such a name")
     if path.suffix.lower() == ".mp4" and missing():

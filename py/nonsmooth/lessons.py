@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import os
 import re
 import sys
@@ -14,10 +15,11 @@ from . import keys, side_by_side, statistics
 from .errors import UserError
 from .whole_files import write_atomically
 
-__all__ = ["CASES", "Case", "LessonError", "collect", "numbers", "one", "run", "under"]
+__all__ = ["CASES", "Case", "LessonError", "collect", "merged", "numbers", "one", "run", "under"]
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "scripts" / "examples"
 FILM_SECONDS = 8  # of a lesson's video
+NUMBER = r"-?\d[\d.]*(?:e[+-]?\d+)?"
 WALL = ("wall_s", "process_wall_s")  # what differs from run to run
 
 
@@ -56,6 +58,10 @@ CASES = {
     "press": _pair("press"),
     "shear": _pair("shear"),
     "drum": _pair("drum"),
+    "tester": _pair("tester"),
+    "bounce": _pair("bounce"),
+    "deposit": _pair("deposit"),
+    "oedometer": _pair("oedometer"),
 }
 
 
@@ -71,10 +77,14 @@ def numbers(text):
     """The numbers that a lesson prints, by names that are words with underscores: a dictionary.
 
     Lines of words and a number, as ``steps 1250`` or ``pile height [m] 1.2``, give ``steps`` and ``pile_height_m``, also several of them in a line, behind commas or two blanks; the last one
-    of a name counts. Lines that begin with a number, rows of a table or of a progress, give ``rows``: lists of the numbers in them.
+    of a name counts. Lines that begin with a number, and those in which two or more numbers stand by themselves, rows of a table or of a progress, give ``rows``: lists of the numbers in them.
     """
     found, rows = {}, []
     for line in text.splitlines():
+        alone = [cell for cell in re.split(r"\s{2,}", line.strip()) if re.fullmatch(NUMBER, cell)]
+        if len(alone) > 1 and not re.match(r"\s*-?\d", line):
+            rows.append([float(cell) for cell in alone])
+            continue
         if re.match(r"\s*-?\d", line):
             rows.append([float(value) for value in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?", line)])
             continue
@@ -136,6 +146,21 @@ def run(chosen, out, threads=1, resume=False, progress=lambda share, ended: None
     for (name, key, seed), result in zip(order, results):
         found.setdefault(name, {}).setdefault(key, []).append({k: v for k, v in result.items() if k not in WALL})
     return {name: {key: collect(several) for key, several in cases.items()} for name, cases in found.items()}
+
+
+def merged(found, path):
+    """The lessons of ``found``, as :func:`run` returns them, with the others that the file ``path`` has, if it is there: {name: {case: numbers}} in the order of :data:`CASES`. Raises LessonError for a
+    file that cannot be read."""
+    try:
+        kept = json.loads(Path(path).read_text(encoding="utf-8"))
+        kept = {name: dict(cases) for name, cases in kept.items()} | found
+    except FileNotFoundError:
+        kept = found
+    except (OSError, ValueError, AttributeError, TypeError) as error:
+        raise LessonError(
+            f"{path}: cannot be read as the numbers of lessons ({error}); remove it, or give another --out"
+        ) from None
+    return {name: kept[name] for name in CASES if name in kept}
 
 
 def collect(several):

@@ -17,7 +17,7 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from . import frames, records, requirements, results, section, section_data
+from . import checks, frames, records, requirements, results, section, section_data
 from .errors import UserError
 from .whole_files import whole
 
@@ -25,6 +25,10 @@ __all__ = ["FIGURES", "Opened", "Run", "RunError", "open_run"]
 
 FIGURES = results.PICTURES
 VIDEOS = (".mp4", ".gif")  # as files of a run end
+
+
+FOLDER = "give the path of a folder for the run"  # remedies that functions which make runs share
+THREADS = "give a whole number from 1, how many run at a time"
 
 
 class RunError(UserError, ValueError):
@@ -40,7 +44,7 @@ class Opened:
     NUMBERS = "its numbers are in run.summary"
 
     def __init__(self, folder):
-        self.folder = Path(folder)
+        self.folder = Path(checks.path("folder", folder, RunError, "give the path of the folder of a run"))
 
     def frame(self, name="series"):
         """One of :attr:`TABLES` as a pandas.DataFrame. Raises RunError for another name, and where pandas is not installed."""
@@ -67,6 +71,9 @@ class Opened:
 
         ``name``: of the file, where there are several; ``width``: of the page [pixels]. Raises RunError where there is no video, MissingPackage without IPython.
         """
+        if name is not None:
+            checks.text("name", name, RunError, "give the name of a video in the folder of the run, or None")
+        checks.number("width", width, RunError, "give pixels of the page, above 0", above=0)
         found = {path.name: path for ending in VIDEOS for path in whole(self.folder, f"*{ending}")}
         if name is None and len(found) == 1:
             (name,) = found
@@ -122,8 +129,9 @@ class Run(Opened):
 
     def snapshot(self, name) -> records.Snapshot:
         """The disks at "t0" or "end", with their contacts, or at a time [s], that of the nearest snapshot."""
-        if isinstance(name, str):
+        if name in ("t0", "end"):
             return records.read_snapshot(self._file(f"{name}.npz"))
+        checks.number("snapshot", name, RunError, "give 't0', 'end' or a time [s]")
         shots = frames.of_run(self.folder, self.series)
         if not shots:
             raise RunError(f"{self.folder}: the run has written no snapshot yet; continue it with --resume")
@@ -160,8 +168,9 @@ class Run(Opened):
 
 def open_run(folder) -> Run:
     """The Run in a folder. Raises RunError where it is none."""
-    if not (Path(folder) / section_data.FILE).is_file():
+    run = Run(folder)
+    if not (run.folder / section_data.FILE).is_file():
         raise RunError(
             f"{folder}: has no {section_data.FILE}, so no run of a slope of this version is here; give the folder that was given to --out"
         )
-    return Run(folder)
+    return run

@@ -21,6 +21,7 @@ from yade.wrapper import (
     Ip2_NscdMat_NscdMat_NscdPhys,
     Law2_ScGeom_NscdPhys_SignoriniCoulomb,
     NscdInteractionLoop,
+    Material,
     NewtonIntegrator,
     NscdMat,
     PlanarGridCollider,
@@ -32,9 +33,11 @@ from yade.wrapper import (
 )
 from yade.minieigenHP import Quaternion, Vector3
 
-from . import geometry
+from . import checks, geometry
+from .errors import UserError
 
 __all__ = [
+    "SceneError",
     "arc",
     "contact_dynamics",
     "disk",
@@ -48,6 +51,23 @@ __all__ = [
 ]
 
 
+_PLACE = "give (x, y) [m], finite numbers"
+
+
+class SceneError(UserError, ValueError):
+    """What no body, material or engine can be made of; the message names it and says what would do."""
+
+
+_strengths = checks.takes(
+    SceneError,
+    m=checks.has(
+        "density friction rolling_friction tensile_strength restitution slip_weakening",
+        "give a section.Material; a script makes its own by NscdMat(...) or SlipWeakeningMat(...)",
+    ),
+)
+
+
+@_strengths
 def material(m, kind=NscdMat, **others):
     """A material with the strengths of the section.Material ``m``, not yet in the scene.
 
@@ -69,6 +89,7 @@ def material(m, kind=NscdMat, **others):
     return kind(**{**values, **others})
 
 
+@_strengths
 def wall_material(m, **others):
     """The material of a wall, whose strengths alone rule contacts with it; not yet in the scene.
 
@@ -93,10 +114,12 @@ def disk(centre, radius, material, fixed=False, color=None):
     ``centre``: (x, y) [m]; ``radius`` [m]; ``material``: an NscdMat, whose density [kg/m³] gives the mass ρ π r² and the
     inertia m r²/2 per metre of thickness; its friction angle is 0.5 rad unless it says otherwise. Where ``shape.radius`` is changed later, mass and inertia follow. ``fixed``: block all degrees of freedom.
 
-    Raises ValueError for a radius that is not positive and finite, and for a centre out of the plane, as a script with z up has it.
+    Raises SceneError, a ValueError, for a radius that is not positive and finite, for a centre without two finite numbers, for what is no material, and for a centre out of the plane, as a script with z up has it.
     """
-    if not 0 < radius < math.inf:
-        raise ValueError(f"disk at {tuple(centre)}: radius {radius!r}; give a positive radius [m]")
+    checks.numbers_of("disk, centre", centre, SceneError, _PLACE, 2, 3)
+    checks.number(f"disk at {tuple(centre)}: radius", radius, SceneError, "give a positive radius [m]", above=0)
+    if not callable(material):  # as YADE's own makers take it
+        _material(material)
     if len(centre) > 2 and centre[2] != 0:
         raise ValueError(
             f"disk at {tuple(centre)}: disks lie in the plane z = 0, and y is up; give (x, y), from a script with z up its x and z"
@@ -150,6 +173,9 @@ def disks(spheres, material=None, fixed=False, color=None):
     return bodies
 
 
+_SPHERES = "give a SpherePack, bodies of spheres, their ids, or rows (x, y, radius)"
+
+
 def _spheres(spheres, material, color):
     """Spheres' bodies of what :func:`disks` takes."""
     if hasattr(spheres, "toSimulation"):  # a SpherePack, whose rows of a clump have its number behind
@@ -158,22 +184,26 @@ def _spheres(spheres, material, color):
             raise ValueError("the spheres are in clumps, which the engines do not know: bond disks instead")
         found = [(*row[0], row[1]) for row in rows]
     else:
-        found = list(spheres)
+        try:
+            found = list(spheres)
+        except TypeError:
+            raise TypeError(f"spheres {checks.shown(spheres)}: {_SPHERES}") from None
     if found and all(isinstance(one, Body) for one in found):
         strange = [one for one in found if not isinstance(one.shape, Sphere)]
         if strange:
             raise TypeError(f"a body has a {type(strange[0].shape).__name__}: only spheres become disks")
         return found
     if found and all(isinstance(one, (int, np.integer)) for one in found):
+        for i in found:
+            if not (0 <= i < len(O.bodies) and O.bodies[int(i)] is not None):
+                raise SceneError(f"spheres, id {i}: there is no such body in the scene; {_SPHERES}")
         return _spheres([O.bodies[int(i)] for i in found], material, color)
     try:
         table = np.array(found, float).reshape(len(found), -1)
     except (TypeError, ValueError):
         table = np.zeros((len(found), 0))
     if found and table.shape[1] not in (3, 4):
-        raise TypeError(
-            f"{type(spheres).__name__} holds no spheres: give a SpherePack, bodies of spheres, their ids, or rows (x, y, radius)"
-        )
+        raise TypeError(f"{type(spheres).__name__} holds no spheres: {_SPHERES}")
     if found and material is None:
         raise ValueError("material = None: rows and packs of spheres have none, give an NscdMat")
     places = [((x, y, *(z or (0,))), r) for x, y, *z, r in table]
@@ -181,8 +211,8 @@ def _spheres(spheres, material, color):
 
 
 def _check_length(name, value):
-    if value is not None and not (value > 0 and math.isfinite(value)):
-        raise ValueError(f"{name} = {value}: give a positive length [m]")
+    if value is not None:
+        checks.number(f"{name} =", value, SceneError, "give a positive length [m]", above=0)
 
 
 def segments(vertices, material, piece=None, sense=0, closed=False, backwards=False):
@@ -195,11 +225,17 @@ def segments(vertices, material, piece=None, sense=0, closed=False, backwards=Fa
     vertices, one that is not finite or coincides with its neighbour, and for a ``piece`` or a ``sense`` that makes no sense.
     """
     _check_length("piece", piece)
-    if sense not in (-1, 0, 1):
-        raise ValueError(
-            f"sense = {sense}: give +1 (the left of the way that vertices go acts), -1 (the right), or 0 (both)"
+    if not isinstance(sense, (int, np.integer)) or sense not in (-1, 0, 1):
+        raise SceneError(
+            f"sense = {checks.shown(sense)}: give +1 (the left of the way that vertices go acts), -1 (the right), or 0 (both)"
         )
-    points = [np.asarray(v, float) for v in vertices]
+    _material(material)
+    try:
+        points = [np.asarray(v, float) for v in vertices]
+    except (TypeError, ValueError):
+        raise SceneError(
+            f"vertices {checks.shown(vertices)}: give a list of two or more (x, y) [m], finite numbers"
+        ) from None
     if closed:
         points.append(points[0])
     if len(points) < 2:
@@ -237,10 +273,18 @@ def arc(centre, radius, start, end, material, inside=True, piece=None):
     None: one body. Each body's position is the circle's centre: set its angVel, or RotationEngine, and the wall turns in its place. Ends that meet segments or other arcs are joints, see
     Segment. Raises ValueError for a radius that is not positive, and for an end that is not beyond the start.
     """
-    for name, value in (("radius", radius), ("piece", piece)):
-        _check_length(name, value)
-    if not (end > start and math.isfinite(end - start)):
-        raise ValueError(
+    checks.numbers_of("arc, centre", centre, SceneError, _PLACE, 2, 3)
+    checks.number("radius =", radius, SceneError, "give a positive length [m]", above=0)
+    _check_length("piece", piece)
+    for name, value in (("start", start), ("end", end)):
+        checks.number(f"arc, {name}", value, SceneError, "give an angle [rad] from the x axis, counter-clockwise")
+    if not (inside is None or isinstance(inside, (bool, np.bool_))):
+        raise SceneError(
+            f"inside {checks.shown(inside)}: give True (the inside acts), False (the outside) or None (both)"
+        )
+    _material(material)
+    if not end > start:
+        raise SceneError(
             f"an arc from start = {start:g} to end = {end:g} rad: give an end beyond the start, counter-clockwise"
         )
     opening = min(end - start, 2 * math.pi)
@@ -269,9 +313,20 @@ def _wall(shape, position, angle, material):
 
 
 def _material(material):
-    return O.materials[material] if isinstance(material, (str, int)) else material
+    if isinstance(material, Material):
+        return material
+    try:
+        return O.materials[material]
+    except (KeyError, IndexError, TypeError):
+        known = ", ".join(repr(m.label) for m in O.materials if m.label)
+        raise SceneError(
+            f"material {checks.shown(material)}: give a material, as NscdMat(...), or the label{f' ({known})' if known else ''} or number of one in O.materials"
+        ) from None
 
 
+@checks.takes(
+    SceneError, **{name: checks.has("shape", "give a body, as segments(...) makes them") for name in ("one", "other")}
+)
 def join(one, other, along, backwards=False):
     """Makes two segments that meet count as one wall; ``one`` owns their corner. ``along``: the direction of ``other`` in the frame of ``one``; ``backwards``: see
     :func:`segments`."""
@@ -290,6 +345,11 @@ def engines(
     enough to come so near in two steps, where that is more; ``verlet``: the collider's margin [m], negative: in smallest radii, which fits any size of disks; ``before``:
     engines that add forces, e.g. PorePressureEngine; ``after``: engines after the integrator; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
     """
+    checks.numbers_of("gravity", gravity, SceneError, "give (x, y, z) [m/s²], as (0, -9.81, 0)", 3, 3)
+    checks.number("reach", reach, SceneError, "give a gap in mean diameters, 0 or more", least=0)
+    if far is not None:
+        checks.number("far", far, SceneError, "give a gap in mean diameters, 0 or more, or None", least=0)
+    checks.number("verlet", verlet, SceneError, "give a margin [m], or below 0 a share of the smallest radius")
     solver = ContactDynamicsEngine(label=label, **options)
     far = max(reach, far or 0)
     sure = {"sureReach": reach} if far > reach else {}
@@ -326,19 +386,28 @@ def plate(
 
     Raises LookupError where O.engines has no integrator yet: set O.engines first; ValueError for a mass that is not positive, a direction without length and one that lies along the plate while a stress is given.
     """
-    a, b = (np.asarray(end, float) for end in ends)
+    for name, value in (("force =", force), ("stress =", stress), ("damping =", damping)):
+        checks.number(name, value, SceneError, "give a finite number")
+    try:
+        a, b = (np.array(checks.numbers_of("ends", end, SceneError, _PLACE, 2, 2)) for end in ends)
+    except (TypeError, ValueError):
+        raise SceneError(f"ends {checks.shown(ends)}: give two points (x, y) [m], finite numbers") from None
     (body,) = segments([a, b], material, sense=1)
     length = 2 * body.shape.halfLength
     normal = np.array([a[1] - b[1], b[0] - a[0]]) / length
-    way = normal if direction is None else np.asarray(direction, float)[:2]
+    remedy = "give a direction in the x-y plane, (x, y)"
+    way = (
+        normal
+        if direction is None
+        else np.array(checks.numbers_of("direction =", direction, SceneError, remedy, 2, 3)[:2])
+    )
     if not np.hypot(*way) > 0:
         raise ValueError(f"direction = {tuple(map(float, way))}: give a direction in the x-y plane, (x, y)")
     way = way / np.hypot(*way)
     if stress and abs(float(way @ normal)) < 1e-9:
         raise ValueError("a plate that moves along itself takes no stress: give a force, or another direction")
     mass = 0.1 * body.material.density * length * length if mass is None else mass
-    if not (mass > 0 and math.isfinite(mass)):
-        raise ValueError(f"mass = {mass}: give the plate a positive mass [kg]")
+    checks.number("mass =", mass, SceneError, "give the plate a positive mass [kg]", above=0)
     place = _place_of_loads()
     body.state.mass = mass
     body.state.inertia = Vector3(1, 1, 1) * (mass * length * length / 12)

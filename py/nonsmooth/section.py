@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import free_surface, geometry, roles, section_data, section_values
+from . import checks, free_surface, geometry, roles, section_data, section_values
 from .section_parts import (
     Disks,
     End,
@@ -284,8 +284,9 @@ class Section:
 
         Raises SectionError where such disks are too large for the layers.
         """
-        if isinstance(count, bool) or not 1 <= count <= MOST_DISKS or int(count) != count:
-            raise SectionError(f"{self.source}: {count!r} disks; give a whole number from 1 to {MOST_DISKS}")
+        remedy = f"give a whole number of disks from 1 to {MOST_DISKS}"
+        if checks.number(f"{self.source}: disks", count, SectionError, remedy, least=1, most=MOST_DISKS) != int(count):
+            raise SectionError(f"{self.source}: disks {count!r}: {remedy}")
         if self.like:
             from . import similar
 
@@ -328,6 +329,9 @@ class Section:
         `rock`: a Material, all of whose values count as given, or the plain data of one (`laboratory.materials.data`), whose residual values follow the peak where
         they are left out. Raises SectionError for a rock without density, and for what is no material.
         """
+        if not isinstance(rock, (Material, Mapping)):
+            remedy = "give a Material, or the plain data of one, as laboratory.materials.data('wwr') has it"
+            raise SectionError(f"{self.source}: rock {checks.shown(rock)}: {remedy}")
         data = dict(rock) if isinstance(rock, Mapping) else section_data.material(rock)
         if "density" not in data:
             name = "rock" if isinstance(rock, Mapping) else rock.name
@@ -342,8 +346,8 @@ class Section:
 
         Raises SectionError where no slip surface weakens, and for what is no distance.
         """
-        if not 0 < distance < math.inf:
-            raise SectionError(f"{self.source}: a critical slip of {distance:g} m; give a distance above 0")
+        name = f"{self.source}: a critical slip of"
+        checks.number(name, distance, SectionError, "give a distance above 0 [m]", above=0)
         slips = self.critical_slips
         if not slips:
             raise SectionError(
@@ -443,7 +447,8 @@ def load(path_or_name) -> Section:
 
     Raises SectionError (a ValueError) with file, line, key, value and remedy.
     """
-    path = Path(path_or_name)
+    names = ", ".join(shipped())
+    path = Path(checks.path("section", path_or_name, SectionError, f"give the path of a YAML file, or one of: {names}"))
     try:
         # a folder of results may have the name of a shipped section
         given = (
@@ -471,4 +476,6 @@ def of(data: Mapping | None = None, source: str = "section", **keys) -> Section:
     """
     from . import section_building
 
+    if not (data is None or isinstance(data, Mapping)):
+        raise SectionError(f"{source}: data {checks.shown(data)}: give a dictionary with the keys of a section file")
     return section_building.build(take({**(data or {}), **keys}, source, FOLDER / "section.schema.yaml"), source)

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
-from . import section_data
+from . import checks, section_data
 from .section_reader import SectionError, schema
 
 __all__ = ["Given", "NoSuchKey", "given", "keep", "keep_value", "put", "with_values", "words"]
@@ -70,6 +70,8 @@ def given(section) -> dict:
 
     What `dataclasses.replace` has changed since counts as given, whole. A similar section (`like`) loses where it came from.
     """
+    if not hasattr(section, "given"):
+        raise SectionError(f"section {checks.shown(section)}: give a Section, as section.load('circle') returns one")
     if section.given is None:
         return section_data.plain(section)
     data = copy.deepcopy(dict(section.given.data))
@@ -97,6 +99,10 @@ def with_values(section, values, source=None):
     from . import section as sections, similar
 
     data = given(section)
+    if not isinstance(values, Mapping):
+        raise SectionError(
+            f"{section.source}: values {checks.shown(values)}: give a dictionary {{key: value}}, as {{'materials.soil.friction': 0.4}}"
+        )
     for key, value in values.items():
         put(data, key, value)
     made = sections.of(data, section.source if source is None else source)
@@ -136,7 +142,11 @@ def put(data, key, value):
 
 def words(key):
     """The words of a key: of one with dots, or a tuple of them."""
-    return tuple(key.split(".")) if isinstance(key, str) else tuple(key)
+    if isinstance(key, (tuple, list)) and key and all(isinstance(word, str) for word in key):
+        return tuple(key)
+    return tuple(
+        checks.text("key", key, NoSuchKey, "give words with dots between them, as 'water.table.rate'").split(".")
+    )
 
 
 def _name(item):

@@ -10,7 +10,7 @@ import copy
 import dataclasses
 import math
 
-from . import section_building, section_data, section_values
+from . import checks, section_building, section_data, section_values
 from .section import Section, SectionError
 from .section_reader import Document
 
@@ -45,9 +45,13 @@ POWERS = {
     "stages.end.rest_hold": TIME,
     "numerics.time_step": TIME,
 }
+_OF_A_SECTION = checks.takes(
+    SectionError, section=checks.kind(Section, "give a Section, as section.load('circle') returns one")
+)
 _NAMED = ("walls", "layers", "interfaces", "materials")  # whose items have names
 
 
+@_OF_A_SECTION
 def mirrored(section: Section) -> Section:
     """The Section with left and right exchanged: every x changes its sign. Mirrored twice it is as it was, to the last bit."""
     made = _rebuilt(section, _mirrored(section_data.plain(section)))
@@ -87,12 +91,11 @@ def scaled_packing(packing, factor):
     return dataclasses.replace(packing, x=factor * packing.x, y=factor * packing.y, r=factor * packing.r)
 
 
+@_OF_A_SECTION
 def scaled(section: Section, factor: float) -> Section:
     """The Section ``factor`` times as large, with all times, speeds and strengths so that it does the same, and with the same packing. Raises SectionError for a factor out of all bounds."""
-    if not FACTORS[0] <= factor <= FACTORS[1]:
-        raise SectionError(
-            f"{section.source}: {factor:g} times as large; give a factor from {FACTORS[0]:g} to {FACTORS[1]:g}"
-        )
+    remedy = f"give a factor from {FACTORS[0]:g} to {FACTORS[1]:g}"
+    checks.number(f"{section.source}: factor", factor, SectionError, remedy, least=FACTORS[0], most=FACTORS[1])
     made = _rebuilt(section, _scaled(section_data.plain(section), factor))
     original, whole = (section.like[0], factor * section.like[1]) if section.like else (section, factor)
     disks = section.disks.scaled(factor)  # with the count that was asked for

@@ -14,19 +14,25 @@ import math
 import random
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk
 
 # [ numerics
 # restitution: of impacts
-numerics = dict(dt=2e-3, tolerance=1e-4, restitution=0)
+numerics = dict(dt=1e-3, tolerance=1e-4, restitution=0)
 # ]
 # aspect: height of the column by its width; friction of the disks; seed of the packing; seconds after the gate has gone
 utils.readParamsFromTable(aspect=2.0, friction=0.5, seed=1, seconds=3, **numerics)
 from yade.params import table
 
+parameters.positive(table, "aspect", "seconds", "dt")
+parameters.not_negative(table, "friction")
+parameters.whole(table, "seed", least=0)
+
 WIDTH, SMALL, LARGE = 1.0, 0.03, 0.05  # of the column [m]; radii [m]
 
 # [ material
+parameters.within(table, 0, 1, "restitution")
 rock = NscdMat(density=2500, frictionAngle=math.atan(table.friction), restitution=table.restitution)
 # ]
 O.materials.append(rock)
@@ -48,11 +54,12 @@ while area < 0.83 * table.aspect * WIDTH**2:  # 0.83: about how dense disks of s
 # [ functors, engines, time step
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.05), Bo1_Wall_Aabb()], verletDist=0.01),
+    # the disks fall by metres before they settle: contacts are looked for as far as a step takes them
+    InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.2), Bo1_Wall_Aabb()], verletDist=0.01),
     InteractionLoop(
-        [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.05), Ig2_Wall_Sphere_ScGeom()],
+        [Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.2), Ig2_Wall_Sphere_ScGeom()],
         [Ip2_NscdMat_NscdMat_NscdPhys()],
-        [Law2_ScGeom_NscdPhys_SignoriniCoulomb()]),
+        [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=0.2)]),
     ContactDynamicsEngine(tolerance=table.tolerance),
     NewtonIntegrator(damping=0, gravity=(0, -9.81, 0)),
 ]
@@ -67,14 +74,14 @@ def shape():
     return right[int(0.95 * (len(right) - 1))], tops[int(0.95 * (len(tops) - 1))] if tops else 0
 
 
-O.run(round((1 + math.sqrt(table.aspect)) / O.dt), wait=True)
+O.run(max(1, round((1 + math.sqrt(table.aspect)) / O.dt)), wait=True)
 front, height = shape()
 print("disks %d, column [m]: %.3f wide, %.3f high" % (len(disks), front, height))
 
 O.bodies.erase(gate)
 released = O.time
 for k in range(1, 7):
-    O.run(round(table.seconds / 6 / O.dt), wait=True)
+    O.run(max(1, round(table.seconds / 6 / O.dt)), wait=True)
     print("%.2f s: front at %.3f m, height at the wall %.3f m" % (O.time - released, *shape()))
 
 final, left = shape()

@@ -10,7 +10,8 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), "--threads", "1", *sys.argv[1:]])
 
-from yade import pack, plot, utils
+from yade import log, pack, plot, utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disks, segments
 
 # [ numerics
@@ -20,6 +21,10 @@ numerics = dict(dt=1e-3, tolerance=1e-5)
 utils.readParamsFromTable(radius=0.03, spread=0.3, rest=0.02, seconds=5, **numerics)
 from yade.params import table
 
+parameters.positive(table, "rest", "seconds", "dt")
+parameters.within(table, 0.005, 0.2, "radius")
+parameters.within(table, 0, 0.9, "spread")
+
 # [ material
 rock = NscdMat(density=2500, frictionAngle=0.5)
 # ]
@@ -27,6 +32,7 @@ O.materials.append(rock)
 
 # a box of 1 m that is open above: walls act to the left of their direction
 floor, left, right = (O.bodies.append(segments(ends, rock, sense=1))[0] for ends in ([(-0.2, 0), (1.2, 0)], [(0, 3), (0, -0.2)], [(1, -0.2), (1, 3)]))
+log.setLevel("SpherePack", 2)  # errors alone: that a flat box has no volume is known
 cloud = pack.SpherePack()
 cloud.makeCloud((0, 0, 0), (1, 1.5, 0), rMean=table.radius, rRelFuzz=table.spread, seed=1)  # flat: both corners have one z
 grains = O.bodies.append(disks(cloud, rock))

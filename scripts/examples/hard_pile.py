@@ -14,6 +14,7 @@ import math
 import random
 
 from yade import utils
+from yade.nonsmooth import parameters
 
 # [ numerics
 numerics = dict(dt=2e-3, tolerance=1e-4)
@@ -21,6 +22,9 @@ numerics = dict(dt=2e-3, tolerance=1e-4)
 # friction of the disks, seconds
 utils.readParamsFromTable(friction=0.3, seconds=2.5, **numerics)
 from yade.params import table
+
+parameters.positive(table, "seconds", "dt")
+parameters.not_negative(table, "friction")
 
 WIDTH = 1.5
 
@@ -60,7 +64,7 @@ O.engines = [
 # ]
 O.dt = table.dt
 
-O.run(round(table.seconds / O.dt), wait=True)
+O.run(max(1, round(table.seconds / O.dt)), wait=True)
 
 states = [O.bodies[i].state for i in disks]
 mass = sum(s.mass for s in states)

@@ -14,6 +14,7 @@ import math
 import random
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, segments
 
 # [ numerics
@@ -22,6 +23,9 @@ numerics = dict(dt=1e-3, tolerance=1e-4)
 # friction of the disks, normal stress [Pa], speed of the upper half [m/s], its way [m]
 utils.readParamsFromTable(friction=0.5, pressure=1e5, speed=0.1, way=0.3, **numerics)
 from yade.params import table
+
+parameters.positive(table, "pressure", "speed", "way", "dt")
+parameters.not_negative(table, "friction")
 
 WIDTH, HALF = 3.0, 0.6
 
@@ -59,14 +63,14 @@ O.dt = table.dt
 
 for k in range(1, 21):  # the load grows, and presses the disks together
     O.forces.setPermF(lid, (0, -table.pressure * WIDTH * k / 20, 0))
-    O.run(round(0.05 / O.dt), wait=True)
-O.run(round(0.5 / O.dt), wait=True)
+    O.run(max(1, round(0.05 / O.dt)), wait=True)
+O.run(max(1, round(0.5 / O.dt)), wait=True)
 print(f"height under the lid [m] {O.bodies[lid].state.pos[1]:.3f}")
 for i in (*upper, lid):
     O.bodies[i].state.vel = (table.speed, 0, 0)
 
 rows, stresses = 40, []
-steps = round(table.way / table.speed / O.dt / rows / 4)
+steps = max(1, round(table.way / table.speed / O.dt / rows / 4))
 for k in range(1, rows + 1):
     shear = 0
     for _ in range(4):  # a mean over the row: contacts come and go

@@ -14,6 +14,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk
 
 # [ numerics
@@ -22,6 +23,9 @@ numerics = dict(dt=4e-5, young=1e10, damping=0.5)
 # count of disks, strength [Pa] of the bonds, load: greatest weight in units of that which statics asks for, seconds of its growth
 utils.readParamsFromTable(count=8, strength=2.5e6, load=1.2, seconds=20, **numerics)
 from yade.params import table
+
+parameters.positive(table, "strength", "load", "seconds", "dt")
+parameters.whole(table, "count")
 
 RADIUS, DENSITY, ROLLING, FRICTION = 0.25, 2500, 0.125, 0.5
 mass = DENSITY * math.pi * RADIUS**2  # of a disk 1 m thick

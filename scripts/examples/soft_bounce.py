@@ -13,6 +13,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk
 
 # [ numerics
@@ -21,6 +22,9 @@ numerics = dict(dt=1e-5, young=1e8, damping=0.05)
 # clear height of the fall [m], bounces to wait for
 utils.readParamsFromTable(height=1.0, bounces=3, **numerics)
 from yade.params import table
+
+parameters.positive(table, "height", "dt")
+parameters.whole(table, "bounces")
 
 # [ material
 rock = FrictMat(density=2500, young=table.young, poisson=0.3, frictionAngle=math.atan(0.3))
@@ -45,7 +49,8 @@ O.engines = [
 O.dt = table.dt
 
 heights, upwards = [], False
-while len(heights) < table.bounces:
+longest = 100 * math.sqrt(2 * table.height / 9.81)  # in units of the fall: a disk that has come to rest bounces no more
+while len(heights) < table.bounces and O.time < longest:
     O.step()
     if upwards and ball.state.vel[1] <= 0:  # the highest point of a bounce
         heights.append(ball.state.pos[1] - 1)
@@ -54,4 +59,6 @@ while len(heights) < table.bounces:
 print(f"steps {O.iter}")
 for number, height in enumerate(heights, 1):
     print(f"height of bounce {number} [of the height before] {height / ([table.height] + heights)[number - 1]:.4f}")
+if len(heights) < table.bounces:
+    print("it bounces no more")
 utils.waitIfBatch()

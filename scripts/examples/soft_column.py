@@ -14,6 +14,7 @@ import math
 import random
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk
 
 # [ numerics
@@ -24,9 +25,14 @@ numerics = dict(dt=1e-4, young=1e8, restitution=0.1, damping=0)
 utils.readParamsFromTable(aspect=2.0, friction=0.5, seed=1, seconds=3, **numerics)
 from yade.params import table
 
+parameters.positive(table, "aspect", "seconds", "dt")
+parameters.not_negative(table, "friction")
+parameters.whole(table, "seed", least=0)
+
 WIDTH, SMALL, LARGE = 1.0, 0.03, 0.05  # of the column [m]; radii [m]
 
 # [ material
+parameters.within(table, 0.001, 1, "restitution")  # without any a dashpot would have no limit
 rock = ViscElMat(density=2500, young=table.young, poisson=0.3, frictionAngle=math.atan(table.friction), en=table.restitution)
 # ]
 O.materials.append(rock)
@@ -66,14 +72,14 @@ def shape():
     return right[int(0.95 * (len(right) - 1))], tops[int(0.95 * (len(tops) - 1))] if tops else 0
 
 
-O.run(round((1 + math.sqrt(table.aspect)) / O.dt), wait=True)
+O.run(max(1, round((1 + math.sqrt(table.aspect)) / O.dt)), wait=True)
 front, height = shape()
 print("disks %d, column [m]: %.3f wide, %.3f high" % (len(disks), front, height))
 
 O.bodies.erase(gate)
 released = O.time
 for k in range(1, 7):
-    O.run(round(table.seconds / 6 / O.dt), wait=True)
+    O.run(max(1, round(table.seconds / 6 / O.dt)), wait=True)
     print("%.2f s: front at %.3f m, height at the wall %.3f m" % (O.time - released, *shape()))
 
 final, left = shape()

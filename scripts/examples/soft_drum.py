@@ -14,6 +14,7 @@ import math
 import random
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import arc, disk
 
 # [ numerics
@@ -22,6 +23,9 @@ numerics = dict(dt=2e-4, young=1e8, damping=0.2)
 # friction of the disks and of the drum, seconds a turn, turns
 utils.readParamsFromTable(friction=0.5, turn=20, turns=0.6, **numerics)
 from yade.params import table
+
+parameters.positive(table, "turn", "turns", "dt")
+parameters.not_negative(table, "friction")
 
 RADIUS = 1.0
 
@@ -55,7 +59,7 @@ O.engines = [
 # ]
 O.dt = table.dt
 drive.angularVelocity = 0
-O.run(round(1.5 / O.dt), wait=True)  # they fall
+O.run(max(1, round(1.5 / O.dt)), wait=True)  # they fall
 drive.angularVelocity = 2 * math.pi / table.turn
 
 
@@ -68,7 +72,7 @@ def angle():
 
 angles = []
 for k in range(1, 61):
-    O.run(round(table.turns * table.turn / 60 / O.dt), wait=True)
+    O.run(max(1, round(table.turns * table.turn / 60 / O.dt)), wait=True)
     angles.append(angle())
     if k % 10 == 0:
         print("%.2f turns: %.1f degrees" % (k * table.turns / 60, angles[-1]), flush=True)

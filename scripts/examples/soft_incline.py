@@ -13,6 +13,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, segments
 
 # [ numerics
@@ -21,6 +22,9 @@ numerics = dict(dt=2e-4, young=1e8, damping=0.2)
 # slope [°] of the incline, seconds
 utils.readParamsFromTable(slope=25, seconds=2, **numerics)
 from yade.params import table
+
+parameters.positive(table, "seconds", "dt")
+parameters.within(table, 0, 89, "slope")
 
 RADIUS, G = 0.5, 9.81
 ANGLE = math.radians(table.slope)
@@ -55,7 +59,7 @@ O.engines = [
 # ]
 O.dt = table.dt
 start = [O.bodies[i].state.pos for i in blocks]
-O.run(round(table.seconds / O.dt), wait=True)
+O.run(max(1, round(table.seconds / O.dt)), wait=True)
 
 print("friction/tan(slope)   slid [m]   speed [m/s]   acceleration [m/s2]   Coulomb's")
 for i, p, ratio in zip(blocks, start, RATIOS):

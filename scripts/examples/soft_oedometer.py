@@ -13,6 +13,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import random
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, segments
 
 # [ numerics
@@ -21,6 +22,9 @@ numerics = dict(dt=1e-4, young=1e9, damping=0.4)
 # largest stress [Pa], seconds for each stress
 utils.readParamsFromTable(stress=4e5, seconds=0.5, **numerics)
 from yade.params import table
+
+parameters.positive(table, "seconds", "dt")
+parameters.within(table, 1e4, 1e12, "stress")
 
 WIDTH, MASS = 1.0, 200.0
 
@@ -63,8 +67,8 @@ def load(stress):
     before = -O.forces.permF(plate)[1] / WIDTH
     for k in range(1, 21):  # all at once it would throw the plate onto the grains
         O.forces.setPermF(plate, (0, -(before + (stress - before) * k / 20) * WIDTH, 0))
-        O.run(round(table.seconds / 20 / O.dt), wait=True)
-    O.run(round(table.seconds / O.dt), wait=True)
+        O.run(max(1, round(table.seconds / 20 / O.dt)), wait=True)
+    O.run(max(1, round(table.seconds / O.dt)), wait=True)
     return O.bodies[plate].state.pos[1]
 
 

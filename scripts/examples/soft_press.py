@@ -14,6 +14,7 @@ import math
 import random
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, segments
 
 # [ numerics
@@ -22,6 +23,9 @@ numerics = dict(dt=1e-4, young=2e8, damping=0.2)
 # friction of the disks, pressure on the lid [Pa], seconds
 utils.readParamsFromTable(friction=0.3, pressure=2e5, seconds=2, **numerics)
 from yade.params import table
+
+parameters.positive(table, "pressure", "seconds", "dt")
+parameters.not_negative(table, "friction")
 
 WIDTH = 1.5
 
@@ -62,8 +66,8 @@ O.dt = table.dt
 
 for k in range(1, 21):  # all at once it would throw the lid onto the disks
     O.forces.setPermF(lid, (0, -table.pressure * WIDTH * k / 20, 0))
-    O.run(round(0.05 / O.dt), wait=True)
-O.run(round(table.seconds / O.dt), wait=True)
+    O.run(max(1, round(0.05 / O.dt)), wait=True)
+O.run(max(1, round(table.seconds / O.dt)), wait=True)
 
 # forces of the last step: they stand in O.forces after the solver (or the law), until the next step begins
 weight = 9.81 * sum(O.bodies[i].state.mass for i in disks)

@@ -14,6 +14,7 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, segments
 
 # [ numerics
@@ -22,6 +23,10 @@ numerics = dict(dt=4e-4, young=1e9, damping=0.2)
 # dip [°] of the joint, its friction, strength [Pa] of the rock's bonds, rate [m/s] at which the water rises, seconds
 utils.readParamsFromTable(dip=30, friction=0.65, strength=2e5, rate=0.3, seconds=25, **numerics)
 from yade.params import table
+
+parameters.positive(table, "strength", "seconds", "dt")
+parameters.not_negative(table, "friction", "rate")
+parameters.within(table, 1, 89, "dip")
 
 RADIUS, ROWS, COLUMNS, FOOT = 0.5, 8, 36, 10.0  # disks of 1 m; the slab's lower end lies FOOT [m] above the valley, along the joint
 DIP = math.radians(table.dip)
@@ -95,7 +100,7 @@ states = [O.bodies[i].state for i in disks]
 start, first, made = [s.pos for s in states], front(), bonds()
 print(f"disks {len(disks)}, bonds {made}")
 failure = broken = None
-steps = round(0.1 / O.dt)
+steps = max(1, round(0.1 / O.dt))
 for k in range(1, round(table.seconds / (steps * O.dt)) + 1):
     O.run(steps, wait=True)
     moved = displacement()

@@ -14,14 +14,20 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk
 
 # [ numerics
 numerics = dict(dt=1e-3, young=1e8, damping=0.2)
 # ]
-# strength [Pa] and friction of the bonds, load [of F_a] on half of the pairs, steps of a path
-utils.readParamsFromTable(strength=1e5, friction=0.5, load=1, steps=4000, **numerics)
+# strength [Pa] and friction of the bonds, load [of F_a] on half of the pairs, steps of a path, angle [°] of the lines of centres: 0, 90, 180 or 270
+utils.readParamsFromTable(strength=1e5, friction=0.5, load=1, steps=4000, angle=0, **numerics)
 from yade.params import table
+
+parameters.positive(table, "strength", "dt")
+parameters.not_negative(table, "friction", "load")
+parameters.whole(table, "steps")
+parameters.one_of(table, (0, 90, 180, 270), "angle")
 
 RADIUS, DENSITY, ROLLING = 0.5, 2500, 0.125
 LENGTH = 2 * RADIUS              # ℓ [m]
@@ -29,6 +35,9 @@ BOND = table.strength * LENGTH   # F_a [N]
 # what the second disk does to the first: along the normal and across it [ℓ], and about z [rad]; LawTester takes angles for angular velocities, and so for 1/dt of them
 PATHS = dict(pull=dict(disPath=[(0, 0, 0), (0.03, 0, 0)]), shear=dict(disPath=[(0, 0, 0), (0, 0.03, 0)]),
              roll=dict(rotPath=[(0, 0, 0), (0, 0, 0.5 / table.dt)]))
+# from the first disk to the second one, and across: whole numbers, so that each is an axis, which a disk may be blocked along
+ALONG = {0: (1, 0), 90: (0, 1), 180: (-1, 0), 270: (0, -1)}[table.angle]
+ACROSS = (-ALONG[1], ALONG[0])
 REST = 500                       # steps in which the load arrives, before the path begins
 
 # [ material
@@ -40,10 +49,10 @@ O.materials.append(rock)
 
 tests = []  # what is done, load [N], LawTester
 for way, load in (("pull", 0), ("shear", 0), ("shear", table.load * BOND), ("roll", 0), ("roll", table.load * BOND)):
-    y = -3 * RADIUS * len(tests)
-    ids = [O.bodies.append(disk((x, y), RADIUS, rock, fixed=True)) for x in (0, LENGTH)]
+    lane = -3 * RADIUS * len(tests)
+    ids = [O.bodies.append(disk([s * a + lane * b for a, b in zip(ALONG, ACROSS)], RADIUS, rock, fixed=True)) for s in (0, LENGTH)]
     tests.append((way, load, LawTester(ids=ids, pathSteps=[REST, table.steps], idWeight=0.5, **PATHS[way])))
-    O.forces.setPermF(ids[1], (-load, 0, 0))
+    O.forces.setPermF(ids[1], (-load * ALONG[0], -load * ALONG[1], 0))
 ended = []
 curves = {(way, load): [] for way, load, _ in tests}  # rows: displacement [m, rad], normal force [N], and the force that answers [N, N m]
 
@@ -52,7 +61,7 @@ def let_go():
     """A LawTester blocks all: a disk under a load may move along the normal again."""
     for _, load, tester in tests:
         if load:
-            O.bodies[tester.ids[1]].state.blockedDOFs = "yzXYZ"
+            O.bodies[tester.ids[1]].state.blockedDOFs = "yzXYZ" if ALONG[0] else "xzXYZ"
 
 
 def end_broken():
@@ -72,9 +81,10 @@ def record():
         if tester.dead:  # the last row: what is left
             ended.append(tester)
         force, torque = (of(tester.ids[0]) for of in (O.forces.f, O.forces.t))  # of the contact alone: the load is on the other disk
+        normal, across = (force[0] * d[0] + force[1] * d[1] for d in (ALONG, ACROSS))
         done = tester.uuPrev
-        way_done, answer = dict(pull=(done[0] * LENGTH, force[0]), shear=(done[1] * LENGTH, force[1]), roll=(done[5] * O.dt, torque[2]))[way]
-        rows.append((way_done, -force[0], abs(answer)))
+        way_done, answer = dict(pull=(done[0] * LENGTH, normal), shear=(done[1] * LENGTH, across), roll=(done[5] * O.dt, torque[2]))[way]
+        rows.append((way_done, -normal, abs(answer)))
 
 
 # [ functors, engines, bonds

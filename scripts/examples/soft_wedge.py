@@ -13,6 +13,8 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import plot, utils
+from yade.nonsmooth import parameters
+from yade.nonsmooth.measure import creep
 from yade.nonsmooth.scene import disk, segments
 
 # [ numerics
@@ -22,6 +24,10 @@ numerics = dict(dt=4e-4, young=1e9, damping=0.2)
 # save: a file for the curve
 utils.readParamsFromTable(dip=30, friction=0.65, seconds=60, water=0.5, period=2, save="", **numerics)
 from yade.params import table
+
+parameters.positive(table, "seconds", "period", "dt")
+parameters.not_negative(table, "friction", "water")
+parameters.within(table, 1, 89, "dip")
 
 RADIUS, HEIGHT, FACE = 0.25, 5.0, math.radians(70)  # disks [m]; height of the wedge [m]; angle of its free face
 DIP = math.radians(table.dip)
@@ -88,7 +94,7 @@ safety = table.friction / math.tan(DIP)  # friction the joint offers, by what th
 lift = wet / len(disks) * water.unitWeight / (rock.density * 9.81)
 print("disks %d, safety factor dry %.3f, with the water at its highest %.3f" % (len(disks), safety, safety * (1 - lift)))
 print("time [s]   down the joint [mm]   largest of a disk [mm]")
-for end in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 40, 50, 60, 120, 300, 600):
+for end in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 40, 50, 60, 120, 300, 600, table.seconds):
     end = min(end, table.seconds)
     O.run(max(1, round((end - O.time) / O.dt)), wait=True)
     print("%8.2f %21.6f %24.6f" % (O.time, *displacement()), flush=True)
@@ -96,8 +102,8 @@ for end in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 40, 50, 60, 120, 300, 600):
         break
 if table.save:
     plot.saveDataTxt(table.save)
-creep = [d for t, d in zip(plot.data["t"], plot.data["centroid"]) if t > 5]
-if creep:
-    print(f"creep after 5 s [mm/min] {60 * (creep[-1] - creep[0]) / max(table.seconds - 5, 1):.6f}")
+rate = creep.rate(plot.data["t"], plot.data["centroid"], table.seconds)
+if not math.isnan(rate):  # of a run that is long enough to have a curve
+    print(f"creep after {creep.begin(table.seconds):g} s [mm/min] {rate:.6f}")
 print(f"steps {O.iter}")
 utils.waitIfBatch()

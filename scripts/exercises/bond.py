@@ -12,11 +12,16 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, engines
 
 # angle [°] of the force from the line of centres; friction; strength [Pa] of the bond; radius [m]; seconds in which the force reaches twice that strength
 utils.readParamsFromTable(angle=0, friction=0.5, strength=1e5, radius=0.5, seconds=4, dt=2e-3)
 from yade.params import table
+
+parameters.positive(table, "strength", "radius", "seconds", "dt")
+parameters.not_negative(table, "friction")
+parameters.within(table, 0, 180, "angle")
 
 rock = NscdMat(density=2500, frictionAngle=math.atan(table.friction), tensileStrength=table.strength)
 O.materials.append(rock)

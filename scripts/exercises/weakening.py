@@ -12,11 +12,17 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import math
 
 from yade import utils
+from yade.nonsmooth import parameters
 from yade.nonsmooth.scene import disk, engines, segments
 
 # friction of the joint, friction when it has lost its strength, the slip D_c [m] at which it has, law: linear, step or exponential; speed [m/s] of the block; time step [s]
 utils.readParamsFromTable(friction=0.6, weakened=0.1, critical=0.5, law="linear", speed=0.1, dt=5e-3)
 from yade.params import table
+
+parameters.positive(table, "critical", "speed", "dt")
+parameters.not_negative(table, "friction")
+parameters.within(table, 0, table.friction, "weakened")
+parameters.one_of(table, ("linear", "step", "exponential"), "law")
 
 RADIUS, G = 0.5, 9.81
 rock = NscdMat(density=2500, frictionAngle=math.atan(table.friction))

@@ -147,8 +147,8 @@ def test_one_distance_is_set_for_all_that_weakens():
     "given, distance, said",
     [
         (dict(dp=None), 7.0, "a critical slip of 7 m, and no slip surface weakens; add `slip_weakening`"),
-        (dict(), 0.0, "a critical slip of 0 m; give a distance above 0"),
-        (dict(), float("nan"), "a critical slip of nan m; give"),
+        (dict(), 0.0, "a critical slip of 0.0: give a distance above 0"),
+        (dict(), float("nan"), "a critical slip of nan: give"),
     ],
 )
 def test_a_distance_that_nothing_goes_by_is_refused(given, distance, said):

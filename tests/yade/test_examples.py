@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ import shell
 from shell import PREFIX, ROOT, SCRIPTS
 from yade import O, utils
 from yade.nonsmooth import keys, lessons
+from yade.nonsmooth.measure import creep
 
 pytestmark = pytest.mark.filterwarnings("ignore:Overwriting yade.params")  # one call after another
 EXAMPLES = os.path.join(SCRIPTS, "examples")
@@ -87,10 +89,13 @@ def launched(name, folder, line):
 
 
 @pytest.fixture
-def output(empty, monkeypatch, tmp_path):
-    """Runs an example in this process, among the names that YADE gives its scripts: ``output("hard_pile.py", seconds=2.5)`` is what it prints with these parameters, given as yade-batch gives them: a line of a table."""
+def output(empty, monkeypatch, tmp_path, capfd):
+    """Runs an example in this process, among the names that YADE gives its scripts: ``output("hard_pile.py", seconds=2.5)`` is what it prints with these parameters, given as yade-batch gives them: a line of a table.
 
-    def call(name, **parameters):
+    A lesson warns of nothing, as far as tests run it: a student would look for his own mistake. ``quiet``: False where what is asked for has its price, which the engine tells.
+    """
+
+    def call(name, quiet=True, **parameters):
         table = tmp_path / "one.table"
         table.write_text(
             "{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(str, parameters.values())]))
@@ -100,12 +105,15 @@ def output(empty, monkeypatch, tmp_path):
         path, names, said = os.path.join(EXAMPLES, name), vars(sys.modules["__main__"]), io.StringIO()
         before = dict(names)
         O.reset()
+        capfd.readouterr()
         try:
             with contextlib.redirect_stdout(said):
-                exec(compile(source(name), path, "exec"), names)
+                exec(compile(Path(path).read_text(), path, "exec"), names)
         finally:
             names.clear()
             names.update(before)
+        warned = capfd.readouterr()
+        assert not quiet or "WARNING" not in warned.err + warned.out, warned
         return said.getvalue()
 
     return call
@@ -161,8 +169,99 @@ def test_numerics_of_the_pile_come_from_a_table(output):
 
 
 def test_restitution_of_the_hard_column_comes_from_a_table(output):
-    runs = [output("hard_column.py", aspect=0.4, seconds=0.3, restitution=e) for e in (0, 0.5)]
+    runs = [output("hard_column.py", quiet=not e, aspect=0.4, seconds=0.3, restitution=e) for e in (0, 0.5)]
     assert len({re.search(r"0\.10 s.*", text).group() for text in runs}) == 2  # the collapse is another one
+
+
+# ---- values without sense -------------------------------------------------------------------------
+
+REFUSED = [
+    (lesson, name, value)
+    for lesson, names in {
+        "incline": "seconds dt",
+        "pile": "seconds dt",
+        "column": "seconds aspect dt",
+        "wedge": "seconds period dip dt",
+        "beam": "seconds load count strength dt",
+        "slope": "seconds dip strength dt",
+        "press": "seconds pressure dt",
+        "shear": "speed way pressure dt",
+        "drum": "turn turns dt",
+        "tester": "steps strength dt",
+        "bounce": "height bounces dt",
+        "deposit": "seconds radius rest dt",
+        "oedometer": "seconds stress dt",
+    }.items()
+    for name in names.split()
+    for value in (0, -1)
+] + [
+    ("tester", "load", -0.5),
+    ("tester", "angle", 45),
+    ("pile", "friction", -0.1),
+    ("incline", "seconds", "'long'"),
+    ("incline", "slope", 90),
+]
+
+
+@pytest.mark.parametrize("lesson, name, value", REFUSED)
+def test_a_value_without_sense_is_refused_before_the_scene_is_made(output, lesson, name, value):
+    """O.run() of no step would never end."""
+    for world in ("hard", "soft"):
+        with pytest.raises(ValueError, match=f"^{name} {value}: give ") as refusal:
+            output(f"{world}_{lesson}.py", **{name: value})
+        assert "\n" not in str(refusal.value) and len(O.bodies) == 0 and O.iter == 0
+
+
+@pytest.mark.parametrize("world, value", [("hard", -0.1), ("hard", 1.5), ("soft", 0), ("soft", 1.5)])
+def test_a_restitution_that_a_world_has_not_is_refused(output, world, value):
+    with pytest.raises(ValueError, match=f"^restitution {value}: give a number from"):
+        output(f"{world}_column.py", restitution=value)
+    assert len(O.bodies) == 0
+
+
+@pytest.mark.parametrize("lesson", ["incline", "pile", "press", "column"])
+def test_a_time_shorter_than_a_step_is_one_step(output, lesson):
+    text = output(f"hard_{lesson}.py", seconds=1e-9, **({"aspect": 0.3} if lesson == "column" else {}))
+    assert number(text, "steps") >= 1
+
+
+def test_a_disk_that_rests_is_not_waited_for(output, monkeypatch):
+    """1000 bounces would take for ever: each is 0.81 times as long as the one before."""
+    text = output("hard_bounce.py", height=1e-3, bounces=1000)
+    assert "it bounces no more" in text
+    # it rests after t0 (1 + 2 Σ 0.9^k), 19 times its fall
+    assert O.time == pytest.approx(100 * math.sqrt(2e-3 / 9.81), abs=2e-3)
+
+
+# ---- exercises ------------------------------------------------------------------------------------
+
+FALL, BOND = "../exercises/fall.py", "../exercises/bond.py"
+
+
+@pytest.mark.parametrize("e", [0, 0.05, 0.5])
+def test_impacts_of_the_exercise_have_the_speed_of_the_fall_and_e_of_it_left(output, e):
+    text = output(FALL, restitution=e, bounces=20)
+    first = rows(text, "impact")[0]
+    fall = math.sqrt(2 * 9.81)
+    # a step of 1 ms is 0.01 m/s
+    assert first[2] == pytest.approx(fall, abs=0.02) and first[3] == pytest.approx(e * fall, abs=0.02)
+    assert first[1] == pytest.approx(math.sqrt(2 / 9.81), abs=0.003) and first[4] == pytest.approx(e * e, abs=0.004)
+    # impacts end, and the last one leaves less than a step of gravity gives
+    impacts = rows(text, "impact")
+    assert "the disk stays on the floor" in text and impacts[-1][3] < 9.81e-3 and len(impacts) < 20
+    assert [row[0] for row in impacts] == list(range(1, len(impacts) + 1)) and len(impacts) > 1 - (e == 0)
+    assert len(impacts) == 1 or e > 0
+
+
+@pytest.mark.parametrize(
+    "script, name, value",
+    [(FALL, "height", 0), (FALL, "bounces", 0), (FALL, "restitution", 1.1), (BOND, "strength", 0), (BOND, "seconds", 0), (BOND, "angle", 270)]
+    + [("../exercises/weakening.py", name, value) for name, value in (("speed", 0), ("critical", -1), ("weakened", 0.7), ("law", "'steep'"))],
+)  # fmt: skip
+def test_an_exercise_refuses_a_value_without_sense(output, script, name, value):
+    with pytest.raises(ValueError, match=f"^{name} {value}: give "):
+        output(script, **{name: value})
+    assert len(O.bodies) == 0
 
 
 def test_yade_batch_runs_the_lines_of_a_table(tmp_path):
@@ -249,6 +348,27 @@ def test_hard_wedge_slides_where_statics_says(output):
     slid = rows(text, "time [s]")[-1][1]
     # a t²/2, a = g (sin 30° − 0.55 cos 30°); speeds of a step's end make it longer by h/t = 0.25 %, and bonds yield a little at the start
     assert slid == pytest.approx(1e3 * 0.5 * 9.81 * (0.5 - 0.55 * math.cos(math.pi / 6)) * 4, rel=0.01)
+
+
+def test_creep_is_one_number_in_the_lesson_and_in_its_figure():
+    """doc/lessons.rst: the slope of a straight line, by both scripts. The files were written by both."""
+    with open(os.path.join(ROOT, "doc", "measured", "wedge.json")) as file:
+        runs = {f"{run['case']}_{run['model']}": run["creep_mm_per_min"] for run in json.load(file)["runs"]}
+    for world in ("hard", "soft"):
+        # the file of the lessons has six digits behind the point
+        assert kept("wedge", world)["creep_after_5_s_mm_min"] == pytest.approx(
+            runs[f"water_{world}"], abs=2e-6, rel=1e-4
+        )
+
+
+def test_creep_is_the_slope_of_a_line_after_the_start():
+    t = np.arange(0, 60, 0.1)
+    way = np.where(t < 5, 100 * t, 500 + 0.02 * (t - 5)) + np.where(
+        t.round(1) % 0.2 < 0.05, 1e-3, -1e-3
+    )  # noise that a line does not see
+    assert creep.rate(t, way, 60) == pytest.approx(60 * 0.02, rel=1e-3)
+    assert creep.rate([0.0, 1, 2, 3, 4], [9.0, 9, 9, 10, 11], 4) == pytest.approx(60)  # of 4 s: after 2 s
+    assert math.isnan(creep.rate([], [], 10)) and math.isnan(creep.rate([1.0], [1.0], 1))
 
 
 def test_soft_wedge_slides_when_its_weight_comes_and_creeps_as_the_water_changes(output):
@@ -438,12 +558,13 @@ def test_the_block_of_the_front_page_slides_as_it_says(tmp_path):
     assert int(bonds) == int(re.search(r"bonds made: (\d+)", done.stdout).group(1))
 
 
-def test_a_law_tester_finds_the_thresholds_of_the_law(output):
+@pytest.mark.parametrize("angle", [0, 90, 180, 270])
+def test_a_law_tester_finds_the_thresholds_of_the_law(output, angle):
     """F_a, μ_s (F_a + N) and μ_r ℓ (F_a + N) of bonds of 100 kPa between disks of 1 m, with N = 0 and N = F_a; kN and kN m."""
     known = {("pull", 0.0): 100, ("shear", 0.0): 50, ("shear", 100.0): 100, ("roll", 0.0): 12.5, ("roll", 100.0): 25}
     # the digits printed; a spring snaps within a step of the path, which is a 30th of what it bears, and its pair under a load has turned by 0.007
-    for world, steps, within in (("hard", 500, 1e-4), ("soft", 4000, 0.03)):
-        text = output(f"{world}_tester.py", steps=steps)
+    for world, steps, within in (("hard", 500, 1e-4), ("soft", 4000, 0.03))[: 2 - (angle > 90)]:
+        text = output(f"{world}_tester.py", steps=steps, angle=angle)
         found = {}
         for line in text[text.index("test ") :].splitlines()[1:6]:
             way, load, largest, threshold, *end = line.split()

@@ -40,6 +40,41 @@ def test_numbers_are_read_from_what_a_lesson_prints():
     }
 
 
+def test_numbers_in_rows_that_begin_with_a_word_are_read():
+    """As the table of the lesson with the LawTester."""
+    text = "pull          0.0            100.0000              100.0000  0.0200\nroll        100.0             25.0000               24.9999  it holds\nsteps 4501\n"
+    assert lessons.numbers(text) == {"rows": [[0.0, 100.0, 100.0, 0.02], [100.0, 25.0, 24.9999]], "steps": 4501}
+
+
+def test_all_pairs_of_scripts_are_lessons_of_the_command():
+    from yade.nonsmooth import campaign
+
+    assert set(lessons.CASES) == set(campaign.lessons())
+    assert all({"hard", "soft"} <= set(cases) for cases in lessons.CASES.values())
+
+
+def test_a_lesson_that_is_run_alone_leaves_the_numbers_of_others(in_process, monkeypatch, tmp_path):
+    path = tmp_path / "lessons.json"
+    monkeypatch.setattr(lessons, "run", lambda chosen, *_: {name: {"hard": {"steps": 2.0}} for name in chosen})
+    path.write_text(json.dumps({"drum": {"hard": {"steps": 1.0}}, "seesaw": {}, "pile": {"hard": {"steps": 1.0}}}))
+    for words in (("pile", "incline"), ("pile", "incline", "--resume")):
+        done = in_process("lessons.py", *words, "--out", tmp_path)
+        assert done.status == 0, done.err
+        found = json.loads(path.read_text())
+        # in the order of the command; what is no lesson any more goes
+        assert list(found) == ["incline", "pile", "drum"]
+        assert [found[name]["hard"]["steps"] for name in found] == [2, 2, 1]
+    assert in_process("lessons.py", "--out", tmp_path).status == 0
+    assert list(json.loads(path.read_text())) == list(lessons.CASES)
+    path.write_text("[1]")
+    done = in_process("lessons.py", "pile", "--out", tmp_path)
+    assert (
+        done.status == 1
+        and "lessons.json: cannot be read as the numbers of lessons" in done.last
+        and path.read_text() == "[1]"
+    )
+
+
 def test_seeds_become_a_mean_with_its_interval():
     found = lessons.collect([dict(steps=1.0, rows=[[1.0]]), dict(steps=3.0, rows=[])])
     # of two values: Student's t of one degree of freedom, 12.706, by half of their distance

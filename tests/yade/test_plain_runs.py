@@ -145,6 +145,110 @@ def test_a_script_has_its_parameters_and_leaves_what_it_says_and_its_scene(scrip
             ask()
 
 
+TABLES = """\
+test    load [kN]  largest [kN, kN m]  bond ends at [m, rad]
+pull          0.0            100.0000  0.0200
+roll        100.0             25.0000  it holds
+load 0.240  deflection of the tip [mm] 1.5000
+stress [Pa], settlement [m]
+20000 0.000123
+40000 0.000223
+height
+1.5
+disks 321, column [m]: 1.000 wide, 2.074 high
+steps 4501
+"""
+
+
+@pytest.fixture
+def said(tmp_path):
+    """A run whose script has printed this."""
+
+    def call(text):
+        (tmp_path / "output.txt").write_text(text)
+        return campaign.open_script(tmp_path)
+
+    return call
+
+
+def test_tables_of_words_of_commas_and_of_one_column_are_read(said):
+    run = said(TABLES)
+    columns = {"test": ["pull", "roll"], "load [kN]": [0.0, 100.0], "largest [kN, kN m]": [100.0, 25.0], "bond ends at [m, rad]": [0.02, "it holds"]}  # fmt: skip
+    assert run.table("test") == columns
+    assert run.table("stress") == {"stress [Pa]": [20000.0, 40000.0], "settlement [m]": [0.000123, 0.000223]}
+    assert run.table("height") == {"height": [1.5]}
+    frame = run.frame("test")
+    assert list(frame.columns) == list(columns) and frame["largest [kN, kN m]"].tolist() == [100.0, 25.0]
+    # which of them?
+    for ask in (run.table, run.frame):
+        with pytest.raises(
+            runs.RunError, match=r"there are 'test', 'stress \[Pa\]'; give the begin of its line of names"
+        ):
+            ask()
+        with pytest.raises(
+            runs.RunError, match=r"no table of the output begins with 'load'; there are 'test', 'stress \[Pa\]'"
+        ):
+            ask("load")
+        with pytest.raises(runs.RunError, match="first 3: give the begin of a table's line of names"):
+            ask(3)
+
+
+def test_the_only_table_needs_no_name_and_none_is_told(said):
+    run = said("way 3\ntime [s]   way [m]\n0.1   2\n0.2   3\nsteps 4\n")
+    assert run.table() == {"time [s]": [0.1, 0.2], "way [m]": [2.0, 3.0]} and run.frame()["way [m]"].tolist() == [2, 3]
+    for ask in (run.table, run.frame):
+        with pytest.raises(runs.RunError, match=r"begins with 'steps'; there is 'time \[s\]'"):
+            ask("steps")
+    run = said("steps 4\n")
+    for first in (None, "steps"):
+        with pytest.raises(runs.RunError, match="the script has printed no table; run.number"):
+            run.frame(first)
+
+
+def test_a_run_of_a_kind_without_tables_says_so(tmp_path):
+    with pytest.raises(runs.RunError, match="a run of this kind has no table; its numbers are in run.summary"):
+        campaign.ComparisonRun(tmp_path).frame()
+
+
+def test_a_parameter_that_is_called_as_an_argument_is(script, tmp_path):
+    script.write_text(SCRIPT.replace('word="none"', 'resume="none"').replace("table.word", "table.resume"))
+    for given in ("yes", True, False):
+        with pytest.raises(
+            campaign.ScriptError, match=f"resume {given!r}: flies.py has a parameter of this name, .* run_scripts"
+        ):
+            campaign.run_script(script, tmp_path / "out", resume=given)
+    assert not (tmp_path / "out").exists()
+    found = campaign.run_scripts({"one": (script, {"resume": "yes"})}, tmp_path / "out")
+    assert "word yes\n" in found["one"].output
+
+
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda out: campaign.run_script(None, out), "script None: give the path of a YADE script"),
+        (lambda out: campaign.run_script("a.py", None), "out None: give the path of a folder"),
+        (lambda out: campaign.run_scripts([], out), r"cases \[\]: give a dictionary"),
+        (lambda out: campaign.run_scripts({}, out), "cases {}: give a dictionary"),
+        (lambda out: campaign.run_scripts({"one": "a.py"}, out), "case 'one', 'a.py': give"),
+        (lambda out: campaign.run_scripts({"one": ("a.py", {})}, out, threads="all"), "threads 'all': give a whole number from 1"),
+        (lambda out: campaign.run_scripts({"one": ("a.py", {})}, out, threads=0), "threads 0: give a whole number from 1"),
+        (lambda out: campaign.run_column(SMALL, None), "out None: give the path of a folder"),
+        (lambda out: campaign.run_column(None, out), "None: is no Column"),
+        (lambda out: campaign.run_column(SMALL, out, duration="long"), "duration 'long': give a number above 0"),
+        (lambda out: campaign.run_heaps(None, out), "cases None: give a dictionary"),
+        (lambda out: campaign.run_heaps({"one": SMALL}, out), "case 'one', .*: give"),
+        (lambda out: campaign.run_heaps({"one": (SMALL, {})}, out, threads=1.5), "threads 1.5: give a whole number from 1"),
+        (lambda out: campaign.run_comparison("column", out, None), "seeds None: give whole numbers"),
+        (lambda out: campaign.run_comparison("column", None, [1]), "out None: give the path of a folder"),
+        (lambda out: campaign.run_comparison(7, out, [1]), "scenario 7: give one of"),
+    ],
+)  # fmt: skip
+def test_wrong_types_are_named_before_anything_runs(tmp_path, call, words):
+    with pytest.raises(errors.UserError, match=f"^{words}") as refusal:
+        call(tmp_path / "out")
+    assert isinstance(refusal.value, ValueError) and not (tmp_path / "out").exists()
+
+
 def test_a_script_runs_without_parameters_and_again_with_a_resume_only_where_it_has_changed(script, tmp_path):
     cases = {"one": (script, {}), "two": (script, dict(speed=2.0))}
     first = campaign.run_scripts(cases, tmp_path / "out", threads=2)

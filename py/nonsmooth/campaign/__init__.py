@@ -17,7 +17,7 @@ Like this::
     run = campaign.run_lesson("incline", "out/incline", world="soft", slope=30)
 """
 
-from .comparisons import ComparisonRun, open_comparison, run_comparison
+from .comparisons import ComparisonError, ComparisonRun, open_comparison, run_comparison
 from .heaps import HeapRun, open_heap, run_column, run_heaps, run_pile
 from .plan import SEED, Plan, PlanError, Planned, collect, means, read, run_one
 from .scripts import LESSONS, ScriptError, ScriptRun, lesson, lessons, open_script, run_lesson, run_script, run_scripts
@@ -26,6 +26,7 @@ from .sweep import run_slope, sweep
 __all__ = [
     "LESSONS",
     "SEED",
+    "ComparisonError",
     "ComparisonRun",
     "HeapRun",
     "Plan",

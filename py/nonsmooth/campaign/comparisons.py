@@ -10,17 +10,23 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
 
-from .. import output_folder, processes, runs
+from .. import checks, output_folder, processes, runs
+from ..errors import UserError
 from ..whole_files import whole
 
-__all__ = ["ComparisonRun", "open_comparison", "run_comparison"]
+__all__ = ["ComparisonError", "ComparisonRun", "open_comparison", "run_comparison"]
 
 COMMAND = "compare_hard_soft.py"  # which writes the same records
 FUNCTION = "comparison.course:answered"
 ANSWERS = "found.json"
+
+
+class ComparisonError(UserError, ValueError):
+    """A comparison that makes no sense; the message says what would."""
 
 
 class ComparisonRun(runs.Opened):
@@ -63,10 +69,19 @@ def run_comparison(scenario, out, seeds, threads=1, resume=False, **options) -> 
     """Runs a comparison in the folder ``out``, as many runs at a time as ``threads``, and opens it.
 
     ``scenario``: "slope", "biaxial", "column" or "pile"; ``seeds``: of the packings; ``options``: ``disks``, ``stiffnesses`` [Pa], ``without`` and the others of
-    comparison.course.compare; ``resume``: keep runs that have ended. Raises processes.RunError where values cannot be used, with the reason, or where a run fails; FolderError
+    comparison.course.compare; ``resume``: keep runs that have ended. Raises ComparisonError for a scenario, seeds, a folder or threads that make no sense, processes.RunError where values cannot be used, with the reason, or where a run fails; FolderError
     where another process works in the folder.
     """
+    known = ("slope", "biaxial", "column", "pile")
+    if scenario not in known:
+        raise ComparisonError(f"scenario {checks.shown(scenario)}: give one of {', '.join(known)}")
+    checks.path("out", out, ComparisonError, runs.FOLDER)
+    threads = checks.count("threads", threads, ComparisonError, runs.THREADS)
+    remedy = "give whole numbers from 0, seeds of the packings, as [1, 2, 3]"
+    if isinstance(seeds, str) or not isinstance(seeds, Iterable):
+        raise ComparisonError(f"seeds {checks.shown(seeds)}: {remedy}")
+    seeds = [checks.count("seeds", seed, ComparisonError, remedy, least=0) for seed in seeds]
     with output_folder.claimed(out, COMMAND, resume):
-        arguments = {"scenario": scenario, "seeds": list(seeds), "threads": threads, "resume": resume, **options}
+        arguments = {"scenario": scenario, "seeds": seeds, "threads": threads, "resume": resume, **options}
         processes.call(FUNCTION, out, arguments)
     return ComparisonRun(out)

@@ -11,10 +11,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
-from .. import output_folder, records, runs, side_by_side
+from .. import checks, output_folder, records, runs, side_by_side
 from ..heaps import column, pile, study
 from ..heaps.grains import HeapError
 
@@ -22,6 +23,7 @@ __all__ = ["HeapRun", "open_heap", "run_column", "run_heaps", "run_pile"]
 
 COMMAND = "column.py"  # which writes the same records
 RESULT = "result.json"
+CASES = "give a dictionary {name: (Column or Pile, {value of its world: number})}, of one or more"
 
 
 class HeapRun(runs.Opened):
@@ -83,6 +85,11 @@ def run_heaps(cases, out, threads=1, resume=False, duration=study.DURATION) -> d
     these parameters that have ended; ``duration``: see heaps.course.run. Raises HeapError or SoftError for values that cannot be used, before anything runs, HeapError
     where a run fails, after the others have ended, and FolderError where another process works in the folder.
     """
+    checks.path("out", out, HeapError, runs.FOLDER)
+    threads = checks.count("threads", threads, HeapError, runs.THREADS)
+    for name, case in checks.mapping("cases", cases, HeapError, CASES).items():
+        if not (isinstance(case, (tuple, list)) and len(case) == 2 and isinstance(case[1], Mapping)):
+            raise HeapError(f"case {name!r}, {checks.shown(case)}: {CASES}")
     made = [
         study.planned(name, side_by_side.folder_of(out, name, HeapError), *case, duration)
         for name, case in cases.items()
@@ -108,7 +115,10 @@ def run_pile(made, out, world="hard", duration=study.DURATION, resume=False, **n
 
 def _alone(made, kind, out, world, duration, resume, numerics):
     if type(made) is not kind:
-        raise HeapError(f"{made!r}: is no {kind.__name__}; give a heaps.{kind.__name__.lower()}.{kind.__name__}")
+        raise HeapError(
+            f"{checks.shown(made)}: is no {kind.__name__}; give a heaps.{kind.__name__.lower()}.{kind.__name__}"
+        )
+    checks.path("out", out, HeapError, runs.FOLDER)
     one = study.planned(str(out), out, made, {"name": world, **numerics}, duration)
     with output_folder.claimed(out, COMMAND, resume):
         side_by_side.run([one], 1, resume, HeapError)

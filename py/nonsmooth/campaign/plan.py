@@ -18,7 +18,7 @@ import math
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from .. import installation, kept_runs, keys, output_folder, side_by_side
+from .. import checks, installation, kept_runs, keys, output_folder, runs, side_by_side
 from ..errors import UserError
 from ..statistics import over_seeds
 from ..whole_files import write_atomically, write_json
@@ -80,6 +80,8 @@ class Plan:
         ``resume``: keep what has ended and go on with what was halted. ``progress``: called with the share done and the number of runs that have ended. Raises
         FolderError where another process works there, PlanError with the first failure after the others have ended, and interrupts.Interrupted after Ctrl-C.
         """
+        checks.path("out", out, PlanError, runs.FOLDER)
+        threads = checks.count("threads", threads, PlanError, runs.THREADS)
         installation.engines()
         advice = "; what has ended is kept, go on with --resume"
         with output_folder.claimed(out, "sweep.py", resume):
@@ -96,7 +98,7 @@ class Plan:
 
 def read(out) -> Plan:
     """The plan in a folder. Raises PlanError where there is none that can be read."""
-    path = Path(out) / FILE
+    path = Path(checks.path("out", out, PlanError, "give the path of the folder of a plan")) / FILE
     try:
         content = json.loads(path.read_text())
         if content["format"] != FORMAT:

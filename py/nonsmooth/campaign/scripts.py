@@ -16,6 +16,7 @@ import ast
 import difflib
 import math
 import re
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
@@ -58,6 +59,7 @@ class ScriptRun(runs.Opened):
 
     def number(self, key) -> float:
         """The number behind ``key`` at the begin of a line of the output. Raises RunError where there is none."""
+        checks.text("key", key, runs.RunError, "give the words before the number, a text")
         found = re.search(rf"^{re.escape(key)} +(\S+)", self.output, re.M)
         try:
             return float(found.group(1))
@@ -155,9 +157,10 @@ def _rows(lines, width):
 
 def open_script(folder) -> ScriptRun:
     """The ScriptRun in a folder. Raises RunError where it is none."""
-    if not (Path(folder) / OUTPUT).is_file():
+    run = ScriptRun(folder)
+    if not (run.folder / OUTPUT).is_file():
         raise runs.RunError(f"{folder}: no script has run here; give the folder of one")
-    return ScriptRun(folder)
+    return run
 
 
 def lessons() -> tuple:
@@ -174,6 +177,7 @@ def lessons() -> tuple:
 def lesson(name, world="hard") -> Path:
     """The script of a lesson, ``hard`` or ``soft``. Raises ScriptError for another lesson or world."""
     known = lessons()
+    checks.text("lesson", name, ScriptError, f"give one of {', '.join(known)}")
     if name not in known:
         raise ScriptError(
             f"lesson {name!r}: there is no such lesson; give one of {', '.join(known)}"
@@ -185,14 +189,26 @@ def lesson(name, world="hard") -> Path:
     return LESSONS / f"{world}_{name}.py"
 
 
-def run_lesson(name, out, world="hard", resume=False, **parameters) -> ScriptRun:
+def run_lesson(name, out, world="hard", resume=None, **parameters) -> ScriptRun:
     """Runs the ``hard`` or ``soft`` script of a lesson. Raises what :func:`lesson` raises; the rest as for :func:`run_script`."""
     return run_script(lesson(name, world), out, resume, **parameters)
 
 
-def run_script(script, out, resume=False, **parameters) -> ScriptRun:
-    """Runs one YADE script in the folder ``out``, with its ``parameters``, and opens the run; the rest as for :func:`run_scripts`."""
+def run_script(script, out, resume=None, **parameters) -> ScriptRun:
+    """Runs one YADE script in the folder ``out``, with its ``parameters``, and opens the run; the rest as for :func:`run_scripts`.
+
+    ``resume``: whether to keep a run of the same script and parameters that has ended (None: not). Raises ScriptError too where the script itself has a parameter of that name, which
+    :func:`run_scripts` takes.
+    """
+    checks.path("out", out, ScriptError, runs.FOLDER)
+    known = () if resume is None else parameters_of(script) or ()
+    if "resume" in known:
+        raise ScriptError(
+            f"resume {resume!r}: {Path(script).name} has a parameter of this name, and run_script an argument; give the script's by "
+            f"run_scripts({{'one': ({Path(script).name!r}, {{'resume': {resume!r}}})}}, out)"
+        )
     one = _planned(str(out), out, script, parameters)
+    resume = bool(resume)
     with output_folder.claimed(out, COMMAND, resume):
         side_by_side.run([one], 1, resume, ScriptError)
     return ScriptRun(out)
@@ -206,6 +222,12 @@ def run_scripts(cases, out, threads=1, resume=False) -> dict:
     of the same script and parameters that have ended. Raises ScriptError for a script that is not there and for parameters that it does not read, before anything runs,
     and where a script fails, after the others have ended; FolderError where another process works in the folder.
     """
+    checks.path("out", out, ScriptError, runs.FOLDER)
+    threads = checks.count("threads", threads, ScriptError, runs.THREADS)
+    remedy = "give a dictionary {name: (script, {parameter: value})}, of one or more"
+    for name, case in checks.mapping("cases", cases, ScriptError, remedy).items():
+        if not (isinstance(case, (tuple, list)) and len(case) == 2 and isinstance(case[1], Mapping)):
+            raise ScriptError(f"case {name!r}, {checks.shown(case)}: give (script, {{parameter: value}})")
     made = [_planned(name, side_by_side.folder_of(out, name, ScriptError), *case) for name, case in cases.items()]
     with output_folder.claimed(out, COMMAND, resume):
         side_by_side.run(made, threads, resume, ScriptError)
@@ -213,7 +235,7 @@ def run_scripts(cases, out, threads=1, resume=False) -> dict:
 
 
 def _planned(name, folder, script, parameters):
-    script = Path(script).resolve()
+    script = Path(checks.path("script", script, ScriptError, "give the path of a YADE script")).resolve()
     known = parameters_of(script)
     for key, value in parameters.items():
         if known is not None and key not in known:
@@ -233,6 +255,7 @@ def _planned(name, folder, script, parameters):
 def parameters_of(script):
     """Names that a script gives to ``utils.readParamsFromTable``, in order, read from its source; None where they cannot be read from it. Raises ScriptError for a
     script that is not there or no Python."""
+    checks.path("script", script, ScriptError, "give the path of a YADE script")
     try:
         tree = ast.parse(Path(script).read_bytes())
     except OSError as error:

@@ -4,8 +4,19 @@ from __future__ import annotations
 
 import itertools
 import re
+from collections.abc import Iterable, Mapping
 
-from .. import checkpoints, output_folder, processes, runs, section_checks, section_data, section_values
+from .. import (
+    checkpoints,
+    checks,
+    output_folder,
+    processes,
+    runs,
+    section,
+    section_checks,
+    section_data,
+    section_values,
+)
 from .plan import Plan, PlanError, Planned
 
 __all__ = ["FUNCTION", "arguments_of", "run_slope", "sweep"]
@@ -21,9 +32,18 @@ def sweep(base, over, end=None, figures=False) -> Plan:
     A key is the way to a value in a section file, with dots: ``seed``, ``water.table.rate``, ``materials.soil.friction``, ``walls.DP.material``, where items
     of a list go by their name. Each run has what a file with its values gives (see :func:`.section_values.with_values`). ``end``: stop after so many seconds of simulated time; ``figures``: draw each run's too.
 
-    Raises PlanError for a key that the section has not, for no or doubled values, and for more than :data:`MOST` runs; SectionError, naming the run, where a
+    Raises PlanError for what is no Section, no such dictionary or no time, for a key that the section has not, for no or doubled values, and for more than :data:`MOST` runs; SectionError, naming the run, where a
     combination is no section.
     """
+    _check(base, "base", end)
+    remedy = "give a dictionary {key: values}, as {'seed': [1, 2]}"
+    if not isinstance(over, Mapping):
+        raise PlanError(f"over {checks.shown(over)}: {remedy}")
+    for key, values in over.items():
+        if not isinstance(key, (str, tuple)):
+            raise PlanError(f"over, key {checks.shown(key)}: {remedy}")
+        if isinstance(values, (str, Mapping)) or not isinstance(values, Iterable):
+            raise PlanError(f"{key}: {checks.shown(values)}: give the values to run with, as [{checks.shown(values)}]")
     over = {key: list(values) for key, values in over.items()}
     for key, values in over.items():
         if not values:
@@ -60,13 +80,24 @@ def run_slope(made, out, end=None, figures=False, resume=False, threads=1) -> ru
     """Runs one Section in the folder ``out``, in a process of its own, and opens the run; the process may have several ``threads``. The rest as for :func:`sweep`;
     ``resume``: go on from its checkpoint.
 
-    Raises FolderError where another process works there, and processes.RunError where the run fails.
+    Raises PlanError for arguments that make no sense, FolderError where another process works there, and processes.RunError where the run fails.
     """
+    _check(made, "made", end)
+    checks.path("out", out, PlanError, runs.FOLDER)
+    checks.count("threads", threads, PlanError, "give a whole number from 1, of the process")
     with output_folder.claimed(out, "slope.py", resume):
         if not resume:
             checkpoints.forget(out)
         processes.call(FUNCTION, out, arguments_of(made, end, figures), threads)
     return runs.open_run(out)
+
+
+def _check(made, name, end):
+    """Raises PlanError for what is no Section, and for an end that is no time."""
+    if not isinstance(made, section.Section):
+        raise PlanError(f"{name} {checks.shown(made)}: give a Section, as section.load('circle') returns one")
+    if end is not None:
+        checks.number("end", end, PlanError, "give seconds of simulated time, above 0, or None", above=0)
 
 
 def arguments_of(made, end=None, figures=False):

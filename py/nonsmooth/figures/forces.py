@@ -6,7 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon, Rectangle
 
 from ..measure.ground import ground_of
-from . import style
+from . import given, style
 from .style import COMPRESSION, INK, LINES, TENSION
 
 CLOSER = 2.5  # of the second window on force chains to the first one, at least
@@ -73,6 +73,7 @@ def _force_scale(ax, reference, width):
     ]
 
 
+@given.takes(snapshot=given.SNAPSHOT, walls=given.WALLS)
 @style.styled
 def force_chains(snapshot, walls, path=None, pdf=False):
     """The slope and the normal forces in its foot (the paper's Figure 8).
@@ -221,6 +222,7 @@ def _sketch(ax, side, name, back, wet, rise=None):
         ax.text(*at(push + (2.1, -1.1)), symbol("N'", back), ha=after, va="center", color=LINES["green"], fontsize=9.5)
 
 
+@given.takes(series=given.SERIES)
 @style.styled
 def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=None, verdict=None):
     """Forces on the slip surfaces and the backstops against time (the paper's Figure 12).

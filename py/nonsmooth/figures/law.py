@@ -11,8 +11,9 @@ import numpy as np
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Arc, Circle, Ellipse, Polygon, Rectangle
 
+from .. import checks
 from ..errors import UserError
-from . import style
+from . import given, style
 from .style import DRY, GROUND, INK, LINES, WALL, WATER, WET
 
 __all__ = ["bond_zone", "contact_law", "water_forces"]
@@ -40,6 +41,7 @@ class _State:
     rolling: float
 
 
+@given.takes(material=given.MATERIAL)
 @style.styled
 def contact_law(material, diameter=2.0, path=None, pdf=False):
     """The three graphs of a contact, equations (1), (3) and (5), and below them what each threshold is, equations (2), (4) and (6).
@@ -180,6 +182,7 @@ def _cross(ax, title, across, up):
 # ---- the bond's zone ------------------------------------------------------------------------------
 
 
+@given.takes(material=given.MATERIAL)
 @style.styled
 def bond_zone(material, gap=None, path=None, pdf=False):
     """Which disks are bonded, and the ellipse in which a bond lives; lengths in units of ℓ, true to scale.
@@ -281,6 +284,10 @@ def _measure(ax, a, b, colour):
 # ---- water ----------------------------------------------------------------------------------------
 
 
+@given.takes(
+    dip=checks.real("give the slope of the layers to the horizontal [degrees]"),
+    **{name: checks.real("give a number above 0") for name in ("diameter", "density", "unit_weight", "gravity")},
+)
 @style.styled
 def water_forces(dip, diameter=2.0, density=2500.0, unit_weight=9810.0, gravity=9.81, path=None, pdf=False):
     """Weight of a disk below a water table that is parallel to the slope, the forces of the water on it, and how these add up: F_p = F_b + F_s.

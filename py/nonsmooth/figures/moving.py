@@ -10,10 +10,10 @@ import tempfile
 import weakref
 from pathlib import Path
 
-from .. import film
+from .. import checks, film
 from ..records import RecordsError
 from ..scene_arrays import read
-from . import scene as pictures, style
+from . import given, scene as pictures, style
 
 __all__ = ["Recorder", "animate", "record", "recording"]
 
@@ -22,6 +22,7 @@ WIDE, HIGH, LEAST = 1280, 720, 480  # pixels: the largest size of the picture, a
 HEAD = 44  # pixels above it, with the time
 BAR = 110  # pixels beside it, with a bar of colours
 FPS = 25
+LEAST_FPS, MOST_FPS = 0.1, 100  # frames a second: the clock of a GIF has hundredths of a second
 
 _numbers = itertools.count()
 _recorders = weakref.WeakValueDictionary()
@@ -42,14 +43,10 @@ class Recorder:
     def __init__(self, O, period=None, most=MOST, memory=MEMORY, path=None, **drawn):
         from yade.wrapper import PyRunner
 
-        if period is not None and not 0 < _number("period", period):
-            raise RecordsError(
-                f"period {period!r}: the time between two frames is above 0 s; give such a one, or leave it out"
-            )
-        if not (isinstance(most, int) and most >= 2):
-            raise RecordsError(f"most {most!r}: a video has 2 frames or more; give a whole number from 2 up")
-        if not _number("memory", memory) > 0:
-            raise RecordsError(f"memory {memory!r}: give bytes above 0")
+        _check_scene(O)
+        _check_period(period)
+        checks.count("most", most, RecordsError, "a video has 2 frames or more; give a whole number from 2 up", least=2)
+        checks.number("memory", memory, RecordsError, "give bytes above 0", above=0)
         self.path, self.drawn = None if path is None else film.check(path), _drawn(drawn)
         self.frames, self._O, self._first, self._period, self._most, self._memory = [], O, period, period, most, memory
         self._next = -math.inf
@@ -111,7 +108,7 @@ class Recorder:
             self.take(now)
 
     def write(self, path=None, fps=FPS):
-        """Writes the frames, and the scene as it stands at last, as a video, ``fps`` frames a second; ``path``: ends in .mp4 (by ffmpeg) or .gif. Returns the path.
+        """Writes the frames, and the scene as it stands at last, as a video, ``fps`` frames a second, from 0.1 to 100; ``path``: ends in .mp4 (by ffmpeg) or .gif. Returns the path.
 
         The file is replaced only by a whole one. Raises RecordsError where there is no frame, while the scene runs, and for a file that cannot be made.
         """
@@ -149,11 +146,21 @@ def tick(number):
         recorder._step()
 
 
-def _number(name, value):
-    try:
-        return float(value) if math.isfinite(value) else math.nan
-    except TypeError:
-        raise RecordsError(f"{name} {value!r}: give a number") from None
+def _check_scene(O):
+    fits, remedy = given.SCENE
+    if not fits(O):
+        raise RecordsError(f"O {checks.shown(O)}: {remedy}")
+
+
+def _check_period(period):
+    if period is not None:
+        remedy = "the time between two frames is above 0 s; give such a one, or leave it out"
+        checks.number("period", period, RecordsError, remedy, above=0)
+
+
+def _check_fps(fps):
+    remedy = f"give frames a second, from {LEAST_FPS:g} to {MOST_FPS}"
+    checks.number("fps", fps, RecordsError, remedy, least=LEAST_FPS, most=MOST_FPS)
 
 
 def _drawn(options):
@@ -211,7 +218,7 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
     """Runs a scene for ``seconds`` [s] of its own time and makes a video of it: ``figures.animate(O, "fall.mp4", seconds=3)``.
 
     ``frames``: how many, of equal distance in time, the first one not counted (default 100), or ``period`` [s]: the time between two of them; there are no more
-    frames than steps. ``fps``: frames a second in the video. ``forces``, ``view``, ``colours``: as of :func:`draw`; the view and the scale of forces are those of all frames together.
+    frames than steps. ``fps``: frames a second in the video, from 0.1 to 100. ``forces``, ``view``, ``colours``: as of :func:`draw`; the view and the scale of forces are those of all frames together.
 
     Returns the ``path``, which ends in .mp4 (by ffmpeg) or .gif; without one a :class:`Recorder`, which a notebook shows as a video. Raises RecordsError, before a step is
     made, for what cannot be used, and StepError where an engine refuses a step.
@@ -220,12 +227,12 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
         raise RecordsError(
             f"frames {frames!r} and period {period!r}: each follows from the other and the seconds; give one of them"
         )
-    if not _number("seconds", seconds) > 0:
-        raise RecordsError(f"seconds {seconds!r}: give a time above 0 s")
-    if frames is not None and not (isinstance(frames, int) and 1 <= frames <= 10_000):
-        raise RecordsError(f"frames {frames!r}: give a whole number from 1 to 10000")
-    if not _number("fps", fps) > 0:
-        raise RecordsError(f"fps {fps!r}: give frames a second, above 0")
+    checks.number("seconds", seconds, RecordsError, "give a time above 0 s", above=0)
+    if frames is not None:
+        checks.count("frames", frames, RecordsError, "give a whole number from 1 to 10000", most=10_000)
+    _check_scene(O)
+    _check_period(period)
+    _check_fps(fps)
     read(O)  # a scene without disks is refused now
     if not O.dt > 0:
         raise RecordsError(f"O.dt = {O.dt:g}: set the time step of the scene, above 0 s, before it is run")
@@ -234,9 +241,8 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
         count = min(frames or 100, steps)
         dues = [seconds * k / count for k in range(1, count + 1)]
     else:
-        usable = _number("period", period) > 0  # the Recorder refuses others
-        period = max(period, O.dt) if usable else period
-        count = math.floor(seconds / period + 1e-9) if usable else 0
+        period = max(period, O.dt)
+        count = math.floor(seconds / period + 1e-9)
         dues = [k * period for k in range(1, min(count, steps) + 1)] + [seconds]
     made = Recorder(O, dues[0] if period is None else period, most=max(2, len(dues) + 1), path=path, **drawn)
     made.take()
@@ -263,8 +269,7 @@ def write(frames, path, fps=FPS, words=None, bar=None, **drawn):
         raise RecordsError(
             f"{path}: no frame has been kept; put disks into the scene and run it before its video is written"
         )
-    if not _number("fps", fps) > 0:
-        raise RecordsError(f"fps {fps!r}: give frames a second, above 0")
+    _check_fps(fps)
     look, longest = pictures.Look([s for _, s in frames], **drawn), frames[-1][0]
     x0, x1, y0, y1 = look.box
     scale = min(WIDE / (x1 - x0), HIGH / (y1 - y0))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..measure.energy import balance_error
-from . import style
+from . import given, style
 from .style import INK, LINES
 
 
@@ -19,6 +19,7 @@ def _row(fig, rows, titles, time, times):
     return axes
 
 
+@given.takes(series=given.SERIES)
 @style.styled
 def energy(series, path=None, times=None, pdf=False, limit=0.02):
     """Where the energy goes, against time, and what the balance leaves over.
@@ -68,6 +69,7 @@ def energy(series, path=None, times=None, pdf=False, limit=0.02):
     return style.save(fig, path, pdf)
 
 
+@given.takes(series=given.SERIES)
 @style.styled
 def solver(series, path=None, times=None, pdf=False):
     """Sweeps, residual and overlaps of the contact solver against time.

@@ -8,7 +8,7 @@ from matplotlib.patches import Patch, Rectangle
 from ..measure.fronts import front
 from ..measure.ground import ground_of
 from ..measure.surface import deposit_profile
-from . import style
+from . import given, style
 from .style import INK
 
 
@@ -77,6 +77,7 @@ def _foot(ax, snapshot, ground, view, place, first):
         )
 
 
+@given.takes(cases=given.CASES, walls=given.WALLS)
 @style.styled
 def snapshots(cases, walls, path=None, pdf=False, close_up=True):
     """The slope at successive times, one below the other (the paper's Figure 13).
@@ -145,6 +146,7 @@ def snapshots(cases, walls, path=None, pdf=False, close_up=True):
     return style.save(fig, path, pdf)
 
 
+@given.takes(snapshot=given.SNAPSHOT, initial=given.SNAPSHOT, walls=given.WALLS)
 @style.styled
 def deposit(snapshot, initial, walls, path=None, pdf=False):
     """The deposit with its layers over the initial profile.

@@ -6,10 +6,11 @@ from matplotlib.patches import Patch
 
 from ..measure.fronts import front
 from ..measure.ground import ground_of
-from . import style
+from . import given, style
 from .style import INK
 
 
+@given.takes(cases=given.CASES, walls=given.WALLS)
 @style.styled
 def runouts(cases, walls, path=None, pdf=False):
     """Where masses have come to rest, in panels of one scale.

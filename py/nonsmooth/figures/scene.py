@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from ..records import RecordsError
 from ..scene_arrays import read
-from . import style
+from . import given, style
 from .forces import force_bars
 from .style import COMPRESSION, INK, TENSION, WALL
 
@@ -142,6 +142,7 @@ def scales(ax, look, size=8.5):
     ).set_zorder(8)  # fmt: skip
 
 
+@given.takes(O=given.DRAWN)
 @style.styled
 def draw(O, path=None, pdf=False, ax=None, forces=True, view=None, colours=None):
     """The scene of any script in one line, ``figures.draw(O, "scene.png")``: disks, walls black, bonds thin lines, and with ``forces`` bars from centre to centre, as wide as the

@@ -6,7 +6,7 @@ from collections import Counter
 from matplotlib.lines import Line2D
 
 from ..characteristic_times import reason_of
-from . import style
+from . import given, style
 
 #: Markers of verdicts (:data:`nonsmooth.verdict.MEANINGS`): filled where the slope moved off, open where it did not.
 MARKERS = {
@@ -23,6 +23,7 @@ PANEL, HEIGHT = 3.8, 4.8  # inches
 APART = 0.012  # of the axis between verdicts at one value
 
 
+@given.takes(rows=given.ROWS, names=given.CASES)
 @style.styled
 def means(rows, key, names, path=None, pdf=False):
     """Results against the values of ``key``, a panel for each of the ``names``; dots: runs, large markers: means over seeds with their 95 % interval, a kind of marker for each verdict.

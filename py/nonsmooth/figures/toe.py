@@ -7,9 +7,10 @@ from matplotlib.lines import Line2D
 
 from ..measure import toe_bands
 from ..measure.ground import ground_of
-from . import style
+from . import given, style
 
 
+@given.takes(before=given.SNAPSHOT, after=given.SNAPSHOT, section=given.SECTION)
 @style.styled
 def toe(before, after, section, path=None, pdf=False, friction_deg=None):
     """The toe by the rotation of its disks between two snapshots, with the bands found in it.

@@ -6,11 +6,12 @@ from matplotlib.patches import Patch
 
 from ..measure.ground import ground_of
 from ..measure.weakening import weakened_share
-from . import style
+from . import given, style
 
 SHADES = LinearSegmentedColormap.from_list("weakened", [style.STRONG, style.WEAKENED])
 
 
+@given.takes(cases=given.CASES, walls=given.WALLS)
 @style.styled
 def weakening(cases, walls, path=None, times=None, pdf=False):
     """Which part of each surface that weakens is weakened, along the surface against time, one panel a surface.

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .. import checks
 from .grains import Heap, HeapError
 
 __all__ = ["Column", "build", "run"]
@@ -26,8 +27,14 @@ class Column(Heap):
 
     def __post_init__(self):
         super().__post_init__()
-        if not 0.05 <= self.aspect <= 100:
-            raise HeapError(f"aspect {self.aspect!r}: give height over width of the column, from 0.05 to 100")
+        checks.number(
+            "aspect",
+            self.aspect,
+            HeapError,
+            "give height over width of the column, from 0.05 to 100",
+            least=0.05,
+            most=100,
+        )
 
     def box_aspect(self):
         """Height over width of the box."""

@@ -11,7 +11,7 @@ import numpy as np
 from yade import O
 from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 
-from .. import course as stages
+from .. import checks, course as stages
 from ..stepping import advance, until
 from . import measures, preparation
 from .grains import Heap, HeapError, check_damping
@@ -204,14 +204,21 @@ class Result:
         }
 
 
+_made_of = checks.takes(
+    HeapError,
+    heap=checks.kind(Heap, "give a Column or a Pile"),
+    world=checks.has("name engines", "give worlds.Hard(...) or worlds.Soft(...)"),
+)
+
+
+@_made_of
 def build(heap, world):
     """Fills the scene anew with a heap at rest in its box, in a world of :mod:`yade.nonsmooth.worlds`; returns the :class:`Scene`.
 
     The places are the same in both worlds. Raises PackingError, SampleError or HeapError where the disks cannot be prepared, and HeapError for springs
-    that the heap's own weight would crush and for a soft model without the rolling resistance that the grains have.
+    that the heap's own weight would crush and for grains with what the springs have not, see :meth:`Heap.check_world`.
     """
-    if world.name == "soft":
-        heap.check_model(world.model)
+    heap.check_world(world)
     ready = preparation.prepared(heap)
     stiffness = getattr(world, "stiffness", math.inf)
     # the weight above a disk at the bottom, ρ g H d, over its spring E R (YADE's, for a slice 1 m thick), in diameters
@@ -239,6 +246,7 @@ class _Damping:
         )
 
 
+@_made_of
 def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None, damping_moving=None):
     """Builds a heap in a world, lets it rest in its box, releases it, and follows it until it rests; returns the :class:`Result`.
 
@@ -248,6 +256,7 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     below a tenth of their largest speed; None: the world's own throughout. Raises what :func:`build` raises, and HeapError for a damping_moving that
     cannot be used and for disks that do not come to rest in their box.
     """
+    checks.number("duration", duration, HeapError, "give a number above 0, in units of T = √(H/g)", above=0)
     check_damping(world, damping_moving)
     scene = build(heap, world)
     unit = math.sqrt(scene.prepared.height / heap.gravity)

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from .. import packing_files
+from .. import checks, packing_files
 from ..errors import UserError
 from ..section import Material
 from ..soft.parameters import ROLLING_MODELS
@@ -54,32 +54,26 @@ class Heap:
     gravity: float = 9.81
 
     def __post_init__(self):
-        def refuse(key, remedy):
-            raise HeapError(f"{key} {getattr(self, key)!r}: {remedy}")
-
         for key, least in (("disks", 1), ("seed", 0)):
-            value = getattr(self, key)
-            if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-                refuse(key, f"give a whole number from {least}")
+            checks.count(key, getattr(self, key), HeapError, f"give a whole number from {least}", least=least)
+
+        def number(key, remedy, **bounds):
+            checks.number(key, getattr(self, key), HeapError, remedy, **bounds)
+
         for key in ("diameter", "density", "gravity"):
-            if not 0 < getattr(self, key) < math.inf:
-                refuse(key, "give a number above 0")
+            number(key, "give a number above 0", above=0)
         for key in ("friction", "rolling_friction"):
-            if not 0 <= getattr(self, key) < math.inf:
-                refuse(key, "give 0 or more")
-        if not 1 <= self.size_spread <= 8:
-            refuse("size_spread", "give largest over smallest diameter, from 1 to 8")
-        if not 0 <= self.restitution < 1:
-            refuse("restitution", "give a number from 0 to less than 1")
+            number(key, "give 0 or more", least=0)
+        number("size_spread", "give largest over smallest diameter, from 1 to 8", least=1, most=8)
+        number("restitution", "give a number from 0 to less than 1", least=0, below=1)
         if self.base not in BASES:
-            refuse("base", f"give one of {', '.join(BASES)}")
-        if not 0 <= self.wall_friction <= self.friction:
-            refuse("wall_friction", f"give a number from 0 to friction, {self.friction:g}")
-        if self.base_friction is not None and not 0 <= self.base_friction <= self.friction:
-            refuse(
-                "base_friction",
-                f"give a number from 0 to friction, {self.friction:g}: of two materials in contact, the smaller friction holds",
-            )
+            raise HeapError(f"base {checks.shown(self.base)}: give one of {', '.join(BASES)}")
+        number("wall_friction", f"give a number from 0 to friction, {self.friction:g}", least=0, most=self.friction)
+        if self.base_friction is not None:
+            remedy = f"give a number from 0 to friction, {self.friction:g}: of two materials in contact, the smaller friction holds"
+            number("base_friction", remedy, least=0, most=self.friction)
+        if self.packing is not None:
+            checks.path("packing", self.packing, HeapError, "give the path of a text file of x y r [m], or None")
 
     # ---- sizes ----------------------------------------------------------------------------------------
 
@@ -156,12 +150,19 @@ class Heap:
         friction = self.friction if self.base_friction is None else self.base_friction
         return replace(self.material(), name="floor", friction=friction, residual_friction=friction)
 
-    def check_model(self, model):
-        """Raises HeapError for a soft contact ``model`` that has no rolling resistance where the grains have some: it would be dropped in silence."""
-        if self.rolling_friction > 0 and model not in ROLLING_MODELS:
+    def check_world(self, world):
+        """Raises HeapError for grains with what soft contacts of this ``world`` have not, which would be dropped in silence: rolling resistance of a model without, and a restitution."""
+        if world.name != "soft":
+            return
+        if self.rolling_friction > 0 and world.model not in ROLLING_MODELS:
             raise HeapError(
-                f"rolling_friction {self.rolling_friction:g} with model {model!r}: contacts of this model do not resist rolling; take model "
+                f"rolling_friction {self.rolling_friction:g} with model {world.model!r}: contacts of this model do not resist rolling; take model "
                 f"{', '.join(ROLLING_MODELS)}, which without bonds, as here, is friction with rolling, or rolling_friction 0"
+            )
+        if self.restitution > 0:
+            raise HeapError(
+                f"restitution {self.restitution:g} with world 'soft': springs have none of their own, an impact gives back what damping leaves, "
+                f"{world.equivalent(self.material()).restitution:.3g} with damping {world.damping:g}; give restitution 0 and choose the damping"
             )
 
     def plain(self):
@@ -177,8 +178,7 @@ def check_damping(world, moving):
         raise HeapError(
             f"damping_moving {moving!r}: {world.name} contacts have no damping; leave it out, or take the soft world"
         )
-    if not 0 <= moving < 1:
-        raise HeapError(f"damping_moving {moving!r}: give a number from 0 to less than 1")
+    checks.number("damping_moving", moving, HeapError, "give a number from 0 to less than 1", least=0, below=1)
 
 
 def sizes_along(heap, length, side):

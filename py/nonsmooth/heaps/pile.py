@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .. import checks
 from .grains import Heap, HeapError
 
 __all__ = ["Pile", "build", "run"]
@@ -25,8 +26,8 @@ class Pile(Heap):
 
     def __post_init__(self):
         super().__post_init__()
-        if not 0.05 <= self.aspect <= 100:
-            raise HeapError(f"aspect {self.aspect!r}: give height over half of the width of the box, from 0.05 to 100")
+        remedy = "give height over half of the width of the box, from 0.05 to 100"
+        checks.number("aspect", self.aspect, HeapError, remedy, least=0.05, most=100)
 
     def box_aspect(self):
         """Height over width of the box."""

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, fields
 from pathlib import Path
 
 import numpy as np
 
-from .. import kept_runs, keys, records, side_by_side, worlds
+from .. import checks, kept_runs, keys, records, side_by_side, worlds
 from ..whole_files import write_arrays
 from .column import Column
 from .grains import PATH_PER_STEP, HeapError, check_damping
@@ -22,31 +21,43 @@ _SOFT = tuple(one.name for one in fields(worlds.Soft) if one.name != "diameter")
 DURATION = 15.0  # T, the longest course after the release
 
 
-def world_of(heap, name="hard", path=PATH_PER_STEP, tolerance=TOLERANCE, damping_moving=None, **soft):
-    """A world for a heap. ``name``: "hard" with the step that :meth:`Heap.time_step` gives for ``path``, and ``tolerance``; or "soft" with the fields of
+def world_of(heap, name="hard", path=None, tolerance=None, damping_moving=None, **soft):
+    """A world for a heap. ``name``: "hard" with the step that :meth:`Heap.time_step` gives for ``path``, and ``tolerance`` (None: 0.1 and 1e-4); or "soft" with the fields of
     :class:`yade.nonsmooth.worlds.Soft` but its diameters. ``damping_moving``: no part of the world, but checked here; see :func:`course.run`.
 
-    Raises HeapError or SoftError for values that cannot be used, and HeapError for a model without the rolling resistance that the grains have.
+    Raises HeapError or SoftError for values that cannot be used, for those of the other world, and HeapError for grains with what the springs have not: see :meth:`Heap.check_world`.
     """
+    hard = {key: value for key, value in (("path", path), ("tolerance", tolerance)) if value is not None}
+    for key, value in hard.items():
+        checks.number(key, value, HeapError, "give a number above 0", above=0)
     if name == "hard" and soft:
         raise HeapError(
             f"{', '.join(f'{key} {value!r}' for key, value in soft.items())} with world 'hard': rigid disks have no such value; leave it out, or take world 'soft'"
+        )
+    if name == "soft" and hard:
+        raise HeapError(
+            f"{', '.join(f'{key} {value!r}' for key, value in hard.items())} with world 'soft': springs have no such value, their step is step_share of its limit; leave it out, or take world 'hard'"
         )
     unknown = [key for key in soft if key not in _SOFT]
     if unknown:
         raise HeapError(f"{', '.join(unknown)}: no value of the soft world; give some of {', '.join(_SOFT)}")
     if name == "hard":
-        made = worlds.Hard(time_step=heap.time_step(path), tolerance=tolerance)
+        made = worlds.Hard(
+            time_step=heap.time_step(hard.get("path", PATH_PER_STEP)), tolerance=hard.get("tolerance", TOLERANCE)
+        )
     elif name == "soft":
-        if not (soft.get("stiffness") or 0) > 0:
-            raise HeapError(f"stiffness {soft.get('stiffness')!r}: the soft world needs Young's modulus in Pa, above 0")
+        checks.number(
+            "stiffness",
+            soft.get("stiffness"),
+            HeapError,
+            "the soft world needs Young's modulus in Pa, above 0",
+            above=0,
+        )
         made = worlds.Soft(diameter=heap.diameters(), **soft)
-        if not 0 < made.step_share <= 1:
-            raise HeapError(
-                f"step_share {made.step_share!r}: the time step in units of its stability limit; give a number above 0, to 1 at most"
-            )
+        remedy = "the time step in units of its stability limit; give a number above 0, to 1 at most"
+        checks.number("step_share", made.step_share, HeapError, remedy, above=0, most=1)
         made.equivalent(heap.material())  # refuses values that no soft contact has
-        heap.check_model(made.model)
+        heap.check_world(made)
     else:
         raise HeapError(f"world {name!r}: give hard or soft")
     check_damping(made, damping_moving)
@@ -128,8 +139,7 @@ def planned(name, folder, heap, world, duration=DURATION) -> side_by_side.Run:
     kind = next((kind for kind, made in KINDS.items() if type(heap) is made), None)
     if kind is None:
         raise HeapError(f"{heap!r}: is no heap; give a Column or a Pile")
-    if not 0 < duration < math.inf:
-        raise HeapError(f"duration {duration!r}: give a number above 0, in units of T = √(H/g)")
+    checks.number("duration", duration, HeapError, "give a number above 0, in units of T = √(H/g)", above=0)
     return side_by_side.Run(
         name,
         Path(folder),

@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import math
 import shutil
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from .. import processes, records, side_by_side
+from .. import checks, processes, records, side_by_side
 from ..errors import UserError
 from ..statistics import Estimate, over_seeds
 from ..measure import bands
@@ -42,7 +43,14 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     Raises CampaignError or SampleError before anything runs where tests cannot be run or measured; CampaignError with the first failure after the
     others have ended.
     """
+    checks.path("out", out, CampaignError, "give the path of a folder for the tests")
+    threads = checks.count("threads", threads, CampaignError, "give a whole number from 1, how many run at a time")
+    if not isinstance(tests, Iterable) or isinstance(tests, str):
+        raise CampaignError(f"tests {checks.shown(tests)}: give a list of biaxial_test.Test")
     home, tests = Path(out) / "tests", list(tests)
+    for test in tests:
+        if not isinstance(test, biaxial_test.Test):
+            raise CampaignError(f"tests, {checks.shown(test)}: give a list of biaxial_test.Test")
     for test in tests:
         if test.strain < strength.SHORTEST:
             raise CampaignError(

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import yaml
 
-from .. import section, section_building, section_values
+from .. import checks, section, section_building, section_values
 from ..whole_files import write_atomically
 from ..section_reader import Document, SectionError, read
 
@@ -34,7 +34,8 @@ def data(name_or_path) -> dict:
 
 def _document(name_or_path):
     """The name of a material and its checked Document."""
-    name = str(name_or_path)
+    what = f"give one of {', '.join(SHIPPED)}, or the path of a material file"
+    name = str(checks.path("material", name_or_path, SectionError, what))
     if name in SHIPPED:
         return name, Document(name, section_values.given(section.load("jiufengershan"))["materials"][SHIPPED[name]])
     path = Path(name)
@@ -48,6 +49,9 @@ def _document(name_or_path):
     return path.stem, document
 
 
+@checks.takes(
+    SectionError, material=checks.kind(section.Material, "give a section.Material, as load('wwr') returns one")
+)
 def bare(material):
     """The material without what rules nothing in a test: what was measured before, and the weakening of walls by slip."""
     return dataclasses.replace(material, slip_weakening=None, envelope=None)

@@ -6,5 +6,6 @@
 * :mod:`.energy`: what the balance of energy leaves over
 * :mod:`.force_stages`: what the forces on walls do from stage to stage
 * :mod:`.bands`, :mod:`.toe_bands`: shear bands, of a sample and in the toe of a slope
+* :mod:`.creep`: how fast a mass goes on moving
 * :mod:`.weakening`: which part of a slip surface has lost its strength
 """

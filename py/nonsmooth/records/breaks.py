@@ -6,6 +6,7 @@ import numpy as np
 
 from ..tables import BREAK_MODES
 from ..whole_files import write_atomically
+from .. import checks
 from .error import RecordsError
 
 BREAK_COLUMNS = ("step", "time_s", "disk1", "disk2", "mode", "x_m", "y_m")
@@ -30,7 +31,7 @@ def read_breaks(path):
 
     Raises :class:`RecordsError` for a file that is missing or damaged.
     """
-    path = Path(path)
+    path = Path(checks.path("path", path, RecordsError, "give the path of a file of a run"))
     try:
         header, *rows = path.read_text().splitlines()
         if tuple(header.split(",")) != BREAK_COLUMNS:

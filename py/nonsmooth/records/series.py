@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from .columns import COLUMNS, WALL_COLUMNS
+from .. import checks
 from .error import RecordsError
 
 
@@ -238,7 +239,7 @@ def read_series(path):
     A half-written last line (a run that still goes on, or was killed) is left out. Raises :class:`RecordsError` if
     the file is missing, has no header, or a row is damaged.
     """
-    path = Path(path)
+    path = Path(checks.path("path", path, RecordsError, "give the path of a file of a run"))
     try:
         text = path.read_bytes().decode(errors="replace")
     except OSError as error:
@@ -260,7 +261,7 @@ def read_walls(path):
 
     A half-written last line is left out. Raises :class:`RecordsError` if the file is missing or damaged.
     """
-    path = Path(path)
+    path = Path(checks.path("path", path, RecordsError, "give the path of a file of a run"))
     try:
         text = path.read_bytes().decode()
         header, *rows = csv.reader(text[: text.rfind("\n") + 1].splitlines())

@@ -9,6 +9,7 @@ from typing import Optional
 import numpy as np
 
 from ..whole_files import write_arrays
+from .. import checks
 from .error import RecordsError
 
 
@@ -116,7 +117,7 @@ def write_snapshot(path, **arrays):
 
 def read_snapshot(path):
     """Read a :class:`Snapshot`. Raises :class:`RecordsError` if it is missing, truncated or inconsistent."""
-    path = Path(path)
+    path = Path(checks.path("path", path, RecordsError, "give the path of a file of a run"))
     try:
         with np.load(path, allow_pickle=False) as data:
             arrays = {name: data[name] for name in data.files}

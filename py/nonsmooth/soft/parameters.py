@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import checks
 from ..errors import UserError
 from ..section import Material
 
@@ -154,12 +155,9 @@ def equivalent(
         ("shear_ratio", shear_ratio, 0.0),
         ("contacts", contacts, 0),
     ):
-        if not least < value < math.inf:
-            raise SoftError(f"{key} {value!r}: give a number greater than {least:g}")
-    if not 0 <= rolling_ratio < math.inf:
-        raise SoftError(f"rolling_ratio {rolling_ratio!r}: give 0 or more")
-    if not 0 <= damping < 1:
-        raise SoftError(f"damping {damping!r}: give a number from 0 to less than 1")
+        checks.number(key, value, SoftError, f"give a number greater than {least:g}", above=least)
+    checks.number("rolling_ratio", rolling_ratio, SoftError, "give 0 or more", least=0)
+    checks.number("damping", damping, SoftError, "give a number from 0 to less than 1", least=0, below=1)
     if material.density is None:
         raise SoftError(
             f"material {material.name}: density None, and the step depends on the disks' mass; add `density` (kg/m³, of the disks)"

@@ -1,0 +1,168 @@
+"""Public functions that are given a value of another kind than they take: one line with the argument, the value and what would do, before anything is done."""
+
+import math
+
+import pytest
+from yade import O
+from yade.nonsmooth import (
+    campaign,
+    checks,
+    experiment,
+    figures,
+    records,
+    runs,
+    scene,
+    section,
+    section_values,
+    similar,
+    worlds,
+)
+from yade.nonsmooth.errors import UserError
+from yade.nonsmooth.heaps import column
+from yade.nonsmooth.laboratory import biaxial_test, campaign as tests_of_rock, materials
+from yade.wrapper import NscdMat
+
+pytestmark = pytest.mark.usefixtures("empty")
+NAN, INF = math.nan, math.inf
+CIRCLE = section.load("circle")
+
+
+def stuff():
+    return NscdMat(density=2500)
+
+
+# ---- the checks -----------------------------------------------------------------------------------
+
+
+class Refused(ValueError):
+    pass
+
+
+@pytest.mark.parametrize("value", [None, "1", [1], True, NAN, INF, -INF, 1j])
+def test_what_is_no_number(value):
+    with pytest.raises(Refused, match="^length .*: give metres$"):
+        checks.number("length", value, Refused, "give metres")
+
+
+def test_bounds_of_a_number_from_both_sides():
+    for value, bounds in ((1.0, dict(least=1)), (1, dict(most=1)), (1.01, dict(above=1)), (0.99, dict(below=1))):
+        assert checks.number("x", value, Refused, "", **bounds) == value
+    for value, bounds in ((0.99, dict(least=1)), (1.01, dict(most=1)), (1, dict(above=1)), (1.0, dict(below=1))):
+        with pytest.raises(Refused):
+            checks.number("x", value, Refused, "", **bounds)
+
+
+def test_what_is_no_count():
+    assert checks.count("n", 3, Refused, "", least=3, most=3) == 3
+    for value in (None, "3", 3.0, True, NAN, 2, 4):
+        with pytest.raises(Refused):
+            checks.count("n", value, Refused, "give 3", least=3, most=3)
+
+
+def test_a_value_is_shown_on_one_line_and_cut():
+    assert checks.shown("a\nb") == r"'a\nb'" and len(checks.shown(list(range(1000)))) == checks.LONGEST + 1
+    assert "\n" not in checks.shown(CIRCLE)
+
+
+def test_a_decorated_function_is_called_as_before_and_python_says_what_is_missing():
+    @checks.takes(Refused, x=checks.real("give a number"))
+    def twice(x, y=2):
+        """Doubles."""
+        return x * y
+
+    assert (twice(3), twice(x=3, y=4), twice.__name__, twice.__doc__) == (6, 12, "twice", "Doubles.")
+    with pytest.raises(Refused, match="^x 'a': give a number$"):
+        twice("a")
+    with pytest.raises(TypeError, match="missing 1 required"):
+        twice()
+
+
+# ---- public functions -----------------------------------------------------------------------------
+
+FLOOR = [(0, 0), (1, 0)]
+CALLS = [
+    ("section", lambda v: section.load(v), (None, [1], -1, NAN, {}), "give the path of a YAML file, or one of: chair"),
+    ("circle.yaml: disks|.*: disks", lambda v: CIRCLE.with_disks(v), (None, "600", [600], -1, NAN, INF, 600.5, True), "give a whole number of disks from 1 to"),
+    (".*: rock", lambda v: CIRCLE.with_rock(v), (None, "wwr", [1], -1), "give a Material, or the plain data"),
+    (".*: a critical slip of", lambda v: CIRCLE.with_critical_slip(v), (None, "1", [1], -1, NAN, INF), "give a distance above 0"),
+    (".*: values", lambda v: CIRCLE.with_values(v), (None, "seed", [1], -1), "give a dictionary {key: value}"),
+    ("key", lambda v: CIRCLE.with_values({v: 1}), (None, 3, NAN, (1, 2), ()), "give words with dots"),
+    ("section: data", lambda v: section.of(v), ("x", [1], -1), "give a dictionary with the keys"),
+    ("section", lambda v: section_values.given(v), (None, "circle", [1]), "give a Section"),
+    ("section", lambda v: similar.mirrored(v), (None, "circle", {}), "give a Section"),
+    ("section", lambda v: similar.scaled(v, 2), (None, "circle", {}), "give a Section"),
+    (".*: factor", lambda v: similar.scaled(CIRCLE, v), (None, "2", [2], -1, 0, NAN, INF), "give a factor from 1e-05 to 1000"),
+    ("section", lambda v: experiment.begin(v, "out"), (None, "circle", {}), "give a Section"),
+    ("section", lambda v: experiment.resume(v, "out"), (None, "circle", {}), "give a Section"),
+    ("folder", lambda v: experiment.begin(CIRCLE, v), (None, 3, [1], ""), "give the path of a folder"),
+    ("folder", lambda v: runs.open_run(v), (None, 3, [1]), "give the path of the folder of a run"),
+    ("folder", lambda v: campaign.open_script(v), (None, 3, [1]), "give the path of the folder of a run"),
+    ("folder", lambda v: campaign.open_heap(v), (None, 3, [1]), "give the path of the folder of a run"),
+    ("folder", lambda v: campaign.open_comparison(v), (None, 3, [1]), "give the path of the folder of a run"),
+    ("snapshot", lambda v: runs.Run("out").snapshot(v), (None, "t9", [1], NAN), "give 't0', 'end' or a time"),
+    ("path", lambda v: records.read_series(v), (None, 3, [1], {}), "give the path of a file"),
+    ("path", lambda v: records.read_walls(v), (None, 3, [1], {}), "give the path of a file"),
+    ("path", lambda v: records.read_breaks(v), (None, 3, [1], {}), "give the path of a file"),
+    ("path", lambda v: records.read_snapshot(v), (None, 3, [1], {}), "give the path of a file"),
+    ("base", lambda v: campaign.sweep(v, {}), (None, "circle", {}), "give a Section"),
+    ("over", lambda v: campaign.sweep(CIRCLE, v), (None, "seed", [1], 3), "give a dictionary {key: values}"),
+    ("seed:", lambda v: campaign.sweep(CIRCLE, {"seed": v}), (None, "12", 3), "give the values to run with"),
+    ("end", lambda v: campaign.sweep(CIRCLE, {"seed": [1]}, end=v), ("x", [1], -1, 0, NAN, INF), "give seconds of simulated time"),
+    ("made", lambda v: campaign.run_slope(v, "out"), (None, "circle", {}), "give a Section"),
+    ("out", lambda v: campaign.run_slope(CIRCLE, v), (None, 3, [1]), "give the path of a folder"),
+    ("threads", lambda v: campaign.run_slope(CIRCLE, "out", threads=v), (None, "2", 0, 1.5), "give a whole number from 1"),
+    ("out", lambda v: campaign.read(v), (None, 3), "give the path of the folder of a plan"),
+    ("lesson", lambda v: campaign.lesson(v), (None, 3, [1]), "give one of beam, bounce"),
+    ("disk, centre", lambda v: scene.disk(v, 1, stuff()), (None, "xy", 3, [1], (NAN, 0), (0, INF), (1, 2, 3, 4)), r"give \(x, y\)"),
+    (r"disk at \(0, 0\): radius", lambda v: scene.disk((0, 0), v, stuff()), (None, "1", [1], 0, -1, NAN, INF), "give a positive radius"),
+    ("material", lambda v: scene.disk((0, 0), 1, v), (None, "rock", [1], 7, NAN), "give a material"),
+    ("material", lambda v: scene.segments(FLOOR, v), (None, "rock", [1]), "give a material"),
+    ("vertices", lambda v: scene.segments(v, stuff()), (None, 3, "ab", ["ab", "cd"]), "give a list of two or more"),
+    ("sense =", lambda v: scene.segments(FLOOR, stuff(), sense=v), (None, "left", [1], 2, NAN), "give .1"),
+    ("piece =", lambda v: scene.segments(FLOOR, stuff(), piece=v), ("1", [1], 0, -1, NAN, INF), "give a positive length"),
+    ("radius =", lambda v: scene.arc((0, 0), v, 0, 1, stuff()), (None, "1", [1], 0, -1, NAN), "give a positive length"),
+    ("arc, centre", lambda v: scene.arc(v, 1, 0, 1, stuff()), (None, "x", 3), r"give \(x, y\)"),
+    ("arc, end", lambda v: scene.arc((0, 0), 1, 0, v, stuff()), (None, "x", [1], NAN, INF), "give an angle"),
+    ("inside", lambda v: scene.arc((0, 0), 1, 0, 1, stuff(), inside=v), ("yes", 3, [1]), "give True"),
+    ("gravity", lambda v: scene.engines(gravity=v), (None, -9.81, "down", (0, -9.81), (0, NAN, 0)), r"give \(x, y, z\)"),
+    ("reach", lambda v: scene.engines(reach=v), (None, "far", [1], -1, NAN), "give a gap in mean diameters"),
+    ("verlet", lambda v: scene.engines(verlet=v), (None, "far", NAN), "give a margin"),
+    ("ends|vertices", lambda v: scene.plate(v, stuff()), (None, "x", 3, [(0, 0)], [(0, 0), (1, NAN)]), "give"),
+    ("force =", lambda v: scene.plate(FLOOR, stuff(), force=v), (None, "1", NAN), "give a finite number"),
+    ("m", lambda v: scene.material(v), (None, "rock", [1]), "give a section.Material"),
+    ("m", lambda v: scene.wall_material(v), (None, "rock", [1]), "give a section.Material"),
+    ("one", lambda v: scene.join(v, v, (1, 0, 0)), (None, 3), "give a body"),
+    ("O", lambda v: figures.draw(v), (None, "x", [1], 3), "give YADE's O"),
+    ("path", lambda v: figures.draw(O, v), (3, [1], ""), "give the name of a PNG"),
+    ("O", lambda v: figures.record(v), (None, "x", [1]), "give YADE's O"),
+    ("O", lambda v: figures.animate(v), (None, "x", [1]), "give YADE's O"),
+    ("series", lambda v: figures.energy(v), (None, "x", [1], 3), "give columns {name: array}"),
+    ("series", lambda v: figures.solver(v), (None, "x", [1]), "give columns {name: array}"),
+    ("series", lambda v: figures.forces_against_time(v, {}), (None, "x", [1]), "give columns {name: array}"),
+    ("snapshot", lambda v: figures.force_chains(v, CIRCLE), (None, "end", [1]), "give a Snapshot"),
+    ("snapshot", lambda v: figures.deposit(v, v, CIRCLE), (None, "end", [1]), "give a Snapshot"),
+    ("walls", lambda v: figures.runouts([], v), (None, "circle", 3, [1]), "give a Section, or walls"),
+    ("cases", lambda v: figures.snapshots(v, CIRCLE), (None, "t0", 3), "give a list of cases"),
+    ("cases", lambda v: figures.weakening(v, CIRCLE), (None, "t0", 3), "give a list of cases"),
+    ("before", lambda v: figures.toe(v, v, CIRCLE), (None, "t0", 3), "give a Snapshot"),
+    ("material", lambda v: figures.contact_law(v), (None, "rock", 3), "give a section.Material"),
+    ("dip", lambda v: figures.water_forces(v), (None, "30", [1], NAN), "give the slope"),
+    ("rows", lambda v: figures.means(v, "seed", ["a"]), (None, "x", [1]), "give rows"),
+    ("heap", lambda v: column.run(v, worlds.Hard(1e-3)), (None, "x", [1]), "give a Column or a Pile"),
+    ("world", lambda v: column.build(column.Column(), v), (None, "hard", [1]), r"give worlds.Hard\(...\)"),
+    ("material", lambda v: materials.load(v), (None, 3, [1]), "give one of wwr, dp"),
+    ("material", lambda v: biaxial_test.Test(v, 1e6, None), (None, "wwr", 3), "give a section.Material"),
+    ("tests", lambda v: tests_of_rock.run(v, "out", 1), (None, "x", [1], 3), "give a list of biaxial_test.Test"),
+    ("out", lambda v: tests_of_rock.run([], v, 1), (None, 3), "give the path of a folder"),
+    ("threads", lambda v: tests_of_rock.run([], "out", v), (None, "2", 0), "give a whole number from 1"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name, call, values, remedy", CALLS, ids=[f"{k}-{name}" for k, (name, *_) in enumerate(CALLS)])
+def test_a_value_of_another_kind_is_named(tmp_path, monkeypatch, name, call, values, remedy):
+    monkeypatch.chdir(tmp_path)
+    for value in values:
+        with pytest.raises(UserError, match=f"^({name}).*{remedy}") as refusal:
+            call(value)
+        assert "\n" not in str(refusal.value), value
+    assert not list(tmp_path.iterdir()) and len(O.bodies) == 0 and O.iter == 0
