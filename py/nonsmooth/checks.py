@@ -23,8 +23,8 @@ def shown(value):
 def number(name, value, error, remedy, above=-math.inf, least=-math.inf, most=math.inf, below=math.inf):
     """The ``value`` as a float, finite, ``above`` and ``below`` these, from ``least`` to ``most``; raises ``error`` with "NAME VALUE: REMEDY" where it is not. A boolean is no number."""
     real = isinstance(value, numbers.Real) and not isinstance(value, bool)
-    found = float(value) if real else math.nan
-    if not (math.isfinite(found) and above < found < below and least <= found <= most):
+    found = float(value) if real else math.nan  # which no bound lets through, as infinity
+    if not (above < found < below and least <= found <= most):
         raise error(f"{name} {shown(value)}: {remedy}")
     return found
 

@@ -400,7 +400,7 @@ def test_an_arc_is_drawn_as_it_stands():
         ("piece = 0", dict(piece=0)),
         ("beyond the start", dict(start=1, end=1)),
         ("beyond the start", dict(start=3, end=1)),
-        ("beyond the start", dict(end=math.inf)),
+        ("end inf: give an angle", dict(end=math.inf)),
     ],
 )
 def test_what_is_no_arc_is_told(words, more):

@@ -135,10 +135,10 @@ def test_spheres_of_clumps_are_refused(stuff):
     "centre, radius, words",
     [
         ((0, 0, 1.5), 0.5, "disks lie in the plane z = 0, and y is up"),
-        ((0, 0), -0.5, "radius -0.5; give a positive radius"),
-        ((0, 0), 0.0, "radius 0.0; give a positive radius"),
-        ((0, 0), math.nan, "radius nan; give a positive radius"),
-        ((0, 0), math.inf, "radius inf; give a positive radius"),
+        ((0, 0), -0.5, "radius -0.5: give a positive radius"),
+        ((0, 0), 0.0, "radius 0.0: give a positive radius"),
+        ((0, 0), math.nan, "radius nan: give a positive radius"),
+        ((0, 0), math.inf, "radius inf: give a positive radius"),
     ],
 )
 def test_what_is_no_disk_is_refused(stuff, centre, radius, words):
