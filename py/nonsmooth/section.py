@@ -284,7 +284,7 @@ class Section:
 
         Raises SectionError where such disks are too large for the layers.
         """
-        remedy = f"give a whole number of disks from 1 to {MOST_DISKS}"
+        remedy = f"give a whole number from 1 to {MOST_DISKS}"
         if checks.number(f"{self.source}: disks", count, SectionError, remedy, least=1, most=MOST_DISKS) != int(count):
             raise SectionError(f"{self.source}: disks {count!r}: {remedy}")
         if self.like:

@@ -82,7 +82,7 @@ def test_a_decorated_function_is_called_as_before_and_python_says_what_is_missin
 FLOOR = [(0, 0), (1, 0)]
 CALLS = [
     ("section", lambda v: section.load(v), (None, [1], -1, NAN, {}), "give the path of a YAML file, or one of: chair"),
-    ("circle.yaml: disks|.*: disks", lambda v: CIRCLE.with_disks(v), (None, "600", [600], -1, NAN, INF, 600.5, True), "give a whole number of disks from 1 to"),
+    ("circle.yaml: disks|.*: disks", lambda v: CIRCLE.with_disks(v), (None, "600", [600], -1, NAN, INF, 600.5, True), "give a whole number from 1 to"),
     (".*: rock", lambda v: CIRCLE.with_rock(v), (None, "wwr", [1], -1), "give a Material, or the plain data"),
     (".*: a critical slip of", lambda v: CIRCLE.with_critical_slip(v), (None, "1", [1], -1, NAN, INF), "give a distance above 0"),
     (".*: values", lambda v: CIRCLE.with_values(v), (None, "seed", [1], -1), "give a dictionary {key: value}"),
