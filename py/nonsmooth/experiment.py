@@ -336,7 +336,9 @@ class Experiment:
         s.contacts_initial = solver.contacts
         s.centre = self._centroid(tables.bodies(solver))[0]
         self.walls.forget()
-        if self.hard:  # from here on it grows by itself
+        if self.hard:
+            solver.view()  # what a script writes to the bodies before it runs the experiment then counts
+            # gravity grows by itself from here on
             solver.finalGravity, solver.gravityBegin, solver.gravityRamp = (
                 self._gravity(math.inf),
                 0.0,

@@ -107,3 +107,13 @@ def test_a_run_that_is_killed_after_its_last_checkpoint_has_nothing_left_to_do(t
     O.reset()
     again = experiment.resume(chosen, tmp_path / "out")
     assert again.reached(0.1) and not again.reached(0.2) and not again.reached()
+
+
+def test_what_a_script_writes_before_it_runs_the_experiment_acts(tmp_path):
+    """A disk thrown upwards before the first call rises; in 0.1 s gravity, which grows, takes less than 1 m/s of its 30."""
+    run = begun(tmp_path / "out")
+    top = max((b for b in O.bodies if b.dynamic), key=lambda b: b.state.pos[1])
+    begins = top.state.pos[1]
+    top.state.vel = (0, 30, 0)
+    run.run(0.1)
+    assert O.bodies[top.id].state.pos[1] - begins > 2.0
