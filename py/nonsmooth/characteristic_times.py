@@ -13,7 +13,8 @@ Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
 * they come in this order: a t3 after t4, where weakening takes less than 90 % of the shear force and the deposit happens to bear little, is none of triggering, and a
   t5 before t4 no rest. Such a time did not come, and :func:`missing` says why.
 
-Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces. A slope that failed dry has t4 and t5 of all of its rows.
+Weakening begins where D_c is reached by one per cent of the disks that fit along the slip surfaces; where some lie one above another (stacks.py), along one of them, and T is
+then the shear force on that one. A slope that failed dry has t4 and t5 of all of its rows.
 One second, 0.02 and 0.2 m/s, are those of the shipped section, and scaled for another (scales.py).
 """
 
@@ -23,12 +24,13 @@ import math
 
 import numpy as np
 
-from . import records, scales
+from . import records, scales, stacks
 
 __all__ = [
     "COLUMNS",
     "NAMES",
     "chosen_rows",
+    "columns",
     "kept_rows",
     "mean_of",
     "missing",
@@ -38,7 +40,7 @@ __all__ = [
 ]
 
 NAMES = ("t0", "t1", "t2", "t3", "t4", "t5")
-#: Columns of the series that the times follow from.
+#: Columns of the series that the times follow from, see also :func:`columns`.
 COLUMNS = (
     "step",
     "time_s",
@@ -62,6 +64,12 @@ LEVEL = 0.98  # of the strength of the foot
 WEAKENED = 0.01  # of the disks along the slip surfaces
 FALLEN = 0.1  # of the shear force that is left at t3
 SAME = 1e-9  # s, of one row's time
+
+
+def columns(section) -> tuple[str, ...]:
+    """All columns of a Section's series that its times follow from."""
+    own = (stacks.column(name, surface) for surface in section.stacked for name in ("dp_shear_N_per_m", "weakened_disks"))
+    return (*COLUMNS, *own)
 
 
 def chosen_rows(series, state):
@@ -130,9 +138,10 @@ def _reason(name, series, section, state):
         return "the slope did not move off"
     if not section.slip_surfaces:
         return "there is no slip surface"
-    if weakening_begins(series, section, state) is None:
+    begins, surface = _weakening(series, section, state)
+    if begins is None:
         return "no slip surface weakened"
-    return "the shear force did not fall by 90 %"
+    return f"the shear force{f' on {surface}' * bool(surface)} did not fall by 90 %"
 
 
 def _of_run(series, section, state, scale):
@@ -144,9 +153,10 @@ def _of_run(series, section, state, scale):
     if times["t0"] is None or times["t2"] is None:
         return times | {"t2": None}
     times["t1"] = _failure(series, scale, times["t0"], times["t2"])
-    begins, triggered = weakening_begins(series, section, state), _row(series, times["t2"])
+    (begins, surface), triggered = _weakening(series, section, state), _row(series, times["t2"])
     if begins is not None:
-        shear = _means(series, "dp_shear_N_per_m", scale.mean_seconds)
+        name = "dp_shear_N_per_m"
+        shear = _means(series, stacks.column(name, surface) if surface else name, scale.mean_seconds)
         late = series["time_s"] >= max(times["t2"], begins) - SAME
         fallen = np.flatnonzero(late & (shear <= FALLEN * shear[triggered]))
         times["t3"] = float(series["time_s"][fallen[0]]) if len(fallen) else None
@@ -155,12 +165,24 @@ def _of_run(series, section, state, scale):
 
 def weakening_begins(series, section, state) -> float | None:
     """When the slip surfaces begin to weaken [s], see above; None where they do not, and for a slope that failed dry. Arguments as of :func:`of_run`."""
+    return _weakening(series, section, state)[0]
+
+
+def _weakening(series, section, state):
+    """When weakening begins [s], and along which slip surface, its name, of those one above another; None for what there is not."""
     if state.get("failed_dry") is not None or state["t0"] is None:
-        return None
-    length = float(sum(np.hypot(*np.diff(points, axis=0).T).sum() for _, points in section.slip_surfaces))
-    enough = max(1.0, WEAKENED * length / math.sqrt(section.disks.mean_square))
-    late = np.flatnonzero((series["weakened_disks"] >= enough) & (series["time_s"] >= state["t0"]))
-    return float(series["time_s"][late[0]]) if len(late) else None
+        return None, None
+    name, lines = "weakened_disks", dict(section.slip_surfaces)
+    # a series of a version before has no columns of each
+    apart = [one for one in section.stacked if stacks.column(name, one) in series]
+    kinds = [(one, stacks.column(name, one), [lines[one]]) for one in apart] or [(None, name, lines.values())]
+    found = []
+    for surface, column, points in kinds:
+        length = float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in points))
+        enough = max(1.0, WEAKENED * length / math.sqrt(section.disks.mean_square))
+        late = np.flatnonzero((series[column] >= enough) & (series["time_s"] >= state["t0"]))
+        found += [(float(series["time_s"][late[0]]), surface)] if len(late) else []
+    return min(found, key=lambda one: one[0], default=(None, None))
 
 
 def _row(series, time):

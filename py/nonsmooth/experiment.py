@@ -35,6 +35,7 @@ from . import (
     section_data,
     slope,
     slope_packing,
+    stacks,
     tables,
 )
 from .course import State
@@ -97,10 +98,14 @@ class Experiment:
         # disks of the mass, where others are bed or obstacles
         mass = np.array([layer.role == "mass" for layer in self.section.layers])
         self.mass = None if mass.all() else mass[self.layers]
+        # disks whose water slip surfaces bear: the lowest of them; and in part, each that has columns of its own
+        self.borne = None if self.section.borne.all() else self.section.borne[self.layers]
+        self.borne_by = {name: self.section.borne_by(name)[self.layers] for name in self.section.stacked}
         self.stands = False  # see run
         self.runner = None  # see attach
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
+        self.columns += stacks.own_columns(self.section.stacked)
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
@@ -411,14 +416,11 @@ class Experiment:
 
     def _row(self, disks):
         e, water, section = self.slope.solver, self.slope.water, self.section
-        forces = self.walls.take()
+        forces, of_surfaces = self.walls.take()
         dp, fb, ss = forces["slip"], forces["backstop"], forces["ground"]
         total = water.totalForce if water else (0.0, 0.0, 0.0)
-        u = (
-            (total[0] * section.water.normal[0] + total[1] * section.water.normal[1]) * self._share_of_mass(disks)
-            if water
-            else 0.0
-        )
+        lift = total[0] * section.water.normal[0] + total[1] * section.water.normal[1] if water else 0.0
+        u = lift * self._share(disks, self.borne) if water else 0.0
         slip, (x, y) = self.walls.slip(), self._centroid(disks)
         row = {
             "step": O.iter,
@@ -456,14 +458,23 @@ class Experiment:
             "energy_kinetic_J": e.kineticEnergy,
             "energy_potential_J": e.potentialEnergy,
         }
+        for name, force in of_surfaces.items():
+            share = lift * self._share(disks, self.borne_by[name]) if water else 0.0
+            row |= self._of_surface(name, force, share)
         return row | self._of_solver(e) if self.hard else row
 
-    def _share_of_mass(self, t):
-        """The part of the water's force that acts on the mass: forces go with areas."""
-        if self.mass is None:
+    def _of_surface(self, name, force, u):
+        """The columns of one of several slip surfaces one above another: its normal and shear force and peak, and the water's on what it bears [N/m]."""
+        slip = self.walls.slip(name)
+        values = (force[0] + u, force[0], u, force[1], force[2], slip.mean, slip.weakened)
+        return {stacks.column(column, name): value for column, value in zip(stacks.OWN, values, strict=True)}
+
+    def _share(self, t, part):
+        """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None: all). Forces go with areas."""
+        if part is None:
             return 1.0
         wet = tables.water(self.slope.water, self.slope.first_disk, self.slope.count)[0] * t["r"] ** 2
-        return float(wet[self.mass].sum() / wet.sum()) if wet.any() else 0.0
+        return float((wet[part] if part.dtype == bool else wet * part).sum() / wet.sum()) if wet.any() else 0.0
 
     def _of_solver(self, e):
         """The columns of OF_SOLVER."""

@@ -27,7 +27,7 @@ class Frames:
 
     def __init__(self, folder, section, series=None, state=None):
         self.folder, self.section = Path(folder) / FOLDER, section
-        self._rows = {name: array("d") for name in characteristic_times.COLUMNS}
+        self._rows = {name: array("d") for name in characteristic_times.columns(section)}
         self._extra, self._wanted, self._saved = (
             set(),
             set(),

@@ -101,7 +101,7 @@ def _passive(section, packing_fraction, water, force):
 
 def _force_stages(series, section, times, second, leans):
     """The numbers of :mod:`.measure.force_stages`."""
-    frictions = {section.materials[surface.material].friction for surface in section.sliding}
+    frictions = {section.materials[surface.material].friction for surface in section.lowest_surfaces}
     friction = frictions.pop() if len(frictions) == 1 else None
     found = force_stages.statements(
         series, times, friction, lambda name, end: mean_of(series, name, end, second), backstop=leans

@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from . import checks, free_surface, geometry, roles, section_data, section_values
+from . import checks, free_surface, geometry, roles, section_data, section_values, stacks
 from .section_parts import (
     Disks,
     End,
@@ -172,6 +172,35 @@ class Section:
     def slip_surfaces(self) -> tuple[tuple[str, np.ndarray], ...]:
         """Name and line (n, 2) [m] of each slip surface, in the order of :attr:`sliding`."""
         return tuple((one.name, one.points if isinstance(one, Wall) else self.line_of(one)) for one in self.sliding)
+
+    @cached_property
+    def slip_levels(self) -> dict[str, int]:
+        """How many slip surfaces lie below each, by its name, see :mod:`.stacks`; 0 for all where they lie side by side."""
+        return dict(zip((name for name, _ in self.slip_surfaces), stacks.levels([p for _, p in self.slip_surfaces])))
+
+    @property
+    def lowest_surfaces(self) -> tuple[Wall | Interface, ...]:
+        """The slip surfaces with no other below, which bear the mass between them."""
+        return tuple(one for one in self.sliding if self.slip_levels[one.name] == 0)
+
+    @property
+    def stacked(self) -> tuple[str, ...]:
+        """Names of all slip surfaces where some lie one above another, and each has columns of its own; empty where they lie side by side."""
+        return tuple(self.slip_levels) if any(self.slip_levels.values()) else ()
+
+    def borne_by(self, surface: str) -> np.ndarray:
+        """The part of each layer of the mass that lies above a slip surface, (layers,); 0 for beds and obstacles. What the only one below all others bears is :attr:`borne`."""
+        if [one.name for one in self.lowest_surfaces] == [surface]:
+            return self.borne.astype(float)
+        part = stacks.part_beside([layer.polygon for layer in self.layers], [dict(self.slip_surfaces)[surface]])
+        return np.where([layer.role == "mass" for layer in self.layers], part, 0.0)
+
+    @property
+    def borne(self) -> np.ndarray:
+        """Whether the lowest slip surfaces bear each layer, bool (layers,): those of the mass that do not lie below them."""
+        lines = [dict(self.slip_surfaces)[one.name] for one in self.lowest_surfaces]
+        below = stacks.part_beside([layer.polygon for layer in self.layers], lines, above=False)
+        return np.array([layer.role == "mass" for layer in self.layers]) & (below < 0.5)
 
     @property
     def critical_slips(self) -> dict[str, float]:

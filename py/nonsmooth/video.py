@@ -1,12 +1,13 @@
 """A video of the avalanche from its snapshots (Animation S1 of the paper), by matplotlib and ffmpeg."""
 
+import itertools
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 from matplotlib.patches import Patch
 
-from . import film
+from . import film, stacks
 from .figures import style
 from .measure.ground import ground_of
 from .records import RecordsError, read_snapshot
@@ -58,7 +59,18 @@ class _Frames(film.Stage):
         self.fig.legend(handles=handles, loc="upper right", ncol=3, fontsize=12, handlelength=1.2, columnspacing=1.3)
 
     def _forces(self, series, times, window):
-        drawn = [one for one in FORCES if self.slope.of_role(one[3])]
+        drawn = [
+            (name, letter, meaning, self.slope.name(role), style.LINES[colour])
+            for name, letter, meaning, role, colour in FORCES
+            if self.slope.of_role(role)
+        ]
+        own = [
+            (stacks.column("dp_shear_N_per_m", wall), "T", "shear force", wall, colour)
+            for wall, colour in zip(self.slope.stacked, itertools.cycle(style.STACKED))
+        ]
+        # slip surfaces one above another: the shear force on each, and none on all of them
+        if own and all(name in series for name, *_ in own):
+            drawn = own + [one for one in drawn if not one[0].startswith("dp_")]
         time, *forces = style.need(series, "time_s", *(name for name, *_ in drawn))
         newtons, unit = style.force_unit(max(np.abs(force).max() for force in forces))
         ax = self.fig.add_axes([0.06, 0.085, 0.68, 0.225])
@@ -66,13 +78,12 @@ class _Frames(film.Stage):
         style.shade_phases(ax, times)
         style.mark_times(ax, times, gap=0.03)
         late = style.known_times(times).get("t3", np.inf)
-        for (_, letter, meaning, role, colour), force in zip(drawn, forces):
+        for (_, letter, meaning, name, colour), force in zip(drawn, forces):
             smooth = np.where(time > late, style.running_mean(time, force, window), force) / newtons
-            name = self.slope.name(role)
             ax.plot(
                 time,
                 smooth,
-                color=style.LINES[colour],
+                color=colour,
                 label=f"{style.symbol(letter, name)}  {meaning} on {style.plain(name)}",
             )
         ax.axhline(0, color="#555555", lw=0.7)

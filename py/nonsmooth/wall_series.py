@@ -35,6 +35,9 @@ class WallSeries:
         section = built.section
         self._slope, self._side = built, section.side
         self._of_role = {role: [wall.name for wall in section.of_role(role)] for role in roles.ROLES}
+        # of slip surfaces one above another the sum is over the lowest: the others bear the same weight again
+        self._lowest = [one.name for one in section.lowest_surfaces]
+        self._of_role["slip"] = [name for name in self._of_role["slip"] if name in self._lowest]
         # a role that several walls share has a sum, and a peak, of its own
         shared = {
             (role,): [i for name in names for i in built.walls[name]]
@@ -59,7 +62,7 @@ class WallSeries:
 
     def take(self):
         """Writes the rows of the time since the last call. Returns {role: (normal force, shear force where walls hold the mass back, peak of the normal force)}
-        [N/m], zero where no wall, and no interface, has that role."""
+        [N/m], zero where no wall, and no interface, has that role; and the same of each slip surface, {name: …}, where some lie one above another."""
         forces = {
             name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()
         }
@@ -77,14 +80,14 @@ class WallSeries:
             for role, names in self._of_role.items()
         }
         for interface, *_ in self._interfaces:
-            if interface.role == "slip":
+            if interface.role == "slip" and interface.name in self._lowest:
                 found["slip"] = tuple(a + b for a, b in zip(found["slip"], inside[interface.name]))
-        return found
+        return found, {name: rows[name] for name in self._slope.section.stacked}
 
-    def slip(self):
-        """The Slip of disks along all slip surfaces."""
+    def slip(self, *names):
+        """The Slip of disks along slip surfaces of these names, the lowest where none is given."""
         laws = self._laws()
-        return _slip([laws[one.name] for one in self._slope.section.sliding])
+        return _slip([laws[name] for name in names or self._lowest])
 
     def weakened(self):
         """Whether the disks' slip along each wall and interface that weakens has passed D_c, as :attr:`.section.Section.weakening` has them: bool (count, number of those)."""

@@ -153,6 +153,41 @@ def test_an_interface_is_a_slip_surface_like_a_wall(tmp_path):
     again.series.close()
 
 
+def test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight(tmp_path):
+    """At rest and wet, whatever the table: N of the plane is the weight of both layers, N of the joint that of the upper one, and dp_… are those of the plane alone."""
+
+    def change(data):
+        data.update(joint(name="joint", role="slip"), materials=data["materials"])
+        data["materials"] |= {"joint": {"bonded": False, "friction": 2.0, "rolling_friction": 0.1}}
+        data["materials"]["dp"]["friction"], data["materials"]["rock"]["tensile_strength"] = 2.0, 1e6
+        data["water"] |= {"table": {"points": [[0.0, 0.0], [0.5, 6.0]]}, "volume": "disk"}
+        data["stages"] |= {"water": {"hold": "never"}}
+
+    made = section.load(str(write_changed(tmp_path, change)))
+    assert made.stacked == ("DP", "joint")
+    course, series, _ = run(made, tmp_path / "out", 3.0)
+    walls = records.read_walls(tmp_path / "out" / "walls.csv")
+    packed = packing.cached_pack(made)
+    area = [math.pi * np.sum(packed.r[packed.layer == k] ** 2) for k in (0, 1)]
+    beta = math.radians(made.dip)
+    for name, of in (("DP", sum(area)), ("joint", area[1])):
+        total, effective, water, shear = (series[f"dp_{what}_N_per_m:{name}"] for what in ("normal_total", "normal_effective", "water", "shear"))
+        mine = walls["wall"] == name
+        assert np.array_equal(effective, walls["normal_N_per_m"][mine]) and np.array_equal(shear, walls["shear_N_per_m"][mine])
+        assert np.array_equal(total, effective + water)
+        # all disks are wet: γ_w cos β on the area of what lies above
+        assert series["wet_disks"][-1] == len(packed.r)
+        assert water[-1] == pytest.approx(9810 * math.cos(beta) * of, rel=1e-5)  # digits of the vertices
+        # dry and wet: the weight, less what the backstop bears by its friction, which stands across the plane
+        for row in (np.argmax(series["stage"] == 2), -1):
+            held = -series["fb_shear_N_per_m"][row] if name == "DP" else 0.0
+            # 0.5 % rests on the backstop's upper end, and is the motion that is left
+            assert total[row] + held == pytest.approx(2500 * 9.81 * math.cos(beta) * of, rel=0.01)
+    for name in ("dp_normal_total_N_per_m", "dp_water_N_per_m", "dp_shear_N_per_m", "dp_normal_peak_N_per_m", "slip_mean_dp_m", "weakened_disks"):
+        assert np.array_equal(series[name], series[f"{name}:DP"])
+    assert course.section.lowest_surfaces == (course.section.wall("DP"),)
+
+
 @pytest.mark.parametrize(
     "changes, key, remedy",
     [

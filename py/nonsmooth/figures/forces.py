@@ -1,10 +1,13 @@
 """Forces: the chains in the slope at rest (Figure 8) and the sums on its walls against time (Figure 12)."""
 
+import itertools
+
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon, Rectangle
 
+from .. import stacks
 from ..measure.ground import ground_of
 from . import given, style
 from .style import COMPRESSION, INK, LINES, TENSION
@@ -174,9 +177,18 @@ def _limits(curves, shown):
     return low - pad, high + pad
 
 
-def _sketch(ax, side, name, back, wet, rise=None):
+def _own(series, ground):
+    """(name, total normal force, effective one, shear force [N/m]) of each slip surface where some lie one above another; empty where none do, and for a series without columns of each."""
+    names = ("dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_shear_N_per_m")
+    columns = {wall: [stacks.column(name, wall) for name in names] for wall in ground.stacked}
+    if not all(column in series for of in columns.values() for column in of):
+        return []
+    return [(wall, *style.need(series, *of)) for wall, of in columns.items()]
+
+
+def _sketch(ax, side, name, back, wet, rise=None, coloured=True):
     """What the symbols mean: a slope with the forces its walls exert (the inset of Figure 12); ``back``: name of the backstop, empty where there is none; ``rise``: of a water table
-    that is a plane of its own, over its way down the slope, 0 where it is level. Names that are no index have no room.
+    that is a plane of its own, over its way down the slope, 0 where it is level; ``coloured``: whether a colour is a force's. Names that are no index have no room.
     """
     symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(
         style.symbol(letter, of)
@@ -199,19 +211,20 @@ def _sketch(ax, side, name, back, wet, rise=None):
         water = np.array([[begin, low + rise * begin], [end, low + rise * end]])
         ax.plot(*at(water).T, color=style.WATER, lw=1.2, ls=(0, (4, 2)))
         ax.text(*at(water[1] + (0.35, 0.75)), "$h_w$", color=style.WATER, ha="center", va="center", fontsize=9)
+    blue, orange = (LINES[colour] if coloured else INK for colour in ("blue", "orange"))
     arrow = {"arrowstyle": "-|>", "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
     normal, down = np.array([0.358, 0.934]), np.array([0.934, -0.358])
     middle = np.array([-5.2, 5.2 * slope])
-    ax.annotate("", at(middle), at(middle - 2.0 * normal), arrowprops={**arrow, "color": LINES["blue"]})
-    ax.text(*at(middle - 2.6 * normal), symbol("N", name), ha="center", va="center", color=LINES["blue"], fontsize=9.5)
+    ax.annotate("", at(middle), at(middle - 2.0 * normal), arrowprops={**arrow, "color": blue})
+    ax.text(*at(middle - 2.6 * normal), symbol("N", name), ha="center", va="center", color=blue, fontsize=9.5)
     start = middle + 2.4 * down - 0.32 * normal
-    ax.annotate("", at(start - 1.9 * down), at(start), arrowprops={**arrow, "color": LINES["orange"]})
+    ax.annotate("", at(start - 1.9 * down), at(start), arrowprops={**arrow, "color": orange})
     ax.text(
         *at(start + 0.1 * down - 0.75 * normal),
         symbol("T", name),
         ha=after,
         va="center",
-        color=LINES["orange"],
+        color=orange,
         fontsize=9.5,
     )
     if back:
@@ -231,7 +244,7 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     with such ``times``; missing ones are left out. ``walls``: see :mod:`nonsmooth.figures`; without them, they have the paper's names. (a) normal force on the slip
     surfaces (DP): total, effective, water, and the height of
     the water table (right axis); (b) shear force on them, normal force on the backstops (FB), and their changes since t0. What a slope has not, a backstop or
-    water, is left out. On the left
+    water, is left out. Of slip surfaces one above another, which bear the same weight, each has lines of its own, without changes. On the left
     the whole run, on the right the failure and triggering alone (when t1 and t3 are known). Lines are means over
     ``window`` [s] once the avalanche moves (from t3), every value is drawn pale behind. ``verdict``: what became of the slope, in words.
     """
@@ -247,7 +260,9 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     name, rest = (SKETCHED[role] if ground is None else ground.name(role) for role in ("slip", "backstop"))
     base = SKETCHED["slip"] if ground is None else ground.base
     wet = bool(np.any(water > 0) or np.any(pore))
-    newtons, unit = style.force_unit(max(np.abs(values).max() for values in (total, shear, back)))
+    own = [] if ground is None else _own(series, ground)
+    largest = max(np.abs(values).max() for values in (total, shear, back, *(force for one in own for force in one[1:])))
+    newtons, unit = style.force_unit(largest)
 
     def curve(values):
         values = values / newtons
@@ -255,19 +270,28 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
 
     of = style.symbol
     effect, change, push, push_change = of("N'", name), of(r"\Delta T", name), of("N'", rest), of(r"\Delta N'", rest)
-    normal = [
-        (f"{of('N', name)}  total", curve(total), "blue", "-"),
-        (f"{effect}  effective", curve(effective), "orange", "-"),
-        (f"{of('U', name)}  water pressure", curve(pore), "sky", "-"),
-    ] if wet else [(f"{of('N', name)}  normal on {style.plain(name)}", curve(total), "blue", "-")]  # fmt: skip
     dashed = (0, (3, 1.2))
-    other = [
-        (f"{of('T', name)}  shear on {style.plain(name)}", curve(shear), "orange", "-"),
-        (f"{change}  since $t_0$", curve(shear - shear[start]), "orange", dashed),
-    ]
-    if rest:
-        other.insert(1, (f"{push}  normal on {style.plain(rest)}", curve(back), "green", "-"))
-        other.append((f"{push_change}  since $t_0$", curve(back - back[start]), "green", dashed))
+    if own:
+        colours = dict(zip((one[0] for one in own), itertools.cycle(style.STACKED)))
+        of_wall = lambda letter, wall, what: f"${letter}$  {what} on {style.plain(wall)}"  # noqa: E731
+        normal = [(of_wall("N", wall, "total"), curve(force), colours[wall], "-") for wall, force, _, _ in own]
+        normal += [(of_wall("N'", wall, "effective"), curve(force), colours[wall], dashed) for wall, _, force, _ in own if wet]
+        other = [(of_wall("T", wall, "shear"), curve(force), colours[wall], "-") for wall, _, _, force in own]
+        if rest:
+            other.append((of_wall("N'", rest, "normal"), curve(back), LINES["green"], "-"))
+    else:
+        normal = [
+            (f"{of('N', name)}  total", curve(total), LINES["blue"], "-"),
+            (f"{effect}  effective", curve(effective), LINES["orange"], "-"),
+            (f"{of('U', name)}  water pressure", curve(pore), LINES["sky"], "-"),
+        ] if wet else [(f"{of('N', name)}  normal on {style.plain(name)}", curve(total), LINES["blue"], "-")]  # fmt: skip
+        other = [
+            (f"{of('T', name)}  shear on {style.plain(name)}", curve(shear), LINES["orange"], "-"),
+            (f"{change}  since $t_0$", curve(shear - shear[start]), LINES["orange"], dashed),
+        ]
+        if rest:
+            other.insert(1, (f"{push}  normal on {style.plain(rest)}", curve(back), LINES["green"], "-"))
+            other.append((f"{push_change}  since $t_0$", curve(back - back[start]), LINES["green"], dashed))
     spans = [(time[0], max(time[-1], time[0] + 1e-9))]
     if "t1" in t and "t3" in t:
         d = max(t["t3"] - t["t1"], 0.03 * (spans[0][1] - spans[0][0]), 1e-9)
@@ -278,7 +302,7 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     fig.text(
         0.062,
         0.975,
-        f"Forces on {style.plain(name)} (slip surface)" + f" and {style.plain(rest)} (backstop)" * bool(rest),
+        f"Forces on {style.plain(name)} (slip surface{'s, each for itself' if own else ''})" + f" and {style.plain(rest)} (backstop)" * bool(rest),
         fontsize=13,
         va="top",
     )
@@ -287,7 +311,9 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
         if "t3" in t else "Every value is shown.") + (f" {verdict[0].upper()}{verdict[1:]}." if verdict else ""), fontsize=9.5, color="#555555", va="top",
     )  # fmt: skip
     rise = None if ground is None or ground.table_slope is None else ground.side * ground.table_slope
-    _sketch(fig.add_axes([0.71, 0.865, 0.23, 0.135]), 1.0 if ground is None else ground.side, name, rest, wet, rise)
+    _sketch(
+        fig.add_axes([0.71, 0.865, 0.23, 0.135]), 1.0 if ground is None else ground.side, name, rest, wet, rise, not own
+    )
     legend = []
     for column, (span, left, width) in enumerate(zip(spans, lefts, widths)):
         strip = fig.add_axes([left, 0.795, width, 0.03])
@@ -302,9 +328,9 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
             for label, (raw, mean), colour, dash in lines:
                 late = time > moving
                 if "since" not in label:  # the changes have the same scatter
-                    ax.plot(time[late], raw[late], color=LINES[colour], lw=0.5, alpha=0.25, zorder=2)
-                wide = 3.2 if "total" in label else 1.5  # seen behind the effective force where they are equal
-                ax.plot(time, mean, color=LINES[colour], ls=dash, lw=wide, label=label, zorder=3 + (wide < 2))
+                    ax.plot(time[late], raw[late], color=colour, lw=0.5, alpha=0.25, zorder=2)
+                wide = 3.2 if "total" in label and not own else 1.5  # seen behind the effective force where they are equal
+                ax.plot(time, mean, color=colour, ls=dash, lw=wide, label=label, zorder=3 + (wide < 2))
             ax.set_ylim(_limits([c for _, c, _, _ in lines], slice(None)))
             ax.axhline(0, color="#555555", lw=0.7, zorder=1.5)
             if column == 0:

@@ -34,6 +34,9 @@ LINES = {
     "grey": "#777777",
 }
 
+# of slip surfaces one above another; green is the backstop's
+STACKED = [LINES[name] for name in ("blue", "orange", "purple", "sky", "grey")]
+
 RC = {
     "font.size": 9.5, "axes.titlesize": 10.5, "axes.labelsize": 9.5, "legend.fontsize": 9, "axes.edgecolor": "#555555",
     "axes.linewidth": 0.7, "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.5,

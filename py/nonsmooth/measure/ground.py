@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import UserError
+from .. import stacks
 from ..roles import chord
 
 __all__ = ["Ground", "GroundError", "Wall", "ground_of"]
@@ -49,6 +50,12 @@ class Ground:
     def name(self, role):
         """The names of the walls of a role, joined; empty where there are none."""
         return ", ".join(wall.name for wall in self.of_role(role))
+
+    @property
+    def stacked(self):
+        """Names of all slip surfaces where some lie one above another, see :mod:`..stacks`; empty where they lie side by side."""
+        slip = self.of_role("slip")
+        return tuple(wall.name for wall in slip) if any(stacks.levels([wall.vertices for wall in slip])) else ()
 
     @property
     def foot(self):

@@ -15,28 +15,29 @@ def _count(description):
     return Column("1", description, True)
 
 
-#: The known columns: name -> (unit, description, integer). A series may hold others; these are documented.
+#: The known columns: name -> (unit, description, integer). A series may hold others; these are documented. Where slip surfaces lie one above another, each has some of them for
+#: itself, see :mod:`.stacks`.
 COLUMNS = {
     "step": _count("number of the time step, strictly increasing"),
     "time_s": Column("s", "simulated time"),
     "stage": _count("stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
     "water_m": Column("m", "height of the water table above its plane (DP), h_w"),
     "dp_normal_total_N_per_m": Column(
-        "N/m", "total normal force on the slip surfaces (DP), N_DP = N'_DP + U_DP, mean over the row"
+        "N/m", "total normal force on the lowest slip surfaces (DP), those with no other below, N_DP = N'_DP + U_DP, mean over the row"
     ),
     "dp_normal_effective_N_per_m": Column(
-        "N/m", "effective (contact) normal force on the slip surfaces, N'_DP, mean over the row"
+        "N/m", "effective (contact) normal force on the lowest slip surfaces, N'_DP, mean over the row"
     ),
-    "dp_water_N_per_m": Column("N/m", "force of the pore water normal to its plane, U_DP"),
+    "dp_water_N_per_m": Column("N/m", "force of the pore water on what these bear, normal to its plane, U_DP"),
     "dp_shear_N_per_m": Column(
         "N/m",
-        "shear force on the slip surfaces, T_DP, mean over the row; positive when the wall resists downslope motion",
+        "shear force on the lowest slip surfaces, T_DP, mean over the row; positive when the wall resists downslope motion",
     ),
     "fb_normal_N_per_m": Column("N/m", "normal force on the backstops (FB), N'_FB, mean over the row; 0 without one"),
     "fb_shear_N_per_m": Column("N/m", "shear force on the backstops, mean over the row"),
     "ss_normal_N_per_m": Column("N/m", "normal force on the walls that are ground (SS), mean over the row"),
     "ss_shear_N_per_m": Column("N/m", "shear force on the walls that are ground, mean over the row"),
-    "dp_normal_peak_N_per_m": Column("N/m", "largest effective normal force on the slip surfaces in a step of the row"),
+    "dp_normal_peak_N_per_m": Column("N/m", "largest effective normal force on the lowest slip surfaces in a step of the row"),
     "fb_normal_peak_N_per_m": Column("N/m", "largest normal force on the backstops in a step of the row"),
     "ss_normal_peak_N_per_m": Column("N/m", "largest normal force on the walls that are ground in a step of the row"),
     "wet_disks": _count("disks that feel pore pressure"),
@@ -52,7 +53,7 @@ COLUMNS = {
     "bonds_broken_torque": _count("bonds broken by rolling so far"),
     "bonds_broken_mixed": _count("bonds broken in several modes at once so far"),
     "contacts": _count("contacts, bonded ones included"),
-    "slip_mean_dp_m": Column("m", "mean cumulated slip of the disks that touch slip surfaces which weaken"),
+    "slip_mean_dp_m": Column("m", "mean cumulated slip of the disks that touch those of the lowest slip surfaces which weaken"),
     "weakened_disks": _count("disks whose slip on one of them has passed the critical slip D_c"),
     "iterations": _count("sweeps of the contact solver in the step"),
     "residual": Column("1", "residual of the contact solver at the end of the step"),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..stacks import stem
 from .columns import COLUMNS, WALL_COLUMNS
 from .. import checks
 from .error import RecordsError
@@ -19,7 +20,7 @@ def _encode(name, value):
         return ""
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"' if set(value) & set(',"') else value
-    known = COLUMNS.get(name) or WALL_COLUMNS.get(name)
+    known = COLUMNS.get(stem(name)) or WALL_COLUMNS.get(name)
     integer = known.integer if known else isinstance(value, (bool, int, np.integer, np.bool_))
     if integer:
         if float(value) != int(value):
@@ -251,7 +252,8 @@ def read_series(path):
     rows = [_parse_row(path, number, line, columns) for number, line in enumerate(lines[1:], start=2)]
     series = {}
     for name, values in zip(columns, zip(*rows) if rows else [()] * len(columns)):
-        integer = COLUMNS[name].integer if name in COLUMNS else bool(values) and all(type(v) is int for v in values)
+        known = COLUMNS.get(stem(name))
+        integer = known.integer if known else bool(values) and all(type(v) is int for v in values)
         series[name] = np.array(values, dtype=np.int64 if integer else np.float64)
     return series
 
