@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Finds contact parameters of a granular rock for a wanted cohesion and angle of friction.
 
-  scripts/calibrate.py --cohesion KPA --friction DEG [--residual-cohesion KPA --residual-friction DEG] [--quick] --out material.yaml
+  scripts/calibrate.py --cohesion PA --friction DEG [--residual-cohesion PA --residual-friction DEG] [--quick] --out material.yaml
 
 It says first how long it takes. Where c and φ are within the table of calibrated rocks, a section may ask for them straight, without a search:
 materials.NAME: {cohesion: PA, friction_angle: DEG}.
@@ -22,13 +22,16 @@ from yade.nonsmooth.laboratory import arguments, calibration, materials
 from yade.nonsmooth.whole_files import write_json
 
 
+WEAKEST = 1000.0  # Pa; a smaller cohesion is one in kPa
+
+
 def read_arguments():
     parser = argparse.ArgumentParser(prog="calibrate.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--cohesion", type=float, required=True, metavar="KPA", help="wanted peak cohesion [kPa]")
+    parser.add_argument("--cohesion", type=float, required=True, metavar="PA", help="wanted peak cohesion [Pa]")
     parser.add_argument(
         "--friction", type=float, required=True, metavar="DEG", help="wanted peak angle of friction [°]"
     )
-    parser.add_argument("--residual-cohesion", type=float, metavar="KPA", help="wanted residual cohesion [kPa]")
+    parser.add_argument("--residual-cohesion", type=float, metavar="PA", help="wanted residual cohesion [Pa]")
     parser.add_argument("--residual-friction", type=float, metavar="DEG", help="wanted residual angle of friction [°]")
     parser.add_argument(
         "--start", default="wwr", metavar="NAME|FILE", help="material whose other parameters are kept (default: wwr)"
@@ -74,6 +77,13 @@ def read_arguments():
     for name in ("cohesion", "friction"):
         if not getattr(args, name) > 0:
             parser.error(f"--{name} {getattr(args, name):g}: it must be positive")
+    for name in ("cohesion", "residual_cohesion"):
+        value, option = getattr(args, name), f"--{name.replace('_', '-')}"
+        if value is not None and 0 < value < WEAKEST:
+            parser.error(
+                f"{option} {value:g}: it is in Pa, as in sections, and {value:g} kPa are {1e3 * value:g}. For a rock that is so weak ask for a thousand times as much, and give "
+                "a thousandth of its tensile strengths: strengths go with the cohesion"
+            )
     low, high = rocks.REACHED
     if not low < args.friction < high:
         parser.error(
@@ -93,16 +103,16 @@ def read_arguments():
 def main():
     args, began = read_arguments(), time.monotonic()
     residual = (
-        (1e3 * args.residual_cohesion, args.residual_friction) if args.residual_friction is not None else (None, None)
+        (args.residual_cohesion, args.residual_friction) if args.residual_friction is not None else (None, None)
     )
-    wanted = calibration.Wanted(1e3 * args.cohesion, args.friction, *residual)
+    wanted = calibration.Wanted(args.cohesion, args.friction, *residual)
     path = Path(args.out)
     work = path.with_name(path.stem + "-calibration")
     output_folder.claim(work, "calibrate.py", args.resume)
     say = lambda text: print(f"{text} ({time.monotonic() - began:.0f} s)", flush=True)  # noqa: E731
     with arguments.bar() as progress:
         search = calibration.Calibration(
-            wanted, materials.load(args.start), work, args.threads, say, args.resume, progress
+            wanted, materials.load(args.start, "--start"), work, args.threads, say, args.resume, progress
         )
         kinds = [(args.coarse, args.seeds)] if args.quick else [(args.coarse, args.seeds), (args.fine, args.seeds)]
         best, report = search.run(*kinds, **({"trials": (calibration.QUICK_TRIALS, 0)} if args.quick else {}))
@@ -118,11 +128,11 @@ def main():
     materials.save(
         dataclasses.replace(best, envelope=measured),
         path,
-        f"Calibrated by scripts/calibrate.py{' --quick' if args.quick else ''} for c = {args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
+        f"Calibrated by scripts/calibrate.py{' --quick' if args.quick else ''} for c = {1e-3 * args.cohesion:g} kPa, φ = {args.friction:g}°.\n"
         f"{samples[0].upper()}{samples[1:]} gave {told[0]}, {told[1]} (95 %, from the scatter of such samples).",
     )
     print(
-        f"{path}: {told[0]} (wanted {args.cohesion:g}), {told[1]} (wanted {args.friction:g}), 95 % from the scatter of {samples}; report: {work}/report.json"
+        f"{path}: {told[0]} (wanted {1e-3 * args.cohesion:g}), {told[1]} (wanted {args.friction:g}), 95 % from the scatter of {samples}; report: {work}/report.json"
     )
     if args.quick:
         print("a quick search; without --quick samples are larger, and the report says how unique the answer is")

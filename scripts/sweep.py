@@ -93,7 +93,7 @@ def main():
         campaign.run_one(args.out, args.run if args.run is not None else args.number)
         return
     if args.collect:
-        show(campaign.collect(args.out), args.out, args.draw)
+        show(campaign.collect(args.out), args.out, args.draw, campaign.results_of(campaign.read(args.out)))
         return
     over = dict(args.over)
     if len(over) < len(args.over):
@@ -101,10 +101,9 @@ def main():
     if args.draw:
         key_of(over)  # before anything runs
     plan = campaign.sweep(section_arguments.read(args), over, end=args.end, figures=args.figures)
-    for note in plan.notes[:NOTES]:
-        print(note)
-    if len(plan.notes) > NOTES:
-        print(f"and so for {len(plan.notes) - NOTES} more of the runs")
+    known = campaign.results_of(plan)
+    check_drawn(args.draw, known, args.section)
+    print_notes(plan.notes)
     if args.plan:
         plan.write(args.out)
         print(f"{len(plan.runs)} runs planned in {args.out}: snakemake --cores N, or sbatch array.sh, in that folder")
@@ -115,7 +114,32 @@ def main():
             progress(share, f"{ended} of {len(plan.runs)} runs")
 
         table = plan.run(args.out, args.threads, args.resume, told)
-    show(table, args.out, args.draw)
+    show(table, args.out, args.draw, known)
+
+
+def print_notes(notes):
+    """The notes of the first runs, some lines; of the other runs how many there are. A note begins with the name of its run."""
+    of_runs = {}
+    for note in notes:
+        of_runs.setdefault(note.partition(":")[0], []).append(note)
+    shown = 0
+    for k, lines in enumerate(of_runs.values()):
+        if shown and shown + len(lines) > NOTES:
+            print(f"and so for {len(of_runs) - k} more of the runs")
+            return
+        shown += len(lines)
+        print("\n".join(lines))
+
+
+def check_drawn(drawn, known, place):
+    """Raises PlanError for a name in ``drawn`` that is none of the ``known`` results (None: they are not known)."""
+    for name in (drawn or ()) if known is not None else ():
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 3)
+            raise campaign.PlanError(
+                f"--draw {name}: no result is called so; "
+                + (f"did you mean {' or '.join(map(repr, near))}?" if near else f"there are {', '.join(known)}, in {place}")
+            )
 
 
 def key_of(varied):
@@ -126,21 +150,16 @@ def key_of(varied):
     return key
 
 
-def show(table, out, drawn):
-    """The varied values and some results, and a figure of those that are ``drawn``; all are in the file."""
+def show(table, out, drawn, known=None):
+    """The varied values and some results, and a figure of those that are ``drawn``; all are in the file. ``known``: names of results, which a table lacks where no run has a value."""
+    absent = {name: [None] * len(table["run"]) for name in drawn or () if name not in table and name in (known or ())}
     varied = list(campaign.read(out).runs[0].values)
     names = [*varied, *(name for name in SHOWN if name in table)]
     print(tabulate({name: table[name] for name in names}, headers="keys", floatfmt=".4g"))
     made = f"results: {out}/table.csv, runs/*/summary.json"
     if drawn:
-        rows = campaign.means(table, varied)
-        for name in drawn:
-            if name not in rows[0]["numbers"]:
-                near = difflib.get_close_matches(name, rows[0]["numbers"], 1)
-                raise campaign.PlanError(
-                    f"--draw {name}: no result is called so; "
-                    + (f"did you mean {near[0]!r}?" if near else f"they stand in {out}/table.csv")
-                )
+        rows = campaign.means(table | absent, varied)
+        check_drawn(drawn, list(rows[0]["numbers"]), f"{out}/table.csv")
         figures.means(rows, key_of(varied), drawn, Path(out) / "means.png")
         made += ", means.png"
     print(made)

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from . import frames, records, scales, toe, verdict
-from .characteristic_times import chosen_rows, mean_of, missing, of_run, weakening_begins
+from .characteristic_times import NAMES as TIMES, chosen_rows, mean_of, missing, of_run, weakening_begins
 from .measure import energy, force_stages, toe_bands
 from .measure.ground import ground_of
 from .measure.surface import deposit_profile
 from .whole_files import remove, remove_parts, whole, write_json
 
-__all__ = ["summarise", "forget", "forget_later", "moved_before_water", "while_it_fails"]
+__all__ = ["summarise", "forget", "forget_later", "moved_before_water", "numbers_of", "while_it_fails"]
 
 ENTRAINED = 2.0  # mean diameters
 EARLIER = "left from an earlier run"
@@ -73,6 +73,46 @@ def moved_before_water(summary):
     return before if summary["times_s"]["t0"] is None else None
 
 
+#: Names of the numbers that every summary has, beside those of its dictionaries.
+NUMBERS = (
+    "finished disks contacts_initial bonds_initial packing_fraction time_step_s path_rel steps simulated_s wall_s wall_packing_s threads iterations_mean tolerance "
+    "tolerance_moving residual_p95 residual_N_per_m_p95 residual_p95_over_tolerance overlap_worst_rel overlap_mean_rel failed_dry_s moved_dry_s water_at_failure_m "
+    "water_highest_m fb_force_dry_N_per_m fb_force_at_failure_N_per_m fb_force_final_N_per_m dp_shear_dry_N_per_m dp_shear_at_failure_N_per_m dp_shear_final_N_per_m "
+    "weakening_begins_s triggering_s weakening_s motion_s front_travel_m centroid_travel_m speed_max_m_per_s speed_mean_max_m_per_s deposit_thickness_max_m bulking_factor "
+    "energy_dissipated_J_per_m energy_correction_rel energy_error_rel"
+).split()
+PASSIVE = (
+    "water_passive_m",
+    "water_at_failure_over_passive",
+    "passive_resistance_dry_N_per_m",
+    "passive_force_N_per_m",
+    "fb_force_at_failure_over_passive",
+)
+BED = ("entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m")
+BAND = ("inclination_deg", "width_d", "rotation_rad", "contrast")
+
+
+def numbers_of(section) -> list[str]:
+    """Names of all numbers that the summary of a Section's run may have, those of its dictionaries as ``times_s.t1``: known before anything runs."""
+    found = [*NUMBERS, *(f"times_s.{name}" for name in TIMES), *(f"force_stages.{name}" for name in force_stages.NAMES)]
+    found += [f"energy_losses_J_per_m.{name.split('_')[1]}" for name in records.LOSSES]
+    found += [f"sliding_on_walls_J_per_m.{wall.name}" for wall in section.walls]
+    if section.of_role("backstop"):
+        found += [f"toe_bands.{one}.{name}" for one in ("towards_foot", "conjugate") for name in BAND]
+        found += ["toe_bands.rankine_deg"] if section.envelope else []
+    found += BED if any(layer.role == "bed" for layer in section.layers) else ()
+    return found + list(PASSIVE if _has_passive(section) else ())
+
+
+def _has_passive(section):
+    return not (
+        section.envelope is None
+        or section.water is None
+        or section.water.wall is None
+        or not section.of_role("backstop")
+    )
+
+
 def _difference(a, b):
     return None if a is None or b is None else a - b
 
@@ -83,20 +123,19 @@ def _passive(section, packing_fraction, water, force):
     ``water`` [m], ``force`` [N/m]: height of the table and normal force on the backstop at failure, None where there was none.
     """
     envelope = section.envelope
-    if envelope is None or section.water is None or section.water.wall is None or not section.of_role("backstop"):
+    if not _has_passive(section):
         return {}
     found = toe.passive(
         section, envelope.cohesion, envelope.friction_deg, packing_fraction or section.disks.packing_fraction
     )
-    return {
-        "water_passive_m": found.water_m,
-        "water_at_failure_over_passive": water / found.water_m if water is not None and found.water_m else None,
-        "passive_resistance_dry_N_per_m": found.resistance_dry,
-        "passive_force_N_per_m": found.push_N_per_m,
-        "fb_force_at_failure_over_passive": force / found.push_N_per_m
-        if force is not None and found.push_N_per_m
-        else None,
-    }
+    values = (
+        found.water_m,
+        water / found.water_m if water is not None and found.water_m else None,
+        found.resistance_dry,
+        found.push_N_per_m,
+        force / found.push_N_per_m if force is not None and found.push_N_per_m else None,
+    )
+    return dict(zip(PASSIVE, values, strict=True))
 
 
 def _force_stages(series, section, times, second, leans):
@@ -153,9 +192,8 @@ def _of_bed(section, start, end):
     beds = [k for k, layer in enumerate(section.layers) if layer.role == "bed"]
     if not beds:
         return {}
-    names = ("entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m")
     if start is None or end is None:
-        return dict.fromkeys(names)
+        return dict.fromkeys(BED)
     density = np.array([section.materials[layer.material].density for layer in section.layers])
     size = np.array([math.sqrt(section.disks_of(layer).mean_square) for layer in section.layers])
     weight, ground = density[end.layer] * math.pi * end.r**2, ground_of(section)
@@ -163,7 +201,7 @@ def _of_bed(section, start, end):
     moved = np.hypot(end.x - start.x, end.y - start.y) > ENTRAINED * size[end.layer]
     beyond = section.side * (end.x - ground.foot[0]) > 0
     return dict(
-        zip(names, (float(weight[chosen].sum()) for chosen in (bed & moved, bed, mass & beyond, mass)), strict=True)
+        zip(BED, (float(weight[chosen].sum()) for chosen in (bed & moved, bed, mass & beyond, mass)), strict=True)
     )
 
 

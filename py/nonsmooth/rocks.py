@@ -134,7 +134,7 @@ def resolved(raw: dict, refuse) -> dict:
             "leave bonded out, or give friction instead of cohesion and friction_angle",
         )
     low, high = interval()
-    search = f"scripts/calibrate.py --cohesion {1e-3 * cohesion:g} --friction {angle:g}"
+    search = f"scripts/calibrate.py --cohesion {cohesion:g} --friction {angle:g}"
     if not low <= angle <= high:
         refuse(
             ("friction_angle",),

@@ -70,7 +70,7 @@ MOST_DISKS = 10_000_000  # what asks for more is a slip of the pen: a million ta
 
 @dataclass(frozen=True)
 class Section:
-    """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `source`: file read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are
+    """A checked section. `pressed`: its packing is pressed, see :mod:`.slope_packing`; `unusual`: keys of values that are meant, see :mod:`.section_units`; `source`: file read; `scale`: diameters by those of the file; `like`: a section that is packed instead, and the factor by which its disks are
     then as large (see :mod:`.similar`), or None; `given`: what it was made from, see :mod:`.section_values`."""
 
     name: str
@@ -87,6 +87,7 @@ class Section:
     source: str
     interfaces: tuple[Interface, ...] = ()
     pressed: bool = False
+    unusual: tuple[str, ...] = ()
     scale: float = 1.0
     like: tuple[Section, float] | None = dataclasses.field(default=None, compare=False, repr=False)
     given: section_values.Given | None = dataclasses.field(default=None, compare=False, repr=False)

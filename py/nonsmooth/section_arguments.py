@@ -88,7 +88,7 @@ def read(args) -> section.Section:
     if args.disks is not None:
         s = s.with_disks(args.disks)
     if args.rock is not None:
-        s = s.with_rock(materials.data(args.rock))
+        s = s.with_rock(materials.data(args.rock, "--rock"))
     if args.seed is not None:
         s = dataclasses.replace(s, seed=args.seed)
     if args.water and s.water is None:

@@ -6,7 +6,7 @@ import copy
 import dataclasses
 from types import MappingProxyType
 
-from . import geometry, rocks, roles, section_checks, section_defaults, section_values
+from . import geometry, rocks, roles, section_checks, section_defaults, section_units, section_values
 from .section import Section
 from .section_parts import (
     Disks,
@@ -30,6 +30,7 @@ def build(document, source: str) -> Section:
     """Section from a document that meets the schema; the checks that a schema cannot make."""
     section_checks.check_extent(document)
     _take_old_names(document)
+    section_units.check(document)
     given = copy.deepcopy(document.data)
     raw = document.data = section_defaults.filled(document.data)
     walls = section_checks.walls(document)
@@ -72,6 +73,7 @@ def build(document, source: str) -> Section:
         source=source,
         interfaces=interfaces,
         pressed=size.get("pressed", False),
+        unusual=tuple(raw.get("unusual", ())),
     )
     section_checks.check(section, document)
     if "water" in raw:

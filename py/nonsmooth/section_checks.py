@@ -107,9 +107,9 @@ def check_release(section: Section, document) -> None:
 
 
 def notes(section: Section) -> list[str]:
-    """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical slip, where the paper has one for both; and
+    """Sentences on what is allowed, and may not be meant: a release from water by another distance than the critical slip, where the paper has one for both; water that runs up the slope; and
     what materials that are asked for by cohesion and angle of friction are made of, with what else they depend on."""
-    return [*_release_notes(section), *_rock_notes(section)]
+    return [*_release_notes(section), *_water_notes(section), *_rock_notes(section)]
 
 
 def _release_notes(section):
@@ -121,6 +121,24 @@ def _release_notes(section):
         f"{section.source}: disks are released from the water after {release:g} m downslope, and the critical slip is {listed}; for one distance leave "
         "water.release_distance out, or give --critical-slip"
     )
+
+
+def _water_notes(section):
+    """A sign that was not meant shows as water that runs up the slope."""
+    water = section.water
+    if water is None:
+        return
+    if abs(water.dip) >= 1 and abs(section.dip) >= 1 and water.dip * section.dip < 0:
+        ways = ["to the right" if dip > 0 else "to the left" for dip in (water.dip, section.dip)]
+        yield (
+            f"{section.source}: the water's plane dips {abs(water.dip):.3g}° {ways[0]}, and the slope falls {ways[1]}; a dip to the left is negative"
+        )
+    elif not isinstance(water.pressure_gradient, str) and water.pressure_gradient[0] * section.side > 0:
+        x, y = water.pressure_gradient
+        yield (
+            f"{section.source}: pressure_gradient [{x:g}, {y:g}] pushes the slope up, as the force of water is minus the gradient; for water that flows down it "
+            f"x has the other sign"
+        )
 
 
 def _rock_notes(section):

@@ -67,6 +67,8 @@ def plain(section) -> dict:
         },
         "numerics": {k: v for k, v in dataclasses.asdict(section.numerics).items() if v is not None},
     }
+    if section.unusual:
+        data["unusual"] = list(section.unusual)
     if not section.interfaces:
         del data["interfaces"]
     if water is not None:

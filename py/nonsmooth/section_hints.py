@@ -13,7 +13,7 @@ class Hint(NamedTuple):
     about: str  # the thing, as the documentation names it
     keys: str  # separated by blanks; in small letters, with _ between words
     instead: str  # one or two sentences, without the full stop
-    inside: str = ""  # the hint holds below this key of the section alone
+    inside: str = ""  # the hint holds below this key of the section alone, of two words: stages.settle
     outside: str = ""  # the hint does not hold below this one
 
 
@@ -139,7 +139,14 @@ HINTS = (
     Hint(
         "time steps and duration",
         "dt timestep time_stepping duration end_time total_time t_end tmax max_time",
-        "the step is `numerics.time_step`, and the latest end of a run `stages.end.time`, both in s",
+        "the step is `numerics.time_step`, and the latest end of a run `stages.end.time`, counted from where the slope has settled, both in s",
+        outside="stages.settle",
+    ),
+    Hint(
+        "duration of settling",
+        "duration end_time total_time t_end tmax max_time time_maximum",
+        "settling ends when the mean speed is below `speed_rest` [m/s], and after `time_max` [s] at the latest",
+        inside="stages.settle",
     ),
     Hint(
         "how a command runs",
@@ -152,12 +159,12 @@ HINTS = (
 def instead_of(key: str, keys) -> str | None:
     """What to do instead of the unknown ``key`` below the key path ``keys`` of a section, a sentence without its full stop; None where nothing is known of it."""
     word = "_".join(key.lower().replace("-", "_").split())
-    top = keys[0] if keys else ""
+    places = [".".join(map(str, keys[:n])) for n in (1, 2)]
     for hint in HINTS:
         if (
             word in hint.keys.split()
-            and (not hint.inside or top == hint.inside)
-            and (not hint.outside or top != hint.outside)
+            and (not hint.inside or hint.inside in places)
+            and (not hint.outside or hint.outside not in places)
         ):
             return hint.instead
     return None

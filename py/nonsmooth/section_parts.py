@@ -231,7 +231,7 @@ class Settle:
 
 @dataclass(frozen=True)
 class End:
-    """End: at `time` [s] after bonding at the latest.
+    """End: at `time` [s] after settling at the latest.
 
     Or `rest_hold` [s] after the mean speed fell below `rest_fraction` of its maximum.
     """

@@ -18,7 +18,7 @@ from typing import NoReturn
 import jsonschema
 import yaml
 
-from . import section_hints
+from . import section_hints, section_units
 from .errors import OldNameWarning, UserError
 
 __all__ = ["Document", "SectionError", "read", "schema", "take", "values"]
@@ -272,6 +272,9 @@ def _explain(error, part=()) -> tuple[tuple, str, str]:
     if error.validator == "additionalProperties":
         known = [name for name, below in schema["properties"].items() if not below.get("deprecated")]
         key = next(k for k in value if k not in known)
+        turned = [name for name in known if sorted(name.split("_")) == sorted(key.lower().replace("-", "_").split("_"))]
+        if turned:  # its words in another order, or with other signs between them
+            return (*keys, key), "unknown key", f"did you mean {turned[0]!r}? Known here: {', '.join(known)}"
         instead = section_hints.instead_of(key, (*part[1:2], *keys))
         if instead:
             return (*keys, key), "unknown key", f"{instead} (more on the page 'What a section cannot say')"
@@ -289,7 +292,8 @@ def _explain(error, part=()) -> tuple[tuple, str, str]:
         return keys, f"{_brief(value)} is {_kind(value)}", needed
     if error.validator in ("minItems", "maxItems", "minProperties", "maxProperties"):
         return keys, f"has {len(value)} entries", needed
-    return keys, f"{_brief(value)} is not allowed", needed
+    meant = section_units.hint(keys[-1], value) if keys and isinstance(value, (int, float)) else ""
+    return keys, f"{_brief(value)} is not allowed", f"{needed}; {meant}" if meant else needed
 
 
 @cache
@@ -331,10 +335,23 @@ def _as_plain(value):
     return [_as_plain(item) for item in value] if isinstance(value, (list, tuple)) else value
 
 
+def _bare(document, rules) -> None:
+    """Refuse a file of a part of a section, such as a material, whose keys stand below a name, as they do in a section."""
+    for key, value in document.data.items():
+        if isinstance(value, (dict, list)) and key not in rules["properties"]:
+            document.refuse(
+                (key,),
+                f"holds {_kind(value)}, as in a section, and this file is of one item, a material",
+                f"give its keys at the top ({', '.join(list(rules['properties'])[:6])}, …), without `{key}:`",
+            )
+
+
 def _checked(document, schema_path, part) -> Document:
     data = document.data
     _plain(document, data)
     rules = schema(str(schema_path), tuple(part))
+    if part:
+        _bare(document, rules)
     found = [_explain(e, part) for e in islice(jsonschema.Draft202012Validator(rules).iter_errors(data), MOST_ERRORS)]
     if found:
         keys, what, remedy = min(found, key=lambda f: (document.line(f[0]), len(f[0]), str(f)))

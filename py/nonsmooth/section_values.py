@@ -16,7 +16,7 @@ from functools import cache
 from . import checks, section_data
 from .section_reader import SectionError, schema
 
-__all__ = ["Given", "NoSuchKey", "given", "keep", "keep_value", "put", "with_values", "words"]
+__all__ = ["Given", "NoSuchKey", "given", "keep", "keep_value", "put", "short", "with_values", "words"]
 
 # fields of a Section, and the keys of a file that say them
 _KEY = {
@@ -35,6 +35,7 @@ _KEY = {
             "water",
             "stages",
             "numerics",
+            "unusual",
         )
     },
     "pressed": "disks",
@@ -147,6 +148,18 @@ def words(key):
     return tuple(
         checks.text("key", key, NoSuchKey, "give words with dots between them, as 'water.table.rate'").split(".")
     )
+
+
+def short(keys):
+    """Names of keys with dots: the last word, or as many as tell them apart, {key: name}."""
+
+    def last(key, count):
+        return ".".join(key.split(".")[-count:])
+
+    return {
+        key: next(last(key, n) for n in range(1, 99) if sum(last(other, n) == last(key, n) for other in keys) == 1)
+        for key in keys
+    }
 
 
 def _name(item):

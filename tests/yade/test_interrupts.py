@@ -63,7 +63,7 @@ def test_ctrl_c_writes_a_checkpoint_and_the_run_goes_on_with_the_same_bytes(sect
         ("compare_hard_soft.py", ("--scenario", "column", "--disks", 150, "--seeds", 1, "--threads", 1)),
         ("wedge.py", ()),
         ("verify.py", ("--quick", "--threads", 1)),
-        ("calibrate.py", ("--cohesion", 50, "--friction", 30, "--threads", 1)),
+        ("calibrate.py", ("--cohesion", 50e3, "--friction", 30, "--threads", 1)),
         ("benchmark.py", ("--quick", "--disks", 600, "--threads", 1)),
         # still packing: no packing of this seed is in the cache
         ("jiufengershan.py", ("--disks", 20000, "--seed", 987)),

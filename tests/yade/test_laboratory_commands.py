@@ -33,12 +33,12 @@ def trials(monkeypatch):
     return made
 
 
-@pytest.mark.parametrize("residual", [(), ("--residual-cohesion", 6, "--residual-friction", 25)])
+@pytest.mark.parametrize("residual", [(), ("--residual-cohesion", 6e3, "--residual-friction", 25)])
 def test_calibrate_writes_a_material_that_has_the_strengths(in_process, trials, tmp_path, residual):
     out = tmp_path / "granite.yaml"
     words = (
         "--cohesion",
-        60,
+        60e3,
         "--friction",
         34,
         *residual,
@@ -82,7 +82,7 @@ def test_calibrate_writes_a_material_that_has_the_strengths(in_process, trials, 
 
 def test_a_quick_calibration_is_of_small_samples_and_says_so(in_process, trials, tmp_path):
     out = tmp_path / "quick.yaml"
-    done = in_process("calibrate.py", "--cohesion", 60, "--friction", 34, "--quick", "--threads", 2, "--out", out)
+    done = in_process("calibrate.py", "--cohesion", 60e3, "--friction", 34, "--quick", "--threads", 2, "--out", out)
     assert done.status == 0, done.err
     # how long it takes is said before any trial
     assert done.out.splitlines()[0].startswith(
@@ -102,7 +102,7 @@ def test_calibrate_says_what_it_has_not_reached(in_process, trials, tmp_path):
     done = in_process(
         "calibrate.py",
         "--cohesion",
-        60,
+        60e3,
         "--friction",
         59,
         "--coarse",

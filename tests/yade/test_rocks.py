@@ -185,7 +185,7 @@ BESIDE = "is given beside cohesion: 60000 and friction_angle: 34"
         ({"friction_angle": None}, "the key 'friction_angle' is missing"),
         ({"cohesion": 0}, "cohesion: 0 is not allowed; needed: peak cohesion"),
         ({"cohesion": None, "friction_angle": None, "rolling_friction": 0.1}, "the key 'friction' is missing; add it (coefficients of sliding"),
-        ({"friction_angle": HIGH + 0.5}, f"which has {LOW:g} to {HIGH:g} degrees; give an angle within, or let scripts/calibrate.py --cohesion 60 --friction {HIGH + 0.5:g} search"),
+        ({"friction_angle": HIGH + 0.5}, f"which has {LOW:g} to {HIGH:g} degrees; give an angle within, or let scripts/calibrate.py --cohesion 60000 --friction {HIGH + 0.5:g} search"),
         ({"friction_angle": LOW - 0.5}, f"friction_angle: {LOW - 0.5:g} degrees is outside the table of calibrated rocks"),
         ({"friction_angle": 75}, f"which has {LOW:g} to {HIGH:g} degrees; give an angle within"),
     ],

@@ -21,7 +21,7 @@ from .comparisons import ComparisonError, ComparisonRun, open_comparison, run_co
 from .heaps import HeapRun, open_heap, run_column, run_heaps, run_pile
 from .plan import SEED, Plan, PlanError, Planned, collect, means, read, run_one
 from .scripts import LESSONS, ScriptError, ScriptRun, lesson, lessons, open_script, run_lesson, run_script, run_scripts
-from .sweep import run_slope, sweep
+from .sweep import results_of, run_slope, sweep
 
 __all__ = [
     "LESSONS",
@@ -42,6 +42,7 @@ __all__ = [
     "open_heap",
     "open_script",
     "read",
+    "results_of",
     "run_column",
     "run_comparison",
     "run_heaps",

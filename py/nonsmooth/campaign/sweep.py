@@ -11,6 +11,7 @@ from .. import (
     checks,
     output_folder,
     processes,
+    results,
     runs,
     section,
     section_checks,
@@ -19,7 +20,7 @@ from .. import (
 )
 from .plan import Plan, PlanError, Planned
 
-__all__ = ["FUNCTION", "arguments_of", "run_slope", "sweep"]
+__all__ = ["FUNCTION", "arguments_of", "results_of", "run_slope", "sweep"]
 
 MOST = 10_000  # runs of a plan
 LONGEST = 150  # characters of a folder's name; longer ones become numbers
@@ -55,7 +56,7 @@ def sweep(base, over, end=None, figures=False) -> Plan:
         number *= len(values)
     if number > MOST:
         raise PlanError(f"{' × '.join(str(len(v)) for v in over.values())} = {number} runs; a plan has {MOST} at most")
-    short, planned, notes = _short(over), [], []
+    short, planned, notes = section_values.short(over), [], []
     for k, combination in enumerate(itertools.product(*over.values())):
         values = dict(zip(over, combination))
         name = "_".join(f"{short[key]}={_text(value)}" for key, value in values.items()) or "run"
@@ -74,6 +75,13 @@ def sweep(base, over, end=None, figures=False) -> Plan:
             "disks.count out to vary the size",
         )
     return Plan(base.name, FUNCTION, tuple(planned), tuple(notes))
+
+
+def results_of(plan) -> list | None:
+    """Names of the numbers that the runs of a Plan may have in their table, known before anything runs; None where they are no slopes."""
+    if plan.function != FUNCTION:
+        return None
+    return results.numbers_of(section.of(plan.runs[0].arguments["data"], plan.runs[0].name))
 
 
 def run_slope(made, out, end=None, figures=False, resume=False, threads=1) -> runs.Run:
@@ -107,18 +115,6 @@ def arguments_of(made, end=None, figures=False):
         original, factor = made.like
         arguments["like"] = {"data": section_data.plain(original), "factor": factor}
     return arguments
-
-
-def _short(over):
-    """Names of keys in names of runs: the last word, or as many as tell them apart."""
-
-    def last(key, count):
-        return ".".join(key.split(".")[-count:])
-
-    return {
-        key: next(last(key, n) for n in range(1, 99) if sum(last(other, n) == last(key, n) for other in over) == 1)
-        for key in over
-    }
 
 
 def _text(value):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import yaml
 
-from .. import checks, section, section_building, section_values
+from .. import checks, section, section_building, section_units, section_values
 from ..whole_files import write_atomically
 from ..section_reader import Document, SectionError, read
 
@@ -18,21 +18,21 @@ from ..section_reader import Document, SectionError, read
 SHIPPED = {"wwr": "rock", "dp": "dp", "fb": "fb", "ss": "ss"}
 
 
-def load(name_or_path):
-    """A section.Material by its name in :data:`SHIPPED`, or from a material file.
+def load(name_or_path, option="--material"):
+    """A section.Material by its name in :data:`SHIPPED`, or from a material file. ``option``: by which a command was given it, for messages.
 
     Raises SectionError, naming file, line, key, value and remedy.
     """
-    name, document = _document(name_or_path)
+    name, document = _document(name_or_path, option)
     return section_building.material_from(name, document.data, document)
 
 
-def data(name_or_path) -> dict:
-    """The plain data of a material, nothing filled in: what its file, or that of the shipped section, says. Raises as :func:`load`."""
-    return _document(name_or_path)[1].data
+def data(name_or_path, option="--rock") -> dict:
+    """The plain data of a material, nothing filled in: what its file, or that of the shipped section, says. Arguments, and what it raises, as of :func:`load`."""
+    return _document(name_or_path, option)[1].data
 
 
-def _document(name_or_path):
+def _document(name_or_path, option):
     """The name of a material and its checked Document."""
     what = f"give one of {', '.join(SHIPPED)}, or the path of a material file"
     name = str(checks.path("material", name_or_path, SectionError, what))
@@ -40,10 +40,11 @@ def _document(name_or_path):
         return name, Document(name, section_values.given(section.load("jiufengershan"))["materials"][SHIPPED[name]])
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and not path.exists():
-        raise SectionError(f"--material {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
+        raise SectionError(f"{option} {name}: neither a file nor one of {', '.join(SHIPPED)}; give a name or a path")
     document = read(
         path, section.FOLDER / "section.schema.yaml", part=("properties", "materials", "additionalProperties")
     )
+    section_units.check_material(document)
     if section_building.material_from(path.stem, document.data, document).density is None:
         document.refuse((), "the key 'density' is missing", "add it (kg/m³, of the disks)")
     return path.stem, document
