@@ -102,9 +102,7 @@ def read_arguments():
 
 def main():
     args, began = read_arguments(), time.monotonic()
-    residual = (
-        (args.residual_cohesion, args.residual_friction) if args.residual_friction is not None else (None, None)
-    )
+    residual = (args.residual_cohesion, args.residual_friction) if args.residual_friction is not None else (None, None)
     wanted = calibration.Wanted(args.cohesion, args.friction, *residual)
     path = Path(args.out)
     work = path.with_name(path.stem + "-calibration")

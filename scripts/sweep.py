@@ -138,7 +138,11 @@ def check_drawn(drawn, known, place):
             near = difflib.get_close_matches(name, known, 3)
             raise campaign.PlanError(
                 f"--draw {name}: no result is called so; "
-                + (f"did you mean {' or '.join(map(repr, near))}?" if near else f"there are {', '.join(known)}, in {place}")
+                + (
+                    f"did you mean {' or '.join(map(repr, near))}?"
+                    if near
+                    else f"there are {', '.join(known)}, in {place}"
+                )
             )
 
 

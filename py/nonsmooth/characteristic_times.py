@@ -68,7 +68,9 @@ SAME = 1e-9  # s, of one row's time
 
 def columns(section) -> tuple[str, ...]:
     """All columns of a Section's series that its times follow from."""
-    own = (stacks.column(name, surface) for surface in section.stacked for name in ("dp_shear_N_per_m", "weakened_disks"))
+    own = (
+        stacks.column(name, surface) for surface in section.stacked for name in ("dp_shear_N_per_m", "weakened_disks")
+    )
     return (*COLUMNS, *own)
 
 

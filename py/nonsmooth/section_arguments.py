@@ -50,7 +50,7 @@ def add(parser, default=None, needless=()):
     parser.add_argument(
         "--rock",
         metavar="NAME|FILE",
-        help="material of the layers instead of the section's: a material file, as calibrate.py writes it, or wwr, the paper's rock",
+        help="material of the layers instead of the section's: a material file, as calibrate.py writes it, or wwr, the paper's rock; with --size its strengths are those at the new size",
     )
     parser.add_argument(
         "--disks",

@@ -38,7 +38,7 @@ HINTS = (
     Hint(
         "reservoirs",
         "reservoir reservoir_level lake lake_level pond pool sea sea_level tailwater drawdown",
-        "give still water with a level table: water: {plane: {point: [0, y], dip: 0}, pressure_gradient: hydrostatic, table: {points: [[t, h], ...]}}, with the level at y + h; "
+        "give still water with a level table: water: {plane: {point: [0, y], dip: 0}, pressure_gradient: hydrostatic, release_distance: 1e6, table: {points: [[t, h], ...]}}, with the level at y + h; "
         "h may fall, and water inside the slope and outside then falls alike",
     ),
     Hint(

@@ -15,7 +15,10 @@ __all__ = ["check", "check_material", "hint"]
 STEEPEST = 3.0  # coefficient of sliding friction, of 72°; no contact of rock or soil has it
 ROLLING = 2.0  # of rolling friction in mean diameters: a grain would have to be rolled over more than its own length
 DENSITY = (300.0, 10_000.0)  # kg/m³, from light snow or pumice to ores
-WATER = (300.0, 20_000.0)  # kg/m³, of the fluid; wide, as a file may state the unit weight on Earth, and a sweep change gravity
+WATER = (
+    300.0,
+    20_000.0,
+)  # kg/m³, of the fluid; wide, as a file may state the unit weight on Earth, and a sweep change gravity
 GRADIENT = (0.02, 50.0)  # of the unit weight of water
 WEAKEST = 2e-4  # of the weight by area of the slope, ρ g L: a strength below it does nothing there; 5 kPa on the paper's slope is five times as much
 NOMINAL = 2000.0  # kg/m³, ρ of that
@@ -50,7 +53,9 @@ def check_material(document) -> None:
 
 def hint(key, value) -> str:
     """What a number that is out of all bounds may be in the units of a section; ``key``: the last word of its key. Empty where that is not known."""
-    found = _of_material((key,), value, GRAVITY, 0.0) or (_unit_weight(value, GRAVITY) if key == "unit_weight" else None)
+    found = _of_material((key,), value, GRAVITY, 0.0) or (
+        _unit_weight(value, GRAVITY) if key == "unit_weight" else None
+    )
     return found[1] if found else ""
 
 
@@ -82,7 +87,10 @@ def _of_material(keys, value, gravity, stress):
         angle = f": {value:g} degrees are {math.tan(math.radians(value)):.3g}" if value < 89 else ""
         return f"{value:g} is no coefficient of friction", f"friction is the tangent of an angle{angle}"
     if key in _ROLLING and value > ROLLING:
-        return f"{value:g} is no coefficient of rolling friction", "it is in mean diameters; grains of rock have some 0.1"
+        return (
+            f"{value:g} is no coefficient of rolling friction",
+            "it is in mean diameters; grains of rock have some 0.1",
+        )
     if key == "density" and not DENSITY[0] <= value <= DENSITY[1]:
         return f"{value:g} kg/m³ is no density of a rock or a soil", _density(value, gravity)
     if key in _STRENGTHS and 0 < value < WEAKEST * stress:
@@ -91,7 +99,10 @@ def _of_material(keys, value, gravity, stress):
             f"strengths are in Pa: {value:g} kPa are {1e3 * value:g}, and 0 is none",
         )
     if key == "friction_deg" and value < LEAST_ANGLE:
-        return f"{value:g} degrees is no angle of friction", f"it is in degrees: {value:g} rad are {math.degrees(value):.3g}"
+        return (
+            f"{value:g} degrees is no angle of friction",
+            f"it is in degrees: {value:g} rad are {math.degrees(value):.3g}",
+        )
     return None
 
 
@@ -104,7 +115,9 @@ def _density(value, gravity):
 
 
 def _pascals(value):
-    return f"{1e-6 * value:.2g} MPa" if value >= 1e6 else f"{1e-3 * value:.2g} kPa" if value >= 1e3 else f"{value:.2g} Pa"
+    return (
+        f"{1e-6 * value:.2g} MPa" if value >= 1e6 else f"{1e-3 * value:.2g} kPa" if value >= 1e3 else f"{value:.2g} Pa"
+    )
 
 
 def _unit_weight(value, gravity):

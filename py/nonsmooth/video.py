@@ -80,12 +80,7 @@ class _Frames(film.Stage):
         late = style.known_times(times).get("t3", np.inf)
         for (_, letter, meaning, name, colour), force in zip(drawn, forces):
             smooth = np.where(time > late, style.running_mean(time, force, window), force) / newtons
-            ax.plot(
-                time,
-                smooth,
-                color=colour,
-                label=f"{style.symbol(letter, name)}  {meaning} on {style.plain(name)}",
-            )
+            ax.plot(time, smooth, color=colour, label=f"{style.symbol(letter, name)}  {meaning} on {style.plain(name)}")
         ax.axhline(0, color="#555555", lw=0.7)
         ax.set_xlabel("time [s]", fontsize=11)
         ax.set_ylabel(f"force [{unit}]", fontsize=11)

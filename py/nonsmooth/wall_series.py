@@ -62,7 +62,8 @@ class WallSeries:
 
     def take(self):
         """Writes the rows of the time since the last call. Returns {role: (normal force, shear force where walls hold the mass back, peak of the normal force)}
-        [N/m], zero where no wall, and no interface, has that role; and the same of each slip surface, {name: …}, where some lie one above another."""
+        [N/m], zero where no wall, and no interface, has that role; and the same of each slip surface, {name: …}, where some lie one above another.
+        """
         forces = {
             name: (normal, self._side * shear, peak) for name, (normal, shear, peak) in self._forces.take().items()
         }

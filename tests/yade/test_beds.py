@@ -171,9 +171,13 @@ def test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight(tmp_
     area = [math.pi * np.sum(packed.r[packed.layer == k] ** 2) for k in (0, 1)]
     beta = math.radians(made.dip)
     for name, of in (("DP", sum(area)), ("joint", area[1])):
-        total, effective, water, shear = (series[f"dp_{what}_N_per_m:{name}"] for what in ("normal_total", "normal_effective", "water", "shear"))
+        total, effective, water, shear = (
+            series[f"dp_{what}_N_per_m:{name}"] for what in ("normal_total", "normal_effective", "water", "shear")
+        )
         mine = walls["wall"] == name
-        assert np.array_equal(effective, walls["normal_N_per_m"][mine]) and np.array_equal(shear, walls["shear_N_per_m"][mine])
+        assert np.array_equal(effective, walls["normal_N_per_m"][mine]) and np.array_equal(
+            shear, walls["shear_N_per_m"][mine]
+        )
         assert np.array_equal(total, effective + water)
         # all disks are wet: γ_w cos β on the area of what lies above
         assert series["wet_disks"][-1] == len(packed.r)
@@ -183,7 +187,14 @@ def test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight(tmp_
             held = -series["fb_shear_N_per_m"][row] if name == "DP" else 0.0
             # 0.5 % rests on the backstop's upper end, and is the motion that is left
             assert total[row] + held == pytest.approx(2500 * 9.81 * math.cos(beta) * of, rel=0.01)
-    for name in ("dp_normal_total_N_per_m", "dp_water_N_per_m", "dp_shear_N_per_m", "dp_normal_peak_N_per_m", "slip_mean_dp_m", "weakened_disks"):
+    for name in (
+        "dp_normal_total_N_per_m",
+        "dp_water_N_per_m",
+        "dp_shear_N_per_m",
+        "dp_normal_peak_N_per_m",
+        "slip_mean_dp_m",
+        "weakened_disks",
+    ):
         assert np.array_equal(series[name], series[f"{name}:DP"])
     assert course.section.lowest_surfaces == (course.section.wall("DP"),)
 

@@ -209,6 +209,52 @@ def table_of_kinds():
     }
 
 
+def test_results_that_are_none_are_refused_before_anything_runs(tmp_path, in_process):
+    words = ("--section", "interface", "--over", "materials.joint.friction=0.5,0.6", "--out", tmp_path / "no")
+    for name, near in (
+        ("front_travl_m", "front_travel_m"),
+        ("times_s.t11", "times_s.t1"),
+        ("verdict", None),
+        ("fb_normal", None),
+    ):
+        done = in_process("sweep.py", *words, "--draw", f"motion_s,{name}")
+        assert done.status == 1 and not (tmp_path / "no").exists()
+        assert done.last.startswith(f"error: --draw {name}: no result is called so; ")
+        assert near is None or f"did you mean {near!r}" in done.last
+
+
+def test_a_result_that_no_run_has_is_drawn_as_none(tmp_path, called, in_process):
+    """It is known, and the slopes have not come so far: a panel that says so, and no error after all the runs."""
+    planned((0.3, 0.5)).run(tmp_path, 1)
+    done = in_process("sweep.py", "--out", tmp_path, "--collect", "--draw", "twice,water_at_failure_m")
+    assert done.status == 0 and "means.png" in done.out, done.err
+
+
+def test_all_of_a_large_legend_is_in_the_picture():
+    """Twelve lines of two keys with long names, and all kinds: within the figure, clear of the panels, and each line with a look of its own."""
+    kinds = ("failed by water", "stood", "slid", "failed dry", "moved dry", "not at rest", "not over")
+    key = "materials.weathered rock of the upper layer.residual_rolling_friction"
+    number = {"values": [1.0, 2.0], "mean": 1.5, "half_width": 0.5}
+    rows = [
+        {"values": {key: f, "materials.joint.friction": a, "materials.rock.friction": b, "seed_of": "s"}, "verdict": kind, "numbers": {"travel": number, "none": {"values": [None, None], "mean": None, "half_width": None}}}
+        for f in (0.1, 0.2) for a in (0.3, 0.4, 0.5) for b in (0.5, 0.6, 0.7, 0.8) for kind in kinds
+    ]  # fmt: skip
+    for names in (["travel"], ["travel", "none", "travel"]):
+        fig = figures.means(rows, key, names)
+        fig.draw_without_rendering()
+        width, height = fig.bbox.size
+        (legend,) = fig.legends
+        box = legend.get_window_extent()
+        assert box.x0 >= 0 and box.x1 <= width and box.y1 <= height
+        for ax in fig.axes:
+            whole = ax.get_tightbbox()
+            assert whole.y1 < box.y0 and 0 <= whole.y0 and ax.get_window_extent().height == pytest.approx(2.7 * fig.dpi)
+        texts = [" ".join(t.get_text().split()) for t in legend.get_texts()]
+        assert len(texts) == 12 + len(kinds) and "joint.friction = 0.3, rock.friction = 0.5, seed_of = s" in texts
+        lines = [one for one in legend.get_lines() if one.get_linestyle() != "None"]
+        assert len({(one.get_color(), one._dash_pattern[1] and tuple(one._dash_pattern[1])) for one in lines}) == 12
+
+
 def test_no_mean_is_over_slopes_that_stood_and_slopes_that_failed():
     rows = campaign.means(table_of_kinds(), ["friction", "seed"])
     assert [(row["values"]["friction"], row["verdict"], row["seeds"], row["of"]) for row in rows] == [

@@ -190,6 +190,21 @@ def test_a_sweep_notes_two_distances_and_not_more_often_than_is_read(in_process,
     assert "released" not in said
 
 
+def test_a_sweep_counts_runs_and_not_notes(in_process, tmp_path):
+    def change(made):
+        made["water"]["plane"] = {
+            "point": [0.0, 0.0],
+            "dip": -25.0,
+        }  # a sign that nobody meant: a second note for each run
+
+    words = ("--section", write_changed(tmp_path, change), "--over", "seed=1,2,3", "--plan", "--out", tmp_path / "out")
+    *said, planned = in_process("sweep.py", *words).out.strip().split("\n")
+    assert [line.partition(":")[0] for line in said[:2]] == ["seed=1", "seed=1"] and planned.startswith(
+        "3 runs planned"
+    )
+    assert said[2:] == ["and so for 2 more of the runs"]
+
+
 def test_the_option_is_refused_where_nothing_weakens(in_process, tmp_path):
     def change(made):
         del made["materials"]["dp"]["slip_weakening"]

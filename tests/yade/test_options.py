@@ -534,7 +534,11 @@ def test_checks_are_listed(in_process):
     "name, words, said",
     [
         ("calibrate.py", ("--cohesion", 0, "--friction", 30), "--cohesion 0: it must be positive"),
-        ("calibrate.py", ("--cohesion", 60, "--friction", 30), "--cohesion 60: it is in Pa, as in sections, and 60 kPa are 60000"),
+        (
+            "calibrate.py",
+            ("--cohesion", 60, "--friction", 30),
+            "--cohesion 60: it is in Pa, as in sections, and 60 kPa are 60000",
+        ),
         (
             "calibrate.py",
             ("--cohesion", 60e3, "--friction", 30, "--residual-friction", 20, "--residual-cohesion", 6),

@@ -39,6 +39,26 @@ def until(end):
     return {name: values[known_slope.series()["time_s"] <= end + 1e-9] for name, values in known_slope.series().items()}
 
 
+# ---- names ------------------------------------------------------------------------------------------
+def test_all_numbers_of_a_summary_are_known_before(tmp_path):
+    """What ``--draw`` of a sweep may name: with a backstop, an envelope, water along a wall; and no more than a run may have."""
+    plan = synthetic.load("campaign.plan")
+    summary = results.summarise(known_slope.write(tmp_path), SHIPPED, STATE)
+    found = {name for name in plan._numbers(summary) if name != "verdict" and not name.startswith("times_missing.")}
+    known = results.numbers_of(SHIPPED)
+    assert len(set(known)) == len(known)
+    # toe_bands without a band is one number that is null, and walls have losses where a run tells them
+    assert found - {"toe_bands"} <= set(known)
+    assert all(name.startswith(("toe_bands.", "sliding_on_walls_J_per_m.")) for name in set(known) - found), (
+        set(known) - found
+    )
+    bare = dataclasses.replace(SHIPPED, water=None)
+    assert set(known) - set(results.numbers_of(bare)) == set(results.PASSIVE)
+    assert set(results.BED) <= set(results.numbers_of(known_slope.section.load("interface"))) and not set(
+        results.BED
+    ) & set(known)
+
+
 # ---- means ------------------------------------------------------------------------------------------
 def test_a_mean_is_over_the_seconds_up_to_a_time():
     t = np.arange(1, 101) / 10

@@ -47,7 +47,10 @@ def test_another_unit_is_refused_with_what_it_would_be(key, value, said, right):
     assert SHIPPED.with_values({key: right})
 
 
-@pytest.mark.parametrize("key, value", [("materials.rock.friction", 30), ("materials.rock.tensile_strength", 300), ("water.pressure_gradient", [0, 9810])])
+@pytest.mark.parametrize(
+    "key, value",
+    [("materials.rock.friction", 30), ("materials.rock.tensile_strength", 300), ("water.pressure_gradient", [0, 9810])],
+)
 def test_what_is_meant_is_taken_and_kept(key, value, tmp_path):
     with pytest.raises(SectionError, match=rf"; if it is meant, add `unusual: \[{key}\]` to the section"):
         SHIPPED.with_values({key: value})
@@ -86,10 +89,16 @@ GRAINS = "rolling_friction: 0.1\ndensity: 2500\n"
 @pytest.mark.parametrize(
     "text, said",
     [
-        (f"friction: 30\n{GRAINS}", "line 1: friction: 30 is no coefficient of friction; friction is the tangent of an angle: 30 degrees are 0.577"),
+        (
+            f"friction: 30\n{GRAINS}",
+            "line 1: friction: 30 is no coefficient of friction; friction is the tangent of an angle: 30 degrees are 0.577",
+        ),
         ("friction: 0.5\nrolling_friction: 0.1\ndensity: 25000\n", "density: 25000 kg/m³ is no density"),
         ("friction: 0.5\nrolling_friction: 0.1\ndensity: 25\n", "25 kN/m³ are 2548"),
-        ("rock:\n  friction: 0.5\n  rolling_friction: 0.1\n", "line 1: rock: holds keys, as in a section, and this file is of one item, a material; give its keys at the top"),
+        (
+            "rock:\n  friction: 0.5\n  rolling_friction: 0.1\n",
+            "line 1: rock: holds keys, as in a section, and this file is of one item, a material; give its keys at the top",
+        ),
         ("materials:\n  rock: {friction: 0.5}\n", "without `materials:`"),
         ("walls: []\nlayers: []\n", "line 1: walls: holds a list"),
     ],
@@ -100,7 +109,11 @@ def test_a_material_file_has_the_same_units_and_no_names(tmp_path, text, said):
     for read in (materials.load, materials.data):
         with pytest.raises(SectionError) as refused:
             read(path)
-        assert str(refused.value).startswith(f"{path}: ") and said in str(refused.value) and "unusual" not in str(refused.value)
+        assert (
+            str(refused.value).startswith(f"{path}: ")
+            and said in str(refused.value)
+            and "unusual" not in str(refused.value)
+        )
 
 
 def test_a_material_that_is_none_is_told_by_the_option_that_gave_it():
@@ -116,12 +129,16 @@ def test_water_that_runs_up_the_slope_is_told():
     plane = lambda dip: {"water.plane": {"point": [0, 0], "dip": dip}}  # noqa: E731
     assert notes({}) == notes(plane(21)) == notes(plane(0)) == notes({"water.pressure_gradient": [-3000, -9000]}) == []
     (note,) = notes(plane(-21))
-    assert note.endswith("the water's plane dips 21° to the left, and the slope falls to the right; a dip to the left is negative")
+    assert note.endswith(
+        "the water's plane dips 21° to the left, and the slope falls to the right; a dip to the left is negative"
+    )
     (note,) = notes({"water.pressure_gradient": [3000, -9000]})
     assert "pressure_gradient [3000, -9000] pushes the slope up" in note
     mirrored = similar.mirrored(SHIPPED)
     assert mirrored.with_values(plane(-21)) and not list(section_checks._water_notes(mirrored.with_values(plane(-21))))
-    assert len(list(section_checks._water_notes(mirrored.with_values({"water.pressure_gradient": [-3000, -9000]})))) == 1
+    assert (
+        len(list(section_checks._water_notes(mirrored.with_values({"water.pressure_gradient": [-3000, -9000]})))) == 1
+    )
 
 
 def test_a_sweep_refuses_degrees_before_anything_runs():

@@ -19,7 +19,11 @@ TWO = {
     "name": "two joints",
     "walls": [{"name": "base", "role": "ground", "material": "base", "vertices": [[-50, 20], [0, 0], [80, 0]]}],
     "layers": [
-        {"name": f"L{k}", "material": "rock", "vertices": [[-50, 20 + 2 * k], [0, 2 * k], [0, 2 * k + 2], [-50, 22 + 2 * k]]}
+        {
+            "name": f"L{k}",
+            "material": "rock",
+            "vertices": [[-50, 20 + 2 * k], [0, 2 * k], [0, 2 * k + 2], [-50, 22 + 2 * k]],
+        }
         for k in range(4)
     ],
     "interfaces": [
@@ -75,10 +79,17 @@ def test_each_surface_bears_the_layers_above_it():
     # what is no mass is borne by none, and a layer half of which lies beyond a surface is borne by half
     other = copy.deepcopy(TWO)
     other["layers"][3] |= {"vertices": [[-50, 26], [0, 6], [50, 6], [50, 8], [0, 8], [-50, 28]]}
-    other["walls"].append({"name": "shelf", "apart": True, "material": "base", "role": "ground", "vertices": [[0, 6], [50, 6]]})
+    other["walls"].append(
+        {"name": "shelf", "apart": True, "material": "base", "role": "ground", "vertices": [[0, 6], [50, 6]]}
+    )
     assert section.of(other).borne_by("upper, weak")[3] == pytest.approx(0.5, abs=1e-6)
     other["layers"][3]["role"] = "bed"
-    assert section.of(other).borne_by("upper, weak")[3] == 0 and section.of(other).borne.tolist() == [False, False, True, False]
+    assert section.of(other).borne_by("upper, weak")[3] == 0 and section.of(other).borne.tolist() == [
+        False,
+        False,
+        True,
+        False,
+    ]
 
 
 def test_a_slope_whose_surfaces_lie_side_by_side_has_no_further_columns():
@@ -135,7 +146,11 @@ def forces_of(made, wet=True):
     t = np.linspace(0, 10, 101)
     series = {"time_s": t, "water_m": t * wet, "fb_normal_N_per_m": 0 * t}
     for k, surface in enumerate(made.stacked):
-        of = {"dp_normal_total_N_per_m": 9e6, "dp_normal_effective_N_per_m": 9e6 - 1e5 * t, "dp_shear_N_per_m": 4e6 - 1e5 * t}
+        of = {
+            "dp_normal_total_N_per_m": 9e6,
+            "dp_normal_effective_N_per_m": 9e6 - 1e5 * t,
+            "dp_shear_N_per_m": 4e6 - 1e5 * t,
+        }
         for name, values in of.items():
             series[stacks.column(name, surface)] = values / (k + 1) + 0 * t
     for name in ("dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_shear_N_per_m"):
@@ -147,14 +162,23 @@ def test_each_surface_has_its_own_line():
     made = section.of(TWO)
     fig = figures.forces_against_time(forces_of(made), {}, walls=made)
     upper, lower = (ax for ax in fig.axes if ax.get_ylabel() == "force [MN/m]")
-    told = lambda ax: {one.get_label(): drawn.points(one)[-1, 1] for one in ax.lines if not one.get_label().startswith("_")}  # noqa: E731
+    told = lambda ax: {
+        one.get_label(): drawn.points(one)[-1, 1] for one in ax.lines if not one.get_label().startswith("_")
+    }  # noqa: E731
     assert told(upper) == pytest.approx(
-        {"$N$  total on lower": 9, "$N$  total on upper, weak": 4.5, "$N'$  effective on lower": 8, "$N'$  effective on upper, weak": 4}
+        {
+            "$N$  total on lower": 9,
+            "$N$  total on upper, weak": 4.5,
+            "$N'$  effective on lower": 8,
+            "$N'$  effective on upper, weak": 4,
+        }
     )
     assert told(lower) == pytest.approx({"$T$  shear on lower": 3, "$T$  shear on upper, weak": 1.5})
     colours = {name: colour for name, colour in drawn.legend(fig).items() if "$h_w$" not in name}
     assert set(colours) == {*told(upper), *told(lower)} and len(set(colours.values())) == 2
-    assert {colour for name, colour in colours.items() if name.endswith("weak")} == {colours["$T$  shear on upper, weak"]}
+    assert {colour for name, colour in colours.items() if name.endswith("weak")} == {
+        colours["$T$  shear on upper, weak"]
+    }
     assert "Forces on lower, upper, weak (slip surfaces, each for itself)" in drawn.texts(fig)
     # dry: no effective force beside the total one
     dry = figures.forces_against_time(forces_of(made, wet=False), {}, walls=made)

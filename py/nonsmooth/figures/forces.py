@@ -220,12 +220,7 @@ def _sketch(ax, side, name, back, wet, rise=None, coloured=True):
     start = middle + 2.4 * down - 0.32 * normal
     ax.annotate("", at(start - 1.9 * down), at(start), arrowprops={**arrow, "color": orange})
     ax.text(
-        *at(start + 0.1 * down - 0.75 * normal),
-        symbol("T", name),
-        ha=after,
-        va="center",
-        color=orange,
-        fontsize=9.5,
+        *at(start + 0.1 * down - 0.75 * normal), symbol("T", name), ha=after, va="center", color=orange, fontsize=9.5
     )
     if back:
         push = wall.mean(axis=0)
@@ -275,7 +270,9 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
         colours = dict(zip((one[0] for one in own), itertools.cycle(style.STACKED)))
         of_wall = lambda letter, wall, what: f"${letter}$  {what} on {style.plain(wall)}"  # noqa: E731
         normal = [(of_wall("N", wall, "total"), curve(force), colours[wall], "-") for wall, force, _, _ in own]
-        normal += [(of_wall("N'", wall, "effective"), curve(force), colours[wall], dashed) for wall, _, force, _ in own if wet]
+        normal += [
+            (of_wall("N'", wall, "effective"), curve(force), colours[wall], dashed) for wall, _, force, _ in own if wet
+        ]
         other = [(of_wall("T", wall, "shear"), curve(force), colours[wall], "-") for wall, _, _, force in own]
         if rest:
             other.append((of_wall("N'", rest, "normal"), curve(back), LINES["green"], "-"))
@@ -302,7 +299,8 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
     fig.text(
         0.062,
         0.975,
-        f"Forces on {style.plain(name)} (slip surface{'s, each for itself' if own else ''})" + f" and {style.plain(rest)} (backstop)" * bool(rest),
+        f"Forces on {style.plain(name)} (slip surface{'s, each for itself' if own else ''})"
+        + f" and {style.plain(rest)} (backstop)" * bool(rest),
         fontsize=13,
         va="top",
     )
@@ -329,7 +327,9 @@ def forces_against_time(series, times, path=None, pdf=False, window=1.0, walls=N
                 late = time > moving
                 if "since" not in label:  # the changes have the same scatter
                     ax.plot(time[late], raw[late], color=colour, lw=0.5, alpha=0.25, zorder=2)
-                wide = 3.2 if "total" in label and not own else 1.5  # seen behind the effective force where they are equal
+                wide = (
+                    3.2 if "total" in label and not own else 1.5
+                )  # seen behind the effective force where they are equal
                 ax.plot(time, mean, color=colour, ls=dash, lw=wide, label=label, zorder=3 + (wide < 2))
             ax.set_ylim(_limits([c for _, c, _, _ in lines], slice(None)))
             ax.axhline(0, color="#555555", lw=0.7, zorder=1.5)

@@ -20,7 +20,12 @@ MARKERS = {
     "not over": ("d", False),
 }
 PLAIN = ("s", True)  # of results that have no verdict
-PANEL, HEIGHT, TOP, BOTTOM = 3.8, 4.8, 0.95, 1.15  # inches: of a panel's width and of all, and above and below the axes, where as little stands there as usual
+PANEL, HEIGHT, TOP, BOTTOM = (
+    3.8,
+    4.8,
+    0.95,
+    1.15,
+)  # inches: of a panel's width and of all, and above and below the axes, where as little stands there as usual
 LINE = 0.14  # inches, of the small text below a panel
 LABEL = 46  # characters of a label below a panel, or in a line of the legend for each panel
 DASHES = ("-", (0, (4, 1.5)), (0, (1, 1.2)), (0, (4, 1.2, 1, 1.2)))  # where there are more lines than colours
@@ -127,7 +132,9 @@ def _tell_absent(ax, rows, name, lower):
     kinds = [f"{count} {kind}" for kind, count in without.items()]
     if present:
         told = textwrap.fill(f"not drawn, without this value: {'; '.join(kinds)}", 58)
-        ax.text(0.5, -0.19 - 0.06 * lower, told, transform=ax.transAxes, ha="center", va="top", fontsize=8, color="#555555")
+        ax.text(
+            0.5, -0.19 - 0.06 * lower, told, transform=ax.transAxes, ha="center", va="top", fontsize=8, color="#555555"
+        )
         return lower + told.count("\n") + 1
     ax.set_yticks([])
     told = "\n".join(textwrap.fill(kind, 34) for kind in kinds)

@@ -23,7 +23,8 @@ COLUMNS = {
     "stage": _count("stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
     "water_m": Column("m", "height of the water table above its plane (DP), h_w"),
     "dp_normal_total_N_per_m": Column(
-        "N/m", "total normal force on the lowest slip surfaces (DP), those with no other below, N_DP = N'_DP + U_DP, mean over the row"
+        "N/m",
+        "total normal force on the lowest slip surfaces (DP), those with no other below, N_DP = N'_DP + U_DP, mean over the row",
     ),
     "dp_normal_effective_N_per_m": Column(
         "N/m", "effective (contact) normal force on the lowest slip surfaces, N'_DP, mean over the row"
@@ -37,7 +38,9 @@ COLUMNS = {
     "fb_shear_N_per_m": Column("N/m", "shear force on the backstops, mean over the row"),
     "ss_normal_N_per_m": Column("N/m", "normal force on the walls that are ground (SS), mean over the row"),
     "ss_shear_N_per_m": Column("N/m", "shear force on the walls that are ground, mean over the row"),
-    "dp_normal_peak_N_per_m": Column("N/m", "largest effective normal force on the lowest slip surfaces in a step of the row"),
+    "dp_normal_peak_N_per_m": Column(
+        "N/m", "largest effective normal force on the lowest slip surfaces in a step of the row"
+    ),
     "fb_normal_peak_N_per_m": Column("N/m", "largest normal force on the backstops in a step of the row"),
     "ss_normal_peak_N_per_m": Column("N/m", "largest normal force on the walls that are ground in a step of the row"),
     "wet_disks": _count("disks that feel pore pressure"),
@@ -53,7 +56,9 @@ COLUMNS = {
     "bonds_broken_torque": _count("bonds broken by rolling so far"),
     "bonds_broken_mixed": _count("bonds broken in several modes at once so far"),
     "contacts": _count("contacts, bonded ones included"),
-    "slip_mean_dp_m": Column("m", "mean cumulated slip of the disks that touch those of the lowest slip surfaces which weaken"),
+    "slip_mean_dp_m": Column(
+        "m", "mean cumulated slip of the disks that touch those of the lowest slip surfaces which weaken"
+    ),
     "weakened_disks": _count("disks whose slip on one of them has passed the critical slip D_c"),
     "iterations": _count("sweeps of the contact solver in the step"),
     "residual": Column("1", "residual of the contact solver at the end of the step"),
