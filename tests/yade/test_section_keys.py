@@ -16,6 +16,13 @@ SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())
 
 # A block of seven bonded disks on the plane, which the water pushes down it, as hard as makes 3 m/s², for half a metre; friction then brings it to rest within two seconds.
 CHANGED = {
+    # a push that no water has, and strengths that do nothing
+    ("unusual",): [
+        "water.pressure_gradient",
+        "materials.rock.residual_tensile_strength",
+        "materials.dp.residual_tensile_strength",
+        "materials.dp.slip_weakening.tensile_strength",
+    ],
     ("water", "pressure_gradient"): [-9500.0, 4430.0],
     ("water", "table"): {"rate": 1000.0},
     ("water", "release_distance"): 0.5,
@@ -198,6 +205,11 @@ WHERE = {
         {("seed",): 77, ("disks", "packing_fraction"): 0.7},
         lambda m: packing.pack(m.section).x.tolist(),
         lambda m: packing.pack(m.section, 77).x.tolist(),
+    ),
+    ("unusual",): (
+        {("unusual",): ["water.pressure_gradient", "materials.rock.friction"], (*ROCK, "friction"): 9.0},
+        lambda m: (m.section.unusual, m.disk(0).material.frictionAngle),
+        (("water.pressure_gradient", "materials.rock.friction"), angle(9.0)),
     ),
     ("walls", "*", "name"): ({("walls", 2, "name"): "floor"}, lambda m: list(m.built.walls), ["DP", "FB", "floor"]),
     ("walls", "*", "material"): ({("walls", 2, "material"): "fb"}, lambda m: m.wall("SS").frictionAngle, angle(0.6)),
@@ -635,6 +647,7 @@ def test_a_key_acts(make, key, changes, found, expected, end):
 IDLE = {
     ("name",),
     ("description",),
+    ("unusual",),
     ("walls", "*", "name"),
     ("walls", "*", "apart"),
     ("layers", "*", "name"),

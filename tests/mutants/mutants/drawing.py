@@ -11,6 +11,8 @@ SCENE, MOVING = FIGURES + "scene.py", FIGURES + "moving.py"
 LAW = FIGURES + "law.py"
 
 MUTANTS = (
+    mutant("means-legend", FIGURES + "sweep.py", "columns == 1 or box.width <=", "columns or box.width <=", "a long legend is cut", "test_campaign.py::test_all_of_a_large_legend_is_in_the_picture"),
+    mutant("forces-own", FORCES, "for wall, force, _, _ in own]", "for wall, _, force, _ in own]", "the total force on one of several slip surfaces is the effective one", "plain:test_stacks.py"),
     mutant("scene-sign", SCENE, '(1, COMPRESSION, "compression"), (-1, TENSION, "tension")', '(-1, COMPRESSION, "compression"), (1, TENSION, "tension")', "tension is drawn as compression",
            "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-bonds", SCENE, "held = (scene.cj >= 0) & scene.bonded", "held = scene.cj >= 0", "all contacts are drawn as bonds", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
@@ -76,7 +78,7 @@ MUTANTS = (
            "plain:test_figures_forces.py::test_the_whole_slope_is_drawn_by_layers"),
     mutant("forces-unit", STYLE, '(1e6, "MN/m"), (1e3', '(1e5, "MN/m"), (1e3', "kilonewtons are drawn as meganewtons",
            "plain:test_figures_forces.py::test_bars_are_as_wide_as_the_scale_says"),
-    mutant("forces-column", FORCES, 'curve(effective), "orange"', 'curve(total), "orange"', "the effective force is drawn as the total one",
+    mutant("forces-column", FORCES, 'curve(effective), LINES["orange"]', 'curve(total), LINES["orange"]', "the effective force is drawn as the total one",
            "plain:test_figures_forces.py::test_each_force_is_its_column_in_meganewtons"),
     mutant("forces-change", FORCES, "curve(back - back[start])", "curve(back)", "the change since t0 is no change",
            "plain:test_figures_forces.py::test_each_force_is_its_column_in_meganewtons"),
