@@ -128,7 +128,7 @@ def _water_notes(section):
     water = section.water
     if water is None:
         return
-    if abs(water.dip) >= 1 and abs(section.dip) >= 1 and water.dip * section.dip < 0:
+    if water.wall is None and abs(water.dip) >= 1 and abs(section.dip) >= 1 and water.dip * section.dip < 0:
         ways = ["to the right" if dip > 0 else "to the left" for dip in (water.dip, section.dip)]
         yield (
             f"{section.source}: the water's plane dips {abs(water.dip):.3g}° {ways[0]}, and the slope falls {ways[1]}; a dip to the left is negative"

@@ -170,7 +170,7 @@ BESIDE = "is given beside cohesion: 60000 and friction_angle: 34"
     [
         ({"friction": 0.3}, f"rock.friction: 0.3 {BESIDE}"),
         ({"tensile_strength": 1e5}, f"rock.tensile_strength: 100000.0 {BESIDE}"),
-        ({"envelope": {"cohesion": 1.0, "friction_deg": 30}}, f"rock.envelope: {BESIDE}"),
+        ({"envelope": {"cohesion": 1e4, "friction_deg": 30}}, f"rock.envelope: {BESIDE}"),
         ({"slip_weakening": {"law": "step", "critical_slip": 1.0}}, "only walls weaken with slip"),
         ({"bonded": False}, f"rock.bonded: false {BESIDE}"),
         ({"rolling_friction": 0.2}, f"rock.rolling_friction: 0.2 {BESIDE}, and the table of calibrated rocks was measured with 0.1"),

@@ -207,9 +207,9 @@ WHERE = {
         lambda m: packing.pack(m.section, 77).x.tolist(),
     ),
     ("unusual",): (
-        {("unusual",): ["water.pressure_gradient", "materials.rock.friction"], (*ROCK, "friction"): 9.0},
+        {("unusual",): ["materials.rock.friction"], (*ROCK, "friction"): 9.0, (*ROCK, "residual_friction"): 0.4, ("water", "pressure_gradient"): "hydrostatic"},
         lambda m: (m.section.unusual, m.disk(0).material.frictionAngle),
-        (("water.pressure_gradient", "materials.rock.friction"), angle(9.0)),
+        (("materials.rock.friction",), angle(9.0)),
     ),
     ("walls", "*", "name"): ({("walls", 2, "name"): "floor"}, lambda m: list(m.built.walls), ["DP", "FB", "floor"]),
     ("walls", "*", "material"): ({("walls", 2, "material"): "fb"}, lambda m: m.wall("SS").frictionAngle, angle(0.6)),
