@@ -38,14 +38,14 @@ class _Frames(film.Stage):
             extra = 0.5 * ((y1 - y0) / shape - (x1 - x0))
             x0, x1 = x0 - extra, x1 + extra
         style.frame(self.ax, x0, x1, y0, y1)
-        style.draw_walls(self.ax, ground, size=12)
+        inside = style.draw_walls(self.ax, ground, size=12)
         style.scale_bar(self.ax, 0.975 if ground.side > 0 else 0.145, 0.06, 0.12)
         self._legend()
         self.disks = style.draw_disks(self.ax, first, style.state_colours(first))
         self.water = style.water_line(self.ax, ground, 0.0)
         self.clock = self.fig.text(0.015, 0.985, "", fontsize=17, fontweight="bold", va="top")
         self.state = self.fig.text(0.16, 0.98, "", fontsize=13, va="top", color="#444444")
-        self.moving = [a for a in (self.disks, self.water, self.clock, self.state) if a is not None]
+        self.moving = [a for a in (self.disks, *inside, self.water, self.clock, self.state) if a is not None]
         self.cursors = []
         if series is not None:
             self._forces(series, times, window)

@@ -244,3 +244,16 @@ def test_a_video_that_fails_leaves_the_old_one(tmp_path, files):
     assert path is None and "ffmpeg failed" in note
     with pytest.raises(RecordsError, match="no snapshots"):
         video.write_mp4([], WALLS, old, 10)
+
+
+def test_interfaces_and_their_names_lie_over_the_disks():
+    """What moves is drawn anew over all that does not; an interface runs through the disks, and walls do not."""
+    made = synthetic.load("section").load("interface")
+    x, y = made.line_of(made.interfaces[0]).mean(axis=0)
+    shot = synthetic.few([x - 200.0, x, x + 200.0], [y + 80.0, y, y - 70.0])
+    ground = synthetic.load("measure.ground").ground_of(made)
+    frames = video._Frames(ground, style.view([shot], ground), shot, (1280, 720), None, None, 1.0, 100.0)
+    named = {one.get_text(): k for k, one in enumerate(frames.moving) if hasattr(one, "get_text") and one.get_text()}
+    assert named["joint"] > frames.moving.index(frames.disks) and "base" not in named
+    dotted = [one for one in frames.moving if one is not frames.water and hasattr(one, "get_xydata")]
+    assert len(dotted) == 1 and dotted[0].get_xydata() == pytest.approx(made.line_of(made.interfaces[0]))

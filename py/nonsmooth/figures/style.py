@@ -186,10 +186,11 @@ def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, 
 def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
     """Walls as lines with the ground below them filled, to the sides of the picture, and the names of those whose role is in ``named`` (all where None) beside them.
 
-    ``ground``: a :class:`~nonsmooth.measure.ground.Ground`.
+    ``ground``: a :class:`~nonsmooth.measure.ground.Ground`. Returns the artists of interfaces between layers, which lie over the disks.
     """
     x0, x1 = ax.get_xlim()
     y0, y1 = ax.get_ylim()
+    over = []
     for wall in ground.walls:
         if wall.buried:
             continue
@@ -198,7 +199,7 @@ def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
     for points in ground.beyond(x0, x1):
         ax.fill_between(points[:, 0], points[:, 1], y0 - (y1 - y0), color=GROUND, lw=0.6, zorder=0.4)
     for wall in ground.walls:
-        ax.plot(
+        drawn = ax.plot(
             wall.vertices[:, 0],
             wall.vertices[:, 1],
             color=WALL,
@@ -208,20 +209,22 @@ def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
             zorder=4,
         )
         if named is None or wall.role in named:
-            _name_wall(ax, wall, ground.side, (x0, x1, y0, y1), size)
+            drawn.append(_name_wall(ax, wall, ground.side, (x0, x1, y0, y1), size))
+        over += [one for one in drawn if one is not None] if wall.buried else []
+    return over
 
 
 def _name_wall(ax, wall, side, box, size):
-    """Write a wall's name below the middle of its visible part, or beside it where it stands upright."""
+    """Write a wall's name below the middle of its visible part, or beside it where it stands upright; returns it, None where so little of the wall is seen that it has none."""
     x0, x1, y0, y1 = box
     leg = np.r_[0, np.cumsum(np.hypot(*np.diff(wall.vertices, axis=0).T))]
     along = np.linspace(0, leg[-1], 400)
     path = np.column_stack([np.interp(along, leg, wall.vertices[:, k]) for k in (0, 1)])
     seen = path[(path[:, 0] > x0) & (path[:, 0] < x1) & (path[:, 1] > y0) & (path[:, 1] < y1)]
     if len(seen) == 0 or max(np.ptp(seen[:, 0]) / (x1 - x0), np.ptp(seen[:, 1]) / (y1 - y0)) < SCARCE:
-        return
+        return None
     beside = wall.role == "backstop"
-    ax.annotate(
+    return ax.annotate(
         plain(wall.name), seen[len(seen) // 2], xytext=(9 * side, -5) if beside else (-3 * side, -6), textcoords="offset points",
         ha=("left" if side > 0 else "right") if beside else "center", va="top", fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
         path_effects=EDGE, bbox={"fc": "white", "ec": "none", "alpha": 0.7, "pad": 1.0} if wall.buried else None,
