@@ -104,8 +104,8 @@ def verdict_lines(summary):
 def number_line(name, summary):
     """A number of the summary; of one that there is not, why."""
     value = summary[name]
-    if name == "energy_error_rel" and summary["verdict"] == verdict.STOOD:
-        return f"  {name:28s} -  (the slope stood: it turned over too little energy to set an error beside)"
+    if name == "energy_error_rel" and summary["times_s"]["t4"] is None and summary["verdict"] != verdict.SLID:
+        return f"  {name:28s} -  (the slope has not moved off: it turned over too little energy to set an error beside)"
     if value is not None:
         return f"  {name:28s} {value:.4g}"
     why = characteristic_times.reason_of(name, summary["times_missing"])

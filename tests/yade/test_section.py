@@ -99,7 +99,11 @@ def test_water_that_flows_along_the_plane_lifts_and_drags(section, dip):
     "old, new, said",
     [
         ("buoyant", "parallel_seepage", "; write `pressure_gradient: parallel_seepage`"),
-        ([3.0, 5e3], (-3.0, -5e3), ", for the force per volume, which is −∇p; write `pressure_gradient: [-3.0, -5000.0]`"),
+        (
+            [3.0, 5e3],
+            (-3.0, -5e3),
+            ", for the force per volume, which is −∇p; write `pressure_gradient: [-3.0, -5000.0]`",
+        ),
     ],
 )
 def test_the_old_name_of_the_pressure_gradient_is_read_with_one_warning(tmp_path, old, new, said):

@@ -207,7 +207,12 @@ WHERE = {
         lambda m: packing.pack(m.section, 77).x.tolist(),
     ),
     ("unusual",): (
-        {("unusual",): ["materials.rock.friction"], (*ROCK, "friction"): 9.0, (*ROCK, "residual_friction"): 0.4, ("water", "pressure_gradient"): "hydrostatic"},
+        {
+            ("unusual",): ["materials.rock.friction"],
+            (*ROCK, "friction"): 9.0,
+            (*ROCK, "residual_friction"): 0.4,
+            ("water", "pressure_gradient"): "hydrostatic",
+        },
         lambda m: (m.section.unusual, m.disk(0).material.frictionAngle),
         (("materials.rock.friction",), angle(9.0)),
     ),

@@ -184,3 +184,17 @@ def test_soft_contacts_have_a_verdict_too(tmp_path):
     assert summary["verdict"] in ("stood", "not at rest") and summary["energy_losses_J_per_m"] is None
     run.state = dataclasses.replace(run.state, failed_dry=0.08, moving=0.08, rested=0.06)
     assert told(run)["verdict"] == "moved dry"  # or its weight: nobody knows
+
+
+@pytest.mark.parametrize(
+    "kind, t4, told",
+    [("stood", None, False), ("not over", None, False), ("slid", None, True), ("failed by water", 9.0, True)],
+)
+def test_an_error_of_energy_is_told_of_a_slope_that_moved(kind, t4, told):
+    """Beside the little that a slope at rest turns over, any error is large: that of one that was stopped before it moved was told as 54."""
+    from yade.nonsmooth import slope_command
+
+    line = slope_command.number_line(
+        "energy_error_rel", {"energy_error_rel": 54.2, "verdict": kind, "times_s": {"t4": t4}}
+    )
+    assert line.split()[1] == ("54.2" if told else "-")
