@@ -199,6 +199,37 @@ def test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight(tmp_
     assert course.section.lowest_surfaces == (course.section.wall("DP"),)
 
 
+def test_a_slip_wall_above_another_is_no_part_of_the_sum(tmp_path):
+    block = lambda name, y: {
+        "name": name,
+        "material": "rock",
+        "vertices": [[-20, y + 10], [-5, y + 2.5], [-5, y + 6.5], [-20, y + 14]],
+    }  # noqa: E731
+    wall = lambda name, y, **more: {
+        "name": name,
+        "material": "floor",
+        "role": "slip",
+        "vertices": [[-20, y + 10], [0, y]],
+        **more,
+    }  # noqa: E731
+    rock = {"friction": 0.8, "rolling_friction": 0.1, "density": 2500, "tensile_strength": 1e6}
+    made = section.of(
+        name="two floors",
+        walls=[wall("low", 0), wall("shelf", 12, apart=True)],
+        layers=[block("under", 0), block("upper", 12)],
+        materials={"rock": rock, "floor": {"friction": 0.8, "rolling_friction": 0.1, "tensile_strength": 1e6}},
+        disks={"diameter": [0.8, 1.6], "packing_fraction": 0.78},
+    )
+    assert made.stacked == ("low", "shelf")
+    _, series, _ = run(made, tmp_path / "out", 1.0)
+    walls = records.read_walls(tmp_path / "out" / "walls.csv")
+    for what, column in (("normal", "normal_effective"), ("shear", "shear"), ("normal_peak", "normal_peak")):
+        of = {name: walls[f"{what}_N_per_m"][walls["wall"] == name] for name in made.stacked}
+        assert np.array_equal(series[f"dp_{column}_N_per_m"], of["low"]) and of["shelf"].any()
+        for name in made.stacked:
+            assert np.array_equal(series[f"dp_{column}_N_per_m:{name}"], of[name])
+
+
 @pytest.mark.parametrize(
     "changes, key, remedy",
     [
