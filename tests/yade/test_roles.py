@@ -150,9 +150,9 @@ def test_a_mirrored_section_is_checked_like_any_other(tmp_path):
     x, y = JIUFENGERSHAN.water.pressure_gradient_xy
     assert read.water.pressure_gradient_xy == (-x, y)
     vector = dataclasses.replace(
-        JIUFENGERSHAN, water=dataclasses.replace(JIUFENGERSHAN.water, pressure_gradient=(3.0, -5.0))
+        JIUFENGERSHAN, water=dataclasses.replace(JIUFENGERSHAN.water, pressure_gradient=(3e3, -5e3))
     )
-    assert similar.mirrored(vector).water.pressure_gradient == (-3.0, -5.0)
+    assert similar.mirrored(vector).water.pressure_gradient == (-3e3, -5e3)
     assert similar.mirrored(similar.mirrored(vector)).water == vector.water
 
 

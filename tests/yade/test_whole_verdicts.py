@@ -36,7 +36,7 @@ STRONG = {
     "dp": {"friction": 3.0},
 }
 #: it slides as soon as gravity has grown
-WEAK = {"rock": {"tensile_strength": 1e3}, "fb": {"tensile_strength": 1.0}, "dp": {"friction": 0.1}}
+WEAK = {"rock": {"tensile_strength": 1e3}, "fb": {"tensile_strength": 100.0}, "dp": {"friction": 0.1}}
 
 
 def begun(chosen, folder):
