@@ -24,7 +24,7 @@ import math
 
 import numpy as np
 
-from . import records, scales, stacks
+from . import records, scales
 
 __all__ = [
     "COLUMNS",
@@ -69,7 +69,7 @@ SAME = 1e-9  # s, of one row's time
 def columns(section) -> tuple[str, ...]:
     """All columns of a Section's series that its times follow from."""
     own = (
-        stacks.column(name, surface) for surface in section.stacked for name in ("dp_shear_N_per_m", "weakened_disks")
+        records.column(name, surface) for surface in section.stacked for name in ("dp_shear_N_per_m", "weakened_disks")
     )
     return (*COLUMNS, *own)
 
@@ -158,7 +158,7 @@ def _of_run(series, section, state, scale):
     (begins, surface), triggered = _weakening(series, section, state), _row(series, times["t2"])
     if begins is not None:
         name = "dp_shear_N_per_m"
-        shear = _means(series, stacks.column(name, surface) if surface else name, scale.mean_seconds)
+        shear = _means(series, records.column(name, surface) if surface else name, scale.mean_seconds)
         late = series["time_s"] >= max(times["t2"], begins) - SAME
         fallen = np.flatnonzero(late & (shear <= FALLEN * shear[triggered]))
         times["t3"] = float(series["time_s"][fallen[0]]) if len(fallen) else None
@@ -176,8 +176,8 @@ def _weakening(series, section, state):
         return None, None
     name, lines = "weakened_disks", dict(section.slip_surfaces)
     # a series of a version before has no columns of each
-    apart = [one for one in section.stacked if stacks.column(name, one) in series]
-    kinds = [(one, stacks.column(name, one), [lines[one]]) for one in apart] or [(None, name, lines.values())]
+    apart = [one for one in section.stacked if records.column(name, one) in series]
+    kinds = [(one, records.column(name, one), [lines[one]]) for one in apart] or [(None, name, lines.values())]
     found = []
     for surface, column, points in kinds:
         length = float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in points))

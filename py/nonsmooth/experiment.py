@@ -35,7 +35,6 @@ from . import (
     section_data,
     slope,
     slope_packing,
-    stacks,
     tables,
 )
 from .course import State
@@ -105,7 +104,7 @@ class Experiment:
         self.runner = None  # see attach
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
-        self.columns += stacks.own_columns(self.section.stacked)
+        self.columns += records.own_columns(self.section.stacked)
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
@@ -467,7 +466,7 @@ class Experiment:
         """The columns of one of several slip surfaces one above another: its normal and shear force and peak, and the water's on what it bears [N/m]."""
         slip = self.walls.slip(name)
         values = (force[0] + u, force[0], u, force[1], force[2], slip.mean, slip.weakened)
-        return {stacks.column(column, name): value for column, value in zip(stacks.OWN, values, strict=True)}
+        return {records.column(column, name): value for column, value in zip(records.OWN, values, strict=True)}
 
     def _share(self, t, part):
         """The part of the water's force that acts on what slip surfaces bear: these disks, or this part of each (None: all). Forces go with areas."""

@@ -2,29 +2,17 @@
 
 Each of them bears the weight of all that lies above it, so a sum over them would count this weight once for each. What may be added are surfaces side by side: pieces of one
 surface, or of two slopes. So the columns ``dp_…`` are sums over the *lowest* slip surfaces, those with no other below, which bear the mass between them; and where a slope has
-others above, each has columns of its own (:func:`column`).
+others above, each has columns of its own (:func:`.records.columns.column`).
 """
 
 from __future__ import annotations
-
-import re
 
 import numpy as np
 from shapely.geometry import Polygon
 from shapely.ops import unary_union
 
-__all__ = ["OWN", "column", "levels", "own_columns", "part_beside", "stem"]
+__all__ = ["levels", "part_beside"]
 
-#: Columns of the series that each slip surface has for itself where some lie one above another.
-OWN = (
-    "dp_normal_total_N_per_m",
-    "dp_normal_effective_N_per_m",
-    "dp_water_N_per_m",
-    "dp_shear_N_per_m",
-    "dp_normal_peak_N_per_m",
-    "slip_mean_dp_m",
-    "weakened_disks",
-)
 OVERLAP = 0.1  # of the shorter one's way along x: surfaces that share less lie side by side
 SAMPLES = 65  # places at which the heights of two surfaces are compared
 SHARE = 0.1  # of a layer's area: a smaller part that hangs over the end of a surface, as ends across the slope do, counts with the rest
@@ -70,19 +58,3 @@ def part_beside(polygons, lines, above=True):
     region = unary_union([piece.buffer(0) for piece in pieces])
     share = np.array([polygon.intersection(region).area / polygon.area for polygon in polygons])
     return np.where(share < SHARE, 0.0, np.where(share > 1 - SHARE, 1.0, share))
-
-
-def column(name, surface):
-    """Name of a column, one of :data:`OWN`, for one slip surface: ``dp_shear_N_per_m:joint``. What a table of numbers would stumble over is left out of the surface's name."""
-    plain = re.sub(r'[\s,"]+', " ", surface).strip()
-    return f"{name}:{plain}"
-
-
-def stem(name):
-    """The column that one surface's :func:`column` is named after; any other as it is."""
-    return name.partition(":")[0]
-
-
-def own_columns(surfaces):
-    """The columns of slip surfaces of these names, in the order of a series: a tuple."""
-    return tuple(column(name, surface) for surface in surfaces for name in OWN)

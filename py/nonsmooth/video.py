@@ -7,7 +7,7 @@ import matplotlib
 import numpy as np
 from matplotlib.patches import Patch
 
-from . import film, stacks
+from . import film, records
 from .figures import style
 from .measure.ground import ground_of
 from .records import RecordsError, read_snapshot
@@ -65,7 +65,7 @@ class _Frames(film.Stage):
             if self.slope.of_role(role)
         ]
         own = [
-            (stacks.column("dp_shear_N_per_m", wall), "T", "shear force", wall, colour)
+            (records.column("dp_shear_N_per_m", wall), "T", "shear force", wall, colour)
             for wall, colour in zip(self.slope.stacked, itertools.cycle(style.STACKED))
         ]
         # slip surfaces one above another: the shear force on each, and none on all of them

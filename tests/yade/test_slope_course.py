@@ -37,7 +37,7 @@ def failed(tmp_path_factory):
         folder / "weak.yaml",
         materials__dp__friction=0.0,
         materials__dp__residual_friction=0.0,
-        materials__rock__tensile_strength=1.0,
+        materials__rock__tensile_strength=2e3,
         materials__rock__residual_tensile_strength=0.0,
         materials__fb__tensile_strength=1.0,
         stages__settle__ramp=1.0,

@@ -101,9 +101,9 @@ def test_a_slope_whose_surfaces_lie_side_by_side_has_no_further_columns():
 
 
 def test_a_column_of_a_surface_is_read_as_it_was_written(tmp_path):
-    names = ("step", "weakened_disks", *stacks.own_columns(("upper, weak", 'a "b"\nc')))
+    names = ("step", "weakened_disks", *records.own_columns(("upper, weak", 'a "b"\nc')))
     assert names[2:4] == ("dp_normal_total_N_per_m:upper weak", "dp_normal_effective_N_per_m:upper weak")
-    row = {name: 7 if stacks.stem(name) in ("step", "weakened_disks") else 0.1 for name in names}
+    row = {name: 7 if records.stem(name) in ("step", "weakened_disks") else 0.1 for name in names}
     with records.SeriesWriter(tmp_path / "series.csv", names) as writer:
         writer.write(row)
     found = records.read_series(tmp_path / "series.csv")
@@ -117,9 +117,9 @@ def stacked_series(**weakened):
     t = series["time_s"]
     for name, surface in (("lower", "lower"), ("upper", "upper, weak")):
         shear = series["dp_shear_N_per_m"] if name == "lower" else 100e6 * np.clip(1 - (t - 43), 0, 1)
-        series[stacks.column("dp_shear_N_per_m", surface)] = shear
+        series[records.column("dp_shear_N_per_m", surface)] = shear
         since = weakened.get(name, np.inf)
-        series[stacks.column("weakened_disks", surface)] = np.where(t >= since - 1e-9, 10**4, 0)
+        series[records.column("weakened_disks", surface)] = np.where(t >= since - 1e-9, 10**4, 0)
     return series
 
 
@@ -134,7 +134,7 @@ def test_times_are_of_the_surface_that_weakens_first():
     assert 38.6 - 0.11 <= of(lower=33.0, upper=40.0)["t3"] <= 38.6 + second + 0.11
     assert 43.9 - 0.11 <= of(lower=40.0, upper=33.0)["t3"] <= 43.9 + second + 0.11
     assert of()["t3"] is None
-    held = rows(upper=33.0) | {stacks.column("dp_shear_N_per_m", "upper, weak"): np.full(len(rows()["step"]), 1e6)}
+    held = rows(upper=33.0) | {records.column("dp_shear_N_per_m", "upper, weak"): np.full(len(rows()["step"]), 1e6)}
     why = characteristic_times.missing(held, made, STATE)["t3"]
     assert why == "the shear force on upper, weak did not fall by 90 %"
     # a series of a version before has no columns of each
@@ -152,9 +152,9 @@ def forces_of(made, wet=True):
             "dp_shear_N_per_m": 4e6 - 1e5 * t,
         }
         for name, values in of.items():
-            series[stacks.column(name, surface)] = values / (k + 1) + 0 * t
+            series[records.column(name, surface)] = values / (k + 1) + 0 * t
     for name in ("dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_shear_N_per_m"):
-        series[name] = series[stacks.column(name, made.stacked[0])]
+        series[name] = series[records.column(name, made.stacked[0])]
     return series | {"dp_water_N_per_m": 1e5 * t * wet}
 
 

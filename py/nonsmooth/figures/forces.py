@@ -7,7 +7,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon, Rectangle
 
-from .. import stacks
+from .. import records
 from ..measure.ground import ground_of
 from . import given, style
 from .style import COMPRESSION, INK, LINES, TENSION
@@ -180,7 +180,7 @@ def _limits(curves, shown):
 def _own(series, ground):
     """(name, total normal force, effective one, shear force [N/m]) of each slip surface where some lie one above another; empty where none do, and for a series without columns of each."""
     names = ("dp_normal_total_N_per_m", "dp_normal_effective_N_per_m", "dp_shear_N_per_m")
-    columns = {wall: [stacks.column(name, wall) for name in names] for wall in ground.stacked}
+    columns = {wall: [records.column(name, wall) for name in names] for wall in ground.stacked}
     if not all(column in series for of in columns.values() for column in of):
         return []
     return [(wall, *style.need(series, *of)) for wall, of in columns.items()]

@@ -6,7 +6,7 @@ wrong with it and what to do.
 """
 
 from .breaks import BREAK_COLUMNS, read_breaks, write_breaks
-from .columns import COLUMNS, LOSSES, WALL_COLUMNS, Column
+from .columns import COLUMNS, LOSSES, OWN, WALL_COLUMNS, Column, column, own_columns, stem
 from .error import RecordsError
 from .series import SeriesWriter, kept, read_series, read_walls, since_settled
 from .snapshots import Snapshot, read_snapshot, write_snapshot
@@ -15,17 +15,21 @@ __all__ = [
     "BREAK_COLUMNS",
     "COLUMNS",
     "LOSSES",
+    "OWN",
     "WALL_COLUMNS",
     "Column",
     "RecordsError",
     "SeriesWriter",
     "Snapshot",
+    "column",
     "kept",
+    "own_columns",
     "read_breaks",
     "read_series",
     "read_snapshot",
     "read_walls",
     "since_settled",
+    "stem",
     "write_breaks",
     "write_snapshot",
 ]

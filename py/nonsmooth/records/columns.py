@@ -1,5 +1,6 @@
 """What the columns of series.csv and walls.csv mean."""
 
+import re
 from typing import NamedTuple
 
 
@@ -16,7 +17,7 @@ def _count(description):
 
 
 #: The known columns: name -> (unit, description, integer). A series may hold others; these are documented. Where slip surfaces lie one above another, each has some of them for
-#: itself, see :mod:`.stacks`.
+#: itself, see :data:`OWN`.
 COLUMNS = {
     "step": _count("number of the time step, strictly increasing"),
     "time_s": Column("s", "simulated time"),
@@ -109,3 +110,30 @@ WALL_COLUMNS = {
 
 #: The four ways in which contacts dissipate energy.
 LOSSES = ("energy_sliding_J", "energy_rolling_J", "energy_impact_J", "energy_bonds_J")
+
+#: Columns of the series that each slip surface has for itself where some lie one above another, see :mod:`..stacks`.
+OWN = (
+    "dp_normal_total_N_per_m",
+    "dp_normal_effective_N_per_m",
+    "dp_water_N_per_m",
+    "dp_shear_N_per_m",
+    "dp_normal_peak_N_per_m",
+    "slip_mean_dp_m",
+    "weakened_disks",
+)
+
+
+def column(name, surface):
+    """Name of a column, one of :data:`OWN`, for one slip surface: ``dp_shear_N_per_m:joint``. What a table of numbers would stumble over is left out of the surface's name."""
+    plain = re.sub(r'[\s,"]+', " ", surface).strip()
+    return f"{name}:{plain}"
+
+
+def stem(name):
+    """The column that one surface's :func:`column` is named after; any other as it is."""
+    return name.partition(":")[0]
+
+
+def own_columns(surfaces):
+    """The columns of slip surfaces of these names, in the order of a series: a tuple."""
+    return tuple(column(name, surface) for surface in surfaces for name in OWN)

@@ -8,9 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..stacks import stem
-from .columns import COLUMNS, WALL_COLUMNS
 from .. import checks
+from .columns import COLUMNS, WALL_COLUMNS, stem
 from .error import RecordsError
 
 
