@@ -39,7 +39,7 @@ def failed(tmp_path_factory):
         materials__dp__residual_friction=0.0,
         materials__rock__tensile_strength=2e3,
         materials__rock__residual_tensile_strength=0.0,
-        materials__fb__tensile_strength=1.0,
+        materials__fb__tensile_strength=2e3,
         stages__settle__ramp=1.0,
         stages__dry=0.5,
         stages__end__time=8.0,
