@@ -242,6 +242,11 @@ def test_launcher_refuses_bad_calls(script, tmp_path):
         ([script(""), "--threads", "9" * 30], "give at most"),
         (["-j", "0", script("")], "wants a positive number, not '0'"),
         (["-j"], "-j wants a number"),
+        # it took the script's name for one, and then missed a script
+        (["-j", script("")], "-j wants a positive number, not '"),
+        (["-nj", script(""), "2"], "-j wants a positive number, not '"),
+        (["-jx", script("")], "-j wants a positive number, not 'x'"),
+        (["--threads=", script("")], "--threads wants a positive number, not ''"),
         (["--cores=0,1", script("")], "YADE's option --cores=0,1 is none of the launcher's"),
         (["-f3", script("")], os.path.join("prefix", "bin", "yade --help")),
         (["-nq", script("")], "there is no option -q"),
@@ -289,6 +294,34 @@ def test_a_prompt_behind_a_script(script):
     assert result.returncode == 0 and "it is 42" in result.stdout and "0 steps" in result.stdout, result.stderr
     result = run([LAUNCHER, "-i", "-j1"], given="print('it is', 6 * 7)\n")
     assert result.returncode == 0 and "it is 42" in result.stdout, result.stderr
+
+
+@pytest.mark.parametrize(
+    "text, lines, status",
+    [
+        ("", "raise SystemExit(3)\nprint('too far')\n", 3),
+        ("", "import sys\nsys.exit('a reason')\nprint('too far')\n", 1),
+        ("", "1/0\nprint('goes on')\n", 1),
+        ("", "x = = 1\nprint('goes on')\n", 1),
+        ("", "1/0\nraise SystemExit(0)\n", 0),
+        ("raise ValueError('of the script')", "print('goes on')\n", 1),
+        ("import sys; sys.exit(4)", "print('too far')\n", 4),
+        ("", "print('goes on')\nexit()\n", 0),
+    ],
+)
+def test_a_prompt_whose_lines_come_by_a_pipe_ends_as_a_script_does(text, lines, status, script):
+    result = run([LAUNCHER, "-i", "-j1", script(text)], given=lines)
+    assert result.returncode == status, result.stdout + result.stderr
+    assert "too far" not in result.stdout and ("goes on" in result.stdout) == ("goes on" in lines)
+
+
+def test_the_file_that_a_script_is(script):
+    """As in Python: the script, and no name where it comes by standard input."""
+    path = script("import sys\nprint('file', __file__)\nprint('main', sys.modules['__main__'].__file__)")
+    result = run([LAUNCHER, "-j1", path])
+    assert f"file {path}\nmain {path}\n" in result.stdout, result.stdout + result.stderr
+    result = run([LAUNCHER, "-j1"], given="print('file', globals().get('__file__'))\n")
+    assert "file None\n" in result.stdout, result.stdout + result.stderr
 
 
 def test_script_started_as_it_is_finds_the_launcher(tmp_path, script):

@@ -57,6 +57,8 @@ MUTANTS = (
     mutant("background-heard", BACKGROUND, "_unheard.remove(message)", "pass", "a script that has heard of an error ends with it", WATCHED + "::test_the_same_error_heard_later_is_heard"),
     mutant("launcher-dashes", "scripts/yade-nonsmooth", '"-j$threads" -- "${script[@]}"', '"-j$threads" "${script[@]}"', "a script does not get its first --",
            "test_load.py::test_yades_options_and_the_scripts_own"),
+    mutant("launcher-number", "scripts/yade-nonsmooth", 'threads=$2; check_threads "$1" "$threads"; shift 2', "threads=$2; shift 2", "the script's name is taken for a number of threads",
+           "test_load.py::test_launcher_refuses_bad_calls"),
     # ---- numbers
     mutant("sense-arc", CHECK, "arc->halfAngle > 0 && arc->halfAngle <= Mathr::PI * (1 + 1e-12)", "true", "an arc without an opening is no wall", NUMBERS + "::test_a_wall_that_no_disk_could_touch"),
     mutant("sense-reach", CHECK, "value >= 0 && std::isfinite(value)", "true", "a law that looks nowhere lets disks through", NUMBERS + "::test_a_law_that_looks_nowhere"),
