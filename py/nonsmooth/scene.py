@@ -271,7 +271,7 @@ def arc(centre, radius, start, end, material, inside=True, piece=None):
     ``centre``: (x, y) [m]; ``radius`` [m]; ``start``, ``end``: angles [rad] from the x axis, counter-clockwise from the one to the other; 2 π apart or more: the whole circle.
     ``inside``: the side that acts; False: the outside, None: both. ``piece``: greatest length of a piece [m], of some ten disk diameters where the arc is large beside many disks;
     None: one body. Each body's position is the circle's centre: set its angVel, or RotationEngine, and the wall turns in its place. Ends that meet segments or other arcs are joints, see
-    Segment. Raises ValueError for a radius that is not positive, and for an end that is not beyond the start.
+    Segment. Raises ValueError for a radius that is not positive, for an end that is not beyond the start, and for another ``inside``.
     """
     checks.numbers_of("arc, centre", centre, SceneError, _PLACE, 2, 3)
     checks.number("radius =", radius, SceneError, "give a positive length [m]", above=0)
@@ -289,7 +289,9 @@ def arc(centre, radius, start, end, material, inside=True, piece=None):
         )
     opening = min(end - start, 2 * math.pi)
     count = max(1, math.ceil(radius * opening / piece - 1e-9)) if piece else 1
-    sense = {True: 1, False: -1, None: 0}[inside]
+    if inside not in (True, False, None):
+        raise ValueError(f"inside = {inside!r}: give True (the inside acts), False (the outside), or None (both)")
+    sense = 0 if inside is None else 1 if inside else -1
     return [
         _wall(
             Arc(radius=radius, halfAngle=0.5 * opening / count, sense=sense),

@@ -42,7 +42,7 @@ MUTANTS = (
     mutant("arc-way", JOINTS, "z.cross(from)", "from.cross(z)", "an arc begins away from itself", "test_arcs.py::test_a_corner_of_an_arc_and_a_segment_has_one_contact"),
     mutant("arc-bonded", SEAM, "reading.bonded && curvature != 0", "false", "a bond to a drum that turns is pushed off its circle",
            "test_arcs.py::test_a_bond_to_a_drum_that_turns_holds"),
-    mutant("arc-sense", SCENE, "{True: 1, False: -1, None: 0}", "{True: -1, False: 1, None: 0}", "inside and outside are exchanged", "test_arcs.py::test_a_one_sided_arc_holds_on_its_side_alone"),
+    mutant("arc-sense", SCENE, "1 if inside else -1", "-1 if inside else 1", "inside and outside are exchanged", "test_arcs.py::test_a_one_sided_arc_holds_on_its_side_alone"),
     # ---- plates
     mutant("plate-damping", PLATE, "1 + damping * scene->dt / plate.mass", "1", "a stiff damping throws the plate about", "test_plates.py::test_a_damped_plate_comes_to_the_speed_force_by_damping"),
     mutant("plate-weight", PLATE, "total -= plate.mass * gravity;", ";", "a plate presses with its weight as well", "test_plates.py::test_a_free_plate_has_the_acceleration_force_by_mass"),
