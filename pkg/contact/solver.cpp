@@ -210,12 +210,14 @@ namespace {
 		statistics.strips     = static_cast<int>(laidOut.order.stripCount());
 		statistics.residual   = exact.residual;
 		statistics.changes    = exact.changes;
+		statistics.uneven     = laidOut.survey.uneven;
 		statistics.converged  = exact.solved(
 		         tolerance * (1 + 1e-6)); // velocities computed anew may round the other way
 		if (patches) {
-			statistics.patches   = patches->solved();
-			statistics.converged = statistics.converged
-			        && patches->speed() <= Residual::meanSpeed(tolerance, true);
+			statistics.patches    = patches->solved();
+			statistics.patchSpeed = patches->speed();
+			statistics.converged  = statistics.converged
+			        && statistics.patchSpeed <= Residual::meanSpeed(tolerance, true);
 		}
 		return statistics;
 	}

@@ -64,7 +64,9 @@ struct SolverStatistics {
 	int strips     = 0;
 	int patches
 	        = 0; // of contacts around mass jumps that were solved at once, each as often as it was (mass_jumps.hpp)
-	bool converged = true;
+	double patchSpeed = 0; // largest rms ϑ of one of these patches (residual.hpp)
+	bool   uneven     = false; // masses are so far apart that speeds decide, see Residual::missed
+	bool   converged  = true;
 	Residual
 	        residual; // of what is returned, from velocities computed anew from the impulses; whatever test stopped the solver
 	VelocityChanges changes; // the same, in the figures of LMGC90's tests; only where one of them was asked for

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <tuple>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -53,6 +54,7 @@ void ContactDynamicsEngine::action()
 	seam.answerGivenMotion();
 	timer.next(Stage::Correct);
 	seam.correct(settings(), workspace, correctionSweeps);
+	seam.followWays(*scene);
 	timer.next(Stage::Scatter);
 	const bool adapts = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& e) {
 		return !e->dead && dynamic_cast<const NonsmoothTimeStepper*>(e.get());
@@ -180,7 +182,10 @@ void ContactDynamicsEngine::account(const nscd::StepSums& s, const nscd::Residen
 	overlapMean      = s.touching > 0 ? s.overlap / s.touching : 0;
 	overlapWorstEver = std::max(overlapWorstEver, overlapWorst);
 	overlapWorstPair = Vector2i(s.worstIds[0], s.worstIds[1]);
+	wayWorst         = seam.longest.radii;
+	wayWorstEver     = std::max(wayWorstEver, wayWorst);
 	reportOverlap();
+	reportWay();
 	reportDriven();
 	brokenTension += s.broken[NscdPhys::Tension];
 	brokenShear += s.broken[NscdPhys::Shear];
@@ -204,6 +209,16 @@ void ContactDynamicsEngine::reportChanges(nscd::Resident& resident)
 			                << " such bodies so far).");
 	if (const string& what = seam.givenMotion.told; !what.empty() && nscd::seldom(++placedAgain))
 		LOG_WARN("step " << scene->iter << ": " << what << " (" << placedAgain << " such moves so far).");
+	if (seam.turningOut >= 0 && nscd::seldom(++turnedOut)) {
+		const Vector3r& turn = Body::byId(seam.turningOut, scene)->state->angVel;
+		LOG_WARN(
+		        "step "
+		        << scene->iter << ": body #" << seam.turningOut << " has state.angVel = (" << turn[0] << ", "
+		        << turn[1] << ", " << turn[2]
+		        << "), and rotation about x or y drags nothing, since contacts lie in the x-y plane ("
+		        << turnedOut
+		        << " such steps so far): set its first two numbers to 0, and the third one where the body is to turn in the plane.");
+	}
 	for (const auto& material : scene->materials) {
 		auto* nscd = dynamic_cast<NscdMat*>(material.get());
 		if (nscd && nscd->changesPeakAlone())
@@ -252,18 +267,41 @@ void ContactDynamicsEngine::dump(const std::string& path) const
 	contact::write(path, { seam.problem, seam.warmStart, stepSolved });
 }
 
+namespace {
+	string pairsOf(int count)
+	{
+		return std::to_string(count) + (count == 1 ? " pair of bodies" : " pairs of bodies");
+	}
+}
+
 void ContactDynamicsEngine::reportOverlap()
 {
 	constexpr Real deep = 0.05; // ℓ; what a step of an ordinary run begins with is a hundredth of that
 	if (overlapWorst < deep || !nscd::seldom(++overlappedSteps)) return;
 	LOG_WARN(
 	        "step "
-	        << scene->iter << " began with bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1]
-	        << " " << 100 * overlapWorst << " % of their mean diameter in each other (" << overlappedSteps
+	        << scene->iter << " began with " << pairsOf(seam.overlapsOf(deep))
+	        << " deep in each other, the worst bodies #" << overlapWorstPair[0] << " and #" << overlapWorstPair[1]
+	        << ", by " << 100 * overlapWorst << " % of their mean diameter (" << overlappedSteps
 	        << " such steps so far). They were placed so, pressed by a wall that moves regardless of"
 	           " what it meets, or met faster than the collider knew of: look at how they were placed, lower O.dt or the wall's speed, or raise Law2's reach and the functors' factors."
 	           " Where none of that is so, the solve leaves overlaps: lower tolerance (it is "
 	        << tolerance << "), or raise maxIterations where steps end above it (" << unconverged << " so far).");
+}
+
+void ContactDynamicsEngine::reportWay()
+{
+	const auto& far = seam.longest;
+	if (far.body < 0 || !nscd::seldom(++farSteps)) return;
+	LOG_WARN(
+	        "step "
+	        << scene->iter << ": body #" << far.body << ", a disk of radius " << far.radius << " m, moves at "
+	        << far.speed << " m/s, which is " << far.radii << " of its radii in a step of O.dt = " << scene->dt
+	        << " s (" << farSteps
+	        << " steps so far with a disk that moves by more than its radius). Such a disk may pass a thin wall or another disk between two steps, and what it meets is known"
+	           " too late. Set O.dt = "
+	        << nscd::about(nscd::enoughStep(scene->dt, far.radii))
+	        << " s or less, with which it moves by half its radius, unless nothing is in its way.");
 }
 
 void ContactDynamicsEngine::reportDriven()
@@ -271,9 +309,9 @@ void ContactDynamicsEngine::reportDriven()
 	if (!(seam.drivenTogether > 0) || !nscd::seldom(++drivenSteps)) return;
 	LOG_WARN(
 	        "step "
-	        << scene->iter << ": bodies #" << seam.drivenIds[0] << " and #" << seam.drivenIds[1]
-	        << " are driven into each other by " << seam.drivenTogether
-	        << " m/s, and the DOFs of both are blocked (" << drivenSteps
+	        << scene->iter << ": " << pairsOf(seam.drivenPairs)
+	        << " with blocked DOFs are driven into each other, the fastest bodies #" << seam.drivenIds[0]
+	        << " and #" << seam.drivenIds[1] << ", by " << seam.drivenTogether << " m/s (" << drivenSteps
 	        << " such steps so far). No finite force answers that between rigid bodies, and their contact bears none. Free one of them"
 	           " along the normal (state.blockedDOFs) and press it by O.forces.setPermF.");
 }
@@ -296,6 +334,15 @@ void ContactDynamicsEngine::reportRestitution(Real settling)
 	                << missedRestitution
 	                << " J so far that restitution would have given back; the largest kinetic energy was "
 	                << kineticMost << " J. Lower O.dt, or accept it knowingly.");
+}
+
+namespace {
+	string missedBy(Real value, Real bound)
+	{
+		std::ostringstream text;
+		text << " " << value << ", wanted at most " << bound;
+		return text.str();
+	}
 }
 
 void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, Real meanWeight)
@@ -329,10 +376,27 @@ void ContactDynamicsEngine::report(const contact::SolverStatistics& statistics, 
 	LOG_WARN(
 	        "step "
 	        << scene->iter << " was not solved" << (unsolvedOnEnd >= lasts ? ", like those before it" : "") << ": "
-	        << (ours ? "residual" : stoppingTest) << " " << figure << " after " << iterations << " sweeps, wanted "
-	        << tolerance << "; reactions miss the law by " << residualForce << " N (rms), a body weighs "
+	        << (ours ? tellMissed(statistics) : stoppingTest + missedBy(figure, tolerance)) << ", after "
+	        << iterations << " sweeps; reactions miss the law by " << residualForce << " N (rms), a body weighs "
 	        << meanWeight << " N (mean); " << worstPair << "; " << unconverged
 	        << " steps so far ended above the tolerance. Raise maxIterations, lower O.dt, or accept it knowingly with a larger tolerance.");
+}
+
+/// The figures of a step that are above their bounds, with both.
+string ContactDynamicsEngine::tellMissed(const contact::SolverStatistics& s) const
+{
+	const Real mean = contact::Residual::meanSpeed(tolerance, s.uneven);
+	string     text;
+	for (const auto& [name, value, bound] : { std::tuple("residual", s.residual.relative(), tolerance),
+	                                          std::tuple("residualSpeed", s.residual.speed, mean),
+	                                          std::tuple(
+	                                                  "residualSpeedWorst", s.residual.largestSpeed,
+	                                                  contact::Residual::mostSpeed(tolerance, s.uneven)),
+	                                          std::tuple(
+	                                                  "residualSpeed of a patch around a heavy body", s.patchSpeed,
+	                                                  contact::Residual::meanSpeed(tolerance, true)) })
+		if (!(value <= bound)) text += (text.empty() ? "" : ", and ") + (name + missedBy(value, bound));
+	return text;
 }
 
 /// Finds the contact of the last solve that leaves most of its speed open, and says what helps it.

@@ -96,6 +96,9 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,overlapWorstEver,0,Attr::readonly,"Largest overlap of any step so far [ℓ]."))
 		((Vector2i,overlapWorstPair,Vector2i(-1,-1),(Attr::readonly|Attr::noSave),"Bodies with the largest overlap at the beginning of the last step, the lower id first; (-1, -1): none overlap."))
 		((int,overlappedSteps,0,Attr::readonly,"Steps so far that began with an overlap of 0.05 ℓ or more, of which a warning tells."))
+		((Real,wayWorst,0,(Attr::readonly|Attr::noSave),"Longest way of a disk in the last step, against walls and bodies whose motion is given [its radius]. Up to 1 no disk passes a wall that it did not touch before."))
+		((Real,wayWorstEver,0,Attr::readonly,"Longest way of a disk in any step so far [its radius]."))
+		((int,farSteps,0,Attr::readonly,"Steps so far in which a disk moved by more than its radius, of which a warning tells."))
 		((int,drivenSteps,0,Attr::readonly,"Steps so far in which two bodies whose DOFs are all blocked were driven into each other, of which a warning tells."))
 		((int,contacts,0,(Attr::readonly|Attr::noSave),"Contacts that touch or carry force."))
 		((int,candidates,0,(Attr::readonly|Attr::noSave),"Contacts in the solve, open ones included."))
@@ -124,6 +127,7 @@ and contactImpact. The same scene gives the same bits on any number of threads.)
 		((Real,energyLeft,0,(Attr::readonly|Attr::hidden),"Kinetic and potential energy at the end of the last step [J]."))
 		((vector<Real>,givenMotions,,(Attr::readonly|Attr::hidden),"Motion of bodies that others move by their positions, see seam/GivenMotion.hpp; written when the scene is saved."))
 		((int,sizesChanged,0,(Attr::readonly|Attr::hidden),"Disks so far whose radius was changed and of which there was something to tell."))
+		((int,turnedOut,0,(Attr::readonly|Attr::hidden),"Steps so far in which a body turned about x or y."))
 		((int,placedAgain,0,(Attr::readonly|Attr::hidden),"Moves of bodies by their positions so far that gave no velocity and were not the body's first."))
 		((Real,energyStart,NaN,(Attr::readonly|Attr::hidden),"Kinetic and potential energy when the balance began [J]."))
 		((Real,energyError,0,(Attr::readonly|Attr::noSave),"What the balance of all these misses [J]."))
@@ -164,8 +168,10 @@ private:
 	void                               account(const nscd::StepSums& sums, const nscd::Resident& resident);
 	void                               recordBreaks(const nscd::Resident& resident);
 	void   report(const nonsmooth::contact::SolverStatistics& statistics, Real meanWeight);
+	string tellMissed(const nonsmooth::contact::SolverStatistics& statistics) const;
 	string tellWorstPair();
 	void   reportOverlap();
+	void   reportWay();
 	void   reportDriven();
 	void   reportRestitution(Real settling);
 	void   reportChanges(nscd::Resident& resident);

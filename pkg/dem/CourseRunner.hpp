@@ -2,6 +2,7 @@
 #pragma once
 
 #include <core/GlobalEngine.hpp>
+#include <core/Scene.hpp>
 
 namespace yade {
 

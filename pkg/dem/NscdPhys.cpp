@@ -1,5 +1,7 @@
 #include "NscdPhys.hpp"
 #include "Refusal.hpp"
+#include "SceneCheck.hpp"
+#include "Seldom.hpp"
 #include <boost/make_shared.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
@@ -8,6 +10,7 @@
 namespace yade {
 
 YADE_PLUGIN((NscdPhys)(SlipWeakeningPhys)(Ip2_NscdMat_NscdMat_NscdPhys));
+CREATE_LOGGER(Ip2_NscdMat_NscdMat_NscdPhys);
 
 const char* NscdPhys::unheard() const
 {
@@ -127,10 +130,19 @@ namespace {
 	}
 }
 
+/// Behind YADE's own loop, whose threads no exception may leave, a law of springs can only be told of; engines of ours refuse it.
+void Ip2_NscdMat_NscdMat_NscdPhys::expectLaw()
+{
+	if (looked == scene->iter || looked.exchange(scene->iter) == scene->iter) return;
+	if (const string why = nscd::halfConverted(*scene); !why.empty() && nscd::seldom(++springs))
+		LOG_ERROR("step " << scene->iter << ": " << why);
+}
+
 void Ip2_NscdMat_NscdMat_NscdPhys::go(
         const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const shared_ptr<Interaction>& interaction)
 {
 	if (interaction->phys) return;
+	expectLaw();
 	const Body &b1 = *Body::byId(interaction->getId1(), scene), &b2 = *Body::byId(interaction->getId2(), scene);
 	if (!makesSense(m1.get()) || !makesSense(m2.get())) {
 		// no exception may leave the threads of YADE's loop: ContactDynamicsEngine meets these numbers in the same step, and says why they are none

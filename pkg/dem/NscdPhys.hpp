@@ -6,6 +6,7 @@
 #include <contact/plane/thresholds.hpp>
 #include <core/Dispatching.hpp>
 #include <optional>
+#include <atomic>
 #include <pkg/dem/FrictPhys.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -182,10 +183,16 @@ R"""(Make a :yref:`NscdPhys` from two :yref:`NscdMats<NscdMat>`, or a :yref:`Sli
 Between particles the weaker of two values holds; at a wall the wall's strengths hold alone (Taboada and Estrada 2009, section 3.3), and so do those of an
 interface (:yref:`NscdMat.interfaceLaws`; section 3.2.1).)""");
 	// clang-format on
+	DECLARE_LOGGER;
+
 private:
+	void expectLaw();
 	/// A physics of the class that two materials ask for, without strengths.
 	static shared_ptr<NscdPhys>
 	make(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2, const Interaction& interaction);
+
+	std::atomic<long> looked { -1 }; // the last step with a new contact
+	std::atomic<long> springs { 0 }; // such steps with a law of springs
 };
 REGISTER_SERIALIZABLE(Ip2_NscdMat_NscdMat_NscdPhys);
 

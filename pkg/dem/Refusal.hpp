@@ -33,4 +33,12 @@ inline string number(Real value)
 	return string(digits, end.ptr);
 }
 
+/// In three digits, for what was computed.
+inline string about(Real value)
+{
+	char       digits[40];
+	const auto end = std::to_chars(digits, digits + sizeof(digits), value, std::chars_format::general, 3);
+	return string(digits, end.ptr);
+}
+
 } // namespace yade::nscd

@@ -2,6 +2,7 @@
 #include "Arc.hpp"
 #include "ContactDynamicsEngine.hpp"
 #include "Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
+#include "NscdInteractionLoop.hpp"
 #include "PlanarGridCollider.hpp"
 #include "Refusal.hpp"
 #include "Segment.hpp"
@@ -158,7 +159,6 @@ void checkEngines(const Scene& scene, const Engine& solver)
 	bool                    passed  = false;
 	const Engine*           between = nullptr;
 	const NewtonIntegrator* newton  = nullptr;
-	bool                    reset   = false; // forces of the step before are gone
 	refuseEarly(scene, "ContactDynamicsEngine");
 	for (const auto& pointer : scene.engines) {
 		const Engine& engine = *pointer;
@@ -183,17 +183,10 @@ void checkEngines(const Scene& scene, const Engine& solver)
 			     + " sets the time step of soft contacts: remove it and set O.dt (milliseconds are usual)");
 		if (dynamic_cast<const ForceResetter*>(&engine)) {
 			resetters.take(engine, passed);
-			reset = reset || !engine.dead;
 		} else if (dynamic_cast<const Collider*>(&engine))
 			colliders.take(engine, passed);
 		else if (dynamic_cast<const InteractionLoop*>(&engine) || dynamic_cast<const LawDispatcher*>(&engine))
 			loops.take(engine, passed);
-		else if (reset && !passed && !engine.dead && readsForces(engine))
-			fail(named(engine)
-			     + " reads forces and stands before ContactDynamicsEngine, where O.forces has no reaction of this step yet: put it after the integrator (engines(after=[...]))"
-			     + (dynamic_cast<const UniaxialStrainer*>(&engine)
-			                ? ", with blockDisplacements=True and blockRotations=True"
-			                : ""));
 		if (const auto* tester = dynamic_cast<const LawTester*>(&engine); tester && !tester->dead)
 			checkTester(*tester);
 		if (passed && !newton && !engine.dead && !between) between = &engine;
@@ -219,6 +212,62 @@ void checkEngines(const Scene& scene, const Engine& solver)
 		     + ", so that reactions of steps before would act again: put ForceResetter() first in O.engines");
 }
 
+namespace {
+	/// Engines that read forces where O.forces has none of this step: YADE's own refuse by a message that names nobody, or read zero.
+	void refuseReaders(const Scene& scene)
+	{
+		if (!hasSolver(scene)) return;
+		bool reset = false; // forces of the step before are gone
+		for (const auto& engine : scene.engines) {
+			if (engine->dead) continue;
+			if (dynamic_cast<const ContactDynamicsEngine*>(engine.get())) return;
+			reset = reset || dynamic_cast<const ForceResetter*>(engine.get());
+			if (reset && readsForces(*engine))
+				fail(named(*engine)
+				     + " reads forces and stands before ContactDynamicsEngine, where O.forces has no reaction of this step yet: put it after the integrator (engines(after=[...]))"
+				     + (dynamic_cast<const UniaxialStrainer*>(engine.get())
+				                ? ", with blockDisplacements=True and blockRotations=True"
+				                : ""));
+		}
+	}
+
+	template <class Functor, class List> const Functor* anyOf(const List& functors)
+	{
+		for (const auto& one : functors)
+			if (const auto* found = dynamic_cast<const Functor*>(one.get())) return found;
+		return nullptr;
+	}
+}
+
+string halfConverted(const Scene& scene)
+{
+	for (const auto& engine : scene.engines) {
+		const auto* loop = engine->dead ? nullptr : dynamic_cast<const InteractionLoop*>(engine.get());
+		if (!loop) continue;
+		const auto& laws       = loop->lawDispatcher->functors;
+		const auto& physics    = loop->physDispatcher->functors;
+		const bool  areRigid   = anyOf<Ip2_NscdMat_NscdMat_NscdPhys>(physics);
+		const bool  takesRigid = anyOf<Law2_ScGeom_NscdPhys_SignoriniCoulomb>(laws);
+		if (areRigid == takesRigid || laws.empty() || physics.empty()) continue;
+		if (takesRigid && (laws.size() > 1 || dynamic_cast<const NscdInteractionLoop*>(loop)))
+			continue; // others take what comes, or it is refused at the first contact, with its bodies
+		return (areRigid ? named(*loop)
+		                        + " has Ip2_NscdMat_NscdMat_NscdPhys, whose contacts are rigid, and the law "
+		                        + laws.front()->getClassName()
+		                        + ", which finds forces by a stiffness that they have not, so that contacts would bear nothing"
+		                 : named(*loop)
+		                        + " has Law2_ScGeom_NscdPhys_SignoriniCoulomb, the law of rigid contacts, and "
+		                        + physics.front()->getClassName()
+		                        + ", which makes others, so that the first contact would end the process")
+		        + ": for rigid contacts give it Ip2_NscdMat_NscdMat_NscdPhys() and Law2_ScGeom_NscdPhys_SignoriniCoulomb()"
+		        + (hasSolver(scene)
+		                   ? ""
+		                   : ", and O.engines a ContactDynamicsEngine before NewtonIntegrator (yade.nonsmooth.scene.engines makes the whole list)")
+		        + "; for soft ones an Ip2 functor and a law of YADE's";
+	}
+	return "";
+}
+
 void refuseEarly(const Scene& scene, const char* who)
 {
 	for (const auto& engine : scene.engines) {
@@ -229,6 +278,8 @@ void refuseEarly(const Scene& scene, const char* who)
 			        string(who) + ": O.engines has a " + named(*engine)
 			        + ", which ends the process where it erases a body that Python has made: let a PyRunner at the end of the list erase it, as PyRunner(command='for b in [b for b in O.bodies if b.state.pos[1] < -3]: O.bodies.erase(b.id)', iterPeriod=20)");
 	}
+	if (const string why = halfConverted(scene); !why.empty()) throw std::runtime_error(string(who) + ": " + why);
+	refuseReaders(scene);
 }
 
 namespace {
@@ -328,6 +379,9 @@ void checkShapes(const Scene& scene, const std::vector<BodyReading>& bodies, con
 	const auto isDisk = [](const BodyReading& b) { return b.present && b.radius > 0 && !b.clumped; };
 	for (const int id : shaped) {
 		const auto& b = (*scene.bodies)[id];
+		if (!b->shape && b->isBounded() && (bodies[id].blocked & inPlane) != inPlane)
+			fail(body(id)
+			     + " may move and has no shape (shape = None), so that it goes through everything: give it one, as Sphere(radius=...), erase it, or set its bounded = False if nothing is to touch it");
 		if (const Sphere* sphere = b->shape && b->isBounded() ? sphereOf(*b) : nullptr)
 			fail(body(id) + " is a Sphere of radius " + number(sphere->radius)
 			     + ": give it a positive radius [m]");

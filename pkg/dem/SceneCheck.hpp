@@ -15,9 +15,12 @@ string named(const Engine& engine);
 /// Refuses lists of engines that leave out, double or disturb the solver's work. Throws std::runtime_error that names the engine and what would do.
 void checkEngines(const Scene& scene, const Engine& solver);
 
-/// Refuses, for the engine `who`, engines of YADE's that could end the process before the solver has its turn: DomainLimiter, and those that steer by the stiffness
-/// of contacts or by a periodic cell. Throws std::runtime_error.
+/// Refuses, for the engine `who`, what must be refused before the solver has its turn: engines of YADE's that could end the process, as DomainLimiter and those that steer by
+/// the stiffness of contacts or by a periodic cell; engines that read forces before there are any; scripts that were converted by halves. Throws std::runtime_error.
 void refuseEarly(const Scene& scene, const char* who);
+
+/// What to say of a loop that makes rigid contacts and gives them to a law of springs, which finds no force for them, or the other way round; empty where there is none.
+string halfConverted(const Scene& scene);
 
 /// Refuses a collider whose sure reach leaves out contacts that are solved or could be bonded; `openGap` [ℓ] is the solver's. Throws std::runtime_error.
 void checkSureReach(const Scene& scene, Real openGap);

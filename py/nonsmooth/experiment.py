@@ -196,7 +196,11 @@ class Experiment:
 
     def summarise(self, threads=None) -> dict:
         """Writes ``summary.json`` of what has been run, and returns it, see :func:`.results.summarise`."""
-        state = asdict(self.state) | ({"overlap_worst_ever": self.slope.solver.overlapWorstEver} if self.hard else {})
+        solver = self.slope.solver
+        ever = (
+            {"overlap_worst_ever": solver.overlapWorstEver, "way_worst_ever": solver.wayWorstEver} if self.hard else {}
+        )
+        state = asdict(self.state) | ever
         return results.summarise(self.folder, self.section, state, threads=threads)
 
     def draw(self):

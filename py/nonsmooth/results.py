@@ -304,6 +304,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         else 0.0,
         "energy_error_rel": float(np.max(np.abs(energy.balance_error(balanced)))) if counted else None,
     }
+    summary["way_worst_rel"] = state.get("way_worst_ever")  # of a disk in a step, in its radii; soft disks have none
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
     summary["force_stages"] = _force_stages(series, section, times, second, leans)
     summary["toe_bands"] = _toe_bands(folder, every, section, times)

@@ -28,6 +28,7 @@ STATE = {
     "wall_packing_s": 12.5,
     "first_step": 1,
     "overlap_worst_ever": 0.03,
+    "way_worst_ever": 0.4,
 }
 BIN = 12.0  # m, of the deposit's profile: three mean diameters
 

@@ -30,8 +30,8 @@ def collider():
     return next(e for e in O.engines if isinstance(e, Collider))
 
 
-def gas(count=150, side=30.0, speed=40.0, seed=3, far=None):
-    """Disks of sizes one to ten that fly about in a box, by up to their own size a step; returns their ids."""
+def gas(count=150, side=30.0, speed=20.0, seed=3, far=None):
+    """Disks of sizes one to ten that fly about in a box, by up to a radius a step: the small ones become faster than they begin. Returns their ids."""
     dice = random.Random(seed)
     stuff = material(0.3, restitution=1.0)
     box(stuff, side, side)
@@ -100,12 +100,12 @@ def step(ids):
 def test_disks_have_the_contacts_that_brute_force_finds():
     ids = gas()
     seen = set()
-    for _ in range(150):
+    for _ in range(200):
         expected = step(ids)
         assert disk_pairs() == expected
         seen |= expected
     # contacts came and went; and pairs were kept over some steps
-    assert len(seen) > 300 and 20 < collider().searches < 151
+    assert len(seen) > 300 and 20 < collider().searches < 201
 
 
 def test_far_disks_have_contacts_while_they_are_fast():
@@ -212,8 +212,8 @@ def test_potential_interactions_with_walls_end_when_disks_have_left():
                 continue
             along = wall.state.ori * (wall.shape.halfLength, 0, 0)
             low, high = ([sign * abs(along[k]) + wall.state.pos[k] for k in (0, 1)] for sign in (-1, 1))
-            apart = math.hypot(*(max(low[k] - disk.state.pos[k], disk.state.pos[k] - high[k], 0) for k in (0, 1)))
-            # within reach of the box and half a square's margin when pairs were looked up, and a quarter gone since, and the step that was made after the collider
+            apart = max(max(low[k] - disk.state.pos[k], disk.state.pos[k] - high[k], 0) for k in (0, 1))
+            # along each axis within reach of the box and half a square's margin when pairs were looked up, and a quarter gone since, and the step that was made after the collider
             assert (
                 apart
                 <= (2 * (1 + REACH) - 1) * disk.shape.radius

@@ -202,6 +202,37 @@ def test_bodies_that_are_driven_into_each_other_are_told_of(capfd):
         assert words in told[0]
 
 
+def test_all_pairs_that_are_driven_into_each_other_are_counted(capfd):
+    for x, speed in (
+        (0, 0.1),
+        (1, 0),
+        (2, -0.3),
+        (3, -0.3),
+        (4, -0.1),
+    ):  # the third pair goes as one, the last one parts
+        O.bodies.append(scene.disk((x, 0), 0.5, rock(), fixed=True))
+        O.bodies[-1].state.vel = (speed, 0, 0)
+    begin(gravity=(0, 0, 0))
+    run(1)
+    told = capfd.readouterr().err
+    assert (
+        "2 pairs of bodies with blocked DOFs are driven into each other, the fastest bodies #1 and #2, by 0.3 m/s"
+        in told
+    )
+
+
+@pytest.mark.parametrize("turns", [False, True])
+def test_a_shear_along_a_straight_line_parts_the_pair(turns):
+    """Its distance grows by s²/(2 ℓ), so that the bond bears tension in the end; not where the velocity turns with the normal."""
+    length = pair()
+    for _ in range(60):
+        normal = (O.bodies[1].state.pos - O.bodies[0].state.pos).normalized() if turns else (1, 0)
+        O.bodies[1].state.vel = (-0.1 * normal[1], 0.1 * normal[0], 0)
+        run(1)
+    force = STRENGTH * length
+    assert borne() == pytest.approx((0, MU * force, 0) if turns else (-force, 0, 0), rel=1e-12, abs=1e-9)
+
+
 @pytest.mark.parametrize(
     "path, words",
     [

@@ -14,6 +14,8 @@ from yade.wrapper import (
     InsertionSortCollider,
     InteractionLoop,
     Ip2_FrictMat_FrictMat_FrictPhys,
+    Law2_ScGeom_FrictPhys_CundallStrack,
+    Law2_ScGeom_NscdPhys_SignoriniCoulomb,
     Ip2_NscdMat_NscdMat_NscdPhys,
     NewtonIntegrator,
     NonsmoothTimeStepper,
@@ -346,6 +348,72 @@ def test_another_material_is_refused_before_it_touches(loop):
     O.step()
 
 
+HALVES = {
+    "springs": ([Ip2_NscdMat_NscdMat_NscdPhys], [Law2_ScGeom_FrictPhys_CundallStrack]),
+    "rigid": ([Ip2_FrictMat_FrictMat_FrictPhys], [Law2_ScGeom_NscdPhys_SignoriniCoulomb]),
+}
+
+
+@pytest.mark.parametrize("solver", [True, False])
+@pytest.mark.parametrize("law", HALVES)
+@pytest.mark.parametrize("who", ["PlanarGridCollider", "NscdInteractionLoop", "ContactDynamicsEngine"])
+def test_a_script_that_was_converted_by_halves_is_refused_before_the_first_contact(who, law, solver):
+    stuff = material(0.3)
+    for x in (0, 3):
+        free_disk(x, 0, stuff=stuff)
+    begin()
+    physics, laws = ([kind() for kind in kinds] for kinds in HALVES[law])
+    if who != "PlanarGridCollider":
+        swapped(Collider, lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=0.1))
+    kind = NscdInteractionLoop if who == "NscdInteractionLoop" else InteractionLoop
+    swapped(InteractionLoop, lambda e: kind(e.geomDispatcher.functors, physics, laws))
+    O.engines = [e for e in O.engines if solver or not isinstance(e, ContactDynamicsEngine)]
+    if law == "rigid" and who == "NscdInteractionLoop" and solver:
+        return run(1)  # it names the bodies at their first contact
+    if who == "ContactDynamicsEngine" and not solver:
+        return run(1)  # nobody of ours: see below
+    words = {
+        "springs": (
+            "Ip2_NscdMat_NscdMat_NscdPhys, whose contacts are rigid",
+            "Law2_ScGeom_FrictPhys_CundallStrack, which",
+        ),
+        "rigid": (
+            "Law2_ScGeom_NscdPhys_SignoriniCoulomb, the law of rigid contacts, and Ip2_FrictMat_FrictMat_FrictPhys",
+        ),
+    }[law]
+    if law == "rigid" and who == "NscdInteractionLoop":
+        words = ("contacts bear nothing",)
+    refused(f"{who}: ", *words)
+    if words[0] != "contacts bear nothing":
+        refused("give it Ip2_NscdMat_NscdMat_NscdPhys() and Law2_ScGeom_NscdPhys_SignoriniCoulomb()")
+        if not solver:
+            refused("and O.engines a ContactDynamicsEngine before NewtonIntegrator")
+
+
+def test_a_script_of_which_only_materials_and_their_functor_were_converted_is_told_of(capfd):
+    """Nothing of ours comes before YADE's loop, which no exception may leave."""
+    rests()
+    swapped(Collider, lambda e: InsertionSortCollider(e.boundDispatcher.functors, verletDist=0.1))
+    swapped(InteractionLoop, lambda e: plain_loop(e, laws=[Law2_ScGeom_FrictPhys_CundallStrack()]))
+    O.engines = [e for e in O.engines if not isinstance(e, ContactDynamicsEngine)]
+    run(3)
+    told = [line for line in capfd.readouterr().err.splitlines() if "whose contacts are rigid" in line]
+    assert len(told) == 1 and "O.engines a ContactDynamicsEngine" in told[0]
+
+
+def test_soft_contacts_between_our_materials_are_let_be(capfd):
+    """An NscdMat is a FrictMat too, and YADE's own functors make springs of it."""
+    rests()
+    swapped(
+        InteractionLoop,
+        lambda e: plain_loop(e, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack()]),
+    )
+    O.engines = [e for e in O.engines if not isinstance(e, ContactDynamicsEngine)]
+    O.dt = 1e-5
+    run(3)
+    assert contacts() and contacts()[0].phys.kn > 0 and "rigid" not in capfd.readouterr().err
+
+
 def test_another_material_with_a_functor_of_its_own_is_let_be():
     rests()
     loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
@@ -396,6 +464,9 @@ def test_walls_without_length_and_scenes_without_a_solver():
     for sense in (2, -3, 0.5, math.nan):
         with pytest.raises(ValueError, match=f"sense = {sense}: give \\+1"):
             scene.segments([(0, 0), (1, 0)], stuff, sense=sense)
+    for inside in (2, -1, "left"):
+        with pytest.raises(ValueError, match=f"inside = {inside!r}: give True .the inside acts., False"):
+            scene.arc((0, 0), 1, 0, 3, stuff, inside=inside)
     O.engines = []
     with pytest.raises(LookupError, match="no ContactDynamicsEngine: set O.engines"):
         scene.contact_dynamics()

@@ -6,9 +6,9 @@ import pytest
 from yade import O
 from yade.minieigenHP import Quaternion
 from yade.nonsmooth import scene
-from yade.wrapper import ContactDynamicsEngine, ForceResetter, PorePressureEngine, WallForceEngine
+from yade.wrapper import ContactDynamicsEngine, ForceResetter, PorePressureEngine, Sphere, WallForceEngine
 
-from contact_scenes import begin, contacts, engine, floor, free_disk, material, run, spoilt
+from contact_scenes import G, begin, contacts, engine, floor, free_disk, material, run, spoilt
 
 pytestmark = pytest.mark.usefixtures("empty")
 NAN, INF = math.nan, math.inf
@@ -202,6 +202,45 @@ def test_contacts_whose_bodies_are_gone(gone):
             b.shape = None
     e.updateStrengths()
     assert e.bond() == 0
+
+
+@pytest.mark.parametrize("blocked", ["zXY", "xzXY"])
+def test_a_body_that_may_move_and_has_lost_its_shape(blocked):
+    stuff = material(0.3)
+    ground = floor(stuff)
+    disk, other = free_disk(0, 0.5, stuff=stuff), free_disk(2, 0.5, stuff=stuff)
+    begin()
+    run(2)
+    O.bodies[disk].shape = None
+    O.bodies[disk].state.blockedDOFs = blocked
+    refused(rf"body #{disk} may move and has no shape .*Sphere\(radius=...\).*bounded = False")
+    O.bodies[disk].shape = Sphere(radius=0.5)
+    run(20)
+    assert abs(O.bodies[disk].state.vel[1]) < 1e-9
+    O.bodies[ground].shape = O.bodies[disk].shape = None  # a wall may be taken away so
+    O.bodies[disk].bounded = False
+    run(3)
+    assert O.bodies[other].state.vel[1] == pytest.approx(-3 * G * O.dt, rel=1e-9)
+
+
+@pytest.mark.parametrize("fixed", [False, True])
+@pytest.mark.parametrize("turn", [(5, 0, 0), (0, -2, 1)])
+def test_rotation_out_of_the_plane_is_told_of(turn, fixed, capfd):
+    stuff = material(0.3)
+    floor(stuff)
+    roller = O.bodies.append(scene.disk((0, 0.5), 0.5, stuff, fixed=fixed))
+    begin()
+    O.bodies[roller].state.angVel = turn
+    run(12)
+    told = [line for line in capfd.readouterr().err.splitlines() if "rotation about x or y drags nothing" in line]
+    assert len(told) == 2  # the first and the tenth
+    assert (
+        f"body #{roller} has state.angVel = (%g, %g," % turn[:2] in told[0]
+        and "set its first two numbers to 0" in told[0]
+    )
+    O.bodies[roller].state.angVel = (0, 0, 1)
+    run(100)
+    assert "drags nothing" not in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("where", ["orientation", "torque", "gravity"])

@@ -4,7 +4,16 @@ import math
 import pytest
 from yade import O
 from yade.nonsmooth import scene
-from yade.wrapper import ForceEngine, NewtonIntegrator, PlanarNewtonIntegrator, PyRunner, TorqueEngine, UniaxialStrainer
+from yade.wrapper import (
+    ForceEngine,
+    ForceRecorder,
+    NewtonIntegrator,
+    PlanarNewtonIntegrator,
+    PyRunner,
+    TorqueEngine,
+    TorqueRecorder,
+    UniaxialStrainer,
+)
 
 from contact_scenes import G, begin, engine, floor, free_disk, material, refused, run
 
@@ -125,6 +134,24 @@ def test_a_strainer_finds_the_strength():
         peak = max(peak, O.engines[-1].avgStress)
     # three bonds of 1e5 Pa times 1 m on an area of 3 m
     assert peak == pytest.approx(1e5, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", [ForceRecorder, TorqueRecorder])
+@pytest.mark.parametrize("place", [0, 1, 2, 3, 5])
+def test_a_recorder_that_stands_before_the_solver_is_named(place, kind, tmp_path):
+    """YADE's own message is about threads. At the head of the list it reads forces of the step before, from the second step on."""
+    disk = lies()
+    run(1)
+    others = list(O.engines)
+    recorder = kind(ids=[disk], file=str(tmp_path / "record.txt"), iterPeriod=1, label="record")
+    O.engines = others[:place] + [recorder] + others[place:]
+    if place in (0, 5):
+        run(3)
+    else:
+        refused(
+            f"{kind.__name__} 'record' reads forces and stands before ContactDynamicsEngine",
+            "put it after the integrator",
+        )
 
 
 def test_readers_of_forces_before_the_solver_are_refused():

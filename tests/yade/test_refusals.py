@@ -432,7 +432,7 @@ def test_no_reaction_stays_between_bodies_that_are_held():
 # ---- overlaps -----------------------------------------------------------------------------------------
 
 
-def test_the_worst_overlap_is_named():
+def test_the_worst_overlap_is_named_and_the_others_counted(capfd):
     stuff = material(0.3)
     for k, apart in enumerate((0.97, 0.9, 0.9, 1.2)):  # of two diameters of 1 m
         for x in (0, apart):
@@ -445,6 +445,9 @@ def test_the_worst_overlap_is_named():
     assert e.overlapWorst == pytest.approx(0.1, abs=1e-12)
     # the first of two that are alike, in the order of ids
     assert tuple(e.overlapWorstPair) == (2, 3) and e.overlappedSteps == 1
+    assert (
+        "began with 2 pairs of bodies deep in each other, the worst bodies #2 and #3, by 10 %" in capfd.readouterr().err
+    )
     run(400)
     assert e.overlappedSteps < 401 and e.overlapWorst < 0.05 and e.overlapWorstEver == pytest.approx(0.1, abs=1e-12)
 

@@ -312,6 +312,7 @@ KNOWN = {
         None,
     ),  # half of the rows have a tolerance 200 times as large, so these and four others are the smallest
     "overlap_worst_rel": (0.03, None),
+    "way_worst_rel": (0.4, None),
     "overlap_mean_rel": (0.004, None),
     "failed_dry_s": (None, None),
     "moved_dry_s": (None, None),

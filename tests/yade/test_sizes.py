@@ -6,7 +6,7 @@ from yade import O, utils
 from yade.nonsmooth import scene
 from yade.wrapper import PyRunner
 
-from contact_scenes import G, begin, contacts, engine, floor, free_disk, material, run
+from contact_scenes import G, begin, contacts, engine, floor, free_disk, material, refused, run
 
 pytestmark = pytest.mark.usefixtures("empty")
 
@@ -49,6 +49,32 @@ def test_a_disk_stays_a_disk(way, ratio, radius, capfd):
     assert "radius" not in capfd.readouterr().err
     # it falls as ever
     assert O.bodies[disk].state.vel[1] == pytest.approx(-8 * G * O.dt, rel=1e-12)
+
+
+@pytest.mark.parametrize("radius", [0.5, 0.4])
+@pytest.mark.parametrize("beside", [False, True])
+@pytest.mark.parametrize("wrong", [math.inf, 1e200, math.nan, 0.0, -1.0])
+def test_a_radius_without_sense_that_is_mended(wrong, beside, radius):
+    """Mass, inertia and contacts follow from the last size that it had."""
+    stuff = material(0.5)
+    floor(stuff)
+    disk = O.bodies.append(scene.disk((0, 0.5), 0.5, stuff))
+    if beside:
+        O.bodies.append(scene.disk((1, 0.5), 0.5, stuff))
+    begin()
+    run(10)
+    O.bodies[disk].shape.radius = wrong
+    for _ in range(2):
+        refused(f"body #{disk} is a Sphere of radius", "give it a positive radius")
+    O.bodies[disk].shape.radius = radius
+    run(300)
+    is_disk(O.bodies[disk])
+    assert O.bodies[disk].state.pos[1] == pytest.approx(radius, abs=1e-3)  # it lies on the floor
+    assert all(
+        c.phys.length == pytest.approx(2 * radius if c.id1 == 0 and c.id2 == disk else 0.5 + radius)
+        for c in contacts()
+        if disk in (c.id1, c.id2)
+    )
 
 
 def test_it_grows_step_by_step_while_nobody_else_looks():

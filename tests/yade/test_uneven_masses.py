@@ -1,5 +1,6 @@
 """Light bodies among heavy ones in a running scene: what is called solved bears each of them, and what is not is told with names."""
 import math
+import re
 
 import pytest
 from yade import O
@@ -84,6 +85,22 @@ def test_a_pair_that_keeps_falling_is_named_with_its_ratio_of_masses(capfd):
     assert all(k in (*disks, 0) for k in e.residualSpeedPair)
     assert "was not solved" in told and "worst are bodies #" in told
     assert "1e+06 times the mass" in told and "maxIterations" in told
+
+
+@pytest.mark.parametrize("tolerance", [0.6, 1e-6])
+def test_what_is_above_its_bound_is_named_with_it(tolerance, capfd):
+    """With a tolerance that the residual keeps, it is not the residual that is told of."""
+    stack([1] * 3 + [1e6])
+    e = begin(maxIterations=2, tolerance=tolerance)
+    run(12)
+    (told, *_) = [line for line in capfd.readouterr().err.splitlines() if "was not solved" in line]
+    figures = re.findall(r"(residual\w*)([^,:;]*) (\S+), wanted at most ([^ ,;]+)", told.split("reactions miss")[0])
+    assert figures and all(float(value) > float(bound) for _, _, value, bound in figures), told
+    named = {name: float(bound) for name, rest, _, bound in figures if not rest}
+    assert ("residual" in named) == (tolerance < 0.1) and "residualSpeedWorst" in named, told
+    # 1000 tolerances where masses differ so, from 0.01 to 0.3
+    assert named["residualSpeedWorst"] == pytest.approx(0.3 if tolerance > 0.1 else 0.01)
+    assert named.get("residual", tolerance) == tolerance
 
 
 def test_figures_of_speed_are_those_of_a_solved_step():

@@ -100,6 +100,11 @@ class Summary:
         assert self.state["overlap_worst_ever"] >= self.all["overlap_worst_rel"].max()
         return self.state["overlap_worst_ever"]
 
+    def way_worst_rel(self):
+        """Of every step. In a sound run no disk goes farther than its radius."""
+        assert 0 < self.state["way_worst_ever"] < 1
+        return self.state["way_worst_ever"]
+
     def overlap_mean_rel(self):
         return self.rows["overlap_mean_rel"].max()
 

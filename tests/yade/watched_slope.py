@@ -242,7 +242,8 @@ def run(folder, watched=True, **changes):
         run.run()
         if watched:
             watch.end()
-    state = asdict(run.state) | {"overlap_worst_ever": built.solver.overlapWorstEver}
+    solver = built.solver
+    state = asdict(run.state) | {"overlap_worst_ever": solver.overlapWorstEver, "way_worst_ever": solver.wayWorstEver}
     summary = results.summarise(folder, chosen, state, threads=2)
     O.reset()
     return SimpleNamespace(

@@ -46,9 +46,9 @@ std::vector<FormerSize> readBodies(Scene& scene, int threads, std::vector<BodyRe
 		const auto& body = bodies[id];
 		if (body && !body->state) stateless = std::max(stateless, id);
 		const FormerSize former { int(id), readings[id].radius, readings[id].mass, readings[id].inertia };
-		const bool       was = readings[id].present && former.radius > 0;
+		const bool       was = readings[id].present;
 		readings[id]         = readBody(body.get());
-		if (was && readings[id].radius > 0 && readings[id].radius != former.radius)
+		if (was && readings[id].present && readings[id].radius != former.radius)
 #pragma omp critical
 			changed.push_back(former);
 	}

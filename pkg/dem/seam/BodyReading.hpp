@@ -36,7 +36,7 @@ constexpr unsigned inPlane = State::DOF_X | State::DOF_Y | State::DOF_RZ;
 /// Reads a body, null where there is none; one without a state has nothing else set, as where there is none.
 BodyReading readBody(const Body* body);
 
-/// What a sphere was when it was last read, whose radius is another one now.
+/// What a body was when it was last read, whose radius is another one now.
 struct FormerSize {
 	int  id;
 	Real radius, mass, inertia; // [m, kg, kg m²]

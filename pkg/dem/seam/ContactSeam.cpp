@@ -197,7 +197,8 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 	});
 	const Real plane = first == read.end() ? 0 : first->z; // in which all disks lie
 	int        bad   = -1; // body with an unusable state; reported after the loop, which must not throw
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad)
+	bool       odd   = false; // some motion is not in the plane
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : bad) reduction(|| : odd)
 	for (long id = 0; id < size; ++id) {
 		const BodyReading& s = read[id];
 		auto&              w = problem.inverseMass[id];
@@ -211,6 +212,7 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 			continue;
 		}
 		const unsigned d = s.blocked;
+		odd              = odd || !s.planar;
 		before[id]       = s.motion.velocity;
 		mass[id]         = s.mass;
 		inertia[id]      = s.inertia;
@@ -231,17 +233,27 @@ void ContactSeam::gatherBodies(Scene& scene, const Vector3r& gravity)
 		if (!std::isfinite(
 		            v.x + v.y + v.w + s.motion.position.x + s.motion.position.y + s.motion.rotation.z
 		            + s.motion.rotation.w + w.x + w.y + w.w)
-		    || (moves && (d & planar) != planar) || s.clumped || (!(d & State::DOF_X) && !(w.x > 0))
-		    || (!(d & State::DOF_Y) && !(w.y > 0)) || (!(d & State::DOF_RZ) && !(w.w > 0))
+		    || s.radius > hugest || (moves && (d & planar) != planar) || s.clumped
+		    || (!(d & State::DOF_X) && !(w.x > 0)) || (!(d & State::DOF_Y) && !(w.y > 0))
+		    || (!(d & State::DOF_RZ) && !(w.w > 0))
 		    || (moves && out && leavesPlane(f, m, s.mass, s.inertia, gravity))
 		    || (s.radius > 0 && !(std::abs(s.z - plane) <= flatness * s.radius)))
 			bad = std::max(bad, (int)id);
 	}
+	turningOut = -1;
+	for (long id = 0; id < size && odd && turningOut < 0; ++id)
+		if (read[id].present && !read[id].planar) {
+			const Vector3r& turn = (*scene.bodies)[id]->state->angVel;
+			if (turn[0] != 0 || turn[1] != 0) turningOut = int(id);
+		}
 	if (bad >= 0) {
 		const Body& body = *(*scene.bodies)[bad];
 		if (body.isClump() || body.isClumpMember())
 			refuse(body, "belongs to a clump",
 			       "clumps are not supported: use single disks, which bonds can hold together (contactDynamics.bond())");
+		if (read[bad].radius > hugest)
+			refuse(body, "is a Sphere of radius " + number(read[bad].radius),
+			       "give it a positive radius [m]");
 		resident->showBody(bad);
 		const State& s = *body.state;
 		if (!std::isfinite(s.pos.sum() + s.vel.sum() + s.angVel.sum()))

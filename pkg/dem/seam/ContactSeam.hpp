@@ -62,6 +62,15 @@ struct StepSums : ContactSums {
 	void add(const StepSums& other);
 };
 
+/// How far a disk goes in a step.
+struct LongestWay {
+	Real radii = 0; // the way [its radius]
+	int  body  = -1; // the disk, where it is more than one
+	Real speed = 0, radius = 0; // its own [m/s, m], there alone
+};
+/// A step in which a disk goes half its radius, where it goes `radii` in a step of h [s].
+inline Real enoughStep(Real h, Real radii) { return 0.5 * h / radii; }
+
 class ContactSeam {
 public:
 	/// Makes the contact problem of a step; throws std::runtime_error naming the body where the scene cannot be taken.
@@ -77,14 +86,18 @@ public:
 	size_t recall();
 	/// After the last solve, which nothing of it changes: the reactions of contacts whose two bodies both have a given motion (law.hpp, impulseOfGivenMotion).
 	void answerGivenMotion();
-	/// Of the last answer: how fast two such bodies are driven into each other, the fastest ones [m/s]; 0 where none are.
+	/// Of the last answer: how fast two such bodies are driven into each other, the fastest ones [m/s]; 0 where none are. And how many pairs are.
 	Real drivenTogether = 0;
-	int  drivenIds[2]   = { -1, -1 };
+	int  drivenIds[2] = { -1, -1 }, drivenPairs = 0;
 	/// After all solves: finds how far bodies are to be displaced to take back overlaps, bonds' errors of length, and what bonds of bodies that turn as one have slipped
 	/// and turned; scatter moves them.
 	void
 	correct(const nonsmooth::contact::SolverSettings& settings, nonsmooth::contact::Workspace& workspace,
 	        int sweeps);
+	/// Before bodies are moved: how far disks go in the step. Throws std::runtime_error where one would go through a body that it does not touch (ContactSeamWay.cpp).
+	void followWays(const Scene& scene);
+	/// The farthest way of the last step, against walls and given bodies.
+	LongestWay longest;
 	/// Takes reactions to the contacts, average contact forces to O.forces, and slip to the walls.
 	/// `rates`: also how fast contacts and bonds change, for the choice of the next step.
 	StepSums scatter(Scene& scene, const Vector3r& gravity, int threads, bool rates);
@@ -92,9 +105,12 @@ public:
 	nonsmooth::contact::Problem              problem;
 	std::vector<nonsmooth::contact::Impulse> warmStart; // what the solve began with
 	std::vector<Link>                        links;
-	std::vector<size_t>                      broken; // places of the contacts whose bonds broke in the step
-	GivenMotion                              givenMotion; // of bodies that others move by their positions
-	const Reading& readingOf(const Link& link) const { return resident->readings[link.slot]; }
+	int turningOut = -1; // of the last step: a body that turns about x or y, which no contact follows
+	std::vector<size_t> broken; // places of the contacts whose bonds broke in the step
+	GivenMotion         givenMotion; // of bodies that others move by their positions
+	const Reading&      readingOf(const Link& link) const { return resident->readings[link.slot]; }
+	/// Pairs that overlapped by that much and more [ℓ] when the step began.
+	int overlapsOf(Real least) const;
 
 private:
 	/// What becomes of a contact in a step.
@@ -143,11 +159,13 @@ private:
 	bool scatterContact(size_t k, const nonsmooth::contact::Impulse& u, Reading& reading) const;
 	void sumReactions();
 	void scatterForces(Scene& scene, size_t begin, size_t end);
-	void loadClusters();
-	void findClusters();
-	void turnClusters();
-	bool turnsFar(const nonsmooth::contact::Contact& contact) const;
-	bool sticks(size_t k, const nonsmooth::contact::Impulse& u) const;
+	void
+	refuseCrossings(const Scene& scene, const std::vector<int>& far, const nonsmooth::contact::Point& middle) const;
+	void                              loadClusters();
+	void                              findClusters();
+	void                              turnClusters();
+	bool                              turnsFar(const nonsmooth::contact::Contact& contact) const;
+	bool                              sticks(size_t k, const nonsmooth::contact::Impulse& u) const;
 	nonsmooth::contact::PositionError errorOf(size_t k, const nonsmooth::contact::Impulse& u, bool turns) const;
 	nonsmooth::contact::Impulse       givenVelocity(const nonsmooth::contact::Contact& c) const;
 	void                              turnBack();
@@ -178,6 +196,7 @@ private:
 	}
 	void
 	rateContact(size_t k, const nonsmooth::contact::Impulse& u, const Reading& reading, ContactSums& sums) const;
+	Real overlapOf(size_t k, const Reading& reading) const;
 	Real sumContact(
 	        size_t k, const nonsmooth::contact::Impulse& u1, const Reading& reading, bool held,
 	        ContactSums& sums) const;

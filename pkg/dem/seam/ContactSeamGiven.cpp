@@ -31,7 +31,7 @@ Impulse ContactSeam::givenVelocity(const Contact& c) const
 
 void ContactSeam::answerGivenMotion()
 {
-	drivenTogether = 0;
+	drivenTogether = drivenPairs = 0;
 	if (!slides) return;
 	for (size_t k = 0; k < links.size(); ++k) {
 		const Contact& c = problem.contacts[k];
@@ -39,7 +39,9 @@ void ContactSeam::answerGivenMotion()
 		const Impulse  u    = givenVelocity(c);
 		const Reading& r    = readingOf(links[k]);
 		problem.impulses[k] = contact::impulseOfGivenMotion(c, u);
-		if (-u.n > drivenTogether && (r.bonded || r.gap <= 0)) {
+		if (!(-u.n > 0) || !(r.bonded || r.gap <= 0)) continue;
+		++drivenPairs;
+		if (-u.n > drivenTogether) {
 			drivenTogether = -u.n;
 			drivenIds[0]   = std::min(c.i, c.j);
 			drivenIds[1]   = std::max(c.i, c.j);

@@ -104,6 +104,22 @@ ContactSeam::rateContact(size_t k, const Impulse& u, const Reading& r, ContactSu
 	sums.bondRate = std::max(sums.bondRate, std::max(std::abs(u.n) / along, std::abs(u.t) / across));
 }
 
+/// In ℓ. Of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap.
+[[gnu::always_inline]] inline Real ContactSeam::overlapOf(size_t k, const Reading& r) const
+{
+	const Contact& c      = problem.contacts[k];
+	const bool     placed = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed() && r.gap < 0;
+	return placed ? 0 : std::max(Real(0), -r.gap) / c.length;
+}
+
+int ContactSeam::overlapsOf(Real least) const
+{
+	int count = 0;
+	for (size_t k = 0; k < links.size(); ++k)
+		count += overlapOf(k, readingOf(links[k])) >= least;
+	return count;
+}
+
 /// Returns what it has slid on a wall [J].
 [[gnu::always_inline]] inline Real
 ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, bool held, ContactSums& sums) const
@@ -130,9 +146,7 @@ ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, bool held
 		sums.sliding += impacts->slidingLoss;
 		sums.rolling += impacts->rollingLoss;
 	}
-	// of two bodies that are held nothing is to be corrected: a floor may be made of disks that overlap
-	const bool placed  = problem.inverseMass[c.i].isFixed() && problem.inverseMass[c.j].isFixed() && r.gap < 0;
-	const Real overlap = placed ? 0 : std::max(Real(0), -r.gap) / c.length;
+	const Real overlap = overlapOf(k, r);
 	sums.overlap += overlap;
 	if (overlap > sums.worstOverlap) {
 		sums.worstOverlap = overlap;

@@ -27,6 +27,7 @@
 #include <boost/weak_ptr.hpp>
 #include <contact/problem.hpp>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 
@@ -188,7 +189,8 @@ private:
 	}
 	bool                    takeKnown(Scene& scene);
 	void                    takeShown(Scene& scene);
-	void                    followSizes(Scene& scene, const std::vector<FormerSize>& changed);
+	std::vector<FormerSize> resized(const Scene& scene, const std::vector<FormerSize>& changed);
+	void                    followSizes(Scene& scene, const std::vector<FormerSize>& all);
 	int                     freeSlot();
 	void                    hold(Reading& reading, const shared_ptr<Interaction>& interaction);
 	void                    showContact(int slot) const;
@@ -221,6 +223,7 @@ private:
 	std::vector<Place>  come, merged;
 	std::vector<int>    bucket;
 	std::vector<Found>  found; // by place in the list of interactions
+	std::map<int, FormerSize> sizesLost; // of spheres whose radius has no sense now, by id
 	double lastShown = 0, costOfLook = 0; // by a clock [s]; of the last time, with what was taken since
 };
 

@@ -60,8 +60,33 @@ namespace {
 	}
 }
 
-void Resident::followSizes(Scene& scene, const std::vector<FormerSize>& changed)
+/// Of bodies whose radius has changed the spheres that have a size, with the last one that they had before: one without sense, as inf, is refused in this step and mended later, and
+/// what followed it would be lost.
+std::vector<FormerSize> Resident::resized(const Scene& scene, const std::vector<FormerSize>& changed)
 {
+	const auto              isSize = [](Real radius) { return radius > 0 && isNumber(radius); };
+	std::vector<FormerSize> found;
+	for (const FormerSize& former : changed) {
+		const auto lost = sizesLost.find(former.id);
+		if (!dynamic_cast<const Sphere*>((*scene.bodies)[former.id]->shape.get())) {
+			if (lost != sizesLost.end()) sizesLost.erase(lost);
+			continue;
+		}
+		if (!isSize(bodies[former.id].radius)) {
+			if (isSize(former.radius)) sizesLost[former.id] = former;
+			continue;
+		}
+		if (isSize(former.radius)) found.push_back(former);
+		else if (lost != sizesLost.end() && lost->second.radius != bodies[former.id].radius)
+			found.push_back(lost->second);
+		if (lost != sizesLost.end()) sizesLost.erase(lost);
+	}
+	return found;
+}
+
+void Resident::followSizes(Scene& scene, const std::vector<FormerSize>& all)
+{
+	const auto changed = resized(scene, all);
 	if (changed.empty()) return;
 	if (contactsOwned || bare > 0) show();
 	for (const FormerSize& former : changed) {

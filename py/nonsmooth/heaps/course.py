@@ -120,7 +120,7 @@ class Result:
     the connected disks (:func:`measures.connected`), ``farthest_m``: of any disk; ``height_m``: highest point of their surface; centre of mass; energies
     of all disks; overlaps by :func:`measures.overlap`; wall time of the steps.
     ``x``, ``y``, ``r``: disks in the end [m], (n,); ``connected``: bool (n,). ``frames``: {time [s]: (x, y)} on the way; ``film``: the same at equal distances of :data:`FILM`, in single precision.
-    ``rested``: it came to rest within the time given. ``steps``, ``time_step`` [s], ``wall_s``: of the course after the release.
+    ``rested``: it came to rest within the time given. ``way_worst``: longest way of a disk in a step [its radius], None of soft ones. ``steps``, ``time_step`` [s], ``wall_s``: of the course after the release.
     """
 
     heap: Heap
@@ -135,6 +135,7 @@ class Result:
     connected: np.ndarray
     rested: bool
     time_step: float
+    way_worst: float | None = None
     frames: dict = field(default_factory=dict)
     film: dict = field(default_factory=dict)
 
@@ -201,6 +202,7 @@ class Result:
             "wall_s": self.wall_s,
             "overlap_mean_rel": float(np.mean(s["overlap_mean_rel"])),
             "overlap_worst_rel": float(np.max(s["overlap_worst_rel"])),
+            "way_worst_rel": self.way_worst,
         }
 
 
@@ -310,6 +312,7 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
         joined,
         calm * every * O.dt >= REST_TIME * unit,
         O.dt,
+        next((e.wayWorstEver for e in O.engines if isinstance(e, ContactDynamicsEngine)), None),
         kept,
         film,
     )

@@ -9,6 +9,7 @@ COME, BARE_BONDS = "test_bare_contacts.py::test_contacts_that_come_and_go_are_th
 AUDIENCE, READING = "pkg/dem/seam/Audience.cpp", "pkg/dem/seam/ContactReading.hpp"
 SAME, OWN, LOOKS = "test_view.py::test_all_that_python_can_read_is_the_same_in_every_way", "test_view.py::test_interactions_are_what_yades_own_loop_makes_of_them", "test_view.py::test_engines_that_look_now_and_then_see_the_truth"
 COLLIDER, COLLIDER_H, LOOP = "pkg/dem/PlanarGridCollider.cpp", "pkg/dem/PlanarGridCollider.hpp", "pkg/dem/NscdInteractionLoop.cpp"
+WAY, WAYS = "pkg/dem/seam/ContactSeamWay.cpp", "test_long_ways.py"
 CLOCK, ADVANCE, GRAVITY = "pkg/dem/StageClock.hpp", "pkg/dem/Advance.cpp", "pkg/dem/Gravity.cpp"
 PHYS, MAT, SEGMENT_H = "pkg/dem/NscdPhys.cpp", "pkg/dem/NscdMat.cpp", "pkg/dem/Segment.hpp"
 BONDS, BONDS_H, LAW_H = "pkg/dem/BondEllipse.cpp", "pkg/dem/BondEllipse.hpp", "pkg/dem/Law2_ScGeom_NscdPhys_SignoriniCoulomb.hpp"
@@ -338,4 +339,18 @@ MUTANTS = (
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
     mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"TriaxialStateRecorder"', '"TriaxialStateRecorders"', "an engine that reads what rigid contacts have not is let run",
            "test_controllers.py::test_what_steers_by_stiffness_or_cell_is_refused_with_what_works"),
+    # ---- ways of a step
+    mutant("way-radius", WAY, "!(longest.radii > 1)", "!(longest.radii > 100)", "a disk that goes far beyond its radius in a step is let through a wall", WAYS + "::test_a_disk_that_falls_in_a_step_that_is_far_too_long"),
+    mutant("way-given", WAY, "if (!isFree(id)) given.take(velocities[id]);", "if (false) given.take(velocities[id]);", "a disk that falls alone on a floor is taken for one that flies alone",
+           WAYS + "::test_up_to_its_radius_nothing_is_told"),
+    mutant("way-behind", WAY, "side * after < -radius", "side * after < radius", "a one-sided wall refuses what it would push back", WAYS + "::test_a_one_sided_wall_pushes_back_what_is_less_than_a_radius_behind_it"),
+    mutant("way-arc", WAY, "wall.sense == -way", "wall.sense == way", "a drum lets disks out and refuses those that come in", WAYS + "::test_arcs"),
+    mutant("way-disks", WAY, "x * x + y * y < std::pow(grazes * apart, 2)", "x * x + y * y < std::pow(grazes * p.radius, 2)", "disks that graze each other by half a radius are let pass", WAYS + "::test_disks_that_pass_through_each_other"),
+    # ---- what is told
+    mutant("missed-named", ENGINE, "if (!(value <= bound))", "if (name == string(\"residual\"))", "the residual is told of where another figure is above its bound", "test_uneven_masses.py::test_what_is_above_its_bound_is_named_with_it"),
+    mutant("sizes-lost", "pkg/dem/seam/ResidentSizes.cpp", "if (isSize(former.radius)) sizesLost[former.id] = former;", ";", "a disk whose radius was no number keeps its old mass when that is mended",
+           "test_sizes.py::test_a_radius_without_sense_that_is_mended"),
+    mutant("check-halves", "pkg/dem/SceneCheck.cpp", "areRigid == takesRigid || ", "", "a list in which all is rigid is taken for one that was converted by halves", "test_messages.py::test_settings_of_the_solver"),
+    mutant("check-shapeless", "pkg/dem/SceneCheck.cpp", "(bodies[id].blocked & inPlane) != inPlane", "false", "a disk that has lost its shape falls through everything",
+           "test_numbers_without_sense.py::test_a_body_that_may_move_and_has_lost_its_shape"),
 )
