@@ -291,6 +291,8 @@ def test_hard_collapse_rests(collapse):
     r = collapse[1]["hard"]
     assert r.rested and r.series["energy_kinetic_J"][-1] < 1e-3 * r.series["energy_kinetic_J"].max()
     assert 5 < r.repose()[0] < 35
+    # no disk has gone farther than its radius in a step, nor are those of a collapse at rest; soft ones are not asked
+    assert 0.01 < r.summary()["way_worst_rel"] < 1 and collapse[1]["soft"].summary()["way_worst_rel"] is None
     assert r.summary()["runout_rel"] == r.runout
 
 
