@@ -436,6 +436,30 @@ def test_without_a_plateau_there_is_no_residual_envelope():
     )
 
 
+def test_a_test_without_an_angle_of_dilatancy_has_a_dash():
+    """Too few rows around the peak: JSON has null, the table a dash, the mean over seeds none."""
+    one = {
+        "seed": 2,
+        "confining_Pa": 1e6,
+        "sigma3_peak_Pa": 1e6,
+        "sigma1_peak_Pa": 3e6,
+        "strain_peak": 0.012,
+        "sigma3_residual_Pa": 1e6,
+        "sigma1_residual_Pa": 2e6,
+        "residual_between_strains": (0.05, 0.1),
+        "dilatancy_deg": None,
+        "bands": [None, None],
+        "bands_late": [{"width_d": 6.0, "angle_deg": 60.0, "antithetic": 0.0}, None],
+        "inertial_number": 1e-4,
+        "platen_difference_rel": 0.01,
+    }
+    told = campaign.summarise(SMALL.material, [one, {**one, "seed": 3, "dilatancy_deg": 12.34}], 1.0, 1)
+    rows = [line.split() for line in report.table(told).splitlines()[1:3]]
+    assert [row[5] for row in rows] == ["-", "12.3"] and rows[0][:5] == ["1", "2", "3.000", "1.20", "2.000"]
+    assert rows[0][6:] == ["-,", "-", "6.0,", "-", "1.0e-04", "1.00", "%"]
+    assert told["by_pressure"][0]["dilatancy_deg"]["mean"] is None
+
+
 def test_a_campaign_sums_up_its_seeds():
     """σ₁ = 4 σ₃ + 2 c √4: sin φ = 3/5. Cohesions of 100 and 120 kPa: 110 ± 12.706 · 10 kPa by Student's t; the residual of one seed more is 3 σ₃ and 5 σ₃."""
     measured = [
@@ -572,6 +596,12 @@ def test_a_test_is_measured_from_its_records(tmp_path):
         and rising["angle_deg"] == pytest.approx(60, abs=3)
     )
     assert falling["rotation_rad"] == pytest.approx(-0.3, rel=0.1) and falling["angle_deg"] == pytest.approx(60, abs=3)
+    rare = {name: values[24::25] for name, values in records.read_series(tmp_path / "series.csv").items()}
+    with records.SeriesWriter(tmp_path / "series.csv", list(rare), overwrite=True) as writer:
+        writer.write(*({name: values[k] for name, values in rare.items()} for k in range(24)))
+    assert (
+        campaign.measure(test, tmp_path)["dilatancy_deg"] is None
+    )  # rows 0.25 % of strain apart, two around the peak
     two = told | {"bands": [rising, {**falling, "width_d": rising["width_d"] + 2.0}]}
     assert [row["band_width_d"]["values"] for row in (campaign.by_pressure([told, two]))] == [
         [None, pytest.approx(rising["width_d"] + 1.0)]

@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import geometry, packing, packing_checks  # noqa: E402
+from nonsmooth import geometry, packing, packing_checks, similar  # noqa: E402
 from nonsmooth.packing import Packing, PackingError  # noqa: E402
 from nonsmooth.section import FOLDER, load  # noqa: E402
 from nonsmooth.whole_files import WriteError  # noqa: E402
@@ -318,3 +318,159 @@ def test_packing_fraction_of_a_known_lattice():
     with pytest.raises(PackingError, match="smaller margin"):
         packing.packing_fraction(square, box, 30)
     assert packing.packing_fraction(square, [(0, 0), (n, 0), (n, 1.9), (0, 1.9)]) is None  # no two disks thick
+
+
+# ---- the parts of packing, by hand ------------------------------------------------------------------
+
+
+def test_overlaps_by_hand():
+    """A pair with a tenth of its mean diameter in common, one with a gap of 1 % that counts as none, and one of 3 % that does not count at all."""
+    rows = Packing([0.0, 1.8, 6.0, 8.02, 12.0, 14.06], [0.0] * 6, [1.0] * 6, [0] * 6)
+    found = packing.overlaps(rows)
+    assert (found.worst, found.mean, found.pairs) == (pytest.approx(0.1, rel=1e-9), pytest.approx(0.05, rel=1e-9), 2)
+    box = geometry.Polygon([(-0.6, -5), (20, -5), (20, 5), (-0.6, 5)])  # 0.4 of a radius of 1 m are out: 0.2 diameters
+    assert packing.overlaps(rows, box).worst == pytest.approx(0.2, rel=1e-9)
+    alone = packing.overlaps(Packing([0.0, 9.0], [0.0, 0.0], [1.0, 1.0], [0, 0]))
+    assert (alone.worst, alone.mean, alone.pairs) == (0.0, 0.0, 0)
+
+
+def test_close_pairs_are_all_that_there_are():
+    """Disks of 0.1 to 4 m, six classes of size: each pair once, in order, as all against all finds them."""
+    rng = np.random.default_rng(3)
+    n = 150
+    x, y, r = rng.uniform(0, 40, n), rng.uniform(0, 40, n), np.geomspace(0.1, 4.0, n)[rng.permutation(n)]
+    for margin in (0.0, 0.5):
+        i, j = packing._close_pairs(x, y, r, margin)
+        a, b = np.triu_indices(n, 1)
+        near = np.hypot(x[a] - x[b], y[a] - y[b]) < r[a] + r[b] + margin
+        assert list(zip(i, j)) == list(zip(a[near], b[near])) and len(i) > 100
+
+
+CORNER = [(0, 0), (10, 0), (10, 5), (5, 5), (5, 10), (0, 10)]  # the corner at (5, 5) points into the region
+
+
+@pytest.mark.parametrize(
+    "place, radius, pushes",
+    [
+        ((2.0, 0.3), 0.5, [(0.2, 0.0, 1.0)]),
+        ((7.0, 4.9), 0.5, [(0.4, 0.0, -1.0)]),
+        ((2.0, 0.6), 0.5, []),
+        ((0.2, 0.3), 0.5, [(0.2, 0.0, 1.0), (0.3, 1.0, 0.0)]),
+        ((-0.1, 0.3), 0.5, [(0.2, 0.0, 1.0), (0.6, 1.0, 0.0)]),  # out, beside a corner: the edges go on as lines
+        ((4.7, 4.6), 0.6, [(0.1, -0.6, -0.8)]),  # the corner itself, once, from 0.5 m
+        ((4.7, 5.2), 0.5, [(0.2, -1.0, 0.0)]),  # beside the end of the edge above, where the corner does not act
+        ((4.0, 4.0), 0.5, []),
+    ],
+)
+def test_edges_and_corners_push_by_hand(place, radius, pushes):
+    table = geometry.edges(geometry.Polygon(CORNER))
+    x, y, r = (np.array([v]) for v in (*place, radius))
+    disks, walls = packing._close_edges(x, y, r, 0.0, table)
+    overlap, nx, ny = packing._edge_overlaps(x, y, r, disks, walls, table)
+    found = sorted((o, a, b) for o, a, b in zip(overlap, nx, ny) if o > 1e-12)
+    assert len(found) == len(pushes)
+    for one, wanted in zip(found, sorted(pushes)):
+        assert one == pytest.approx(wanted, abs=1e-12)
+
+
+def test_edges_are_near_with_a_margin():
+    table = geometry.edges(geometry.Polygon(CORNER))
+    one = np.array([2.0]), np.array([1.0]), np.array([0.5])
+    assert len(packing._close_edges(*one, 0.4, table)[0]) == 0
+    disks, walls = packing._close_edges(*one, 0.6, table)
+    assert disks.tolist() == [0] and table.normal[walls[0]] == pytest.approx((0, 1))
+    away = np.array([2.0]), np.array([-0.7]), np.array([0.5])  # out by more than a radius
+    assert len(packing._close_edges(*away, 0.1, table)[0]) == 0 < len(packing._close_edges(*away, 0.3, table)[0])
+
+
+def test_a_box_lies_along_the_longest_edge():
+    """A rectangle of 6 m by 2 m, turned by 30°, with its corner at (1, 2)."""
+    t, n = np.array([math.cos(math.pi / 6), 0.5]), np.array([-0.5, math.cos(math.pi / 6)])
+    at = np.array([1.0, 2.0])
+    corner, u, v, size = packing._box(geometry.Polygon([at, at + 6 * t, at + 6 * t + 2 * n, at + 2 * n]))
+    assert size == pytest.approx(12.0, rel=1e-9)
+    found = sorted(map(tuple, (corner, corner + u, corner + v, corner + u + v)))
+    for one, wanted in zip(found, sorted(map(tuple, (at, at + 6 * t, at + 2 * n, at + 6 * t + 2 * n)))):
+        assert one == pytest.approx(wanted, abs=1e-12)
+
+
+def test_disks_are_drawn_one_from_each_part_of_the_sizes(bent):
+    """Of n disks of a layer the k-th in size lies in the k-th n-th of the distribution; all of them begin within their layer."""
+    x, y, r, layer = packing._draw(bent, np.random.default_rng(7))
+    assert np.bincount(layer).tolist() == list(bent.disk_counts())
+    for k, one in enumerate(bent.layers):
+        own = np.sort(2 * r[layer == k])
+        n = len(own)
+        low, high = (bent.disks_of(one).diameters(np.arange(m, n + m) / n) for m in (0, 1))
+        assert np.all(own >= low * (1 - 1e-12)) and np.all(own <= high * (1 + 1e-12))
+        assert all(one.polygon.contains(geometry.Point(p)) for p in zip(x[layer == k], y[layer == k]))
+
+
+def test_forces_of_overlapping_disks_by_hand(bent):
+    """Two disks 0.2 m into each other along (0.6, 0.8), the first one 0.1 m into the floor: unit stiffness between disks, two at walls."""
+    box = geometry.edges(geometry.Polygon([(-9, 0), (9, 0), (9, 9), (-9, 9)]))
+    x, y, r = np.array([0.0, 1.08, 5.0]), np.array([0.9, 2.34, 5.0]), np.ones(3)
+    one = packing._Relaxer(x, y, r, np.zeros(3, int), [(box, None)], np.random.default_rng(1))
+    one._neighbours()
+    fx, fy, squeeze, _ = one._forces()
+    assert fx == pytest.approx([-0.12, 0.12, 0], abs=1e-12) and fy == pytest.approx([-0.16 + 0.2, 0.16, 0], abs=1e-12)
+    assert squeeze == pytest.approx([0.2 + 0.2, 0.2, 0], abs=1e-12)
+    # an edge that acts on other disks does not push this one
+    other = packing._Relaxer(
+        x, y, r, np.zeros(3, int), [(box, np.array([False, True, True]))], np.random.default_rng(1)
+    )
+    other._neighbours()
+    assert other._forces()[1] == pytest.approx([-0.16, 0.16, 0], abs=1e-12)
+
+
+def test_the_more_squeezed_larger_one_changes_places():
+    """Radii 1, 1.5, 3 and 4 m, in pairs of like size: the first pair changes places, since its larger disk is squeezed by more than it is larger; the other one is of two layers."""
+
+    class Dice:
+        def __init__(self):
+            self.left = [1, 0]
+
+        def integers(self, low, high):
+            return self.left.pop(0)
+
+    for squeeze, changed in (((0.0, 0.6, 0, 9), True), ((0.0, 0.4, 0, 9), False), ((0.6, 0.0, 0, 9), False)):
+        one = packing._Relaxer(
+            np.zeros(4), np.zeros(4), np.array([1.0, 1.5, 3.0, 4.0]), np.array([0, 0, 0, 1]), [(None, None)], Dice()
+        )
+        one.x0 = one.x
+        one._swap(np.array(squeeze))
+        assert one.r.tolist() == ([1.5, 1.0, 3.0, 4.0] if changed else [1.0, 1.5, 3.0, 4.0])
+        assert (one.x0 is None) == changed  # neighbours are sought anew
+
+
+def test_mirrored_and_similar_sections_have_the_mirrored_and_similar_disks(bent):
+    made = packing.pack(bent, 3)
+    other = packing.pack(similar.mirrored(bent), 3)
+    left, right = (packing.pack(s, 3) for s in (bent, similar.mirrored(bent)))
+    assert np.array_equal(other.x, -made.x) and np.array_equal(other.y, made.y) and np.array_equal(other.r, made.r)
+    assert left.checksum == made.checksum and right.checksum == other.checksum
+    large = packing.pack(similar.scaled(bent, 4.0), 3)
+    assert np.array_equal(large.x, 4 * made.x) and np.array_equal(large.r, 4 * made.r)
+    # without a seed that of the section counts, of the one that it is like as well
+    own = dataclasses.replace(bent, seed=3)
+    assert packing.pack(own).checksum == made.checksum
+    assert np.array_equal(packing.pack(similar.scaled(own, 4.0)).x, large.x)
+
+
+def test_disks_do_not_cross_a_flat_interface():
+    """A flat interface is a wall for the disks on either side: none reaches over it by more than a thousandth of its diameter."""
+    three = dataclasses.replace(load("interface"), pressed=False).with_disks(1500)
+    made = packing.pack(three, 1)
+    flat = [interface for interface in three.interfaces if interface.flat]
+    assert flat
+    for interface in flat:
+        above = geometry.sides(three.line_of(interface))[0]
+        for number, side in zip(three.numbers_of(interface), (-1, 1)):
+            own = made.layer == number
+            places = np.column_stack((made.x, made.y))[own]
+            away, way, which = geometry.nearest(
+                places, above.start, above.start + above.length[:, None] * above.direction
+            )
+            high = side * np.sum(way * above.normal[which], axis=1)
+            beside = np.isclose(np.abs(high), away, rtol=1e-6)  # not beyond the line's ends
+            assert np.all(high[beside] >= made.r[own][beside] * (1 - 2e-3)) and beside.any()

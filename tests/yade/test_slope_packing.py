@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from slope_scenes import SMALL
-from yade import O
+from yade import Body, O, Sphere
 from yade.nonsmooth import free_surface, geometry, packing, section, similar, slope_packing, tables
 from yade.wrapper import NewtonIntegrator
 
@@ -139,3 +139,68 @@ def test_all_shipped_sections_can_be_pressed():
         depth = free_surface.inward(s, after.x, after.y)[1]
         assert np.mean(depth < -2 * s.largest) < 0.01 and np.isfinite(after.x).all(), name
         assert touching(after).mean() > 2.8, name
+
+
+def test_nothing_sticks_rubs_or_bounces_while_it_is_pressed():
+    """Nor does water press; densities stay, and the solver is asked for more."""
+    before = section.load("jiufengershan")
+    after = slope_packing._smooth(before)
+    assert before.water is not None and after.water is None and list(after.materials) == list(before.materials)
+    for name, m in after.materials.items():
+        numbers = [
+            getattr(m, f"{part}{of}")
+            for part in ("", "residual_")
+            for of in ("friction", "rolling_friction", "tensile_strength")
+        ]
+        assert numbers == [0.0] * 6 and m.restitution == 0.0 and not m.bonded and m.slip_weakening is None
+        assert m.density == before.materials[name].density
+    assert (after.numerics.tolerance, after.numerics.max_iterations) == (1e-5, 1000)
+    assert after.numerics.time_step == before.numerics.time_step and after.layers == before.layers
+
+
+def test_each_disk_is_drawn_by_its_weight():
+    """The second and the third of three bodies, of 2 and 3 kg, under 10 m/s² along (0, -1) and (0.6, -0.8)."""
+    O.reset()
+    for mass in (1.0, 2.0, 3.0):
+        body = Body()
+        body.shape, body.state.mass = Sphere(radius=1), mass
+        O.bodies.append(body)
+    slope_packing._pull(SimpleNamespace(first_disk=1), 10.0, np.array([(0.0, -1.0), (0.6, -0.8)]))
+    found = [tuple(O.forces.f(k, True)) for k in range(3)]
+    assert found[0] == (0, 0, 0) and found[1] == pytest.approx((0, -20, 0)) and found[2] == pytest.approx((18, -24, 0))
+    O.reset()
+
+
+def test_a_pressed_packing_is_kept_for_what_made_it():
+    """Gravity, the step, the path and the search of neighbours decide its bits, and so does the seed, which is the section's if none is said."""
+    one = section.load(str(SMALL))
+    n = one.numerics
+    others = [
+        dataclasses.replace(one, gravity=9.0),
+        *(
+            dataclasses.replace(one, numerics=dataclasses.replace(n, **change))
+            for change in (dict(time_step=1e-4), dict(path=0.123), dict(verlet_distance=0.123))
+        ),
+        one.with_disks(500),
+    ]
+    paths = [slope_packing.cache_path(s, 4) for s in (one, *others)]
+    assert len(set(paths)) == len(paths) and slope_packing.cache_path(one, 5) != paths[0]
+    assert slope_packing.cache_path(one) == slope_packing.cache_path(one, one.seed) and "-4-pressed-" in paths[0].name
+    assert (
+        slope_packing.cache_path(dataclasses.replace(one, numerics=dataclasses.replace(n, tolerance=1e-7)), 4)
+        == paths[0]
+    )
+
+
+def test_it_is_pressed_for_twelve_falls_at_most(monkeypatch):
+    """√(H/g) each, H the greatest depth; at once where nothing may go deeper, and after all twelve where every step counts."""
+    small = section.load(str(SMALL))
+    plain = packing.cached_pack(small)
+    fall = math.sqrt(free_surface.inward(small, plain.x, plain.y)[1].max() / small.gravity)
+    for calm, times in ((1e9, 1), (-1e9, 12)):
+        monkeypatch.setattr(slope_packing, "CALM", calm)
+        ends, shares = [], []
+        slope_packing.press(small, plain, lambda share: (shares.append(share), ends.append((O.time, O.dt))))
+        assert shares == pytest.approx([(k + 1) / 12 for k in range(times)])
+        for k, (time, step) in enumerate(ends):
+            assert time == pytest.approx((k + 1) * fall, abs=0.51 * step)  # it ends before half a step is missing

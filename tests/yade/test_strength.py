@@ -182,6 +182,72 @@ def test_dilatancy_is_that_of_the_peak():
     )
 
 
+def made_test(stress, strain=None):
+    """A test's rows by its axial stress, all else nought."""
+    strain = np.arange(1, len(stress) + 1) * 1e-4 if strain is None else strain
+    none = np.zeros(len(strain))
+    return {
+        "strain": strain,
+        "volumetric_strain": none,
+        "sigma1_top_Pa": 1.5 * stress,
+        "sigma1_bottom_Pa": 0.5 * stress,
+        "sigma3_left_Pa": none,
+        "sigma3_right_Pa": none,
+    }
+
+
+def test_the_share_of_the_later_peak_is_one_of_means():
+    """10 Pa until 0.4 % of strain, 8 Pa from 0.8 to 1.2 %, 5 Pa elsewhere, and 20 Pa from 3 % on: windows of 0.2 % have these as their largest means."""
+    strain = np.arange(1, 401) * 1e-4
+    stress = np.full(400, 5.0)
+    stress[strain < 0.00405], stress[(strain > 0.00805) & (strain < 0.01205)], stress[strain > 0.03005] = 10, 8, 20
+    early, whole = ({k: v[:n] for k, v in made_test(stress).items()} for n in (250, 400))
+    assert strength.axial_stress(whole) == pytest.approx(stress, rel=1e-12)  # rounding, here and below
+    assert strength.later_share(early) == pytest.approx(8 / 10, rel=1e-9)
+    assert strength.later_share(whole) == pytest.approx(8 / 20, rel=1e-9)  # what comes after 2 % is not of Figure 10
+    none = made_test(np.where((strain > 0.00805) & (strain < 0.01205), 11.0, 10.0))
+    assert strength.later_share(none) == pytest.approx(1.0, rel=1e-9)
+    assert (
+        strength.later_share({k: v[:50] for k, v in whole.items()}) is None
+    )  # the last window has its middle at 0.4 %
+
+
+def test_a_series_shorter_than_a_window_has_no_means():
+    begin, mean = strength.running_mean(np.array([1e-3, 1.5e-3]), np.array([1.0, 1.0]), 2e-3)
+    assert len(begin) == len(mean) == 0
+
+
+def test_the_apparent_angle_is_that_of_one_circle():
+    """σ₁/σ₃ = (1 + sin φ)/(1 − sin φ): 3 for 30°; no confinement is 90°, no difference 0°."""
+    found = [strength.apparent_deg(minor, major) for minor, major in ((1e6, 3e6), (0.0, 2e6), (2e6, 2e6))]
+    assert found == pytest.approx([30.0, 90.0, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("rate, angle", [(-1.2, -90.0), (-1.0, -90.0), (2.0, 30.0)])
+def test_dilatancy_has_no_sine_beyond_one(rate, angle):
+    """sin ψ = v/(2 + v) for v = dε_v/dε₁; a sample that loses its whole length in volume, or more, has −1."""
+    series = made_curve() | {"volumetric_strain": rate * made_curve()["strain"]}
+    # 1e-6: near the end an arcsine has the root of the rounding
+    assert strength.curve(series, (0.04, 0.06)).dilatancy_deg == pytest.approx(angle, abs=1e-5)
+
+
+def test_two_rows_around_the_peak_have_no_dilatancy():
+    """Rows 0.3 % of strain apart, of which two are within 0.25 % of the peak's middle, and three where rows are 0.15 % apart."""
+    for apart, known in ((0.003, False), (0.0015, True)):
+        strain = np.arange(1, 1 + round(0.06 / apart)) * apart
+        stress = np.where(np.isclose(strain, 0.012), 9.0, 5.0)
+        angle = strength.curve(made_test(stress, strain), (0.04, 0.06)).dilatancy_deg
+        assert math.isfinite(angle) == known
+
+
+def test_an_envelope_is_no_steeper_than_a_sine_of_0_999():
+    """σ₁ = 10⁵ σ₃ would have sin φ = 1 − 2·10⁻⁵."""
+    found = strength.envelope([1.0, 2.0, 4.0], [1e5, 2e5, 4e5])
+    assert math.sin(math.radians(found.friction_deg)) == pytest.approx(0.999, rel=1e-9)
+    with pytest.raises(ValueError, match="two confining pressures or more, not"):
+        strength.envelope([1.0], [4.0])
+
+
 # ---- bands ----------------------------------------------------------------------------------------
 
 

@@ -228,7 +228,7 @@ def build(heap, world):
     if weight > WEIGHT_OVERLAP * stiffness:
         raise HeapError(
             f"stiffness {stiffness:g} Pa: disks at the bottom would overlap by {100 * weight / stiffness:.2g} % of a diameter under the weight above; "
-            f"give {weight / WEIGHT_OVERLAP:.2g} or more"
+            f"give {1.05 * weight / WEIGHT_OVERLAP:.2g} or more"  # so much more that two digits are not less
         )
     return Scene(heap, world, ready, preparation.put(heap, world, ready.x, ready.y, ready.r))
 

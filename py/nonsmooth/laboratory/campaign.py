@@ -113,7 +113,7 @@ def measure(test, folder):
         "sigma1_residual_error_Pa": c.residual_error,
         "sigma3_residual_Pa": c.residual_confining,
         "residual_between_strains": plateau,
-        "dilatancy_deg": c.dilatancy_deg,
+        "dilatancy_deg": number(c.dilatancy_deg),
         "volumetric_strain_end": c.volumetric_end,
         "platen_difference_rel": c.imbalance,
         **fluctuations.measure(series, plateau, found["height_m"] * found["width_m"], _disk_area(folder)),

@@ -22,7 +22,7 @@ def table(summary):
         )
         lines.append(
             f"{t['confining_Pa'] / 1e6:9.3g} {t['seed']:5d} {t['sigma1_peak_Pa'] / 1e6:9.3f} {100 * t['strain_peak']:10.2f} {t['sigma1_residual_Pa'] / 1e6:10.3f} "
-            f"{t['dilatancy_deg']:7.1f}   {widths:23s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %"
+            f"{'-' if t['dilatancy_deg'] is None else format(t['dilatancy_deg'], '.1f'):>7s}   {widths:23s} {t['inertial_number']:8.1e} {100 * t['platen_difference_rel']:8.2f} %"
         )
     for kind in ("peak", "residual"):
         if summary.get(f"cohesion_{kind}_kPa") is not None:

@@ -29,7 +29,8 @@ SHORTEST = PEAK_WINDOW / (1 - PLATEAU)  # strain of a test that has both a peak 
 
 @dataclass(frozen=True)
 class Curve:
-    """What one test says. Stresses [Pa]; ``confining`` as it was during peak or plateau; ``error``: standard error of the plateau's mean."""
+    """What one test says. Stresses [Pa]; ``confining`` as it was during peak or plateau; ``error``: standard error of the plateau's mean; ``dilatancy_deg``: NaN where
+    fewer than three rows lie around the peak."""
 
     peak: float
     peak_strain: float
@@ -78,7 +79,7 @@ def curve(series, plateau):
         residual_error=standard_error(blocks),
         residual_confining=float(lateral[late].mean()),
         # sin ψ = dε_v / (2 dε₁ + dε_v) in plane strain
-        dilatancy_deg=math.degrees(math.asin(max(-1.0, min(1.0, slope / (2 + slope))))),
+        dilatancy_deg=math.degrees(math.asin(np.clip(slope / (2 + slope), -1.0, 1.0))),
         imbalance=float(max(gap(at), gap(late))),
         volumetric_end=float(series["volumetric_strain"][-1]),
     )
