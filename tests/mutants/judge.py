@@ -94,26 +94,26 @@ def sound(place, tests, checks):
     return wrong, holds
 
 
-def judge(place, mutated, known=None):
-    """The Verdict on a mutant; ``known``: {check: holds} without one, for mutants that checks should see."""
+def judge(place, mutated, known=None, limit=LIMIT, options=()):
+    """The Verdict on a mutant; ``known``: {check: holds} without one, for mutants that checks should see; ``limit`` [s] for its tests of a kind; ``options``: of pytest."""
     began = time.monotonic()
     restore = (lambda: None) if mutated.compiled else place.change(mutated)
     try:
-        verdict = _verdict(place, mutated, mutated.number if mutated.compiled else 0, known)
+        verdict = _verdict(place, mutated, mutated.number if mutated.compiled else 0, known, limit, options)
     finally:
         restore()
     verdict.seconds = time.monotonic() - began
     return verdict
 
 
-def _verdict(place, mutated, number, known):
+def _verdict(place, mutated, number, known, limit, options):
     kinds = split(mutated.tests)
-    for kind, status, said in run(place, kinds, number, LIMIT, "-x"):
+    for kind, status, said in run(place, kinds, number, limit, "-x", *options):
         if status is None:
-            return Verdict(TIMEOUT, f"{kind}: stopped after {LIMIT:g} s")
+            return Verdict(TIMEOUT, f"{kind}: stopped after {limit:g} s")
         # 1: a test has failed; of pytest 2 and 3 are errors of collection and of its own, 4 and 5 that there is no such test
         if status == 1 and (kind == "gtest" or re.search(r"^(FAILED|ERROR) ", said, re.MULTILINE)):
-            found = re.search(r"^\[  FAILED  \] (\S+)|^(?:FAILED|ERROR) (\S+)", said, re.MULTILINE)
+            found = re.search(r"^\[  FAILED  \] (\S+)|^(?:FAILED|ERROR) (.+?)(?: - .*)?$", said, re.MULTILINE)
             return Verdict(CAUGHT, next(filter(None, found.groups()), kind) if found else kind)
         if status in (4, 5) and kind != "gtest":
             return Verdict(BROKEN, f"{kind}: no such test: {said[-300:]}")

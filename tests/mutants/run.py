@@ -13,14 +13,14 @@ import random
 import subprocess
 import sys
 import time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from queue import Queue
 
 import judge as judging
 from mutant import TableError, place as look_up
 from mutants import KNOWN, MUTANTS
-from workplace import ROOT, BuildError, Place, build, mutated_sources
+from workplace import ROOT, BuildError, Place, build, mutated_sources, share
 
 sys.path.insert(0, str(ROOT / "py"))
 from nonsmooth.whole_files import write_json
@@ -127,26 +127,16 @@ def sound(places, chosen):
 
 def try_all(places, chosen, known):
     """{mutant: Verdict}, printed one by one."""
-    free, verdicts = Queue(), {}
-    for one in places:
-        free.put(one)
 
-    def one(mutated):
-        place = free.get()
-        try:
-            verdict = judging.judge(place, mutated, known)
-        finally:
-            free.put(place)
+    def one(place, mutated):
+        verdict = judging.judge(place, mutated, known)
         print(
             f"{verdict.outcome:9s} {verdict.seconds:5.1f} s  {mutated.name}: {mutated.broken}  [{verdict.by}]",
             flush=True,
         )
         return verdict
 
-    with ThreadPoolExecutor(len(places)) as pool:
-        for mutated, verdict in zip(chosen, pool.map(one, chosen)):
-            verdicts[mutated] = verdict
-    return verdicts
+    return dict(share(places, chosen, one))
 
 
 def show_checks(verdicts, known):
@@ -194,6 +184,9 @@ def main():
             print(f"{m.name:32s} {m.edits[0][0]:42s} {m.broken}{'  (slow)' if m.slow else ''}")
         return
     try:
+        twice = sorted(name for name, count in Counter(m.name for m in MUTANTS).items() if count > 1)
+        if twice:
+            raise TableError(f"mutants have one name: {', '.join(twice)}; rename one of each")
         for m in MUTANTS:
             for file, old, _ in m.edits:
                 look_up(ROOT, m, file, old)

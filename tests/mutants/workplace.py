@@ -6,7 +6,9 @@ import shutil
 import signal
 import subprocess
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from queue import Queue
 
 from mutant import place, switch_all
 
@@ -18,7 +20,11 @@ CLEAN = {k: v for k, v in os.environ.items() if k not in ("NONSMOOTH_MUTANT", "Y
 
 
 class BuildError(RuntimeError):
-    """The copy could not be built."""
+    """The copy could not be built; ``said``: all that the compiler said."""
+
+    def __init__(self, message, said=""):
+        super().__init__(message)
+        self.said = said
 
 
 def copy_sources(target):
@@ -45,8 +51,8 @@ def mutated_sources(target, mutants):
     fresh.rename(target)
 
 
-def build(source, folder, main_build, targets):
-    """Configures the copy as ``main_build`` is, and builds the targets. Raises BuildError."""
+def build(source, folder, main_build, targets, *ninja):
+    """Configures the copy as ``main_build`` is, and builds the targets; ``ninja``: its options. Raises BuildError."""
     known = dict(
         line.split("=", 1)
         for line in (main_build / "CMakeCache.txt").read_text().splitlines()
@@ -67,12 +73,35 @@ def build(source, folder, main_build, targets):
         "-DNONSMOOTH_BENCHMARKS=OFF",
         "-DNONSMOOTH_CHECKS=OFF",
     ]
-    for command in (["cmake", "-G", "Ninja", "-S", source, "-B", folder, *options], ["ninja", "-C", folder, *targets]):
+    for command in (
+        ["cmake", "-G", "Ninja", "-S", source, "-B", folder, *options],
+        ["ninja", "-C", folder, *ninja, *targets],
+    ):
         done = subprocess.run(
             [str(c) for c in command], env=TOOLS, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )
         if done.returncode:
-            raise BuildError(f"the copy could not be built:\n{done.stdout[-6000:]}")
+            raise BuildError(f"the copy could not be built:\n{done.stdout[-6000:]}", done.stdout)
+
+
+def share(places, items, work):
+    """Calls ``work(place, item)`` for all items, as many at a time as there are places; yields (item, what it returned) in their order."""
+    free = Queue()
+    for one in places:
+        free.put(one)
+
+    def call(item):
+        place = free.get()
+        try:
+            return work(place, item)
+        finally:
+            free.put(place)
+
+    with ThreadPoolExecutor(len(places)) as pool:
+        try:
+            yield from zip(items, pool.map(call, items))
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
 
 
 class Place:

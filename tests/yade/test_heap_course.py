@@ -65,9 +65,9 @@ def test_walls_are_those_that_stand(monkeypatch, gates, base, walls):
 def test_glued_disks_count_as_contacts(monkeypatch):
     """Two disks of 1 m on a glued one of 1 m: the left one 0.06 m into it, the right one 3 mm away, so the mean of 3 % and nothing."""
     stuff = O.materials[O.materials.append(hard(column.Column(**FEW)).material(column.Column(**FEW).material()))]
-    glued = [O.bodies.append(makers.disk((0, 0), 1.0, stuff, fixed=True))]
+    glued = [O.bodies.append(makers.disk((0.5, 0), 1.0, stuff, fixed=True))]
     table = {
-        "x": np.array([-1.94, 2.003]),
+        "x": np.array([-1.44, 2.503]),
         "y": np.array([0.0, 0.0]),
         "r": np.ones(2),
         "vx": np.zeros(2),

@@ -599,9 +599,7 @@ def test_a_test_is_measured_from_its_records(tmp_path):
     rare = {name: values[24::25] for name, values in records.read_series(tmp_path / "series.csv").items()}
     with records.SeriesWriter(tmp_path / "series.csv", list(rare), overwrite=True) as writer:
         writer.write(*({name: values[k] for name, values in rare.items()} for k in range(24)))
-    assert (
-        campaign.measure(test, tmp_path)["dilatancy_deg"] is None
-    )  # rows 0.25 % of strain apart, two around the peak
+    assert campaign.measure(test, tmp_path)["dilatancy_deg"] is None  # rows 0.25 % of strain apart, two around the peak
     two = told | {"bands": [rising, {**falling, "width_d": rising["width_d"] + 2.0}]}
     assert [row["band_width_d"]["values"] for row in (campaign.by_pressure([told, two]))] == [
         [None, pytest.approx(rising["width_d"] + 1.0)]

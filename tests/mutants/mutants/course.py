@@ -351,7 +351,7 @@ MUTANTS = (
            "a resume keeps a script's run of other parameters", "test_plain_runs.py::test_a_script_runs_without_parameters_and_again_with_a_resume_only_where_it_has_changed"),
     mutant("needed-others", PY + "requirements.py", 'if not f"{user}.".startswith(f"{__package__}."):', "if False:", "whoever misses a package of the list is told of this one's",
            "test_plain_runs.py::test_a_missing_package_is_one_message"),
-    mutant("columns-place", PY + "figures/columns.py", "dict(x=(x - run.heap.place()) / width, y=y / width", "dict(x=x / width, y=y / width", "a pile's box is drawn where it stands",
+    mutant("heap-box-place", PY + "figures/columns.py", "dict(x=(x - run.heap.place()) / width, y=y / width", "dict(x=x / width, y=y / width", "a pile's box is drawn where it stands",
            "plain:test_figures_heaps.py::test_runs_stand_below_each_other_to_one_scale_and_their_falls_in_one_panel"),
     # ---- a run in several parts, and what it is asked for
     mutant("run-reopens", "py/nonsmooth/experiment.py", "        self.series.reopen()\n", "", "a second run() writes into a closed file",
