@@ -28,16 +28,16 @@ class NearTests:
         self._read_tests()
 
     def of(self, file, scope=""):
-        """Names of tests (as a Mutant has them), nearest first: those that name the function ``scope``, then those that need no YADE, those named after the
-        module, and small ones."""
+        """Names of tests (as a Mutant has them), nearest first: those that name the function ``scope`` and are named after the module or its package, then those of
+        one of the two; of equally near ones those that need no YADE, and small ones."""
         near = self._of_python(file) if file.endswith(".py") else self._of_cpp(file)
-        words = [w for w in scope.split(".") if w] or [Path(file).stem]
-        stem = Path(file).stem if Path(file).stem != "__init__" else Path(file).parent.name
+        words = [w.strip("_") for w in scope.split(".") if w.strip("_")] or [Path(file).stem]
+        parts = [p for p in Path(file).with_suffix("").parts if p not in (*PACKAGE.parts, "pkg", "dem", "__init__")]
 
         def rank(test):
-            text = self.texts[test]
-            named = max(len(re.findall(rf"\b{w.strip('_')}\b", text)) for w in words)
-            return not named, not test.startswith(("plain:", "gtest:", "bindings/")), stem not in test, len(text)
+            text, after = self.texts[test], any(p.rstrip("s") in test for p in parts)
+            named = any(re.search(rf"\b{w}\b", text) for w in words)
+            return -named - after, not test.startswith(("plain:", "gtest:", "bindings/")), not after, len(text)
 
         return sorted(near, key=rank)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Breaks the software by chance, one token at a time, and says which of these mistakes no test sees.
 
-  tests/mutants/random_mutants.py [BUILD] [--cpp] [--count N] [--seed S] [--only MODULE …] [--resume] [--survivors] [--list]
+  tests/mutants/random_mutants.py [BUILD] [--cpp] [--count N] [--seed S] [--only MODULE …] [--plain] [--resume] [--survivors] [--list]
 
 A mutant is one comparison turned, one sign, index, constant or name changed, or one condition dropped, in the Python package outside `verification`, or in pkg/dem
 with --cpp. The files of tests that import the module judge it, the nearest first, until one fails; in C++ those that the table of mutants names for the file, and those
@@ -29,6 +29,7 @@ from workplace import ROOT, BuildError, Place, build, mutated_sources, share
 sys.path.insert(0, str(ROOT / "py"))
 from nonsmooth.whole_files import write_json
 
+PLAIN = ("plain:", "gtest:", "bindings/", "fuzz/")  # begin of the names of tests that need no YADE
 LEAST = 0.92  # share that is to be caught
 SHORTEST = 60.0  # s, for a file of tests, or five times what it takes without a mutant
 BUDGET = 240.0  # s, for all files that judge a mutant; what is left then is not asked
@@ -58,6 +59,11 @@ def read_arguments():
     )
     parser.add_argument(
         "--survivors", action="store_true", help="tries those again that survived before, and keeps all other verdicts"
+    )
+    parser.add_argument(
+        "--plain",
+        action="store_true",
+        help="asks only tests that need no YADE, some seconds each, about modules that they import",
     )
     parser.add_argument(
         "--budget", type=float, default=BUDGET, metavar="S", help="seconds of tests for a mutant (default: %(default)g)"
@@ -99,8 +105,8 @@ def files_of(parser, args):
     return found
 
 
-def pick(args, files, near):
-    """[(Change, Mutant)], at most as many as are asked for, in the order of their trial."""
+def pick(args, files, near, again):
+    """[(Change, Mutant)] in the order of their trial: those of the digests ``again``, or without any at most as many as are asked for."""
     of = changes_of_cpp if args.cpp else changes_of_python
     picked, spans = [], {}
     for one in chosen([c for f in files for c in of(f, (ROOT / f).read_text())], args.seed):
@@ -108,12 +114,14 @@ def pick(args, files, near):
         others = spans.setdefault(one.file, set())
         if args.cpp and any(one.reach != r and one.reach[0] < r[1] and r[0] < one.reach[1] for r in others):
             continue
-        tests = near.of(one.file, one.scope)
+        if again and one.digest not in again:
+            continue
+        tests = [t for t in near.of(one.file, one.scope) if not args.plain or t.startswith(PLAIN)]
         mutated = as_mutant(one, ROOT, tests) if tests else None
         if mutated:
             others.add(one.reach)
             picked.append((one, mutated))
-        if len(picked) == args.count:
+        if not again and len(picked) == args.count:
             break
     return picked
 
@@ -236,32 +244,34 @@ def line(found):
     return f"{found['outcome']:9s} {found['seconds']:6.1f} s  {found['place']}  {found['before']} → {found['after']}  [{found['by']}]{left}"
 
 
-def kept(path, args):
-    """What an earlier call has kept, which --resume and --survivors go on with; else nothing but what files say without a mutant."""
+def kept(path):
+    """What an earlier call has kept: {test: what is known of it}, {digest: row}."""
     try:
         found = json.loads(path.read_text())
     except FileNotFoundError:
         found = {"sound": {}, "mutants": []}
     except ValueError as error:
         sys.exit(f"mutation: {path} cannot be read ({error}); remove it, and all mutants are tried again")
-    known = {m["digest"]: m for m in found["mutants"]} if args.resume or args.survivors else {}
-    if args.survivors:
-        known = {d: m for d, m in known.items() if m["outcome"] != judging.SURVIVED}
-    return found["sound"], known
+    return found["sound"], {m["digest"]: m for m in found["mutants"]}
 
 
 def main():
     parser, args = read_arguments()
     near = NearTests(ROOT)
-    picked = pick(args, files_of(parser, args), near)
+    work = args.build.resolve() / "random_mutants"
+    path = work / ("cpp.json" if args.cpp else "python.json")
+    sound, before = kept(path)
+    if args.survivors and not before:
+        parser.error(f"--survivors: {path} holds no verdicts; run without it first")
+    picked = pick(args, files_of(parser, args), near, before if args.survivors else ())
     if args.list:
         for one, mutated in picked:
             print(f"{one.place}  {one.scope}  {one.says}  [{', '.join(mutated.tests)}]")
         return 0
-    work = args.build.resolve() / "random_mutants"
     work.mkdir(exist_ok=True)
-    path = work / ("cpp.json" if args.cpp else "python.json")
-    sound, known = kept(path, args)
+    known = before if args.resume or args.survivors else {}
+    if args.survivors:
+        known = {digest: m for digest, m in known.items() if m["outcome"] != judging.SURVIVED}
     libraries = args.build.resolve()
     try:
         if args.cpp:
