@@ -110,9 +110,12 @@ class _Finder(ast.NodeVisitor):
 
     def visit_FunctionDef(self, node):
         arguments = node.args
-        for default in [*arguments.defaults, *filter(None, arguments.kw_defaults)]:
-            self.visit(default)
-        every = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]
+        placed = [*arguments.posonlyargs, *arguments.args]
+        every = [*placed, *arguments.kwonlyargs]
+        usual = [*zip(placed[::-1], arguments.defaults[::-1]), *zip(arguments.kwonlyargs, arguments.kw_defaults)]
+        for name, default in usual:
+            if default is not None and name.arg not in LOOK:
+                self.visit(default)
         bound = {a.arg: node.lineno for a in every if a.arg not in ("self", "cls")}
         for part in _own(node):
             if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store):

@@ -3,4 +3,12 @@
 {(file, what stands there, what takes its place): reason}, both texts as the table of `random_mutants.py` shows them.
 """
 
-SAME = {}
+STYLE = "py/nonsmooth/figures/style.py"
+
+SAME = {
+    (
+        STYLE,
+        'def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, zorder=2):',
+        'def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=1.0, zorder=2):',
+    ): "an edge of no colour is not drawn, however wide; who gives a colour gives a width"
+}

@@ -109,6 +109,10 @@ def test_windows_are_where_their_frames_are(chains):
             (x, y), **exact
         )
         assert box[0] < 0 < box[1] and box[2] < 0 < box[3]  # the foot is at the origin
+    # all of the first frame and all centres are in sight, with 2 % of the slope's width, from -80 m to 1 m, beside them
+    (left, low), width = frames[0].get_xy(), frames[0].get_width()
+    assert top.get_xlim() == pytest.approx((min(-80, left) - 0.02 * 81, max(1, left + width) + 0.02 * 81), **exact)
+    assert top.get_ylim() == pytest.approx((min(3, low) - 0.02 * 81, 43 + 0.02 * 81), **exact)
     # a on the left, both below
     assert (
         windows[0].get_position().x1 < windows[1].get_position().x0

@@ -35,6 +35,9 @@ def test_bodies_part_under_the_tension_f_a_alone(thresholds, state):
     assert graph[:2, 0].tolist() == [0, 0] and graph[0, 1] > 180 and graph[-1, 0] > 0
     assert graph[1:, 1] == pytest.approx([-STATES[state][0]] * 2, **exact)
     assert thresholds[0].get_ylabel() == "normal force $N$ [kN/m]"
+    assert drawn.text(thresholds[0], "opens, $N=-F_a$").get_position()[1] < -180  # under both lines
+    low, high = thresholds[0].get_ylim()
+    assert low < -180 - 0.1 * 180 and high == pytest.approx(graph[0, 1], **exact)
 
 
 @pytest.mark.parametrize("state", STATES)

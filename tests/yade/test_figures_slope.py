@@ -8,9 +8,17 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-records, figures, style, ground, fronts, measured = (
+records, figures, style, profiles, ground, fronts, measured = (
     synthetic.load(name)
-    for name in ("records", "figures", "figures.style", "measure.ground", "measure.fronts", "measure.surface")
+    for name in (
+        "records",
+        "figures",
+        "figures.style",
+        "figures.profiles",
+        "measure.ground",
+        "measure.fronts",
+        "measure.surface",
+    )
 )
 SECTION = synthetic.Section()
 # 3 : 4 : 5
@@ -400,6 +408,22 @@ def test_the_view_holds_all_disks_and_some_ground_before_the_foot():
     assert (x0, x1, y0, y1) == pytest.approx((-50 - 2.04, 120 + 5.1, 5 - 3.15, 40 + 1.05))
     # 12 % of the 50 m before the foot behind it
     assert style.view([left], ground.ground_of(WALLS))[1] == pytest.approx(6 + 0.03 * 56)
+
+
+@pytest.mark.parametrize("top, bottom, high", [(20.0, 0.33, 100.0), (50.0, 0.53, 100.0), (80.0, 0.6, 80 / 0.57)])
+def test_a_close_up_stands_above_all_that_is_below_it(top, bottom, high):
+    """In a panel of 200 m by 100 m from 44.5 % of its width to 79 %, on the side to which the slope falls: over a disk up to ``top``, 3 % of the panel's height above it, no lower
+    than a third; where less than 35 % are left under 95 %, more sky."""
+    disks = synthetic.few([-90.0, 0.0, 90.0], [90.0, top - 4.0, 90.0], r=[4.0] * 3)
+    for walls, sign in ((WALLS, 1), (mirror(WALLS), -1)):
+        flat = ground.ground_of(walls)
+        assert flat.side == sign
+        s = synthetic.few(sign * disks.x, disks.y, r=disks.r)
+        view, (left, low, width, height) = profiles._room([s], flat, (-100.0, 100.0, 0.0, 100.0))
+        assert view == (-100.0, 100.0, 0.0, pytest.approx(high))
+        assert (left, width) == pytest.approx((0.445 if sign > 0 else 0.21, 0.345)) and (low, height) == pytest.approx(
+            (bottom, 0.95 - bottom)
+        )
 
 
 def test_the_view_of_a_mirrored_slope_is_the_mirrored_view():

@@ -65,3 +65,5 @@ def test_a_test_without_breaks_contractions_or_plateau_has_no_numbers_of_them():
     assert found["contractions_per_percent"] == 0
     short = fluctuations.measure(still, (0.2, 0.4), 2000.0, 2.0)
     assert short["stress_fluctuation_rel"] is None and short["contractions_per_percent"] is None
+    # one row covers no strain
+    assert fluctuations.measure(still, (0.05, 0.05), 2000.0, 2.0)["contractions_per_percent"] is None

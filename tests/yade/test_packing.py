@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import geometry, packing, packing_checks, similar  # noqa: E402
+from nonsmooth import free_surface, geometry, packing, packing_checks, similar  # noqa: E402
 from nonsmooth.packing import Packing, PackingError  # noqa: E402
 from nonsmooth.section import FOLDER, load  # noqa: E402
 from nonsmooth.whole_files import WriteError  # noqa: E402
@@ -474,3 +474,22 @@ def test_disks_do_not_cross_a_flat_interface():
             high = side * np.sum(way * above.normal[which], axis=1)
             beside = np.isclose(np.abs(high), away, rtol=1e-6)  # not beyond the line's ends
             assert np.all(high[beside] >= made.r[own][beside] * (1 - 2e-3)) and beside.any()
+
+
+def test_a_flat_interface_bounds_the_disks_on_either_side():
+    """Its upper side holds those of the layer above, its lower side those below; raised by the share that pressing takes, it is a little higher. One that is not flat bounds none."""
+    three = dataclasses.replace(load("interface"), pressed=False)
+    layer = np.arange(len(three.layers))
+    ((lower, upper),) = (three.numbers_of(i) for i in three.interfaces)
+    assert (three.layers[lower].name, three.layers[upper].name) == ("stable", "slab")
+    (whole, every), (above, up), (below, down) = packing._borders(three, layer)
+    assert every is None and (layer[up].tolist(), layer[down].tolist()) == ([upper], [lower])
+    assert len(whole.length) == len(geometry.edges(three.outline).length)
+    assert np.all(above.normal[:, 1] > 0) and np.all(below.normal[:, 1] < 0)
+    pressed = packing._borders(dataclasses.replace(three, pressed=True), layer)[1][0]
+    rise = np.sum((pressed.start - above.start) * above.normal, axis=1)
+    # of the stable layer's thickness, 16 m upwards on a slope of 152.869 in 420; vertices have three digits
+    thickness = 16 * math.cos(math.atan2(152.869, 420))
+    assert rise == pytest.approx(free_surface.PRESSED * thickness, rel=5e-4)
+    rough = dataclasses.replace(three, interfaces=[dataclasses.replace(three.interfaces[0], flat=False)])
+    assert len(packing._borders(rough, layer)) == 1

@@ -128,6 +128,17 @@ def test_each_frame_shows_its_snapshot(shown, files):
     assert drawn.legend(told.fig) == {"dry": d0, "under pore pressure": w0, "released": r0} and len(told.fig.axes) == 1
 
 
+def test_one_snapshot_makes_one_frame(shown, files):
+    told = shown(files[1:2])
+    assert [f.words for f in told.frames] == [["t = 55.0 s", "water table 10.00 m    mean speed 0.0 m/s"]]
+    assert np.array_equal(told.frames[0].centres, np.column_stack([X, Y])) and told.frames[0].radii.tolist() == [
+        3,
+        3,
+        4,
+        5,
+    ]
+
+
 def test_frames_are_pictures_of_one_view(shown, files):
     """The colour at the centre of each disk on the picture, 1280 by 720, of each frame; where a disk was before there is none."""
     told = shown(files, fps=10)
