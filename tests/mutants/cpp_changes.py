@@ -144,7 +144,7 @@ class _Finder:
             m = self.other[m] + 1 if self.words[m] in ("(", "[") else m + 1
         parts.append(last + 1)
         at, neutral = parts.index(k), "true" if word == "&&" else "false"
-        for left, right in {(parts[at - 1], k), (k, parts[at + 1])}:
+        for left, right in ((parts[at - 1], k), (k, parts[at + 1])):
             if left != first - 1 and right == k:
                 continue  # it was the right side of the one before
             begin, end = self.tokens[left + 1].start(), self.tokens[right - 1].end()

@@ -7,7 +7,9 @@ from pathlib import Path
 from mutants import MUTANTS
 
 PACKAGE = Path("py", "nonsmooth")
-FIXTURES = re.compile(r"\b(empty|in_process|cases_here|whole|known)\b")  # of tests/yade/conftest.py
+FIXTURES = re.compile(
+    r"^def test_\w+\(.*\b(empty|in_process|cases_here|whole|known)\b", re.MULTILINE
+)  # of tests/yade/conftest.py
 
 
 class NearTests:
@@ -200,7 +202,10 @@ def _inside(name):
 
 
 def _is_plain(text):
-    """Whether a file of tests imports the package without YADE."""
-    return bool(re.search(r"^(from|import) nonsmooth", text, re.MULTILINE)) and not re.search(
-        r"^\s*(from|import) yade|^import (contact_scenes|slope_scenes|shell|drawn)", text, re.MULTILINE
+    """Whether a file of tests imports the package without YADE, and has no fixture that needs it."""
+    needs = r"^\s*(from|import) yade|^import (contact_scenes|slope_scenes|shell|drawn)"
+    return (
+        bool(re.search(r"^(from|import) nonsmooth", text, re.MULTILINE))
+        and not re.search(needs, text, re.MULTILINE)
+        and not FIXTURES.search(text)
     )

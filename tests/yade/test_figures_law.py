@@ -243,6 +243,7 @@ def test_level_water_lifts_alone():
         (lambda: figures.bond_zone(ROCK, gap=0.05), "gap = 0.05 ℓ: no bond .* below Δ = 0.05"),
         (lambda: figures.bond_zone(ROCK, gap=-0.01), "gap = -0.01 ℓ"),
         (lambda: figures.water_forces(90.0), "dip = 90°: it must lie between"),
+        (lambda: figures.water_forces(-90.0), "dip = -90°: it must lie between"),
         (lambda: figures.water_forces(21.0, unit_weight=-1.0), "unit_weight = -1: it must be positive"),
     ],
 )

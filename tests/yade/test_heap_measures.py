@@ -10,7 +10,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-grains, measures, scaling = (synthetic.load(f"heaps.{name}") for name in ("grains", "measures", "scaling"))
+grains, measures, scaling = (synthetic.load(name) for name in ("heaps.grains", "heaps.measures", "heaps.scaling"))
 
 
 # ---- measures ---------------------------------------------------------------------------------------
