@@ -93,9 +93,11 @@ class NearTests:
 
     def _used(self, tree, within=None):
         """Modules of the package that a file uses: imported, through the face of a package, or by a string that names one where it imports by name."""
-        used, aliases, by_name = set(), {}, False
+        used, aliases, by_name, before = set(), {}, False, {""}
         for node in ast.walk(tree):
-            if isinstance(node, ast.Import):
+            if isinstance(node, ast.JoinedStr) and isinstance(node.values[0], ast.Constant):  # f"figures.{name}"
+                before.add(str(node.values[0].value))
+            elif isinstance(node, ast.Import):
                 for alias in node.names:
                     by_name |= alias.name in ("importlib", "synthetic_slope")
                     if _inside(alias.name) is not None and alias.asname:
@@ -126,8 +128,9 @@ class NearTests:
             elif isinstance(node, ast.Constant) and isinstance(node.value, str):
                 said = re.fullmatch(r"(?:yade\.)?nonsmooth\.([\w.]+)|(\w+)\.py", node.value)
                 name = next(filter(None, said.groups()), "") if said else node.value.strip(".") if by_name else ""
-                beside = f"{within}.{name}" if within else name
-                used |= {one for one in (name, beside) if name and one in self.modules}
+                if within:
+                    before.add(f"{within}.")
+                used |= {f"{one}{name}" for one in before if name and f"{one}{name}" in self.modules}
         return used
 
     # ---- tests
