@@ -313,6 +313,15 @@ def test_water_table_is_parallel_to_the_plane_at_its_height():
     assert ground.ground_of([("SS", plane, "ground")]).water_points(1.0) is None
 
 
+def test_water_stands_above_a_plane_that_falls_to_either_side():
+    """10 m along the normal (0.6, 0.8) of the plane from (-100, 75), or (-0.6, 0.8) from (100, 75), in whichever order its points are given."""
+    for walls, wanted in ((WALLS, [(-94, 83), (6, 8)]), (mirror(WALLS), [(-6, 8), (94, 83)])):
+        for order in (1, -1):
+            found = ground.ground_of([(name, np.array(points)[::order], role) for name, points, role in walls])
+            points = found.water_points(10.0)
+            assert points[np.argsort(points[:, 0])] == pytest.approx(np.array(wanted, float))
+
+
 def test_a_table_over_a_plane_of_its_own_dips_with_it():
     import dataclasses
 

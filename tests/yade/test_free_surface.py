@@ -108,3 +108,15 @@ def test_a_line_within_the_layers_is_lifted_by_the_share_of_what_is_below_it():
     above = (lifted[:, 1] + lifted[:, 0] * math.tan(dip)) * math.cos(dip)
     # along the line's normal, which is DP's to a fraction of a degree
     assert above / below == pytest.approx(1.1, abs=1e-3)
+
+
+def test_an_outline_has_no_idle_vertices():
+    """Vertices within 2 mm of the line through their neighbours go, of a triangle too; a slit of 1 mm between two layers is closed, one of 10 mm stays."""
+    ring = lambda *points: geometry.outline([geometry.Polygon(points)], 1e-3)  # noqa: E731
+    vertices = lambda found: [[tuple(v) for v in p.exterior.coords[:-1]] for p in found.geoms]  # noqa: E731
+    assert vertices(ring((0, 0), (4, 0.001), (8, 0), (8, 6))) == [[(0, 0), (8, 0), (8, 6)]]
+    assert vertices(ring((0, 0), (4, 0), (8, 0), (8, 6), (0, 6))) == [[(0, 0), (8, 0), (8, 6), (0, 6)]]
+    assert vertices(ring((0, 0), (4, 0.01), (8, 0), (8, 6))) == [[(0, 0), (4, 0.01), (8, 0), (8, 6)]]
+    box = lambda x0, x1: geometry.Polygon([(x0, 0), (x1, 0), (x1, 2), (x0, 2)])  # noqa: E731
+    assert vertices(geometry.outline([box(0, 3), box(3.001, 5)], 1e-3)) == [[(0, 0), (5, 0), (5, 2), (0, 2)]]
+    assert len(vertices(geometry.outline([box(0, 3), box(3.01, 5)], 1e-3))) == 2
