@@ -11,4 +11,9 @@ SAME = {
         'def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, zorder=2):',
         'def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=1.0, zorder=2):',
     ): "an edge of no colour is not drawn, however wide; who gives a colour gives a width"
+    (
+        "py/nonsmooth/comparison/cases.py",
+        "HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))",
+        "HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 20.0), (0.5, 0.5))",
+    ): "a choice: any coarser numerics can be compared with the last, and its rows say which they are",
 }

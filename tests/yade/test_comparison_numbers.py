@@ -87,6 +87,9 @@ def test_slopes_that_do_not_fail_by_water_are_told(tmp_path, monkeypatch):
         and stood.cost.rate == 10.0
         and stood.curves["abscissa"][0] == 0
     )
+    # stopped before the water began to rise: the clock begins with the first row after settling, that of 5.1 s, and ends with that of 100 s
+    early = measured(tmp_path, monkeypatch, moving=None, t0=None, moving_s=0.0).curves["abscissa"]
+    assert (early[0], early[-1]) == pytest.approx((0.0, 94.9), abs=1e-9)
     short = {name: values[:700] for name, values in known_slope.series().items()}
     assert measured(known_slope.write(tmp_path, short), monkeypatch).notes == [
         "stopped at 70 s, before the mass was at rest"
