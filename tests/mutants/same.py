@@ -10,7 +10,7 @@ SAME = {
         STYLE,
         'def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, zorder=2):',
         'def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=1.0, zorder=2):',
-    ): "an edge of no colour is not drawn, however wide; who gives a colour gives a width"
+    ): "an edge of no colour is not drawn, however wide; who gives a colour gives a width",
     (
         "py/nonsmooth/comparison/cases.py",
         "HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))",
