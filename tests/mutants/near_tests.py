@@ -46,15 +46,18 @@ class NearTests:
     # ---- Python
     def _of_python(self, file):
         """Tests that import the module, or call a script that does; where none does those that import a module which does, and so on."""
-        modules, seen = {_dotted(Path(file).relative_to(PACKAGE))}, set()
+        modules, seen, found = {_dotted(Path(file).relative_to(PACKAGE))}, set(), []
         while modules:
             scripts = {name for name, used in self.used_by_scripts.items() if used & modules}
-            found = [t for t, (used, called) in self.tests.items() if used & modules or called & scripts]
-            if found:
-                return found
+            tests = [t for t, (used, called) in self.tests.items() if used & modules or called & scripts]
+            if (
+                found
+            ):  # those of the next modules that have a word of this one's name, as test_section of section_checks
+                return found + [t for t in tests if t not in found and any(w in t for w in Path(file).stem.split("_"))]
+            found = tests
             seen |= modules
             modules = {name for name, used in self.used_by_modules.items() if used & modules} - seen
-        return []
+        return found
 
     def _face(self, name):
         """{name that a package shows: module from which it comes}."""

@@ -127,6 +127,9 @@ def test_runout_and_height_with_fits_and_published_laws():
     assert (left.get_title(loc="left"), left.get_ylabel()) == ("Runout", "$(L_f-L_0)/L_0$")
     assert (right.get_title(loc="left"), right.get_ylabel()) == ("Final height", "$H_f/L_0$")
     for ax, values, name in ((left, runout, "runout"), (right, height, "height")):
+        low, high = ax.get_ylim()
+        assert ax.get_yticks().tolist() == [t for t in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20) if low <= t <= high]
+        assert ax.get_xticks().tolist() == [0.5, 1, 2, 5]
         assert ax.get_xlabel() == "aspect ratio $a=H_0/L_0$" and ax.get_xscale() == ax.get_yscale() == "log"
         ours, theirs = drawn.line(ax, "ours"), drawn.line(ax, "theirs")
         assert drawn.points(ours) == pytest.approx(np.column_stack([a, values])) and drawn.points(theirs)[

@@ -1,6 +1,7 @@
 """Figures of the slope in profile, read from their artists: states at the characteristic times, deposit. Needs no YADE."""
 
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -69,9 +70,13 @@ def test_wet_disks_are_blue_and_released_pink_in_shades_that_alternate_with_the_
 def test_panels_follow_in_time_from_the_top_with_one_scale(two):
     upper, lower = two.axes
     assert upper.get_position().y0 >= lower.get_position().y1 - 1e-9
+    assert (1 - upper.get_position().y1) * two.get_figheight() < 1  # inch: nothing but a margin stands above
     assert (upper.get_xlim(), upper.get_ylim()) == (lower.get_xlim(), lower.get_ylim())
     # wet is who is not released: 2 of 8
     assert drawn.texts(upper)[-2:] == ["$t_{0}$ = 5.0 s", "water begins to rise\nno water\nwet 25 %, released 25 %"]
+    # panels have one scale, whose bar stands in the last
+    bars = [[t for t in drawn.texts(ax) if re.fullmatch(r"[\d.]+ m", t)] for ax in (upper, lower)]
+    assert [len(told) for told in bars] == [0, 1]
     assert "on the way: 61.3 s" in drawn.texts(lower) and "water table 12.00 m\nwet 25 %, released 25 %" in drawn.texts(
         lower
     )
@@ -433,6 +438,15 @@ def test_a_close_up_stands_above_all_that_is_below_it(top, bottom, high):
         assert (left, width) == pytest.approx((0.445 if sign > 0 else 0.21, 0.345)) and (low, height) == pytest.approx(
             (bottom, 0.95 - bottom)
         )
+
+
+def test_the_view_goes_with_the_slope():
+    """30 m to the right and 200 m up."""
+    left, right = synthetic.few([-50.0, -10.0], [10.0, 40.0]), synthetic.few([-40.0, 120.0], [5.0, 30.0])
+    moved = [(name, np.array(points) + (30, 200), role) for name, points, role in WALLS]
+    for cases in ([left], [left, right]):
+        there = style.view([synthetic.few(s.x + 30, s.y + 200, r=s.r) for s in cases], ground.ground_of(moved))
+        assert there == pytest.approx(np.add(style.view(cases, ground.ground_of(WALLS)), (30, 30, 200, 200)))
 
 
 def test_the_view_of_a_mirrored_slope_is_the_mirrored_view():

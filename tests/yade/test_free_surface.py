@@ -120,3 +120,10 @@ def test_an_outline_has_no_idle_vertices():
     box = lambda x0, x1: geometry.Polygon([(x0, 0), (x1, 0), (x1, 2), (x0, 2)])  # noqa: E731
     assert vertices(geometry.outline([box(0, 3), box(3.001, 5)], 1e-3)) == [[(0, 0), (5, 0), (5, 2), (0, 2)]]
     assert len(vertices(geometry.outline([box(0, 3), box(3.01, 5)], 1e-3))) == 2
+
+
+def test_the_greatest_depth_is_sought_along_edges_too():
+    """A rim of 8 m, from free ends 7 m before it and 13 m behind it: 14 m from both at 7 m, an eighth of an edge before its end."""
+    table = geometry.edges(geometry.Polygon([(0, 0), (8, 0), (8, 1e-6), (0, 1e-6)]))
+    ends = np.array([(-7.0, 0.0), (21.0, 0.0)])
+    assert free_surface._greatest_depth(table, (ends, ends + (0.0, 1e-6))) == pytest.approx(14.0, abs=1e-6)
