@@ -123,7 +123,8 @@ def test_an_outline_has_no_idle_vertices():
 
 
 def test_the_greatest_depth_is_sought_along_edges_too():
-    """A rim of 8 m, from free ends 7 m before it and 13 m behind it: 14 m from both at 7 m, an eighth of an edge before its end."""
-    table = geometry.edges(geometry.Polygon([(0, 0), (8, 0), (8, 1e-6), (0, 1e-6)]))
-    ends = np.array([(-7.0, 0.0), (21.0, 0.0)])
-    assert free_surface._greatest_depth(table, (ends, ends + (0.0, 1e-6))) == pytest.approx(14.0, abs=1e-6)
+    """A rim along 8 m, which begins at a free end and has another one 14 m on: 7 m from both at 7 m, an eighth of the edge before its end; the way back has its points elsewhere."""
+    table = geometry.edges(geometry.Polygon([(0, 0), (3, -0.01), (8, 0)]))
+    ends = np.array([(0.0, 0.0), (14.0, 0.0)])
+    for edges in (table, geometry.edges(geometry.Polygon([(0, 0), (8, 0), (3, 0.01)]))):
+        assert free_surface._greatest_depth(edges, (ends, ends + (0.0, 1e-6))) == pytest.approx(7.0, abs=1e-5)

@@ -161,6 +161,7 @@ def test_each_surface_has_a_panel_in_its_own_unit():
         "along long,\nfrom its upper end [m]",
         "along short,\nfrom its upper end [cm]",
     )
+    assert (long.get_xlabel(), brief.get_xlabel()) == ("", "time [s]") and long.get_legend() and not brief.get_legend()
     assert np.nanmax(cells(long)[2]) == 1 and cells(brief)[2].tolist() == [[1.0]]
     assert cells(brief)[1] == pytest.approx([0, 150])
 
