@@ -44,6 +44,14 @@ def test_a_slope_that_slid_and_was_held_has_not_stood(side):
     assert of(moving=None, columns=slid(0.008 * side)).kind == "stood"
 
 
+def test_a_slope_slides_from_when_the_water_came():
+    """5 % of its size in the seconds before t0 are no slide; where no water came they are."""
+    early = RESTING | dict(centroid_x_m=lambda t: 40.0 + 0.05 * SIZE * np.clip((t - 6.0) / 3.0, 0, 1))
+    assert of(moving=None, columns=early).kind == "stood"
+    dry = of(moving=None, t0=None, columns=early)
+    assert dry.kind == "slid" and f"by {0.05 * SIZE:.3g} m, its centre of mass sideways since it settled" in dry.says
+
+
 def test_every_verdict_is_said_and_each_has_its_meaning():
     found = {
         of().kind,
