@@ -35,6 +35,8 @@ class NearTests:
         near = self._of_python(file) if file.endswith(".py") else self._of_cpp(file)
         words = [w.strip("_") for w in scope.split(".") if w.strip("_")] or [Path(file).stem]
         parts = [p for p in Path(file).with_suffix("").parts if p not in (*PACKAGE.parts, "pkg", "dem", "__init__")]
+        # WallForceEngine: wall_force
+        parts = [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", p).lower().removesuffix("_engine") for p in parts]
 
         def rank(test):
             text, after = self.texts[test], any(p.rstrip("s") in test for p in parts)
