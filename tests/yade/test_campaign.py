@@ -43,6 +43,21 @@ def test_all_combinations_are_planned_and_each_has_its_values():
     assert campaign.sweep(SHIPPED, {}).runs[0].name == "run"
 
 
+@pytest.mark.parametrize("resume", [False, True])
+def test_a_slope_alone_is_run_with_what_it_was_given(tmp_path, monkeypatch, resume):
+    """Its checkpoint is forgotten unless it goes on from it; what the process is told is what a planned run is told."""
+    inside, told = sys.modules[campaign.run_slope.__module__], []
+    monkeypatch.setattr(inside.checkpoints, "forget", lambda out: told.append(("forget", out)))
+    monkeypatch.setattr(inside.processes, "call", lambda *call: told.append(call))
+    monkeypatch.setattr(inside.runs, "open_run", lambda out: f"the run in {out.name}")
+    out = tmp_path / "one"
+    if resume:
+        out.mkdir()
+    assert campaign.run_slope(SHIPPED, out, end=7.0, figures=True, resume=resume, threads=3) == "the run in one"
+    planned = campaign.sweep(SHIPPED, {}, end=7.0, figures=True)
+    assert told == [("forget", out)] * (not resume) + [(planned.function, out, planned.runs[0].arguments, 3)]
+
+
 def test_items_of_lists_go_by_their_names_and_lists_are_values_too():
     plan = campaign.sweep(
         SHIPPED, {"interfaces.joint.material": ["joint", "rock"], "disks.diameter": [[1.0, 2.0], [1.5, 3.0]]}

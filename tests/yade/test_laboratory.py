@@ -458,6 +458,10 @@ def test_a_test_without_an_angle_of_dilatancy_has_a_dash():
     assert [row[5] for row in rows] == ["-", "12.3"] and rows[0][:5] == ["1", "2", "3.000", "1.20", "2.000"]
     assert rows[0][6:] == ["-,", "-", "6.0,", "-", "1.0e-04", "1.00", "%"]
     assert told["by_pressure"][0]["dilatancy_deg"]["mean"] is None
+    # shares of the modes in which bonds broke, of the tests where one has
+    shares = {"tension": 0.1, "shear": 0.6, "torque": 0.25, "mixed": 0.05}
+    (row,) = campaign.by_pressure([{**one, "broken_shares": shares}, {**one, "broken_shares": None}])
+    assert {mode: row[f"broken_{mode}"]["values"] for mode in shares} == {m: [s, None] for m, s in shares.items()}
 
 
 def test_a_campaign_sums_up_its_seeds():
