@@ -272,9 +272,9 @@ def main():
             print(f"{one.place}  {one.scope}  {one.says}  [{', '.join(mutated.tests)}]")
         return 0
     work.mkdir(exist_ok=True)
-    known = before if args.resume or args.survivors else {}
+    known = old = before if args.resume or args.survivors else {}
     if args.survivors:
-        known = {digest: m for digest, m in known.items() if m["outcome"] != judging.SURVIVED}
+        known = {digest: m for digest, m in old.items() if m["outcome"] != judging.SURVIVED}
     libraries = args.build.resolve()
     try:
         if args.cpp:
@@ -292,7 +292,9 @@ def main():
         with tqdm(total=len(picked), initial=len(rows), unit="mutant") as bar:
             for (one, mutated), (verdict, unasked) in share(places, waiting, lambda place, item: judge(place, item[1])):
                 rows.append(row(one, verdict, unasked, mutated.tests))
-                write_json(path, {"seed": args.seed, "sound": sound, "mutants": rows})
+                # what waits to be tried again keeps its verdict, also where this call is stopped
+                left = [m for digest, m in old.items() if digest not in {r["digest"] for r in rows}]
+                write_json(path, {"seed": args.seed, "sound": sound, "mutants": rows + left})
                 tqdm.write(line(rows[-1]))
                 bar.update()
     except KeyboardInterrupt:
