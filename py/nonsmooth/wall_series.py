@@ -81,7 +81,7 @@ class WallSeries:
             for role, names in self._of_role.items()
         }
         for interface, *_ in self._interfaces:
-            if interface.role == "slip" and interface.name in self._lowest:
+            if interface.name in self._lowest:
                 found["slip"] = tuple(a + b for a, b in zip(found["slip"], inside[interface.name]))
         return found, {name: rows[name] for name in self._slope.section.stacked}
 

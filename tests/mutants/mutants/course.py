@@ -38,7 +38,7 @@ MUTANTS = (
     mutant("stacks-above", PY + "stacks.py", "_height(line, x) - _height(other, x)", "_height(other, x) - _height(line, x)", "the highest slip surface is the lowest", "plain:test_stacks.py"),
     mutant("stacks-walls", PY + "wall_series.py", "if name in self._lowest]", "]", "a slope's weight counts once for each of its slip walls",
            "test_beds.py::test_a_slip_wall_above_another_is_no_part_of_the_sum"),
-    mutant("stacks-sum", PY + "wall_series.py", " and interface.name in self._lowest", "", "a slope's weight counts once for each of its slip surfaces",
+    mutant("stacks-sum", PY + "wall_series.py", "one.name for one in section.lowest_surfaces", "one.name for one in section.sliding", "a slope's weight counts once for each of its slip surfaces",
            "test_beds.py::test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight"),
     mutant("stacks-water", COURSE, "wet[part] if part.dtype == bool else wet * part", "wet", "each slip surface bears the water of all",
            "test_beds.py::test_of_two_slip_surfaces_one_above_the_other_each_bears_its_own_weight"),

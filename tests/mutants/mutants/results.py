@@ -51,7 +51,7 @@ MUTANTS = (
            ROWS + "::test_the_slip_of_several_walls_is_the_mean_over_their_disks"),
     mutant("wall-shared", WALLS, "role: forces[names[0] if len(names) == 1 else (role,)] if names", "role: forces[names[0]] if names", "of several walls of a role the first alone counts",
            ROWS + "::test_a_wall_has_the_sum_of_all_its_pieces"),
-    mutant("wall-role", WALLS, 'if interface.role == "slip":', "if True:", "an interface that is no slip surface counts as one", ROWS + "::test_each_interface_of_a_layer_has_its_own_law"),
+    mutant("wall-role", WALLS, "if interface.name in self._lowest:", "if True:", "an interface that is no slip surface counts as one", ROWS + "::test_each_interface_of_a_layer_has_its_own_law"),
     mutant("wall-upper", WALLS, "(one == upper) & (other == lower)", "(one == upper) & (other == upper)", "disks below with the higher id do not press",
            ROWS + "::test_each_interface_of_a_layer_has_its_own_law"),
     mutant("wall-lies", WALLS, "(one != k) & (one >= 0)", "(one != k)", "an obstacle is pushed by the wall that it stands on", ROWS + "::test_an_obstacle_is_pushed_by_what_hits_it_alone"),
