@@ -259,6 +259,7 @@ def test_a_view_of_ones_own_is_kept(shown, tmp_path):
         (dict(seconds=math.nan), "seconds nan"),
         (dict(seconds="2"), "seconds '2': give a time above 0 s"),
         (dict(frames=0), "frames 0: give a whole number"),
+        (dict(frames=10_001), "frames 10001: give a whole number from 1 to 10000"),
         (dict(frames=10, period=0.1), "frames 10 and period 0.1: .* give one of them"),
         (dict(period=-1.0), "period -1.0: the time between two frames is above 0 s"),
         (dict(fps=0), "fps 0: give frames a second"),
@@ -407,6 +408,7 @@ O.run(100, wait=True)
         (1e-3, 0.1, dict(period=1.0), 1),  # what has been reached is added where it is written
         (1e-2, 0.1, dict(period=1e-3), 11),
         (1e-3, 0.5, dict(frames=7), 8),
+        (1e-2, 0.1, dict(frames=1), 2),
     ],
 )
 def test_a_scene_is_run_for_the_seconds_that_were_asked_for(dt, seconds, options, frames):
