@@ -47,16 +47,14 @@ class NearTests:
 
     # ---- Python
     def _of_python(self, file):
-        """Tests that import the module, or call a script that does; where none does those that import a module which does, and so on."""
+        """Tests that import the module, or call a script that does; where none does those that import a module which does, and so on. Of those further on also the ones
+        that have a word of the module's name in their own, as test_section of section_checks."""
         modules, seen, found = {_dotted(Path(file).relative_to(PACKAGE))}, set(), []
+        words = Path(file).stem.split("_")
         while modules:
             scripts = {name for name, used in self.used_by_scripts.items() if used & modules}
             tests = [t for t, (used, called) in self.tests.items() if used & modules or called & scripts]
-            if (
-                found
-            ):  # those of the next modules that have a word of this one's name, as test_section of section_checks
-                return found + [t for t in tests if t not in found and any(w in t for w in Path(file).stem.split("_"))]
-            found = tests
+            found += [t for t in tests if t not in found and (not found or any(w in t for w in words))]
             seen |= modules
             modules = {name for name, used in self.used_by_modules.items() if used & modules} - seen
         return found
