@@ -31,7 +31,8 @@ class NearTests:
 
     def of(self, file, scope=""):
         """Names of tests (as a Mutant has them), nearest first: those that name the function ``scope`` and are named after the module or its package, then those of
-        one of the two; of equally near ones those that need no YADE, and small ones."""
+        one of the two; of equally near ones those that need no YADE, and small ones; what tries thousands of inputs comes last.
+        """
         near = self._of_python(file) if file.endswith(".py") else self._of_cpp(file)
         words = [w.strip("_") for w in scope.split(".") if w.strip("_")] or [Path(file).stem]
         parts = [p for p in Path(file).with_suffix("").parts if p not in (*PACKAGE.parts, "pkg", "dem", "__init__")]
@@ -41,7 +42,13 @@ class NearTests:
         def rank(test):
             text, after = self.texts[test], any(p.rstrip("s") in test for p in parts)
             named = any(re.search(rf"\b{w}\b", text) for w in words)
-            return -named - after, not test.startswith(("plain:", "gtest:", "bindings/")), not after, len(text)
+            return (
+                test.startswith("fuzz/"),
+                -named - after,
+                not test.startswith(("plain:", "gtest:", "bindings/")),
+                not after,
+                len(text),
+            )
 
         return sorted(near, key=rank)
 
