@@ -21,4 +21,10 @@ SAME = {
         "float(np.corrcoef(a, b)[0, 1]) if a.std() > 0 and b.std() > 0 else math.nan,",
         "float(np.corrcoef(a, b)[0, 1]) if True and b.std() > 0 else math.nan,",
     ): "NaN either way, with a warning of NumPy's besides",
+    (
+        "py/nonsmooth/statistics.py",
+        "return float(np.std(values, ddof=1) / math.sqrt(len(values))) if len(values) > 1 else math.nan",
+        "return float(np.std(values, ddof=1) / math.sqrt(len(values))) if len(values) >= 1 else math.nan",
+    ): "NaN either way, with a warning of NumPy's besides",
+    ("py/nonsmooth/figures/sweep.py", "if handles:", "if True:"): "a legend without entries and frame shows nothing",
 }

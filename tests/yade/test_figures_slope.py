@@ -287,6 +287,14 @@ def mirror(walls):
     return [(name, (np.array(points) * (-1, 1))[::-1], role) for name, points, role in reversed(walls)]
 
 
+def test_bins_are_as_wide_as_asked_for_or_three_diameters():
+    """Ten disks of 1 m from 0 to 20 m: four bins of 6 m, or 5 of 4 m."""
+    s = synthetic.few(np.arange(1.0, 20, 2), np.full(10, 50.0))
+    for bin_m, wide, count in ((None, 6.0, 4), (4.0, 4.0, 5)):
+        x, _, surface = measured.deposit_profile(s, WALLS, bin_m)
+        assert x == pytest.approx(wide * (np.arange(count) + 0.5)) and surface == pytest.approx(np.full(count, 51.0))
+
+
 def test_a_mirrored_slope_gives_the_mirrored_profile_and_front():
     # no whole number of bins of 3.1 m: they begin at the crown's end on both sides
     s = steps((-90, -60, 12), (-60, -31, 6))
