@@ -186,3 +186,13 @@ def test_importing_needs_no_display_and_leaves_the_settings_alone(series):
         "assert 'matplotlib.pyplot' not in sys.modules and 'yade' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code % str(Path(__file__).parent)], check=True, env={"PATH": "/usr/bin"})
+
+
+def test_an_axis_of_a_sweep_goes_on_beside_its_ends():
+    """By a share of the axis: of its length, of its factor where it is logarithmic, of the value where there is one alone, of 1 where that is nought."""
+    beside = synthetic.load("figures.sweep")._beside
+    assert (beside(2.0, -0.1, [2.0, 4.0], False), beside(4.0, 0.1, [2.0, 4.0], False)) == pytest.approx((1.8, 4.2))
+    assert (beside(1.0, -0.5, [1.0, 10.0, 100.0], True), beside(100.0, 0.5, [1.0, 10.0, 100.0], True)) == pytest.approx(
+        (0.1, 1000.0)
+    )
+    assert beside(-3.0, 0.1, [-3.0], False) == pytest.approx(-2.7) and beside(0.0, 0.1, [0.0], False) == 0.1
