@@ -2,6 +2,7 @@
 #pragma once
 
 #include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
 #include <pkg/common/ElastMat.hpp>
 
 namespace yade {

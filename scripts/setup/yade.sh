@@ -12,6 +12,7 @@ YADE_OPTIONS=(
     -DDISABLE_ALL=ON -DENABLE_OPENMP=ON -DENABLE_VTK=ON -DENABLE_LOGGER=ON
     -DDISABLE_PKGS=fem,lbm,levelSet,pfv,potential,polyhedra,openfoam,image
     -DDISABLE_SAVE_TEMPS=1 -DNOSUFFIX=1 -DSUFFIX=)
+YADE_SHORTENING=$ROOT/cmake/YadeSlim.cmake   # has part in the cache's key by what it says, not by where it stands
 
 # The address of the machine's own Debian mirror.
 yade_mirror() {
@@ -69,8 +70,17 @@ yade_python() { /usr/bin/python3 -c 'import sys; print("%d.%d" % sys.version_inf
 # Where the slim YADE is or will be.
 yade_slim_prefix() {
     local key
-    key=$(printf '%s\n' "$YADE_VERSION" "$(yade_python)" "${YADE_OPTIONS[@]}" | sha256sum | cut -c1-10)
+    key=$(printf '%s\n' "$YADE_VERSION" "$(yade_python)" "${YADE_OPTIONS[@]}" "$(cat "$YADE_SHORTENING")" | sha256sum | cut -c1-10)
     printf '%s/yade-%s-%s\n' "$(cache_dir)" "$YADE_VERSION" "$key"
+}
+
+# How many files of the slim YADE are compiled at a time: one a core, where memory holds them (4 GB each).
+yade_jobs() {
+    local cores fit
+    cores=$(nproc)
+    fit=$(awk '/^MemTotal:/ { print int($2 / 4e6) }' /proc/meminfo)
+    [ "$fit" -ge 1 ] || fit=1
+    if [ "$cores" -lt "$fit" ]; then echo "$cores"; else echo "$fit"; fi
 }
 
 # Builds the slim YADE into the cache, keyed by version and options; prints its prefix.
@@ -88,10 +98,10 @@ yade_slim() {
     mkdir -p "$build"
     # /usr/bin first, so that no other python (pyenv, conda) is picked up
     if ! PATH=/usr/bin:/bin:/usr/sbin cmake -G Ninja -S "$sources" -B "$build" "${YADE_OPTIONS[@]}" \
-            "-DCMAKE_INSTALL_PREFIX=$prefix" "-DPYTHON_VERSION=$python" >"$build/configure.log" 2>&1; then
+            "-DCMAKE_PROJECT_Yade_INCLUDE=$YADE_SHORTENING" "-DCMAKE_INSTALL_PREFIX=$prefix" "-DPYTHON_VERSION=$python" >"$build/configure.log" 2>&1; then
         tail -n 30 "$build/configure.log" >&2; die "YADE could not be configured; the whole log is $build/configure.log"
     fi
-    if ! (set -o pipefail; PATH=/usr/bin:/bin:/usr/sbin NINJA_STATUS='[%f/%t] ' ninja -C "$build" 2>&1 | ninja_progress "$build/build.log"); then
+    if ! (set -o pipefail; PATH=/usr/bin:/bin:/usr/sbin NINJA_STATUS='[%f/%t] ' ninja -j "$(yade_jobs)" -C "$build" 2>&1 | ninja_progress "$build/build.log"); then
         tail -n 40 "$build/build.log" >&2; die "YADE could not be built; the whole log is $build/build.log"
     fi
     PATH=/usr/bin:/bin:/usr/sbin ninja -C "$build" install >"$build/install.log" 2>&1 ||

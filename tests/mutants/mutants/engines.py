@@ -2,6 +2,7 @@
 from mutant import mutant
 
 SEAM, SCATTER, CORRECT, ENGINE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamScatter.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "pkg/dem/ContactDynamicsEngine.cpp"
+REQUESTS, WARNINGS = "pkg/dem/ContactDynamicsRequests.cpp", "pkg/dem/ContactDynamicsWarnings.cpp"
 STEPPER, WATER, NEWTON = "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlanarNewtonIntegrator.cpp"
 TO_PLANE, GIVEN = "pkg/dem/seam/PlaneMotion.hpp", "pkg/dem/seam/ContactSeamGiven.cpp"
 RESIDENT, SHOW, MAKE = "pkg/dem/seam/Resident.cpp", "pkg/dem/seam/ResidentShow.cpp", "pkg/dem/seam/ResidentMake.cpp"
@@ -112,9 +113,9 @@ MUTANTS = (
            "test_tables.py::test_bodies_are_those_of_the_scene"),
     mutant("engine-rows", SHOW, "rows + columns * before[part]", "rows + part * chunk * columns", "rows of disks stand where they would if nobody was missing",
            "test_tables.py::test_rows_of_many_bodies_with_gaps"),
-    mutant("engine-gap", ENGINE, "double(phys->gapOf(g))", "double(g.penetrationDepth)", "the table of contacts has overlaps for gaps",
+    mutant("engine-gap", REQUESTS, "double(phys->gapOf(g))", "double(g.penetrationDepth)", "the table of contacts has overlaps for gaps",
            "test_tables.py::test_contacts_are_those_of_the_scene"),
-    mutant("engine-bond-distance", ENGINE, "!(gap <= phys->creationDistance)", "gap > 0", "no bonds over a gap",
+    mutant("engine-bond-distance", REQUESTS, "!(gap <= phys->creationDistance)", "gap > 0", "no bonds over a gap",
            "test_bonds.py::test_bonds_are_made_below_the_creation_distance"),
     # ---- time stepper
     mutant("stepper-growth", STEPPER, "growth * before", "before", "a step never grows", "test_time_stepper.py::test_grows_to_the_largest_where_nothing_moves"),
@@ -347,7 +348,7 @@ MUTANTS = (
     mutant("way-arc", WAY, "wall.sense == -way", "wall.sense == way", "a drum lets disks out and refuses those that come in", WAYS + "::test_arcs"),
     mutant("way-disks", WAY, "x * x + y * y < std::pow(grazes * apart, 2)", "x * x + y * y < std::pow(grazes * p.radius, 2)", "disks that graze each other by half a radius are let pass", WAYS + "::test_disks_that_pass_through_each_other"),
     # ---- what is told
-    mutant("missed-named", ENGINE, "if (!(value <= bound))", "if (name == string(\"residual\"))", "the residual is told of where another figure is above its bound", "test_uneven_masses.py::test_what_is_above_its_bound_is_named_with_it"),
+    mutant("missed-named", WARNINGS, "if (!(value <= bound))", "if (name == string(\"residual\"))", "the residual is told of where another figure is above its bound", "test_uneven_masses.py::test_what_is_above_its_bound_is_named_with_it"),
     mutant("sizes-lost", "pkg/dem/seam/ResidentSizes.cpp", "if (isSize(former.radius)) sizesLost[former.id] = former;", ";", "a disk whose radius was no number keeps its old mass when that is mended",
            "test_sizes.py::test_a_radius_without_sense_that_is_mended"),
     mutant("check-halves", "pkg/dem/SceneCheck.cpp", "areRigid == takesRigid || ", "", "a list in which all is rigid is taken for one that was converted by halves", "test_messages.py::test_settings_of_the_solver"),
