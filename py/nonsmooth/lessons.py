@@ -109,10 +109,11 @@ def one(folder, script, parameters, seconds=None):
     table.write_text(
         "{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(repr, parameters.values())]))
     )
-    os.environ["YADE_BATCH"] = f"{table}:2"
     said, names = io.StringIO(), vars(sys.modules["__main__"])  # where engines look for what they call
     filmed = seconds is not None and not film.missing()
     with contextlib.ExitStack() as stack:
+        os.environ["YADE_BATCH"] = f"{table}:2"
+        stack.callback(os.environ.pop, "YADE_BATCH")  # no table of what this process does afterwards
         made = stack.enter_context(recording(O, most=round(seconds * FPS))) if filmed else None
         stack.enter_context(contextlib.redirect_stdout(said))
         exec(compile(path.read_text(), str(path), "exec"), names)

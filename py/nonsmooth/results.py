@@ -76,7 +76,7 @@ def moved_before_water(summary):
 #: Names of the numbers that every summary has, beside those of its dictionaries.
 NUMBERS = (
     "finished disks contacts_initial bonds_initial packing_fraction time_step_s path_rel steps simulated_s wall_s wall_packing_s threads iterations_mean tolerance "
-    "tolerance_moving residual_p95 residual_N_per_m_p95 residual_p95_over_tolerance overlap_worst_rel overlap_mean_rel failed_dry_s moved_dry_s water_at_failure_m "
+    "tolerance_moving residual_p95 residual_N_per_m_p95 residual_p95_over_tolerance way_worst_rel overlap_worst_rel overlap_mean_rel failed_dry_s moved_dry_s water_at_failure_m "
     "water_highest_m fb_force_dry_N_per_m fb_force_at_failure_N_per_m fb_force_final_N_per_m dp_shear_dry_N_per_m dp_shear_at_failure_N_per_m dp_shear_final_N_per_m "
     "weakening_begins_s triggering_s weakening_s motion_s front_travel_m centroid_travel_m speed_max_m_per_s speed_mean_max_m_per_s deposit_thickness_max_m bulking_factor "
     "energy_dissipated_J_per_m energy_correction_rel energy_error_rel"

@@ -12,7 +12,7 @@ YADE_OPTIONS=(
     -DDISABLE_ALL=ON -DENABLE_OPENMP=ON -DENABLE_VTK=ON -DENABLE_LOGGER=ON
     -DDISABLE_PKGS=fem,lbm,levelSet,pfv,potential,polyhedra,openfoam,image
     -DDISABLE_SAVE_TEMPS=1 -DNOSUFFIX=1 -DSUFFIX=)
-YADE_SHORTENING=$ROOT/cmake/YadeSlim.cmake   # has part in the cache's key by what it says, not by where it stands
+YADE_SHORTENING=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../cmake" && pwd)/YadeSlim.cmake   # has part in the cache's key by what it says, not by where it stands
 
 # The address of the machine's own Debian mirror.
 yade_mirror() {

@@ -136,6 +136,7 @@ def test_other_features_and_missing_engines_are_refused(script, tmp_path):
 LOOKED_AT = {
     "core/Aabb": ["Aabb"],
     "core/Body": ["Body"],
+    "core/BodyContainer": ["BodyContainer"],
     "core/Dispatching": ["BoundDispatcher", "IGeomDispatcher"],
     "core/GlobalEngine": ["GlobalEngine"],
     "core/Interaction": ["Interaction"],

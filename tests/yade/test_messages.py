@@ -465,7 +465,7 @@ def test_walls_without_length_and_scenes_without_a_solver():
         with pytest.raises(ValueError, match=f"sense = {sense}: give \\+1"):
             scene.segments([(0, 0), (1, 0)], stuff, sense=sense)
     for inside in (2, -1, "left"):
-        with pytest.raises(ValueError, match=f"inside = {inside!r}: give True .the inside acts., False"):
+        with pytest.raises(ValueError, match=f"inside {inside!r}: give True .the inside acts., False"):
             scene.arc((0, 0), 1, 0, 3, stuff, inside=inside)
     O.engines = []
     with pytest.raises(LookupError, match="no ContactDynamicsEngine: set O.engines"):

@@ -249,7 +249,10 @@ def test_wrong_types_are_named_before_anything_runs(tmp_path, call, words):
     assert isinstance(refusal.value, ValueError) and not (tmp_path / "out").exists()
 
 
-def test_a_script_runs_without_parameters_and_again_with_a_resume_only_where_it_has_changed(script, tmp_path):
+def test_a_script_runs_without_parameters_and_again_with_a_resume_only_where_it_has_changed(
+    script, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("YADE_BATCH", f"{tmp_path}/of_others.table:2")  # which is not the scripts'
     cases = {"one": (script, {}), "two": (script, dict(speed=2.0))}
     first = campaign.run_scripts(cases, tmp_path / "out", threads=2)
     assert [run.table("time [s]")["way [m]"][-1] for run in first.values()] == pytest.approx([0.2, 0.4])

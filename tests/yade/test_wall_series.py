@@ -88,7 +88,7 @@ def test_a_wall_has_the_sum_of_all_its_pieces(tmp_path):
         way += 0.5 * (before + placed.along()) * (O.time - time)
         pieces |= {i.id1 for i in O.interactions if i.isReal}
     assert len(pieces) >= 4
-    found, rows = placed.series.take(), placed.rows()
+    (found, _), rows = placed.series.take(), placed.rows()
     normal = placed.mass * G * math.cos(math.radians(placed.section.dip))
     for name, chosen in (("lower", slice(0, 3)), ("upper", slice(3, 4))):
         n = normal[chosen].sum()
@@ -108,7 +108,7 @@ def test_a_role_without_walls_has_no_force(tmp_path):
     made = dataclasses.replace(made, walls=walls)
     placed = Placed(made, ON_THE_WALLS, tmp_path)
     O.step()
-    found = placed.series.take()
+    found, _ = placed.series.take()
     assert set(found) >= {"slip", "backstop", "ground"} and found["backstop"] == found["ground"] == (0.0, 0.0, 0.0)
     assert found["slip"][0] == pytest.approx(placed.mass.sum() * G * math.cos(math.radians(made.dip)), rel=1e-6)
 
@@ -121,7 +121,7 @@ def test_shear_that_holds_the_mass_back_is_positive(tmp_path, side):
         placed.push(speed)
         O.step()
         normal = placed.mass[0] * G * math.cos(math.radians(abs(placed.section.dip)))
-        assert placed.series.take()["slip"] == pytest.approx((normal, sign * FRICTION * normal, normal), rel=1e-6)
+        assert placed.series.take()[0]["slip"] == pytest.approx((normal, sign * FRICTION * normal, normal), rel=1e-6)
 
 
 def test_what_came_before_is_forgotten(tmp_path):
@@ -131,14 +131,14 @@ def test_what_came_before_is_forgotten(tmp_path):
     O.step()
     O.step()
     weight = placed.mass[0] * G * math.cos(math.radians(placed.section.dip))
-    normal, _, peak = placed.series.take()["slip"]
+    normal, _, peak = placed.series.take()[0]["slip"]
     assert peak > 10 * weight and normal > 5 * weight
     placed.states[0].vel = [-5.0 * part for part in (*placed.section.normal, 0)]
     O.step()
     placed.series.forget()
     O.step()
     # the solver's tolerance, from the hit's impulse down
-    assert placed.series.take()["slip"][::2] == pytest.approx((weight, weight), rel=1e-4)
+    assert placed.series.take()[0]["slip"][::2] == pytest.approx((weight, weight), rel=1e-4)
 
 
 # ---- slip -----------------------------------------------------------------------------------------
@@ -243,14 +243,17 @@ def test_each_interface_of_a_layer_has_its_own_law(tmp_path, side, lean):
         state.vel = (*(2.0 * t), 0)
     start = np.array([tuple(s.pos)[:2] for s in placed.states])
     force = placed.forces()
-    found, rows = placed.series.take(), placed.rows()
+    (found, surfaces), rows = placed.series.take(), placed.rows()
     for name, k, friction in (("first", 2, 0.2), ("second", 3, 0.6)):
         on_upper = force[k]
         told = [rows[name][f"{what}_N_per_m"] for what in ("normal", "shear", "normal_peak")]
         assert told == pytest.approx([on_upper @ normal, -(on_upper @ down), on_upper @ normal], rel=1e-6)
         assert -(on_upper @ t) == pytest.approx(friction * (on_upper @ n), rel=1e-6) and on_upper @ n > 0
-    # the role of the first alone is that of a slip surface
-    assert found["slip"] == pytest.approx([rows["first"][f"{w}_N_per_m"] for w in ("normal", "shear", "normal_peak")])
+    # the role of the first alone is that of a slip surface, and it lies above those of the plane, on which nothing lies here
+    assert set(surfaces) == {"upper", "lower", "first"} and found["slip"] == pytest.approx((0, 0, 0), abs=1e-9)
+    assert surfaces["first"] == pytest.approx(
+        [rows["first"][f"{w}_N_per_m"] for w in ("normal", "shear", "normal_peak")]
+    )
     assert math.isnan(rows["first"]["slip_mean_m"])
     # both disks of the contact have slipped by what one of them has gone
     gone = (np.array(tuple(placed.states[3].pos)[:2]) - start[3]) @ t

@@ -34,6 +34,7 @@ def run(folder, script, parameters):
     Writes ``output.txt``, what the script has printed, and ``scene.npz``, where disks are left. Returns ``steps`` and the simulated ``time_s`` of its last scene.
     """
     folder, home = Path(folder).resolve(), Path.cwd()
+    os.environ.pop("YADE_BATCH", None)  # a table that this process was given is not the script's
     if parameters:
         # a table's words are parted by spaces, and what follows a # is no part of it
         row = ["notebook", *(repr(value).replace(" ", r"\x20").replace("#", r"\x23") for value in parameters.values())]
