@@ -17,7 +17,7 @@ PACKAGES_TESTS=(
 # To configure, build and run the slim YADE.
 PACKAGES_YADE_BUILD=(
     bzip2 libvtk9-dev libgts-dev libbz2-dev python3-ipython python3-pygraphviz python3-minieigen
-    python3-mpi4py python3-mpmath python3-pil python3-tk python3-xlib python3-pyqt5
+    python3-mpi4py python3-mpmath python3-pil python3-tk python3-xlib python3-pyqt5 python3-sphinx
     python3-pyqt5.qtsvg python3-bibtexparser python3-future)
 
 # To compile against the headers of Debian's own YADE, whose feature macros ask for them.
