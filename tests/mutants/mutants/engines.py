@@ -348,10 +348,10 @@ MUTANTS = (
     mutant("way-arc", WAY, "wall.sense == -way", "wall.sense == way", "a drum lets disks out and refuses those that come in", WAYS + "::test_arcs"),
     mutant("way-disks", WAY, "x * x + y * y < std::pow(grazes * apart, 2)", "x * x + y * y < std::pow(grazes * p.radius, 2)", "disks that graze each other by half a radius are let pass", WAYS + "::test_disks_that_pass_through_each_other"),
     # ---- what is told
-    mutant("missed-named", WARNINGS, "if (!(value <= bound))", "if (name == string(\"residual\"))", "the residual is told of where another figure is above its bound", "test_uneven_masses.py::test_what_is_above_its_bound_is_named_with_it"),
+    mutant("missed-named", WARNINGS, "!(value <= bound)", "name == string(\"residual\")", "the residual is told of where another figure is above its bound", "test_uneven_masses.py::test_what_is_above_its_bound_is_named_with_it"),
     mutant("sizes-lost", "pkg/dem/seam/ResidentSizes.cpp", "if (isSize(former.radius)) sizesLost[former.id] = former;", ";", "a disk whose radius was no number keeps its old mass when that is mended",
            "test_sizes.py::test_a_radius_without_sense_that_is_mended"),
-    mutant("check-halves", "pkg/dem/SceneCheck.cpp", "areRigid == takesRigid || ", "", "a list in which all is rigid is taken for one that was converted by halves", "test_messages.py::test_settings_of_the_solver"),
+    mutant("check-halves", "pkg/dem/SceneCheck.cpp", "areRigid == takesRigid", "false", "a list in which all is rigid is taken for one that was converted by halves", "test_messages.py::test_settings_of_the_solver"),
     mutant("check-shapeless", "pkg/dem/SceneCheck.cpp", "(bodies[id].blocked & inPlane) != inPlane", "false", "a disk that has lost its shape falls through everything",
            "test_numbers_without_sense.py::test_a_body_that_may_move_and_has_lost_its_shape"),
 )
