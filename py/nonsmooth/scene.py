@@ -289,8 +289,6 @@ def arc(centre, radius, start, end, material, inside=True, piece=None):
         )
     opening = min(end - start, 2 * math.pi)
     count = max(1, math.ceil(radius * opening / piece - 1e-9)) if piece else 1
-    if inside not in (True, False, None):
-        raise ValueError(f"inside = {inside!r}: give True (the inside acts), False (the outside), or None (both)")
     sense = 0 if inside is None else 1 if inside else -1
     return [
         _wall(
