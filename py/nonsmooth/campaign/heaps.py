@@ -11,13 +11,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
 from .. import checks, output_folder, records, runs, side_by_side
 from ..heaps import column, pile, study
 from ..heaps.grains import HeapError
+from .cases import run as run_cases
 
 __all__ = ["HeapRun", "open_heap", "run_column", "run_heaps", "run_pile"]
 
@@ -85,17 +85,16 @@ def run_heaps(cases, out, threads=1, resume=False, duration=study.DURATION) -> d
     these parameters that have ended; ``duration``: see heaps.course.run. Raises HeapError or SoftError for values that cannot be used, before anything runs, HeapError
     where a run fails, after the others have ended, and FolderError where another process works in the folder.
     """
-    checks.path("out", out, HeapError, runs.FOLDER)
-    threads = checks.count("threads", threads, HeapError, runs.THREADS)
-    for name, case in checks.mapping("cases", cases, HeapError, CASES).items():
-        if not (isinstance(case, (tuple, list)) and len(case) == 2 and isinstance(case[1], Mapping)):
-            raise HeapError(f"case {name!r}, {checks.shown(case)}: {CASES}")
-    made = [
-        study.planned(name, side_by_side.folder_of(out, name, HeapError), *case, duration)
-        for name, case in cases.items()
-    ]
-    with output_folder.claimed(out, COMMAND, resume):
-        side_by_side.run(made, threads, resume, HeapError)
+    made = run_cases(
+        cases,
+        out,
+        lambda name, folder, *case: study.planned(name, folder, *case, duration),
+        COMMAND,
+        threads,
+        resume,
+        HeapError,
+        (CASES, CASES),
+    )
     return {one.name: HeapRun(one.folder) for one in made}
 
 

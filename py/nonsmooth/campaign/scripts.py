@@ -16,12 +16,12 @@ import ast
 import difflib
 import math
 import re
-from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
 from .. import checks, keys, output_folder, runs, side_by_side
 from ..errors import UserError
+from .cases import run as run_cases
 
 __all__ = [
     "LESSONS",
@@ -222,15 +222,11 @@ def run_scripts(cases, out, threads=1, resume=False) -> dict:
     of the same script and parameters that have ended. Raises ScriptError for a script that is not there and for parameters that it does not read, before anything runs,
     and where a script fails, after the others have ended; FolderError where another process works in the folder.
     """
-    checks.path("out", out, ScriptError, runs.FOLDER)
-    threads = checks.count("threads", threads, ScriptError, runs.THREADS)
-    remedy = "give a dictionary {name: (script, {parameter: value})}, of one or more"
-    for name, case in checks.mapping("cases", cases, ScriptError, remedy).items():
-        if not (isinstance(case, (tuple, list)) and len(case) == 2 and isinstance(case[1], Mapping)):
-            raise ScriptError(f"case {name!r}, {checks.shown(case)}: give (script, {{parameter: value}})")
-    made = [_planned(name, side_by_side.folder_of(out, name, ScriptError), *case) for name, case in cases.items()]
-    with output_folder.claimed(out, COMMAND, resume):
-        side_by_side.run(made, threads, resume, ScriptError)
+    remedies = (
+        "give a dictionary {name: (script, {parameter: value})}, of one or more",
+        "give (script, {parameter: value})",
+    )
+    made = run_cases(cases, out, _planned, COMMAND, threads, resume, ScriptError, remedies)
     return {one.name: ScriptRun(one.folder) for one in made}
 
 
