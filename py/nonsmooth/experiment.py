@@ -89,6 +89,9 @@ class Experiment:
     """
 
     def __init__(self, built, folder, state=None, layers=None, progress=None, damping_moving=None, mark=None):
+        if not isinstance(built, slope.Slope):
+            raise UserError(f"built {checks.shown(built)}: give a Slope, as slope.build(section) returns one")
+        folder = checks.path("folder", folder, UserError, "give the path of a folder")
         self.slope, self.section, self.folder = built, built.section, Path(folder)
         self.state = state or State()
         self.layers = slope.layers_of(built) if layers is None else layers

@@ -13,8 +13,9 @@ from xml.sax.saxutils import quoteattr
 import meshio
 import numpy as np
 
+from . import checks
 from .whole_files import beside, write_atomically
-from .records import RecordsError, read_breaks, read_snapshot
+from .records import RecordsError, given, read_breaks, read_snapshot
 from .scene_arrays import read as read_scene
 from .tables import BREAK_MODES
 
@@ -44,6 +45,7 @@ def _write(path, points, cells, point_data=None, cell_data=None):
     return path
 
 
+@given.takes(snapshot=given.SNAPSHOT)
 def write_disks(snapshot, path):
     """One point a disk, with ``radius`` [m], ``layer`` (0 lowest), ``velocity`` [m/s], ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``; and, where the snapshot has
     them, ``ever_wet`` and ``weakened`` (on any wall or interface); see :class:`.records.Snapshot`."""
@@ -58,6 +60,7 @@ def write_disks(snapshot, path):
     return _write(path, np.column_stack([s.x, s.y]), [("vertex", np.arange(len(s.x))[:, None])], point_data=data)
 
 
+@given.takes(snapshot=given.SNAPSHOT)
 def write_contacts(snapshot, path):
     """One line a contact, from centre to centre or from centre to wall, with ``normal`` and ``tangential`` force [N/m], compression
     positive, and ``bonded``."""
@@ -71,6 +74,7 @@ def write_contacts(snapshot, path):
     return _write(path, points, [("line", np.arange(len(points)).reshape(-1, 2))], cell_data=data)
 
 
+@given.takes(breaks=given.BREAKS)
 def write_breaks(breaks, path):
     """One point a broken bond, with ``time`` [s] and ``mode`` (1 tension, 2 shear, 3 torque, 4 mixed); ``breaks`` as records.read_breaks gives it."""
     mode = np.array([BREAK_MODES.index(word) for word in breaks["mode"]], np.int32)
@@ -80,6 +84,7 @@ def write_breaks(breaks, path):
     )
 
 
+@given.takes(section=checks.has("walls layers", "give a Section, as section.load('circle') returns one"))
 def write_walls(section, path):
     """The section's walls as lines, with their number ``wall`` in the order of the section file."""
     points, lines, number = [], [], []
@@ -93,6 +98,7 @@ def write_walls(section, path):
     )
 
 
+@given.takes(O=checks.has("bodies interactions", "give YADE's O"))
 def write_scene_walls(O, path):
     """The walls of a scene as they stand, for users of VTKRecorder, which knows no Segment and no Arc: one line for each edge, see :mod:`.scene_arrays`; a Wall, which has no ends,
     across all that is there and a tenth beyond. Raises RecordsError for a scene without disks."""
@@ -114,6 +120,7 @@ def write_scene_walls(O, path):
     return _write(path, points, [("line", np.arange(len(points)).reshape(-1, 2))])
 
 
+@given.takes(entries=given.ENTRIES)
 def write_collection(entries, path):
     """The .pvd file that shows files in the course of time; ``entries``: (time [s], path) pairs in one folder or below ``path``'s."""
     path = Path(path)

@@ -48,6 +48,9 @@ POWERS = {
 _OF_A_SECTION = checks.takes(
     SectionError, section=checks.kind(Section, "give a Section, as section.load('circle') returns one")
 )
+_OF_A_PACKING = checks.takes(
+    SectionError, packing=checks.has("x y r", "give a Packing, as packing.of(section) returns one")
+)
 _NAMED = ("walls", "layers", "interfaces", "materials")  # whose items have names
 
 
@@ -81,11 +84,14 @@ def _rebuilt(section, data):
     return section_building.build(Document(section.source, data), section.source)
 
 
+@_OF_A_PACKING
 def mirrored_packing(packing):
     """A Packing with left and right exchanged."""
     return dataclasses.replace(packing, x=0.0 - packing.x)
 
 
+@_OF_A_PACKING
+@checks.takes(SectionError, factor=checks.real("give the ratio of sizes"))
 def scaled_packing(packing, factor):
     """A Packing ``factor`` times as large."""
     return dataclasses.replace(packing, x=factor * packing.x, y=factor * packing.y, r=factor * packing.r)
@@ -103,6 +109,12 @@ def scaled(section: Section, factor: float) -> Section:
     return section_values.keep(made, _scaled(section_values.given(section), factor))
 
 
+@_OF_A_SECTION
+@checks.takes(
+    SectionError,
+    original=checks.kind(Section, "give the Section that this one is like"),
+    factor=checks.real("give the ratio of sizes"),
+)
 def with_disks_of(section: Section, original: Section, factor: float) -> Section:
     """The Section as one that is packed as ``original``, ``factor`` times as large."""
     layers = tuple(

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from . import checks
+from .errors import UserError
+
 __all__ = ["BREAK_MODES", "bodies", "breaks", "contacts", "loaded_contacts", "slip", "water"]
 
 _BODY = ("id", "x", "y", "r", "angle", "vx", "vy", "omega")
@@ -15,11 +18,25 @@ _CONTACT = ("id1", "id2", "normal", "tangential", "torque", "nx", "ny", "gap", "
 BREAK_MODES = ("none", "tension", "shear", "torque", "mixed")
 
 
+_ENGINE = checks.takes(
+    UserError, engine=checks.has("bodyTable contactTable", "give the ContactDynamicsEngine, one of O.engines")
+)
+_WATER = checks.takes(
+    UserError,
+    engine=(
+        lambda v: v is None or hasattr(v, "bodyTable") and not hasattr(v, "contactTable"),
+        "give the PorePressureEngine, one of O.engines, or None",
+    ),
+)
+_WEAKENING = checks.takes(UserError, material=checks.has("slipTable", "give a SlipWeakeningMat, one of O.materials"))
+
+
 def _table(raw: bytes, names) -> dict[str, np.ndarray]:
     rows = np.frombuffer(raw, dtype=np.float64).reshape(-1, len(names))
     return {name: rows[:, k].copy() for k, name in enumerate(names)}
 
 
+@_ENGINE
 def bodies(engine) -> dict[str, np.ndarray]:
     """Spheres of the scene, arrays of shape (n,): ``id`` (int), ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy``
     [m/s], ``omega`` [rad/s]. ``engine``: the ContactDynamicsEngine."""
@@ -28,6 +45,7 @@ def bodies(engine) -> dict[str, np.ndarray]:
     return table
 
 
+@_ENGINE
 def contacts(engine) -> dict[str, np.ndarray]:
     """Real interactions of the scene, arrays of shape (n,), in the order of (lower id, higher id).
 
@@ -42,6 +60,7 @@ def contacts(engine) -> dict[str, np.ndarray]:
     return {name: values[order] for name, values in table.items()}
 
 
+@_ENGINE
 def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
     """Contacts that carry a normal force or a bond, as `records.write_snapshot` takes them.
 
@@ -64,6 +83,7 @@ def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
     }
 
 
+@_ENGINE
 def breaks(engine) -> dict[str, np.ndarray]:
     """Bonds that broke so far, in the order of time and ids, arrays of shape (n,): ``step``, ``id1``, ``id2`` (int, lower id first), ``time``
     [s], ``mode`` (int, index into BREAK_MODES), ``x``, ``y`` [m]."""
@@ -73,6 +93,7 @@ def breaks(engine) -> dict[str, np.ndarray]:
     return table
 
 
+@_WATER
 def water(engine, first, count) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Whether water acts on the bodies ``first`` to ``first + count - 1``, whether they were wet and have been released for good, and whether they were ever wet: three
     bool arrays of shape (count,).
@@ -86,6 +107,7 @@ def water(engine, first, count) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return tuple(found.T.copy())
 
 
+@_WEAKENING
 def slip(material, first, count) -> np.ndarray:
     """Distance [m] that each of the bodies ``first`` to ``first + count - 1`` has slipped along the walls, or the interface, of a SlipWeakeningMat: shape (count,)."""
     found = np.zeros(count)

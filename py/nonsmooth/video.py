@@ -1,16 +1,23 @@
 """A video of the avalanche from its snapshots (Animation S1 of the paper), by matplotlib and ffmpeg."""
 
 import itertools
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 from matplotlib.patches import Patch
 
-from . import film, records
-from .figures import style
+from . import checks, film, records
+from .figures import given, style
 from .measure.ground import ground_of
 from .records import RecordsError, read_snapshot
+from .records.given import FILE
+
+SNAPSHOTS = (
+    lambda v: isinstance(v, Iterable) and not isinstance(v, (str, Mapping)),
+    "give a list of files of snapshots, as run.frames has them",
+)
 
 FORCES = (  # column, symbol, meaning, role of the walls, colour
     ("dp_normal_effective_N_per_m", "N'", "effective normal force", "slip", "blue"),
@@ -111,6 +118,7 @@ def _sample(paths):
     return [read_snapshot(paths[k]) for k in sorted({0, last // 2, 3 * last // 4, last})]
 
 
+@checks.takes(RecordsError, snapshot_paths=SNAPSHOTS, walls=given.WALLS, path=FILE)
 def write_mp4(
     snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), window=1.0, progress=None
 ):

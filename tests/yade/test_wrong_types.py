@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import (
@@ -9,18 +10,21 @@ from yade.nonsmooth import (
     checks,
     experiment,
     figures,
+    paraview,
     records,
     runs,
     scene,
     section,
     section_values,
     similar,
+    tables,
+    video,
     worlds,
 )
 from yade.nonsmooth.errors import UserError
 from yade.nonsmooth.heaps import column
-from yade.nonsmooth.laboratory import biaxial_test, campaign as tests_of_rock, materials
-from yade.wrapper import NscdMat
+from yade.nonsmooth.laboratory import biaxial_test, campaign as tests_of_rock, materials, report
+from yade.wrapper import ContactDynamicsEngine, NscdMat, PorePressureEngine
 
 pytestmark = pytest.mark.usefixtures("empty")
 NAN, INF = math.nan, math.inf
@@ -80,6 +84,7 @@ def test_a_decorated_function_is_called_as_before_and_python_says_what_is_missin
 # ---- public functions -----------------------------------------------------------------------------
 
 FLOOR = [(0, 0), (1, 0)]
+BREAKS = dict.fromkeys(("step", "time", "id1", "id2", "mode", "x", "y"), np.zeros(0))  # as tables.breaks has them
 CALLS = [
     ("section", lambda v: section.load(v), (None, [1], -1, NAN, {}), "give the path of a YAML file, or one of: chair"),
     ("circle.yaml: disks|.*: disks", lambda v: CIRCLE.with_disks(v), (None, "600", [600], -1, NAN, INF, 600.5, True), "give a whole number from 1 to"),
@@ -104,6 +109,38 @@ CALLS = [
     ("path", lambda v: records.read_walls(v), (None, 3, [1], {}), "give the path of a file"),
     ("path", lambda v: records.read_breaks(v), (None, 3, [1], {}), "give the path of a file"),
     ("path", lambda v: records.read_snapshot(v), (None, 3, [1], {}), "give the path of a file"),
+    ("engine", lambda v: tables.bodies(v), (None, "x", [1], stuff()), "give the ContactDynamicsEngine"),
+    ("engine", lambda v: tables.bodies(v), (PorePressureEngine(),), "give the ContactDynamicsEngine"),
+    ("engine", lambda v: tables.contacts(v), (None, PorePressureEngine()), "give the ContactDynamicsEngine"),
+    ("engine", lambda v: tables.loaded_contacts(v, 0, {}), (None, 3), "give the ContactDynamicsEngine"),
+    ("engine", lambda v: tables.breaks(v), (None, 3), "give the ContactDynamicsEngine"),
+    ("engine", lambda v: tables.water(v, 0, 1), ("x", 3, ContactDynamicsEngine()), "give the PorePressureEngine"),
+    ("material", lambda v: tables.slip(v, 0, 1), (None, stuff()), "give a SlipWeakeningMat"),
+    ("path", lambda v: records.write_snapshot(v), (None, 3, [1], ""), "give the path of the file to write"),
+    ("path", lambda v: records.write_breaks(v, BREAKS), (None, 3, [1]), "give the path of the file to write"),
+    ("breaks", lambda v: records.write_breaks("breaks.csv", v), (None, "x", [1], {}), "give broken bonds"),
+    ("path", lambda v: records.SeriesWriter(v, ["step"]), (None, 3, [1], ""), "give the path of the file to write"),
+    ("columns", lambda v: records.SeriesWriter("s.csv", v), (None, "step", 3), "give the names of the columns"),
+    ("snapshot", lambda v: paraview.write_disks(v, "a.vtu"), (None, "end", [1]), "give a Snapshot"),
+    ("snapshot", lambda v: paraview.write_contacts(v, "a.vtu"), (None, "end", [1]), "give a Snapshot"),
+    ("path", lambda v: paraview.write_walls(CIRCLE, v), (None, 3, [1], ""), "give the path of the file to write"),
+    ("section", lambda v: paraview.write_walls(v, "a.vtu"), (None, "circle", 3), "give a Section"),
+    ("breaks", lambda v: paraview.write_breaks(v, "a.vtu"), (None, "x", {}, BREAKS), "give broken bonds"),
+    ("O", lambda v: paraview.write_scene_walls(v, "a.vtu"), (None, "x", 3), "give YADE's O"),
+    ("entries", lambda v: paraview.write_collection(v, "a.pvd"), (None, "x", [1], [(1, 2, 3)]), r"give a list of \(time, file\) pairs"),
+    ("snapshot_paths", lambda v: video.write_mp4(v, CIRCLE, "a.mp4"), (None, "x", 3, {}), "give a list of files of snapshots"),
+    ("walls", lambda v: video.write_mp4([], v, "a.mp4"), (None, "circle", 3, [1]), "give a Section, or walls"),
+    ("path", lambda v: video.write_mp4([], CIRCLE, v), (None, 3, [1], ""), "give the path of the file to write"),
+    ("section", lambda v: similar.with_disks_of(v, CIRCLE, 2), (None, "circle"), "give a Section"),
+    ("original", lambda v: similar.with_disks_of(CIRCLE, v, 2), (None, "circle"), "give the Section that this one is like"),
+    ("factor", lambda v: similar.with_disks_of(CIRCLE, CIRCLE, v), (None, "2", NAN), "give the ratio of sizes"),
+    ("packing", lambda v: similar.mirrored_packing(v), (None, "circle", [1]), "give a Packing"),
+    ("packing", lambda v: similar.scaled_packing(v, 2), (None, "circle", [1]), "give a Packing"),
+    ("built", lambda v: experiment.Experiment(v, "out"), (None, "circle", CIRCLE), "give a Slope, as slope.build"),
+    ("summary", lambda v: report.table(v), (None, "x", {}), "give the summary of a campaign"),
+    ("summary", lambda v: report.pressures(v), (None, "x", {"tests": []}), "give the summary of a campaign"),
+    ("summary", lambda v: report.draw("out", v), (None, "x", {"tests": []}), "give the summary of a campaign"),
+    ("out", lambda v: report.draw(v, {"tests": [], "seeds": []}), (None, 3, ""), "give the path of the folder"),
     ("base", lambda v: campaign.sweep(v, {}), (None, "circle", {}), "give a Section"),
     ("over", lambda v: campaign.sweep(CIRCLE, v), (None, "seed", [1], 3), "give a dictionary {key: values}"),
     ("seed:", lambda v: campaign.sweep(CIRCLE, {"seed": v}), (None, "12", 3), "give the values to run with"),

@@ -8,12 +8,10 @@ from collections.abc import Iterable, Mapping
 
 from .. import checks
 from ..records import RecordsError
+from ..records.given import SNAPSHOT
 
 __all__ = ["CASES", "MATERIAL", "SCENE", "SECTION", "SERIES", "SNAPSHOT", "WALLS", "takes"]
 
-SNAPSHOT = checks.has(
-    "x y r layer", "give a Snapshot, as run.snapshot('end') or records.read_snapshot(path) returns one"
-)
 SERIES = checks.kind(Mapping, "give columns {name: array}, as run.series or records.read_series(path) has them")
 SECTION = checks.has("walls layers downslope", "give a Section, as section.load('circle') returns one")
 MATERIAL = checks.has(

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
-from .. import film, paraview, records
+from .. import checks, film, paraview, records
+from ..errors import UserError
 from ..figures import biaxial as figures
 from ..statistics import told
 from ..whole_files import whole
 from .campaign import name_of_result
 
 
+def _of_a_campaign(*names):
+    """A decorator: the function asks for the ``summary`` of a campaign, which has these names."""
+    remedy = "give the summary of a campaign of biaxial tests, as scripts/biaxial.py keeps it in summary.json"
+    return checks.takes(
+        UserError, summary=(lambda v: isinstance(v, Mapping) and all(name in v for name in names), remedy)
+    )
+
+
+@_of_a_campaign("tests")
 def table(summary):
     """Rows of text: one a test, then the envelopes."""
     lines = [
@@ -50,6 +61,7 @@ BY_PRESSURE = {
 }
 
 
+@_of_a_campaign("by_pressure")
 def pressures(summary):
     """(heads, lines) of texts: what was measured under each pressure, mean over seeds and half of its 95 % interval."""
 
@@ -65,9 +77,10 @@ def pressures(summary):
     ]
 
 
+@_of_a_campaign("tests", "seeds")
 def draw(out, summary):
     """Figures and ParaView files of a campaign in ``out``; returns the figures' paths."""
-    out, made = Path(out), []
+    out, made = Path(checks.path("out", out, UserError, "give the path of the folder of the campaign")), []
     first = [t for t in summary["tests"] if t["seed"] == summary["seeds"][0]]
     curves = [
         (t["confining_Pa"], records.read_series(out / "tests" / name_of_result(t) / "series.csv"), t) for t in first

@@ -4,6 +4,7 @@ import csv
 import hashlib
 import math
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -69,7 +70,11 @@ class SeriesWriter:
     """
 
     def __init__(self, path, columns, resume_from=None, overwrite=False):
-        self.path = Path(path)
+        self.path = Path(checks.path("path", path, RecordsError, "give the path of the file to write"))
+        if isinstance(columns, str) or not isinstance(columns, Iterable):
+            raise RecordsError(
+                f"columns {checks.shown(columns)}: give the names of the columns, a list that begins with 'step'"
+            )
         self.columns = tuple(columns)
         self.last_step = None
         self._file, self._sum = None, hashlib.sha256()

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..whole_files import write_arrays
 from .. import checks
+from . import given
 from .error import RecordsError
 
 
@@ -102,6 +103,7 @@ def checked(arrays, source):
     return Snapshot(**found)
 
 
+@given.takes()
 def write_snapshot(path, **arrays):
     """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as ``.npz``; returns its path.
 

@@ -1,0 +1,31 @@
+"""What functions that write files of a run ask of their arguments before they write: rules of :func:`..checks.takes`."""
+
+import os
+from collections.abc import Mapping
+
+from .. import checks
+from .error import RecordsError
+
+__all__ = ["BREAKS", "ENTRIES", "FILE", "SNAPSHOT", "columns", "takes"]
+
+FILE = (lambda v: isinstance(v, (str, os.PathLike)) and bool(os.fspath(v)), "give the path of the file to write")
+SNAPSHOT = checks.has(
+    "x y r layer", "give a Snapshot, as run.snapshot('end') or records.read_snapshot(path) returns one"
+)
+ENTRIES = (
+    lambda v: isinstance(v, (list, tuple)) and all(isinstance(one, (list, tuple)) and len(one) == 2 for one in v),
+    "give a list of (time, file) pairs",
+)
+
+
+def columns(names, remedy):
+    """A rule: a dictionary with these ``names``, words in a text."""
+    return lambda value: isinstance(value, Mapping) and all(name in value for name in names.split()), remedy
+
+
+BREAKS = columns("time_s mode x_m y_m", "give broken bonds, as run.breaks or records.read_breaks(path) has them")
+
+
+def takes(**rules):
+    """:func:`..checks.takes` with RecordsError, and the rule of ``path``, which all of them have."""
+    return checks.takes(RecordsError, **rules, path=FILE)
