@@ -1,7 +1,9 @@
 """What a section can say besides walls and one rock: interfaces inside it, layers with disks of their own, an erodible bed, obstacles of disks."""
 
 import dataclasses
+import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -383,7 +385,7 @@ def test_the_example_compares_three_beds(tmp_path):
         data["layers"].append(BED)
 
     path = write_changed(tmp_path, change)
-    (tmp_path / "bed.table").write_text(f"section disks folder\n'{path}' 0 '{tmp_path}/out'\n")
+    (tmp_path / "bed.table").write_text(f"section disks seeds folder\n'{path}' 0 1 '{tmp_path}/out'\n")
     done = shell.run(
         "yade-nonsmooth",
         shell.SCRIPTS / "examples" / "erodible_bed.py",
@@ -393,13 +395,18 @@ def test_the_example_compares_three_beds(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     rows = {
-        words[0]: (float(words[1]), float(words[6]), float(words[9]))
-        for words in map(str.split, done.stdout.splitlines())
-        if words[:1] and words[0] in ("loose", "cemented", "rigid")
+        found[1]: (float(found[2]), float(found[3]))
+        for found in re.finditer(
+            r"^(\w+) +1 of 1 .*: .* m of water, front (\S+) m, entrained (\S+) %$", done.stdout, re.M
+        )
     }
-    assert (
-        len(rows) == 3
-        and rows["rigid"][2] == 0 < rows["loose"][2] <= 100
-        and all(front > 1 for _, front, _ in rows.values())
-    )
+    assert set(rows) == {"loose", "cemented", "rigid"} and all(front > 1 for front, _ in rows.values())
+    assert rows["rigid"][1] == 0 < rows["loose"][1] <= 100
+    told = json.loads((tmp_path / "out" / "beds.json").read_text())
+    for name, bed in told.items():
+        end = json.loads((tmp_path / "out" / name / "runs" / "seed=1" / "summary.json").read_text())
+        assert bed["packings"] == 1 and bed["failed"] == (end["verdict"] == "failed by water")
+        assert not bed["failed"] or bed["front_m"]["values"] == [end["front_travel_m"]]
+        assert not bed["failed"] or bed["entrained"]["values"] == [end["entrained_kg_per_m"] / end["bed_kg_per_m"]]
+        assert round(end["front_travel_m"], 1) == rows[name][0]
     assert (tmp_path / "out" / "beds.png").stat().st_size > 1000
