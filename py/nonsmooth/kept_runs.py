@@ -9,8 +9,9 @@ from pathlib import Path
 from . import keys
 from .whole_files import WriteError, list_of, write_atomically, write_json
 
-__all__ = ["Progress", "begin", "begun", "foreign", "forget", "forsake", "keep", "kept", "share"]
+__all__ = ["MADE_BY", "Progress", "begin", "begun", "changed", "foreign", "forget", "forsake", "keep", "kept", "share"]
 
+MADE_BY = "made_by.json"
 NOTE_SECONDS = 1.0  # of wall time between two notes of how far a run is
 
 
@@ -37,9 +38,25 @@ def share(folder):
         return 0.0
 
 
-def begin(folder, key):
-    """Notes what a run is of, before it writes anything else; ``key``: of its input."""
-    write_atomically(Path(folder) / "key", keys.run_key(key).encode())
+def begin(folder, key, function=None):
+    """Notes what a run is of, before it writes anything else; ``key``: of its input, ``function``: which makes it, see keys.run_key. ``made_by.json`` keeps what the key is made of."""
+    made = {"input": key, "engines": keys.engines_key(), "code": keys.made_by(function)}
+    write_json(Path(folder) / MADE_BY, made)
+    write_atomically(Path(folder) / "key", keys.run_key(key, function).encode())
+
+
+def changed(folder, key=None, function=None):
+    """What has changed since a run began in the folder: "input" (where a ``key`` is given), "engines", and files of this package, a list; None where no run has noted it."""
+    try:
+        made = json.loads((Path(folder) / MADE_BY).read_text())
+        then = made["code"]
+        now = keys.made_by(function) if function else {file: keys.hash_of(file) for file in then}
+        found = [
+            name for name, value in (("input", key), ("engines", keys.engines_key())) if value not in (None, made[name])
+        ]
+        return found + sorted(file for file in {*then, *now} if then.get(file) != now.get(file))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None
 
 
 def forsake(folder):
@@ -56,17 +73,17 @@ def foreign(folder, *spared):
     return next((name for name in sorted(path.name for path in list_of(folder)) if name not in spared), None)
 
 
-def begun(folder, key):
+def begun(folder, key, function=None):
     """Whether what is in the folder is of a run of this input, these engines and this code."""
     try:
-        return (Path(folder) / "key").read_text() == keys.run_key(key)
+        return (Path(folder) / "key").read_text() == keys.run_key(key, function)
     except (OSError, ValueError):
         return False
 
 
-def keep(folder, key, found):
-    """Writes the result of a run; ``key``: of its input, see keys.key_of. What it is of stands beside it: input, engines and code."""
-    write_json(Path(folder) / "result.json", {"key": keys.run_key(key), "found": found})
+def keep(folder, key, found, function=None):
+    """Writes the result of a run; ``key``: of its input, ``function``: which made it, see keys.run_key. What it is of stands beside it: input, engines and code."""
+    write_json(Path(folder) / "result.json", {"key": keys.run_key(key, function), "found": found})
 
 
 def forget(folder):
@@ -81,10 +98,10 @@ def forget(folder):
             ) from None
 
 
-def kept(folder, key):
+def kept(folder, key, function=None):
     """The result that :func:`keep` wrote, None where there is none of this input, these engines and this code."""
     try:
         content = json.loads((Path(folder) / "result.json").read_text())
-        return content["found"] if content["key"] == keys.run_key(key) else None
+        return content["found"] if content["key"] == keys.run_key(key, function) else None
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return None

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from . import free_surface, geometry, similar
-from .packing_files import FORMAT, Packing, PackingError, cache_path, load, read_text, save, write_text
+from . import free_surface, geometry, keys, similar
+from .packing_files import FORMAT, Packing, PackingError, cache_file, load, read_text, save, write_text
 
 __all__ = [
     "FORMAT",
@@ -327,6 +327,12 @@ def packing_fraction(packing: Packing, polygon, margin: float | None = None) -> 
     if bulk.is_empty:
         raise PackingError(f"nothing of the layers is left within a margin of {margin:.4g} m; give a smaller margin")
     return geometry.area_inside(packing.x, packing.y, packing.r, bulk) / bulk.area
+
+
+def cache_path(section, seed: int | None = None):
+    """Where the packing of `section` and `seed` is kept, in the cache folder "packings". Other code makes its own."""
+    key = keys.key_of([section.key(), keys.made_by(__name__)])
+    return cache_file("packings", f"{key[:32]}-{section.seed if seed is None else seed}")
 
 
 def cached_pack(section, seed: int | None = None, progress=None) -> Packing:

@@ -15,18 +15,7 @@ import numpy as np
 from .errors import UserError
 from .whole_files import write_arrays, write_atomically
 
-__all__ = [
-    "FORMAT",
-    "Packing",
-    "PackingError",
-    "cache_file",
-    "cache_folder",
-    "cache_path",
-    "load",
-    "read_text",
-    "save",
-    "write_text",
-]
+__all__ = ["FORMAT", "Packing", "PackingError", "cache_file", "cache_folder", "load", "read_text", "save", "write_text"]
 
 LARGEST_FILE = 2_000_000_000  # bytes of a text file; ten million disks have less
 FARTHEST = 1e7  # m, as in a section
@@ -114,11 +103,6 @@ def cache_folder(name) -> Path:
 def cache_file(folder, name) -> Path:
     """Where a packing is kept in a cache folder. Files of another format have another name, so that what an older version left is made anew."""
     return cache_folder(folder) / f"{name}-v{FORMAT}.npz"
-
-
-def cache_path(section, seed: int | None = None) -> Path:
-    """Where the packing of `section` and `seed` is kept, in the cache folder "packings"."""
-    return cache_file("packings", f"{section.key()[:32]}-{section.seed if seed is None else seed}")
 
 
 def write_text(packing: Packing, path) -> None:

@@ -63,7 +63,7 @@ def run(
     """
     runs = list(runs)
     check(runs, error)
-    known = {r.folder: kept_runs.kept(r.folder, r.key) if resume else None for r in runs}
+    known = {r.folder: kept_runs.kept(r.folder, r.key, r.function) if resume else None for r in runs}
     for r in runs:
         found = kept_runs.foreign(r.folder, output_folder.LOCK)
         if known[r.folder] is None and found is not None:
@@ -73,10 +73,10 @@ def run(
     for r in runs:
         if known[r.folder] is None:
             kept_runs.forget(r.folder)
-            if not (resume and go_on and kept_runs.begun(r.folder, r.key)):
+            if not (resume and go_on and kept_runs.begun(r.folder, r.key, r.function)):
                 _clear(r.folder)
             r.folder.mkdir(parents=True, exist_ok=True)
-            kept_runs.begin(r.folder, r.key)
+            kept_runs.begin(r.folder, r.key, r.function)
     whole = sum(r.work for r in runs)
     futures = {}
     try:
@@ -120,5 +120,5 @@ def _one(r, known):
     began = time.monotonic()
     found = processes.call(r.function, r.folder, r.arguments)
     found["process_wall_s"] = time.monotonic() - began
-    kept_runs.keep(r.folder, r.key, found)
+    kept_runs.keep(r.folder, r.key, found, r.function)
     return found

@@ -24,8 +24,6 @@ from .stepping import advance
 
 __all__ = ["CALM", "LONGEST", "cache_path", "of", "press"]
 
-# modules that decide the bits of what is kept; see keys.making_key
-MADE_BY = ("slope_packing", "slope", "free_surface", "packing", "scene", "stepping", "tables", "worlds")
 CALM = 1e-4
 LONGEST = 12
 TOLERANCE, MAX_ITERATIONS = 1e-5, 1000
@@ -61,7 +59,7 @@ def cache_path(section, seed: int | None = None):
     a cache from earlier ones."""
     n = section.numerics
     key = keys.key_of(
-        [section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.making_key(*MADE_BY)]
+        [section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.making_key(__name__)]
     )
     return cache_file("packings", f"{key[:32]}-{section.seed if seed is None else seed}-pressed")
 

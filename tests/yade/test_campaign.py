@@ -366,7 +366,7 @@ def test_a_plan_that_grows_keeps_what_has_ended(tmp_path, called):
 
 def test_no_result_of_other_code_is_collected(tmp_path, called, monkeypatch):
     planned().run(tmp_path, 1)
-    monkeypatch.setattr(keys, "code_key", lambda: "later")
+    monkeypatch.setattr(keys, "statements", lambda path: "later")
     with pytest.raises(
         campaign.PlanError,
         match=r"4 of 4 runs have no result of this input, these engines and this code: friction=0.3_seed=1, .* and 1 more; run them",
@@ -382,7 +382,11 @@ def test_a_failure_is_told_and_the_others_are_kept(tmp_path, called):
         planned((0.3, 0.9)).run(tmp_path, 2)
     with pytest.raises(campaign.PlanError, match="2 of 4 runs have no result"):
         campaign.collect(tmp_path)
-    kept = [one.name for one in planned((0.3, 0.9)).runs if kept_runs.kept(tmp_path / "runs" / one.name, one.key)]
+    kept = [
+        one.name
+        for one in planned((0.3, 0.9)).runs
+        if kept_runs.kept(tmp_path / "runs" / one.name, one.key, planned().function)
+    ]
     assert kept == ["friction=0.3_seed=1", "friction=0.3_seed=2"]
 
 
@@ -407,7 +411,7 @@ def test_the_files_for_a_cluster_name_all_runs(tmp_path):
     )
     script = (tmp_path / "Snakefile").read_text()
     assert (
-        all(f'"{one.name}": "{keys.run_key(one.key)}"' in script for one in planned().runs)
+        all(f'"{one.name}": "{keys.run_key(one.key, planned().function)}"' in script for one in planned().runs)
         and script.count("sweep.py") == 2
     )
 
@@ -481,7 +485,7 @@ def test_snakemake_and_an_array_job_do_the_same_runs(swept, tmp_path):
         )
     assert [name for name in names if (mine / "runs" / name / "result.json").exists()] == names[:3] + names[6:]
     script = (mine / "Snakefile").read_text()
-    assert all(f'"{keys.run_key(one.key)}"' in script for one in campaign.read(mine).runs)
+    assert all(f'"{keys.run_key(one.key, campaign.read(mine).function)}"' in script for one in campaign.read(mine).runs)
     (mine / "Snakefile").write_text(script.replace(sys.executable, PYTHON))  # this process is YADE's
     done = subprocess.run(
         [program, "--cores", "2", "--nocolor"],

@@ -180,7 +180,7 @@ def ended(folder, made, results):
     """A plan whose runs have ended with these results."""
     made.write(folder)
     for one, result in zip(made.runs, results, strict=True):
-        kept_runs.keep(folder / "runs" / one.name, one.key, result)
+        kept_runs.keep(folder / "runs" / one.name, one.key, result, made.function)
     return folder
 
 

@@ -51,7 +51,7 @@ def test_a_resume_keeps_what_has_ended_with_the_same_key(tmp_path, called):
         progress=lambda share, ended: shares.append((share, ended)),
     )
     assert sorted(called[:2]) == ["a", "b"] and called[2:] == ["b"] and shares[-1] == (1.0, 2)
-    assert kept_runs.kept(tmp_path / "b", "other") is not None and kept_runs.kept(tmp_path / "b", "k") is None
+    assert kept_runs.kept(tmp_path / "b", "other", print) and not kept_runs.kept(tmp_path / "b", "k", print)
     side_by_side.run(made(tmp_path, "a"), 1)
     assert called[3:] == ["a"]  # without resume all is done again
 
@@ -69,11 +69,11 @@ def test_what_a_halted_run_wrote_stays_only_for_a_function_that_goes_on(tmp_path
     assert (tmp_path / "a" / "checkpoint").exists() == left
 
 
-@pytest.mark.parametrize("part", ["engines_key", "code_key"])
+@pytest.mark.parametrize("part", ["engines_key", "statements"])
 def test_a_resume_takes_nothing_of_other_engines_or_code(tmp_path, called, monkeypatch, part):
     side_by_side.run(made(tmp_path, "a"), 1)
     (tmp_path / "a" / "checkpoint").write_text("{}")
-    monkeypatch.setattr(keys, part, lambda: "others")
+    monkeypatch.setattr(keys, part, lambda *_: "others")
     assert kept_runs.kept(tmp_path / "a", "k") is None and not kept_runs.begun(tmp_path / "a", "k")
     side_by_side.run(made(tmp_path, "a"), 1, resume=True, go_on=True)
     assert called == ["a", "a"] and not (tmp_path / "a" / "checkpoint").exists()
@@ -128,3 +128,16 @@ def test_a_run_has_done_what_it_has_noted_and_all_once_it_has_a_result(tmp_path)
         assert kept_runs.share(tmp_path) == share
     kept_runs.keep(tmp_path, "k", {})
     assert kept_runs.share(tmp_path) == 1
+
+
+def test_what_a_run_was_made_by_is_kept_and_what_changed_since_is_named(tmp_path, called, monkeypatch):
+    side_by_side.run(made(tmp_path, "a"), 1)
+    kept = json.loads((tmp_path / "a" / kept_runs.MADE_BY).read_text())
+    assert (kept["input"], kept["engines"], kept["code"]) == ("k", keys.engines_key(), keys.made_by(print))
+    assert kept_runs.changed(tmp_path / "a") == kept_runs.changed(tmp_path / "a", "k", print) == []
+    assert kept_runs.changed(tmp_path / "a", "other") == ["input"]
+    whole = keys.statements
+    monkeypatch.setattr(keys, "statements", lambda path: "x" if path.name == "slope.py" else whole(path))
+    monkeypatch.setattr(keys, "engines_key", lambda: "others")
+    assert kept_runs.changed(tmp_path / "a") == ["engines", "slope.py"]
+    assert kept_runs.changed(tmp_path / "none") is None

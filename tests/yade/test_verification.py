@@ -203,7 +203,7 @@ def test_resume_takes_over_what_has_finished(tmp_path, monkeypatch):
     list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
     assert calls[-1] is True  # a quick run is not a full one
     with monkeypatch.context() as other:
-        other.setattr(keys, "code_key", lambda: "others")
+        other.setattr(keys, "statements", lambda path: "others")
         list(runner.run_checks(checks[:1], tmp_path, quick=True, resume=True))
         assert len(calls) == 5  # that of other code is run again
     calls.pop()

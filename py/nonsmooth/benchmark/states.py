@@ -26,8 +26,6 @@ from . import soft_contacts
 __all__ = ["NAMES", "BenchmarkError", "exist", "folder_of", "load", "make"]
 
 NAMES = ("rest", "moving", "soft")
-# modules that decide the bits of a state; see keys.making_key
-MADE_BY = (*slope_packing.MADE_BY, "benchmark.states", "benchmark.soft_contacts", "course", "experiment")
 REST_SECONDS = 1.0  # of simulation after the settling ...
 REST_SPEED = 0.05  # ... and the largest mean speed that counts as rest then [m/s]
 WEAKENED = ("DP", "FB")  # walls, see above
@@ -69,7 +67,7 @@ def key_of(chosen):
             "water": dataclasses.asdict(chosen.water),
             "seed": chosen.seed,
             "yade": config.version,
-            "made by": keys.making_key(*MADE_BY),
+            "made by": keys.making_key(__name__),
         }
     )
 

@@ -72,7 +72,7 @@ class Plan:
             "runs": [asdict(one) for one in self.runs],
         }
         write_json(out / FILE, content)
-        cluster.write(out, self.title, {one.name: keys.run_key(one.key) for one in self.runs})
+        cluster.write(out, self.title, {one.name: keys.run_key(one.key, self.function) for one in self.runs})
 
     def run(self, out, threads=1, resume=False, progress=lambda share, ended: None) -> dict:
         """Runs all, as many at a time as ``threads``, below the folder ``out``, and returns the table (see :func:`collect`).
@@ -135,7 +135,7 @@ def collect(out) -> dict:
     Raises PlanError where runs have not ended, or are of other input, engines or code.
     """
     plan = read(out)
-    found = {one.name: kept_runs.kept(Path(out) / "runs" / one.name, one.key) for one in plan.runs}
+    found = {one.name: kept_runs.kept(Path(out) / "runs" / one.name, one.key, plan.function) for one in plan.runs}
     missing = [name for name, result in found.items() if result is None]
     if missing:
         more = f" and {len(missing) - 3} more" if len(missing) > 3 else ""

@@ -15,8 +15,6 @@ from .grains import HeapError, sizes_along
 
 __all__ = ["Prepared", "Stand", "cache_path", "disk_table", "prepared", "put"]
 
-# modules that decide the bits of what is kept; see keys.making_key
-MADE_BY = ("heaps.preparation", "heaps.grains", "packing", "scene", "stepping", "tables", "worlds")
 STEP = 0.05  # √(d/g)
 TOLERANCE = 1e-5
 SLACK = 1e-5  # ℓ, overlaps that stay; ten times as large ones would push springs, which begin with these places
@@ -56,7 +54,7 @@ def cache_path(heap):
     """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them;
     engines and code do, so that a run has the same bits with and without a cache from earlier ones."""
     plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")}
-    return packing_files.cache_file("heaps", keys.key_of([plain, keys.making_key(*MADE_BY)])[:32])
+    return packing_files.cache_file("heaps", keys.key_of([plain, keys.making_key(__name__)])[:32])
 
 
 def prepared(heap):

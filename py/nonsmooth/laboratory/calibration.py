@@ -191,7 +191,7 @@ class Calibration:
 
     def _key(self, material, disks, seeds):
         """What a trial's strengths depend on."""
-        return keys.run_key([dataclasses.asdict(test) for test in self._tests(material, disks, seeds)])
+        return keys.run_key([dataclasses.asdict(test) for test in self._tests(material, disks, seeds)], __name__)
 
     @property
     def _strain(self):

@@ -23,8 +23,6 @@ from ..errors import UserError
 from ..packing_files import cache_folder
 from ..whole_files import write_arrays
 
-# modules that decide the bits of what is kept; see keys.making_key
-MADE_BY = ("laboratory.pressing", "laboratory.walls", "packing", "scene", "stepping", "tables")
 PRESSURE = 1e6  # Pa
 DENSITY = 2500.0  # kg/m³
 WALL_MASS = 0.02  # of the sample's mass, of a wall that follows the pressure
@@ -91,7 +89,7 @@ class Pressed:
 def cache_path(shape):
     """Where the pressed sample of a shape is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/samples. Other engines and other code press their own, so
     that a test has the same bits with and without a cache from earlier ones."""
-    return cache_folder("samples") / f"{keys.key_of([asdict(shape), keys.making_key(*MADE_BY)])[:32]}.npz"
+    return cache_folder("samples") / f"{keys.key_of([asdict(shape), keys.making_key(__name__)])[:32]}.npz"
 
 
 def load(shape):

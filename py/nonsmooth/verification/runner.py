@@ -109,7 +109,7 @@ def _write(result, folder, quick):
 
 def _key(check, quick):
     """Of what a result is of: the check, its form, the engines and the code."""
-    return keys.run_key([check.name, quick])
+    return keys.run_key([check.name, quick], check.run)
 
 
 def _plain(claim):
