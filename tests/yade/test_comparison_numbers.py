@@ -20,9 +20,9 @@ SAME = 1e-9  # relative: rounding
 
 
 # ---- a slope's run ----------------------------------------------------------------------------------
-def measured(folder, monkeypatch, **state):
+def measured(folder, monkeypatch, section=known_slope.SHIPPED, **state):
     """The Outcome of the known run, which took 1000 s of wall time for 49,999 steps, 400 s of them for 60 s of motion."""
-    monkeypatch.setattr(slopes, "section_of", lambda case: known_slope.SHIPPED)
+    monkeypatch.setattr(slopes, "section_of", lambda case: section)
     state = known_slope.STATE | {"wall_steps_s": 1000.0, "wall_moving_s": 400.0, "moving_s": 60.0} | state
     return slopes.measure(
         cases.Case("hard", "made up", 550, 1), folder, {"state": state, "steps": 49999, "simulated_s": 100.0}
@@ -69,6 +69,22 @@ def test_a_slope_is_measured_as_its_summary_has_it(tmp_path, monkeypatch):
         found.cost.rate,
     ) == pytest.approx((49999, 100 / 49999, 1000.0, 100.0, 400 / 60))
     assert found.notes == [] and [len(part[0]) for part in (found.begin, found.end)] == [550, 441]
+
+
+@pytest.mark.parametrize("failed_dry", [None, 3.0])
+def test_a_slope_to_the_left_has_the_numbers_of_its_mirror(tmp_path, monkeypatch, failed_dry):
+    """Of the same run with x of the other sign: each value and each curve to the last bit, since signs are all that changes."""
+    for side in ("left", "right"):
+        (tmp_path / side).mkdir()
+    right = measured(known_slope.write(tmp_path / "right"), monkeypatch, failed_dry=failed_dry)
+    flipped = {name: known_slope.series()[name] * -1.0 for name in ("front_m", "centroid_x_m")}
+    ends = [lambda end=end: {**end(), "x": -end()["x"]} for end in (known_slope.begin, known_slope.end)]
+    known_slope.write(tmp_path / "left", known_slope.series() | flipped, *ends)
+    mirror = synthetic.load("similar").mirrored(known_slope.SHIPPED)
+    state = dict(failed_dry=failed_dry, front0=-known_slope.STATE["front0"])
+    left = measured(tmp_path / "left", monkeypatch, mirror, **state)
+    assert left.values["front_travel_m"] > 1000 and left.values == right.values
+    assert all((left.curves[name] == right.curves[name]).all() for name in right.curves)
 
 
 def test_slopes_that_do_not_fail_by_water_are_told(tmp_path, monkeypatch):

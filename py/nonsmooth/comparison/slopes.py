@@ -145,7 +145,7 @@ def measure(case: Case, folder, found) -> Outcome:
     values = {
         # a slope that does not stand dry bears none
         "water_at_failure_m": at("water_m", times["t1"], 0.0) if failed_dry is None else 0.0,
-        "front_travel_m": None if front0 is None else float(series["front_m"][-1] - front0),
+        "front_travel_m": None if front0 is None else s.side * float(series["front_m"][-1] - front0),
         "centroid_travel_m": float(moved[-1]),
         "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", times["t1"]),
         "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", times["t1"]),
@@ -173,7 +173,7 @@ def measure(case: Case, folder, found) -> Outcome:
     rest = (t > (times["t0"] or last) - second) & (t <= (times["t0"] or last) + 1e-9)
     curves = {
         "abscissa": t[after] - (start if start is not None else t[after][0]),
-        "front": series["front_m"][after] - (series["front_m"][after][0] if front0 is None else front0),
+        "front": s.side * (series["front_m"][after] - (series["front_m"][after][0] if front0 is None else front0)),
         "centroid": moved[after],
     }
     simulated = found["simulated_s"]
