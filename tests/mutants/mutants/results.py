@@ -65,4 +65,11 @@ MUTANTS = (
     mutant("course-seen", PY + "experiment.py", "        self._inside(disks)\n", "", "no row looks whether disks are still there",
            "test_slope_course.py::test_a_row_that_sees_a_lost_disk_ends_the_run_and_is_not_written"),
     mutant("course-below", PY + "experiment.py", ' & (t["y"] > y0 - margin)', "", "a disk that falls through the ground is not noticed", "test_slope_course.py::test_a_disk_that_leaves_the_section_is_refused"),
+    # ---- files that are written
+    mutant("given-file", PY + "records/given.py", "isinstance(v, (str, os.PathLike)) and bool(os.fspath(v))", "isinstance(v, (str, os.PathLike))", "a file of no name is written",
+           "test_wrong_types.py::test_a_value_of_another_kind_is_named"),
+    mutant("given-water", PY + "tables.py", 'hasattr(v, "bodyTable") and not hasattr(v, "contactTable")', 'hasattr(v, "bodyTable")', "the table of the contacts' engine is read as the water's",
+           "test_wrong_types.py::test_a_value_of_another_kind_is_named"),
+    mutant("given-entries", PY + "records/given.py", "len(one) == 2 for one in v", "True for one in v", "a list of three things is written as times and files",
+           "test_wrong_types.py::test_a_value_of_another_kind_is_named"),
 )
