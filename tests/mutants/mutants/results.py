@@ -65,6 +65,10 @@ MUTANTS = (
     mutant("course-seen", PY + "experiment.py", "        self._inside(disks)\n", "", "no row looks whether disks are still there",
            "test_slope_course.py::test_a_row_that_sees_a_lost_disk_ends_the_run_and_is_not_written"),
     mutant("course-below", PY + "experiment.py", ' & (t["y"] > y0 - margin)', "", "a disk that falls through the ground is not noticed", "test_slope_course.py::test_a_disk_that_leaves_the_section_is_refused"),
+    mutant("compare-side", PY + "comparison/slopes.py", "None if front0 is None else s.side * float(", "None if front0 is None else float(", "a slope to the left has come back",
+           "plain:test_comparison_numbers.py::test_a_slope_to_the_left_has_the_numbers_of_its_mirror"),
+    mutant("compare-side-curve", PY + "comparison/slopes.py", '"front": s.side * (series', '"front": (series', "the way of a slope to the left is drawn downwards",
+           "plain:test_comparison_numbers.py::test_a_slope_to_the_left_has_the_numbers_of_its_mirror"),
     # ---- files that are written
     mutant("given-file", PY + "records/given.py", "isinstance(v, (str, os.PathLike)) and bool(os.fspath(v))", "isinstance(v, (str, os.PathLike))", "a file of no name is written",
            "test_wrong_types.py::test_a_value_of_another_kind_is_named"),
