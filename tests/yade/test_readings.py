@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from shapely.geometry import LineString, Polygon
+from shapely.ops import unary_union
 from yade.nonsmooth import section, section_data
 from yade.nonsmooth.figures import readings as figures
 from yade.nonsmooth.laboratory import biaxial_test, readings
@@ -53,6 +55,29 @@ def test_the_toe_has_its_thickness_and_the_backstop_its_inclination(name, thickn
         # the file gives them to the millimetre
         assert layer.points[:2] == pytest.approx(np.array([k / 5 * top, (k + 1) / 5 * top]), abs=1e-3)
         assert layer.points[2:] == pytest.approx(before.points[2:])
+
+
+def test_layers_of_one_thickness_are_cut_by_the_surface():
+    """Above DP: bottoms at 13.5 m times their number; five at the foot, the rest of 65 m being the uppermost's; three at the crown. Together they fill what the shipped ones fill,
+    overlap nowhere, and none is thinner than the largest disk."""
+    made, shipped = (readings.section_of(readings.READINGS[name]) for name in ("layers-13.5", readings.SHIPPED))
+    axes = np.array([np.negative(shipped.downslope), shipped.normal])  # up DP, and off it
+    polygons = [Polygon(np.array(layer.points) @ axes.T) for layer in made.layers]
+    whole = unary_union([Polygon(np.array(layer.points) @ axes.T) for layer in shipped.layers])
+    # the file gives places to a millimetre, along borders of 1.5 km: 2 m²
+    assert unary_union(polygons).symmetric_difference(whole).area < 2 and sum(
+        p.area for p in polygons
+    ) == pytest.approx(whole.area, abs=2)
+    for k, polygon in enumerate(polygons):
+        at_foot = [off for up, off in polygon.exterior.coords if abs(up) < 1e-2]
+        assert (min(at_foot), max(at_foot)) == pytest.approx((13.5 * k, min(13.5 * (k + 1), 65)), abs=2e-3)
+    at_crown = whole.intersection(LineString([(1440, 0), (1440, 70)]))
+    pieces = [p.intersection(at_crown).length for p in polygons]
+    surface = 65 - (65 - 42) * 1440 / 1458
+    assert pieces == pytest.approx([13.5, 13.5, surface - 27, 0, 0], abs=2e-3)
+    for polygon in polygons[3:]:
+        up = polygon.exterior.bounds[2]
+        assert polygon.intersection(LineString([(up - 1e-3, 0), (up - 1e-3, 70)])).length == pytest.approx(4, abs=2e-3)
 
 
 PAPER = {name: wanted for name, (wanted, _) in readings.PAPER.items()}

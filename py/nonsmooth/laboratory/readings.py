@@ -68,6 +68,35 @@ def _toe(thickness=65.0, inclination=90.0):
     return change
 
 
+def _layers(thickness, thinnest=4.0):
+    """Gives the shipped slope layers of so many metres from DP upwards. Its surface is as before and cuts the upper ones, which thin out up the slope; where one would be thinner than
+    ``thinnest`` [m], the largest disk, the layer below it reaches to the surface."""
+
+    def change(data):
+        beta = math.radians(section.of(data).dip)
+        axes = np.array([[-math.cos(beta), math.sin(beta)], [math.sin(beta), math.cos(beta)]])  # up DP, and off it
+        crown = axes @ data["layers"][0]["vertices"][-1]  # of DP
+        foot, edge = (axes @ data["layers"][-1]["vertices"][k] for k in (1, 2))  # of the surface
+        surface = lambda s: foot[1] + (edge[1] - foot[1]) * s / edge[0]  # noqa: E731
+        face = lambda off: crown[0] + (edge[0] - crown[0]) * off / edge[1]  # noqa: E731
+        bottoms = np.arange(0.0, foot[1] - thinnest, thickness)
+        ends = (foot[1] - bottoms - thinnest) * edge[0] / (foot[1] - edge[1])  # where each is the thinnest
+        made = []
+        for k, (off, end) in enumerate(zip(bottoms, ends)):
+            above, reach = (bottoms[k + 1], ends[k + 1]) if k + 1 < len(bottoms) else (foot[1], 0.0)
+            line = [(0.0, off), (0.0, above)]
+            if reach >= edge[0]:  # the layer above goes to the crown
+                line += [(face(above), above), (face(off), off)]
+            else:
+                line += [(reach, above), (reach, surface(reach))] if reach else []
+                line += [tuple(edge), (face(off), off)] if end >= edge[0] else [(end, surface(end)), (end, off)]
+            vertices = np.round(np.array(line) @ axes, 3).tolist()
+            made.append(data["layers"][0] | {"name": f"L{k + 1}", "vertices": vertices})
+        data["layers"] = made
+
+    return change
+
+
 def _bonds(distance):
     return {f"materials.{name}.bond_creation_distance": distance for name in (LAYERS_ROCK, "fb")}
 
@@ -95,6 +124,8 @@ READINGS = {
     "glued": Reading("glued platens", test={"platens": "glued"}),
     "half": Reading("samples of half as many disks", test={"count": 0.5}),
     "toe-67.5": Reading("toe of 67.5 m", shape=_toe(67.5)),
+    "layers-13.5": Reading("layers of 13.5 m, cut by the surface", shape=_layers(13.5)),
+    "volume-bulk": Reading("water acts on the volume of the bulk", {"water.volume": "bulk"}),
     "backstop-70": Reading("FB 70° to DP", shape=_toe(inclination=70.0)),
     "backstop-110": Reading("FB 110° to DP", shape=_toe(inclination=110.0)),
     "backstop-loose": Reading("FB without bonds", {"materials.fb.bonded": False}),
