@@ -20,12 +20,13 @@ if(contact_tests)
     gtest_discover_tests(contact_tests DISCOVERY_TIMEOUT 60 PROPERTIES LABELS contact TIMEOUT 600)
 endif()
 
-# What is in Python without YADE: the binding, and sections, packings and contact problems broken in many ways.
+# What is in Python without YADE: the binding, the generators of random mutants, and sections, packings and contact problems broken in many ways.
 function(nonsmooth_python_test name path)
     add_test(NAME ${name} COMMAND "${Python3_EXECUTABLE}" -m pytest -q -p no:cacheprovider "${CMAKE_SOURCE_DIR}/${path}")
     set_tests_properties(${name} PROPERTIES LABELS ${name} TIMEOUT 600 COST 30 ENVIRONMENT "PYTHONPATH=${NONSMOOTH_PYTHON}")
 endfunction()
 nonsmooth_python_test(bindings tests/bindings)
+nonsmooth_python_test(generators tests/mutants)
 execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import hypothesis, h5py" RESULT_VARIABLE without_hypothesis ERROR_QUIET)
 if(without_hypothesis)
     message(STATUS "Hypothesis or h5py not found (python3-hypothesis, python3-h5py): without the test fuzz")

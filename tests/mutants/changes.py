@@ -98,10 +98,11 @@ def _digest(text):
 
 
 def number(text):
-    """Another number for a literal: twice a float, one more for a whole number; None for what is none."""
-    if re.fullmatch(r"\d[\d_]*", text):
-        return str(int(text.replace("_", "")) + 1)
-    found = re.fullmatch(r"((?:\d[\d_]*)?\.?\d*(?:[eE][-+]?\d+)?)([fFuUlL]*)", text)
+    """Another number for a literal: twice a float, one more for a whole number, with what C++ writes behind it; None for what is none."""
+    whole = re.fullmatch(r"(\d[\d_]*)([uUlL]*)", text)
+    if whole:
+        return f"{int(whole[1].replace('_', '')) + 1}{whole[2]}"
+    found = re.fullmatch(r"((?:\d[\d_]*)?\.?\d*(?:[eE][-+]?\d+)?)([fFlL]?)", text)
     if not found or not re.search(r"\d", text):
         return None
     value = float(found[1].replace("_", ""))

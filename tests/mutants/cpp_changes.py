@@ -44,10 +44,12 @@ def changes(file, text):
 class _Finder:
     def __init__(self, file, text):
         self.file, self.text = file, text
-        self.tokens = [m for m in TOKEN.finditer(text) if m.lastgroup not in ("comment", "directive")]
+        every = list(TOKEN.finditer(text))
+        self.tokens = [m for m in every if m.lastgroup not in ("comment", "directive")]
         self.words = [m[0] if m.lastgroup != "string" else '""' for m in self.tokens]
         self.other = self._partners()
-        self.alone = self._left_alone()
+        self.alone = self._left_alone() | self._compiled_perhaps([m for m in every if m.lastgroup == "directive"])
+        self.types = self._in_types()
         self.found = []
 
     def _partners(self):
@@ -71,8 +73,39 @@ class _Finder:
                 end = k
                 while end < len(self.words) and self.words[end] not in (";", "{", ":"):
                     end += 1
+                if word == "enum":  # its values too
+                    end = self.other.get(self.words.index("{", k), end) if "{" in self.words[k:] else end
                 alone |= set(range(k, end + 1))
         return alone
+
+    def _compiled_perhaps(self, directives):
+        """Indices of tokens between #if and #endif: YADE's features say which of them are compiled."""
+        spans, open_ = [], []
+        for directive in directives:
+            word = re.match(r"\s*#\s*(\w+)", directive[0])[1]
+            if word in ("if", "ifdef", "ifndef"):
+                open_.append(directive.end())
+            elif word == "endif" and open_:
+                spans.append((open_.pop(), directive.start()))
+        return {k for k, m in enumerate(self.tokens) if any(first <= m.start() < last for first, last in spans)}
+
+    def _in_types(self):
+        """Indices of tokens that a type asks for: between the angle brackets of a template, and an array's size."""
+        found, open_ = set(), []
+        for k, (token, word) in enumerate(zip(self.tokens, self.words)):
+            before, after = self.text[token.start() - 1 : token.start()], self.text[token.end() : token.end() + 1]
+            if word == "<" and not before.isspace():
+                open_.append(k)
+            elif word in (">", ">>") and not (before.isspace() and after.isspace()):
+                for _ in word[: len(open_)]:
+                    found |= set(range(open_.pop(), k + 1))
+            elif word in (";", "{"):
+                open_.clear()
+            elif word == "[" and re.match(r"[A-Za-z_>]", self.words[k - 2]) and self.words[k - 1].isidentifier():
+                # "double x[3]"; a word before an element begins a statement or is an operator
+                if self.words[k - 2] not in ("return", "else", "do", "throw", "case", "and", "or", "not"):
+                    found |= set(range(k, self.other.get(k, k) + 1))
+        return found
 
     def _reach(self, k):
         """First and last index of the least expression around a token: all between brackets, commas, assignments and ends of statements; None where there is none."""
@@ -99,7 +132,7 @@ class _Finder:
 
     def find(self):
         for k, (token, word) in enumerate(zip(self.tokens, self.words)):
-            if k in self.alone or k in (0, len(self.words) - 1):
+            if k in self.alone or k in self.types or k in (0, len(self.words) - 1):
                 continue
             begin, end = token.span()
             apart = self.text[begin - 1].isspace() and self.text[end : end + 1].isspace()
@@ -117,8 +150,10 @@ class _Finder:
                 self._add(SIGN, k, begin, end, SIGNS[word])
             elif word == "-" and not apart and self.words[k - 1] not in (")", "]"):
                 self._add(SIGN, k, begin, end, "")
-            elif word == "!":
-                self._add(CONDITION, k, begin, end, "")
+            elif (
+                word == "!"
+            ):  # of two, since both branches of a switch must be of one type, and what it denies may be a pointer
+                self._add(CONDITION, k, begin, end, "!!")
             elif apart and word in ("&&", "||"):
                 self._drop(k, word)
             elif word == "if" and self.words[k + 1] == "(":
