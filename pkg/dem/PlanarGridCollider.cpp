@@ -255,11 +255,11 @@ bool PlanarGridCollider::moved()
 	paths.resize(size);
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(|| : other)
 	for (long id = 0; id < size; ++id) {
-		paths[id]        = { disks[id].x - reference[id].x, disks[id].y - reference[id].y };
-		const bool there = isThere(disks[id]);
-		// one that had no place when the lists were made, as one that was no number, has one now
-		other = other || disks[id].r != reference[id].r || there != (regions.of(int(id)) >= 0)
-		        || (there && !(std::abs(paths[id].x) <= farPath && std::abs(paths[id].y) <= farPath));
+		paths[id] = { disks[id].x - reference[id].x, disks[id].y - reference[id].y };
+		// one that had no place when the lists were made, as one that was no number, and has one now has come from farther than any bound
+		other = other || disks[id].r != reference[id].r
+		        || (isThere(disks[id])
+		            && !(std::abs(paths[id].x) <= farPath && std::abs(paths[id].y) <= farPath));
 	}
 	if (other) return true;
 	boundSpeeds();

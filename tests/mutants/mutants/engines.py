@@ -334,6 +334,8 @@ MUTANTS = (
            "test_given_pairs.py::test_a_driven_wheel_of_bonded_disks_bears_nothing_while_it_turns"),
     mutant("given-pressed", GIVEN, "-u.n > drivenTogether", "u.n > drivenTogether", "it is told of bodies that are driven apart",
            "test_given_pairs.py::test_bodies_that_are_driven_into_each_other_are_told_of"),
+    mutant("collider-mended", "pkg/dem/PlanarGridCollider.cpp", "isThere(disks[id])", "regions.of(int(id)) >= 0", "a disk whose place was no number has no contacts once that is mended",
+           "test_collider.py::test_a_place_that_was_no_number_and_is_mended_has_contacts_again"),
     mutant("check-tester", "pkg/dem/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
     mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"TriaxialStateRecorder"', '"TriaxialStateRecorders"', "an engine that reads what rigid contacts have not is let run",
@@ -349,6 +351,8 @@ MUTANTS = (
     mutant("missed-named", WARNINGS, "!(value <= bound)", "name == string(\"residual\")", "the residual is told of where another figure is above its bound", "test_uneven_masses.py::test_what_is_above_its_bound_is_named_with_it"),
     mutant("sizes-lost", "pkg/dem/seam/ResidentSizes.cpp", "if (isSize(former.radius)) sizesLost[former.id] = former;", ";", "a disk whose radius was no number keeps its old mass when that is mended",
            "test_sizes.py::test_a_radius_without_sense_that_is_mended"),
+    mutant("check-halves", "pkg/dem/SceneCheck.cpp", "areRigid == takesRigid", "false", "a list in which all is soft, or all is rigid, is taken for one that was converted by halves",
+           "test_messages.py::test_soft_contacts_between_our_materials_are_let_be", "test_messages.py::test_another_material_is_refused_before_it_touches"),
     mutant("check-shapeless", "pkg/dem/SceneCheck.cpp", "(bodies[id].blocked & inPlane) != inPlane", "false", "a disk that has lost its shape falls through everything",
            "test_numbers_without_sense.py::test_a_body_that_may_move_and_has_lost_its_shape"),
 )
