@@ -6,7 +6,7 @@ import _nonsmooth_contact
 import numpy as np
 import pytest
 from yade.nonsmooth import contact
-from yade.nonsmooth.benchmark import report, scale, steps, sweeps
+from yade.nonsmooth.benchmark import course, report, scale, states, steps, sweeps
 
 ONE = 1000  # contacts of the problem
 #: Seconds of a sweep over ONE contacts, by path, threads and precision.
@@ -150,3 +150,37 @@ def test_a_block_of_steps_is_divided_by_their_number(monkeypatch):
     assert [row["other"] for row in timed.rows] == pytest.approx([0.099, 0.099, 0.199])
     assert timed.summary()["stage_ms"]["collide"]["mean"] == pytest.approx(1.0)
     assert timed.summary()["step_ms"]["median"] == pytest.approx(100.0)
+
+
+# ---- how far it is ----------------------------------------------------------------------------------
+
+
+def test_the_states_shares_of_their_making_follow_each_other(monkeypatch, tmp_path):
+    """A half of it settles, three tenths move, two are soft; each stage tells of its beginning, its middle and its end."""
+    told = []
+
+    def stage(*arguments):
+        for share in (0.0, 0.5, 1.0):
+            arguments[-1](share)
+
+    for name in ("section_of", "_forget_old", "_save", "load"):
+        monkeypatch.setattr(states, name, lambda *arguments: None)
+    monkeypatch.setattr(states.soft_contacts, "soften", lambda built: None)
+    monkeypatch.setattr(states, "Progress", lambda folder: told.append)
+    for name in ("_settle", "_move", "_run_soft"):
+        monkeypatch.setattr(states, name, stage)
+    states.make(tmp_path, "made_up", 100)
+    assert told == pytest.approx([0, 0.25, 0.5, 0.5, 0.65, 0.8, 0.8, 0.9, 1.0], abs=1e-12)  # rounding
+
+
+@pytest.mark.parametrize("noted, share", [("0.5", 0.4), ("", 0.2), (None, 0.2), ("9", 1.0)])
+def test_a_course_of_measurements_says_how_far_it_is(tmp_path, noted, share):
+    """Of 100 s foreseen 20 s are gone, and one of 40 s has noted its share; what takes longer than foreseen does not go beyond the whole."""
+    told, turns = [], iter([False, True])
+    made = course.Course(tmp_path, 100.0, lambda *arguments: told.append(arguments))
+    made.gone = 20.0
+    (tmp_path / "sweeps").mkdir()
+    if noted is not None:
+        (tmp_path / "sweeps" / "progress").write_text(noted)
+    made._watch(tmp_path / "sweeps", 40.0, SimpleNamespace(is_set=lambda: next(turns), wait=lambda seconds: None))
+    assert told == [(pytest.approx(share), "sweeps")]

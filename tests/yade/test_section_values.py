@@ -191,14 +191,15 @@ def test_arguments_of_a_command_are_given_values(tmp_path):
     assert made.critical_slips == {"DP": 2.0} and made.numerics == section.of({**BARE, "gravity": 4.0}).numerics
 
 
+class Stop(Exception):
+    pass
+
+
 def test_a_run_of_a_similar_section_is_packed_as_its_original(monkeypatch, tmp_path):
     hill = section.of(BASE).with_disks(60)
     large = similar.scaled(hill, 3.0)
     [run] = campaign.sweep(large, {"materials.rock.tensile_strength": [1e4]}).runs
     begun = []
-
-    class Stop(Exception):
-        pass
 
     def begin(made, folder, progress):
         begun.append(made)
@@ -210,6 +211,20 @@ def test_a_run_of_a_similar_section_is_packed_as_its_original(monkeypatch, tmp_p
     made, there = packing.pack(begun[0], 5), similar.scaled_packing(packing.pack(hill, 5), 3.0)
     assert made.checksum == there.checksum
     assert begun[0].materials["rock"].tensile_strength == 1e4  # as it is run, not as the file's
+
+
+@pytest.mark.parametrize("now, foreseen, share", [(5.0, 20.0, 0.25), (20.0, 20.0, 1.0), (30.0, 20.0, 1.0)])
+def test_a_process_of_a_campaign_notes_how_far_its_slope_is(tmp_path, monkeypatch, now, foreseen, share):
+    """Of the time that it foresees; one that runs longer is at its end."""
+
+    def begin(made, folder, progress):
+        progress("slide", now, foreseen)
+        raise Stop
+
+    monkeypatch.setattr(slope_run.experiment, "begin", begin)
+    with pytest.raises(Stop):
+        slope_run.run(tmp_path, BASE)
+    assert float((tmp_path / "progress").read_text()) == share
 
 
 # powers of the ratio of lengths, by Froude with the same gravity and density
