@@ -26,5 +26,10 @@ SAME = {
         "return float(np.std(values, ddof=1) / math.sqrt(len(values))) if len(values) > 1 else math.nan",
         "return float(np.std(values, ddof=1) / math.sqrt(len(values))) if len(values) >= 1 else math.nan",
     ): "NaN either way, with a warning of NumPy's besides",
+    (
+        "py/nonsmooth/section_units.py",
+        "return isinstance(value, (int, float)) and not isinstance(value, bool)",
+        "return True and not isinstance(value, bool)",
+    ): "what else a checked material holds, words, stands under no key that has bounds",
     ("py/nonsmooth/figures/sweep.py", "if handles:", "if True:"): "a legend without entries and frame shows nothing",
 }

@@ -30,11 +30,13 @@ WRONG = [
     ("materials.rock.envelope.friction_deg", 0.6, "0.6 rad are 34.4", 34.0),
     ("water.unit_weight", 9.81, "9.81 kN/m³ are 9810", 9810),
     ("water.unit_weight", 1000, "1000 kg/m³ are 9810", 2950),
+    ("water.unit_weight", 250, "its density times gravity: some 9810", 9810),
     ("water.unit_weight", 2e5, "a fluid of 2.04e+04 kg/m³", 1.9e5),
     ("water.pressure_gradient", [0, 9810], "still water has [0, -9810]", [0, -9810]),
     ("water.pressure_gradient", [100.0, 1e-3], "pressure that grows upwards", [4000.0, 0.0]),
     ("water.pressure_gradient", [0, -9.81], "9.81 kN/m³ are 9810", [0, -200]),
     ("water.pressure_gradient", [0, -5e5], "51 of the unit weight of water", [0, -4.9e5]),
+    ("water.pressure_gradient", [0, -5e5], "the gradient is in N/m³; if it is meant", [0, -4.9e5]),
 ]
 
 
@@ -63,6 +65,13 @@ def test_what_is_meant_is_taken_and_kept(key, value, tmp_path):
     assert SHIPPED.unusual == () and "unusual" not in section_data.plain(SHIPPED)
     with pytest.raises(SectionError, match="density: 25000"):  # one key is not all
         meant.with_values({"materials.rock.density": 25_000})
+
+
+def test_a_density_of_water_is_told_up_to_the_heaviest_fluids():
+    """3000 kg/m³ where gravity is 12 m/s²; beyond it, no fluid of the laboratory has that density."""
+    for value, said in ((3000, "3000 kg/m³ are 36000"), (3001, "its density times gravity: some 12000")):
+        with pytest.raises(SectionError, match=said):
+            SHIPPED.with_values({"gravity": 12.0, "water.unit_weight": value})
 
 
 @pytest.mark.parametrize("name", section.shipped())

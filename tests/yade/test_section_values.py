@@ -213,6 +213,13 @@ def test_a_run_of_a_similar_section_is_packed_as_its_original(monkeypatch, tmp_p
     assert begun[0].materials["rock"].tensile_strength == 1e4  # as it is run, not as the file's
 
 
+def test_a_section_that_is_scaled_twice_is_packed_as_the_first_one():
+    """By powers of two, so to the last bit; there and back it is packed as it was."""
+    hill = section.of(BASE).with_disks(60)
+    twice, once = similar.scaled(similar.scaled(hill, 4.0), 0.5), similar.scaled(hill, 2.0)
+    assert same(twice, once) and twice.like[0] is hill and twice.like[1] == 2.0
+
+
 @pytest.mark.parametrize("now, foreseen, share", [(5.0, 20.0, 0.25), (20.0, 20.0, 1.0), (30.0, 20.0, 1.0)])
 def test_a_process_of_a_campaign_notes_how_far_its_slope_is(tmp_path, monkeypatch, now, foreseen, share):
     """Of the time that it foresees; one that runs longer is at its end."""
