@@ -265,3 +265,36 @@ def test_a_report_says_what_was_wanted_and_whether_it_was_reached(search):
     grown = (math.exp(0.3) - 1) / 0.3
     assert tells[2, [0, 3]] / share == pytest.approx([grown, grown], rel=0.1)  # coarse and fine trials end apart
     assert tells[3, 2] == pytest.approx(10 / 0.7, rel=1e-3) and tells[1, 1] == pytest.approx(10 / 0.7, rel=1e-3)
+
+
+# ---- how far it is ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "fine, wholes",
+    [
+        # a coarse trial is 600 disks of three seeds, a fine one 2000 of two; five of those, one for each of two parameters, and four of these
+        ((2000, (1, 2)), [5 * 1800 + 2 * 1800 + 4 * 4000, 2 * 1800 + 4 * 4000, 4 * 4000]),
+        (None, [5 * 1800]),
+    ],
+)
+def test_a_search_knows_how_much_is_left(search, monkeypatch, fine, wholes):
+    """What trials were spared counts as done: nothing is done here, so that each stage begins with what it and those after it take."""
+    made, told = search(PEAK), []
+    monkeypatch.setattr(made, "_say_how_long", lambda *sizes: None)
+    monkeypatch.setattr(made, "derivatives", lambda *where: told.append(made._whole))
+    monkeypatch.setattr(calibration, "uniqueness", lambda names, jacobian: {})
+
+    class Over(Exception):
+        pass
+
+    def stage(disks, seeds, x, trials, *stop):
+        told.append(made._whole)
+        if len(told) == len(wholes):
+            raise Over
+        return x, None
+
+    monkeypatch.setattr(made, "search", stage)
+    with pytest.raises(Over):
+        made.run((600, (1, 2, 3)), fine)
+    assert told == wholes and made.names == ("tensile_strength", "friction")

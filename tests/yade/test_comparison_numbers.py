@@ -318,3 +318,11 @@ def test_each_run_is_told_with_its_errors(told):
         == 0
         and stiffest["error_against_hard"] > 0
     )
+
+
+def test_the_work_of_a_run_grows_as_its_steps_and_sweeps_do():
+    """In units of the hard run's: as many steps as a shorter step asks for, 10^0.6 times the sweeps for a hundredth of the tolerance; springs four times as stiff take twice the steps."""
+    hard = lambda **numerics: cases.work_of(cases.Case("hard", "made up", 550, 1, **numerics))  # noqa: E731
+    soft = lambda stiffness: cases.work_of(cases.Case("soft", "made up", 550, 1, stiffness=stiffness))  # noqa: E731
+    assert hard() == 1 and hard(step=0.5) == 2 and hard(tolerance=0.01) == pytest.approx(10**0.6, rel=1e-12)
+    assert soft(3e8) == 1 and soft(12e8) == 2

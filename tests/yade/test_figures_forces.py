@@ -85,6 +85,16 @@ def test_the_second_window_is_a_close_up_also_of_few_disks():
     assert 2.5 <= wide / tight * (1 + 1e-9)
 
 
+def test_windows_go_with_the_slope_wherever_its_foot_is(slope, chains):
+    """A foot that is no origin, as far to the right as it is not high."""
+    moved = [(name, np.array(points) + (137.0, 20.0), role) for name, points, role in WALLS]
+    contacts = [(0, 1, 4e6), (1, 3, -1e6), (2, 4, 2e6)]
+    there = synthetic.few(slope.x + 137.0, slope.y + 20.0, contacts, layer=slope.layer, r=slope.r)
+    for before, after in zip(chains.axes, figures.force_chains(there, moved).axes):
+        assert np.array(after.get_xlim()) - before.get_xlim() == pytest.approx([137, 137], abs=1e-9)  # rounding
+        assert np.array(after.get_ylim()) - before.get_ylim() == pytest.approx([20, 20], abs=1e-9)
+
+
 def test_the_whole_slope_is_drawn_by_layers(slope, chains):
     top = chains.axes[0]
     centres, radii, fills = drawn.disks(top)
@@ -263,6 +273,8 @@ def test_the_sketch_shows_what_the_walls_exert_on_the_mass(courses):
     assert ways[blue] @ normal == pytest.approx(1, abs=1e-3) and ways[orange] @ -down == pytest.approx(1, abs=1e-3)
     # the backstop leans back, its normal a little steeper than the slope
     assert ways[green] @ -down == pytest.approx(1, abs=1e-2)
+    (rock,) = (p for p in sketch.patches if drawn.hexes([p.get_facecolor()]) == ["#ead9b5"])
+    assert sketch.get_ylim()[0] < rock.get_xy()[:, 1].min() and rock.get_xy()[:, 1].max() < sketch.get_ylim()[1]
     tips = {fill: head for _, head, fill, _ in found}
     assert tips[blue] @ normal == pytest.approx(0, abs=0.01)  # on the plane
 

@@ -97,6 +97,7 @@ def test_a_contact_that_is_never_bonded_has_one_curve():
     graph = drawn.points(drawn.line(axes[1], LOOSE))
     assert graph[0, 1] == pytest.approx(0.4 * 100e3 * 0.02, **exact) and axes[1].get_ylabel().endswith("[N/m]")
     assert drawn.points(drawn.line(axes[4], LOOSE))[1].tolist() == [0, 0]
+    assert axes[3].get_ylim() == (0, 1)  # nothing there to be seen
     # one that is cohesive when it touches
     axes = figures.contact_law(dataclasses.replace(ROCK, bonded=False), SIZE).axes
     assert drawn.points(drawn.line(axes[4], LOOSE))[1] == pytest.approx([-45, 0], **exact)

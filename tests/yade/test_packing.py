@@ -4,6 +4,7 @@ import dataclasses
 import math
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -73,6 +74,26 @@ def test_sizes_are_uniform_by_volume(section, packed):
 
 def test_progress(packed, shares):
     assert shares == sorted(shares) and shares[-1] == 1 and 0 <= shares[0] < 1
+
+
+@pytest.mark.parametrize(
+    "worst, share", [(2.0, 0.0), (math.sqrt(2 * packing.TARGET), 0.5), (0.5 * packing.TARGET, 0.99), (3.0, 0.0)]
+)
+def test_a_packing_is_as_far_as_its_worst_overlap_has_fallen(worst, share):
+    """In powers of ten from two diameters, disks at one place, to the target; the end is told by who packs."""
+    told = []
+
+    class Stop(Exception):
+        pass
+
+    def stop(found):
+        told.append(found)
+        raise Stop
+
+    there = SimpleNamespace(x=np.zeros(2), r=np.ones(2), _neighbours=lambda: None, _forces=lambda: (0, 0, 0, worst))
+    with pytest.raises(Stop):
+        packing._Relaxer.run(there, stop)
+    assert told == [pytest.approx(share, abs=1e-12)]  # rounding
 
 
 @pytest.fixture(scope="module")

@@ -218,6 +218,9 @@ def test_a_section_that_is_scaled_twice_is_packed_as_the_first_one():
     hill = section.of(BASE).with_disks(60)
     twice, once = similar.scaled(similar.scaled(hill, 4.0), 0.5), similar.scaled(hill, 2.0)
     assert same(twice, once) and twice.like[0] is hill and twice.like[1] == 2.0
+    mirrored = similar.mirrored(once)
+    assert same(mirrored, similar.scaled(similar.mirrored(hill), 2.0)) and mirrored.like[1] == 2.0
+    assert same(mirrored.like[0], similar.mirrored(hill))
 
 
 @pytest.mark.parametrize("now, foreseen, share", [(5.0, 20.0, 0.25), (20.0, 20.0, 1.0), (30.0, 20.0, 1.0)])

@@ -11,8 +11,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 import drawn  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
-toe_bands, figures_toe, section, similar = (
-    synthetic.load(name) for name in ("measure.toe_bands", "figures.toe", "section", "similar")
+toe_bands, figures_toe, section, similar, style = (
+    synthetic.load(name) for name in ("measure.toe_bands", "figures.toe", "section", "similar", "figures.style")
 )
 SHIPPED = section.load("jiufengershan")
 THRUST, BACK = 28.0, 40.0  # degrees to the slope
@@ -102,6 +102,9 @@ def test_the_toe_is_drawn_by_rotation_with_its_bands():
     assert len(lines) == 6
     for ends in lines:
         assert ends @ normal == pytest.approx((0, 65), abs=1.5)
+    # edges of bands are whole, the directions that Rankine has are dotted and orange
+    looks = [(one.get_linestyle() == ":", one.get_color()) for one in ax.lines if one.get_linewidth() == 1.8]
+    assert sorted(looks) == [(False, style.INK)] * 4 + [(True, style.LINES["orange"])] * 2
     slopes = sorted(np.degrees(np.arctan2(*(np.abs((e[1] - e[0]) @ way) for way in (normal, down)))) for e in lines)
     assert slopes[:2] == pytest.approx([25, 25], abs=1e-6) and slopes[2:4] == pytest.approx([THRUST] * 2, abs=3)
     # counterclockwise is red: of the conjugate, and blue of the other
