@@ -35,6 +35,7 @@ SHORTEST = 60.0  # s, for a file of tests, or five times what it takes without a
 BUDGET = 240.0  # s, for all files that judge a mutant; what is left then is not asked
 LONG = 30.0  # s; files known to take longer are asked last
 SOUND_LIMIT = 900.0  # s, for a file without a mutant
+GATE = "pkg/dem/LayoutCheck.cpp"  # a library of its own, which YADE loads before the one that has the switch
 
 
 def read_arguments():
@@ -87,7 +88,7 @@ def sources(cpp):
         found = [path for ending in ("*.cpp", "*.hpp") for path in (ROOT / "pkg" / "dem").rglob(ending)]
     else:
         found = [path for path in (ROOT / PACKAGE).rglob("*.py") if "verification" not in path.parts]
-    return sorted(path.relative_to(ROOT).as_posix() for path in found)
+    return sorted({path.relative_to(ROOT).as_posix() for path in found} - {GATE})
 
 
 def files_of(parser, args):
@@ -105,8 +106,9 @@ def files_of(parser, args):
     return found
 
 
-def pick(args, files, near, again):
-    """[(Change, Mutant)] in the order of their trial: those of the digests ``again``, or without any at most as many as are asked for."""
+def pick(args, files, near, again, refused=()):
+    """[(Change, Mutant)] in the order of their trial: those of the digests ``again``, or without any at most as many as are asked for; none of the digests
+    ``refused``."""
     of = changes_of_cpp if args.cpp else changes_of_python
     picked, spans = [], {}
     for one in chosen([c for f in files for c in of(f, (ROOT / f).read_text())], args.seed):
@@ -114,7 +116,7 @@ def pick(args, files, near, again):
         others = spans.setdefault(one.file, set())
         if args.cpp and any(one.reach != r and one.reach[0] < r[1] and r[0] < one.reach[1] for r in others):
             continue
-        if again and one.digest not in again:
+        if one.digest in refused or (again and one.digest not in again):
             continue
         tests = [t for t in near.of(one.file, one.scope) if not args.plain or t.startswith(PLAIN)]
         mutated = as_mutant(one, ROOT, tests) if tests else None
@@ -248,14 +250,14 @@ def line(found):
 
 
 def kept(path):
-    """What an earlier call has kept: {test: what is known of it}, {digest: row}."""
+    """What an earlier call has kept: {test: what is known of it}, {digest: row}, and the digests that the compiler refuses."""
     try:
         found = json.loads(path.read_text())
     except FileNotFoundError:
         found = {"sound": {}, "mutants": []}
     except ValueError as error:
         sys.exit(f"mutation: {path} cannot be read ({error}); remove it, and all mutants are tried again")
-    return found["sound"], {m["digest"]: m for m in found["mutants"]}
+    return found["sound"], {m["digest"]: m for m in found["mutants"]}, set(found.get("refused", ()))
 
 
 def main():
@@ -263,10 +265,10 @@ def main():
     near = NearTests(ROOT)
     work = args.build.resolve() / "random_mutants"
     path = work / ("cpp.json" if args.cpp else "python.json")
-    sound, before = kept(path)
+    sound, before, refused = kept(path)
     if args.survivors and not before:
         parser.error(f"--survivors: {path} holds no verdicts; run without it first")
-    picked = pick(args, files_of(parser, args), near, before if args.survivors else ())
+    picked = pick(args, files_of(parser, args), near, before if args.survivors else (), refused)
     if args.list:
         for one, mutated in picked:
             print(f"{one.place}  {one.scope}  {one.says}  [{', '.join(mutated.tests)}]")
@@ -278,7 +280,9 @@ def main():
     libraries = args.build.resolve()
     try:
         if args.cpp:
+            asked = {one.digest for one, _ in picked}
             libraries, picked = compiled(work, libraries, picked)
+            refused |= asked - {one.digest for one, _ in picked}  # a later call need not build with them again
     except (TableError, BuildError) as error:
         sys.exit(f"mutation: {error}")
     waiting = [(one, mutated) for one, mutated in picked if one.digest not in known]
@@ -294,7 +298,7 @@ def main():
                 rows.append(row(one, verdict, unasked, mutated.tests))
                 # what waits to be tried again keeps its verdict, also where this call is stopped
                 left = [m for digest, m in old.items() if digest not in {r["digest"] for r in rows}]
-                write_json(path, {"seed": args.seed, "sound": sound, "mutants": rows + left})
+                write_json(path, {"seed": args.seed, "sound": sound, "mutants": rows + left, "refused": sorted(refused)})
                 tqdm.write(line(rows[-1]))
                 bar.update()
     except KeyboardInterrupt:
