@@ -28,7 +28,10 @@ from . import records, scales
 
 __all__ = [
     "COLUMNS",
+    "FASTER",
     "NAMES",
+    "RESTING",
+    "by_threshold",
     "chosen_rows",
     "columns",
     "kept_rows",
@@ -60,6 +63,8 @@ NEEDED = {
     "weakening_s": ("t3",),
     "motion_s": ("t3", "t5"),
 } | {f"times_s.{name}": (name,) for name in NAMES}
+#: Speeds for which :func:`by_threshold` tells t2, in per cent of that of a slope that moves (0.2 m/s of the shipped section), and shares of the largest mean speed for which it tells t5, in per cent.
+FASTER, RESTING = (50, 100, 200, 300, 400, 500), (2, 5, 10)
 LEVEL = 0.98  # of the strength of the foot
 WEAKENED = 0.01  # of the disks along the slip surfaces
 FALLEN = 0.1  # of the shear force that is left at t3
@@ -187,6 +192,33 @@ def _weakening(series, section, state):
     return min(found, key=lambda one: one[0], default=(None, None))
 
 
+def by_threshold(series, section, state) -> dict[str, dict[str, float | None]]:
+    """What t2 and t5 would be by other rules, as the paper gives none: ``t2_by_speed_s``, {per cent of the speed of a slope that moves, one of :data:`FASTER`: since when the mean speed has not been below
+    it [s], until t4}, and ``t5_by_speed_s``, {per cent of the largest mean speed, one of :data:`RESTING`: when it has fallen below it for good [s]}. None for what did not come. Arguments as of
+    :func:`of_run`.
+    """
+    found = of_run(series, section, state)
+    t, speed, moving = series["time_s"], series["speed_mean_m_per_s"], scales.of(section).moving_speed
+    begun = {f"{percent}": None for percent in FASTER}
+    if found["t2"] is not None and found["t4"] is not None:
+        last = _row(series, found["t4"])
+        for percent in FASTER:
+            slow = np.flatnonzero(speed[: last + 1] < percent / 100 * moving)
+            first = int(slow[-1]) + 1 if len(slow) else 0
+            begun[f"{percent}"] = float(t[first]) if first <= last else None
+    rested = {f"{percent}": None for percent in RESTING}
+    if found["t4"] is not None:
+        first = 0 if found["t2"] is None else _row(series, found["t2"])  # as for t5 itself
+        rested = {f"{percent}": _rested(t[first:], speed[first:], percent / 100) for percent in RESTING}
+    return {"t2_by_speed_s": begun, "t5_by_speed_s": rested}
+
+
+def _rested(t, speed, share):
+    """When a speed has fallen below a ``share`` of its largest for good [s]; None where it has not."""
+    moving = np.flatnonzero(speed >= share * speed.max())
+    return float(t[moving[-1] + 1]) if len(moving) and moving[-1] + 1 < len(t) else None
+
+
 def _row(series, time):
     """Number of the last row up to a time [s]."""
     return max(0, int(np.searchsorted(series["time_s"], time + SAME)) - 1)
@@ -196,10 +228,8 @@ def _of_motion(series, section, first=0):
     """t4 and t5 [s] of the rows from number ``first`` on."""
     t, speed = series["time_s"][first:], series["speed_mean_m_per_s"][first:]
     times = {"t4": float(t[np.argmax(series["energy_kinetic_J"][first:])])}
-    moving = np.flatnonzero(speed >= section.stages.end.rest_fraction * speed.max())
-    if len(moving) and moving[-1] + 1 < len(t):
-        times["t5"] = float(t[moving[-1] + 1])
-    return times
+    rested = _rested(t, speed, section.stages.end.rest_fraction)
+    return times if rested is None else times | {"t5": rested}
 
 
 def _failure(series, scale, t0, until):

@@ -8,10 +8,20 @@ from pathlib import Path
 import numpy as np
 
 from . import frames, records, scales, toe, verdict
-from .characteristic_times import NAMES as TIMES, chosen_rows, mean_of, missing, of_run, weakening_begins
-from .measure import energy, force_stages, toe_bands
+from .characteristic_times import (
+    FASTER,
+    NAMES as TIMES,
+    RESTING,
+    by_threshold,
+    chosen_rows,
+    mean_of,
+    missing,
+    of_run,
+    weakening_begins,
+)
+from .measure import energy, force_stages, layers, toe_bands, travel
 from .measure.ground import ground_of
-from .measure.surface import deposit_profile
+from .measure.surface import deposit_profile, on_ground
 from .whole_files import remove, remove_parts, whole, write_json
 
 __all__ = ["summarise", "forget", "forget_later", "moved_before_water", "numbers_of", "while_it_fails"]
@@ -78,7 +88,9 @@ NUMBERS = (
     "finished disks contacts_initial bonds_initial packing_fraction time_step_s path_rel steps simulated_s wall_s wall_packing_s threads iterations_mean tolerance "
     "tolerance_moving residual_p95 residual_N_per_m_p95 residual_p95_over_tolerance way_worst_rel overlap_worst_rel overlap_mean_rel failed_dry_s moved_dry_s water_at_failure_m "
     "water_highest_m fb_force_dry_N_per_m fb_force_at_failure_N_per_m fb_force_final_N_per_m dp_shear_dry_N_per_m dp_shear_at_failure_N_per_m dp_shear_final_N_per_m "
-    "weakening_begins_s triggering_s weakening_s motion_s front_travel_m centroid_travel_m speed_max_m_per_s speed_mean_max_m_per_s deposit_thickness_max_m bulking_factor "
+    "bonds_broken_at_failure_rel fb_force_highest_N_per_m "
+    "weakening_begins_s triggering_s weakening_s motion_s front_travel_m centroid_travel_m speed_max_m_per_s speed_mean_max_m_per_s deposit_thickness_max_m "
+    "deposit_thickness_ground_m mixing overturned_m bulking_factor "
     "energy_dissipated_J_per_m energy_correction_rel energy_error_rel"
 ).split()
 PASSIVE = (
@@ -89,17 +101,26 @@ PASSIVE = (
     "fb_force_at_failure_over_passive",
 )
 BED = ("entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m")
+#: Between which times bands of the toe are looked for: until the slip surface is weak, and as the paper's Figure 13 has it, until the slope accelerates.
+TOE_BANDS = {"toe_bands": ("t1", "t3"), "toe_bands_triggering": ("t0", "t2")}
 BAND = ("inclination_deg", "width_d", "rotation_rad", "contrast")
 
 
 def numbers_of(section) -> list[str]:
     """Names of all numbers that the summary of a Section's run may have, those of its dictionaries as ``times_s.t1``: known before anything runs."""
-    found = [*NUMBERS, *(f"times_s.{name}" for name in TIMES), *(f"force_stages.{name}" for name in force_stages.NAMES)]
+    found = [
+        *NUMBERS,
+        *travel.NAMES,
+        *(f"times_s.{name}" for name in TIMES),
+        *(f"force_stages.{name}" for name in force_stages.NAMES),
+    ]
+    found += [f"t2_by_speed_s.{percent}" for percent in FASTER] + [f"t5_by_speed_s.{percent}" for percent in RESTING]
     found += [f"energy_losses_J_per_m.{name.split('_')[1]}" for name in records.LOSSES]
     found += [f"sliding_on_walls_J_per_m.{wall.name}" for wall in section.walls]
     if section.of_role("backstop"):
-        found += [f"toe_bands.{one}.{name}" for one in ("towards_foot", "conjugate") for name in BAND]
-        found += ["toe_bands.rankine_deg"] if section.envelope else []
+        for bands in TOE_BANDS:
+            found += [f"{bands}.{one}.{name}" for one in ("towards_foot", "conjugate") for name in BAND]
+            found += [f"{bands}.both_conjugate"] + [f"{bands}.rankine_deg"] * bool(section.envelope)
     found += BED if any(layer.role == "bed" for layer in section.layers) else ()
     return found + list(PASSIVE if _has_passive(section) else ())
 
@@ -148,16 +169,18 @@ def _force_stages(series, section, times, second, leans):
     return {k: v if v is not None and math.isfinite(v) else None for k, v in found.items()}
 
 
-def while_it_fails(folder, every, times):
-    """Snapshots of t1 and t3, between which the toe shears; None where the run has not both. ``every``: all rows of its series; ``times``: its characteristic times."""
+def while_it_fails(folder, every, times, first="t1", last="t3"):
+    """Snapshots of two characteristic times between which the toe shears; None where the run has not both. ``every``: all rows of its series; ``times``: its characteristic times."""
     paths = {time: path for time, path in frames.of_run(folder, every)}
-    found = [paths.get(times[name]) for name in ("t1", "t3")]
+    if times["t0"] is not None and (begin := Path(folder) / BEGIN).exists():
+        paths[times["t0"]] = begin
+    found = [paths.get(times[name]) for name in (first, last)]
     return None if None in found else tuple(map(records.read_snapshot, found))
 
 
-def _toe_bands(folder, every, section, times):
-    """Bands in the toe (:mod:`.measure.toe_bands`) and Rankine's inclination; None where there is no backstop, or the run has not come so far."""
-    seen = while_it_fails(folder, every, times) if section.of_role("backstop") else None
+def _toe_bands(folder, every, section, times, first, last):
+    """Bands in the toe between two times (:mod:`.measure.toe_bands`) and Rankine's inclination; None where there is no backstop, or the run has not come so far."""
+    seen = while_it_fails(folder, every, times, first, last) if section.of_role("backstop") else None
     if seen is None:
         return None
     envelope = section.envelope
@@ -167,12 +190,44 @@ def _toe_bands(folder, every, section, times):
         "rotation_rad": band.rotation,
         "contrast": band.contrast if math.isfinite(band.contrast) else None,
     }
-    towards_foot, conjugate = map(plain, toe_bands.find(*seen, section))
+    found = toe_bands.find(*seen, section)
+    towards_foot, conjugate = map(plain, found)
     return {
         "towards_foot": towards_foot,
         "conjugate": conjugate,
+        "both_conjugate": toe_bands.conjugate(*found) if toe_bands.tells(seen[0], section) else None,
         "rankine_deg": envelope and toe_bands.rankine(envelope.friction_deg),
     }
+
+
+def _of_layers(section, start, end):
+    """What became of the mass between two Snapshots, None for those that there are not: travel, mixing, and how far its layers are turned over."""
+    if start is None or end is None:
+        return dict.fromkeys((*travel.NAMES, "mixing", "overturned_m"))
+    ground = ground_of(section)
+    density = [section.materials[layer.material].density for layer in section.layers]
+    return {
+        **travel.travel(start, end, density, section.side, ground.mass),
+        "mixing": layers.mixing(start, end, ground.mass),
+        "overturned_m": layers.overturned_length(end, ground.mass),
+    }
+
+
+def _broken_by(series, time, bonds):
+    """Bonds broken up to a time [s] by all that were made; None where there were none, or no such time."""
+    if time is None or not bonds:
+        return None
+    row = int(np.searchsorted(series["time_s"], time + 1e-9)) - 1
+    return sum(float(series[f"bonds_broken_{mode}"][row]) for mode in ("tension", "shear", "torque", "mixed")) / bonds
+
+
+def _highest_push(series, times, at):
+    """The largest force on the backstops until t2, as a mean over a second [N/m]; None before that, or without one."""
+    if None in (times["t0"], times["t2"]):
+        return None
+    t = series["time_s"]
+    found = [at("fb_normal_N_per_m", when) for when in t[(t >= times["t0"]) & (t <= times["t2"])]]
+    return None if None in found or not found else max(found)
 
 
 def _sliding_on_walls(path):
@@ -228,7 +283,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     start = records.read_snapshot(folder / BEGIN) if (folder / BEGIN).exists() else None
     end = records.read_snapshot(folder / END) if (folder / END).exists() else None
     moved = None
-    thickness = bulking = None
+    thickness = on_the_ground = bulking = None
     if start is not None and end is not None:
         areas = []
         for snapshot in (start, end):
@@ -236,6 +291,8 @@ def summarise(folder, section, state, threads=None) -> dict:
             height = surface - base
             areas.append(float(np.nansum(height)) * float(x[1] - x[0]))
         thickness = float(np.nanmax(height))
+        spread = height[on_ground(x, section) & ~np.isnan(height)]
+        on_the_ground = float(spread.max()) if len(spread) else 0.0
         bulking = areas[1] / areas[0] if failed_dry is None else None  # it had loosened before
         moved = math.hypot(
             series["centroid_x_m"][-1] - series["centroid_x_m"][after][0],
@@ -279,6 +336,8 @@ def summarise(folder, section, state, threads=None) -> dict:
         "fb_force_dry_N_per_m": at("fb_normal_N_per_m", t0),
         "fb_force_at_failure_N_per_m": at("fb_normal_N_per_m", t1),
         "fb_force_final_N_per_m": at("fb_normal_N_per_m", last, 2 * second) if finished else None,
+        "fb_force_highest_N_per_m": _highest_push(series, times, at),
+        "bonds_broken_at_failure_rel": _broken_by(series, t1, state["bonds_initial"]),
         "dp_shear_dry_N_per_m": at("dp_shear_N_per_m", t0),
         "dp_shear_at_failure_N_per_m": at("dp_shear_N_per_m", t1),
         "dp_shear_final_N_per_m": at("dp_shear_N_per_m", last, 2 * second) if finished else None,
@@ -291,6 +350,7 @@ def summarise(folder, section, state, threads=None) -> dict:
         "speed_max_m_per_s": float(np.max(series["speed_max_m_per_s"])),
         "speed_mean_max_m_per_s": float(np.max(series["speed_mean_m_per_s"])),
         "deposit_thickness_max_m": thickness,
+        "deposit_thickness_ground_m": on_the_ground,
         "bulking_factor": bulking,
         "energy_dissipated_J_per_m": energy.dissipated(series) if counted else None,
         "energy_losses_J_per_m": {name.split("_")[1]: float(series[name][-1]) for name in records.LOSSES}
@@ -306,8 +366,10 @@ def summarise(folder, section, state, threads=None) -> dict:
     }
     summary["way_worst_rel"] = state.get("way_worst_ever")  # of a disk in a step, in its radii; soft disks have none
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
+    summary |= _of_layers(section, start, end) | by_threshold(series, section, state)
     summary["force_stages"] = _force_stages(series, section, times, second, leans)
-    summary["toe_bands"] = _toe_bands(folder, every, section, times)
+    for name, between in TOE_BANDS.items():
+        summary[name] = _toe_bands(folder, every, section, times, *between)
     summary |= _of_bed(section, start, end)
     summary |= _passive(
         section, state["packing_fraction"], summary["water_at_failure_m"], summary["fb_force_at_failure_N_per_m"]

@@ -52,6 +52,7 @@ def test_each_number_is_what_the_series_says():
         "backstop_rise": 1.25,
         "backstop_span": 10 / 190,
         "backstop_swing": 0.07,
+        "backstop_fall": 6 / 200,
         "release_rise": 1020 / 820,
         "normal_fall": 420 / 1020,
         "shear_moving": pytest.approx(0.04, abs=2e-3),  # about 16 of 400, to the sines' odd count
@@ -69,6 +70,14 @@ def test_each_number_is_what_the_series_says():
     )
 
 
+def test_a_foot_that_loses_its_strength_before_the_slope_accelerates_shows():
+    """Its force falls by a quarter of the largest, 200, and recovers a little by t2; what was lower before the largest is no fall."""
+    s = series()
+    push = line((10, 100), (32, 200), (33, 150), (34, 160))
+    assert told(s | {"fb_normal_N_per_m": push})["backstop_fall"] == pytest.approx(0.25, rel=SAME)
+    assert told(s | {"fb_normal_N_per_m": line((10, 100), (34, 200))})["backstop_fall"] == 0.0
+
+
 def test_a_slip_surface_that_keeps_its_friction_or_water_that_stays_shows():
     s = series()
     kept = told(s | {"dp_shear_N_per_m": 0.4 * s["dp_normal_effective_N_per_m"]})
@@ -84,8 +93,8 @@ def test_a_slip_surface_that_keeps_its_friction_or_water_that_stays_shows():
         (("t0",), ()),
         (("t1", "t2", "t3", "t4", "t5"), ()),
         (("t2", "t3"), force_stages.NAMES[:5]),
-        (("t3",), force_stages.NAMES[:7]),
-        (("t5",), force_stages.NAMES[:8]),
+        (("t3",), force_stages.NAMES[:8]),
+        (("t5",), force_stages.NAMES[:9]),
     ],
 )
 def test_what_the_run_has_not_reached_has_no_number(missing, left):
@@ -106,6 +115,7 @@ def test_a_slope_without_a_backstop_or_with_two_frictions_has_the_other_numbers(
         "backstop_rise",
         "backstop_span",
         "backstop_swing",
+        "backstop_fall",
         "backstop_momentum",
         "backstop_final",
     }

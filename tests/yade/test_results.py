@@ -48,10 +48,11 @@ def test_all_numbers_of_a_summary_are_known_before(tmp_path):
     known = results.numbers_of(SHIPPED)
     assert len(set(known)) == len(known)
     # toe_bands without a band is one number that is null, and walls have losses where a run tells them
-    assert found - {"toe_bands"} <= set(known)
-    assert all(name.startswith(("toe_bands.", "sliding_on_walls_J_per_m.")) for name in set(known) - found), (
-        set(known) - found
-    )
+    assert found - {"toe_bands", "toe_bands_triggering"} <= set(known)
+    assert all(
+        name.startswith(("toe_bands.", "toe_bands_triggering.", "sliding_on_walls_J_per_m."))
+        for name in set(known) - found
+    ), (set(known) - found)
     bare = dataclasses.replace(SHIPPED, water=None)
     assert set(known) - set(results.numbers_of(bare)) == set(results.PASSIVE)
     assert set(results.BED) <= set(results.numbers_of(known_slope.section.load("interface"))) and not set(
@@ -286,6 +287,12 @@ DRY_BACK, DRY_SHEAR = 140e6 - 0.45e6, 440e6 + 0.9e6
 LOST = 9.5e9
 
 #: Each key of summary.json: its answer, and the powers of length, time and mass of 1 m³ of rock by which it grows with a slope's size.
+# of the stacks that known_slope piles up: tops 20 m above the plane, middles 17 m below these, and on the floor 30 m and once 36 m
+CROWN = known_slope.plane(-996.0) + 20.0
+STACK = [known_slope.plane(-1000.0 + 12 * k + 4) + 3.0 for k in range(50)]
+CENTRE = (11 * sum([21.313 + 13.0] * 39 + [21.313 + 19.0]) + 300.0) / 441
+FELL = sum(STACK) / 50 - CENTRE
+RAN = (11 * sum(480.0 + 12 * k for k in range(40)) + 990.0) / 441 - (-1000.0 + 12 * 24.5)
 KNOWN = {
     "section": ("Jiufengershan", None),
     "verdict": ("failed by water", None),
@@ -323,6 +330,8 @@ KNOWN = {
     "fb_force_dry_N_per_m": (DRY_BACK, "force"),
     "fb_force_at_failure_N_per_m": (BACK, "force"),
     "fb_force_final_N_per_m": (90e6 + 2e6 * 0.95, "force"),  # 98.1 to 100 s
+    "fb_force_highest_N_per_m": (199.7e6, "force"),  # at t2
+    "bonds_broken_at_failure_rel": (0.0, None),
     "dp_shear_dry_N_per_m": (DRY_SHEAR, "force"),
     "dp_shear_at_failure_N_per_m": (SHEAR, "force"),
     "dp_shear_final_N_per_m": (-20e6 - 1e6 * 9.05, "force"),
@@ -335,6 +344,19 @@ KNOWN = {
     "speed_max_m_per_s": (61.5, "speed"),
     "speed_mean_max_m_per_s": (30.0, "speed"),
     "deposit_thickness_max_m": (36.0, "length"),
+    "deposit_thickness_ground_m": (36.0, "length"),
+    # from the top of the first stack on the plane to below the disk in the air, which is more than a thousandth of the disks
+    "travel_drop_m": (CROWN - 298.0, "length"),
+    "travel_run_m": (992.0 + 1000.0, "length"),
+    "travel_angle_deg": (math.degrees(math.atan2(CROWN - 298.0, 1992.0)), None),
+    "centroid_drop_m": (FELL, "length"),
+    "centroid_run_m": (RAN, "length"),
+    "centroid_angle_deg": (math.degrees(math.atan2(FELL, RAN)), None),
+    "mixing": (None, None),  # of one layer
+    "overturned_m": (0.0, None),
+    # it comes to 0.25 m/s at 30.5 s and goes on by 1.123 m/s²; it goes down from 30 m/s by 1.070 m/s² from 57 s on
+    "t2_by_speed_s": ({"50": 30.5, "100": 30.5, "200": 30.7, "300": 30.9, "400": 31.0, "500": 31.2}, "time"),
+    "t5_by_speed_s": ({"2": 84.5, "5": 83.7, "10": 82.3}, "time"),
     "bulking_factor": (14472 / 12000, None),
     "energy_dissipated_J_per_m": (LOST, "energy"),
     "energy_losses_J_per_m": ({"sliding": 6e9, "rolling": 1e9, "impact": 2e9, "bonds": 0.5e9}, "energy"),
@@ -350,6 +372,7 @@ KNOWN = {
             "backstop_rise": (BACK - DRY_BACK) / (DRY_SHEAR - SHEAR),
             "backstop_span": (199.7e6 - BACK) / BACK,  # up to 30.5 s
             "backstop_swing": -1.0,  # nor peaks
+            "backstop_fall": 0.0,  # it does not
             "shear_moving": -20e6 / DRY_SHEAR,
             "shear_final": (-20e6 - 1e6 * 9.55) / DRY_SHEAR,
             "backstop_final": (90e6 + 2e6 * 0.45) / BACK,
@@ -357,6 +380,7 @@ KNOWN = {
         None,
     ),
     "toe_bands": (None, None),  # no snapshots of its failure
+    "toe_bands_triggering": (None, None),
     "water_passive_m": (PASSIVE.water_m, "length"),
     "water_at_failure_over_passive": (WATER / PASSIVE.water_m, None),
     "passive_resistance_dry_N_per_m": (PASSIVE.resistance_dry, "force"),
@@ -401,8 +425,10 @@ NOT_AT_REST = {"finished": False} | dict.fromkeys(
         "fb_force_final_N_per_m",
         "dp_shear_final_N_per_m",
         "deposit_thickness_max_m",
+        "deposit_thickness_ground_m",
+        *(name for name in KNOWN if name.startswith(("travel_", "centroid_"))),
+        "overturned_m",
         "bulking_factor",
-        "centroid_travel_m",
     )
 )
 
@@ -417,6 +443,7 @@ def test_a_run_that_goes_on_has_no_end(tmp_path):
         times_missing={"t5": "the slope had not come to rest when the run was stopped"},
         verdict_says=KNOWN["verdict_says"][0] + "; it had not come to rest at 70.0 s, when the run was stopped",
         motion_s=None,
+        t5_by_speed_s=dict.fromkeys(KNOWN["t5_by_speed_s"][0]),
         force_stages=KNOWN["force_stages"][0] | dict.fromkeys(("shear_moving", "shear_final", "backstop_final")),
         steps=34999,
         simulated_s=65.0,
@@ -463,6 +490,8 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
             "water_at_failure_m",
             "fb_force_dry_N_per_m",
             "fb_force_at_failure_N_per_m",
+            "fb_force_highest_N_per_m",
+            "bonds_broken_at_failure_rel",
             "dp_shear_dry_N_per_m",
             "dp_shear_at_failure_N_per_m",
             "water_highest_m",
@@ -488,6 +517,8 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
         "Its mean speed came to 45 m/s, its front went 1.05e+03 m, and 0 of 41,000 bonds broke",
         times_missing=dict.fromkeys(("t0", "t1", "t2", "t3"), "the slope moved before the water came"),
         times_s=dict.fromkeys(("t0", "t1", "t2", "t3")) | {"t4": 0.1, "t5": 84.2},
+        t2_by_speed_s=dict.fromkeys(KNOWN["t2_by_speed_s"][0]),
+        t5_by_speed_s={"2": 84.2, "5": 83.0, "10": 80.9},  # of 45 m/s
         front_travel_m=1050.5,
         centroid_travel_m=math.hypot(210, 180),
         iterations_mean=(50 * 5000 + 525 * 10 + 425 * 30) / 1000,
@@ -565,7 +596,8 @@ def test_a_slope_of_another_size_has_the_same_summary_in_its_units(tmp_path, siz
         ), name
 
 
-def test_a_toe_is_told_from_the_snapshots_of_t1_and_t3(tmp_path):
+def test_a_toe_is_told_from_snapshots_of_two_times(tmp_path):
+    """Of t1 and t3, and of t0 and t2; that of t0 is a file of its own."""
     known_slope.write(tmp_path)
     every = records.read_series(tmp_path / "series.csv")
     (tmp_path / "snapshots").mkdir()
@@ -577,7 +609,16 @@ def test_a_toe_is_told_from_the_snapshots_of_t1_and_t3(tmp_path):
         )  # fmt: skip
     seen = results.while_it_fails(tmp_path, every, TIMES)
     assert [s.time_s for s in seen] == [TIMES["t1"], TIMES["t3"]]
-    assert results.while_it_fails(tmp_path, every, TIMES | {"t3": None}) is None
+    seen = results.while_it_fails(tmp_path, every, TIMES, "t0", "t2")
+    assert [s.time_s for s in seen] == [0.0, TIMES["t2"]]  # its file says nothing of its time here
+    for name, between in (("t3", ()), ("t0", ("t0", "t2")), ("t2", ("t0", "t2"))):
+        assert results.while_it_fails(tmp_path, every, TIMES | {name: None}, *between) is None
     # the fifty stacks there are too far up the slope to be a toe
-    found = summary_of(tmp_path)["toe_bands"]
-    assert found == {"towards_foot": None, "conjugate": None, "rankine_deg": pytest.approx(45 - 37.2 / 2)}
+    found = summary_of(tmp_path)
+    for name in ("toe_bands", "toe_bands_triggering"):
+        assert found[name] == {
+            "towards_foot": None,
+            "conjugate": None,
+            "both_conjugate": None,
+            "rankine_deg": pytest.approx(45 - 37.2 / 2),
+        }

@@ -87,7 +87,7 @@ def test_without_a_backstop_there_is_no_force_on_one(tmp_path):
     walls = tuple(dataclasses.replace(w, role="ground") if w.role == "backstop" else w for w in SHIPPED.walls)
     found = summary_of(tmp_path, dataclasses.replace(SHIPPED, walls=walls))
     backstop = [name for name in found if name.startswith("fb_")]
-    assert len(backstop) == 3 and all(found[name] is None for name in backstop)
+    assert len(backstop) == 4 and all(found[name] is None for name in backstop)
     assert found["toe_bands"] is None and not [name for name in found if "passive" in name]
     assert all(value is None for name, value in found["force_stages"].items() if name.startswith("backstop"))
     assert found["dp_shear_dry_N_per_m"] == pytest.approx(440e6 + 0.9e6, rel=SAME)  # that of the plane is told
@@ -106,16 +106,25 @@ def test_bands_in_the_toe_are_told_with_their_numbers(tmp_path, monkeypatch):
     monkeypatch.setattr(results.toe_bands, "find", find)
     (tmp_path / "snapshots").mkdir()
     series = known_slope.series()
-    for time in (29.1, 39.1):  # t1 and t3
+    for time in (29.1, 30.5, 39.1):  # t1, t2 and t3; t0 has a file of its own, at time 0 here
         step = int(series["step"][np.argmin(np.abs(series["time_s"] - time))])
         path = tmp_path / "snapshots" / f"{step:08d}.npz"
         records.write_snapshot(path, time_s=time, step=step, water_m=0.0, **known_slope.begin())
     told = {
         "towards_foot": {"inclination_deg": 28.0, "width_d": 6.0, "rotation_rad": -0.3, "contrast": None},
         "conjugate": {"inclination_deg": 40.0, "width_d": 8.0, "rotation_rad": 0.2, "contrast": 5.0},
+        "both_conjugate": None,  # there are too few disks to say
         "rankine_deg": 45 - 37.2 / 2,
     }
-    assert summary_of(tmp_path)["toe_bands"] == told and seen == [[29.1, 39.1]]
+    found = summary_of(tmp_path)
+    assert found["toe_bands"] == told == found["toe_bands_triggering"] and seen == [[29.1, 39.1], [0.0, 30.5]]
+    # by the rule for samples: equally steep to 10°, and both there
+    monkeypatch.setattr(results.toe_bands, "FEWEST", 0)
+    for one, both in ((dataclasses.replace(other, inclination_deg=38.0), True), (other, False), (None, False)):
+        monkeypatch.setattr(results.toe_bands, "find", lambda *_, one=one: (band, one))
+        assert summary_of(tmp_path)["toe_bands"]["both_conjugate"] is both
+    monkeypatch.undo()
+    monkeypatch.setattr(results.toe_bands, "find", find)
     rock = dataclasses.replace(SHIPPED.materials["rock"], envelope=None)
     bare = dataclasses.replace(SHIPPED, materials={**SHIPPED.materials, "rock": rock})
     assert summary_of(tmp_path, bare)["toe_bands"] == told | {"rankine_deg": None}

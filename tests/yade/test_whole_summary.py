@@ -163,6 +163,19 @@ class Summary:
     def fb_force_final_N_per_m(self):
         return self.at("fb_normal_N_per_m", self.rows["time_s"][-1], 0.4)
 
+    def fb_force_highest_N_per_m(self):
+        t = self.rows["time_s"]
+        return max(
+            self.at("fb_normal_N_per_m", now, 0.2)
+            for now in t[(t > self.times["t0"] - 1e-6) & (t < self.times["t2"] + 1e-6)]
+        )
+
+    def bonds_broken_at_failure_rel(self):
+        """The bonds that are told one by one."""
+        header, *rows = (line.split(",") for line in (self.whole.folder / "breaks.csv").read_text().splitlines())
+        when = header.index("time_s")
+        return sum(float(row[when]) <= self.times["t1"] + 1e-9 for row in rows) / self.state["bonds_initial"]
+
     def dp_shear_dry_N_per_m(self):
         return self.at("dp_shear_N_per_m", self.times["t0"], 0.2)
 
@@ -186,6 +199,8 @@ class Summary:
             for name in ("dp_normal_total", "dp_shear", "dp_water", "fb_normal", "fb_shear")
         }
         push = [at("fb_normal", now) for now in t[(t > t1 - 1e-6) & (t < t2 + 1e-6)]]
+        all_of_it = [at("fb_normal", now) for now in t[(t > t0 - 1e-6) & (t < t2 + 1e-6)]]
+        most = max(all_of_it)
         speed = self.rows["speed_mean_m_per_s"][(t > t3 - 1e-6) & (t < t5 + 1e-6)]
         momentum = part("dp_normal_total", t3 - 1e-6, t5) * speed
         return {
@@ -196,6 +211,7 @@ class Summary:
             "backstop_rise": -rise["fb_normal"] / rise["dp_shear"],
             "backstop_span": np.ptp(push) / push[0],
             "backstop_swing": (part("fb_normal_peak", t1 - 1e-6, t2) / part("fb_normal", t1 - 1e-6, t2)).max() - 1,
+            "backstop_fall": 1 - min(all_of_it[all_of_it.index(most) :]) / most,
             "release_rise": at("dp_normal_effective", t3) / at("dp_normal_effective", t2),
             "normal_fall": at("dp_normal_total", t5) / at("dp_normal_total", t3),
             "backstop_momentum": np.corrcoef(part("fb_normal", t3 - 1e-6, t5), momentum)[0, 1],
@@ -216,13 +232,33 @@ class Summary:
     def motion_s(self):
         return self.times["t5"] - self.times["t3"]
 
-    def toe_bands(self):
-        """From the snapshots of t1 and t3, by their steps; the rock's angle of friction is 35°."""
+    def t2_by_speed_s(self):
+        """From the back: the last row before t4 that is slower, and the next."""
+        t, speed = self.rows["time_s"], self.rows["speed_mean_m_per_s"]
+        found = {}
+        for percent in (50, 100, 200, 300, 400, 500):
+            k = int(np.searchsorted(t, self.times["t4"] - 1e-9))
+            while speed[k] >= percent / 100 * 0.2 * math.sqrt(self.size()):
+                k -= 1
+            found[f"{percent}"] = t[k + 1]
+        return found
+
+    def t5_by_speed_s(self):
+        t, speed = self.rows["time_s"], self.rows["speed_mean_m_per_s"]
+        last = {share: t[speed >= share * speed[t >= self.times["t2"]].max()][-1] for share in (0.02, 0.05, 0.1)}
+        return {f"{100 * share:.0f}": t[t > when][0] if when < t[-1] else None for share, when in last.items()}
+
+    def snapshot(self, name):
+        """That of a time, by its step."""
         step = {t: s for t, s in zip(self.all["time_s"].tolist(), self.all["step"].astype(int).tolist())}
-        before, after = (
-            records.read_snapshot(self.whole.folder / "snapshots" / f"{step[self.times[name]]:08d}.npz")
-            for name in ("t1", "t3")
-        )
+        return records.read_snapshot(self.whole.folder / "snapshots" / f"{step[self.times[name]]:08d}.npz")
+
+    def toe_bands_triggering(self):
+        return self.toe_bands(self.begin, self.snapshot("t2"))
+
+    def toe_bands(self, before=None, after=None):
+        """From the snapshots of t1 and t3; the rock's angle of friction is 35°, and the toe has too few disks to say that there are not two bands."""
+        before, after = before or self.snapshot("t1"), after or self.snapshot("t3")
         found = [
             b
             and {
@@ -233,7 +269,7 @@ class Summary:
             }
             for b in toe_bands.find(before, after, self.section)
         ]
-        return {"towards_foot": found[0], "conjugate": found[1], "rankine_deg": 27.5}
+        return {"towards_foot": found[0], "conjugate": found[1], "both_conjugate": None, "rankine_deg": 27.5}
 
     # the motion and the deposit
     def front_travel_m(self):
@@ -270,6 +306,61 @@ class Summary:
 
     def deposit_thickness_max_m(self):
         return np.nanmax(self.profile(self.end)[0])
+
+    def deposit_thickness_ground_m(self):
+        """Beyond the backstop, whose top is at 0.845 m."""
+        height, width = self.profile(self.end)
+        x = (self.end.x - self.end.r).min() + (np.arange(len(height)) + 0.5) * width
+        return np.nanmax(height[x > 0.845])
+
+    def travel(self):
+        """Drop and run of the extreme points: a thousandth of the area may be ahead of the front, which no disk of 315 is alone."""
+        front = np.argmax(self.end.x)
+        crown = np.argmax(self.begin.y + self.begin.r)
+        top, foot = self.begin.y[crown] + self.begin.r[crown], self.end.y[front] - self.end.r[front]
+        return top - foot, self.end.x[front] + self.end.r[front] - self.begin.x[crown]
+
+    def travel_drop_m(self):
+        return self.travel()[0]
+
+    def travel_run_m(self):
+        return self.travel()[1]
+
+    def travel_angle_deg(self):
+        return math.degrees(math.atan(self.travel()[0] / self.travel()[1]))
+
+    def centroid_drop_m(self):
+        weight = self.begin.r**2
+        return float(np.sum(weight * (self.begin.y - self.end.y)) / np.sum(weight))
+
+    def centroid_run_m(self):
+        weight = self.begin.r**2
+        return float(np.sum(weight * (self.end.x - self.begin.x)) / np.sum(weight))
+
+    def centroid_angle_deg(self):
+        return math.degrees(math.atan(self.centroid_drop_m() / self.centroid_run_m()))
+
+    def mixing(self):
+        """All pairs, one by one."""
+        layer, shares = self.begin.layer, []
+        i, j = np.triu_indices(len(layer), 1)
+        for s in (self.begin, self.end):
+            near = np.hypot(s.x[i] - s.x[j], s.y[i] - s.y[j]) - s.r[i] - s.r[j] <= 0.25 * 2 * s.r.mean()
+            shares.append((layer[i] != layer[j])[near].mean())
+        lower = (layer == 0).mean()
+        return (shares[1] - shares[0]) / (2 * lower * (1 - lower) - shares[0])
+
+    def overturned_m(self):
+        """Cell by cell."""
+        s, size, columns = self.end, 6 * self.end.r.mean(), set()
+        cells = {}
+        for x, y, layer in zip(s.x, s.y, s.layer):
+            cells.setdefault((math.floor(x / size), math.floor(y / size)), []).append(layer)
+        mean = {cell: np.mean(found) for cell, found in cells.items() if len(found) >= 4}
+        for (column, row), lower in mean.items():
+            if mean.get((column, row + 1), lower) <= lower - 0.5:
+                columns.add(column)
+        return size * len(columns)
 
     def bulking_factor(self):
         (end, width), (begin, was) = self.profile(self.end), self.profile(self.begin)
@@ -346,7 +437,7 @@ def test_every_key_of_the_summary_is_recomputed(whole):
     [
         name
         for name in vars(Summary)
-        if not name.startswith("_") and name not in ("at", "profile", "turned", "toe", "size")
+        if not name.startswith("_") and name not in ("at", "profile", "snapshot", "travel", "turned", "toe", "size")
     ],
 )
 def test_a_key_of_the_summary_is_what_the_records_say(whole, summary, name):

@@ -19,7 +19,6 @@ from . import biaxial_test, fluctuations, pressing, strength
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}
-CONJUGATE = 10.0  # ° by which the inclinations of two bands that cross may differ; they are known to 3°
 
 
 class CampaignError(UserError, RuntimeError):
@@ -195,7 +194,7 @@ def _numbers_of(t):
 def _conjugate(found):
     """Whether two bands lean to opposite sides, equally steep."""
     left, right = (band and band["angle_deg"] for band in found or (None, None))
-    return None not in (left, right) and left * right < 0 and abs(left + right) <= CONJUGATE
+    return None not in (left, right) and left * right < 0 and abs(left + right) <= bands.CONJUGATE
 
 
 def _of_bands(found, name):

@@ -1,7 +1,8 @@
 """What the forces on the walls do from stage to stage of an avalanche: the statements of the paper's section 6, each as one number. Needs no YADE.
 
 With N, T the total normal and the shear force on the slip surfaces (DP), N' = N − U what contacts bear of N, U the water's force, F the normal force on the backstop (FB), μ the
-friction of the slip surface, means over a second at each time:
+friction of the slip surface, means over a second at each time. As t1 is where F comes within 2 % of its largest value, ``backstop_span`` is small almost by definition; ``backstop_fall``
+is not, since a foot that loses its strength once it is overcome falls far before the slope accelerates:
 
 =============================  ============================================================  ============================
 name                           number                                                        paper
@@ -13,6 +14,7 @@ name                           number                                           
 ``backstop_rise``              ΔF / −ΔT from t0 to t1                                        1 (eq. 21)
 ``backstop_span``              (largest − least mean of F) / F(t1) from t1 to t2             0 ([116], "fairly constant")
 ``backstop_swing``             largest F in a step by the mean of its row, less 1, t1 to t2  0 (the same)
+``backstop_fall``              1 − (least F after the largest one) / (largest), t0 to t2     0 (the same)
 ``release_rise``               N'(t3) / N'(t2)                                               above 1 ([117])
 ``normal_fall``                N(t5) / N(t3)                                                 below 1 ([118], 1)
 ``backstop_momentum``          correlation of F with N v, v the mean speed, from t3 to t5    above 0 ([118], 2)
@@ -41,6 +43,7 @@ NAMES = (
     "backstop_rise",
     "backstop_span",
     "backstop_swing",
+    "backstop_fall",
     "release_rise",
     "normal_fall",
     "backstop_momentum",
@@ -80,6 +83,9 @@ def statements(series, times, friction, mean, backstop=True) -> dict[str, float 
             found["backstop_span"] = _ratio(max(means) - min(means), at(push, t1))
             force, peak = series[f"{push}_N_per_m"][level], series[f"{push}_peak_N_per_m"][level]
             found["backstop_swing"] = float(np.max(peak / force)) - 1 if force.all() else None
+            pushes = [at(push, when) for when in t[(t >= t0) & (t <= t2)]]
+            largest = int(np.argmax(pushes))
+            found["backstop_fall"] = _ratio(pushes[largest] - min(pushes[largest:]), pushes[largest])
     if None not in (t2, t3):
         found["release_rise"] = _ratio(at(effective, t3), at(effective, t2))
     if None not in (t3, t5):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-__all__ = ["front_of", "front"]
+__all__ = ["front_disk", "front_of", "front"]
 
 
 def front_of(x, r, side=1.0, share=0.999):
@@ -10,11 +10,15 @@ def front_of(x, r, side=1.0, share=0.999):
 
     ``x``, ``r``: arrays (N,) [m]; ``side``: 1 for a mass that runs to the right, −1 to the left.
     """
-    ahead = side * x
-    order = np.argsort(ahead, kind="stable")
+    last = front_disk(x, r, side, share)
+    return side * float(side * x[last] + r[last])
+
+
+def front_disk(x, r, side=1.0, share=0.999):
+    """Number of the disk at the front; arguments as of :func:`front_of`."""
+    order = np.argsort(side * x, kind="stable")
     area = np.cumsum(r[order] ** 2)
-    at = int(np.searchsorted(area, share * area[-1]))
-    return side * float(ahead[order][at] + r[order][at])
+    return int(order[int(np.searchsorted(area, share * area[-1]))])
 
 
 def front(snapshot, side=1.0, share=0.999, layers=None):

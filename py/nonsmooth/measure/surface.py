@@ -4,7 +4,7 @@ import numpy as np
 
 from .ground import ground_of
 
-__all__ = ["deposit_profile"]
+__all__ = ["deposit_profile", "on_ground"]
 
 
 def deposit_profile(snapshot, walls, bin_m=None):
@@ -31,11 +31,17 @@ def deposit_profile(snapshot, walls, bin_m=None):
     return x, _base(x, ground), surface
 
 
-def _base(x, ground):
-    """Height [m] of the lowest wall at each of ``x``, NaN where there is none."""
+def on_ground(x, walls):
+    """Whether the lowest wall at each of ``x`` [m], (n,), is ground, the surface that a mass runs out over, and neither slip surface nor backstop: bool (n,). So the hollow in front of a backstop is none."""
+    ground = ground_of(walls)
+    return np.nan_to_num(_base(x, ground, ("ground",)), nan=np.inf) <= np.nan_to_num(_base(x, ground), nan=-np.inf)
+
+
+def _base(x, ground, roles=None):
+    """Height [m] of the lowest wall (of these ``roles``) at each of ``x``, NaN where there is none."""
     base = np.full(len(x), np.inf)
     for wall in ground.walls:
-        if wall.role == "obstacle" or wall.buried:
+        if wall.role == "obstacle" or wall.buried or roles is not None and wall.role not in roles:
             continue
         for (xa, ya), (xb, yb) in zip(wall.vertices[:-1], wall.vertices[1:]):
             if xa == xb:

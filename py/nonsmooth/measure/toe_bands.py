@@ -14,7 +14,7 @@ import numpy as np
 from . import bands
 from .ground import ground_of
 
-__all__ = ["FEWEST", "REACH", "ToeBand", "find", "rankine", "toe"]
+__all__ = ["FEWEST", "REACH", "ToeBand", "conjugate", "find", "rankine", "tells", "toe"]
 
 # thicknesses of the mass at the foot, up the slope from there: where the first band is looked for, which leaves the toe near the foot, and where its conjugate, which rises from
 # where the first one meets the slip surface
@@ -40,6 +40,11 @@ def rankine(friction_deg):
     return 45 - friction_deg / 2
 
 
+def conjugate(one, other):
+    """Whether two bands of the toe (None: not found) are conjugate by the rule for samples: both there, and equally steep to :data:`.bands.CONJUGATE` degrees."""
+    return None not in (one, other) and abs(one.inclination_deg - other.inclination_deg) <= bands.CONJUGATE
+
+
 def toe(snapshot, section, reach=REACH[1]):
     """Which disks are the toe, (n,) bool, their distances up the slope from the foot and off it [m], (n,) each, and the mass's thickness at the foot [m]; ``reach``: how far it goes up
     the slope, in thicknesses."""
@@ -50,6 +55,11 @@ def toe(snapshot, section, reach=REACH[1]):
     near = (up > 0) & (up < 10 * size) & (off > 0)
     thickness = float(np.quantile(off[near] + snapshot.r[near], 0.98)) if near.any() else 0.0
     return (up > 0) & (up < reach * thickness) & (off > 0) & (off < 1.1 * thickness), up, off, thickness
+
+
+def tells(snapshot, section):
+    """Whether both stretches of the toe have disks enough that a band which is not found is not there."""
+    return all(toe(snapshot, section, reach)[0].sum() >= FEWEST for reach in REACH)
 
 
 def find(before, after, section):

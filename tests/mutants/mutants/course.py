@@ -339,7 +339,10 @@ MUTANTS = (
            "plain:test_toe_bands.py::test_a_mirrored_toe_has_the_mirrored_bands"),
     mutant("toe-inclination", PY + "measure/toe_bands.py", "float(90 - abs(band.angle_deg))", "float(abs(band.angle_deg))", "bands are told by their angle to the normal",
            "plain:test_toe_bands.py::test_both_bands_are_found_with_their_inclination_and_width"),
-    mutant("toe-times", RESULTS, 'for name in ("t1", "t3")]', 'for name in ("t2", "t3")]', "the toe is told from t2 on", "plain:test_results.py::test_a_toe_is_told_from_the_snapshots_of_t1_and_t3"),
+    mutant("toe-times", RESULTS, '"toe_bands_triggering": ("t0", "t2")', '"toe_bands_triggering": ("t0", "t3")', "bands until t2 are those until t3",
+           "plain:test_summary_parts.py::test_bands_in_the_toe_are_told_with_their_numbers"),
+    mutant("toe-conjugate", PY + "measure/toe_bands.py", "abs(one.inclination_deg - other.inclination_deg) <= bands.CONJUGATE", "True", "any two bands are conjugate",
+           "plain:test_summary_parts.py::test_bands_in_the_toe_are_told_with_their_numbers"),
     # ---- pressed slopes
     mutant("pressed-thin", SECTION, "free_surface.raised(self, free_surface.PRESSED) if self.pressed", "free_surface.raised(self, 0.0) if self.pressed",
            "layers are not filled higher before they are pressed", "test_slope_packing.py::test_it_is_as_thick_as_the_section"),
