@@ -16,7 +16,7 @@ the wedge, and that the toe fails progressively; the first lowers the resistance
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scipy.optimize import brentq
 from shapely import affinity
@@ -30,13 +30,19 @@ SLICE = 0.01  # of the slab's length, in which its thickness at the toe is looke
 @dataclass(frozen=True)
 class Toe:
     """``water_m``: height of the water table at failure, None where the toe bears any or not even the dry slab; ``thickness_m``: H; ``push``, ``resistance``
-    [N/m]: dry, and at failure where there is one."""
+    [N/m]: dry, and at failure where there is one; ``softening`` [N/m³]: by how much water of the height h takes the resistance, divided by h².
+    """
 
     water_m: float | None
     thickness_m: float
     push_dry: float
     resistance_dry: float
     push_N_per_m: float | None
+    softening: float = 0.0
+
+    def resistance(self, height):
+        """R [N/m] under a water table of a ``height`` [m] up to the thickness, a number or an array."""
+        return self.resistance_dry - self.softening * height**2
 
 
 def passive(section, cohesion, friction_deg, packing_fraction):
@@ -66,15 +72,13 @@ def passive(section, cohesion, friction_deg, packing_fraction):
         wet = slab.intersection(box(x0, -1e9, x1, h)).area
         return weight * math.sin(beta) + along * wet - plane.friction * (weight * math.cos(beta) - lift * wet)
 
-    def resistance(h):
-        return (
-            k * (0.5 * bulk * math.cos(beta) * thickness**2 - 0.5 * lift * h**2)
-            + 2 * cohesion * math.sqrt(k) * thickness
-        )
-
-    miss = lambda h: push(h) - resistance(h)  # noqa: E731
-    height = brentq(miss, 0.0, thickness) if miss(0.0) < 0 < miss(thickness) else None
-    return Toe(height, thickness, push(0.0), resistance(0.0), None if height is None else push(height))
+    dry = k * 0.5 * bulk * math.cos(beta) * thickness**2 + 2 * cohesion * math.sqrt(k) * thickness
+    found = Toe(None, thickness, push(0.0), dry, None, 0.5 * k * lift)
+    miss = lambda h: push(h) - found.resistance(h)  # noqa: E731
+    if not miss(0.0) < 0 < miss(thickness):
+        return found
+    height = brentq(miss, 0.0, thickness)
+    return replace(found, water_m=height, push_N_per_m=push(height))
 
 
 def _parts(water):

@@ -13,6 +13,7 @@ from slope_scenes import SMALL
 from yade.nonsmooth import campaign as campaigns
 from yade.nonsmooth import errors, experiment, lessons, packing, section, slope
 from yade.nonsmooth.benchmark import scale, suite
+from yade.nonsmooth.campaign import paper_slopes
 from yade.nonsmooth.comparison import cost, course
 from yade.nonsmooth.heaps import study
 from yade.nonsmooth.laboratory import calibration, campaign, effects, readings, rock_table, table1, wall_shear
@@ -82,6 +83,7 @@ HOLDER = {  # what a command asks: a module or class, and its function
     "soak.py": (soak, "run"),
     "sweep.py": (campaigns, "sweep"),
     "lessons.py": (lessons, "run"),
+    "paper.py": (paper_slopes, "run"),
     "readings.py": (readings, "run"),
     "table1.py": (table1, "run"),
     "rocks.py": (rock_table, "run"),
@@ -372,6 +374,14 @@ WHERE = {
         "--resume": (("--resume",), lambda a: a.words[3], True),
         "--no-films": (("--no-films",), lambda a: a.words[5], False),
     },
+    "paper.py": {
+        "--only": (("--only", "held", "shipped"), lambda a: a.words[0], ["held", "shipped"]),
+        "--disks": (("--disks", 666), lambda a: a.words[2], 666),
+        "--seeds": (("--seeds", 7, 8), lambda a: a.words[3], [7, 8]),
+        "--out": ((), lambda a: str(a.words[1]), "{out}"),
+        "--threads": (("--threads", 7), lambda a: a.named["threads"], 7),
+        "--resume": (("--resume",), lambda a: a.named["resume"], True),
+    },
     "readings.py": {
         "--only": (("--only", "packed", "half"), lambda a: sorted(a.words[0]), ["half", "packed"]),
         "--disks": (("--disks", 66), lambda a: a.words[2], 66),
@@ -571,6 +581,11 @@ def test_checks_are_listed(in_process):
         ("biaxial_effects.py", ("--confining", -1), "it must be positive"),
         ("biaxial_effects.py", ("--only", "colour"), "colour"),
         ("readings.py", ("--only", "rough", "colour"), "colour"),
+        ("paper.py", ("--only", "shipped", "colour"), "colour"),
+        ("paper.py", ("--only", "shipped", "shipped"), "each once"),
+        ("paper.py", ("--seeds", 1, 1), "seeds 1, 1: give one or more, each once"),
+        ("paper.py", ("--seeds", -1), "seeds -1: give whole numbers from 0"),
+        ("paper.py", ("--disks", 0), "disks 0: give a whole number from 1"),
         ("wedge.py", ("--seconds", 0.5), "--seconds: 0.5 is too short"),
         ("benchmark.py", ("--threads", 0), "--threads 0"),
         ("benchmark.py", ("--scale", "10,10"), "each once"),

@@ -6,20 +6,26 @@ vectors). Walls are given as a Section, as ``[(name, vertices (n, 2), role)]``, 
 that has such ``walls``; see :mod:`nonsmooth.measure.ground`. Data that lack something raise :class:`~nonsmooth.records.RecordsError`.
 """
 
+from .controls import forces_against_water, speeds, with_and_without
 from .forces import force_chains, forces_against_time
 from .law import bond_zone, contact_law, water_forces
+from .markers import markers
 from .moving import animate, record, recording
 from .profiles import deposit, snapshots
 from .numerics import energy, solver
 from .runouts import runouts
 from .scene import draw
 from .sweep import means
-from .toe import toe
+from .toe import toe, toes
 from .weakening import weakening
 
 __all__ = [
     "force_chains",
     "forces_against_time",
+    "forces_against_water",
+    "markers",
+    "speeds",
+    "with_and_without",
     "snapshots",
     "deposit",
     "draw",
@@ -31,6 +37,7 @@ __all__ = [
     "runouts",
     "solver",
     "toe",
+    "toes",
     "weakening",
     "contact_law",
     "bond_zone",

@@ -11,6 +11,10 @@ SCENE, MOVING = FIGURES + "scene.py", FIGURES + "moving.py"
 LAW = FIGURES + "law.py"
 
 MUTANTS = (
+    mutant("water-coulomb", FIGURES + "controls.py", "(push + friction * lift) / MEGA", "(push - friction * lift) / MEGA", "by equation 21 the backstop is relieved",
+           "plain:test_figures_controls.py::test_forces_against_the_water_stand_beside_the_equations"),
+    mutant("markers-first", FIGURES + "markers.py", "column = columns(cases[0][1], section, number)", "column = columns(cases[-1][1], section, number)", "columns are those of the deposit",
+           "plain:test_figures_controls.py::test_the_same_disks_are_strong_in_all_panels"),
     mutant("means-legend", FIGURES + "sweep.py", "columns == 1 or box.width <=", "columns or box.width <=", "a long legend is cut", "test_campaign.py::test_all_of_a_large_legend_is_in_the_picture"),
     mutant("forces-own", FORCES, "for wall, force, _, _ in own]", "for wall, _, force, _ in own]", "the total force on one of several slip surfaces is the effective one", "plain:test_stacks.py"),
     mutant("scene-sign", SCENE, '(1, COMPRESSION, "compression"), (-1, TENSION, "tension")', '(-1, COMPRESSION, "compression"), (1, TENSION, "tension")', "tension is drawn as compression",
@@ -55,7 +59,7 @@ MUTANTS = (
            "plain:test_figures.py::test_walls_in_all_their_forms"),
     mutant("ground-plane", GROUND, "water.point[1] - (x - water.point[0])", "water.point[1] + (x - water.point[0])", "a dipping table rises downslope",
            "plain:test_figures_slope.py::test_a_table_over_a_plane_of_its_own_dips_with_it"),
-    mutant("fronts-side", FRONTS, "ahead = side * x", "ahead = x", "a slope to the left has its front at the crown",
+    mutant("fronts-side", FRONTS, "np.argsort(side * x, kind", "np.argsort(x, kind", "a slope to the left has its front at the crown",
            "plain:test_figures_slope.py::test_a_mirrored_slope_gives_the_mirrored_profile_and_front"),
     mutant("weakening-near", WEAKENING, "off <= snapshot.r + NEAR * diameter", "off <= 10 * diameter", "disks high above a surface are on it",
            "plain:test_weakening.py::test_disks_off_the_surface_and_beyond_its_ends_are_not_on_it"),
@@ -99,7 +103,7 @@ MUTANTS = (
            "plain:test_figures_forces.py::test_phases_are_coloured_and_named"),
     mutant("style-motion", STYLE, 'PHASES if "t3" in t else (*PHASES, ("t2", *PHASES[-1][1:]))', "PHASES", "a slope that does not weaken has no motion",
            "plain:test_figures_forces.py::test_a_slope_that_does_not_weaken_moves_from_t2_on"),
-    mutant("profiles-front", FRONTS, "float(ahead[order][at] + r[order][at])", "float(ahead[order][at] - r[order][at])", "the front is the near edge of its disk",
+    mutant("profiles-front", FRONTS, "float(side * x[last] + r[last])", "float(side * x[last] - r[last])", "the front is the near edge of its disk",
            "plain:test_figures_slope.py::test_ways_are_those_of_front_centre_and_thickness"),
     mutant("profiles-travel", PROFILES, "side * (b - a), extent", "side * (a - b), extent", "the front's travel is negated in the figure",
            "plain:test_figures_slope.py::test_ways_are_those_of_front_centre_and_thickness"),

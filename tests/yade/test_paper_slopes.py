@@ -1,0 +1,172 @@
+"""The shipped slope and its control runs: what each variant changes, what runs after what, and what is told of them."""
+
+import dataclasses
+import json
+from types import SimpleNamespace
+
+import pytest
+from yade.nonsmooth import section, section_data
+from yade.nonsmooth.campaign import paper_slopes
+from yade.nonsmooth.campaign.plan import PlanError
+
+SUMMARY = {"water_at_failure_m": 17.25}
+
+
+def plain(name, seed=2):
+    return section_data.plain(paper_slopes.slope_of(name, 700, seed, SUMMARY))
+
+
+def test_the_shipped_one_is_the_shipped_section():
+    wanted = dataclasses.replace(section.load("jiufengershan").with_disks(700), seed=2)
+    assert plain("shipped") == section_data.plain(wanted)
+
+
+CASES = {
+    "shipped": (5.0, 5.0, "motion"),
+    "no-weakening": (1e5, 5.0, "motion"),
+    "no-release": (5.0, 1e5, "motion"),
+    "release-10": (5.0, 10.0, "motion"),
+    "release-2.5": (5.0, 2.5, "motion"),
+    "neither": (1e5, 1e5, "motion"),
+    "held": (5.0, 5.0, 17.25),
+}
+
+
+def test_all_variants_have_a_case():
+    assert set(CASES) == set(paper_slopes.VARIANTS)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_variant_changes_what_it_says_and_nothing_else(name):
+    """1e5 m are farther than anything goes. All else is the shipped slope of the same packing."""
+    made, (slip, release, hold) = paper_slopes.slope_of(name, 700, 2, SUMMARY), CASES[name]
+    assert (made.critical_slips, made.release_distance) == ({"DP": slip}, release)
+    assert made.stages.water_hold == hold
+    data, shipped = plain(name), plain("shipped")
+    for one in (data, shipped):
+        del one["materials"]["dp"]["slip_weakening"]["critical_slip"]
+        del one["water"]["release_distance"], one["stages"]["water"]
+    assert data == shipped
+
+
+def test_what_waits_for_the_shipped_slope_says_so_where_that_did_not_fail_by_water():
+    for told in (None, {}, {"water_at_failure_m": None}):
+        with pytest.raises(
+            PlanError, match="held, seed 3: the shipped slope of this packing has no water_at_failure_m"
+        ):
+            paper_slopes.slope_of("held", 700, 3, told)
+
+
+@pytest.fixture
+def ran(monkeypatch, tmp_path):
+    """Plans that are run, without a slope: [(folder, title, {name: data})]; each run of seed s failed at s + 0.5 m of water."""
+    asked = []
+
+    class Plan:
+        def __init__(self, title, function, runs):
+            self.title, self.function, self.runs = title, function, runs
+
+        def run(self, out, threads, resume, progress):
+            asked.append((out, threads, resume, {one.name: one.arguments["data"] for one in self.runs}))
+            for k, one in enumerate(self.runs):
+                folder = out / "runs" / one.name
+                folder.mkdir(parents=True)
+                (folder / "section.yaml").touch()
+                (folder / "summary.json").write_text(json.dumps({"water_at_failure_m": one.values["seed"] + 0.5}))
+                progress((k + 1) / len(self.runs), k + 1)
+
+    monkeypatch.setattr(paper_slopes, "Plan", Plan)
+    return asked
+
+
+def test_the_table_that_stops_at_t1_runs_after_the_shipped_slopes(ran, tmp_path):
+    shown = []
+    found = paper_slopes.run(
+        ["held", "no-release"], tmp_path, 700, [4, 5], 3, True, lambda share, ended: shown.append((share, ended))
+    )
+    (first, threads, resume, slopes), (then, _, _, after) = ran
+    assert (first, then, threads, resume) == (tmp_path / "slopes", tmp_path / "after", 3, True)
+    assert list(slopes) == ["shipped-4", "shipped-5", "no-release-4", "no-release-5"]
+    assert {name: data["stages"]["water"]["hold"] for name, data in after.items()} == {"held-4": 4.5, "held-5": 5.5}
+    assert [data["seed"] for data in slopes.values()] == [4, 5, 4, 5]
+    # in the order of the table, without what was run for its numbers alone
+    assert list(found) == ["no-release", "held"]
+    assert [run.folder.name for run in found["held"]] == ["held-4", "held-5"]
+    assert shown == [(pytest.approx(k / 6), k) for k in range(1, 7)]
+
+
+def test_without_it_there_is_one_plan(ran, tmp_path):
+    paper_slopes.run(["no-weakening"], tmp_path, 700, [1])
+    assert [list(slopes) for *_, slopes in ran] == [["no-weakening-1"]]
+
+
+@pytest.mark.parametrize(
+    "names, seeds, said",
+    [
+        ([], [1], "slopes none: give some of shipped,"),
+        (["dry"], [1], "slopes dry: give some of shipped,"),
+        (["held", "held"], [1], "each once"),
+        (["held"], [], "seeds none: give one or more"),
+        (["held"], [2, 2], "seeds 2, 2: give one or more, each once"),
+        (["held"], [1.5], "seeds 1.5: give whole numbers from 0"),
+    ],
+)
+def test_what_is_no_variant_or_seed_is_refused_before_anything_runs(ran, tmp_path, names, seeds, said):
+    with pytest.raises(PlanError, match=said):
+        paper_slopes.run(names, tmp_path, 700, seeds)
+    with pytest.raises(section.SectionError, match="disks 0: give a whole number"):
+        paper_slopes.run(["held"], tmp_path, 0, [1])
+    assert not ran
+
+
+def runs_of(*summaries):
+    return [SimpleNamespace(summary=one) for one in summaries]
+
+
+def test_rows_have_means_over_the_slopes_that_have_a_number():
+    """Student's t of two: 12.706; of one there is no interval. What became of slopes is counted."""
+    found = {
+        "held": runs_of(
+            {
+                "verdict": "stood",
+                "water_highest_m": 18.0,
+                "mixing": None,
+                "times_s": {"t2": None},
+                "verdict_says": "it",
+            },
+            {
+                "verdict": "failed by water",
+                "water_highest_m": 20.0,
+                "mixing": 0.1,
+                "weakening_begins_s": 33.0,
+                "times_s": {"t2": 30.0, "t3": 36.0},
+                "t2_by_speed_s": {"50": 29.5, "500": None},
+                "t5_by_speed_s": {"10": 70.0},
+            },
+            {"verdict": "stood", "water_highest_m": 19.0, "mixing": None, "times_s": {"t2": None}},
+        )
+    }
+    (row,) = paper_slopes.rows(found)
+    assert (row["name"], row["label"], row["paper"]) == ("held", "table stops at t1", "[115], [116]")
+    assert row["verdicts"] == {"stood": 2, "failed by water": 1} and (row["of"], row["weakened"]) == (3, 1)
+    times = {name: one["mean"] for name, one in row["numbers"].items() if name.endswith(("t2", "t3", "50", "10"))}
+    assert times == {
+        "times_s.t2": 30.0,
+        "times_s.t3": 36.0,
+        "t2_by_speed_s.50": 29.5,
+        "t5_by_speed_s.10": 70.0,
+        "triggering_by_speed_s.50": 6.5,
+        "motion_by_speed_s.10": 34.0,
+    }
+    assert set(row["numbers"]) - set(times) == {"water_highest_m", "mixing", "weakening_begins_s"}
+    assert row["numbers"]["water_highest_m"] == {
+        "mean": 19.0,
+        "half_width": pytest.approx(4.3027 / 3**0.5, rel=1e-4),
+        "values": [18.0, 20.0, 19.0],
+        "of": 3,
+    }
+    assert row["numbers"]["mixing"] == {"mean": 0.1, "half_width": None, "values": [None, 0.1, None], "of": 1}
+    heads, (line,) = paper_slopes.table([row])
+    told = dict(zip(heads, line, strict=True))
+    assert told["what became of it"] == "2 stood, 1 failed by water" and told["highest water [m]"] == "19.0 ± 2.5"
+    assert told["mixing [%]"] == "10.0 (1)" and told["way of the front [m]"] == "–"
