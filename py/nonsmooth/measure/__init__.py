@@ -2,6 +2,8 @@
 
 * :mod:`.ground`: walls by their roles, the foot of the slope, where water stands
 * :mod:`.fronts`: how far a mass has come
+* :mod:`.travel`: how far beside how deep, the travel angle
+* :mod:`.layers`: whether layers have mixed, and where they are turned over
 * :mod:`.surface`: the surface of a mass and what lies below it
 * :mod:`.energy`: what the balance of energy leaves over
 * :mod:`.force_stages`: what the forces on walls do from stage to stage
