@@ -25,17 +25,18 @@ NAME = "variant"
 BEYOND = 1e5  # m, that nothing comes to
 D_C = "materials.dp.slip_weakening.critical_slip"
 RELEASE = "water.release_distance"
+TABLE = "water.table"
 
 
 @dataclass(frozen=True)
 class Variant:
-    """``label``: in words; ``paper``: the paragraphs it is about; ``keys``: of the section file, with dots, and their values; ``of_shipped``: {key: number of the summary of the shipped
-    slope of the same packing, which is its value}."""
+    """``label``: in words; ``paper``: the paragraphs it is about; ``keys``: of the section file, with dots, and their values; ``stops_at``: number of the summary of the shipped
+    slope of the same packing, at which height the table stops."""
 
     label: str
     paper: str
     keys: Mapping = field(default_factory=dict)
-    of_shipped: Mapping = field(default_factory=dict)
+    stops_at: str | None = None
 
 
 # the shipped slope releases disks from water at D_c, 5 m; a variant changes one of the two and leaves the other
@@ -46,7 +47,7 @@ VARIANTS = {
     "release-10": Variant("release from water after 10 m", "[113]", {RELEASE: 10.0}),
     "release-2.5": Variant("release from water after 2.5 m", "[113]", {RELEASE: 2.5}),
     "neither": Variant("neither weakening nor release", "[72], [126]", {D_C: BEYOND, RELEASE: BEYOND}),
-    HELD: Variant("table stops at t1", "[115], [116]", of_shipped={"stages.water.hold": "water_at_failure_m"}),
+    HELD: Variant("table stops at t1", "[115], [116]", stops_at="water_at_failure_m"),
 }
 
 
@@ -57,12 +58,14 @@ def slope_of(name, disks, seed, shipped=None):
     """
     variant, base = VARIANTS[name], section.load(SECTION).with_disks(disks)
     values = {SEED: seed, **variant.keys}
-    for key, number in variant.of_shipped.items():
-        values[key] = (shipped or {}).get(number)
-        if values[key] is None:
+    if variant.stops_at:
+        height = (shipped or {}).get(variant.stops_at)
+        if height is None:
             raise PlanError(
-                f"{name}, seed {seed}: the shipped slope of this packing has no {number}, which {key} is to be; give other seeds or more disks"
+                f"{name}, seed {seed}: the shipped slope of this packing has no {variant.stops_at}, where the table is to stop; give other seeds or more disks"
             )
+        # the shipped course up to there: it also waits where the slope moves and comes to rest again, as it would not with a height for stages.water.hold
+        values[TABLE] = {"points": [[0.0, 0.0], [height / base.water.rate, height]]}
     return section_values.with_values(base, values, f"{name}, seed {seed}")
 
 
@@ -86,7 +89,7 @@ def run(names, out, disks, seeds, threads=1, resume=False, progress=lambda share
     What a variant asks of the shipped slope is run too. The rest as for :meth:`.plan.Plan.run`. Raises PlanError for names or seeds that are none or stand twice, and what that raises.
     """
     names, seeds = check(names, disks, seeds)
-    after = [name for name in names if VARIANTS[name].of_shipped]
+    after = [name for name in names if VARIANTS[name].stops_at]
     first = [name for name in VARIANTS if name in names and name not in after or name == SHIPPED and after]
     whole = (len(first) + len(after)) * len(seeds)
     found = {}
