@@ -35,7 +35,8 @@ def draw(found, out) -> list:
         made.append(figures.toes(cases, out / "paper_toes.png", friction_deg=envelope and envelope.friction_deg))
     times = first.summary["times_s"]
     if times["t0"] is not None and times["t4"] is not None:
-        cases = [("t0", first.snapshot("t0")), ("t4", first.snapshot(times["t4"])), ("t5", first.snapshot("end"))]
+        last = ("the end", first.snapshot("end")) if times["t5"] is None else ("t5", first.snapshot(times["t5"]))
+        cases = [("t0", first.snapshot("t0")), ("t4", first.snapshot(times["t4"])), last]
         made.append(figures.markers(cases, first.section, out / "paper_markers.png"))
     if any(run.summary["times_s"]["t3"] is not None for run in runs):
         cases = [(run.series, run.summary) for run in runs]

@@ -5,9 +5,11 @@ import json
 from types import SimpleNamespace
 
 import pytest
-from yade.nonsmooth import section, section_data
+import drawn
+from yade.nonsmooth import paper_figures, runs, section, section_data
 from yade.nonsmooth.campaign import paper_slopes
 from yade.nonsmooth.campaign.plan import PlanError
+from yade.nonsmooth.figures import style
 
 SUMMARY = {"water_at_failure_m": 17.25}
 
@@ -176,3 +178,48 @@ def test_rows_have_means_over_the_slopes_that_have_a_number():
     told = dict(zip(heads, line, strict=True))
     assert told["what became of it"] == "2 stood, 1 failed by water" and told["highest water [m]"] == "19.0 ± 2.5"
     assert told["mixing [%]"] == "10.0 (1)" and told["way of the front [m]"] == "–"
+
+
+def test_the_figures_are_of_the_runs_that_there_are(whole, monkeypatch, tmp_path):
+    """Of the small slope's run, taken for the shipped slope and for one of its controls."""
+    kept = drawn.keep(monkeypatch, style)
+    run = runs.open_run(whole.folder)
+    made = paper_figures.draw({"shipped": [run], "no-weakening": [run], "held": [run]}, tmp_path)
+    names = "controls forces toes markers speeds".split()
+    assert [path.name for path in made] == [f"paper_{name}.png" for name in names] and set(kept) == {
+        path.name for path in made
+    }
+    assert list(drawn.legend(kept["paper_controls.png"].axes[0])) == ["as shipped", "DP keeps its friction"]
+    assert list(drawn.legend(kept["paper_forces.png"].axes[0]))[:2] == [
+        "shear force on DP, each packing",
+        "force on FB, each packing",
+    ]
+    (panel, _) = kept["paper_toes.png"].axes
+    assert panel.get_title(loc="left") == "packing 3"
+    times = run.summary["times_s"]
+    told = [next(t for t in drawn.texts(ax) if t.endswith(" s")) for ax in kept["paper_markers.png"].axes]
+    assert told == [
+        f"$t_{{0}}$, water begins to rise: {times['t0']:.0f} s",
+        f"$t_{{4}}$, during motion: {times['t4']:.0f} s",
+        f"$t_{{5}}$, at rest: {times['t5']:.0f} s",
+    ]
+    # 0.2 m/s of the shipped slope are less of a small one
+    speed = float(list(drawn.legend(kept["paper_speeds.png"].axes[0]))[0].split(" m/s")[0])
+    assert 0.01 < speed < 0.05
+    assert paper_figures.draw({"no-weakening": [run]}, tmp_path) == []
+
+
+def test_a_slope_that_stood_has_no_figures_of_a_failure(whole, monkeypatch, tmp_path):
+    """Nor has one that did not come to rest a t5."""
+    kept = drawn.keep(monkeypatch, style)
+    run = runs.open_run(whole.folder)
+    stood = run.summary | {"times_s": run.summary["times_s"] | dict.fromkeys(("t1", "t2", "t3", "t4", "t5"))}
+    made = paper_figures.draw({"shipped": [SimpleNamespace(**vars_of(run) | {"summary": stood})]}, tmp_path)
+    assert [path.name for path in made] == ["paper_controls.png"]
+    goes_on = run.summary | {"times_s": run.summary["times_s"] | {"t5": None}}
+    paper_figures.draw({"shipped": [SimpleNamespace(**vars_of(run) | {"summary": goes_on})]}, tmp_path)
+    assert drawn.text(kept["paper_markers.png"].axes[-1], "the end: ") is not None
+
+
+def vars_of(run):
+    return {name: getattr(run, name) for name in ("folder", "section", "series", "snapshot")}

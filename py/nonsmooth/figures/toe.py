@@ -63,7 +63,8 @@ def toes(cases, path=None, pdf=False, friction_deg=None):
         if toe_bands.tells(before, section):
             _bands(ax, before, after, section, toe_bands.toe(before, section)[3], friction_deg)
     told = "rotation [rad], counterclockwise positive"
-    fig.colorbar(scale, ax=panels.tolist(), location="bottom", shrink=0.4, aspect=40, label=told, extend="both")
+    bar = fig.colorbar(scale, ax=panels.tolist(), location="bottom", shrink=0.4, aspect=40, label=told, extend="both")
+    bar.set_ticks(np.linspace(*scale.get_clim(), 5))  # more of them would not have room below one panel
     return style.save(fig, path, pdf)
 
 
