@@ -92,6 +92,8 @@ class Experiment:
         if not isinstance(built, slope.Slope):
             raise UserError(f"built {checks.shown(built)}: give a Slope, as slope.build(section) returns one")
         folder = checks.path("folder", folder, UserError, "give the path of a folder")
+        if state is None:
+            results.check_folder(folder)
         self.slope, self.section, self.folder = built, built.section, Path(folder)
         self.state = state or State()
         self.layers = slope.layers_of(built) if layers is None else layers
@@ -111,10 +113,11 @@ class Experiment:
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
-            section_data.write(self.section, self.folder / section_data.FILE)
         self.series = records.SeriesWriter(
             self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True
         )
+        if state is None:  # after the series, by which a run's folder is known
+            section_data.write(self.section, self.folder / section_data.FILE)
         # soft steps are thousands a row, and as cheap as a look at the walls
         period = 1 if self.hard else max(1, int(self.scales.row_seconds / O.dt / FORCE_SAMPLES))
         self.walls = WallSeries(built, self.layers, self.folder / "walls.csv", period, mark and mark["walls"])
@@ -207,10 +210,12 @@ class Experiment:
         return results.summarise(self.folder, self.section, state, threads=threads)
 
     def draw(self):
-        """Draws all figures that the records allow, and the video; returns their paths and notes. After :meth:`summarise`."""
+        """Draws all figures that the records allow, and the video; returns their paths and notes. What has not been summarised yet is, see :meth:`summarise`."""
         from . import run_figures  # brings matplotlib, which a run that draws nothing need not wait for
 
-        return run_figures.draw(self.folder, self.section, json.loads((self.folder / results.SUMMARY).read_text()))
+        path = self.folder / results.SUMMARY
+        summary = json.loads(path.read_text()) if path.exists() else self.summarise()
+        return run_figures.draw(self.folder, self.section, summary)
 
     def attach(self, stands=False):
         """Lets steps by O.run(), O.step(), the viewer and yade-batch go through the course: a CourseRunner becomes the first of O.engines, which does what :meth:`run` does
@@ -409,7 +414,12 @@ class Experiment:
 
     # ---- records ------------------------------------------------------------------------------
     def _inside(self, t):
-        """Raises where a disk of the table ``t`` has left the section's box."""
+        """Raises where a disk of the table ``t`` has left the section's box, and where a script has erased or added some."""
+        if len(t["x"]) != self.slope.count:
+            raise ExperimentError(
+                f"at t = {O.time:.3f} s the scene has {len(t['x'])} disks, and the slope {self.slope.count}: its records have a row for each from its beginning on. Let a script that drives a slope "
+                "push disks or move walls, and neither erase nor add disks; without some from the beginning, give a packing without them (packing.read_text)"
+            )
         x0, y0, x1, y1 = self.section.bounds
         margin = 0.1 * max(x1 - x0, y1 - y0)
         out = ~((t["x"] > x0 - margin) & (t["x"] < x1 + margin) & (t["y"] > y0 - margin) & (t["y"] < y1 + margin))
@@ -571,6 +581,7 @@ def begin(section, folder, progress=None):
     """A new :class:`Experiment` of a Section: packed (from the cache), built and bonded. Raises ArgumentError for what is no Section or no folder, and what slope_packing.of and slope.build raise."""
     _check(section, folder)
     folder = Path(folder)
+    results.check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
     packed = slope_packing.of(section)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 
-from . import frames, records, scales, toe, verdict
+from . import frames, records, scales, section_data, toe, verdict
 from .characteristic_times import (
     FASTER,
     NAMES as TIMES,
@@ -24,10 +25,21 @@ from .measure.ground import ground_of
 from .measure.surface import deposit_profile, on_ground
 from .whole_files import remove, remove_parts, whole, write_json
 
-__all__ = ["summarise", "forget", "forget_later", "moved_before_water", "numbers_of", "while_it_fails"]
+__all__ = [
+    "check_folder",
+    "foreign",
+    "summarise",
+    "forget",
+    "forget_later",
+    "moved_before_water",
+    "numbers_of",
+    "while_it_fails",
+]
 
 ENTRAINED = 2.0  # mean diameters
 EARLIER = "left from an earlier run"
+SERIES, WALLS, SECTION = "series.csv", "walls.csv", section_data.FILE
+HEAD = b"step,time_s,"  # begins the series of every run
 
 # what a run leaves besides its series and its checkpoint
 SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = (
@@ -61,12 +73,44 @@ def forget(folder):
     folder = Path(folder)
     remove(
         [folder / name for name in (SUMMARY, BREAKS, BEGIN, END, *FIGURES)]
-        + whole(folder / SNAPSHOTS, "*.npz")
-        + whole(folder / PARAVIEW, "*.vtu")
-        + [folder / PARAVIEW / "avalanche.pvd"],
+        + _written(folder / SNAPSHOTS, r"\d{8,}\.npz")
+        + _written(folder / PARAVIEW, r"(disks-\w+|contacts-\w+|walls|breaks)\.vtu|avalanche\.pvd"),
         EARLIER,
     )
     remove_parts(folder, folder / SNAPSHOTS, folder / PARAVIEW)
+
+
+def _written(folder, names):
+    """Files in a folder that a run has written, by their ``names``, a pattern; others are a user's own."""
+    return [path for path in whole(folder, "*") if re.fullmatch(names, path.name)]
+
+
+def foreign(folder):
+    """The name of a file that a new run in ``folder`` would remove or write over and that no run has left there; None where there is none."""
+    folder = Path(folder)
+    series = folder / SERIES
+    try:
+        with series.open("rb") as file:
+            head = file.read(len(HEAD))
+        if head in (HEAD, b""):  # a run was killed before it wrote more
+            return None
+    except OSError:
+        pass
+    if (folder / "key").exists():  # kept_runs has begun one
+        return None
+    names = (SERIES, WALLS, SECTION, SUMMARY, BREAKS, BEGIN, END, *FIGURES, "checkpoint")
+    found = [folder / name for name in names if (folder / name).exists()]
+    found += _written(folder / SNAPSHOTS, r"\d{8,}\.npz") + _written(folder / PARAVIEW, r".*\.(vtu|pvd)")
+    return found[0].relative_to(folder).as_posix() if found else None
+
+
+def check_folder(folder):
+    """Raises records.RecordsError where a new run in ``folder`` would remove or write over what no run has left there, see :func:`foreign`."""
+    name = foreign(folder)
+    if name is not None:
+        raise records.RecordsError(
+            f"{folder}: holds {name}, which no run has left there, and a new run removes or writes over it; give an empty folder, a new one, or that of an earlier run"
+        )
 
 
 def forget_later(folder, stage, step):

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
 
-from . import figures, frames, paraview, records, results, scales, verdict, video
+from . import checks, figures, frames, paraview, records, results, scales, verdict, video
 from .characteristic_times import chosen_rows
 
 __all__ = ["Drawing", "draw"]
@@ -80,7 +80,10 @@ class Drawing:
         return found
 
     def figure(self, name, path=None):
-        """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it."""
+        """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it.
+        Raises records.RecordsError for another name."""
+        if name not in results.PICTURES:
+            raise records.RecordsError(f"figure {checks.shown(name)}: give one of {', '.join(results.PICTURES)}")
         if name == "forces":
             said = verdict.TITLES.get(self.verdict)
             return figures.forces_against_time(

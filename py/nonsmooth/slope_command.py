@@ -20,6 +20,7 @@ from . import (
     output_folder,
     packing,
     packing_checks,
+    results,
     section,
     section_arguments,
     section_checks,
@@ -124,6 +125,8 @@ def run(name, about, default=None):
     out = Path(
         args.out or f"out/{Path(args.section).stem}{'-mirrored' * args.mirror}{f'-{args.size:g}' if args.size else ''}"
     )
+    if not args.resume:
+        results.check_folder(out)
     output_folder.claim(out, name)
     if args.resume:
         course = experiment.resume(s, out)

@@ -65,9 +65,21 @@ def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
     """Contacts that carry a normal force or a bond, as `records.write_snapshot` takes them.
 
     ``first_disk``: id of disk 0; ``wall_numbers``: {id: number} of bodies that are walls. Arrays of shape (n,): ``ci`` a disk, ``cj`` a disk or -1 - number
-    of a wall (int), ``cn``, ``ct`` normal and tangential force [N/m], ``cbonded`` (bool), ``cx``, ``cy`` [m].
+    of a wall (int), ``cn``, ``ct`` normal and tangential force [N/m], ``cbonded`` (bool), ``cx``, ``cy`` [m]. Raises UserError where a body before disk 0 that touches a disk has no
+    number.
     """
+    checks.count("first_disk", first_disk, UserError, "give the id of disk 0, a whole number from 0", least=0)
     c = contacts(engine)
+    others = np.minimum(c["id1"], c["id2"])
+    lost = sorted(set(others[others < first_disk].tolist()) - set(wall_numbers))
+    if lost:
+        raise UserError(
+            f"wall_numbers: lacks body {lost[0]}{f' and {len(lost) - 1} more' if len(lost) > 1 else ''}, which touches a disk; give the number of its wall for each body before disk {first_disk}"
+        )
+    if (np.maximum(c["id1"], c["id2"]) < first_disk).any():
+        raise UserError(
+            f"first_disk {first_disk}: bodies before it touch each other, so disks are among them; give the id of the first disk"
+        )
     keep = (c["normal"] != 0) | c["bonded"]
     c = {name: values[keep] for name, values in c.items()}
     # walls come first in the list of bodies, so a disk is always the second body of such a pair

@@ -1,6 +1,7 @@
 """A video of the avalanche from its snapshots (Animation S1 of the paper), by matplotlib and ffmpeg."""
 
 import itertools
+import textwrap
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from .records.given import FILE
 
 SNAPSHOTS = (
     lambda v: isinstance(v, Iterable) and not isinstance(v, (str, Mapping)),
-    "give a list of files of snapshots, as run.frames has them",
+    "give a list of files of snapshots, as sorted((run.folder / 'snapshots').glob('*.npz')) is one",
 )
 
 FORCES = (  # column, symbol, meaning, role of the walls, colour
@@ -87,7 +88,11 @@ class _Frames(film.Stage):
         late = style.known_times(times).get("t3", np.inf)
         for (_, letter, meaning, name, colour), force in zip(drawn, forces):
             smooth = np.where(time > late, style.running_mean(time, force, window), force) / newtons
-            ax.plot(time, smooth, color=colour, label=f"{style.symbol(letter, name)}  {meaning} on {style.plain(name)}")
+            said = f"{meaning} on {style.plain(name)}"
+            symbol = style.symbol(letter, name)
+            # beside the axes is room for some forty letters
+            label = f"{symbol}  {said}" if len(said) + len(name) <= 34 else f"{symbol}\n{textwrap.fill(said, 34)}"
+            ax.plot(time, smooth, color=colour, label=label)
         ax.axhline(0, color="#555555", lw=0.7)
         ax.set_xlabel("time [s]", fontsize=11)
         ax.set_ylabel(f"force [{unit}]", fontsize=11)

@@ -298,7 +298,9 @@ def main():
                 rows.append(row(one, verdict, unasked, mutated.tests))
                 # what waits to be tried again keeps its verdict, also where this call is stopped
                 left = [m for digest, m in old.items() if digest not in {r["digest"] for r in rows}]
-                write_json(path, {"seed": args.seed, "sound": sound, "mutants": rows + left, "refused": sorted(refused)})
+                write_json(
+                    path, {"seed": args.seed, "sound": sound, "mutants": rows + left, "refused": sorted(refused)}
+                )
                 tqdm.write(line(rows[-1]))
                 bar.update()
     except KeyboardInterrupt:

@@ -138,7 +138,9 @@ def test_a_run_hands_its_records_to_its_figures(kept, run):
 
 def test_an_end_that_is_a_characteristic_time_is_shown_once(kept, run):
     """A run that was stopped at t4: the nearest snapshot is that of the end."""
-    run_figures.draw(run.folder, section.load("jiufengershan"), {"times_s": TIMES | {"t4": 100.0}, "failed_dry_s": None})
+    run_figures.draw(
+        run.folder, section.load("jiufengershan"), {"times_s": TIMES | {"t4": 100.0}, "failed_dry_s": None}
+    )
     at = [[t.get_text() for t in ax.texts if t.get_text().endswith(" s")][0] for ax in kept["snapshots.png"].axes]
     assert at[-2:] == ["$t_{3}$ = 60.0 s", "$t_{4}$ = 100.0 s"]
 

@@ -118,7 +118,9 @@ def test_a_slope_falls_along_its_slip_surfaces(surfaces, side):
 
 def test_ground_goes_on_as_its_last_wall_does_where_that_is_less_steep_than_45_degrees():
     """A fall of 1 in 2 on both sides; one of 3 in 2 goes on level; nothing where walls reach the limits, or are buried."""
-    beyond = lambda points, *limits: [p.tolist() for p in ground_of([("DP", points, "slip")]).beyond(*limits)]  # noqa: E731
+    beyond = lambda points, *limits: [
+        p.tolist() for p in ground_of([("DP", points, "slip")]).beyond(*limits)
+    ]  # noqa: E731
     gentle, steep = [[0.0, 10.0], [10.0, 5.0]], [[0.0, 20.0], [10.0, 5.0]]
     assert beyond(gentle, -4.0, 14.0) == [[[-4, 12], [0, 10]], [[10, 5], [14, 3]]]
     assert beyond(steep, -4.0, 14.0) == [[[-4, 20], [0, 20]], [[10, 5], [14, 5]]]

@@ -6,7 +6,7 @@ import leftovers
 import pytest
 import slope_scenes
 from yade import O
-from yade.nonsmooth import experiment, results, run_figures, section, slope, slope_packing
+from yade.nonsmooth import experiment, records, results, run_figures, section, slope, slope_packing
 
 FILES = (
     "summary.json",
@@ -95,3 +95,74 @@ def test_a_resume_goes_on_and_the_leftovers_go(small, tmp_path, monkeypatch):
             *(path.name for path in broken.glob("vtk/*")),
         ]
     )
+
+
+# ---- a folder in which no run has been ---------------------------------------------------------------
+def put(folder, *names):
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text("mine")
+
+
+USERS = (
+    "energy.png",
+    "deposit.png",
+    "avalanche.mp4",
+    "end.npz",
+    "series.csv",
+    "section.yaml",
+    "vtk/mine.vtu",
+    "snapshots/00000001.npz",
+    "checkpoint/mine",
+)
+
+
+@pytest.mark.parametrize("name", USERS)
+def test_a_file_that_no_run_has_left_is_neither_removed_nor_written_over(small, tmp_path, name):
+    put(tmp_path, name)
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    told = name.removesuffix("/mine")
+    assert results.foreign(tmp_path) == told
+    O.reset()
+    for begin in (lambda: experiment.begin(small, tmp_path), lambda: run(small, tmp_path, 0.1)):
+        with pytest.raises(records.RecordsError, match=f"holds {told}, which no run has left there.*an empty folder"):
+            begin()
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+
+
+def test_files_of_a_user_beside_those_of_a_run_stay(small, tmp_path):
+    """In the folder of a run its own files go; what has other names stays, also in the folders of snapshots and of ParaView's files."""
+    run(small, tmp_path, 0.3)
+    put(tmp_path, "forces.png", "vtk/disks-00000100.vtu", "snapshots/00000001.npz")
+    mine = ("mine.txt", "vtk/mine.vtu", "snapshots/best.npz", "snapshots/12345.npz")
+    put(tmp_path, *mine)
+    assert results.foreign(tmp_path) is None
+    run(small, tmp_path, 0.1)
+    assert all((tmp_path / name).exists() for name in mine)
+    assert not any(
+        (tmp_path / name).exists() for name in ("forces.png", "vtk/disks-00000100.vtu", "snapshots/00000001.npz")
+    )
+
+
+def test_a_run_that_was_killed_while_it_began_is_known(tmp_path):
+    (tmp_path / "series.csv").write_bytes(b"")
+    (tmp_path / "energy.png").write_bytes(b"old")
+    assert results.foreign(tmp_path) is None
+    (tmp_path / "series.csv").write_text("step,time_s,stage\n")
+    assert results.foreign(tmp_path) is None
+    (tmp_path / "series.csv").write_text("time,way\n")
+    assert results.foreign(tmp_path) == "series.csv"
+    (tmp_path / "key").write_text("")
+    assert results.foreign(tmp_path) is None
+
+
+def test_a_run_that_has_not_been_summarised_is_drawn(small, tmp_path):
+    made = run(small, tmp_path, 0.3)
+    assert not (tmp_path / "summary.json").exists()
+    made.draw()
+    assert (tmp_path / "summary.json").exists() and (tmp_path / "energy.png").exists()
+    drawing = run_figures.Drawing(tmp_path, small, made.summarise())
+    for name in ("foo", 3, None, "Forces"):
+        with pytest.raises(records.RecordsError, match="^figure .*: give one of force_chains, forces"):
+            drawing.figure(name, tmp_path / "foo.png")
+    assert not (tmp_path / "foo.png").exists()

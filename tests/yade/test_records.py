@@ -1,5 +1,6 @@
 """Series and snapshots: exact, never half-written, clear about what is wrong. Needs no YADE."""
 
+import math
 import os
 import resource
 import sys
@@ -308,3 +309,63 @@ def test_truncated_damaged_or_foreign_snapshots_are_named(tmp_path, arrays):
         records.read_snapshot(bad)
     with pytest.raises(RecordsError, match="gone.npz.*cannot be read"):
         records.read_snapshot(tmp_path / "gone.npz")
+
+
+# ---- rows and breaks that are none ------------------------------------------------------------------
+@pytest.mark.parametrize(
+    "name, value",
+    [("time_s", "a"), ("time_s", None), ("front_m", "a"), ("front_m", None), ("front_m", [1.0]), ("step", "1")],
+)
+def test_a_row_of_texts_leaves_the_file_as_it_was(tmp_path, name, value):
+    row = {"step": 2, "time_s": 2.0, "front_m": 1.0}
+    with records.SeriesWriter(tmp_path / "series.csv", tuple(row)) as series:
+        series.write({"step": 1, "time_s": 1.0, "front_m": 0.5})
+        before = series.path.read_bytes()
+        with pytest.raises(records.RecordsError, match=f"{name} = .*: give a number"):
+            series.write(row | {name: value})
+        assert series.path.read_bytes() == before
+        series.write(row)
+    assert records.read_series(tmp_path / "series.csv")["front_m"].tolist() == [0.5, 1.0]
+
+
+BROKEN = {
+    "step": [1, 2],
+    "time": [0.1, 0.2],
+    "id1": [0, 3],
+    "id2": [3, 4],
+    "mode": [1, 4],
+    "x": [0.0, 1.0],
+    "y": [0.0, 2.0],
+}
+
+
+@pytest.mark.parametrize(
+    "changes, first_disk, said",
+    [
+        ({"x": [1.0]}, 3, "x has shape"),
+        ({"x": [math.nan, 0.0]}, 3, "x .*finite numbers"),
+        ({"mode": [0, 1]}, 3, "mode .*from 1, tension, shear, torque, mixed"),
+        ({"mode": [1, 9]}, 3, "mode .*from 1"),
+        ({"mode": [-1, 1]}, 3, "mode .*from 1"),
+        ({"mode": ["shear", "shear"]}, 3, "mode .*whole numbers"),
+        ({"id2": [3.5, 4.0]}, 3, "id2 .*whole numbers"),
+        ({}, 4, "first_disk 4: a bond broke between bodies 0 and 3"),
+        ({}, 1.5, "first_disk 1.5: give"),
+        ({}, -3, "first_disk -3: give"),
+    ],
+)
+def test_what_is_no_broken_bond_is_not_written(tmp_path, changes, first_disk, said):
+    made = {name: np.array(values) for name, values in (BROKEN | changes).items()}
+    with pytest.raises(records.RecordsError, match=said):
+        records.write_breaks(tmp_path / "breaks.csv", made, first_disk)
+    assert not list(tmp_path.iterdir())
+
+
+def test_broken_bonds_come_back_with_walls_and_modes(tmp_path):
+    records.write_breaks(tmp_path / "breaks.csv", {name: np.array(v) for name, v in BROKEN.items()}, 3)
+    found = records.read_breaks(tmp_path / "breaks.csv")
+    assert (found["disk1"].tolist(), found["disk2"].tolist(), found["mode"].tolist()) == (
+        [-1, 0],
+        [0, 1],
+        ["tension", "mixed"],
+    )

@@ -200,7 +200,7 @@ def test_what_the_course_decides_is_done(loaded, tmp_path, monkeypatch):
 @pytest.mark.parametrize("side", ["left", "right", "below", "above"])
 def test_a_disk_that_leaves_the_section_is_refused(side):
     """On each side a tenth of the section's longer side beyond its box, and where it is nowhere at all."""
-    run = SimpleNamespace(section=section.load("jiufengershan"), folder="out")
+    run = SimpleNamespace(section=section.load("jiufengershan"), folder="out", slope=SimpleNamespace(count=2))
     x0, y0, x1, y1 = run.section.bounds
     margin = 0.1 * max(x1 - x0, y1 - y0)
     middle = (0.5 * (x0 + x1), 0.5 * (y0 + y1))
@@ -216,6 +216,16 @@ def test_a_disk_that_leaves_the_section_is_refused(side):
             f"disk 1 left the section at t = {O.time:.3f} s: it is at ({x:.1f}, {y:.1f}) m; "
         )
         assert f"close the walls of {run.section.source} there" in str(refused.value)
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_slope_whose_script_erases_or_adds_disks_is_refused(count):
+    run = SimpleNamespace(section=section.load("jiufengershan"), folder="out", slope=SimpleNamespace(count=2))
+    with pytest.raises(
+        experiment.ExperimentError,
+        match=f"the scene has {count} disks, and the slope 2: .* neither erase nor add disks",
+    ):
+        experiment.Experiment._inside(run, {"x": np.zeros(count), "y": np.zeros(count)})
 
 
 def test_a_row_that_sees_a_lost_disk_ends_the_run_and_is_not_written(loaded, tmp_path):

@@ -7,6 +7,7 @@ from contact_scenes import begin, engine, material, run
 from yade import O
 from yade.minieigenHP import Quaternion
 from yade.nonsmooth import scene, tables
+from yade.nonsmooth.errors import UserError
 
 ROUNDING = 1e-12  # of an angle that comes back from a quaternion
 
@@ -66,6 +67,18 @@ def test_contacts_are_those_of_the_scene(corner):
             tuple(table[name][k] for name in ("normal", "tangential", "torque", "nx", "ny", "gap", "x", "y")) == wanted
         )
         assert not table["bonded"][k] and table["broken"][k] == 0
+
+
+def test_contacts_with_a_body_that_has_no_number_are_refused(corner):
+    floor, side, first = corner  # the first disk lies on the floor
+    for numbers in ({}, {side: 1}):
+        with pytest.raises(UserError, match=f"wall_numbers: lacks body {floor}"):
+            tables.loaded_contacts(engine(), first, numbers)
+    for wrong in ("a", 1.5, -1, None):
+        with pytest.raises(UserError, match="first_disk .*: give the id of disk 0"):
+            tables.loaded_contacts(engine(), wrong, {floor: 0, side: 1})
+    with pytest.raises(UserError, match="first_disk 1000"):
+        tables.loaded_contacts(engine(), 1000, dict.fromkeys(range(1000), 0))
 
 
 def test_loaded_contacts_name_disks_and_walls(corner):

@@ -3,6 +3,7 @@
 import csv
 import hashlib
 import math
+import numbers
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -192,7 +193,19 @@ class SeriesWriter:
         texts = []
         for name in self.columns:
             value = row[name]
-            if not (name in WALL_COLUMNS and (value is None or isinstance(value, str))) and not math.isfinite(value):
+            # walls.csv has names of walls, and numbers that a wall does not have
+            may = (
+                (str,)
+                if name == "wall"
+                else (type(None),)
+                if name in WALL_COLUMNS and name not in ("step", "time_s")
+                else ()
+            )
+            if isinstance(value, may):
+                pass
+            elif not isinstance(value, (numbers.Real, np.bool_)):
+                raise RecordsError(f"{self.path}: {name} = {checks.shown(value)} at step {row['step']}: give a number")
+            elif not math.isfinite(value):
                 raise RecordsError(
                     f"{self.path}: {name} = {value} at step {row['step']}; the computation has gone wrong before this "
                     "row, go back to the last checkpoint with a smaller time step"
