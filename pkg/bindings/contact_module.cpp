@@ -90,6 +90,9 @@ Problem problemOf(const py::dict& d)
 	const auto n = normal.unchecked<2>(), lever = leverArray.unchecked<2>(), bias = biasArray.unchecked<2>();
 	const auto adhesion = adhesionArray.unchecked<1>(), friction = frictionArray.unchecked<1>(),
 	           arm = armArray.unchecked<1>(), length = lengthArray.unchecked<1>();
+	Doubles playArray(std::vector<py::ssize_t> { 0 });
+	if (!d["play"].is_none()) playArray = take<Doubles>(d, "play", contacts, 0);
+	const auto play = playArray.unchecked<1>();
 	for (py::ssize_t k = 0; k < contacts; ++k) {
 		Contact c;
 		c.i          = body(k, 0);
@@ -107,6 +110,7 @@ Problem problemOf(const py::dict& d)
 		c.friction   = friction(k);
 		c.rollingArm = arm(k);
 		c.length     = length(k);
+		c.play       = play.shape(0) > 0 ? play(k) : 0;
 		if (c.i < 0 || c.j < 0 || c.i >= bodies || c.j >= bodies)
 			throw py::value_error(
 			        "contact problem: contact " + std::to_string(k) + " names a body that is not there");
@@ -142,6 +146,9 @@ py::dict loadFile(const std::string& path)
 	d["length"]      = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.length }; });
 	d["warm_start"]  = array(r.warmStart);
 	d["impulse"]     = array(p.impulses);
+	d["play"]        = py::none();
+	if (std::any_of(p.contacts.begin(), p.contacts.end(), [](const Contact& c) { return c.play != 0; }))
+		d["play"] = table<double>(p.contacts, 0, [](const Contact& c) { return std::array { c.play }; });
 	return d;
 }
 

@@ -68,6 +68,12 @@ template <class Number> struct alignas(64) Block : BlockBodies {
 	Numbers<Number> beforeT, beforeR; // with beforeN P_{k−1}
 };
 
+/// W⁻¹ p of a lane with the play p, of which law.hpp speaks.
+inline double playOf(const Block<double>& block, std::size_t lane, double play)
+{
+	return block.inverseN.v[lane] * play;
+}
+
 /// Where the numbers of blocks come from.
 struct BlockNumbers {
 	static constexpr std::int32_t none = -1; // an empty lane
@@ -77,24 +83,26 @@ struct BlockNumbers {
 	const Twist*                  freeVelocities;
 };
 
-/// What a sweep needs, in doubles or floats.
+/// What a sweep needs, in doubles or floats. `plays`: W⁻¹ p of the contacts of every block; null where none has play (law.hpp), which costs nothing then.
 template <class Number> struct KernelsOf {
 	/// One Gauss-Seidel visit of every contact, from impulses extrapolated by beta (velocities must be so already).
-	void (*sweep)(Block<Number>* blocks, std::size_t count, Motion<Number>* bodies, Number beta);
+	void (*sweep)(
+	        Block<Number>* blocks, const Numbers<Number>* plays, std::size_t count, Motion<Number>* bodies,
+	        Number beta);
 	/// The same, and fetches from memory meanwhile what follows `ahead`: two cache lines for every block.
 	void (*sweepAndFetch)(
-	        Block<Number>* blocks, std::size_t count, Motion<Number>* bodies, Number beta,
-	        const Block<Number>* ahead);
+	        Block<Number>* blocks, const Numbers<Number>* plays, std::size_t count, Motion<Number>* bodies,
+	        Number beta, const Block<Number>* ahead);
 	/// before += M⁻¹ Hᵀ (P_k − P_{k−1}), P_{k−1} ← P_k: what is extrapolated next is zero.
 	void (*rest)(Block<Number>* blocks, std::size_t count, Motion<Number>* before);
 	/// Natural-map residual of impulses alone; `inverseLength`: 1/ℓ, 0 in an empty lane.
 	ResidualSums (*measureImpulses)(
-	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, std::size_t count,
-	        const Motion<Number>* bodies);
+	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, const Numbers<Number>* plays,
+	        std::size_t count, const Motion<Number>* bodies);
 	/// That of speeds, too; `share`, `mean`, `least`: SpeedScale.
 	ResidualSums (*measure)(
-	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, std::size_t count,
-	        const Motion<Number>* bodies, Number share, Number mean, Number least);
+	        const Block<Number>* blocks, const Numbers<Number>* inverseLength, const Numbers<Number>* plays,
+	        std::size_t count, const Motion<Number>* bodies, Number share, Number mean, Number least);
 	/// v ← v + β (v − before), before ← v.
 	void (*extrapolate)(Motion<Number>* bodies, Motion<Number>* before, std::size_t count, Number beta);
 };
@@ -111,7 +119,9 @@ struct BlockKernels {
 	/// v += M⁻¹ Hᵀ P.
 	void (*apply)(const Block<double>* blocks, std::size_t count, Motion<double>* bodies);
 	/// Sweep and apply for normal impulses alone, as if neither friction nor rolling resistance nor impulses of theirs were there: the same bits.
-	void (*sweepNormals)(Block<double>* blocks, std::size_t count, Motion<double>* bodies, double beta);
+	void (*sweepNormals)(
+	        Block<double>* blocks, const Numbers<double>* plays, std::size_t count, Motion<double>* bodies,
+	        double beta);
 	void (*applyNormals)(const Block<double>* blocks, std::size_t count, Motion<double>* bodies);
 	/// Blocks of the same contacts with all numbers rounded to floats; what is too large for those becomes the largest whose thresholds are still numbers.
 	void (*round)(

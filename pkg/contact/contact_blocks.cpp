@@ -111,7 +111,10 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 	if (!whole) seen.pairsKept = seen.simpleKept = false;
 	const bool sameOrder = arrange(problem, seen, threads, result.order);
 	result.kept = result.complete = sameOrder && seen.simpleKept;
-	if (result.kept) return;
+	if (result.kept) {
+		result.inDouble.plays.resize(seen.plays ? result.inDouble.blocks.size() : 0);
+		return;
+	}
 
 	const SweepOrder& order     = result.order;
 	const std::size_t partCount = order.partCount();
@@ -138,6 +141,7 @@ void layOut(const Problem& problem, int threads, ContactBlocks& result, bool blo
 	result.inDouble.blocks.resize(result.blockBegin.back());
 	result.contactOf.resize(result.inDouble.blocks.size() * lanes);
 	result.inDouble.inverseLength.resize(result.inDouble.blocks.size());
+	result.inDouble.plays.resize(seen.plays ? result.inDouble.blocks.size() : 0);
 	result.others.resize(result.otherBegin.back());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
 	for (long s = 0; s < static_cast<long>(partCount); ++s) {
@@ -161,6 +165,14 @@ void fillIn(const Problem& problem, const BlockKernels& kernels, std::size_t par
 	        result.contactOf.data() + begin * lanes, result.blockBegin[part + 1] - begin,
 	        { problem.contacts.data(), problem.impulses.data(), problem.inverseMass.data(),
 	          problem.freeVelocity.data() });
+	if (result.inDouble.plays.empty()) return;
+	for (std::size_t b = begin; b < result.blockBegin[part + 1]; ++b)
+		for (std::size_t l = 0; l < lanes; ++l) {
+			const std::int32_t index      = result.contactOf[b * lanes + l];
+			result.inDouble.plays[b].v[l] = index == ContactBlocks::none
+			        ? 0
+			        : playOf(result.inDouble.blocks[b], l, problem.contacts[index].play);
+		}
 }
 
 } // namespace nonsmooth::contact

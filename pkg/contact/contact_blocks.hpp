@@ -15,6 +15,10 @@ namespace nonsmooth::contact {
 template <class Number> struct BlocksOf {
 	std::vector<Block<Number>>   blocks;
 	std::vector<Numbers<Number>> inverseLength; // 1/ℓ; apart, since only the residual needs it
+	std::vector<Numbers<Number>> plays; // W⁻¹ p, see Contact::play; none where no contact of the problem has any
+
+	/// Those from a block on, as kernels ask for them.
+	const Numbers<Number>* playsFrom(std::size_t block) const { return plays.empty() ? nullptr : &plays[block]; }
 };
 
 struct ContactBlocks {

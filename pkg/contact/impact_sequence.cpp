@@ -40,7 +40,7 @@ void PairImpacts::add(const PairImpacts& other)
 ImpactSequence::Stand ImpactSequence::standAt(const ImpactPair& pair, double time) const
 {
 	Contact c  = *pair.contact;
-	c.adhesion = c.biasN = c.biasT = c.biasR = 0;
+	c.adhesion = c.biasN = c.biasT = c.biasR = c.play = 0;
 	const Flight &i = flights[c.i], &j = flights[c.j];
 	if (!pair.disks) {
 		if (scene->radius[c.j] > 0) c.leverTj = -scene->radius[c.j]; // on its rim, where it touches the wall

@@ -42,20 +42,25 @@ namespace {
 		}
 	};
 
-	/// A contact's rows, slacks, and the elimination of them.
+	/// A contact's rows, slacks, and the elimination of them. With play the normal impulse is P_n = a − b: `normal` leads a to 0 or the bodies to their touch,
+	/// `drawn` b to 0 or below the bond's length, `spare` F_a − b to 0 or up to it; 0 ≤ U + b_n ⟂ a ≥ 0, p − (U + b_n) = z_drawn − z_spare.
 	struct Eliminated {
 		std::array<std::array<double, 6>, 3> rows; // H
 		Impulse                              w, inverse; // W and 1/W
 		std::array<double, 3>                p; // P̂, P_t, P_r
 		std::array<double, 2>                arm; // μ_s, μ_r ℓ
-		Product                              normal, plus[2], minus[2];
+		Product                              normal, drawn, spare, plus[2], minus[2];
 		std::array<double, 3>                missed; // of the equations of speeds
+		double                               missedLength = 0; // the same of the bond's length
+		double                               gTouch = 0, gLength = 0; // whose sum is g00
 		double                g00 = 0, share[2] = { 0, 0 }, g[2] = { 0, 0 }; // G and what P_t follows P̂ by
 		std::array<double, 3> alpha, dp;
+		double                touchAlpha = 0, lengthAlpha = 0;
 
 		template <class With> void forProducts(With with)
 		{
 			with(normal);
+			if (drawn.there) with(drawn), with(spare);
 			for (int r = 0; r < 2; ++r)
 				if (plus[r].there) with(plus[r]), with(minus[r]);
 		}
@@ -157,19 +162,21 @@ namespace {
 		/// Starts inside: no slack below what the scale of speeds asks for.
 		void begin(const Contact& c, const Impulse& p, Eliminated& e) const
 		{
-			e.rows                  = { { { -c.nx, -c.ny, -c.leverNi, c.nx, c.ny, c.leverNj },
-				                      { c.ny, -c.nx, -c.leverTi, -c.ny, c.nx, c.leverTj },
-				                      { 0, 0, -1, 0, 0, 1 } } };
-			e.w                     = delassus(c, massAt(c.i), massAt(c.j));
-			e.inverse               = inverseDelassus(c, massAt(c.i), massAt(c.j));
-			e.arm                   = { c.friction, c.rollingArm };
-			const auto   u          = speeds(c, e);
-			const double pressed    = std::max(p.n + c.adhesion, scale * e.inverse.n);
-			e.p                     = { pressed, p.t, p.r };
-			e.normal                = { pressed, std::max(std::abs(u[0]), scale), e.inverse.n, 0, 0, true };
+			e.rows               = { { { -c.nx, -c.ny, -c.leverNi, c.nx, c.ny, c.leverNj },
+				                   { c.ny, -c.nx, -c.leverTi, -c.ny, c.nx, c.leverTj },
+				                   { 0, 0, -1, 0, 0, 1 } } };
+			e.w                  = delassus(c, massAt(c.i), massAt(c.j));
+			e.inverse            = inverseDelassus(c, massAt(c.i), massAt(c.j));
+			e.arm                = { c.friction, c.rollingArm };
+			const auto   u       = speeds(c, e);
+			const double pressed = std::max(p.n + c.adhesion, scale * e.inverse.n);
+			e.p                  = { pressed, p.t, p.r };
+			e.normal             = { pressed, std::max(std::abs(u[0]), scale), e.inverse.n, 0, 0, true };
+			e.drawn = e.spare = {};
+			if (c.play > 0 && c.adhesion > 0) beginWithPlay(c, p, u[0], e);
 			const double inverse[2] = { e.inverse.t, e.inverse.r }, speed[2] = { scale, scale / c.length };
 			for (int r = 0; r < 2; ++r) {
-				const double threshold = e.arm[r] * pressed,
+				const double threshold = e.arm[r] * e.p[0],
 				             weight    = inverse[r] * speed[r] * speed[r] / (scale * scale);
 				e.plus[r] = e.minus[r] = {};
 				e.p[1 + r]             = std::clamp(e.p[1 + r], -0.9 * threshold, 0.9 * threshold);
@@ -184,6 +191,18 @@ namespace {
 					threshold + e.p[1 + r], std::max(u[1 + r], 0.0) + speed[r], weight, 0, 0, true
 				};
 			}
+		}
+
+		/// a, b and F_a − b inside; P_n + F_a is then what it always is, and positive.
+		void beginWithPlay(const Contact& c, const Impulse& p, double u, Eliminated& e) const
+		{
+			constexpr double inside  = 0.05; // of F_a, from either end of the tension
+			const double     pressed = std::max(p.n, scale * e.inverse.n),
+			             drawn       = std::clamp(-p.n, inside * c.adhesion, (1 - inside) * c.adhesion);
+			e.normal                 = { pressed, std::max(std::abs(u), scale), e.inverse.n, 0, 0, true };
+			e.drawn = { drawn, std::max(c.play - u, 0.0) + scale, e.inverse.n, 0, 0, true };
+			e.spare = { c.adhesion - drawn, std::max(u - c.play, 0.0) + scale, e.inverse.n, 0, 0, true };
+			e.p[0]  = pressed - drawn + c.adhesion;
 		}
 
 		/// U + b.
@@ -203,9 +222,14 @@ namespace {
 		/// G, and the equations of speeds.
 		void eliminate(const Contact& c, Eliminated& e) const
 		{
-			const auto u      = speeds(c, e);
-			e.missed          = { u[0] - e.normal.speed, 0, 0 };
-			e.g00             = 1 / (e.normal.stiffness() + regularisation * e.w.n);
+			const auto u = speeds(c, e);
+			e.missed     = { u[0] - e.normal.speed, 0, 0 };
+			e.gTouch = e.g00 = 1 / (e.normal.stiffness() + regularisation * e.w.n);
+			if (e.drawn.there) {
+				e.missedLength = c.play - u[0] - (e.drawn.speed - e.spare.speed);
+				e.gLength = 1 / (e.drawn.stiffness() + e.spare.stiffness() + regularisation * e.w.n);
+				e.g00     = e.gTouch + e.gLength;
+			}
 			const double w[2] = { e.w.t, e.w.r };
 			for (int r = 0; r < 2; ++r) {
 				e.share[r] = e.g[r] = 0;
@@ -282,7 +306,12 @@ namespace {
 			};
 			for (std::size_t c = 0; c < all.size(); ++c) {
 				Eliminated& e = all[c];
-				e.alpha       = { e.g00 * (e.normal.aim(wanted(e.normal)) - e.missed[0]), 0, 0 };
+				e.touchAlpha  = e.gTouch * (e.normal.aim(wanted(e.normal)) - e.missed[0]);
+				e.lengthAlpha = e.drawn.there ? e.gLength
+				                * (e.drawn.aim(wanted(e.drawn)) - e.spare.aim(wanted(e.spare))
+				                   - e.missedLength)
+				                              : 0;
+				e.alpha       = { e.touchAlpha - e.lengthAlpha, 0, 0 };
 				for (int r = 0; r < 2; ++r)
 					if (e.plus[r].there)
 						e.alpha[1 + r] = e.share[r] * e.alpha[0]
@@ -324,19 +353,22 @@ namespace {
 						du[r] += e.rows[r][a] * right[unknown(b, a % 3)];
 			const double pressed = e.g00 * du[0];
 			e.dp[0]              = e.alpha[0] - pressed;
-			const double aimN    = e.normal.aim(wanted(e.normal));
-			e.normal.dSlack      = e.dp[0];
-			e.normal.dSpeed      = aimN - e.normal.stiffness() * e.dp[0];
+			const auto towards   = [&](Product& x, double dSlack) {
+                                const double aim = x.aim(wanted(x));
+                                x.dSlack         = dSlack;
+                                x.dSpeed         = aim - x.stiffness() * dSlack;
+			};
+			towards(e.normal, e.drawn.there ? e.touchAlpha - e.gTouch * du[0] : e.dp[0]);
+			if (e.drawn.there) {
+				const double drawn = e.lengthAlpha + e.gLength * du[0];
+				towards(e.drawn, drawn);
+				towards(e.spare, -drawn);
+			}
 			for (int r = 0; r < 2; ++r) {
 				e.dp[1 + r] = e.alpha[1 + r] - e.share[r] * pressed - e.g[r] * du[1 + r];
 				if (!e.plus[r].there) continue;
-				const auto follow = [&](Product& x, double sign) {
-					const double aim = x.aim(wanted(x));
-					x.dSlack         = e.arm[r] * e.dp[0] + sign * e.dp[1 + r];
-					x.dSpeed         = aim - x.stiffness() * x.dSlack;
-				};
-				follow(e.plus[r], -1);
-				follow(e.minus[r], 1);
+				towards(e.plus[r], e.arm[r] * e.dp[0] - e.dp[1 + r]);
+				towards(e.minus[r], e.arm[r] * e.dp[0] + e.dp[1 + r]);
 			}
 		}
 

@@ -3,6 +3,8 @@
 // With P̂ = P_n + F_a, thresholds T = μ_s P̂ and Γ = μ_r ℓ P̂, and slacks that are never negative, the three graphs of law.hpp are the equations
 //     U_n + b_n = w ,   U_t + b_t = λ₋ − λ₊ ,   U_r + b_r = κ₋ − κ₊
 //     P̂ w = 0 ,   (T ∓ P_t) λ± = 0 ,   (Γ ∓ P_r) κ± = 0
+// and for a bond with the play p (law.hpp), with P_n = a − b, two more of them along the normal:
+//     p − (U_n + b_n) = z₁ − z₂ ,   a w = 0 ,   b z₁ = 0 ,   (F_a − b) z₂ = 0    in the place of   P̂ w = 0 ,
 // in which the products are put to a τ > 0 that is led to 0, Newton's step being taken as far as all stay positive (Mehrotra 1992, with his prediction and
 // correction). The slacks are eliminated contact by contact, dP = α − G dU with a triangular G of three by three, and
 // what is left has as many unknowns as bodies have velocities:

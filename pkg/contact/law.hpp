@@ -11,6 +11,10 @@
 //   overlap or bond       b_n = 0            errors of position are taken back by displacements, see solver.hpp
 //   impact                b_n = e U^n_before Newton's restitution
 //                         impacts that follow from impacts in the same step are taken before: impact_sequence.hpp
+// A bond of length L > 0 that closes freely bears tension at this length and compression where its bodies touch. Between the two it has play:
+//     U^n + b_n = 0 and N ≥ 0 ,   0 < U^n + b_n < p and N = 0 ,   U^n + b_n = p and −F_a ≤ N ≤ 0 ,   U^n + b_n > p and N = −F_a ,
+//     p = L / h the play, b_n = g / h. T_max and Γ_max as above with this N: those of N = 0 while it has play.
+// It is a maximal monotone graph, too, that of −∂ψ with ψ(N) = p max(−N, 0) on N ≥ −F_a, and p = 0 gives (1).
 // Each graph "x ∈ K, −u ∈ N_K(x)" is the fixed point x = proj_K(x − ρ u) for every ρ > 0; the residual of a solution is
 // the distance from that fixed point with ρ the inverse diagonal of the Delassus operator (natural map).
 // Sign: compression and opening positive, impulses positive on body j. Deviation from the paper: none in the graphs; the biases are
@@ -24,6 +28,14 @@ namespace nonsmooth::contact {
 
 /// Nearest admissible normal impulse, eqs (1) and (2).
 inline double projectNormal(double n, double adhesion) { return std::max(n, -adhesion); }
+
+/// The normal impulse that obeys the graph, of one without regard to it, n = P − (U + b)/W, and 1/W: nearest admissible one, and of a bond with play
+/// the proximal point of ψ/W.
+inline double obeyNormal(const Contact& c, double n, double inverse)
+{
+	if (!(c.play > 0)) return projectNormal(n, c.adhesion);
+	return projectNormal(std::max(n, std::min(n + inverse * c.play, 0.0)), c.adhesion);
+}
 
 /// Nearest admissible tangential impulse or rolling impulse for a threshold, eqs (3) to (6).
 inline double projectThreshold(double value, double threshold)
@@ -68,7 +80,7 @@ inline Impulse
 visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseMass& mi, const InverseMass& mj,
       Twist& vi, Twist& vj)
 {
-	const double n = projectNormal(y.n - inverse.n * (relativeVelocity(c, vi, vj).n + c.biasN), c.adhesion);
+	const double n = obeyNormal(c, y.n - inverse.n * (relativeVelocity(c, vi, vj).n + c.biasN), inverse.n);
 	applyImpulse(c, { n - y.n, 0, 0 }, mi, mj, vi, vj);
 	const double t = projectThreshold(
 	        y.t - inverse.t * (relativeVelocity(c, vi, vj).t + c.biasT), slidingThreshold(c, n));
@@ -80,22 +92,25 @@ visit(const Contact& c, const Impulse& y, const Impulse& inverse, const InverseM
 }
 
 /// Impulses of a contact whose relative velocities `u` are given, so that no impulse changes them: what the graphs say, and where they allow a range the least of it.
-/// It is the limit of bodies whose masses grow without end. Where the bodies approach (U_n < 0) no finite impulse obeys the law: none.
+/// It is the limit of bodies whose masses grow without end. Where the bodies approach (U_n < 0, or beyond touch what has play) no finite impulse obeys the law: none.
 inline Impulse impulseOfGivenMotion(const Contact& c, const Impulse& u)
 {
-	if (u.n < 0) return {};
-	const double n       = u.n > 0 ? 0 - c.adhesion : 0; // and no negative zero
+	const bool   plays = c.play > 0;
+	const double lost  = plays ? u.n + c.biasN : u.n; // where the bodies touch, and
+	const double free  = plays ? lost - c.play : u.n; // at the bond's length
+	if (lost < 0) return {};
+	const double n       = free > 0 ? 0 - c.adhesion : 0; // and no negative zero
 	const auto   against = [](double speed, double threshold) {
                 return speed > 0 ? 0 - threshold : speed < 0 ? threshold : 0;
 	};
 	return { n, against(u.t, slidingThreshold(c, n)), against(u.r, rollingThreshold(c, n)) };
 }
 
-/// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s].
+/// Natural map: what one contact misses of its graphs, P − proj(P − (U + b)/W), row by row [N s, N s, N m s]; with play the proximal point is in the place of the nearest.
 /// `u`: relative velocity without bias; `inverse`: inverseDelassus of the contact.
 inline Impulse naturalMapDefect(const Contact& c, const Impulse& p, const Impulse& u, const Impulse& inverse)
 {
-	return { p.n - projectNormal(p.n - inverse.n * (u.n + c.biasN), c.adhesion),
+	return { p.n - obeyNormal(c, p.n - inverse.n * (u.n + c.biasN), inverse.n),
 		 p.t - projectThreshold(p.t - inverse.t * (u.t + c.biasT), slidingThreshold(c, p.n)),
 		 p.r - projectThreshold(p.r - inverse.r * (u.r + c.biasR), rollingThreshold(c, p.n)) };
 }

@@ -13,7 +13,7 @@ namespace {
 
 	/// The graphs of law.hpp that errors of position ask for: thresholds are none, or without bounds.
 	struct Graphs {
-		double biasN, biasT, biasR, adhesion, friction, rollingArm;
+		double biasN, biasT, biasR, adhesion, friction, rollingArm, play;
 
 		explicit Graphs(const PositionError& e)
 		        : biasN(e.error)
@@ -22,6 +22,7 @@ namespace {
 		        , adhesion(adhesionOf(e))
 		        , friction(e.sticks ? 1 : 0)
 		        , rollingArm(e.grips ? 1 : 0)
+		        , play(e.play)
 		{
 		}
 	};
@@ -83,6 +84,7 @@ namespace {
 				k.biasN.v[l]    = e.error;
 				k.adhesion.v[l] = adhesion;
 				k.n.v[l] = k.beforeN.v[l] = impulse;
+				if (sweeper.playsOf(s)) sweeper.own.plays[b].v[l] = playOf(k, l, e.play);
 			}
 		}
 		const bool asks = asked && asksAcross(s);
@@ -106,6 +108,7 @@ namespace {
 			Contact&             c = sweeper.rows[k].contact;
 			c.biasN                = graphs.biasN;
 			c.adhesion             = graphs.adhesion;
+			c.play                 = graphs.play;
 			c.biasT                = across[s] ? graphs.biasT : 0;
 			c.biasR                = across[s] ? graphs.biasR : 0;
 			c.friction             = across[s] ? graphs.friction : 0;
@@ -146,9 +149,11 @@ namespace {
 				const double         beta   = betas[pass - 1];
 				if (pass == 1) sweeper.keepBodies(s);
 				sweeper.extrapolate(s, beta);
-				if (across[s]) kernels.inDouble.sweep(blocks, count, sweeper.bodies.data(), beta);
+				const auto* const plays = sweeper.playsOf(s);
+				if (across[s])
+					kernels.inDouble.sweep(blocks, plays, count, sweeper.bodies.data(), beta);
 				else
-					kernels.sweepNormals(blocks, count, sweeper.bodies.data(), beta);
+					kernels.sweepNormals(blocks, plays, count, sweeper.bodies.data(), beta);
 				sweeper.sweepRows(s, beta);
 			} else
 				end(s);

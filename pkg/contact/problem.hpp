@@ -48,6 +48,7 @@ struct Contact {
 	double       friction   = 0; // μ_s
 	double       rollingArm = 0; // μ_r ℓ [m]
 	double       length     = 1; // ℓ [m]: turns rolling residuals into impulses
+	double       play       = 0; // L/h [m/s]: of a bond that closes freely, see law.hpp; 0 of all others
 };
 
 struct Problem {

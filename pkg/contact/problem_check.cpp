@@ -91,16 +91,27 @@ void refuseContact(const Problem& problem, std::size_t k)
 	const struct {
 		const char* name;
 		double      value;
-	} all[] = { { "normal x", c.nx },          { "normal y", c.ny },           { "lever n of i", c.leverNi },
-		    { "lever t of i", c.leverTi }, { "lever n of j", c.leverNj },  { "lever t of j", c.leverTj },
-		    { "normal bias", c.biasN },    { "tangential bias", c.biasT }, { "rolling bias", c.biasR },
-		    { "adhesion", c.adhesion },    { "friction", c.friction },     { "rolling arm", c.rollingArm },
-		    { "length", c.length },        { "normal impulse", p.n },      { "tangential impulse", p.t },
+	} all[] = { { "normal x", c.nx },
+		    { "normal y", c.ny },
+		    { "lever n of i", c.leverNi },
+		    { "lever t of i", c.leverTi },
+		    { "lever n of j", c.leverNj },
+		    { "lever t of j", c.leverTj },
+		    { "normal bias", c.biasN },
+		    { "tangential bias", c.biasT },
+		    { "rolling bias", c.biasR },
+		    { "adhesion", c.adhesion },
+		    { "friction", c.friction },
+		    { "rolling arm", c.rollingArm },
+		    { "play", c.play },
+		    { "length", c.length },
+		    { "normal impulse", p.n },
+		    { "tangential impulse", p.t },
 		    { "rolling impulse", p.r } };
 	for (const auto& number : all)
 		if (!finite(number.value))
 			refuse(it, " has the ", number.name, " ", number.value, ": it must be finite");
-	for (const auto& number : { all[9], all[10], all[11] })
+	for (const auto& number : { all[9], all[10], all[11], all[12] })
 		if (number.value < 0)
 			refuse(it, " has the ", number.name, " ", number.value, ": it must not be negative");
 	if (!(c.length > 0)) refuse(it, " has the length ", c.length, ": it must be positive");

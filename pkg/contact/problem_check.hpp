@@ -29,8 +29,9 @@ inline bool usable(const Contact& c, const Impulse& p, std::int32_t bodies)
 	        && std::abs(c.nx * c.nx + c.ny * c.ny - 1) <= 2 * unitLength
 	        && finite(
 	                c.leverNi, c.leverTi, c.leverNj, c.leverTj, c.biasN, c.biasT, c.biasR, c.adhesion, c.friction,
-	                c.rollingArm, c.length)
-	        && c.adhesion >= 0 && c.friction >= 0 && c.rollingArm >= 0 && c.length > 0 && finite(p.n, p.t, p.r);
+	                c.rollingArm, c.length, c.play)
+	        && c.adhesion >= 0 && c.friction >= 0 && c.rollingArm >= 0 && c.length > 0 && c.play >= 0
+	        && finite(p.n, p.t, p.r);
 }
 
 /// Throws std::invalid_argument naming the setting, its value and what would do.

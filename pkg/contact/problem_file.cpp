@@ -198,6 +198,8 @@ void write(const std::string& path, const RecordedProblem& recorded)
 	column("/contacts/friction", 1, [](const Contact& c) { return Numbers { c.friction }; });
 	column("/contacts/rolling_arm", 1, [](const Contact& c) { return Numbers { c.rollingArm }; });
 	column("/contacts/length", 1, [](const Contact& c) { return Numbers { c.length }; });
+	if (std::any_of(p.contacts.begin(), p.contacts.end(), [](const Contact& c) { return c.play != 0; }))
+		column("/contacts/play", 1, [](const Contact& c) { return Numbers { c.play }; });
 	put("/contacts/warm_start", flat(recorded.warmStart, impulse), 3);
 	put("/contacts/impulse", flat(p.impulses, impulse), 3);
 	if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) fail(path, "cannot be made in memory");
@@ -256,6 +258,8 @@ RecordedProblem read(const std::string& path)
 	           bias     = get("/contacts/bias", 3, contacts);
 	const auto adhesion = get("/contacts/adhesion", 1, contacts), friction = get("/contacts/friction", 1, contacts);
 	const auto arm = get("/contacts/rolling_arm", 1, contacts), length = get("/contacts/length", 1, contacts);
+	const auto play = get.has("/contacts/play") ? get("/contacts/play", 1, contacts)
+	                                            : std::vector<double>(contacts);
 	for (hsize_t k = 0; k < contacts; ++k) {
 		Contact c;
 		for (const int body : { pairs[2 * k], pairs[2 * k + 1] })
@@ -278,6 +282,7 @@ RecordedProblem read(const std::string& path)
 		c.friction   = friction[k];
 		c.rollingArm = arm[k];
 		c.length     = length[k];
+		c.play       = play[k];
 		p.contacts.push_back(c);
 	}
 	return recorded;

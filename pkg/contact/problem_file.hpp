@@ -7,6 +7,7 @@
 //     /contacts/body           c×2   i, j                                    /contacts/normal       c×2   from i to j
 //     /contacts/lever          c×4   λn_i, λt_i, λn_j, λt_j                  /contacts/bias         c×3   b_n, b_t, b_r
 //     /contacts/adhesion, /contacts/friction, /contacts/rolling_arm, /contacts/length                   c each
+//     /contacts/play           c     p [m/s]; missing where no bond closes freely
 //     /contacts/warm_start     c×3   impulses the solve began with           /contacts/impulse      c×3   solution
 #pragma once
 

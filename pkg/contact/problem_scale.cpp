@@ -39,6 +39,7 @@ Problem scaled(const Problem& problem, const Scaling& s)
 		c.biasN    = std::ldexp(c.biasN, s.speed);
 		c.biasT    = std::ldexp(c.biasT, s.speed);
 		c.biasR    = std::ldexp(c.biasR, s.speed);
+		c.play     = std::ldexp(c.play, s.speed);
 		c.adhesion = std::min(std::ldexp(c.adhesion, s.speed + s.mass), unreached);
 	}
 	return p;

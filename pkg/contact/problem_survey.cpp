@@ -72,11 +72,12 @@ namespace {
 		double       longestX = 0, longestY = 0;
 		long         bad  = count;
 		const double jump = jumpOf(problem);
-		bool newPairs = result.pairs.size() != problem.contactCount(), newSimple = newPairs, jumps = false;
+		bool newPairs = result.pairs.size() != problem.contactCount(), newSimple = newPairs, jumps = false,
+		     plays = false;
 		result.pairs.resize(count);
 		result.simple.resize(count);
 // clang-format off
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad) reduction(max : longestX, longestY) reduction(|| : newPairs, newSimple, jumps)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : bad) reduction(max : longestX, longestY) reduction(|| : newPairs, newSimple, jumps, plays)
 		// clang-format on
 		for (long k = 0; k < count; ++k) {
 			const Contact& c = problem.contacts[k];
@@ -91,6 +92,7 @@ namespace {
 			before                    = pair;
 			const std::uint8_t fits   = blocks && isSimple(c, i, j);
 			newSimple                 = newSimple || fits != result.simple[k];
+			plays                     = plays || c.play > 0;
 			result.simple[k]          = fits;
 			jumps = jumps || isMassJump(problem.inverseMass[c.i], problem.inverseMass[c.j], jump);
 			if (!positions || !(i & j & Survey::moves)) continue;
@@ -101,6 +103,7 @@ namespace {
 		result.longest[0] = longestX;
 		result.longest[1] = longestY;
 		result.jumps      = jumps;
+		result.plays      = plays;
 		result.pairsKept  = !newPairs;
 		result.simpleKept = !newSimple;
 	}

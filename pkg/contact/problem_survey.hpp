@@ -33,6 +33,7 @@ struct Survey {
 	bool                      uneven
 	        = false; // whether one body has massJump times the mass of another (mass_jumps.hpp); among many, plates that go along one line do not count
 	bool jumps     = false; // whether masses jump somewhere (mass_jumps.hpp)
+	bool plays     = false; // whether a contact has play (law.hpp)
 	bool pairsKept = false, simpleKept = false; // whether they are those of the last look
 };
 

@@ -104,6 +104,9 @@ namespace {
 			kernels.round(
 			        exact.blocksOf(s), exact.own.inverseLength.data() + begin, exact.countOf(s),
 			        rounded->blocksOf(s), rounded->own.inverseLength.data() + begin);
+			for (std::size_t b = begin; exact.playsOf(s) && b < laidOut.blockBegin[s + 1]; ++b)
+				for (std::size_t l = 0; l < lanes; ++l)
+					rounded->own.plays[b].v[l] = static_cast<float>(exact.own.plays[b].v[l]);
 			exact.forNew(s, body);
 			rounded->keepBodies(s);
 		});

@@ -19,6 +19,7 @@
 // Errors of position are taken back by displacements that leave no velocity behind (split impulses). For bodies'
 // displacements D and pseudo-impulses Q with D = M⁻¹ Hᵀ Q, a few sweeps of the same blocks, extrapolated as above, move towards
 //     0 ≤ (D^n + e) ⟂ Q ≥ 0 ,     and for a bond that holds    D^n + e = 0 ,    where it sticks    D^t + e_t = 0 ,    and where it does not roll    D^r + e_r = 0 ,
+// for one that holds and closes freely    0 ≤ D^n + e ≤ p ,    Q ≥ 0 at the lower bound and Q ≤ 0 at the upper one,
 // with e the errors at the end of the step, as far as they are to be taken back. Normals alone act, but in strips in which a bond asks for more. The sweeps begin
 // with the Q of the step before along the normals, and with none along the tangents, whose errors are few and small.
 #pragma once
@@ -88,15 +89,17 @@ template <> inline BodiesOf<double>& Workspace::with() { return inDouble; }
 template <> inline BodiesOf<float>&  Workspace::with() { return inSingle; }
 
 /// What one contact asks of the positions at the end of a step [m]: its bodies draw apart by −error where that is negative, and by no more than they
-/// must; they may draw together by `error` where it is positive. With `held` they do so in any case.
+/// must; they may draw together by `error` where it is positive. With `held` they do so in any case, but for `play`.
 struct PositionError {
 	double error  = 0;
 	bool   held   = false; // a bond, whose length is kept either way
 	bool   sticks = false, grips = false; // that may not slip, and may not turn
 	double impulse
 	        = 0; // Q to begin with [kg m], that of the step before: what lies deep in a packing takes several steps
-	float slip = 0, turn = 0; // what it has done so all the same, and is to go back [m, rad]
-	bool  asksAcross() const { return slip != 0 || turn != 0; }
+	float  slip = 0, turn = 0; // what it has done so all the same, and is to go back [m, rad]
+	double play
+	        = 0; // of a bond that closes freely, and of no contact whose own was 0 in the solve: by how much its bodies may be farther apart than −error
+	bool asksAcross() const { return slip != 0 || turn != 0; }
 };
 
 struct PositionCorrection {

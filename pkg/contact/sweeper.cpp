@@ -26,6 +26,7 @@ Sweeper<Number>::Sweeper(Problem& problem_, const SolverSettings& settings_, Wor
 {
 	own.blocks.resize(laidOut.blockBegin.back());
 	own.inverseLength.resize(laidOut.blockBegin.back());
+	own.plays.resize(laidOut.inDouble.plays.size());
 	outgrowsCache = own.blocks.size() * sizeof(Block<Number>) > lastCache;
 	sums.resize(laidOut.partCount());
 	if (settings.stopping != StoppingTest::NaturalMap) changeSums.resize(laidOut.partCount());
@@ -182,10 +183,10 @@ template <class Number> void Sweeper<Number>::sweep(const std::vector<double>& b
 		        if (!strips.isActive(s)) return;
 		        if (ahead.parts > 0 && outgrowsCache)
 			        kernels.sweepAndFetch(
-			                blocksOf(s), countOf(s), bodies.data(), beta,
+			                blocksOf(s), playsOf(s), countOf(s), bodies.data(), beta,
 			                blocksOf(ahead.strip) + countOf(ahead.strip) * ahead.part / ahead.parts);
 		        else
-			        kernels.sweep(blocksOf(s), countOf(s), bodies.data(), beta);
+			        kernels.sweep(blocksOf(s), playsOf(s), countOf(s), bodies.data(), beta);
 		        sweepRows(s, beta);
 	        });
 }
@@ -208,9 +209,9 @@ template <class Number> void Sweeper<Number>::measureStrip(std::size_t s, bool s
 	const auto* blocks    = blocksOf(s);
 	const auto* perLength = own.inverseLength.data() + laidOut.blockBegin[s];
 	sums[s]               = speeds ? kernels.measure(
-	                                blocks, perLength, countOf(s), bodies.data(), static_cast<Number>(scale.share),
+	                                blocks, perLength, playsOf(s), countOf(s), bodies.data(), static_cast<Number>(scale.share),
 	                                static_cast<Number>(scale.mean), static_cast<Number>(scale.least))
-	                               : kernels.measureImpulses(blocks, perLength, countOf(s), bodies.data());
+	                               : kernels.measureImpulses(blocks, perLength, playsOf(s), countOf(s), bodies.data());
 	measureRows(s, speeds, sums[s]);
 }
 

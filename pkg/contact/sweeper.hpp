@@ -72,8 +72,9 @@ public:
 	/// Natural-map residual of a strip with the present velocities, and with `speeds` what it misses of them.
 	void measureStrip(std::size_t strip, bool speeds);
 
-	Block<Number>* blocksOf(std::size_t strip) { return own.blocks.data() + laidOut.blockBegin[strip]; }
-	std::size_t    countOf(std::size_t strip) const
+	Block<Number>*         blocksOf(std::size_t strip) { return own.blocks.data() + laidOut.blockBegin[strip]; }
+	const Numbers<Number>* playsOf(std::size_t strip) const { return own.playsFrom(laidOut.blockBegin[strip]); }
+	std::size_t            countOf(std::size_t strip) const
 	{
 		return laidOut.blockBegin[strip + 1] - laidOut.blockBegin[strip];
 	}

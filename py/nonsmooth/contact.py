@@ -58,6 +58,9 @@ class ContactProblem:
     warm_start: np.ndarray  # (c, 3): impulses the step's solve began with [N s, N s, N m s]
     impulse: np.ndarray  # (c, 3): the step's solution
     position: np.ndarray | None = None  # (b, 2) [m], for the order of the sweep only
+    play: np.ndarray | None = (
+        None  # (c,): p = L/h [m/s] of bonds that close freely, 0 of others; None where there are none
+    )
 
 
 @dataclass(frozen=True)
@@ -146,6 +149,8 @@ def check(problem: ContactProblem, what="contact problem") -> ContactProblem:
     shapes["body"] = (contacts, 2)
     if problem.position is not None:
         shapes["position"] = (bodies, 2)
+    if problem.play is not None:
+        shapes["play"] = (contacts,)
     for name, shape in shapes.items():
         _checked(f"{what}: {name}", getattr(problem, name), shape, "iu" if name == "body" else "fiu")
     if contacts and not (0 <= np.min(problem.body) and np.max(problem.body) < bodies):
@@ -203,6 +208,7 @@ def _arrays(problem, impulse):
         "friction",
         "rolling_arm",
         "length",
+        "play",
     )
     return {
         **{name: getattr(problem, name) for name in fields},

@@ -29,6 +29,14 @@ def test_a_file_keeps_every_bit(problem, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["again.h5"]
     without = contact.load(contact.save(tmp_path / "again.h5", replace(problem, position=None)))
     assert without.position is None
+    assert problem.play is None
+    count = len(problem.normal)
+    closing = replace(problem, play=np.linspace(0, 1, count), adhesion=np.ones(count))
+    back = contact.load(contact.save(tmp_path / "closing.h5", closing))
+    assert np.array_equal(back.play, closing.play)
+    one, other = contact.solve(closing, max_iterations=20), contact.solve(back, max_iterations=20)
+    struts = contact.solve(replace(closing, play=None), max_iterations=20)
+    assert np.array_equal(one.impulse, other.impulse) and not np.array_equal(one.impulse, struts.impulse)
 
 
 def test_a_link_is_replaced_and_not_followed(problem, tmp_path):
@@ -103,6 +111,7 @@ def test_a_contact_of_a_body_with_itself_is_refused(problem):
         ("lever", [[1, 2], [3]], "lever (is not an array|has the shape)"),
         ("normal", 1.0, "normal must be an array"),
         ("position", np.zeros((2, 2)), "position has the shape"),
+        ("play", np.zeros(7), r"play has the shape \(7,\) and must have \(2589,\)"),
         ("time_step", 0.0, "time_step = 0.0: it must be a positive number of seconds"),
         ("time_step", "soon", "time_step = 'soon'"),
     ],

@@ -56,6 +56,7 @@ struct Recipe {
 	        = true; // all contacts fit into blocks; otherwise about half have levers along n, biases in t and r, or a body with two masses
 	bool smooth = false; // neither friction nor rolling resistance
 	bool bonded = false; // nothing moves: every contact holds in its three rows
+	bool plays  = false; // half of what bears tension has play
 };
 
 struct Manufactured {
@@ -63,7 +64,7 @@ struct Manufactured {
 	std::vector<Link>    links;
 	std::vector<Impulse> impulses; // the solution
 	std::vector<Twist>   velocities; // that belong to it
-	int                  counts[4] = {}; // contacts that are pressed, pulled, at their limit, open
+	int                  counts[5] = {}; // contacts that are pressed, pulled, at their limit, open, in their play
 
 	/// The natural map by its definition: what impulses miss of the fixed point x = proj(x − u/W), row by row.
 	std::vector<Impulse> defects(const std::vector<Impulse>& p) const
@@ -79,9 +80,14 @@ struct Manufactured {
 			const auto     row     = [](double x, double velocity, double w, double least, double most) {
                                 return x - std::clamp(x - velocity / w, least, most);
 			};
+			// with play: compression where z is above 0, tension where it is below −p/W, nothing between
+			const double n = u.n + c.biasN, z = p[k].n - n / w.n, length = -c.play / w.n;
+			const double along = c.play == 0 ? row(p[k].n, n, w.n, -c.adhesion, HUGE_VAL)
+			        : z > 0                  ? p[k].n - z
+			        : z > length             ? p[k].n
+			                                 : row(p[k].n, n - c.play, w.n, -c.adhesion, 0);
 			found.push_back(
-			        { row(p[k].n, u.n + c.biasN, w.n, -c.adhesion, HUGE_VAL),
-			          row(p[k].t, u.t + c.biasT, w.t, -c.friction * pressed, c.friction * pressed),
+			        { along, row(p[k].t, u.t + c.biasT, w.t, -c.friction * pressed, c.friction * pressed),
 			          row(p[k].r, u.r + c.biasR, w.r, -c.rollingArm * pressed, c.rollingArm * pressed) });
 		}
 		return found;
@@ -209,13 +215,22 @@ private:
 		c.rollingArm = recipe.smooth || (!recipe.bonded && uniform() < 0.3) ? 0 : uniform(0.05, 0.3) * c.length;
 		c.biasN      = uniform() < 0.4 ? 0 : uniform(-0.5, 0.5); // restitution, or a gap
 
+		if (recipe.plays && c.adhesion > 0 && uniform() < 0.5) c.play = uniform(0.1, 0.5);
+
 		// velocities in the graphs, bias included; impulses complementary to them
 		Impulse      u, p;
 		const double chance = recipe.bonded ? uniform(0, 0.5) : uniform();
-		const int    state  = chance < 0.4 ? 0 : chance < 0.55 && c.adhesion > 0 ? 1 : chance < 0.7 ? 2 : 3;
+		int          state  = chance < 0.4 ? 0 : chance < 0.55 && c.adhesion > 0 ? 1 : chance < 0.7 ? 2 : 3;
+		if (c.play > 0 && uniform() < 0.3) state = 4;
 		++made.counts[state];
-		p.n = state == 0 ? uniform(0.2, 2) : state == 1 ? -uniform(0.1, 0.9) * c.adhesion : -c.adhesion;
-		u.n = state == 3 ? uniform(0.1, 1) : 0;
+		p.n                     = state == 4     ? 0
+		                            : state == 0 ? uniform(0.2, 2)
+		                            : state == 1 ? -uniform(0.1, 0.9) * c.adhesion
+		                                         : -c.adhesion;
+		u.n                     = state == 4     ? uniform(0.1, 0.9) * c.play
+		                            : state == 3 ? uniform(0.1, 1) + c.play
+		                            : state == 0 ? 0
+		                                         : c.play;
 		const Impulse now       = seen(link, made.velocities);
 		const bool    turnsBias = !free && odd();
 		if (turnsBias || (free && odd())) c.biasT = uniform(-0.2, 0.2), c.biasR = uniform(-0.2, 0.2);

@@ -1,4 +1,5 @@
 // Bodies, disks and bonds in the plane: by hand, by exact motions, by symmetry.
+#include <array>
 #include <cmath>
 #include <contact/plane/bond.hpp>
 #include <contact/plane/disk_contact.hpp>
@@ -310,6 +311,32 @@ TEST(PlaneBond, TensionYieldsWhereItOpens)
 	EXPECT_FALSE(yieldsInTension(
 	        bonded(0, 0.5, 0.25, 2), { 0, 0, 0 },
 	        { 0.5, 0, 0 })); // without a strength a bond does not yield, it just opens
+}
+
+TEST(PlaneBond, OneThatClosesHasThePlayOfItsLength)
+{
+	const double h = 0.01;
+	Contact      c = bonded(100, 0.5, 0, 1);
+	setPlay(c, 0, 0.001, h); // made at touch
+	EXPECT_EQ(c.play, 0);
+	EXPECT_EQ(c.biasN, 0);
+	for (const auto& [gap, biasN, play] : { std::array { 0.005, 0.5, 2.0 },
+	                                        { 0.02, 2.0, 2.0 },
+	                                        { 0.0, 0.0, 2.0 },
+	                                        { -0.003, 0.0, 2.0 },
+	                                        { 0.03, 3.0, 3.0 } }) {
+		setPlay(c, 0.02, gap, h); // beyond its length it does not open further
+		EXPECT_DOUBLE_EQ(c.biasN, biasN) << gap;
+		EXPECT_DOUBLE_EQ(c.play, play) << gap;
+	}
+	setPlay(c, 0.02, 0.005, h);
+	EXPECT_DOUBLE_EQ(openingOf(c, { 1.75, 0, 0 }), 0.25); // of 1.75 m/s it may open by 1.5
+	EXPECT_FALSE(yieldsInTension(c, { -100, 0, 0 }, { 1.4, 0, 0 }));
+	EXPECT_TRUE(yieldsInTension(c, { -100, 0, 0 }, { 1.75, 0, 0 }));
+	EXPECT_DOUBLE_EQ(yieldOfStep(c, { -100, 0, 0 }, { 1.75, 0, 0 }, h).tension, 0.0025);
+	EXPECT_EQ(ofClosing({ -0.5, 0.25 }).normal, 0); // that it closes is no damage
+	EXPECT_EQ(ofClosing({ -0.5, 0.25 }).tangential, 0.25);
+	EXPECT_EQ(ofClosing({ 0.5, 0 }).normal, 0.5);
 }
 
 TEST(PlaneBond, ABreakIsNamedByMostOfThePath)

@@ -79,7 +79,7 @@ TEST_F(ProblemFile, KeepsEveryNumberOfAContactInItsPlace)
 		                             &Contact::leverTi,  &Contact::leverNj,  &Contact::leverTj,
 		                             &Contact::biasN,    &Contact::biasT,    &Contact::biasR,
 		                             &Contact::adhesion, &Contact::friction, &Contact::rollingArm,
-		                             &Contact::length };
+		                             &Contact::length,   &Contact::play };
 	for (double Contact::*const x : numbers)
 		c.*x = number += 1;
 	RecordedProblem out { lattice(3, 1).problem, {}, step };

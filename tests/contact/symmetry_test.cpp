@@ -16,7 +16,7 @@ namespace {
 /// Contacts in all states, in several strips; outside blocks too unless `simple`. Impulses to start with are half of the solution's.
 Problem network(bool simple, int bodies = 900, unsigned seed = 71)
 {
-	const Manufactured m = manufactured({ seed, bodies, 1.0, simple });
+	const Manufactured m = manufactured({ seed, bodies, 1.0, simple, false, false, true });
 	Problem            p = m.problem;
 	for (std::size_t k = 0; k < p.contactCount(); ++k)
 		p.impulses[k] = { 0.5 * m.impulses[k].n, 0.5 * m.impulses[k].t, 0.5 * m.impulses[k].r };
@@ -294,7 +294,7 @@ Problem inUnits(Problem p, const Units& u)
 		scale(u.length, x.x, x.y);
 	for (Contact& c : p.contacts) {
 		scale(u.length, c.leverNi, c.leverTi, c.leverNj, c.leverTj, c.rollingArm, c.length);
-		scale(speed, c.biasN, c.biasT);
+		scale(speed, c.biasN, c.biasT, c.play);
 		scale(1 / u.time, c.biasR);
 		scale(impulse, c.adhesion);
 	}

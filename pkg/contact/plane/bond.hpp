@@ -10,6 +10,10 @@
 // A bond at its threshold yields. In a step of length h with relative velocities U and impulses P (thresholds as in contact/law.hpp) it yields by
 //     h U_n where P_n = −h F_a and U_n > 0 ,   |h U_t| where |P_t| = μ_s (h F_a + P_n) ,   |h w| ℓ/2 where |P_r| = μ_r ℓ (h F_a + P_n) .
 // The sums over the bond's life are its yield paths; what has more than 0.6 of them all names the break. In tension it keeps the longest gap it has had.
+// A bond that closes freely (contact/law.hpp) has in such a step the gap g of its bodies and the length L that it keeps, which it may not leave:
+//     b_n = max(g, 0) / h ,   p = max(L, g) / h .
+// It yields by h (U_n + b_n − p) in tension, and as always across. A bond made at touch has L = 0 and is as any other. That the bodies draw together is no damage:
+// d_n < 0 counts as 0. Opened up to L again it is what it was, since no force has done work in between.
 // Sign: d_n > 0 where the bodies have parted, d_t > 0 where the second has gone counter-clockwise about the first. Units: m, s, N s.
 // The first body is the wall, or that of lower id. Deviation from the paper: none; the 0.6 is ours, the paper tells no modes of mixed breaks.
 #pragma once
@@ -94,6 +98,9 @@ inline BondStrain unyielded(const BondStrain& strain, bool slid, bool rolled, Bo
 	return { strain.slip - rest.slip, strain.turn - rest.turn };
 }
 
+/// What counts of a displacement where a bond closes freely.
+inline BondDisplacement ofClosing(const BondDisplacement& d) { return { std::max(d.normal, 0.0), d.tangential }; }
+
 /// Whether a bond is inside its zone.
 inline bool bondLives(const BondDisplacement& d, const BondEllipse& zone)
 {
@@ -109,13 +116,24 @@ inline double firstRestGap(double gap) { return std::max(gap, 0.0); }
 /// That of a bond which yielded in tension in the step before and now spans `gap` [m].
 inline double grownRestGap(double restGap, double gap) { return std::max(restGap, gap); }
 
+/// Gives a bond of that length L that closes freely its play in a step of length h [s], over `gap` [m].
+inline void setPlay(Contact& c, double restGap, double gap, double h)
+{
+	if (!(restGap > 0)) return;
+	c.biasN = firstRestGap(gap) / h;
+	c.play  = grownRestGap(restGap, gap) / h;
+}
+
+/// How fast a bond opens beyond its length [m/s].
+inline double openingOf(const Contact& c, const Impulse& u) { return c.play > 0 ? u.n + c.biasN - c.play : u.n; }
+
 /// A threshold counts as reached at this share of it.
 constexpr double reached = 1 - 1e-9;
 
 /// Whether a bond with impulses p and velocities u at the end of the step has reached its tensile threshold and opens: it keeps its new length.
 inline bool yieldsInTension(const Contact& c, const Impulse& p, const Impulse& u)
 {
-	return c.adhesion > 0 && p.n <= -reached * c.adhesion && u.n > 0;
+	return c.adhesion > 0 && p.n <= -reached * c.adhesion && openingOf(c, u) > 0;
 }
 
 /// Whether it slides, and whether it rolls.
@@ -132,7 +150,7 @@ inline bool yieldsInTorque(const Contact& c, const Impulse& p)
 inline YieldPath yieldOfStep(const Contact& c, const Impulse& p, const Impulse& u, double h)
 {
 	YieldPath y;
-	if (yieldsInTension(c, p, u)) y.tension = std::max(0.0, h * u.n);
+	if (yieldsInTension(c, p, u)) y.tension = std::max(0.0, h * openingOf(c, u));
 	if (yieldsInShear(c, p)) y.shear = std::abs(h * u.t);
 	if (yieldsInTorque(c, p)) y.torque = std::abs(h * u.r) * 0.5 * c.length;
 	return y;

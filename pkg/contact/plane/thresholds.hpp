@@ -27,6 +27,7 @@ struct Strengths {
 	double ellipseNormal = 0, ellipseTangential = 0; // ε_n, ε_t [ℓ]
 	double creationDistance = 0; // Δ [ℓ]
 	bool   bondable         = false;
+	bool   closes           = false; // bonds over a gap close freely, see bond.hpp
 
 	Thresholds ofBond(double length) const { return { length * tension, friction, length * rolling }; }
 	Thresholds residual(double length) const
@@ -39,7 +40,7 @@ struct Strengths {
 			return std::tie(
 			        s.tension, s.residualTension, s.friction, s.residualFriction, s.rolling,
 			        s.residualRolling, s.restitution, s.ellipseNormal, s.ellipseTangential,
-			        s.creationDistance, s.bondable);
+			        s.creationDistance, s.bondable, s.closes);
 		};
 		return all(*this) == all(other);
 	}

@@ -30,7 +30,7 @@ MUTANTS = (
     mutant("plane-ellipse", BOND, "d.tangential / zone.tangential", "d.tangential / zone.normal", "the ellipse of a bond is a circle", "gtest:PlaneBond.*"),
     mutant("plane-first-gap", BOND, "std::max(gap, 0.0)", "gap", "a bond keeps an overlap", "gtest:PlaneBond.*"),
     mutant("plane-rest-gap", BOND, "std::max(restGap, gap)", "gap", "a bond that was pulled out springs back", "gtest:PlaneBond.*"),
-    mutant("plane-opens", BOND, "u.n > 0", "true", "a bond that is held at its threshold has yielded", "gtest:PlaneBond.*"),
+    mutant("plane-opens", BOND, "openingOf(c, u) > 0", "true", "a bond that is held at its threshold has yielded", "gtest:PlaneBond.*"),
     mutant("plane-yield-shear", BOND, "reached * slidingThreshold(c, p.n)", "reached * rollingThreshold(c, p.n)", "a bond counts as sheared at the rolling threshold", "gtest:PlaneBond.*"),
     mutant("plane-yield-arm", BOND, "std::abs(h * u.r) * 0.5 * c.length", "std::abs(h * u.r) * c.length", "the path of rolling has the diameter for its arm", "gtest:PlaneBond.*"),
     mutant("plane-break", BOND, "if (path.shear > bound) return BreakMode::Shear;", "if (path.shear > bound) return BreakMode::Torque;", "broken in shear and by torque are one",

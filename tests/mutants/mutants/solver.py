@@ -178,8 +178,15 @@ MUTANTS = (
     mutant("regions-extent", REGIONS, "std::max(e.yMax, o.yMax)", "e.yMax", "differences of velocities do not know the squares around, upwards", "gtest:Regions.*"),
     mutant("regions-around", REGIONS, "places[s].y + k / 3 - 1", "places[s].y + k / 3 - 2", "the squares around are two below", "gtest:Regions.*"),
     # ---- law of a given motion
-    mutant("law-given-tension", LAW, "u.n > 0 ? 0 - c.adhesion : 0", "u.n > 0 ? c.adhesion : 0", "bodies that are driven apart are pushed apart",
+    mutant("law-given-tension", LAW, "free > 0 ? 0 - c.adhesion : 0", "free > 0 ? c.adhesion : 0", "bodies that are driven apart are pushed apart",
            "gtest:Law.GivenMotion*"),
-    mutant("law-given-closing", LAW, "if (u.n < 0) return {};", ";", "bodies that are driven into each other rub as if nothing pressed them",
+    mutant("law-given-closing", LAW, "if (lost < 0) return {};", ";", "bodies that are driven into each other rub as if nothing pressed them",
            "gtest:Law.GivenMotionByHand"),
+    # ---- bonds that close freely
+    mutant("play-length", LAW, "std::min(n + inverse * c.play, 0.0)", "std::min(n - inverse * c.play, 0.0)", "a bond that closes freely pulls below its length", "gtest:Play.EachBranch*"),
+    mutant("play-given", LAW, "lost - c.play", "lost", "a bond whose motion is given pulls as soon as its bodies part", "gtest:Play.GivenMotionByHand"),
+    mutant("play-kernels", KERNELS, "minOf<V>(n + at.get(play), zero)", "minOf<V>(n, zero)", "sweeps in blocks know nothing of play", "gtest:Play.OnePair*"),
+    mutant("play-displaced", CORRECTION, "playOf(k, l, e.play)", "0", "displacements keep a bond that may close as far as it was", "gtest:Play.Displacements*"),
+    mutant("play-patch", "pkg/contact/interior_point.cpp", "c.play - u[0] - (e.drawn.speed - e.spare.speed)", "u[0] - c.play - (e.drawn.speed - e.spare.speed)", "in patches a bond is short by what it is long",
+           "gtest:Play.AHeavyDisk*"),
 )
