@@ -21,9 +21,9 @@ void Law2_ScGeom_NscdPhys_SignoriniCoulomb::followBond(
         NscdPhys& phys, Real gap, const Vector3r& normal, const nscd::BondPair& pair) const
 {
 	namespace plane = nonsmooth::contact::plane;
+	const auto gone = nscd::bondDisplacement(phys, *pair.first->state, *pair.second->state);
 	if (!plane::bondLives(
-	            nscd::bondDisplacement(phys, *pair.first->state, *pair.second->state),
-	            { phys.ellipseNormal, phys.ellipseTangential })
+	            phys.closes ? plane::ofClosing(gone) : gone, { phys.ellipseNormal, phys.ellipseTangential })
 	    && phys.ellipseNormal > 0 && phys.ellipseTangential > 0) { // else it is refused in this step
 		breakBond(phys);
 		return;

@@ -324,10 +324,9 @@ NscdInteractionLoop::Next NscdInteractionLoop::follow(nscd::Resident& resident, 
 	if (r.bonded) {
 		if (bond.marks.normal.x == 0 && bond.marks.normal.y == 0)
 			makeBond(r, bond.marks, (swap ? p2 : p1).motion, swap ? p1 : p2, swap);
-		if (!plane::bondLives(
-		            plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion),
-		            bond.zone)
-		    && bond.zone.normal > 0 && bond.zone.tangential > 0) { // else it is refused in this step
+		const auto gone = plane::bondDisplacement(bond.marks, (swap ? p2 : p1).motion, (swap ? p1 : p2).motion);
+		if (!plane::bondLives(r.closes ? plane::ofClosing(gone) : gone, bond.zone) && bond.zone.normal > 0
+		    && bond.zone.tangential > 0) { // else it is refused in this step
 			if (r.bare) return Next::Unmade; // the interaction says how it broke, and when
 			r.phys->restGap   = r.restGap;
 			r.phys->yieldPath = nscd::vectorOf(r.path);

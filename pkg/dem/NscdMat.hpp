@@ -33,6 +33,7 @@ it is 0.5 rad (28.6°, μ = 0.546), as in every FrictMat, and not 0.)""",
 		((Real,bondEllipseNormal,0.02,Attr::triggerPostLoad,"Half-axis ε_n of the ellipse in which a bond lives, along the contact normal [ℓ] (Figure 2b)."))
 		((Real,bondEllipseTangential,0.02,Attr::triggerPostLoad,"Half-axis ε_t of the ellipse along the tangent [ℓ]."))
 		((Real,bondCreationDistance,0.02,Attr::triggerPostLoad,"Bonds are made where the gap is below this distance Δ [ℓ] (Figure 2a), see :yref:`ContactDynamicsEngine.bond`."))
+		((bool,bondsClose,false,,"A bond made over a gap bears tension up to its length, shear and torque, but no compression before the bodies touch: they may draw together freely. False: it keeps its length either way, like a strut. Between two particles it is enough that one of two materials says so. Present contacts take it up by :yref:`ContactDynamicsEngine.updateStrengths`."))
 		((Real,restitution,0,Attr::triggerPostLoad,"Newton's coefficient of restitution e [-], between 0 and 1; the larger of the two bodies' holds."))
 		((int,layer,0,,"Bonds and residual tensile strength exist only between bodies of the same layer; in a layer with a negative number no bonds are made. See bondsToAll for walls."))
 		((bool,bondsToAll,false,,"Make bonds with bodies of any layer: for walls, two of which have a tensile strength in Table 1. Section 2.2.2 tells of bonds between grains alone."))

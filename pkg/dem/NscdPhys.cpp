@@ -236,6 +236,7 @@ namespace {
 		s.ellipseTangential = pick(a.bondEllipseTangential, b.bondEllipseTangential);
 		s.creationDistance  = pick(a.bondCreationDistance, b.bondCreationDistance);
 		s.bondable          = bondable;
+		s.closes            = a.wall ? a.bondsClose : (b.wall ? b.bondsClose : a.bondsClose || b.bondsClose);
 		return s;
 	}
 }
@@ -273,6 +274,7 @@ void Ip2_NscdMat_NscdMat_NscdPhys::setStrengths(NscdPhys& phys, const Strengths&
 	phys.ellipseTangential    = length * s.ellipseTangential;
 	phys.creationDistance     = length * s.creationDistance;
 	phys.bondable             = s.bondable;
+	phys.closes               = s.closes;
 	phys.currentFriction = phys.tangensOfFrictionAngle = phys.bonded ? bond.friction : residual.friction;
 	phys.overruled                                     = false;
 }

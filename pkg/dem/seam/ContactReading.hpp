@@ -26,6 +26,7 @@ struct alignas(64) Reading {
 	Keeper      keeper : 2;
 	bool        cohesive : 1, bounces : 1; // its physics is an NscdPhys; with restitution
 	bool        bonded : 1, yielded : 1, slips : 1;
+	bool        closes : 1; // a bond would close freely
 	bool        usable : 1; // its numbers make sense, and its normal lies in the plane
 	bool        active : 1; // Interaction::isActive
 	bool        wasRead : 1; // its geometry and thresholds are those of the interaction
@@ -59,6 +60,7 @@ struct alignas(64) Reading {
 	        , bonded(false)
 	        , yielded(false)
 	        , slips(false)
+	        , closes(false)
 	        , usable(false)
 	        , active(true)
 	        , wasRead(true)
@@ -121,6 +123,7 @@ inline void findThresholds(Reading& r, const nonsmooth::contact::plane::Strength
 	r.friction         = now.friction;
 	r.rollingArm       = now.rollingArm;
 	r.residualAdhesion = residual.adhesion;
+	r.closes           = strengths.closes;
 	r.usable           = makeSense(r);
 }
 
@@ -132,6 +135,7 @@ inline void readThresholds(Reading& r)
 	r.friction           = phys.currentFriction;
 	r.rollingArm         = phys.currentRollingArm;
 	r.residualAdhesion   = phys.residualTensileForce;
+	r.closes             = phys.closes;
 	r.usable             = makeSense(r) && !phys.unheard() && !phys.senseless().first;
 }
 

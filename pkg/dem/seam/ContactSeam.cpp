@@ -5,6 +5,7 @@
 #include "../SceneCheck.hpp"
 #include <algorithm>
 #include <contact/law.hpp>
+#include <contact/plane/bond.hpp>
 #include <contact/plane/disk_contact.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
@@ -87,6 +88,8 @@ void ContactSeam::bend(const Reading& reading, Contact& c) const
 	c.friction        = reading.friction;
 	c.rollingArm      = reading.rollingArm;
 	c.length          = reading.length;
+	c.play            = 0;
+	if (reading.bonded && reading.closes) contact::plane::setPlay(c, reading.restGap, gap, h);
 	if (reading.bounces && !reading.bonded) {
 		// an impact within the step counts at its full speed; one that does not happen yet is left alone
 		const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;

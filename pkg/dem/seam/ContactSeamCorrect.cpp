@@ -104,6 +104,10 @@ void ContactSeam::turnClusters()
 {
 	const Contact& c = problem.contacts[k];
 	const Impulse& p = problem.impulses[k];
+	if (c.play > 0) { // at touch or at its length from the beginning of the step on, and pressed there or pulled
+		const Real left = relaxation.step * (p.n > 0 ? c.biasN : c.play - c.biasN);
+		if (p.n == 0 || left > relaxation.slack * c.length) return false;
+	}
 	return !plane::yieldsInTension(c, p, u) && !plane::yieldsInShear(c, p);
 }
 
@@ -128,6 +132,13 @@ void ContactSeam::turnClusters()
 	e.error        = e.held ? taken(off, end, slack)
 	                        : end + slack - (1 - relaxation.rate) * std::min(Real(0), off + slack);
 	if (e.held || e.error < 0) e.error = limited(e.error, most);
+	if (e.held && c.play > 0) { // between touch and its length nothing is wrong
+		const Real stays   = 1 - relaxation.rate;
+		const Real touched = end + rest + slack - stays * std::min(Real(0), r.gap + slack),
+		           drawn   = end - slack - stays * std::max(Real(0), off - slack);
+		e.error            = std::max(-most, touched);
+		e.play             = std::max(Real(0), e.error - std::min(most, drawn));
+	}
 	if (!turns) return e;
 	// what it has yielded it keeps too
 	e.sticks = true;
@@ -163,8 +174,9 @@ void ContactSeam::correct(const contact::SolverSettings& settings, contact::Work
 			if (turns) joints[part].push_back(k);
 			if (!corrects) continue;
 			const auto& e = errors[k] = errorOf(k, u, turns);
-			any                       = any || (e.held ? e.error != 0 : e.error < 0);
-			anyAcross                 = anyAcross || e.asksAcross();
+			any                       = any
+			        || (!e.held || e.play > 0 ? e.error < 0 || (e.held && e.error > e.play) : e.error != 0);
+			anyAcross = anyAcross || e.asksAcross();
 		}
 	}
 	turnClusters();

@@ -39,7 +39,8 @@ void ContactSeam::answerGivenMotion()
 		const Impulse  u    = givenVelocity(c);
 		const Reading& r    = readingOf(links[k]);
 		problem.impulses[k] = contact::impulseOfGivenMotion(c, u);
-		if (!(-u.n > 0) || !(r.bonded || r.gap <= 0)) continue;
+		const bool isFree   = c.play > 0 && u.n + c.biasN >= 0; // a bond that closes
+		if (!(-u.n > 0) || !(r.bonded || r.gap <= 0) || isFree) continue;
 		++drivenPairs;
 		if (-u.n > drivenTogether) {
 			drivenTogether = -u.n;

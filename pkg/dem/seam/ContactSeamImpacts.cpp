@@ -64,9 +64,15 @@ void ContactSeam::setBiasAfterImpacts(Contact& c, const Link& link) const
 {
 	constexpr Real touch = 1e-9; // ℓ, as in the sequence: what meets just at the step's end is the next one's
 	const Reading& r     = readingOf(link);
-	if (r.bonded || !(sequence.flights[c.i].struck || sequence.flights[c.j].struck)) return;
-	const Real gap = gapOf(c, r), h = relaxation.step,
-	           approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
+	const bool     plays = c.play > 0; // a bond that closes freely
+	if ((r.bonded && !plays) || !(sequence.flights[c.i].struck || sequence.flights[c.j].struck)) return;
+	const Real gap = gapOf(c, r), h = relaxation.step;
+	if (plays) {
+		contact::plane::setPlay(c, r.restGap, gap, h);
+		if (r.curved) bend(r, c);
+		return;
+	}
+	const Real approach = contact::relativeVelocity(c, before[c.i], before[c.j]).n;
 	// What parts may come back as fast as it went, and no faster: it then takes no energy from what throws it back, and gives none. Places are put right by displacements.
 	c.biasN = std::max({ Real(0), (gap - std::min(r.gap, Real(0))) / h, approach });
 	if (r.bounces && approach < 0 && gap + h * approach < -touch * c.length) c.biasN = r.restitution * approach;

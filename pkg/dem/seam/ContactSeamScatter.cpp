@@ -131,9 +131,11 @@ ContactSeam::sumContact(size_t k, const Impulse& u1, const Reading& r, bool held
 	const Real normalWork = 0.5 * p.n * (u0.n + u1.n);
 	// all, since which one it is cannot be told ahead; tension in a bond that does not open loses nothing
 	const bool draws = p.n < 0;
+	// but for what comes to its end in a bond that closes freely: that is an impact, as what comes to touch
+	const bool jerks = draws && held && c.play > 0;
 	sums.debonding -= draws && !held ? normalWork : 0;
-	sums.heldWork += draws && held ? normalWork : 0;
-	sums.impact -= draws ? 0 : normalWork;
+	sums.heldWork += draws && held && !jerks ? normalWork : 0;
+	sums.impact -= draws && !jerks ? 0 : normalWork;
 	const Real shearWork = 0.5 * p.t * (u0.t + u1.t);
 	sums.sliding -= shearWork;
 	sums.rolling -= 0.5 * p.r * (u0.r + u1.r);
