@@ -114,6 +114,11 @@ def read_arguments():
         metavar="L",
         help="largest gap that is bonded, in mean diameters, instead of the material's",
     )
+    parser.add_argument(
+        "--closing-bonds",
+        action="store_true",
+        help="bonds over gaps close freely, also where the material has them as struts",
+    )
     arguments.add_runs(parser, "out/biaxial", "tests")
     args = parser.parse_args()
     if args.pressing_friction is not None:
@@ -134,6 +139,8 @@ def main():
     output_folder.claim(out, "biaxial.py", args.resume)
     if args.bond_distance is not None:
         material = dataclasses.replace(material, bond_creation_distance=args.bond_distance)
+    if args.closing_bonds:
+        material = dataclasses.replace(material, bonds_close=True)
     friction = None if args.sample == "packed" else args.pressing_friction or 0.0
     tests = [
         biaxial.Test(

@@ -102,6 +102,11 @@ def _rounded(value):
     return float(f"{value:.{DIGITS}g}")
 
 
+def _fixed() -> dict:
+    """What all rocks of the table share. It is older than ``bonds_close``, and was measured without."""
+    return {"bonds_close": False, **table()["fixed"]}
+
+
 def resolved(raw: dict, refuse) -> dict:
     """The data of a material that is asked for by :data:`ASKED`, with contact parameters in their place, and what was asked for as the ``envelope``; other data as they are.
 
@@ -142,8 +147,7 @@ def resolved(raw: dict, refuse) -> dict:
             "give an angle within"
             + (f", or let {search} search the contact parameters" if REACHED[0] < angle < REACHED[1] else ""),
         )
-    fixed = table()["fixed"]
-    for key, value in fixed.items():
+    for key, value in _fixed().items():
         if key in raw and raw[key] != value:
             refuse(
                 (key,),
@@ -166,7 +170,7 @@ def resolved(raw: dict, refuse) -> dict:
         "tensile_strength": found.tensile_strength,
         "residual_friction": _rounded(usual["residual_friction_over_friction"] * found.friction),
         "residual_tensile_strength": usual["residual_tensile_strength_over_tensile_strength"] * found.tensile_strength,
-        **fixed,
+        **table()["fixed"],
         **{k: v for k, v in raw.items() if k not in ASKED},
     }
     return made | {"envelope": dict(zip(("cohesion", "friction_deg"), (cohesion, angle)))}
@@ -175,7 +179,7 @@ def resolved(raw: dict, refuse) -> dict:
 def like_table(material) -> bool:
     """Whether a section.Material has the contact parameters that are fixed in the table, so that the table may say what its others make."""
     plain = lambda value: list(value) if isinstance(value, tuple) else value  # noqa: E731
-    return all(plain(getattr(material, key)) == value for key, value in table()["fixed"].items())
+    return all(plain(getattr(material, key)) == value for key, value in _fixed().items())
 
 
 def asked(material) -> Contacts | None:

@@ -84,6 +84,7 @@ def material(m, kind=NscdMat, **others):
         bondEllipseNormal=m.bond_ellipse[0],
         bondEllipseTangential=m.bond_ellipse[1],
         bondCreationDistance=m.bond_creation_distance,
+        bondsClose=m.bonds_close,
         restitution=m.restitution,
     )
     return kind(**{**values, **others})

@@ -63,6 +63,7 @@ class Material:
     residual_tensile_strength: float = 0.0
     bond_ellipse: tuple[float, float] = (0.02, 0.02)
     bond_creation_distance: float = 0.02
+    bonds_close: bool = False
     restitution: float = 0.0
     density: float | None = None
     bonded: bool = True

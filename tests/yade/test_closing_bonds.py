@@ -118,7 +118,9 @@ def test_a_pulled_bond_goes_back_to_its_length_holds_there_and_breaks_beyond():
         assert O.iter < 3000
     e = engine()
     assert (e.brokenTension, e.brokenShear, e.brokenTorque, e.brokenMixed) == (1, 0, 0, 0)
-    assert GAP + 0.9 * ZONE <= moved <= GAP + 1.1 * ZONE  # a half-axis beyond its length; a step takes it farther by a tenth at most
+    assert (
+        GAP + 0.9 * ZONE <= moved <= GAP + 1.1 * ZONE
+    )  # a half-axis beyond its length; a step takes it farther by a tenth at most
 
 
 def test_a_jerk_that_is_more_than_the_bond_bears_breaks_it():

@@ -40,6 +40,20 @@ def test_bodies_part_under_the_tension_f_a_alone(thresholds, state):
     assert low < -180 - 0.1 * 180 and high == pytest.approx(graph[0, 1], **exact)
 
 
+def test_a_bond_that_closes_bears_nothing_between_touch_and_its_length():
+    ax = figures.contact_law(dataclasses.replace(ROCK, bonds_close=True), SIZE).axes[0]
+    graph = drawn.points(drawn.line(ax, BOND))
+    touch, length = graph[0, 0], graph[3, 0]
+    assert touch < 0 < length < graph[-1, 0] and graph[1].tolist() == [touch, 0] and graph[2].tolist() == [length, 0]
+    assert graph[0, 1] > 180 and graph[3:, 1] == pytest.approx([-180] * 2, **exact)
+    assert [t.get_text() for t in ax.get_xticklabels()] == [
+        "to touch",
+        "0",
+        "to length",
+    ] and ax.get_xticks().tolist() == [touch, 0, length]
+    assert drawn.points(drawn.line(ax, LOOSE))[:2, 0].tolist() == [0, 0]  # without a bond nothing changes
+
+
 @pytest.mark.parametrize("state", STATES)
 @pytest.mark.parametrize("panel, unit", [(1, "$T$ [kN/m]"), (2, r"$\Gamma$ [kN m/m]")])
 def test_shear_and_torque_are_against_their_velocities(thresholds, state, panel, unit):

@@ -206,6 +206,7 @@ WHERE = {
         "--sample": (("--sample", "packed"), lambda a: first(a).shape.friction, None),
         "--pressing-friction": (("--pressing-friction", 0.4), lambda a: first(a).shape.friction, 0.4),
         "--bond-distance": (("--bond-distance", 0.013), lambda a: first(a).material.bond_creation_distance, 0.013),
+        "--closing-bonds": (("--closing-bonds",), lambda a: first(a).material.bonds_close, True),
         "--out": ((), lambda a: str(a.words[1]), "{out}"),
         "--threads": (("--threads", 7), lambda a: a.words[2], 7),
         "--resume": (("--resume",), lambda a: a.words[3], True),

@@ -177,6 +177,7 @@ BESIDE = "is given beside cohesion: 60000 and friction_angle: 34"
         ({"residual_rolling_friction": 0.0}, "measured with 0.1; leave residual_rolling_friction out"),
         ({"bond_ellipse": [0.02, 0.03]}, "measured with [0.02, 0.02]"),
         ({"bond_creation_distance": 0.05}, "measured with 0.025"),
+        ({"bonds_close": True}, f"rock.bonds_close: True {BESIDE}, and the table of calibrated rocks was measured with False"),
         ({"restitution": 0.5}, "measured with 0.0"),
         ({"residual_friction": 0.9}, f"rock.residual_friction: 0.9 {BESIDE}, of which the table"),
         ({"residual_friction": 0.05}, "measured with 0.11"),

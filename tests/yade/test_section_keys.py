@@ -371,6 +371,14 @@ WHERE = {
             (0.3, pytest.approx(0.31)),
         ),
     ],
+    ("materials", "*", "bonds_close"): [
+        ({(*ROCK, "bonds_close"): True}, lambda m: m.disk(0).material.bondsClose, True),
+        (
+            {(*DP, "bonds_close"): True},
+            lambda m: (m.wall("DP").bondsClose, m.disk(0).material.bondsClose),
+            (True, False),
+        ),
+    ],
     ("materials", "*", "restitution"): [
         ({(*ROCK, "restitution"): 0.4}, lambda m: m.disk(0).material.restitution, 0.4),
         ({(*DP, "restitution"): 0.3}, lambda m: m.wall("DP").restitution, 0.3),

@@ -20,6 +20,7 @@ __all__ = ["bond_zone", "contact_law", "water_forces"]
 
 BOND, LOOSE = "bond", "touching, without a bond"
 COLOURS = {BOND: LINES["blue"], LOOSE: LINES["orange"]}
+HALF = 0.3  # velocity at which a bond that closes comes to touch, and to its length, in the sketch
 SAMPLE = 1e5  # Pa, over ℓ: the normal force that is drawn where nothing is cohesive
 FAINT = "#999999"
 PAPER = dict(fc="white", ec="none", alpha=0.8, pad=0.8)  # behind words that stand on a line
@@ -47,7 +48,7 @@ def contact_law(material, diameter=2.0, path=None, pdf=False):
     """The three graphs of a contact, equations (1), (3) and (5), and below them what each threshold is, equations (2), (4) and (6).
 
     ``material``: a `section.Material`; ``diameter``: ℓ [m]. A material that is bonded has two curves, of a bond and of a touching contact without one; another
-    has the second alone. Sliding and rolling are drawn at the normal force F_a, or 100 kPa times ℓ where there is no cohesion. Forces are those of a slice 1 m thick.
+    has the second alone. With ``bonds_close`` a bond has, with a half of its gap closed, a way between touch and its length on which no normal force acts. Sliding and rolling are drawn at the normal force F_a, or 100 kPa times ℓ where there is no cohesion. Forces are those of a slice 1 m thick.
     Raises UserError where the diameter is not positive.
     """
     if not diameter > 0:
@@ -59,7 +60,7 @@ def contact_law(material, diameter=2.0, path=None, pdf=False):
     fig = style.figure(8.8, 6.6)
     graphs, thresholds = fig.subplots(2, 3)
     fig.subplots_adjust(left=0.08, right=0.985, top=0.95, bottom=0.19, wspace=0.42, hspace=0.42)
-    _separation(graphs[0], states, diameter, normal)
+    _separation(graphs[0], states, diameter, normal, material.bonds_close)
     _tension(thresholds[0], states, diameter)
     for above, below, name, speed, letter, before, arm, friction in (
         (graphs[1], thresholds[1], "Sliding", "tangential velocity $U^t$", "T", r"\mu_s", 1.0, "sliding"),
@@ -80,17 +81,24 @@ def contact_law(material, diameter=2.0, path=None, pdf=False):
     return style.save(fig, path, pdf)
 
 
-def _separation(ax, states, diameter, normal):
-    """Normal force against the velocity at which two bodies part."""
+def _separation(ax, states, diameter, normal, closes):
+    """Normal force against the velocity at which two bodies part. A bond that ``closes`` is drawn with a half of its gap closed: it comes to touch at one velocity, and to its length at another."""
     factor, unit = style.force_unit(normal)
     high = normal / factor
     for name, state in states.items():
         adhesion = state.stress * diameter / factor
-        ax.plot([0, 0, 1], [2.5 * high, -adhesion, -adhesion], label=name, **_look(name))
+        if closes and name == BOND:
+            way = ([-HALF, -HALF, HALF, HALF, 1], [2.5 * high, 0, 0, -adhesion, -adhesion])
+        else:
+            way = ([0, 0, 1], [2.5 * high, -adhesion, -adhesion])
+        ax.plot(*way, label=name, **_look(name))
     _cross(ax, "Separation", "normal velocity $U^n$", f"normal force $N$ [{unit}]")
-    ax.set(xlim=(-0.25, 1.02), ylim=(-1.7 * high, 2.5 * high))
+    ax.set(xlim=(-0.55 if closes else -0.25, 1.02), ylim=(-1.7 * high, 2.5 * high))
     lowest = -max(state.stress for state in states.values()) * diameter / factor
     ax.text(0.06, 1.4 * high, "holds", va="center")
+    if closes and BOND in states:
+        ax.set_xticks([-HALF, 0, HALF], ["to touch", "0", "to length"], fontsize="small")
+        ax.set_xlabel("normal velocity $U^n$, bond half closed")
     ax.text(0.55, lowest - 0.12 * high, "opens, $N=-F_a$", ha="center", va="top")
 
 

@@ -24,7 +24,7 @@ from yade.wrapper import (
     WallPhys,
 )
 
-from .parameters import SoftError
+from .parameters import SoftError, refuse_closing
 
 __all__ = ["bond", "bond_walls", "bonded", "weaken"]
 
@@ -124,6 +124,7 @@ def bond_walls(ids=None, fragile=True):
             )
         if not isinstance(wall.shape, Segment) or not isinstance(m, NscdMat) or not m.bondsToAll:
             continue
+        refuse_closing(f"body {wall.id}: bondsClose True", m.bondsClose)
         along, half = np.array(wall.state.ori * Vector3(1, 0, 0))[:2], wall.shape.halfLength
         away = centres - np.array(wall.state.pos)[:2]
         height = along[0] * away[:, 1] - along[1] * away[:, 0]

@@ -34,6 +34,7 @@ from yade.wrapper import (
 
 from .. import scene
 from ..section import Material
+from .parameters import refuse_closing
 
 __all__ = ["engines", "engines_of", "material", "wall_material"]
 
@@ -57,6 +58,7 @@ def wall_material(e, wall, **others):
     """
     options = dict(young=e.young, poisson=e.shear_ratio)
     if isinstance(wall, Material):
+        refuse_closing(f"material {wall.name}: bonds_close true", wall.bonds_close)
         return scene.wall_material(wall, **{**options, **others})
     return NscdMat(
         **{**options, **dict(density=e.material.density, frictionAngle=math.atan(wall), wall=True, layer=-1), **others}

@@ -120,6 +120,14 @@ class Equivalent:
         return values
 
 
+def refuse_closing(what, closes):
+    """SoftError where bonds are to close freely."""
+    if closes:
+        raise SoftError(
+            f"{what}: a soft bond presses as soon as its gap begins to close; take it away, or take rigid contacts"
+        )
+
+
 def equivalent(
     material: Material,
     stiffness: float,
@@ -166,6 +174,7 @@ def equivalent(
         raise SoftError(
             f"material {material.name}: slip_weakening {material.slip_weakening.law!r}, which no soft model has; take it away"
         )
+    refuse_closing(f"material {material.name}: bonds_close true", material.bonds_close)
     if model == "cohesion_moment" and material.rolling_friction > 0 and rolling_ratio == 0:
         raise SoftError(
             f"rolling_ratio 0: the material {material.name} resists rolling, so its contacts need a stiffness; give more than 0"
