@@ -192,7 +192,7 @@ def speeds(cases, path=None, pdf=False, moving=0.2):
     )
     right.set(
         xlim=(min(begins, default=0.0), 1.05 * max(ends, default=1.0)),
-        ylim=(0, 1.05 * largest),
+        ylim=(0, 1.3 * largest),  # with room for the legend
         title="end: $t_5$ by a share of the largest speed",
     )
     return style.save(fig, path, pdf)
