@@ -225,7 +225,9 @@ try {
 	const Arguments          arguments = parse(argc, argv);
 	contact::RecordedProblem recorded  = contact::read(arguments.in);
 	contact::Problem&        problem   = recorded.problem;
-	oracle::Delassus         w         = oracle::delassus(problem, arguments.rolling && anyRolls(problem));
+	for (const contact::Contact& c : problem.contacts) // Siconos has no bonds that close freely
+		if (c.play > 0) throw std::invalid_argument("a contact has play, which Siconos does not know");
+	oracle::Delassus w = oracle::delassus(problem, arguments.rolling && anyRolls(problem));
 	if (arguments.measure) {
 		const auto p = w.scaled(problem, problem.impulses);
 		std::printf(
