@@ -1,5 +1,6 @@
 """The generators of random mutants: what they change in made-up sources, what they leave alone, and whom they ask. No YADE, no files but made-up ones."""
 import ast
+import os
 from textwrap import dedent
 
 import changes
@@ -7,6 +8,7 @@ import cpp_changes
 import near_tests
 import pytest
 import python_changes
+import workplace
 from changes import COMPARISON, CONDITION, CONSTANT, INDEX, NAME, SIGN, as_mutant, chosen, number
 from mutant import check_whole, mutant
 from near_tests import NearTests
@@ -317,6 +319,25 @@ def test_every_cpp_change_can_be_a_branch_of_a_switch():
         old, new = text[first:last], text[first : c.begin] + c.new + text[c.end : last]
         check_whole(mutant(c.digest, c.file, old, new, c.says), text, first, old, new)
         assert new != old and ";" not in old
+
+
+def test_a_copy_is_built_again_where_it_changed_also_back(tmp_path, monkeypatch):
+    """Files' times are what ninja goes by: one that loses its mutants is the checkout's, which is older than what was built with them."""
+    checkout, copy = tmp_path / "checkout" / "pkg" / "contact", tmp_path / "copy"
+    checkout.mkdir(parents=True)
+    for name in ("a.cpp", "b.cpp"):
+        (checkout / name).write_text("int f() { return x + y; }\n")
+        os.utime(checkout / name, (1e9, 1e9))
+    monkeypatch.setattr(workplace, "ROOT", tmp_path / "checkout")
+    monkeypatch.setattr(workplace, "PARTS", ("pkg",))
+    times = lambda: [(copy / "pkg" / "contact" / name).stat().st_mtime_ns for name in ("a.cpp", "b.cpp")]  # noqa: E731
+    one, other = (mutant(name[0], f"pkg/contact/{name}", "x + y", "x - y", "") for name in ("a.cpp", "b.cpp"))
+    workplace.mutated_sources(copy, [one, other])
+    first = times()
+    workplace.mutated_sources(copy, [one])
+    again = times()
+    assert again[0] == first[0] and again[1] > first[1] > 1e9 * 1e9
+    assert (copy / "pkg" / "contact" / "b.cpp").read_text() == (checkout / "b.cpp").read_text()
 
 
 # ---- who judges

@@ -38,15 +38,17 @@ def copy_sources(target):
 
 
 def mutated_sources(target, mutants):
-    """The copy with all mutants of the C++; a file that did not change keeps its time, so that only what changed is built again."""
+    """The copy with all mutants of the C++; a file that did not change keeps its time, so that only what changed is built again, and one that did has a new one, also
+    where it is the checkout's again."""
     fresh = target.with_name(target.name + ".new")
     shutil.rmtree(fresh, ignore_errors=True)
     copy_sources(fresh)
     switch_all(fresh, mutants)
     for path in fresh.rglob("*"):
         old = target / path.relative_to(fresh)
-        if path.is_file() and old.is_file() and old.read_bytes() == path.read_bytes():
-            os.utime(path, ns=(old.stat().st_atime_ns, old.stat().st_mtime_ns))
+        if path.is_file() and old.is_file():
+            same = old.read_bytes() == path.read_bytes()
+            os.utime(path, ns=(old.stat().st_atime_ns, old.stat().st_mtime_ns) if same else None)
     shutil.rmtree(target, ignore_errors=True)
     fresh.rename(target)
 
