@@ -47,8 +47,10 @@ def mutated_sources(target, mutants):
     for path in fresh.rglob("*"):
         old = target / path.relative_to(fresh)
         if path.is_file() and old.is_file():
-            same = old.read_bytes() == path.read_bytes()
-            os.utime(path, ns=(old.stat().st_atime_ns, old.stat().st_mtime_ns) if same else None)
+            if old.read_bytes() == path.read_bytes():
+                os.utime(path, ns=(old.stat().st_atime_ns, old.stat().st_mtime_ns))
+            else:
+                os.utime(path)
     shutil.rmtree(target, ignore_errors=True)
     fresh.rename(target)
 
