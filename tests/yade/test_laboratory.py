@@ -98,6 +98,18 @@ def test_samples_are_of_the_slopes_rock_and_made_as_the_slope_is():
     assert (test.shape.d_min, test.shape.d_max) == (shipped.disks.d_min, shipped.disks.d_max)
 
 
+def test_the_pressure_on_a_bonded_sample_grows_and_stays(monkeypatch):
+    """As the square of the steps to the whole of it, and no farther."""
+    told = []
+    walls = SimpleNamespace(pressure=0.0, step=lambda: told.append(walls.pressure))
+    made = SimpleNamespace(walls=walls, engine=SimpleNamespace(bond=lambda: 7), _free=lambda share: None)
+    monkeypatch.setattr(sample, "advance", lambda: None)
+    sample.Sample._bond_and_load(made, 8e6)
+    ramp = pressing.RAMP
+    assert made.bonds == 7 and told[ramp // 2 - 1] == pytest.approx(2e6, rel=1e-12) and told[ramp - 1] == 8e6
+    assert len(told) > ramp and sorted(told) == told and set(told[ramp - 1 :]) == {8e6}
+
+
 def test_samples_that_other_engines_have_pressed_are_not_taken(monkeypatch):
     shape = pressing.Shape(300, 1)
     here = pressing.cache_path(shape)
