@@ -134,6 +134,8 @@ def test_a_scene_loaded_by_itself_says_what_to_do(tmp_path):
 
 
 def test_a_runner_that_is_not_the_first_is_refused():
+    with pytest.raises(RuntimeError, match="not the first of O.engines"):
+        CourseRunner(command="pass")()  # by hand, in a new scene, which has no engines
     O.engines = [PyRunner(command="pass", iterPeriod=1), CourseRunner(command="pass")]
     with pytest.raises(RuntimeError, match="not the first of O.engines"):
         O.step()

@@ -127,17 +127,18 @@ def test_a_wall_that_was_moved_and_stands_is_at_rest():
     assert O.bodies[disk].state.pos[0] - 0.5 == pytest.approx(O.bodies[0].state.pos[0], abs=2e-4)
 
 
+@pytest.mark.parametrize("radius", [0.5, 0.05])
 @pytest.mark.parametrize(
     "pause, jump, told",
     [(1, 1.01, True), (1, 0.99, False), (5, 0.11, True), (5, 0.09, False), (101, 0.01, True), (100, 0.01, False)],
 )
-def test_jumps_and_moves_after_long_are_places_and_are_told_of(pause, jump, told, capfd):
+def test_jumps_and_moves_after_long_are_places_and_are_told_of(pause, jump, told, radius, capfd):
+    """Jumps in diameters of the smallest disk."""
     piston(radius=0.5)
-    free = free_disk(50, 50, stuff=O.materials[0])  # the smallest disk, of 1 m
-    assert O.bodies[free].shape.radius == 0.5
+    O.bodies.append(scene.disk((50, 50), radius, O.materials[0]))
     run(2)
     for _ in range(2):
-        O.bodies[0].state.pos -= Vector3(jump, 0, 0)  # away from the disk
+        O.bodies[0].state.pos -= Vector3(jump * 2 * radius, 0, 0)  # away from the disk
         run(pause)
     run(1)
     words = capfd.readouterr().err

@@ -6,7 +6,15 @@ import pytest
 from yade import O
 from yade.minieigenHP import Quaternion
 from yade.nonsmooth import scene
-from yade.wrapper import ContactDynamicsEngine, ForceResetter, PorePressureEngine, Sphere, WallForceEngine
+from yade.wrapper import (
+    ContactDynamicsEngine,
+    ForceResetter,
+    Ig2_Arc_Sphere_ScGeom,
+    Ig2_Segment_Sphere_ScGeom,
+    PorePressureEngine,
+    Sphere,
+    WallForceEngine,
+)
 
 from contact_scenes import G, begin, contacts, engine, floor, free_disk, material, run, spoilt
 
@@ -79,6 +87,15 @@ def test_functors_that_look_for_less_than_contacts(which, value):
     if value >= 1 and math.isfinite(value):
         return run(2)
     refused(rf"{type(functor).__name__}\.interactionDetectionFactor = .*: give 1 or more")
+
+
+@pytest.mark.parametrize("kind", [Ig2_Segment_Sphere_ScGeom, Ig2_Arc_Sphere_ScGeom])
+def test_functors_of_walls_take_a_look_as_far_as_a_contact_and_no_less(kind):
+    for value in (1.0, 1.5):
+        assert kind(interactionDetectionFactor=value).interactionDetectionFactor == value
+    for value in (1 - 1e-9, NAN, INF):
+        with pytest.raises((RuntimeError, ValueError), match="interactionDetectionFactor"):
+            kind(interactionDetectionFactor=value)
 
 
 @pytest.mark.parametrize("value", [NAN, INF])

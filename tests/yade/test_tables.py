@@ -129,3 +129,10 @@ def test_rows_of_many_bodies_with_gaps(owned):
     assert (table["x"] == 3.0 * (k % 100) + 1e-3 * k * moved).all()
     assert (table["y"] == 3.0 * (k // 100) - 2e-3 * k * moved).all()
     O.reset()
+
+
+def test_a_sphere_without_a_radius_is_no_row(corner):
+    """Between two steps, of which the next one refuses it."""
+    engine().view()
+    O.bodies[corner[2]].shape.radius = 0.0
+    assert tables.bodies(engine())["id"].tolist() == [corner[2] + 1]

@@ -5,7 +5,7 @@ import pytest
 from contact_scenes import G, begin, bits, box, engine, loose_heap, material, run
 from yade import O
 from yade.nonsmooth import scene
-from yade.wrapper import NonsmoothTimeStepper
+from yade.wrapper import CourseRunner, NonsmoothTimeStepper
 
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -42,6 +42,23 @@ def test_grows_to_the_largest_where_nothing_moves():
     O.dt = 1e-3
     O.step()
     assert O.dt == 1.5e-3
+
+
+def test_a_step_that_an_exception_ended_does_not_grow_twice():
+    """After the solver has been through it, in the third step of a scene; the next one grows from it as from any other."""
+    O.bodies.append(scene.disk((0, 0), 1.0, material(0.3)))
+    begin(gravity=(0, 0, 0), dt=1e-3)
+    stepper(largest=1.0, growth=1.5)
+    O.engines = O.engines + [CourseRunner(command="pass", dead=True)]
+    run(2)
+    O.engines[-1].dead = False
+    for _ in range(3):
+        with pytest.raises(RuntimeError, match="not the first of O.engines"):
+            O.step()
+        assert O.iter == 2 and O.dt == pytest.approx(1.5**3 * 1e-3, rel=1e-12)
+    O.engines[-1].dead = True
+    run(2)
+    assert O.dt == pytest.approx(1.5**4 * 1e-3, rel=1e-12)
 
 
 def test_contacts_bound_the_step():
