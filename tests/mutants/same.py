@@ -32,4 +32,38 @@ SAME = {
         "return True and not isinstance(value, bool)",
     ): "what else a checked material holds, words, stands under no key that has bounds",
     ("py/nonsmooth/figures/sweep.py", "if handles:", "if True:"): "a legend without entries and frame shows nothing",
+    # ---- pkg/dem: what is only looked up, shown or asked once more
+    (
+        "pkg/dem/PlateLoadEngine.cpp",
+        "!former.empty()",
+        "true",
+    ): "interactions are shown where none is taken away, which changes no bit",
+    ("pkg/dem/seam/Turn.cpp", "!data->shownAlone.empty()", "true"): "of no bodies none is taken again",
+    ("pkg/dem/WallJoints.cpp", "now != walls", "true"): "joints of the same walls are found again and are the same",
+    (
+        "pkg/dem/SceneCheck.cpp",
+        "known.count(b->material->getClassIndex()) || loop->physDispatcher->getFunctor2D(b->material, ours, swap)",
+        "false || loop->physDispatcher->getFunctor2D(b->material, ours, swap)",
+    ): "a class whose functor was found is asked about again, with the same answer",
+    (
+        "pkg/dem/seam/Audience.cpp",
+        "1 - 1e-9",
+        "1 - 2e-09",
+    ): "who may act a rounding sooner is shown the bodies for nothing, which changes no bit",
+    # ---- pkg/dem: other numbers with the same answer
+    (
+        "pkg/dem/Law2_SegmentGeom_WallPhys_SlipWeakening.cpp",
+        "-1",
+        "-2",
+    ): "to YADE's EnergyTracker any negative place is none yet",
+    (
+        "pkg/dem/ContactDynamicsWarnings.cpp",
+        "heaviest > 0 && lightest > contact::massJump * heaviest",
+        "heaviest >= 0 && lightest > contact::massJump * heaviest",
+    ): "where no body can move both are 0, and 0 is no more than 0",
+    (
+        "pkg/dem/SceneCheck.cpp",
+        "reading.nx + reading.ny + reading.nz",
+        "reading.nx - reading.ny + reading.nz",
+    ): "parts of a normal of length 1, or not finite: so is their sum, with either sign",
 }
