@@ -9,6 +9,7 @@ What decides its course stands in :mod:`yade.nonsmooth.course`; here it is looke
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import time
@@ -113,6 +114,8 @@ class Experiment:
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)
+            with contextlib.suppress(OSError):  # the series says what is wrong with the folder
+                self.folder.mkdir(parents=True, exist_ok=True)
         self.series = records.SeriesWriter(
             self.folder / "series.csv", self.columns, resume_from=mark and mark["series"], overwrite=True
         )

@@ -17,7 +17,7 @@ from .records.given import FILE
 
 SNAPSHOTS = (
     lambda v: isinstance(v, Iterable) and not isinstance(v, (str, Mapping)),
-    "give a list of files of snapshots, as sorted((run.folder / 'snapshots').glob('*.npz')) is one",
+    "give a list of the files of a run's snapshots, in the order of time",
 )
 
 FORCES = (  # column, symbol, meaning, role of the walls, colour

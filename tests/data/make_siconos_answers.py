@@ -29,7 +29,9 @@ def clusters():
 
 def joined(problems):
     """One problem of many that do not know of each other; the last body of each is its floor."""
-    first, parts = 0, {field.name: [] for field in fields(contact.ContactProblem)}
+    first, parts = 0, {
+        field.name: [] for field in fields(contact.ContactProblem) if field.name != "play"
+    }  # none of them has any
     for problem in problems:
         for name in parts:
             parts[name].append(getattr(problem, name) + (first if name == "body" else 0))

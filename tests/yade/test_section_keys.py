@@ -74,7 +74,7 @@ def data(changes=()):
 
 
 def read(folder, changes=()):
-    path = folder / "section.yaml"
+    path = folder / "slope.yaml"
     path.write_text(yaml.safe_dump(data(changes), sort_keys=False))
     return section.load(str(path))
 

@@ -100,7 +100,7 @@ def kept_cluster(number):
     chosen = {
         name: value[bodies if name in ("inverse_mass", "free_velocity", "velocity", "position") else contacts]
         for name, value in vars(kept).items()
-        if name != "time_step"
+        if name != "time_step" and value is not None
     }
     return contact.ContactProblem(
         **{**chosen, "time_step": kept.time_step, "body": chosen["body"] - np.int32(bodies.start)}

@@ -128,7 +128,7 @@ CALLS = [
     ("breaks", lambda v: paraview.write_breaks(v, "a.vtu"), (None, "x", {}, BREAKS), "give broken bonds"),
     ("O", lambda v: paraview.write_scene_walls(v, "a.vtu"), (None, "x", 3), "give YADE's O"),
     ("entries", lambda v: paraview.write_collection(v, "a.pvd"), (None, "x", [1], [(1, 2, 3)]), r"give a list of \(time, file\) pairs"),
-    ("snapshot_paths", lambda v: video.write_mp4(v, CIRCLE, "a.mp4"), (None, "x", 3, {}), "give a list of files of snapshots"),
+    ("snapshot_paths", lambda v: video.write_mp4(v, CIRCLE, "a.mp4"), (None, "x", 3, {}), "give a list of the files of a run's snapshots"),
     ("walls", lambda v: video.write_mp4([], v, "a.mp4"), (None, "circle", 3, [1]), "give a Section, or walls"),
     ("path", lambda v: video.write_mp4([], CIRCLE, v), (None, 3, [1], ""), "give the path of the file to write"),
     ("section", lambda v: similar.with_disks_of(v, CIRCLE, 2), (None, "circle"), "give a Section"),

@@ -40,7 +40,7 @@ def _check(breaks, first_disk):
                 f"breaks: {name} has shape {values.shape} and step {columns['step'].shape}; give flat arrays of one length"
             )
         whole = name in ("step", "id1", "id2", "mode")
-        if values.dtype.kind not in ("iu" if whole else "iuf") or not np.isfinite(values).all():
+        if len(values) and (values.dtype.kind not in ("iu" if whole else "iuf") or not np.isfinite(values).all()):
             raise RecordsError(
                 f"breaks: {name} {checks.shown(values.tolist())}: give {'whole' if whole else 'finite'} numbers, as tables.breaks(engine) has them"
             )

@@ -97,7 +97,9 @@ def below(problem, height) -> ContactProblem:
         "velocity",
         "position",
     }
-    return dataclasses.replace(problem, **{name: getattr(problem, name)[kept] for name in own})
+    return dataclasses.replace(
+        problem, **{name: value[kept] for name in own if (value := getattr(problem, name)) is not None}
+    )
 
 
 def random_cluster(seed, disks, *, rolling=False, cohesion=False) -> ContactProblem:

@@ -182,9 +182,8 @@ def sweeps_to_a_residual(bench):
 def _reordered(problem, seed):
     """The same problem with its contacts in another order."""
     order = np.random.default_rng(seed).permutation(len(problem.normal))
-    return dataclasses.replace(
-        problem, **{name: np.asarray(getattr(problem, name))[order] for name in ("body", *contact.CONTACT_ARRAYS)}
-    )
+    names = ("body", *contact.CONTACT_ARRAYS, *(["play"] if problem.play is not None else []))
+    return dataclasses.replace(problem, **{name: np.asarray(getattr(problem, name))[order] for name in names})
 
 
 def _sweep_counts(cap, every):

@@ -346,7 +346,7 @@ MUTANTS = (
            "test_collider.py::test_a_place_that_was_no_number_and_is_mended_has_contacts_again"),
     mutant("newton-margin", "pkg/dem/PlanarNewtonIntegrator.cpp", "farthest < bound.sweepLength", "true", "YADE's collider is not told that a body has left its box",
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
-    mutant("given-far", "pkg/dem/seam/GivenMotion.cpp", "farthest * smallest", "farthest / smallest", "how far a body is placed anew is no length",
+    mutant("given-far-size", "pkg/dem/seam/GivenMotion.cpp", "farthest * smallest", "farthest / smallest", "how far a body is placed anew is no length",
            "test_given_motion.py::test_jumps_and_moves_after_long_are_places_and_are_told_of"),
     mutant("stepper-again", "pkg/dem/NonsmoothTimeStepper.cpp", "scene->iter > 0 || solver->steps == chosenSteps", "solver->steps == chosenSteps", "a step that an exception ended grows twice",
            "test_time_stepper.py::test_a_step_that_an_exception_ended_does_not_grow_twice"),
