@@ -348,8 +348,6 @@ MUTANTS = (
            "test_collider.py::test_every_pair_of_colliders_and_loops_has_the_same_bits"),
     mutant("given-far-size", "pkg/dem/seam/GivenMotion.cpp", "farthest * smallest", "farthest / smallest", "how far a body is placed anew is no length",
            "test_given_motion.py::test_jumps_and_moves_after_long_are_places_and_are_told_of"),
-    mutant("stepper-again", "pkg/dem/NonsmoothTimeStepper.cpp", "scene->iter > 0 || solver->steps == chosenSteps", "solver->steps == chosenSteps", "a step that an exception ended grows twice",
-           "test_time_stepper.py::test_a_step_that_an_exception_ended_does_not_grow_twice"),
     mutant("check-tester", "pkg/dem/SceneCheck.cpp", "return p[2] != 0;", "return p[1] != 0;", "a LawTester may not shear, and may leave the plane",
            "test_given_pairs.py::test_paths_that_leave_the_plane_are_refused"),
     mutant("check-controller", "pkg/dem/SceneCheck.cpp", '"TriaxialStateRecorder"', '"TriaxialStateRecorders"', "an engine that reads what rigid contacts have not is let run",
