@@ -225,6 +225,24 @@ def test_a_row_that_is_pressed_closes_all_its_gaps_and_none_overlaps():
     assert O.bodies[ids[-1]].state.pos[0] == pytest.approx(x[-1], abs=1e-3) and engine().bonds == 4
 
 
+@pytest.mark.parametrize("beyond", [2e-3, 5e-3])
+def test_what_a_bond_was_stretched_beyond_its_length_is_taken_back(beyond):
+    """By displacements, up to what may stay, while the bond is pulled at its length: by a script that moves a disk, with an ellipse that holds it."""
+    free = pair(bondEllipseNormal=0.05)
+    load(free, normal=-0.5 * F_A)
+    run(5)
+    assert gap_of(free) == pytest.approx(GAP, abs=SLACK) and contacts()[0].phys.normal == pytest.approx(
+        -0.5 * F_A, rel=1e-6
+    )
+    engine().view()
+    O.bodies[free].state.pos += (beyond, 0, 0)
+    run(1)
+    assert gap_of(free) > GAP - SLACK
+    run(200)
+    assert gap_of(free) == pytest.approx(GAP, abs=SLACK) and engine().bonds == 1
+    assert contacts()[0].phys.normal == pytest.approx(-0.5 * F_A, rel=1e-6)
+
+
 def closing():
     """Chains of disks bonded over gaps that fall on a floor and on each other, and break."""
     disks = [

@@ -64,7 +64,7 @@ MUTANTS = (
     mutant("scatter-jerk", SCATTER, "draws && held && c.play > 0", "false", "what stops at the end of a bond that closes freely loses nothing",
            "test_closing_bonds.py::test_a_jerk_at_the_end_of_the_chain_loses_what_an_impact_loses"),
     mutant("correct-play", CORRECT, "e.error - std::min(most, drawn)", "e.error", "displacements may pull a bond beyond its length and never take that back",
-           "test_closing_bonds.py::test_a_row_that_is_pressed_closes_all_its_gaps_and_none_overlaps"),
+           "test_closing_bonds.py::test_what_a_bond_was_stretched_beyond_its_length_is_taken_back"),
     mutant("bond-closing-lives", LOOP, "r.closes ? plane::ofClosing(gone) : gone", "gone", "a bond that closes breaks where it has left its ellipse so",
            "test_closing_bonds.py::test_a_pressed_bond_closes_in_free_flight_and_then_bears"),
     mutant("bond-closing-weaker", "pkg/dem/NscdPhys.cpp", "a.bondsClose || b.bondsClose", "a.bondsClose && b.bondsClose", "bonds close where both materials say so",
