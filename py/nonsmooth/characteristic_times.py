@@ -192,23 +192,22 @@ def _weakening(series, section, state):
     return min(found, key=lambda one: one[0], default=(None, None))
 
 
-def by_threshold(series, section, state) -> dict[str, dict[str, float | None]]:
+def by_threshold(series, section, times) -> dict[str, dict[str, float | None]]:
     """What t2 and t5 would be by other rules, as the paper gives none: ``t2_by_speed_s``, {per cent of the speed of a slope that moves, one of :data:`FASTER`: since when the mean speed has not been below
-    it [s], until t4}, and ``t5_by_speed_s``, {per cent of the largest mean speed, one of :data:`RESTING`: when it has fallen below it for good [s]}. None for what did not come. Arguments as of
-    :func:`of_run`.
+    it [s], until t4}, and ``t5_by_speed_s``, {per cent of the largest mean speed, one of :data:`RESTING`: when it has fallen below it for good [s]}. None for what did not come. ``times``: what
+    :func:`of_run` found; the other arguments as for it.
     """
-    found = of_run(series, section, state)
     t, speed, moving = series["time_s"], series["speed_mean_m_per_s"], scales.of(section).moving_speed
     begun = {f"{percent}": None for percent in FASTER}
-    if found["t2"] is not None and found["t4"] is not None:
-        last = _row(series, found["t4"])
+    if times["t2"] is not None and times["t4"] is not None:
+        last = _row(series, times["t4"])
         for percent in FASTER:
             slow = np.flatnonzero(speed[: last + 1] < percent / 100 * moving)
             first = int(slow[-1]) + 1 if len(slow) else 0
             begun[f"{percent}"] = float(t[first]) if first <= last else None
     rested = {f"{percent}": None for percent in RESTING}
-    if found["t4"] is not None:
-        first = 0 if found["t2"] is None else _row(series, found["t2"])  # as for t5 itself
+    if times["t4"] is not None:
+        first = 0 if times["t2"] is None else _row(series, times["t2"])  # as for t5 itself
         rested = {f"{percent}": _rested(t[first:], speed[first:], percent / 100) for percent in RESTING}
     return {"t2_by_speed_s": begun, "t5_by_speed_s": rested}
 

@@ -9,7 +9,7 @@ import numbers
 import os
 from collections.abc import Mapping
 
-__all__ = ["count", "has", "kind", "mapping", "number", "numbers_of", "path", "real", "shown", "takes", "text"]
+__all__ = ["count", "has", "holds", "kind", "mapping", "number", "numbers_of", "path", "real", "shown", "takes", "text"]
 
 LONGEST = 60  # characters of a value in a message
 
@@ -70,6 +70,11 @@ def kind(kinds, remedy):
 def has(names, remedy):
     """A rule of :func:`takes`: the argument has attributes with these ``names``, words in a text."""
     return lambda value: all(hasattr(value, name) for name in names.split()), remedy
+
+
+def holds(names, remedy):
+    """A rule of :func:`takes`: the argument is a dictionary that has these ``names``, words in a text."""
+    return lambda value: isinstance(value, Mapping) and all(name in value for name in names.split()), remedy
 
 
 def real(remedy):

@@ -262,7 +262,7 @@ def _broken_by(series, time, bonds):
     if time is None or not bonds:
         return None
     row = int(np.searchsorted(series["time_s"], time + 1e-9)) - 1
-    return sum(float(series[f"bonds_broken_{mode}"][row]) for mode in ("tension", "shear", "torque", "mixed")) / bonds
+    return records.broken_bonds(series, row) / bonds
 
 
 def _highest_push(series, times, at):
@@ -410,7 +410,7 @@ def summarise(folder, section, state, threads=None) -> dict:
     }
     summary["way_worst_rel"] = state.get("way_worst_ever")  # of a disk in a step, in its radii; soft disks have none
     summary["overlap_worst_rel"] = max(summary["overlap_worst_rel"], state.get("overlap_worst_ever", 0.0))
-    summary |= _of_layers(section, start, end) | by_threshold(series, section, state)
+    summary |= _of_layers(section, start, end) | by_threshold(series, section, times)
     summary["force_stages"] = _force_stages(series, section, times, second, leans)
     for name, between in TOE_BANDS.items():
         summary[name] = _toe_bands(folder, every, section, times, *between)

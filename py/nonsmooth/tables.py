@@ -70,20 +70,19 @@ def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
     """
     checks.count("first_disk", first_disk, UserError, "give the id of disk 0, a whole number from 0", least=0)
     c = contacts(engine)
-    others = np.minimum(c["id1"], c["id2"])
-    lost = sorted(set(others[others < first_disk].tolist()) - set(wall_numbers))
+    # walls come first in the list of bodies, so a disk is always the second body of such a pair
+    a, b = np.minimum(c["id1"], c["id2"]), np.maximum(c["id1"], c["id2"])
+    lost = sorted(set(a[a < first_disk].tolist()) - set(wall_numbers))
     if lost:
         raise UserError(
             f"wall_numbers: lacks body {lost[0]}{f' and {len(lost) - 1} more' if len(lost) > 1 else ''}, which touches a disk; give the number of its wall for each body before disk {first_disk}"
         )
-    if (np.maximum(c["id1"], c["id2"]) < first_disk).any():
+    if (b < first_disk).any():
         raise UserError(
             f"first_disk {first_disk}: bodies before it touch each other, so disks are among them; give the id of the first disk"
         )
     keep = (c["normal"] != 0) | c["bonded"]
-    c = {name: values[keep] for name, values in c.items()}
-    # walls come first in the list of bodies, so a disk is always the second body of such a pair
-    a, b = np.minimum(c["id1"], c["id2"]), np.maximum(c["id1"], c["id2"])
+    a, b, c = a[keep], b[keep], {name: values[keep] for name, values in c.items()}
     return {
         "ci": b - first_disk,
         "cj": np.array([-1 - wall_numbers[i] if i in wall_numbers else i - first_disk for i in a], int),

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import course, scales
+from . import course, records, scales
 
 __all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
 
@@ -157,7 +157,7 @@ def _from_outside(state):
 def _motion(series, section, state):
     """How fast and how far it went, and what broke, from the beginning to the end of the run."""
     front = section.side * float(series["front_m"][-1] - series["front_m"][0])
-    broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
+    broken = records.broken_bonds(series)
     speed = float(np.max(series["speed_mean_m_per_s"]))
     return f"Its mean speed came to {speed:.2g} m/s, its front went {front:.3g} m, and {broken:,} of {state['bonds_initial']:,} bonds broke"
 

@@ -2,7 +2,6 @@
 
 import itertools
 import textwrap
-from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import matplotlib
@@ -15,10 +14,7 @@ from .measure.ground import ground_of
 from .records import RecordsError, read_snapshot
 from .records.given import FILE
 
-SNAPSHOTS = (
-    lambda v: isinstance(v, Iterable) and not isinstance(v, (str, Mapping)),
-    "give a list of the files of a run's snapshots, in the order of time",
-)
+SNAPSHOTS = (given.CASES[0], "give a list of the files of a run's snapshots, in the order of time")
 
 FORCES = (  # column, symbol, meaning, role of the walls, colour
     ("dp_normal_effective_N_per_m", "N'", "effective normal force", "slip", "blue"),

@@ -10,7 +10,7 @@ from yade import O
 from yade.nonsmooth import scene
 from yade.wrapper import NonsmoothTimeStepper, NscdMat, PorePressureEngine, SlipWeakeningMat
 
-from contact_scenes import begin, engine, run
+from contact_scenes import begin, engine, launch, run
 
 SAMPLES = 6  # of a course, evenly over its steps
 # units of the attributes that have any
@@ -198,7 +198,7 @@ def _engines(world, frame):
         gravity=(*frame.out(world.gravity, "acceleration"), 0),
         dt=world.dt * frame.time,
         before=before,
-        **frame.scaled(options, OPTIONS)
+        **frame.scaled(options, OPTIONS),
     )
     if world.stepper is not None:
         O.engines = [
@@ -323,6 +323,39 @@ def assert_bits(found, expected):
     """Two courses are the same to the last bit."""
     other = [name for name in expected if not np.array_equal(found[name], expected[name])]
     assert not other, {name: float(np.max(np.abs(found[name] - expected[name].astype(float)))) for name in other}
+
+
+def saved_and_loaded(path):
+    """What `play` does halfway so that the rest is of a scene that was saved to a file and loaded."""
+
+    def again():
+        O.save(str(path))
+        O.reset()
+        O.load(str(path))
+
+    return again
+
+
+def on_threads(module, folder, threads):
+    """The course of a test module's WORLD, in a process of its own with so many threads for each engine."""
+    script, found = folder / "threads.py", folder / f"{threads}.npz"
+    script.write_text(
+        f"""
+import os, sys
+import numpy as np
+from yade import O
+from symmetries import play
+from {module} import WORLD
+def asked(ids):
+    for e in O.engines:
+        e.ompThreads = int(os.environ["OMP_NUM_THREADS"])
+np.savez(sys.argv[1], **play(WORLD, prepared=asked))
+"""
+    )
+    done = launch(script, found, "--threads", threads)
+    assert done.returncode == 0, done.stderr
+    with np.load(found) as course:
+        return dict(course)
 
 
 def shuffled(world, seed=1):

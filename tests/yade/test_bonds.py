@@ -21,17 +21,21 @@ ZONE = 1e-4  # a small ellipse [ℓ]: a margin of 1e-6 leaves it within seconds
 pytestmark = pytest.mark.usefixtures("empty")
 
 
-def pair(gap=0.0, angle=0.0, bonded=1, layers=(0, 0), **more):
-    """A fixed disk and a free one at `angle`, bonded; returns the free one's id."""
-    strengths = dict(
+def strengths(zone):
+    """Of a material whose bonds live in a circle of the radius `zone` [ℓ]."""
+    return dict(
         tensileStrength=SIGMA,
-        bondEllipseNormal=ZONE,
-        bondEllipseTangential=ZONE,
+        bondEllipseNormal=zone,
+        bondEllipseTangential=zone,
         bondCreationDistance=0.01,
         mu=MU,
         rolling=ROLLING,
     )
-    a, b = (material(layer=layer, **{**strengths, **more}) for layer in layers)
+
+
+def pair(gap=0.0, angle=0.0, bonded=1, layers=(0, 0), **more):
+    """A fixed disk and a free one at `angle`, bonded; returns the free one's id."""
+    a, b = (material(layer=layer, **{**strengths(ZONE), **more}) for layer in layers)
     O.bodies.append(scene.disk((0, 0), RADIUS, a, fixed=True))
     distance = LENGTH + gap
     free = O.bodies.append(scene.disk((distance * math.cos(angle), distance * math.sin(angle)), RADIUS, b))

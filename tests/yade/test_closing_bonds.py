@@ -7,9 +7,9 @@ import pytest
 from yade import O
 from yade.nonsmooth import scene
 
-from contact_scenes import begin, contacts, engine, launch, material, run
-from symmetries import BINARY, FRAMES, Disk, Line, World, assert_bits, assert_same, play
-from test_bonds import F_A, LENGTH, MU, RADIUS, ROLLING, SIGMA, load
+from contact_scenes import begin, contacts, engine, material, run
+from symmetries import BINARY, FRAMES, Disk, Line, World, assert_bits, assert_same, on_threads, play, saved_and_loaded
+from test_bonds import F_A, LENGTH, MU, RADIUS, ROLLING, SIGMA, load, strengths
 
 GAP, ZONE = 0.008, 1e-3  # [ℓ]: wider than the half-axes of the ellipse, which closing does not leave
 SLACK = 1.1e-4  # what errors of position may stay [ℓ], and some
@@ -19,15 +19,7 @@ pytestmark = pytest.mark.usefixtures("empty")
 
 def pair(gap=GAP, angle=0.0, closes=(True, True), wall=False, dt=2e-3, **more):
     """A fixed disk, or a wall, and a free disk at `angle` over a gap [ℓ], bonded; returns the free one's id."""
-    strengths = dict(
-        tensileStrength=SIGMA,
-        bondEllipseNormal=ZONE,
-        bondEllipseTangential=ZONE,
-        bondCreationDistance=0.01,
-        mu=MU,
-        rolling=ROLLING,
-    )
-    a, b = (material(**{**strengths, "bondsClose": c, **more}) for c in closes)
+    a, b = (material(**{**strengths(ZONE), "bondsClose": c, **more}) for c in closes)
     along = np.array([math.cos(angle), math.sin(angle)])
     if wall:
         a.wall = a.bondsToAll = True
@@ -297,34 +289,12 @@ def test_powers_of_two_as_units_change_no_bit(here):
 
 
 def test_a_scene_saved_and_loaded_while_bonds_close_changes_no_bit(here, tmp_path):
-    def again():
-        O.save(str(tmp_path / "half.yade.gz"))
-        O.reset()
-        O.load(str(tmp_path / "half.yade.gz"))
-
-    assert_bits(play(WORLD, halfway=again), here)
+    assert_bits(play(WORLD, halfway=saved_and_loaded(tmp_path / "half.yade.gz")), here)
 
 
 def test_one_and_two_threads_have_the_same_bits(here, tmp_path):
-    script = tmp_path / "threads.py"
-    script.write_text(
-        """
-import os, sys
-import numpy as np
-from yade import O
-from symmetries import play
-from test_closing_bonds import WORLD
-def asked(ids):
-    for e in O.engines:
-        e.ompThreads = int(os.environ["OMP_NUM_THREADS"])
-np.savez(sys.argv[1], **play(WORLD, prepared=asked))
-"""
-    )
     for threads in (1, 2):
-        done = launch(script, tmp_path / f"{threads}.npz", "--threads", threads)
-        assert done.returncode == 0, done.stderr
-        with np.load(tmp_path / f"{threads}.npz") as found:
-            assert_bits(found, here)
+        assert_bits(on_threads("test_closing_bonds", tmp_path, threads), here)
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,7 @@ def test_all_numbers_of_a_summary_are_known_before(tmp_path):
     """What ``--draw`` of a sweep may name: with a backstop, an envelope, water along a wall; and no more than a run may have."""
     plan = synthetic.load("campaign.plan")
     summary = results.summarise(known_slope.write(tmp_path), SHIPPED, STATE)
-    found = {name for name in plan._numbers(summary) if name != "verdict" and not name.startswith("times_missing.")}
+    found = {name for name in plan.numbers(summary) if name != "verdict" and not name.startswith("times_missing.")}
     known = results.numbers_of(SHIPPED)
     assert len(set(known)) == len(known)
     # toe_bands without a band is one number that is null, and walls have losses where a run tells them

@@ -3,10 +3,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from yade import O
 
-from contact_scenes import launch
-from symmetries import BINARY, FRAMES, Disk, Frame, Line, World, assert_bits, assert_same, play, shuffled
+from symmetries import (
+    BINARY,
+    FRAMES,
+    Disk,
+    Frame,
+    Line,
+    World,
+    assert_bits,
+    assert_same,
+    on_threads,
+    play,
+    saved_and_loaded,
+    shuffled,
+)
 
 ROUNDING, SOLVED = 1e-9, 1e-8  # as in test_symmetries_contacts.py
 
@@ -96,31 +107,9 @@ def test_ids_do_not_matter(here, change):
 
 
 def test_a_scene_saved_and_loaded_in_between_changes_no_bit(here, tmp_path):
-    def again():
-        O.save(str(tmp_path / "half.yade.gz"))
-        O.reset()
-        O.load(str(tmp_path / "half.yade.gz"))
-
-    assert_bits(play(WORLD, halfway=again), here)
+    assert_bits(play(WORLD, halfway=saved_and_loaded(tmp_path / "half.yade.gz")), here)
 
 
 def test_one_and_two_threads_have_the_same_bits(here, tmp_path):
-    script = tmp_path / "threads.py"
-    script.write_text(
-        """
-import os, sys
-import numpy as np
-from yade import O
-from symmetries import play
-from test_symmetries_bonds import WORLD
-def asked(ids):
-    for e in O.engines:
-        e.ompThreads = int(os.environ["OMP_NUM_THREADS"])
-np.savez(sys.argv[1], **play(WORLD, prepared=asked))
-"""
-    )
     for threads in (1, 2):
-        done = launch(script, tmp_path / f"{threads}.npz", "--threads", threads)
-        assert done.returncode == 0, done.stderr
-        with np.load(tmp_path / f"{threads}.npz") as found:
-            assert_bits(found, here)
+        assert_bits(on_threads("test_symmetries_bonds", tmp_path, threads), here)

@@ -4,7 +4,7 @@ import pytest
 from yade import O
 from yade.wrapper import Collider, InsertionSortCollider, InteractionLoop, NewtonIntegrator
 
-from symmetries import BINARY, FRAMES, Disk, Line, World, assert_bits, assert_same, play
+from symmetries import BINARY, FRAMES, Disk, Line, World, assert_bits, assert_same, play, saved_and_loaded
 
 ROUNDING = 1e-9  # as in test_symmetries_contacts.py
 DIP = np.radians(21)
@@ -101,13 +101,8 @@ def test_powers_of_two_as_units_change_no_bit(known):
 
 
 def test_a_scene_saved_and_loaded_in_between_changes_no_bit(known, tmp_path):
-    def again():
-        O.save(str(tmp_path / "half.yade.gz"))
-        O.reset()
-        O.load(str(tmp_path / "half.yade.gz"))
-
     world, here = known
-    assert_bits(play(world, halfway=again), here)
+    assert_bits(play(world, halfway=saved_and_loaded(tmp_path / "half.yade.gz")), here)
 
 
 def test_yades_own_collider_loop_and_integrator_change_no_bit(known):

@@ -14,7 +14,7 @@ from pathlib import Path
 from .. import checks, section, section_values
 from ..runs import open_run
 from ..statistics import over_seeds, told
-from .plan import SEED, VERDICT, Plan, PlanError, Planned
+from .plan import SEED, VERDICT, Plan, PlanError, Planned, numbers as numbers_of
 from .sweep import FUNCTION, arguments_of
 
 __all__ = ["DISKS", "SECTION", "SEEDS", "SHIPPED", "VARIANTS", "Variant", "check", "rows", "run", "slope_of", "table"]
@@ -123,7 +123,7 @@ def rows(found) -> list:
     """
     found_rows = []
     for name, runs in found.items():
-        summaries = [_flat(one.summary | _durations(one.summary)) for one in runs]
+        summaries = [numbers_of(one.summary | _durations(one.summary)) for one in runs]
         kinds = [one.get(VERDICT) for one in summaries]
         numbers = {}
         for key in dict.fromkeys(key for one in summaries for key in one):
@@ -157,13 +157,6 @@ def _durations(summary):
         "triggering_by_speed_s": {percent: less(t3, t2) for percent, t2 in known("t2_by_speed_s")},
         "motion_by_speed_s": {percent: less(t5, t3) for percent, t5 in known("t5_by_speed_s")},
     }
-
-
-def _flat(values, prefix=""):
-    found = {}
-    for name, value in values.items():
-        found |= _flat(value, f"{prefix}{name}.") if isinstance(value, dict) else {f"{prefix}{name}": value}
-    return found
 
 
 #: {number: (its head in a table, its factor, digits)}.

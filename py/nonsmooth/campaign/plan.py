@@ -24,7 +24,7 @@ from ..statistics import over_seeds
 from ..whole_files import write_atomically, write_json
 from . import cluster
 
-__all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "read", "run_one"]
+__all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "numbers", "read", "run_one"]
 
 FILE, TABLE, MEANS, FORMAT = "plan.json", "table.csv", "means.json", 1
 SEED = "seed"  # the key whose values are packings of one slope
@@ -143,7 +143,7 @@ def collect(out) -> dict:
             f"{out}: {len(missing)} of {len(plan.runs)} runs have no result of this input, these engines and this code: {', '.join(missing[:3])}{more}; "
             "run them, or go on with --resume"
         )
-    rows = [{"run": one.name, **one.values, **_numbers(found[one.name])} for one in plan.runs]
+    rows = [{"run": one.name, **one.values, **numbers(found[one.name])} for one in plan.runs]
     columns = list(dict.fromkeys(name for row in rows for name in row))
     table = {name: [row.get(name) for row in rows] for name in columns}
     text = io.StringIO()
@@ -185,12 +185,12 @@ def means(table, varied) -> list:
     ]
 
 
-def _numbers(result, prefix=""):
+def numbers(result, prefix="") -> dict:
     """The numbers of a result, those of its dictionaries as `key.key`, its verdict and why times are missing; lists and other texts are left out."""
     found = {}
     for name, value in result.items():
         if isinstance(value, dict):
-            found |= _numbers(value, f"{prefix}{name}.")
+            found |= numbers(value, f"{prefix}{name}.")
         elif (
             value is None or isinstance(value, (bool, int, float)) or f"{prefix}{name}" == VERDICT or prefix == MISSING
         ):

@@ -259,7 +259,7 @@ def measure(case: Case, folder, found) -> Outcome:
     )
     strain = begins + strength.PEAK_WINDOW / 2
     volume = np.interp(strain, series["strain"], series["volumetric_strain"])
-    broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
+    broken = records.broken_bonds(series)
     values = {
         "sigma1_peak_Pa": c.peak,
         "sigma1_residual_Pa": c.residual,

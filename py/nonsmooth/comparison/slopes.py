@@ -141,7 +141,7 @@ def measure(case: Case, folder, found) -> Outcome:
         series["centroid_x_m"] - series["centroid_x_m"][after][0],
         series["centroid_y_m"] - series["centroid_y_m"][after][0],
     )
-    broken = sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed"))
+    broken = records.broken_bonds(series)
     values = {
         # a slope that does not stand dry bears none
         "water_at_failure_m": at("water_m", times["t1"], 0.0) if failed_dry is None else 0.0,

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import functools
-import os
 from collections.abc import Iterable, Mapping
 
 from .. import checks
 from ..records import RecordsError
-from ..records.given import SNAPSHOT
+from ..records.given import FILE, SNAPSHOT
 
 __all__ = ["CASES", "MATERIAL", "SCENE", "SECTION", "SERIES", "SNAPSHOT", "WALLS", "takes"]
 
@@ -33,10 +31,7 @@ CASES = (
     lambda v: isinstance(v, Iterable) and not isinstance(v, (str, Mapping)),
     "give a list of cases, as the function's description has them",
 )
-PATH = (
-    lambda v: v is None or isinstance(v, (str, os.PathLike)) and bool(os.fspath(v)),
-    "give the name of a PNG, or None for the figure itself",
-)
+PATH = (lambda v: v is None or FILE[0](v), "give the name of a PNG, or None for the figure itself")
 
 
 def takes(**rules):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 from .. import checks, film, paraview, records
@@ -13,12 +12,10 @@ from ..whole_files import whole
 from .campaign import name_of_result
 
 
-def _of_a_campaign(*names):
-    """A decorator: the function asks for the ``summary`` of a campaign, which has these names."""
+def _of_a_campaign(names):
+    """A decorator: the function asks for the ``summary`` of a campaign, which has these names, words in a text."""
     remedy = "give the summary of a campaign of biaxial tests, as scripts/biaxial.py keeps it in summary.json"
-    return checks.takes(
-        UserError, summary=(lambda v: isinstance(v, Mapping) and all(name in v for name in names), remedy)
-    )
+    return checks.takes(UserError, summary=checks.holds(names, remedy))
 
 
 @_of_a_campaign("tests")
@@ -77,7 +74,7 @@ def pressures(summary):
     ]
 
 
-@_of_a_campaign("tests", "seeds")
+@_of_a_campaign("tests seeds")
 def draw(out, summary):
     """Figures and ParaView files of a campaign in ``out``; returns the figures' paths."""
     out, made = Path(checks.path("out", out, UserError, "give the path of the folder of the campaign")), []

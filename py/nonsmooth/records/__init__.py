@@ -8,7 +8,7 @@ wrong with it and what to do.
 from .breaks import BREAK_COLUMNS, read_breaks, write_breaks
 from .columns import COLUMNS, LOSSES, OWN, WALL_COLUMNS, Column, column, own_columns, stem
 from .error import RecordsError
-from .series import SeriesWriter, kept, read_series, read_walls, since_settled
+from .series import SeriesWriter, broken_bonds, kept, read_series, read_walls, since_settled
 from .snapshots import Snapshot, read_snapshot, write_snapshot
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "RecordsError",
     "SeriesWriter",
     "Snapshot",
+    "broken_bonds",
     "column",
     "kept",
     "own_columns",

@@ -15,7 +15,7 @@ BREAK_COLUMNS = ("step", "time_s", "disk1", "disk2", "mode", "x_m", "y_m")
 
 
 @given.takes(
-    breaks=given.columns("step time id1 id2 mode x y", "give broken bonds, as tables.breaks(engine) returns them")
+    breaks=checks.holds("step time id1 id2 mode x y", "give broken bonds, as tables.breaks(engine) returns them")
 )
 def write_breaks(path, breaks, first_disk=0):
     """Write broken bonds, as :func:`yade.nonsmooth.tables.breaks` gives them, as CSV with the columns BREAK_COLUMNS.

@@ -1,12 +1,11 @@
 """What functions that write files of a run ask of their arguments before they write: rules of :func:`..checks.takes`."""
 
 import os
-from collections.abc import Mapping
 
 from .. import checks
 from .error import RecordsError
 
-__all__ = ["BREAKS", "ENTRIES", "FILE", "SNAPSHOT", "columns", "takes"]
+__all__ = ["BREAKS", "ENTRIES", "FILE", "SNAPSHOT", "takes"]
 
 FILE = (lambda v: isinstance(v, (str, os.PathLike)) and bool(os.fspath(v)), "give the path of the file to write")
 SNAPSHOT = checks.has(
@@ -18,12 +17,7 @@ ENTRIES = (
 )
 
 
-def columns(names, remedy):
-    """A rule: a dictionary with these ``names``, words in a text."""
-    return lambda value: isinstance(value, Mapping) and all(name in value for name in names.split()), remedy
-
-
-BREAKS = columns("time_s mode x_m y_m", "give broken bonds, as run.breaks or records.read_breaks(path) has them")
+BREAKS = checks.holds("time_s mode x_m y_m", "give broken bonds, as run.breaks or records.read_breaks(path) has them")
 
 
 def takes(**rules):

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import checks
+from ..tables import BREAK_MODES
 from .columns import COLUMNS, WALL_COLUMNS, stem
 from .error import RecordsError
 
@@ -297,6 +298,11 @@ def read_walls(path):
         raise RecordsError(
             f"{path}: cannot be read as the forces on walls ({getattr(error, 'strerror', None) or error}); check the folder given"
         ) from None
+
+
+def broken_bonds(series, row=-1) -> int:
+    """How many bonds have broken, in any way, up to a ``row`` of a series that read_series gave."""
+    return sum(int(series[f"bonds_broken_{mode}"][row]) for mode in BREAK_MODES[1:])
 
 
 def since_settled(series):

@@ -154,7 +154,7 @@ def slope(folder, disks, seed, time_step, tolerance, tolerance_moving, slack=Non
         "unconverged": built.solver.unconverged,
         "breaks_logged": len(tables.breaks(built.solver)["step"]),
         "bonds_alive": int(series["bonds_alive"][-1]),
-        "broken": sum(int(series[f"bonds_broken_{mode}"][-1]) for mode in ("tension", "shear", "torque", "mixed")),
+        "broken": records.broken_bonds(series),
     }
 
 
