@@ -31,6 +31,11 @@ SAME = {
         "return isinstance(value, (int, float)) and not isinstance(value, bool)",
         "return True and not isinstance(value, bool)",
     ): "what else a checked material holds, words, stands under no key that has bounds",
+    (
+        "py/nonsmooth/figures/toe.py",
+        'bar = fig.colorbar(scale, ax=panels.tolist(), location="bottom", shrink=0.4, aspect=40, label=told, extend="both")',
+        'bar = fig.colorbar(scale, ax=panels.tolist(), location="bottom", shrink=0.4, aspect=41, label=told, extend="both")',
+    ): "a bar of colours that is thinner by a fortieth shows the same colours at the same places",
     ("py/nonsmooth/figures/sweep.py", "if handles:", "if True:"): "a legend without entries and frame shows nothing",
     # ---- pkg/dem: what is only looked up, shown or asked once more
     (

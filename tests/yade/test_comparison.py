@@ -205,6 +205,8 @@ def test_cost_at_equal_overlap():
         found["states"]["rest"]["equal_overlap"] == pytest.approx(2e-4 * 1e6 / 4)
         and found["states"]["rest"]["equal_overlap_extrapolated"] is True
     )
+    moving = found["states"]["moving"]
+    assert (moving["overlap_power"], moving["rate_power"]) == pytest.approx((-1.0, 0.5), abs=1e-9)  # as made
 
 
 def test_a_second_of_simulation_costs_the_median_of_the_blocks():

@@ -249,6 +249,24 @@ def test_without_a_scatter_there_is_no_band_of_it(chance):
     assert not drawn.levels(ax) and not ax.patches and list(drawn.legend(ax)) == ["hard"]
 
 
+def test_where_no_run_has_an_error_nothing_is_marked():
+    (ax,) = figures.work_precision([("made up", [(1.0, None, "a")], [(1.0, 0.0, "b")], [])], None).axes
+    assert not ax.lines and not ax.texts
+
+
+def test_words_keep_off_the_line_of_the_scatter():
+    """A point just below the line: where there is none, its word stands to the right and above, across the place of the line; beside the line it goes below."""
+    at, chance = (1.0, 0.05, "word"), 0.052
+    boxes = {}
+    for level in (None, chance):
+        (ax,) = figures.work_precision([("made up", [at, (2.0, 1e-4, "low"), (2.0, 1.0, "high")], [], [])], level).axes
+        y = ax.transData.transform((1.0, chance))[1]
+        box = drawn.text(ax, "word").get_window_extent()
+        boxes[level] = (box.ymin - y, box.ymax - y)
+    assert boxes[None][0] < 0 < boxes[None][1]  # pixels
+    assert boxes[chance][1] < 0
+
+
 def test_convergence_of_soft_to_hard():
     rows = [
         ("front", [0.1, 0.01, None], 0.02, -0.5, 300.0),

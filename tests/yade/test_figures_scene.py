@@ -94,6 +94,15 @@ def test_disks_walls_bonds_and_forces_are_where_they_are():
     assert not of(figures.draw(O, forces=False).axes[0], PolyCollection)
 
 
+def test_materials_are_told_apart_in_the_order_in_which_they_come():
+    """Of two that were appended to the scene, and of two that were not and have their names alone."""
+    appended, named = [material(0.5), material(0.5)], [material(0.5, label="upper"), material(0.5, label="lower")]
+    O.materials.append(appended)
+    order = [*named, *appended, *named[::-1]]
+    O.bodies.append([scene.disk((2.0 * k, 0.0), 0.5, one) for k, one in enumerate(order)])
+    assert scene_arrays.read(O).material.tolist() == [0, 1, 2, 3, 1, 0]
+
+
 def test_soft_scenes_and_yades_own_walls_are_drawn():
     stuff = CohFrictMat(young=1e7, poisson=0.3, density=2500, frictionAngle=0.5, normalCohesion=1e6, shearCohesion=1e6)
     O.bodies.append([utils.sphere((0, 0.999 * k, 0), 0.5, material=stuff) for k in range(2)])

@@ -2,6 +2,7 @@
 import math
 import random
 
+import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import scene
@@ -327,6 +328,18 @@ def test_walls_of_other_masks_are_not_joined():
     begin(dt=1e-3)
     run(2)
     assert [(j.id1, j.geom.owned) for j in contacts()] == [(0, True)]
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_pieces_of_a_polyline_know_who_comes_next(closed):
+    """Before any step, round a pentagon: each turns by 72° into the next one, the last into the first where it is closed."""
+    corners = [(math.cos(a), math.sin(a)) for a in np.arange(5 + (not closed)) * math.radians(72)]
+    pieces = [b.shape for b in scene.segments(corners, material(0.0), closed=closed)]
+    assert len(pieces) == 5
+    for k, shape in enumerate(pieces):
+        last, first = k == 4 and not closed, k == 0 and not closed
+        turn = (0, 0, 0) if last else (math.cos(math.radians(72)), math.sin(math.radians(72)), 0)
+        assert tuple(shape.nextDirection) == pytest.approx(turn, abs=1e-12) and shape.hasPrevious is not first
 
 
 @pytest.mark.parametrize("single", [False, True])

@@ -86,6 +86,15 @@ def test_a_fold_turns_over_the_part_that_it_covers():
     assert layers.overturned_length(turned(start, math.radians(60))) < 12.0 + 1e-9
 
 
+@pytest.mark.parametrize("disks, known", [(4, True), (3, False)])
+def test_four_disks_tell_the_layer_of_a_cell(disks, known):
+    """Two cells of 6 m, one above the other, the older layer on top; the upper one has few disks."""
+    x = np.array([1.0, 3.0, 5.0, 1.0, 3.0, 5.0, *[1.0, 3.0, 5.0, 3.0][:disks]])
+    y = np.array([1.0, 1.0, 1.0, 3.0, 3.0, 3.0, *[7.0, 7.0, 7.0, 9.0][:disks]])
+    snapshot = synthetic.few(x, y, layer=[1] * 6 + [0] * disks)
+    assert layers.overturned(snapshot)[1].tolist() == [6.0 if known else 0.0]
+
+
 def test_what_the_columns_measure_goes_with_the_size():
     start = square()
     over = dataclasses.replace(start, y=-start.y)

@@ -1,6 +1,7 @@
 """Runs side by side: what is kept, what is removed, in what order they run, and what a failure says. The processes are made up."""
 
 import json
+import threading
 
 import pytest
 
@@ -38,6 +39,26 @@ def test_the_costly_ones_run_first_and_results_keep_their_order(tmp_path, called
     assert called == ["b", "a", "c"] and [one["double"] for one in found] == [0, 2, 4]
     assert all(one["process_wall_s"] >= 0 for one in found)
     assert json.loads((tmp_path / "c" / "result.json").read_text())["found"] == found[2]
+
+
+@pytest.mark.parametrize("threads", [0, 1, 3])
+def test_as_many_run_at_a_time_as_were_asked_for(threads):
+    """Calls that wait for each other: as many as can meet, and no more; none asked for is one."""
+    least, most, inside, guard = max(1, threads), 0, 0, threading.Lock()
+    meet = threading.Barrier(least)
+
+    def call(_):
+        nonlocal inside, most
+        with guard:
+            inside += 1
+            most = max(most, inside)
+        meet.wait(30.0)  # s; broken where fewer run
+        with guard:
+            inside -= 1
+
+    with processes.pool(threads) as made_up:
+        list(made_up.map(call, range(4 * least)))
+    assert most == least
 
 
 def test_a_resume_keeps_what_has_ended_with_the_same_key(tmp_path, called):

@@ -33,6 +33,17 @@ def build(world, centres, slope=0.0):
 
 
 @pytest.mark.parametrize("world", WORLDS, ids=lambda w: w.name)
+def test_a_disk_falls_as_on_earth_unless_it_is_told_otherwise(world):
+    """Ten steps from rest: v = g t, without damping."""
+    if world.name == "soft":
+        world = dataclasses.replace(world, damping=0.0)
+    (i,) = build(world, [(0, 20.0)])
+    O.engines = world.engines()
+    O.run(10, wait=True)
+    assert tuple(O.bodies[i].state.vel) == pytest.approx((0.0, -9.81 * O.time, 0.0), rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("world", WORLDS, ids=lambda w: w.name)
 def test_disk_rests_on_the_wall(world):
     (i,) = build(world, [(0, 0.5)])
     O.run(round(1.0 / O.dt), wait=True)
