@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What the paper leaves open, read in several ways: for each reading the strengths of the rock and the water that its slope bears, beside the paper's.
 
-  scripts/readings.py [--only NAME …] [--disks N] [--samples N] [--seeds S …] [--out DIR] [--threads T] [--resume]
+  scripts/readings.py [--only NAME …] [--platens KIND …] [--disks N] [--samples N] [--seeds S …] [--out DIR] [--threads T] [--resume]
 """
 import argparse
 import sys
@@ -12,13 +12,13 @@ from tabulate import tabulate
 if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth import commands, output_folder
     from yade.nonsmooth.figures import readings as figures
-    from yade.nonsmooth.laboratory import arguments, readings
+    from yade.nonsmooth.laboratory import arguments, closing_decision, reading_numbers, readings
     from yade.nonsmooth.whole_files import write_json
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import commands, output_folder
     from nonsmooth.figures import readings as figures
-    from nonsmooth.laboratory import arguments, readings
+    from nonsmooth.laboratory import arguments, closing_decision, reading_numbers, readings
     from nonsmooth.whole_files import write_json
 
 
@@ -32,13 +32,26 @@ def read_arguments():
         help=f"only these readings: {', '.join(readings.READINGS)}",
     )
     parser.add_argument(
+        "--platens",
+        nargs="+",
+        choices=readings.PLATENS,
+        default=readings.PLATENS,
+        metavar="KIND",
+        help="between which samples are tested, where a reading does not say so itself: smooth, rough or both (default: both)",
+    )
+    parser.add_argument(
         "--disks", type=int, default=3000, metavar="N", help="about how many disks of a slope (default: %(default)s)"
     )
     parser.add_argument(
         "--samples", type=int, default=2000, metavar="N", help="disks of a sample (default: %(default)s)"
     )
     parser.add_argument(
-        "--seeds", type=int, nargs="+", default=[1, 2, 3], metavar="S", help="of slopes and samples (default: 1 2 3)"
+        "--seeds",
+        type=int,
+        nargs="+",
+        default=[1, 2, 3, 4, 5],
+        metavar="S",
+        help="of slopes and samples (default: 1 to 5)",
     )
     arguments.add_runs(parser, "out/readings", "runs")
     return parser.parse_args()
@@ -56,23 +69,29 @@ def main():
             args.disks,
             args.samples,
             args.seeds,
+            args.platens,
             threads=args.threads,
             resume=args.resume,
             progress=progress,
         )
-    heads, lines = readings.table(rows)
+    found = closing_decision.verdicts(rows)
+    tables = reading_numbers.tables(rows) + ([closing_decision.table(found)] if found else [])
+    of = {name: {row["platens"]: row for row in rows if row["name"] == name} for name in chosen}
     told = {
         "disks": args.disks,
         "samples": args.samples,
         "seeds": args.seeds,
-        "paper": readings.PAPER,
-        "rows": rows,
-        "tables": [["Readings", heads, lines]],
+        "paper": reading_numbers.PAPER,
+        "toe_water": reading_numbers.toe_water(),
+        "rows": of,
+        "closing": found,
+        "tables": tables,
     }
     write_json(out / "readings.json", told)
-    picture = figures.tradeoff(rows, out / "readings.png")
-    print(tabulate(lines, heads))
-    print(f"results: {out}/readings.json, {picture.name}")
+    pictures = [figures.beside(rows, out / "readings.png"), *figures.stress_strain_of(rows, out)]
+    for title, heads, lines in tables:
+        print(f"{title}\n{tabulate(lines, heads)}\n")
+    print(f"results: {out}/readings.json, {', '.join(picture.name for picture in pictures)}")
 
 
 commands.run(main, "what has ended is kept, go on with --resume")

@@ -385,6 +385,7 @@ WHERE = {
     },
     "readings.py": {
         "--only": (("--only", "packed", "half"), lambda a: sorted(a.words[0]), ["half", "packed"]),
+        "--platens": (("--platens", "rough"), lambda a: a.words[5], ["rough"]),
         "--disks": (("--disks", 66), lambda a: a.words[2], 66),
         "--samples": (("--samples", 77), lambda a: a.words[3], 77),
         "--seeds": (("--seeds", 7, 8), lambda a: a.words[4], [7, 8]),
@@ -581,7 +582,8 @@ def test_checks_are_listed(in_process):
         ("wall_shear.py", ("--pressures", "1,1"), "each once"),
         ("biaxial_effects.py", ("--confining", -1), "it must be positive"),
         ("biaxial_effects.py", ("--only", "colour"), "colour"),
-        ("readings.py", ("--only", "rough", "colour"), "colour"),
+        ("readings.py", ("--only", "shipped", "colour"), "colour"),
+        ("readings.py", ("--platens", "glued"), "glued"),
         ("paper.py", ("--only", "shipped", "colour"), "colour"),
         ("paper.py", ("--only", "shipped", "shipped"), "each once"),
         ("paper.py", ("--seeds", 1, 1), "seeds 1, 1: give one or more, each once"),

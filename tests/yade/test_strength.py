@@ -50,6 +50,20 @@ def made_curve(noise=0.0):
     }
 
 
+def test_a_mean_between_two_strains_counts_what_rows_cover():
+    """Rows of 0.1, 0.2 and 0.3 % of strain: the mean from 0.1 to 0.6 % is two and three parts of the last two; none where the test ends before."""
+    series = {
+        "strain": [0.001, 0.003, 0.006],
+        "sigma1_top_Pa": [90.0, 11.0, 21.0],
+        "sigma1_bottom_Pa": [90.0, 9.0, 19.0],
+    }
+    series |= {"sigma3_left_Pa": [0.0, 1.0, 2.0], "sigma3_right_Pa": [0.0, 3.0, 4.0]}
+    assert strength.mean_between(series, 0.001, 0.006) == pytest.approx((2.6, 16.0), rel=1e-12)  # rounding
+    # a last row that ends short of the window by less than half of it is its end
+    assert strength.mean_between(series, 0.001, 0.0074) == pytest.approx((2.6, 16.0), rel=1e-12)
+    assert strength.mean_between(series, 0.001, 0.0076) is None
+
+
 def test_curve_measures_peak_plateau_and_dilatancy():
     c = strength.curve(made_curve(), (0.04, 0.06))
     assert c.peak == pytest.approx(35e6, rel=5e-3)  # the window of 0.2 % of strain takes (0.1/0.6)²/3 of the bump away

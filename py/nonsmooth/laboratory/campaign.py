@@ -185,16 +185,18 @@ def _numbers_of(t):
         **{name: t.get(name) for name in OF_TEST},
         "band_width_d": _of_bands(t.get("bands"), "width_d"),
         "band_width_late_d": _of_bands(t.get("bands_late"), "width_d"),
-        "bands_conjugate": float(_conjugate(t.get("bands"))),
+        "bands_conjugate": float(conjugate_bands(t.get("bands")) == 2),
         "antithetic": _of_bands(t.get("bands"), "antithetic"),
         **{f"broken_{mode}": shares.get(mode) for mode in fluctuations.MODES},
     }
 
 
-def _conjugate(found):
-    """Whether two bands lean to opposite sides, equally steep."""
+def conjugate_bands(found):
+    """Number of conjugate bands among those of :func:`bands_of`: 2 where they lean to opposite sides, equally steep; else 1, the one that prevails, or 0 where there is none."""
     left, right = (band and band["angle_deg"] for band in found or (None, None))
-    return None not in (left, right) and left * right < 0 and abs(left + right) <= bands.CONJUGATE
+    if None not in (left, right) and left * right < 0 and abs(left + right) <= bands.CONJUGATE:
+        return 2
+    return int((left, right) != (None, None))
 
 
 def _of_bands(found, name):

@@ -1,9 +1,9 @@
 """What the paper leaves open, read in several ways: each reading as a rock in biaxial tests and as the slope under a rising water table. Needs no YADE.
 
 Taboada and Estrada (2009) give neither the largest gap that is bonded, Δ, nor how a packing is made, when it is bonded, the lateral boundaries of the biaxial
-tests or the shape of the slope's toe. A reading is the shipped section with some keys changed, and a sample of its rock made and tested in one way. Platens are rough where a reading does
-not say otherwise: with smooth ones, the last that was tried, the reading is the nearest, and it is shipped. How near it is to the
-paper is one number, the root mean square of :func:`misses`: differences from :data:`PAPER` by what they may be.
+tests or the shape of the slope's toe. A reading is the shipped section with some keys changed, and a sample of its rock made and tested in one way. Its sample is tested between smooth and between rough
+platens, of which the paper says nothing either; a reading that is itself about the sample's boundary stands once. What is measured of a reading, and how near it is to the paper, says
+:mod:`.reading_numbers`.
 """
 
 from __future__ import annotations
@@ -18,36 +18,26 @@ import numpy as np
 
 from .. import keys, section, section_data, section_values, side_by_side
 from ..campaign.sweep import FUNCTION
-from ..statistics import over_seeds, told
-from . import biaxial_test, campaign, pressing
+from . import biaxial_test, campaign, pressing, reading_numbers
+from .reading_numbers import PRESSURES, SHIPPED
 
-__all__ = ["PAPER", "PRESSURES", "READINGS", "SHIPPED", "Reading", "misses", "run", "slope_of", "tests_of"]
+__all__ = ["PLATENS", "READINGS", "Reading", "run", "slope_of", "tests_of"]
 
-#: {number: (of the paper, what a reading may differ by)}: Table 1, Figure 10 (the strain of the peak, as its binary logarithm), and [115].
-PAPER = {
-    "cohesion_peak_kPa": (88.0, 25.0),
-    "friction_peak_deg": (38.5, 2.0),
-    "cohesion_residual_kPa": (13.0, 13.0),
-    "friction_residual_deg": (26.2, 2.0),
-    "strain_peak": (0.01, 1.0),
-    "water_highest_m": (22.5, 4.0),
-}
-PRESSURES = (0.5e6, 4e6, 8e6, 16e6)  # Pa; Figure 10 has the last three, the first tells the cohesion
-FIGURE_10 = PRESSURES[1:]
+PLATENS = ("smooth", "rough")  # between which the samples of a reading are tested
 END = 60.0  # s of simulation, by when the paper's slope has failed
 LAYERS_ROCK = "rock"  # material of the shipped section's layers
-SHIPPED = "smooth"  # of READINGS
 
 
 @dataclass(frozen=True)
 class Reading:
-    """``label``: in words; ``keys``: of the section file, with dots; ``test``: fields of the biaxial Test and, as ``friction`` and ``count``, of its Shape; ``shape``: changes the plain data of
-    a section in place."""
+    """``label``: in words; ``keys``: of the section file, with dots; ``test``: fields of the biaxial Test and, as ``count``, ``friction`` and ``aspect``, of its Shape; ``shape``: changes the plain
+    data of a section in place; ``platens``: between which its samples are tested."""
 
     label: str
     keys: dict = field(default_factory=dict)
     test: dict = field(default_factory=dict)
     shape: Callable | None = None
+    platens: tuple = PLATENS
 
 
 def _toe(thickness=65.0, inclination=90.0):
@@ -97,32 +87,39 @@ def _layers(thickness, thinnest=4.0):
     return change
 
 
-def _bonds(distance):
-    return {f"materials.{name}.bond_creation_distance": distance for name in (LAYERS_ROCK, "fb")}
+def _bonds(distance, closes=False):
+    """Bonds over gaps up to a ``distance`` [ℓ]; ``closes``: they close freely."""
+    keys_of = {"bond_creation_distance": distance, **({"bonds_close": True} if closes else {})}
+    return {f"materials.{name}.{key}": value for name in (LAYERS_ROCK, "fb") for key, value in keys_of.items()}
 
 
 _ROCK = f"materials.{LAYERS_ROCK}."
 _PACKED = {"disks.pressed": False, "stages.settle.bond": "before"}
 
 READINGS = {
-    "rough": Reading("rough platens"),
+    SHIPPED: Reading("as shipped"),
     "gap-0.005": Reading("Δ = 0.005", _bonds(0.005)),
     "gap-0.01": Reading("Δ = 0.01", _bonds(0.01)),
     "gap-0.015": Reading("Δ = 0.015", _bonds(0.015)),
     "gap-0.02": Reading("Δ = 0.02", _bonds(0.02)),
     "gap-0.03": Reading("Δ = 0.03", _bonds(0.03)),
     "gap-0.05": Reading("Δ = 0.05", _bonds(0.05)),
+    "closing-0.015": Reading("bonds that close, Δ = 0.015", _bonds(0.015, closes=True)),
+    "closing-0.02": Reading("bonds that close, Δ = 0.02", _bonds(0.02, closes=True)),
+    "closing-0.025": Reading("bonds that close, Δ = 0.025", _bonds(0.025, closes=True)),
     "packed": Reading("not pressed", _PACKED, {"friction": None}),
     "packed-0.05": Reading("not pressed, Δ = 0.05", _PACKED | _bonds(0.05), {"friction": None}),
     "bonded-before": Reading("bonded before gravity", {"stages.settle.bond": "before"}),
-    "ellipse-0.01": Reading("ellipse of axes 0.02 ℓ", {_ROCK + "bond_ellipse": [0.01, 0.01]}),
-    "ellipse-0.04": Reading("ellipse of half axes 0.04 ℓ", {_ROCK + "bond_ellipse": [0.04, 0.04]}),
+    "ellipse-0.01": Reading("half axes 0.01 ℓ: whole axes, or in mean radii", {_ROCK + "bond_ellipse": [0.01, 0.01]}),
+    "ellipse-0.015": Reading("half axes 0.015 ℓ: in the smaller disk", {_ROCK + "bond_ellipse": [0.015, 0.015]}),
+    "ellipse-0.04": Reading("half axes 0.04 ℓ", {_ROCK + "bond_ellipse": [0.04, 0.04]}),
     "frictional": Reading("no strength left in tension", {_ROCK + "residual_tensile_strength": 0.0}),
     "no-rolling": Reading("no rolling friction left", {_ROCK + "residual_rolling_friction": 0.0}),
-    "membrane": Reading("flexible sides", test={"sides": "flexible"}),
-    SHIPPED: Reading("as shipped: smooth platens", test={"platens": "smooth"}),
-    "glued": Reading("glued platens", test={"platens": "glued"}),
+    "membrane": Reading("flexible sides", test={"sides": "flexible"}, platens=("rough",)),
+    "glued": Reading("glued platens", platens=("glued",)),
     "half": Reading("samples of half as many disks", test={"count": 0.5}),
+    "aspect-1.5": Reading("samples 1.5 times as high as wide", test={"aspect": 1.5}),
+    "aspect-3": Reading("samples 3 times as high as wide", test={"aspect": 3.0}),
     "toe-67.5": Reading("toe of 67.5 m", shape=_toe(67.5)),
     "layers-13.5": Reading("layers of 13.5 m, cut by the surface", shape=_layers(13.5)),
     "volume-bulk": Reading("water acts on the volume of the bulk", {"water.volume": "bulk"}),
@@ -150,14 +147,14 @@ def slope_of(reading, disks, seed):
     return dataclasses.replace(section_of(reading), seed=seed).with_disks(disks)
 
 
-def tests_of(reading, disks, seeds, strain=biaxial_test.Test.strain):
-    """The biaxial Tests of a Reading: of its rock, one for each seed and for each of :data:`PRESSURES`."""
-    fields = {"platens": "rough", **reading.test}
+def tests_of(reading, disks, seeds, platens, strain=biaxial_test.Test.strain):
+    """The biaxial Tests of a Reading between ``platens`` (see biaxial_test.Test): of its rock, one for each seed and for each of :data:`PRESSURES`."""
+    fields = dict(reading.test)
     count = round(disks * fields.pop("count", 1.0))
-    shape = {"friction": fields.pop("friction")} if "friction" in fields else {}
+    shape = {key: fields.pop(key) for key in ("friction", "aspect") if key in fields}
     rock = section_of(reading).materials[LAYERS_ROCK]
     return [
-        biaxial_test.Test(rock, p, pressing.Shape(count, seed, **shape), strain, **fields)
+        biaxial_test.Test(rock, p, pressing.Shape(count, seed, **shape), strain, platens, **fields)
         for seed in seeds
         for p in PRESSURES
     ]
@@ -169,31 +166,37 @@ def run(
     slope_disks,
     sample_disks,
     seeds,
+    platens=PLATENS,
     strain=biaxial_test.Test.strain,
     threads=1,
     resume=False,
     progress=lambda share, doing: None,
 ):
-    """Runs the tests and the slopes of ``chosen``, {name: Reading}, below the folder ``out``; those that several share are run once. Returns rows, a list of dictionaries.
+    """Runs the tests and the slopes of ``chosen``, {name: Reading}, below the folder ``out``; those that several share are run once. Returns rows, a list of dictionaries, one for each
+    reading and each of the ``platens`` between which its samples are tested; a reading that stands once is tested between its own.
 
-    A row has ``name``, ``label``, for each number of :data:`PAPER` its mean over seeds, ``…_95`` (half of the 95 % interval, None for one seed) and ``…_each``, ``misses`` (see :func:`misses`)
-    and their root mean square ``distance``. ``progress``: called with the share done and what is being done. Raises what campaign.run raises, and processes.RunError.
+    A row has ``name``, ``label``, ``platens``, ``folder`` (of its tests, below ``out``), and what :func:`.reading_numbers.row` says. ``progress``: called with the share done and what
+    is being done. Raises what campaign.run raises, and processes.RunError.
     """
     out, wanted = Path(out), {}
     for name, reading in chosen.items():
-        tests = tests_of(reading, sample_disks, seeds, strain)
         data = [section_data.plain(slope_of(reading, slope_disks, seed)) for seed in seeds]
-        wanted[name] = tests, data, tuple(map(biaxial_test.key_of, tests)), keys.key_of(data)
+        sloped_key = keys.key_of(data)
+        for p in reading.platens:
+            if p in platens or len(reading.platens) == 1:
+                tests = tests_of(reading, sample_disks, seeds, p, strain)
+                wanted[name, p] = tests, data, tuple(map(biaxial_test.key_of, tests)), sloped_key
     # the first of those that share a key is run
     tested = {key: (name, tests) for name, (tests, _, key, _) in reversed(wanted.items())}
-    sloped = {key: (name, data) for name, (_, data, _, key) in reversed(wanted.items())}
+    sloped = {key: (name, data) for (name, _), (_, data, _, key) in reversed(wanted.items())}
     measured, failed = {}, {}
     for k, (key, (name, tests)) in enumerate(tested.items()):
         shown = lambda share, doing, k=k, name=name: progress(  # noqa: E731
-            0.6 * (k + share) / len(tested), f"{name}: {doing}"
+            0.6 * (k + share) / len(tested), f"{', '.join(name)}: {doing}"
         )
-        found = campaign.run(tests, out / "samples" / name, threads, resume, shown)
-        measured[key] = campaign.summarise(tests[0].material, found, threads=threads)
+        folder = Path("samples", *name)
+        found = campaign.run(tests, out / folder, threads, resume, shown)
+        measured[key] = folder.as_posix(), campaign.summarise(tests[0].material, found, threads=threads)
     made = [
         side_by_side.Run(
             f"{name}, seed {seed}",
@@ -209,74 +212,9 @@ def run(
     found = iter(side_by_side.run(made, threads, resume, progress=shown, go_on=True))
     for key in sloped:
         failed[key] = [next(found) for _ in seeds]
-    return [
-        {"name": name, "label": chosen[name].label} | _row(measured[tested_key], failed[sloped_key], seeds)
-        for name, (_, _, tested_key, sloped_key) in wanted.items()
-    ]
-
-
-def _row(samples, slopes, seeds):
-    row = {}
-    for name in list(PAPER)[:4]:
-        middle, unit = name.rsplit("_", 1)
-        row |= {name: samples[name], f"{name}_95": samples[f"{middle}_95_{unit}"]}
-    peaks = [
-        [t["strain_peak"] for t in samples["tests"] if t["seed"] == seed and t["confining_Pa"] in FIGURE_10]
-        for seed in seeds
-    ]
-    # of one sample: the geometric mean over the pressures
-    each = {
-        "strain_peak": [float(np.exp(np.mean(np.log(p)))) for p in peaks],
-        "water_highest_m": [s["water_highest_m"] for s in slopes],
-    }
-    for name, values in each.items():
-        mean = over_seeds(values)
-        row |= {name: mean["mean"], f"{name}_95": mean["half_width"], f"{name}_each": values}
-    found = misses(row)
-    return row | {
-        "misses": found,
-        "distance": None if None in found.values() else math.sqrt(np.mean(np.square(list(found.values())))),
-    }
-
-
-def misses(row):
-    """{number: difference from the paper by what it may be} for a dictionary with the numbers of :data:`PAPER`; 1 and less is within it, None where a number is missing."""
-    found = {}
-    for name, (wanted, allowed) in PAPER.items():
-        value = row[name]
-        if value is not None:
-            value = math.log2(value / wanted) if name == "strain_peak" else value - wanted
-        found[name] = None if value is None else value / allowed
-    return found
-
-
-#: {number: (its head in a table, its factor, digits)}.
-SHOWN = {
-    "cohesion_peak_kPa": ("peak cohesion [kPa]", 1, 0),
-    "friction_peak_deg": ("peak friction [°]", 1, 1),
-    "cohesion_residual_kPa": ("residual cohesion [kPa]", 1, 0),
-    "friction_residual_deg": ("residual friction [°]", 1, 1),
-    "strain_peak": ("strain of the peak [%]", 100, 2),
-    "water_highest_m": ("highest water [m]", 1, 1),
-}
-
-
-def table(rows):
-    """(heads, lines) of texts for what :func:`run` returned: the paper, then a line for each reading, the nearest first."""
-
-    def text(row, name):
-        _, factor, digits = SHOWN[name]
-        return told(row[name], row.get(f"{name}_95"), digits, factor)
-
-    paper = {name: wanted for name, (wanted, _) in PAPER.items()}
-    ordered = sorted(rows, key=lambda row: math.inf if row["distance"] is None else row["distance"])
-    lines = [["the paper", *(text(paper, name) for name in SHOWN), ""]]
-    lines += [
-        [
-            row["label"],
-            *(text(row, name) for name in SHOWN),
-            "–" if row["distance"] is None else f"{row['distance']:.2f}",
-        ]
-        for row in ordered
-    ]
-    return ["reading", *(head for head, _, _ in SHOWN.values()), "distance"], lines
+    rows = []
+    for (name, p), (_, _, tested_key, sloped_key) in wanted.items():
+        folder, samples = measured[tested_key]
+        told = {"name": name, "label": chosen[name].label, "platens": p, "folder": folder}
+        rows.append(told | reading_numbers.row(samples, out / folder, failed[sloped_key]))
+    return rows

@@ -55,7 +55,7 @@ def curve(series, plateau):
         )
     top, bottom = (np.asarray(series[f"sigma1_{name}_Pa"], float) for name in ("top", "bottom"))
     axial = axial_stress(series)
-    lateral = 0.5 * (np.asarray(series["sigma3_left_Pa"], float) + np.asarray(series["sigma3_right_Pa"], float))
+    lateral = lateral_stress(series)
     begin, mean = running_mean(strain, axial, PEAK_WINDOW)
     k = int(np.argmax(mean))
     middle = begin[k] + PEAK_WINDOW / 2
@@ -90,6 +90,11 @@ def axial_stress(series):
     return 0.5 * (np.asarray(series["sigma1_top_Pa"], float) + np.asarray(series["sigma1_bottom_Pa"], float))
 
 
+def lateral_stress(series):
+    """σ₃ [Pa] of a test's rows, an array: mean of both sides."""
+    return 0.5 * (np.asarray(series["sigma3_left_Pa"], float) + np.asarray(series["sigma3_right_Pa"], float))
+
+
 def running_mean(strain, values, window):
     """Means of ``values`` over ``window`` of strain: (the strains at which the windows begin, the means), arrays of m.
 
@@ -109,6 +114,17 @@ def later_share(series) -> float | None:
     middle = begin + PEAK_WINDOW / 2
     there = (middle >= FIGURE_10[0]) & (middle <= FIGURE_10[1])
     return float(mean[there].max() / mean.max()) if there.any() else None
+
+
+def mean_between(series, low, high):
+    """(σ₃, σ₁) [Pa], means over the strains from ``low`` to ``high`` of a test's series; None for a test that ends before ``high``, to half a row."""
+    strain = np.asarray(series["strain"], float)
+    there = (strain > low) & (strain <= high + 1e-9)
+    covered = np.diff(strain, prepend=0.0)  # a row counts for the strain that it covers
+    if strain[-1] < high - 0.5 * covered[-1]:
+        return None
+    both = lateral_stress(series), axial_stress(series)
+    return tuple(float(np.average(stress[there], weights=covered[there])) for stress in both)
 
 
 def apparent_deg(minor, major) -> float:
