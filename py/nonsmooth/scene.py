@@ -338,19 +338,28 @@ def join(one, other, along, backwards=False):
 
 
 def engines(
-    gravity=(0, -9.81, 0), reach=0.05, far=None, verlet=-0.2, before=(), after=(), label="contactDynamics", **options
+    gravity=(0, -9.81, 0),
+    reach=0.05,
+    far=None,
+    verlet=-0.2,
+    before=(),
+    after=(),
+    label="contactDynamics",
+    adhesion_range=1e-3,
+    **options,
 ):
     """The list O.engines of a Contact Dynamics simulation.
 
     ``gravity`` [m/s²]; ``reach``: gap up to which contacts are known beforehand, in units of ℓ; ``far``: the same for disks that are fast
     enough to come so near in two steps, where that is more; ``verlet``: the collider's margin [m], negative: in smallest radii, which fits any size of disks; ``before``:
-    engines that add forces, e.g. PorePressureEngine; ``after``: engines after the integrator; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
+    engines that add forces, e.g. PorePressureEngine; ``after``: engines after the integrator; ``adhesion_range``: gap up to which the residual tensile strength acts, in units of ℓ; ``options``: attributes of ContactDynamicsEngine. Raises AttributeError for one that it has not.
     """
     checks.numbers_of("gravity", gravity, SceneError, "give (x, y, z) [m/s²], as (0, -9.81, 0)", 3, 3)
     checks.number("reach", reach, SceneError, "give a gap in mean diameters, 0 or more", least=0)
     if far is not None:
         checks.number("far", far, SceneError, "give a gap in mean diameters, 0 or more, or None", least=0)
     checks.number("verlet", verlet, SceneError, "give a margin [m], or below 0 a share of the smallest radius")
+    checks.number("adhesion_range", adhesion_range, SceneError, "give a gap in mean diameters, 0 or more", least=0)
     solver = ContactDynamicsEngine(label=label, **options)
     far = max(reach, far or 0)
     sure = {"sureReach": reach} if far > reach else {}
@@ -366,7 +375,7 @@ def engines(
                 Ig2_Arc_Sphere_ScGeom(interactionDetectionFactor=1 + far),
             ],
             [Ip2_NscdMat_NscdMat_NscdPhys()],
-            [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=far)],
+            [Law2_ScGeom_NscdPhys_SignoriniCoulomb(reach=far, adhesionRange=adhesion_range)],
         ),
         *before,
         solver,

@@ -27,6 +27,7 @@ from yade.nonsmooth.laboratory import (
     strength,
     wall_shear,
 )
+from yade.wrapper import Law2_ScGeom_NscdPhys_SignoriniCoulomb, NscdInteractionLoop
 
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -419,6 +420,17 @@ def test_a_rock_without_bonds_is_tested_without_bonds(tmp_path):
         SMALL.shape, loose, dataclasses.replace(SMALL, material=loose).platen, 1e6, tolerance=1e-4, maxIterations=1000
     )
     assert course.bonds == 0 and course.engine.bonds == 0 and course.engine.contacts > 100
+
+
+@pytest.mark.parametrize("reach", [1e-3, 0.025])
+def test_residual_strength_acts_as_far_as_a_test_says(tmp_path, reach):
+    """1e-3 ℓ where it does not say so, which is the law's own."""
+    assert biaxial.Test.adhesion_range == Law2_ScGeom_NscdPhys_SignoriniCoulomb().adhesionRange == 1e-3
+    pressing.prepare(SMALL.shape, tmp_path / "pressing")
+    course = biaxial.Course.begin(dataclasses.replace(SMALL, adhesion_range=reach), tmp_path)
+    course.series.close()
+    (loop,) = (e for e in O.engines if isinstance(e, NscdInteractionLoop))
+    assert [law.adhesionRange for law in loop.lawDispatcher.functors] == [reach]
 
 
 def test_without_a_plateau_there_is_no_residual_envelope():

@@ -51,6 +51,12 @@ def test_closing_bonds_close_in_the_rock_and_at_fb(distance):
     assert {(t.material.bond_creation_distance, t.material.bonds_close) for t in tests} == {(distance, True)}
 
 
+def test_residual_strength_reaches_as_far_as_bonds_are_made():
+    slope, tests = all_of(readings.READINGS["residual-0.025"])
+    assert {t.adhesion_range for t in tests} == {t.material.bond_creation_distance for t in tests} == {0.025}
+    assert slope == all_of(SHIPPED)[0]  # no key of a section has it
+
+
 @pytest.mark.parametrize("aspect", [1.5, 3])
 def test_samples_have_the_aspect_of_their_reading(aspect):
     slope, tests = all_of(readings.READINGS[f"aspect-{aspect:g}"])

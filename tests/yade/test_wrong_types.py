@@ -163,6 +163,7 @@ CALLS = [
     ("inside", lambda v: scene.arc((0, 0), 1, 0, 1, stuff(), inside=v), ("yes", 3, [1]), "give True"),
     ("gravity", lambda v: scene.engines(gravity=v), (None, -9.81, "down", (0, -9.81), (0, NAN, 0)), r"give \(x, y, z\)"),
     ("reach", lambda v: scene.engines(reach=v), (None, "far", [1], -1, NAN), "give a gap in mean diameters"),
+    ("adhesion_range", lambda v: scene.engines(adhesion_range=v), (None, "far", -1, NAN), "give a gap in mean diameters"),
     ("verlet", lambda v: scene.engines(verlet=v), (None, "far", NAN), "give a margin"),
     ("ends|vertices", lambda v: scene.plate(v, stuff()), (None, "x", 3, [(0, 0)], [(0, 0), (1, NAN)]), "give"),
     ("force =", lambda v: scene.plate(FLOOR, stuff(), force=v), (None, "1", NAN), "give a finite number"),

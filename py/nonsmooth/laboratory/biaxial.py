@@ -88,6 +88,7 @@ class Course:
             test.confining,
             tolerance=min(test.tolerance, 1e-5),
             maxIterations=max(test.max_iterations, 1000),
+            adhesion_range=test.adhesion_range,
         )
         engine, walls = body.engine, body.walls
         unit, height, width = math.sqrt(body.mass / test.confining), walls.height(), walls.width()

@@ -15,7 +15,8 @@ class Test:
     """What determines a test. ``confining``: σ₃ [Pa]; ``strain``: at the end.
 
     ``platens``: "smooth", "rough" (friction and rolling friction of the rock, no bonds) or "glued" (bonded as the rock is); ``sides``: "rigid" or
-    "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i.
+    "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i; ``adhesion_range``: largest gap over which the
+    residual tensile strength acts, in ℓ.
     """
 
     __test__ = False  # no test of pytest's
@@ -30,6 +31,7 @@ class Test:
     step: float = 0.1
     tolerance: float = 1e-5
     max_iterations: int = 1000
+    adhesion_range: float = 1e-3
 
     def __post_init__(self):
         object.__setattr__(self, "material", materials.bare(self.material))

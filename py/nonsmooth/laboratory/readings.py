@@ -114,6 +114,7 @@ READINGS = {
     "ellipse-0.015": Reading("half axes 0.015 ℓ: in the smaller disk", {_ROCK + "bond_ellipse": [0.015, 0.015]}),
     "ellipse-0.04": Reading("half axes 0.04 ℓ", {_ROCK + "bond_ellipse": [0.04, 0.04]}),
     "frictional": Reading("no strength left in tension", {_ROCK + "residual_tensile_strength": 0.0}),
+    "residual-0.025": Reading("residual strength over gaps up to Δ, in samples", test={"adhesion_range": 0.025}),
     "no-rolling": Reading("no rolling friction left", {_ROCK + "residual_rolling_friction": 0.0}),
     "membrane": Reading("flexible sides", test={"sides": "flexible"}, platens=("rough",)),
     "glued": Reading("glued platens", platens=("glued",)),

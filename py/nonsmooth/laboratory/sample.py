@@ -35,7 +35,7 @@ class Sample:
         A pressed sample takes up the pressure and is then bonded. One that was not pressed is bonded first, and the pressure then grows.
 
         ``shape``: of a sample that `pressing.prepare` made; ``rock``, ``platen``: section.Material of disks and of platens, sides have no friction;
-        ``solver``: attributes of ContactDynamicsEngine.
+        ``solver``: options of scene.engines, such as attributes of ContactDynamicsEngine.
         """
         pressed = pressing.load(shape)
         O.reset()

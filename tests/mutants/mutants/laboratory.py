@@ -109,6 +109,8 @@ MUTANTS = (
            "test_readings.py::test_the_tables_tell_all_strains_of_peaks_and_no_mean_of_them"),
     mutant("readings-window", LAB + "strength.py", "(strain > low) & (strain <= high + 1e-9)", "strain <= high + 1e-9", "a mean between two strains begins with the test",
            "plain:test_strength.py::test_a_mean_between_two_strains_counts_what_rows_cover"),
+    mutant("lab-adhesion", LAB + "biaxial.py", "adhesion_range=test.adhesion_range,", "", "residual strength acts at touch, whatever a test says",
+           "test_laboratory.py::test_residual_strength_acts_as_far_as_a_test_says"),
     mutant("readings-least", LAB + "closing_decision.py", '"met": count >= LEAST}', '"met": count > 0}', "one sample of five meets a criterion of four",
            "plain:test_closing_decision.py::test_each_criterion_fails_alone"),
     mutant("readings-lost", LAB + "closing_decision.py", "if meets(shipped, name) and not meets(row, name)]", "if meets(row, name) and not meets(shipped, name)]", "what is won counts as lost",
