@@ -234,6 +234,25 @@ def test_stress_against_strain_of_each_sample_beside_the_papers_peaks():
         assert peaks[1] == pytest.approx((1.5, 24.5), abs=0.03)
 
 
+def test_stress_against_strain_is_drawn_where_all_of_its_readings_were_tested(tmp_path, monkeypatch):
+    """Between smooth platens all six, between rough ones five; a reading that shares its samples has those of the folder that it names."""
+    kept, rows = drawn.keep(monkeypatch, figures.style), []
+    for k, name in enumerate(name for line in figures.BONDS.values() for name in line):
+        folder = tmp_path / f"kept{k}" / "tests" / "8MPa-seed1"
+        folder.mkdir(parents=True)
+        columns = ("step", "strain", "sigma1_top_Pa", "sigma1_bottom_Pa")
+        with records.SeriesWriter(folder / "series.csv", columns) as writer:
+            writer.write(*(dict(zip(columns, (i, 1e-3 * (i + 1), 1e6 * (k + 10), 1e6 * (k + 10)))) for i in range(20)))
+        rows += [
+            made_up(name, platens, [[0.01] * 3], folder=f"kept{k}")
+            for platens in readings.PLATENS
+            if (name, platens) != ("gap-0.02", "rough")
+        ]
+    assert [path.name for path in figures.stress_strain_of(rows, tmp_path)] == ["readings_stress_strain.png"]
+    (fig,) = kept.values()
+    assert [drawn.points(ax.lines[0])[0][1] for ax in fig.axes] == pytest.approx(range(10, 16))
+
+
 def test_small_runs_and_what_is_shared(tmp_path):
     """Sides rule samples alone, the backstop slopes alone: of three readings there are two kinds of samples and two of slopes, and of what stands between two kinds of platens one kind of slopes."""
     chosen = {name: readings.READINGS[name] for name in (reading_numbers.SHIPPED, "membrane", "backstop-loose")}

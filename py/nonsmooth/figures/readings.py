@@ -108,7 +108,7 @@ def _numbers(ax, row, name, y, marker, fill):
 
 @style.styled
 def stress_strain(curves, path=None, pdf=False):
-    """Axial stress against axial strain of every sample, a panel for each Δ of :data:`GAPS` and each kind of :data:`BONDS`; dots: peaks; the paper's range of peaks is a band.
+    """Axial stress against axial strain of every sample, a panel for each Δ of :data:`GAPS` and each kind of :data:`BONDS`; dots: peaks, where they are not beyond the right end; the paper's range of peaks is a band.
 
     ``curves``: {reading: {seed: series}}, columns of `laboratory.biaxial.COLUMNS`, of all readings of :data:`BONDS`. A line is the mean over 0.2 % of strain, whose largest is the peak.
     """
@@ -132,7 +132,8 @@ def stress_strain(curves, path=None, pdf=False):
         line[0].set_ylabel(f"{words}\n\nσ₁ [MPa]")
     for ax in axes[1]:
         ax.set_xlabel("axial strain ε₁ [%]")
-    axes[0, 0].set(xlim=(0, 100 * END), ylim=(FIGURE_9 * 1e-6, None))
+    lowest = min(line.get_ydata().min() for ax in axes.flat for line in ax.lines)
+    axes[0, 0].set(xlim=(0, 100 * END), ylim=(0.8 * lowest, None))  # room for words
     axes[0, 0].text(
         50 * sum(TALLEST),
         0.03,
