@@ -67,9 +67,9 @@ def verdicts(rows):
 
 def table(found):
     """[title, heads, lines] of texts for what :func:`verdicts` returned, one or more."""
-    heads = [f"({key}) {says}" for key, (says, *_) in COUNTED.items()]
+    heads = [f"{key}: {says}" for key, (says, *_) in COUNTED.items()]
     for key, numbers in MEANS.items():
-        heads.append(f"({key}) " + ", ".join(f"{SHOWN[n][0]} {w:g} ± {a:g}" for n, (w, a) in numbers.items()))
+        heads.append(f"{key}: " + ", ".join(f"{SHOWN[n][0]} {w:g} ± {a:g}" for n, (w, a) in numbers.items()))
     lines = [
         [
             v["label"],
