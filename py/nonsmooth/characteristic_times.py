@@ -6,7 +6,7 @@ Rules (Taboada and Estrada 2009, section 6; what they leave open is ours):
 * t1, failure: the mean of N_FB, the normal force on the backstops, over one second first comes within 2 % of its largest value up to t2, the strength of the foot,
   and stays about there (paragraph 116); where there is no backstop, the slope begins to creep: the mean speed comes to 0.02 m/s and is not below it again before t2;
 * t2, triggering: the slope begins to accelerate (paragraph 117): the mean speed comes to 0.2 m/s, and the slope does not come to rest again before it has got going;
-  this is ``moving`` of course.py. Friction and pore pressure are whole then, but for a slope that had slipped and stopped before;
+  this is ``moving`` of :mod:`.course.slope`. Friction and pore pressure are whole then, but for a slope that had slipped and stopped before;
 * t3: the mean of T_DP, the shear force on the slip surfaces, over one second has fallen by 90 % of its value at t2, and weakening has begun; none without weakening;
 * t4: the largest kinetic energy since t2;
 * t5: the mean speed falls below ``rest_fraction`` (2 %) of its maximum since t2 for good;
@@ -269,7 +269,7 @@ def kept_rows(series, section, state) -> np.ndarray:
         found |= set(_of_motion(series, section).values())
     got_going = state["moving"] is not None and state["speed_max"] >= scale.going_speed
     if not failed and state["t0"] is not None and not got_going:
-        # t2 has not come, or may be taken back (see course.py)
+        # t2 has not come, or may be taken back (see course.slope)
         found |= _may_be_failure(chosen, scale, state["t0"])
     return np.array(sorted(_row(series, time) for time in found - {None}), int)
 

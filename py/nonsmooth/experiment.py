@@ -1,7 +1,7 @@
 """A slope experiment: bond, load, rest dry, raise the water, follow the avalanche until it rests.
 
-What decides its course stands in :mod:`yade.nonsmooth.course`; here it is looked at, and what was decided is done. All that a run goes on with stands in
-:class:`~nonsmooth.course.State`, which goes into checkpoints; nothing depends on wall time.
+What decides its course stands in :mod:`yade.nonsmooth.course.slope`, and :mod:`yade.nonsmooth.course.driver` drives it; here it is looked at, and what was decided is done. All that a run goes on with stands in
+:class:`.course.slope.State`, which goes into checkpoints; nothing depends on wall time.
 
 * a step is ``numerics.time_step``, or as short as the speeds of contacts want it (NonsmoothTimeStepper, where the section gives a ``path``);
 * forces on walls are means over the steps since the row before, and the largest.
@@ -27,7 +27,6 @@ from . import (
     checks,
     course,
     frames,
-    interrupts,
     keys,
     packing,
     records,
@@ -38,7 +37,7 @@ from . import (
     slope_packing,
     tables,
 )
-from .course import State
+from .course import State, driver
 from .errors import UserError
 from .measure.fronts import front_of
 from .section import Section
@@ -48,8 +47,6 @@ from .wall_series import WallSeries
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
 FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each step with hard ones
-CHECKPOINT_SECONDS = 90  # of wall time between two checkpoints, at least ...
-CHECKPOINT_SHARE = 0.02  # ... and so many that they take this part of it at most
 
 COLUMNS = tuple(records.COLUMNS)
 #: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
@@ -81,7 +78,7 @@ class EndError(ExperimentError, ValueError):
     """An end of a run that is no time to come; nothing has been done then, and the run can go on with another."""
 
 
-class Experiment:
+class Experiment(driver.Course):
     """Runs a built :class:`~nonsmooth.slope.Slope` and writes its records into ``folder``.
 
     ``progress``: called with (stage, seconds simulated, seconds foreseen) after every row. ``damping_moving``: of soft contacts, instead of
@@ -109,6 +106,7 @@ class Experiment:
         self.stands = False  # see run
         self.runner = None  # see attach
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
+        self.unsaved = None if self.hard else "a slope of soft contacts"
         self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
         self.columns += records.own_columns(self.section.stacked)
         if state is None:
@@ -130,8 +128,7 @@ class Experiment:
             results.forget_later(self.folder, state.stage, O.iter)
             rows = records.read_series(self.folder / "series.csv")
             self.frames = frames.Frames(self.folder, self.section, rows, asdict(state))
-        self._clock = time.monotonic()
-        self._saved, self._saving = self._clock, 0.0
+        super().__init__(self.series, self.walls.file)
         self.newton = next(e for e in O.engines if isinstance(e, NewtonIntegrator))
         self.damping = (self.newton.damping, self.newton.damping if damping_moving is None else damping_moving)
         if state is None:
@@ -142,7 +139,7 @@ class Experiment:
         """Runs until the experiment is over, or until ``end`` [s] of simulated time, to the row that comes then or next. It may be called again, with a later ``end`` or none, and goes on from where it
         was, also after :meth:`attach`, after Ctrl-C and after an error that has been mended. Where the experiment is over, nothing is left to do.
 
-        ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see :mod:`yade.nonsmooth.course`). Otherwise it goes on to its longest time, so that a script can do
+        ``stands``: whether a slope that stands, and that nothing to come can move, ends it (see :mod:`yade.nonsmooth.course.slope`). Otherwise it goes on to its longest time, so that a script can do
         more to it. Unless given, that ends a run without ``end`` in a scene that has no engines of a script (PyRunner, and those that push or move bodies).
 
         Ctrl-C ends it after the next row, with a checkpoint, by raising interrupts.Interrupted. O.bodies and O.interactions are up to date when it ends; within ``progress``
@@ -159,49 +156,32 @@ class Experiment:
         self._open()
         self._detach()
         self.stands = end is None and not _scripted() if stands is None else stands
-        with interrupts.noted() as interrupted:
-            try:
-                self._run(end, interrupted)
-            finally:
-                if self.hard:
-                    self.slope.solver.view()
+        self._end = end
+        driver.drive(self)
 
-    def _run(self, end, interrupted):
-        while not self.reached(end):
-            row = course.next_row(O.time, O.dt, self.scales.row_seconds)
-            first, began, ends = O.time, time.perf_counter(), row * self.scales.row_seconds
-            while self.state.stage == "settle" and not self.hard and O.time < ends - 0.5 * O.dt:
-                self.newton.gravity = self._gravity(O.time)
-                advance()
-            advance(until=ends, view=False)
-            self._count(O.time - first, time.perf_counter() - began)
-            self._advance(row)
-            if interrupted():
-                self.checkpoint()
-                self._close()
-                kept = (
-                    "the checkpoint is written, go on with --resume"
-                    if self.hard
-                    else "a slope of soft contacts has no checkpoint, run it again"
-                )
-                raise interrupts.Interrupted(f"at {O.time:.1f} s of simulated time; {kept}")
-        self.checkpoint()
-        self._close()
+    def _over(self):
+        return self.reached(self._end)
+
+    def _where(self):
+        return f"at {O.time:.1f} s of simulated time"
+
+    def _steps(self):
+        """Those up to the next row; returns its number."""
+        row = self._next()
+        ends = row * self.scales.row_seconds
+        while self.state.stage == "settle" and not self.hard and O.time < ends - 0.5 * O.dt:
+            self.newton.gravity = self._gravity(O.time)
+            advance()
+        advance(until=ends, view=False)
+        return row
+
+    def _next(self):
+        """Number of the row that ends next."""
+        return course.next_row(O.time, O.dt, self.scales.row_seconds)
 
     def reached(self, end=None):
         """Whether the experiment is over, or has come to ``end`` [s] of simulated time."""
         return self.state.stage == "done" or (end is not None and _come_to(end))
-
-    def _open(self):
-        """Records that an earlier part of the run has closed take rows again; the time since then is not the run's."""
-        if self.series.closed:
-            self._clock = time.monotonic()
-        self.series.reopen()
-        self.walls.file.reopen()
-
-    def _close(self):
-        self.series.close()
-        self.walls.file.close()
 
     def summarise(self, threads=None) -> dict:
         """Writes ``summary.json`` of what has been run, and returns it, see :func:`.results.summarise`."""
@@ -251,17 +231,16 @@ class Experiment:
 
     def _wait(self):
         """For the next row, or, where the course is over, for none."""
-        self._waiting = course.next_row(O.time, O.dt, self.scales.row_seconds), O.time, time.perf_counter()
+        self._waiting = self._next(), O.time, time.perf_counter()
         self.runner.nextTime = self._waiting[0] * self.scales.row_seconds
         self.runner.dead = self.state.stage == "done"
 
     def _row_came(self):
         number, first, began = self._waiting
-        self._count(O.time - first, time.perf_counter() - began)
-        self._advance(number)
+        self._pass_row(number, O.time - first, time.perf_counter() - began)
         self._wait()
         if self.state.stage == "done":
-            self.checkpoint()
+            self._finish()
             self._close()
             O.pause()
 
@@ -272,7 +251,11 @@ class Experiment:
             s.wall_moving_s += seconds
             s.moving_s += simulated
 
-    def _advance(self, row):
+    def _spend(self, seconds):
+        self.state.wall_s += seconds
+
+    def _look(self, row):
+        """``row``: its number."""
         solver = self.slope.solver
         disks = tables.bodies(solver)
         self._inside(disks)
@@ -287,8 +270,9 @@ class Experiment:
         self.frames.tidy()
         self._decide(seen)
         self.progress(self.state.stage, O.time, course.foreseen(self.state, O.time, self.section))
-        if time.monotonic() - self._saved > max(CHECKPOINT_SECONDS, self._saving / CHECKPOINT_SHARE):
-            self.checkpoint()
+
+    def _finish(self):
+        self.checkpoint()
 
     def _seen(self, disks):
         e, water, made = self.slope.solver, self.slope.water, self.state.bonds_initial
@@ -387,7 +371,7 @@ class Experiment:
         self.snapshot(self.folder / "t0.npz", contacts=True)
 
     def _care(self, flowing, still):
-        """How exactly contacts are computed, see :func:`.course.care`."""
+        """How exactly contacts are computed, see :func:`.course.slope.care`."""
         if self.hard:
             self.slope.solver.tolerance = course.tolerance(flowing, still, self.section.numerics)
         else:
@@ -464,11 +448,7 @@ class Experiment:
             "front_m": self._front(disks),
             "centroid_x_m": x,
             "centroid_y_m": y,
-            "bonds_alive": e.bonds,
-            "bonds_broken_tension": e.brokenTension,
-            "bonds_broken_shear": e.brokenShear,
-            "bonds_broken_torque": e.brokenTorque,
-            "bonds_broken_mixed": e.brokenMixed,
+            **tables.bonds(e),
             "contacts": e.contacts,
             "slip_mean_dp_m": slip.mean,
             "weakened_disks": slip.weakened,
@@ -532,13 +512,8 @@ class Experiment:
         )
 
     # ---- checkpoints --------------------------------------------------------------------------
-    def checkpoint(self):
-        """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole. With soft contacts the records alone."""
-        now = time.monotonic()
-        self.state.wall_s += now - self._clock
-        self._clock = now
-        self.series.sync()
-        self.walls.file.sync()
+    def _save(self):
+        """With soft contacts the records alone."""
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
         if self.hard:
             checkpoints.write(
@@ -554,8 +529,6 @@ class Experiment:
                 },
             )
         self.frames.saved()
-        self._saved = time.monotonic()
-        self._saving = self._saved - now
 
 
 def _come_to(end):

@@ -75,7 +75,7 @@ class Frames:
 
 
 def regular_rows(series, section, failed_dry):
-    """Which rows of a series are those of regular snapshots, bool (rows,), see :func:`.course.keeps_frame`; ``failed_dry`` [s]: when, or None."""
+    """Which rows of a series are those of regular snapshots, bool (rows,), see :func:`.course.slope.keeps_frame`; ``failed_dry`` [s]: when, or None."""
     number = np.rint(series["time_s"] / scales.of(section).row_seconds)
     counts = (series["stage"] > 0) | (series["time_s"] >= (np.inf if failed_dry is None else failed_dry))
     return counts & (number % course.FRAME_ROWS == 0)

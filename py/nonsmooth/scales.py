@@ -18,7 +18,7 @@ GRAVITY = 9.81  # m/s²
 @dataclass(frozen=True)
 class Scales:
     """``row_seconds``: between two rows of the series; ``mean_seconds``: over which forces are averaged for characteristic times; ``still_seconds``: without
-    change, after which a solve is tighter; ``moving_speed``, ``stopped_speed``, ``going_speed``, ``approach_speed`` [m/s]: see :mod:`yade.nonsmooth.course`, :mod:`.slope`;
+    change, after which a solve is tighter; ``moving_speed``, ``stopped_speed``, ``going_speed``, ``approach_speed`` [m/s]: see :mod:`yade.nonsmooth.course.slope`, :mod:`yade.nonsmooth.slope`;
     ``correction_speed`` [m/s]: with which errors of position are taken back at most, the solver's own but for a similar section.
 
     The first two are rounded to 1, 2 or 5 times a power of ten (but for a similar section), and no shorter than a time step.

@@ -94,6 +94,12 @@ def loaded_contacts(engine, first_disk, wall_numbers) -> dict[str, np.ndarray]:
     }
 
 
+def bonds(engine) -> dict[str, int]:
+    """Columns of a series: the bonds that there are, and how many have broken in each way. ``engine``: the ContactDynamicsEngine, or what soft contacts have for it."""
+    broken = {f"bonds_broken_{mode}": getattr(engine, f"broken{mode.capitalize()}") for mode in BREAK_MODES[1:]}
+    return {"bonds_alive": engine.bonds} | broken
+
+
 @_ENGINE
 def breaks(engine) -> dict[str, np.ndarray]:
     """Bonds that broke so far, in the order of time and ids, arrays of shape (n,): ``step``, ``id1``, ``id2`` (int, lower id first), ``time``

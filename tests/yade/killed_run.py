@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from yade.nonsmooth import commands, experiment, section, slope, slope_packing
+from yade.nonsmooth.course import driver
 
 source, disks, out, end, look = (
     sys.argv[1],
@@ -42,5 +43,5 @@ def main():
         out.with_suffix(".looks").write_text(str(seen))
 
 
-experiment.CHECKPOINT_SECONDS, experiment.CHECKPOINT_SHARE = 0, 1e9
+driver.CHECKPOINT_SECONDS, driver.CHECKPOINT_SHARE = 0, 1e9
 commands.run(main)

@@ -12,7 +12,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-course, scales, section = (synthetic.load(name) for name in ("course", "scales", "section"))
+course, rules, scales, section = (synthetic.load(name) for name in ("course", "course.slope", "scales", "section"))
 SHIPPED = section.load("jiufengershan")
 STEP = 1e-2  # s
 ROUNDING = 1e-9  # of sums of some hundred times and heights
@@ -84,13 +84,13 @@ def close(value):
 def test_the_module_needs_no_yade():
     imported = {
         alias.name
-        for node in ast.walk(ast.parse(Path(course.__file__).read_text()))
+        for node in ast.walk(ast.parse(Path(rules.__file__).read_text()))
         if isinstance(node, ast.Import)
         for alias in node.names
     }
     imported |= {
         node.module
-        for node in ast.walk(ast.parse(Path(course.__file__).read_text()))
+        for node in ast.walk(ast.parse(Path(rules.__file__).read_text()))
         if isinstance(node, ast.ImportFrom)
     }
     assert imported == {"__future__", "math", "dataclasses"}

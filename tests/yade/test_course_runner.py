@@ -9,6 +9,7 @@ from contact_scenes import begin, floor, free_disk, material
 from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import experiment, section
+from yade.nonsmooth.course import driver
 from yade.nonsmooth.stepping import advance
 from yade.wrapper import CourseRunner, PyRunner
 
@@ -65,12 +66,12 @@ def test_a_run_by_engine_is_resumed_by_either(whole, tmp_path):
         out = tmp_path / str(k)
         run = experiment.begin(chosen, out)
         run.attach()
-        experiment.CHECKPOINT_SECONDS, before = 0.0, experiment.CHECKPOINT_SECONDS  # after each row, by the engine
-        experiment.CHECKPOINT_SHARE, share = 1e9, experiment.CHECKPOINT_SHARE
+        driver.CHECKPOINT_SECONDS, before = 0.0, driver.CHECKPOINT_SECONDS  # after each row, by the engine
+        driver.CHECKPOINT_SHARE, share = 1e9, driver.CHECKPOINT_SHARE
         try:
             O.run(400, wait=True)
         finally:
-            experiment.CHECKPOINT_SECONDS, experiment.CHECKPOINT_SHARE = before, share
+            driver.CHECKPOINT_SECONDS, driver.CHECKPOINT_SHARE = before, share
         assert run.state.stage != "done"
         run._close()
         O.reset()
@@ -115,7 +116,7 @@ def test_what_a_row_raises_ends_the_run(tmp_path, monkeypatch):
     def refuse(*_):
         raise experiment.ExperimentError("the disk is full of birds")
 
-    monkeypatch.setattr(run, "_advance", refuse)
+    monkeypatch.setattr(run, "_look", refuse)
     with pytest.raises(RuntimeError, match="full of birds"):
         for _ in range(50):
             O.step()

@@ -11,7 +11,7 @@ SCALES, SLOPE, WORLDS, TOE = (PY + name for name in ("scales.py", "slope.py", "w
 SECTION, READER, CHECKS, GEOMETRY, VALUES, HINTS = (
     PY + f"{name}.py" for name in ("section", "section_reader", "section_checks", "geometry", "section_values", "section_hints")
 )
-RULES = PY + "course.py"
+RULES, DRIVER = PY + "course/slope.py", PY + "course/driver.py"
 FREE_SURFACE, SLOPE_PACKING = PY + "free_surface.py", PY + "slope_packing.py"
 PACKING, PACKING_CHECKS, PACKING_FILES = (PY + name for name in ("packing.py", "packing_checks.py", "packing_files.py"))
 
@@ -89,7 +89,7 @@ MUTANTS = (
            "test_pore_pressure.py::test_release_is_for_good_after_the_distance_downslope"),
     mutant("tables-slip", TABLES, "np.frombuffer(material.slipTable())[first : first + count]", "np.frombuffer(material.slipTable())[:count]",
            "slips are those of other disks", "test_contact_law.py::test_friction_and_cohesion_fall_by_the_law_of_their_wall"),
-    mutant("row-broken", COURSE, '"bonds_broken_shear": e.brokenShear', '"bonds_broken_shear": e.brokenTension', "bonds broken in tension are counted as sheared",
+    mutant("row-broken", TABLES, 'getattr(engine, f"broken{mode.capitalize()}")', "engine.brokenTension", "bonds broken in tension are counted as sheared",
            column("bonds_broken_shear"), slow=True),
     mutant("row-rolling", COURSE, '"energy_rolling_J": e.rollingLoss', '"energy_rolling_J": e.slidingLoss', "what rolling costs is what sliding costs",
            column("energy_rolling_J"), slow=True),
@@ -140,15 +140,15 @@ MUTANTS = (
            "plain:test_results.py::test_a_slope_that_weakened_and_stopped_has_t3_after_t2"),
     mutant("times-order", TIMES, "if None not in (t3, t4) and t3 > t4 + SAME:", "if False:", "triggering ends after the avalanche has come to rest",
            "plain:test_results.py::test_times_come_in_their_order_or_say_why_not"),
-    mutant("course-collapsed", PY + "course.py", "seen.way >= COLLAPSED or (", "(", "a slope that has slid into the gorge slowly waits for the water",
+    mutant("course-collapsed", RULES, "seen.way >= COLLAPSED or (", "(", "a slope that has slid into the gorge slowly waits for the water",
            "plain:test_course.py::test_a_mass_that_collapses_slowly_has_not_waited_for_the_water"),
-    mutant("course-cracked", PY + "course.py", " and seen.way >= CRACKED_WAY)", ")", "a slope that is cracked, and stands, has collapsed",
+    mutant("course-cracked", RULES, " and seen.way >= CRACKED_WAY)", ")", "a slope that is cracked, and stands, has collapsed",
            "plain:test_course.py::test_a_mass_that_collapses_slowly_has_not_waited_for_the_water"),
-    mutant("course-collapsed-speed", PY + "course.py", "failed_dry=seen.time, speed_max=s.speed_before)", "failed_dry=seen.time, speed_max=seen.speed)",
+    mutant("course-collapsed-speed", RULES, "failed_dry=seen.time, speed_max=s.speed_before)", "failed_dry=seen.time, speed_max=seen.speed)",
            "the rest of a slope that collapsed is told by its speed when that was seen", "plain:test_course.py::test_a_mass_that_collapses_slowly_has_not_waited_for_the_water"),
-    mutant("course-table-falls", PY + "course.py", "or min(coming) > seen.top", "or max(coming) > seen.top", "a table that will fall again is the last load",
+    mutant("course-table-falls", RULES, "or min(coming) > seen.top", "or max(coming) > seen.top", "a table that will fall again is the last load",
            "plain:test_course.py::test_a_slope_that_stands_under_its_last_load_ends_its_run"),
-    mutant("course-quiet", PY + "course.py", "(s.quiet_broken, s.quiet_wet) == (seen.broken, seen.wet)", "s.quiet_wet == seen.wet", "a run ends while bonds break",
+    mutant("course-quiet", RULES, "(s.quiet_broken, s.quiet_wet) == (seen.broken, seen.wet)", "s.quiet_wet == seen.wet", "a run ends while bonds break",
            "plain:test_course.py::test_as_long_as_anything_goes_on_it_does_not_end"),
     mutant("experiment-brought", COURSE, 'brought = 0.0 if self.state.stage == "settle" else abs(e.broughtEnergy)', "brought = 0.0", "nobody sees that a script shook the slope",
            "test_whole_verdicts.py::test_a_slope_that_a_script_shook_has_not_failed_dry"),
@@ -369,8 +369,12 @@ MUTANTS = (
     mutant("heap-box-place", PY + "figures/columns.py", "dict(x=(x - run.heap.place()) / width, y=y / width", "dict(x=x / width, y=y / width", "a pile's box is drawn where it stands",
            "plain:test_figures_heaps.py::test_runs_stand_below_each_other_to_one_scale_and_their_falls_in_one_panel"),
     # ---- a run in several parts, and what it is asked for
-    mutant("run-reopens", "py/nonsmooth/experiment.py", "        self.series.reopen()\n", "", "a second run() writes into a closed file",
+    mutant("run-reopens", DRIVER, "file.reopen()", "pass", "a second run() writes into a closed file",
            "test_repeated_runs.py::test_a_run_in_three_calls_has_the_bits_of_one"),
+    mutant("driver-stop", DRIVER, "    def _stop(self):\n        self.checkpoint()\n", "    def _stop(self):\n", "Ctrl-C ends a run without a checkpoint",
+           "test_driver.py::test_ctrl_c_ends_it_after_the_row_with_a_checkpoint_and_it_goes_on"),
+    mutant("driver-share", DRIVER, "self._saving / CHECKPOINT_SHARE", "self._saving", "checkpoints take whatever time they want",
+           "test_driver.py::test_checkpoints_come_by_wall_time_and_take_a_fiftieth_of_it"),
     mutant("run-end-passed", "py/nonsmooth/experiment.py", "            if _come_to(end):\n", "            if end < 0:\n", "an end that has passed is taken in silence",
            "test_repeated_runs.py::test_an_end_without_sense_is_refused_and_the_run_goes_on_with_another"),
     mutant("run-row-due", "py/nonsmooth/experiment.py", "if not self.runner.dead and _come_to(self.runner.nextTime):", "if self.runner.dead:",

@@ -28,18 +28,21 @@ import math
 from dataclasses import dataclass, replace
 
 __all__ = [
+    "COLLAPSED",
+    "FRAME_ROWS",
     "STAGES",
     "Seen",
     "State",
     "after",
     "care",
     "damping",
+    "flowing",
     "foreseen",
     "gravity_share",
     "keeps_frame",
+    "next_row",
     "noted",
     "stands",
-    "next_row",
     "tolerance",
     "water_table",
 ]
