@@ -12,7 +12,6 @@ from yade.minieigenHP import Vector3
 from yade.wrapper import NonsmoothTimeStepper, PorePressureEngine
 
 from . import scales, scene, worlds
-from .soft.measures import Measures
 
 __all__ = ["Slope", "build", "find", "hard", "order_of"]
 
@@ -134,11 +133,8 @@ def build(section, packing, world=None) -> Slope:
         ]
     O.dt = world.step_for(rocks)
     built = find(section, walls, ids[0], len(ids))
-    if world.name == "soft":
-        layer = packing.layer[order]
-        built.solver = Measures(
-            world, [(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)]
-        )
+    layer = packing.layer[order]
+    built.solver = world.measures([(m, (ids[0] + np.flatnonzero(layer == k)).tolist()) for k, m in enumerate(rocks)])
     return built
 
 

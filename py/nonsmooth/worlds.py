@@ -84,6 +84,12 @@ class Hard:
             **self.options,
         )
 
+    def measures(self, groups=()):
+        """What tells of the contacts, speeds and energies of the scene, and makes bonds: its ContactDynamicsEngine. ``groups``: see :meth:`Soft.measures`."""
+        from . import scene
+
+        return scene.contact_dynamics()
+
     def bond(self, groups=()):
         """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step without gravity, which finds the contacts: call it
         in a scene at rest. ``groups``: not needed here, see :meth:`Soft.bond`.
@@ -171,6 +177,12 @@ class Soft:
             after=after,
             ductile=self.ductile,
         )
+
+    def measures(self, groups=()):
+        """As :meth:`Hard.measures`, under the same names: :class:`yade.nonsmooth.soft.measures.Measures`. ``groups``: as of :meth:`bond`. Call it once O.engines are set."""
+        from .soft.measures import Measures
+
+        return Measures(self, groups)
 
     def bond(self, groups=()):
         """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), and disks to walls that are bonded; returns

@@ -13,6 +13,7 @@ import shell
 import drawn
 from yade import O
 from yade.nonsmooth import errors, film, processes, records, rocks, section
+from yade.nonsmooth.course import driver
 from yade.nonsmooth.figures import wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import (
     biaxial,
@@ -667,12 +668,12 @@ def test_a_row_of_a_test_by_hand(sides):
     )
     course = SimpleNamespace(
         sample=SimpleNamespace(engine=engine, walls=SimpleNamespace(height=lambda: 4.0)),
-        columns=biaxial.COLUMNS,
         series=SimpleNamespace(write=rows.append),
         test=dataclasses.replace(SMALL, sides=sides),
         state={"begin_time": O.time - 7, "strain": 0.02, "area": 10.0, "rate": 3.0, "unit_s": 0.5},
     )
-    biaxial.Course._row(course, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, 12.0, 25.0, 1e-3, 6)
+    solved = {"iterations_mean": 25.0, "residual_worst": 1e-3, "unconverged": 6}
+    biaxial.Course._row(course, 12.0, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, solved)
     # a membrane's pressure is given
     left, right = (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)
     known = {
@@ -703,17 +704,17 @@ def test_a_row_of_a_test_by_hand(sides):
 class MadeUpTest(biaxial.Course):
     """A sample of 1 m that is pressed by ``path`` [m] in each row, to a strain of 0.05; notes the strain at which each snapshot was written."""
 
-    columns = ()
+    hard = True
 
     def __init__(self, path, **state):
+        driver.Course.__init__(self)
         walls = SimpleNamespace(
             height=lambda: self.height, width=lambda: 1.0, drive=lambda *_: None, step=self.step, forces=dict
         )
         engine = SimpleNamespace(totalIterations=0, unconverged=0, residual=0.0)
         self.sample, self.test = SimpleNamespace(engine=engine, walls=walls), dataclasses.replace(SMALL, strain=0.05)
         O.dt, self.path, self.height, self.written = 1.0, path, 1.0 - state.get("strain", 0.0), []
-        self.state = {"rate": biaxial.ROW_STRAIN, "height": 1.0, "begin_time": 0.0, "wall_steps_s": 0.0, **state}
-        self.series, self._saved = SimpleNamespace(close=lambda: None), float("inf")
+        self.state = {"rate": biaxial.ROW_STRAIN, "height": 1.0, "begin_time": 0.0, **state}
 
     def step(self):
         self.height -= self.path
@@ -724,7 +725,7 @@ class MadeUpTest(biaxial.Course):
     def nothing(self, *_):
         pass
 
-    _row = frame = _count_time = nothing
+    _row = frame = nothing
 
 
 @pytest.mark.parametrize(
@@ -739,7 +740,7 @@ class MadeUpTest(biaxial.Course):
 def test_a_snapshot_is_of_the_row_in_which_its_strain_was_passed(path, state, written):
     """And of no later one: the sample at 1 % of strain is not that of its end."""
     course = MadeUpTest(path + 1e-12, **state)  # rounding
-    course._run(None, lambda: False)
+    course.run()
     assert [name for name, _ in course.written] == [name for name, _ in written]
     assert [strain for _, strain in course.written] == pytest.approx([strain for _, strain in written], abs=1e-9)
 

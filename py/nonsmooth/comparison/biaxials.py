@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import time
 from dataclasses import asdict
 
 import numpy as np
 
-from .. import records
-from ..kept_runs import Progress
+from .. import records, worlds
 from ..laboratory import biaxial, materials, pressing, strength
 from ..packing_files import cache_folder
 from .cases import Case, ComparisonError
@@ -43,13 +41,6 @@ QUANTITIES = (
     Quantity("dilatancy_deg", "angle of dilatancy at the peak", "°"),
     Quantity("volumetric_strain_end", "volumetric strain in the end", "1"),
     Quantity("bonds_broken_share", "bonds broken, of those made", "1"),
-)
-
-RELAX_UNITS, REST_UNITS = 40.0, 20.0  # t_i in which the pressure grows on soft contacts, and for which it then rests
-SWITCHES = 20  # times that the membrane is laid anew while the sample comes to rest in it
-SAMPLES = 20  # of the forces on the walls, in a row of the series
-SOFT_COLUMNS = tuple(
-    name for name in biaxial.COLUMNS if name not in ("iterations_mean", "residual_worst", "unconverged")
 )
 
 
@@ -101,145 +92,16 @@ def run(folder, **plain):
     test = test_of(case)
     if case.world == "hard":
         return biaxial.run(folder, **asdict(test))
-    course, note = SoftCourse.begin_soft(test, folder, case), Progress(folder)
-    course.run(note)
-    from yade import O
-
-    s = course.state
-    return {
-        "disks": s["disks"],
-        "bonds": s["bonds"],
-        "contacts": s["contacts"],
-        "packing_fraction": s["fraction"],
-        "rate_per_s": s["rate"],
-        "time_step_s": O.dt,
-        "steps": O.iter - s["begin"],
-        "simulated_s": O.time - s["begin_time"],
-        "wall_steps_s": s["wall_steps_s"],
-        "overlap_worst_rel": course.sample.engine.overlapWorstEver,
-    }
-
-
-class _SoftSample:
-    """As laboratory.sample.Sample, with Measures for an engine."""
-
-    def __init__(self, engine, walls, first_disk, count):
-        self.engine, self.walls, self.first_disk, self.count, self.bonds = engine, walls, first_disk, count, None
-
-    @property
-    def mass(self):
-        """Mean mass of a disk [kg/m]."""
-        return float(np.mean(self.engine.disks["mass"]))
-
-
-class SoftCourse(biaxial.Course):
-    """A test on soft contacts. Its step is that of its stiffness; forces on walls are means over :data:`SAMPLES` steps of a row."""
-
-    columns = SOFT_COLUMNS
-
-    @classmethod
-    def begin_soft(cls, test, folder, case):
-        """Puts the pressed sample into the scene; it takes up the pressure, comes to rest in its membrane, and is bonded.
-
-        In the hard world bonds come before the membrane, where they do not feel the change.
-        """
-        from yade import O
-
-        from .. import scene, worlds
-        from ..laboratory.walls import Walls
-        from ..soft.measures import Measures
-        from ..stepping import advance
-
-        shape, rock = test.shape, test.material
-        pressed = pressing.load(shape)
-        O.reset()
-        world = worlds.Soft(
-            case.stiffness,
-            (2 * float(pressed.r.min()), 2 * float(pressed.r.max())),
-            model=case.model,
-            damping=case.damping,
-            step_share=case.step,
-            verlet=0.1 * shape.d_min,
-            fragile=case.fragile,
-        )
-        smooth = dataclasses.replace(
-            test.platen,
-            name="side",
-            bonded=False,
-            tensile_strength=0.0,
-            friction=0.0,
-            residual_friction=0.0,
-            rolling_friction=0.0,
-            residual_rolling_friction=0.0,
-        )
-        stuff, rough, side = world.material(rock), world.wall_material(test.platen), world.wall_material(smooth)
-        O.materials.append((stuff, rough, side))
-        walls = Walls.around(pressed.width, pressed.height, rough, side)
-        ids = O.bodies.append(
-            [scene.disk((float(x), float(y)), float(r), stuff) for x, y, r in zip(pressed.x, pressed.y, pressed.r)]
-        )
-        O.engines = world.engines(gravity=(0, 0, 0))
-        O.dt = world.step_for([rock])
-        body = _SoftSample(Measures(world, [(rock, list(ids))]), walls, ids[0], len(ids))
-        unit = math.sqrt(body.mass / test.confining)
-        for name in ("right", "top"):
-            walls.free(name, pressing.WALL_MASS * body.mass * body.count)
-        ramp, steps = max(1, round(RELAX_UNITS * unit / O.dt)), round((RELAX_UNITS + REST_UNITS) * unit / O.dt)
-        for k in range(steps):
-            walls.pressure = test.confining * min(1.0, (k + 1) / ramp)
-            walls.step()
-        state = {"unit_s": unit, "rate": test.inertia / unit, "begin_time": O.time, "wall_s": 0.0, "wall_steps_s": 0.0}
-        course = cls(test, folder, body, state)
-        walls.drive("top")
-        if test.sides == "flexible":
-            # a membrane presses on other disks than a wall did: soft contacts feel a blow that would break bonds, so they are made when it has died away
-            walls.remove("left", "right")
-            for _ in range(SWITCHES):
-                course._membrane()
-                advance(max(1, round(REST_UNITS / SWITCHES * unit / O.dt)))
-        body.bonds = body.engine.bond()
-        height = walls.height()
-        area = course._membrane() if test.sides == "flexible" else height * walls.width()
-        if test.sides == "rigid" and test.platens != "smooth":
-            walls.free("left", walls.state("right").mass)
-        state |= {
-            "height": height,
-            "area": area,
-            "bonds": body.bonds,
-            "begin": O.iter,
-            "begin_time": O.time,
-            "disks": body.count,
-            "contacts": body.engine.contacts,
-            "fraction": float(np.sum(math.pi * pressed.r**2)) / area,
-        }
-        course.snapshot("begin")
-        return course
-
-    def run(self, progress=None):
-        """Shears the sample to the end; ``progress``: called with the share done."""
-        from yade import O
-
-        s, test, walls = self.state, self.test, self.sample.walls
-        per_row = max(SAMPLES, round(biaxial.ROW_STRAIN / (s["rate"] * O.dt)))
-        parts = [len(p) for p in np.array_split(np.arange(per_row), SAMPLES)]
-        while self.strain < test.strain - 1e-9:
-            sums, began = {}, time.perf_counter()
-            for part in parts:
-                elapsed = (O.time - s["begin_time"]) * s["rate"]
-                share = min(1.0, (elapsed + 0.5 * part * s["rate"] * O.dt) / (2 * biaxial.RAMP))
-                walls.drive("top", (0, -share * s["rate"] * s["height"]))
-                for _ in range(part):
-                    walls.step()
-                for name, force in walls.forces().items():
-                    sums[name] = sums.get(name, 0.0) + force / SAMPLES
-            s["wall_steps_s"] += time.perf_counter() - began
-            area = self._membrane() if test.sides == "flexible" else walls.height() * walls.width()
-            s["strain"] = self.strain
-            self._row(sums, area, 0.0, 0.0, 0)
-            if progress:
-                progress(s["strain"] / test.strain)
-        self.snapshot("end")
-        self.series.close()
+    world = worlds.Soft(
+        case.stiffness,
+        pressing.load(test.shape).diameters,
+        model=case.model,
+        damping=case.damping,
+        step_share=case.step,
+        verlet=0.1 * test.shape.d_min,
+        fragile=case.fragile,
+    )
+    return biaxial.run(folder, world, **asdict(test))
 
 
 def measure(case: Case, folder, found) -> Outcome:

@@ -18,10 +18,13 @@ from pathlib import Path
 import numpy as np
 
 from yade import O
+from yade.wrapper import ContactDynamicsEngine
 
-from .. import checkpoints, interrupts, records, tables
+from .. import checkpoints, records, tables
+from ..course import driver
 from ..errors import UserError
 from ..kept_runs import Progress
+from ..stepping import advance
 from ..whole_files import remove_parts, write_arrays
 from . import membrane, sample
 from .biaxial_test import Test, key_of
@@ -31,7 +34,8 @@ RAMP = 0.002  # strain in which the platens reach their speed
 ROW_STRAIN = 1e-4  # between two rows of series.csv
 FILM = 100  # frames of a video, besides the first
 SNAPSHOTS = (0.01, 0.02, 0.04)  # strains, besides the begin and the end
-CHECKPOINT_SECONDS = 60  # of wall time
+SAMPLES = 20  # of the forces on the walls in a row, with soft contacts; each step with hard ones
+SWITCHES = 20  # times that the membrane is laid anew while soft contacts come to rest in it
 
 COLUMNS = (
     "step",
@@ -55,6 +59,8 @@ COLUMNS = (
     "unconverged",
     "overlap_worst_rel",
 )
+#: Columns that only a test of rigid contacts has.
+OF_SOLVER = ("iterations_mean", "residual_worst", "unconverged")
 
 
 class TestError(UserError, RuntimeError):
@@ -63,65 +69,88 @@ class TestError(UserError, RuntimeError):
     __test__ = False  # no test of pytest's
 
 
-class Course:
-    """Runs a test and writes its records into ``folder``; ``columns``: those of its series."""
-
-    columns = COLUMNS
+class Course(driver.Course):
+    """Runs a test and writes its records into ``folder``."""
 
     def __init__(self, test, folder, body, state):
         """``body``: the Sample in the scene; ``state``: dictionary of numbers that a checkpoint keeps."""
         self.test, self.folder, self.sample, self.state = test, Path(folder), body, state
+        self.hard, self.progress = isinstance(body.engine, ContactDynamicsEngine), None
+        self.unsaved = None if self.hard else "a test of soft contacts"
         self.series = records.SeriesWriter(
-            self.folder / "series.csv", self.columns, resume_from=state.pop("series", None), overwrite=True
+            self.folder / "series.csv",
+            COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER),
+            resume_from=state.pop("series", None),
+            overwrite=True,
         )
-        self._saved = self._clock = time.monotonic()
+        super().__init__(self.series, spent=state)
 
     # ---- begin ----------------------------------------------------------------------------------
     @classmethod
-    def begin(cls, test, folder):
-        """Puts the sample into the scene, bonded and under its pressure."""
+    def begin(cls, test, folder, world=None):
+        """Puts the sample into the scene, bonded and under its pressure; ``world``: a :class:`.worlds.Soft`, rigid contacts unless given."""
         began = time.monotonic()
         body = sample.Sample.build(
             test.shape,
             test.material,
             test.platen,
             test.confining,
+            world,
             tolerance=min(test.tolerance, 1e-5),
             maxIterations=max(test.max_iterations, 1000),
             adhesion_range=test.adhesion_range,
         )
-        engine, walls = body.engine, body.walls
-        unit, height, width = math.sqrt(body.mass / test.confining), walls.height(), walls.width()
+        engine, walls, flexible = body.engine, body.walls, test.sides == "flexible"
+        unit, width = math.sqrt(body.mass / test.confining), walls.width()
+        box = walls.height() * width
         state = {
             "unit_s": unit,
             "rate": test.inertia / unit,
-            "height": height,
+            "height": walls.height(),
+            "begin_time": O.time,
+            "wall_s": 0.0,
+            "wall_steps_s": 0.0,
+        }
+        course = cls(test, folder, body, state)
+        walls.drive("top")
+        if flexible:
+            walls.remove("left", "right")
+        if course.hard:
+            engine.tolerance, engine.maxIterations = test.tolerance, test.max_iterations
+            O.dt = test.step * unit
+            state |= {"sweeps": engine.totalIterations, "unconverged": engine.unconverged}
+        else:
+            course._settle(unit)
+        state["height"] = walls.height()
+        area = course._area()
+        if not flexible and test.platens != "smooth":
+            # platens that drag must not load one side more than the other
+            walls.free("left", walls.state("right").mass)
+        state |= {
             "width": width,
-            "area": height * width,
+            "area": area,
             "bonds": body.bonds,
             "begin": O.iter,
             "begin_time": O.time,
             "disks": body.count,
             "contacts": engine.contacts,
             "made_s": time.monotonic() - began,
-            "wall_s": 0.0,
-            "wall_steps_s": 0.0,
-            "sweeps": engine.totalIterations,
-            "unconverged": engine.unconverged,
-            "fraction": body.disks_area() / (height * width),
+            "fraction": body.disks_area() / (box if course.hard else area),
         }
-        engine.tolerance, engine.maxIterations = test.tolerance, test.max_iterations
-        O.dt = test.step * unit
-        walls.drive("top")
-        course = cls(test, folder, body, state)
-        if test.sides == "flexible":
-            walls.remove("left", "right")
-            state["area"] = course._membrane()
-        elif test.platens != "smooth":
-            # platens that drag must not load one side more than the other
-            walls.free("left", walls.state("right").mass)
         course.snapshot("begin")
         return course
+
+    def _settle(self, unit):
+        """Bonds soft contacts, at rest in the membrane where there is one.
+
+        A membrane presses on other disks than a wall did: soft contacts feel a blow that would break bonds, so they are made when it has died away. In the hard world bonds come before the membrane,
+        where they do not feel the change.
+        """
+        if self.test.sides == "flexible":
+            for _ in range(SWITCHES):
+                self._membrane()
+                advance(max(1, round(sample.REST_UNITS / SWITCHES * unit / O.dt)))
+        self.sample.bonds = self.sample.engine.bond()
 
     @classmethod
     def resume(cls, test, folder):
@@ -140,56 +169,63 @@ class Course:
         return 1 - self.sample.walls.height() / self.state["height"]
 
     def run(self, progress=None):
-        """Shears the sample to the end; ``progress``: called with the share done. Ctrl-C ends it after the next row, with a checkpoint."""
-        with interrupts.noted() as interrupted:
-            try:
-                self._run(progress, interrupted)
-            finally:
-                self.sample.engine.view()
-
-    def _run(self, progress, interrupted):
-        s, test, engine, walls = self.state, self.test, self.sample.engine, self.sample.walls
-        per_row = max(1, round(ROW_STRAIN / (s["rate"] * O.dt)))
-        taken = [strain for strain in SNAPSHOTS if strain < test.strain - 1e-9]
+        """Shears the sample to the end; ``progress``: called with the share done. Ctrl-C ends it after the next row, with a checkpoint where it has some."""
+        self.progress = progress
         self.frame(0)
-        while self.strain < test.strain - 1e-9:
-            sums, sweeps, worst, missed, began = (
-                {},
-                engine.totalIterations,
-                0.0,
-                engine.unconverged,
-                time.perf_counter(),
-            )
-            for _ in range(per_row):
-                elapsed = (O.time - s["begin_time"]) * s["rate"]
-                # the speed grows linearly with the time until half of twice RAMP's strain
-                share = min(1.0, (elapsed + 0.5 * s["rate"] * O.dt) / (2 * RAMP))
-                walls.drive("top", (0, -share * s["rate"] * s["height"]))
+        driver.drive(self)
+
+    def _over(self):
+        return not self.strain < self.test.strain - 1e-9
+
+    def _where(self):
+        return f"at a strain of {self.state['strain']:.4f}"
+
+    def _steps(self):
+        """Those of a row; returns the mean force on each wall [N/m], and what the solver's columns hold."""
+        s, engine, walls = self.state, self.sample.engine, self.sample.walls
+        # soft steps are thousands a row
+        least = 1 if self.hard else SAMPLES
+        per_row = max(least, round(ROW_STRAIN / (s["rate"] * O.dt)))
+        parts = [len(p) for p in np.array_split(np.arange(per_row), per_row if self.hard else SAMPLES)]
+        sums, worst = {}, 0.0
+        if self.hard:
+            sweeps, missed = engine.totalIterations, engine.unconverged
+        for part in parts:
+            elapsed = (O.time - s["begin_time"]) * s["rate"]
+            # the speed grows linearly with the time until half of twice RAMP's strain
+            share = min(1.0, (elapsed + 0.5 * part * s["rate"] * O.dt) / (2 * RAMP))
+            walls.drive("top", (0, -share * s["rate"] * s["height"]))
+            for _ in range(part):
                 walls.step()
+            if self.hard:
                 worst = max(worst, engine.residual)
-                for name, force in walls.forces().items():
-                    sums[name] = sums.get(name, 0.0) + force / per_row
-            s["wall_steps_s"] += time.perf_counter() - began
-            area = self._membrane() if test.sides == "flexible" else walls.height() * walls.width()
-            before = s.get("strain", 0.0)
-            s["strain"] = self.strain
-            self._row(sums, area, (engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed)
-            for strain in taken:
-                if before < strain <= s["strain"]:
-                    self.snapshot(f"{100 * strain:g}")
-            self.frame(int(FILM * s["strain"] / test.strain + 1e-9))
-            if progress:
-                progress(s["strain"] / test.strain)
-            if interrupted() or time.monotonic() - self._saved > CHECKPOINT_SECONDS:
-                self.checkpoint()
-            if interrupted():
-                self.series.close()
-                raise interrupts.Interrupted(
-                    f"at a strain of {s['strain']:.4f}; the checkpoint is written, go on with --resume"
-                )
+            for name, force in walls.forces().items():
+                sums[name] = sums.get(name, 0.0) + force / len(parts)
+        if not self.hard:
+            return sums, {}
+        solved = ((engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed)
+        return sums, dict(zip(OF_SOLVER, solved, strict=True))
+
+    def _look(self, made):
+        s, test = self.state, self.test
+        area = self._area()
+        before, s["strain"] = s.get("strain", 0.0), self.strain
+        self._row(area, *made)
+        for strain in SNAPSHOTS:
+            if before < strain <= s["strain"] and strain < test.strain - 1e-9:
+                self.snapshot(f"{100 * strain:g}")
+        self.frame(int(FILM * s["strain"] / test.strain + 1e-9))
+        if self.progress:
+            self.progress(s["strain"] / test.strain)
+
+    def _finish(self):
         self.snapshot("end")
-        self._count_time()
-        self.series.close()
+        self._tick()
+
+    def _area(self):
+        """Area of the sample [m²]; a membrane is laid anew."""
+        walls = self.sample.walls
+        return self._membrane() if self.test.sides == "flexible" else walls.height() * walls.width()
 
     def _membrane(self):
         """Puts the pressure on the outermost disks; returns the sample's area [m²]."""
@@ -210,7 +246,7 @@ class Course:
         self.state["pressed"] = sorted(now)
         return area
 
-    def _row(self, sums, area, sweeps, worst, missed):
+    def _row(self, area, sums, solved):
         engine, s = self.sample.engine, self.state
         height = self.sample.walls.height()
         width = area / height
@@ -225,19 +261,12 @@ class Course:
             "sigma3_left_Pa": sums["left"] / height if sides else self.test.confining,
             "sigma3_right_Pa": sums["right"] / height if sides else self.test.confining,
             "inertial_number": s["rate"] * s["unit_s"],
-            "bonds_alive": engine.bonds,
-            "bonds_broken_tension": engine.brokenTension,
-            "bonds_broken_shear": engine.brokenShear,
-            "bonds_broken_torque": engine.brokenTorque,
-            "bonds_broken_mixed": engine.brokenMixed,
+            **tables.bonds(engine),
             "contacts": engine.contacts,
             "speed_mean_m_per_s": engine.meanSpeed,
-            "iterations_mean": sweeps,
-            "residual_worst": worst,
-            "unconverged": missed,
             "overlap_worst_rel": engine.overlapWorst,
         }
-        self.series.write({name: row[name] for name in self.columns})
+        self.series.write(row | solved)
 
     # ---- records --------------------------------------------------------------------------------
     def snapshot(self, name):
@@ -278,10 +307,7 @@ class Course:
             **{key: np.asarray(t[key], np.float32) for key in ("x", "y", "r", "angle")},
         )
 
-    def checkpoint(self):
-        """Saves all that :meth:`resume` needs."""
-        self._count_time()
-        self.series.sync()
+    def _save(self):
         checkpoints.write(
             self.folder,
             key_of(self.test),
@@ -293,29 +319,22 @@ class Course:
                 "series": self.series.mark(),
             },
         )
-        self._saved = time.monotonic()
-
-    def _count_time(self):
-        now = time.monotonic()
-        self.state["wall_s"] += now - self._clock
-        self._clock = now
 
 
-def run(folder, **plain):
+def run(folder, world=None, **plain):
     """Runs the test given as plain data (see :meth:`Test.of`) in the folder, from its checkpoint if it has one; returns numbers of the course.
 
-    ``wall_s`` counts all but making the sample, ``wall_steps_s`` the steps alone, without records and checkpoints [s]. The share done is kept in the file ``progress``.
+    ``world``: a :class:`.worlds.Soft`, which has no checkpoints; rigid contacts unless given. ``wall_s`` counts all but making the sample, ``wall_steps_s`` the steps alone, without records and
+    checkpoints [s]. The share done is kept in the file ``progress``.
     """
     test, folder = Test.of(plain), Path(folder)
     remove_parts(folder, folder / "snapshots", folder / "frames", folder / "checkpoint")
-    course = Course.resume(test, folder) if checkpoints.exists(folder) else Course.begin(test, folder)
+    resumes = world is None and checkpoints.exists(folder)
+    course = Course.resume(test, folder) if resumes else Course.begin(test, folder, world)
     course.run(Progress(folder))
     s, engine = course.state, course.sample.engine
     steps = O.iter - s["begin"]
-    return {
-        "disks": s["disks"],
-        "bonds": s["bonds"],
-        "contacts": s["contacts"],
+    found = {name: s[name] for name in ("disks", "bonds", "contacts", "wall_s", "wall_steps_s")} | {
         "packing_fraction": s["fraction"],
         "height_m": s["height"],
         "width_m": s["width"],
@@ -325,10 +344,12 @@ def run(folder, **plain):
         "steps": steps,
         "simulated_s": O.time - s["begin_time"],
         "wall_making_s": s["made_s"],
-        "wall_s": s["wall_s"],
-        "wall_steps_s": s["wall_steps_s"],
+        "overlap_worst_rel": engine.overlapWorstEver,
+    }
+    if not course.hard:
+        return found
+    return found | {
         "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
         "unconverged": engine.unconverged - s["unconverged"],
-        "overlap_worst_rel": engine.overlapWorstEver,
         "residual": engine.residual,
     }

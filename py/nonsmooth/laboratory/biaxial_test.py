@@ -48,9 +48,7 @@ class Test:
         if self.platens == "glued":
             return replace(self.material, name="platen", bonded=True)
         m = replace(self.material, name="platen", bonded=False, tensile_strength=0.0, residual_tensile_strength=0.0)
-        if self.platens == "smooth":
-            return replace(m, friction=0.0, residual_friction=0.0, rolling_friction=0.0, residual_rolling_friction=0.0)
-        return m
+        return materials.smooth(m) if self.platens == "smooth" else m
 
 
 def key_of(test):

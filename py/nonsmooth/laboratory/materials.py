@@ -58,6 +58,13 @@ def bare(material):
     return dataclasses.replace(material, slip_weakening=None, envelope=None)
 
 
+def smooth(material):
+    """The material without friction and without bonds."""
+    strengths = ("tensile_strength", "friction", "rolling_friction")
+    none = dict.fromkeys([*strengths, *(f"residual_{name}" for name in strengths)], 0.0)
+    return dataclasses.replace(material, bonded=False, **none)
+
+
 def of(plain):
     """A bare material from the plain data that `asdict` makes of it."""
     return section.Material(**{**plain, "bond_ellipse": tuple(plain["bond_ellipse"])})

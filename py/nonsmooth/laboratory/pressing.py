@@ -85,6 +85,11 @@ class Pressed:
     width: float
     height: float
 
+    @property
+    def diameters(self):
+        """The smallest and the largest [m]."""
+        return 2 * float(self.r.min()), 2 * float(self.r.max())
+
 
 def cache_path(shape):
     """Where the pressed sample of a shape is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/samples. Other engines and other code press their own, so
