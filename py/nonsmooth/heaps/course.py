@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 
@@ -12,6 +11,7 @@ from yade import O
 from yade.wrapper import ContactDynamicsEngine, NewtonIntegrator
 
 from .. import checks, course as stages
+from ..course import driver
 from ..stepping import advance, until
 from . import measures, preparation
 from .grains import Heap, HeapError, check_damping
@@ -248,6 +248,57 @@ class _Damping:
         )
 
 
+class _Course(driver.Course):
+    """From the release to the rest on the floor; arguments as of :func:`run`."""
+
+    def __init__(self, scene, duration, frames, progress, damping_moving):
+        super().__init__()
+        self.unsaved = f"a {type(scene.heap).__name__.lower()}"
+        self.scene, self.progress, self.waiting = scene, progress, sorted(frames)
+        self.unit = math.sqrt(scene.prepared.height / scene.heap.gravity)
+        self.limit, self.every = duration * self.unit, max(1, round(self.unit / RECORDS / O.dt))
+        self.rows, self.kept, self.film, self.calm = [], {}, {}, 0
+        # springs yield under the weight first; hard disks have nothing to do
+        if not until(lambda: scene.rms_speed() < SETTLED_SPEED, SETTLE_LIMIT * self.unit / O.dt, self.every):
+            raise HeapError(
+                f"the disks do not come to rest in their box in the {scene.world.name} world: rms speed {scene.rms_speed():.2g} √(g d) after {SETTLE_LIMIT:.0f} T, "
+                f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping"
+            )
+        self.begin = O.iter
+        scene.release()
+        self.adapt = _Damping(scene, damping_moving) if damping_moving is not None else lambda: None
+        self._look(None)
+
+    @property
+    def now(self):
+        """Time since the release [s]."""
+        return (O.iter - self.begin) * O.dt
+
+    @property
+    def rested(self):
+        return self.calm * self.every * O.dt >= REST_TIME * self.unit
+
+    def _over(self):
+        return self.rested or self.now >= self.limit
+
+    def _steps(self):
+        self.adapt()
+        advance(self.every, view=False)
+
+    def _look(self, made):
+        now, unit = self.now, self.unit
+        row, self.joined = self.scene.measure()
+        self.rows.append({"step": O.iter - self.begin, "time_s": now, **row, "wall_s": self.spent["wall_steps_s"]})
+        t = preparation.disk_table(self.scene.stand)
+        while self.waiting and now >= (self.waiting[0] - 1e-9) * unit:
+            self.waiting.pop(0)
+            self.kept[now] = (t["x"], t["y"])
+        if now >= (len(self.film) * FILM - 1e-9) * unit:
+            self.film[now] = (t["x"].astype(np.float32), t["y"].astype(np.float32))
+        self.calm = self.calm + 1 if now > unit and self.scene.rms_speed(self.joined) < REST_SPEED else 0
+        self.progress(min(1.0, now / self.limit))
+
+
 @_made_of
 def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None, damping_moving=None):
     """Builds a heap in a world, lets it rest in its box, releases it, and follows it until it rests; returns the :class:`Result`.
@@ -260,59 +311,23 @@ def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: No
     """
     checks.number("duration", duration, HeapError, "give a number above 0, in units of T = √(H/g)", above=0)
     check_damping(world, damping_moving)
-    scene = build(heap, world)
-    unit = math.sqrt(scene.prepared.height / heap.gravity)
-    every = max(1, round(unit / RECORDS / O.dt))
-    # springs yield under the weight first; hard disks have nothing to do
-    if not until(lambda: scene.rms_speed() < SETTLED_SPEED, SETTLE_LIMIT * unit / O.dt, every):
-        raise HeapError(
-            f"the disks do not come to rest in their box in the {world.name} world: rms speed {scene.rms_speed():.2g} √(g d) after {SETTLE_LIMIT:.0f} T, "
-            f"wanted {SETTLED_SPEED:g}; give a smaller time step or tolerance, or more damping"
-        )
-    begin = O.iter
-    rows, kept, film, wall, calm = [], {}, {}, 0.0, 0
-    waiting = sorted(frames)
-    scene.release()
-    adapt = _Damping(scene, damping_moving) if damping_moving is not None else lambda: None
-    settings = asdict(world) | ({"damping_moving": damping_moving} if damping_moving is not None else {})
-    while True:
-        steps = O.iter - begin
-        now = steps * O.dt
-        row, joined = scene.measure()
-        rows.append({"step": steps, "time_s": now, **row, "wall_s": wall})
-        while waiting and now >= (waiting[0] - 1e-9) * unit:
-            waiting.pop(0)
-            t = preparation.disk_table(scene.stand)
-            kept[now] = (t["x"], t["y"])
-        if now >= (len(film) * FILM - 1e-9) * unit:
-            t = preparation.disk_table(scene.stand)
-            film[now] = (t["x"].astype(np.float32), t["y"].astype(np.float32))
-        calm = calm + 1 if now > unit and scene.rms_speed(joined) < REST_SPEED else 0
-        progress(min(1.0, now / (duration * unit)))
-        if calm * every * O.dt >= REST_TIME * unit or now >= duration * unit:
-            break
-        adapt()
-        started = time.perf_counter()
-        advance(every, view=False)
-        wall += time.perf_counter() - started
-    ContactDynamicsEngine().view()  # the scene's, whoever asks
-    t = preparation.disk_table(scene.stand)
-    half = 0.5 if "left" in heap.gates() else 1.0
-    series = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
+    course = _Course(build(heap, world), duration, frames, progress, damping_moving)
+    driver.drive(course)
+    prepared, t = course.scene.prepared, preparation.disk_table(course.scene.stand)
     return Result(
         heap,
         world.name,
-        settings,
-        half * scene.prepared.width,
-        scene.prepared.height,
-        series,
+        asdict(world) | ({"damping_moving": damping_moving} if damping_moving is not None else {}),
+        (0.5 if "left" in heap.gates() else 1.0) * prepared.width,
+        prepared.height,
+        {name: np.array([row[name] for row in course.rows]) for name in COLUMNS},
         t["x"],
         t["y"],
         t["r"],
-        joined,
-        calm * every * O.dt >= REST_TIME * unit,
+        course.joined,
+        course.rested,
         O.dt,
         next((e.wayWorstEver for e in O.engines if isinstance(e, ContactDynamicsEngine)), None),
-        kept,
-        film,
+        course.kept,
+        course.film,
     )

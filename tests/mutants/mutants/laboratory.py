@@ -30,7 +30,7 @@ MUTANTS = (
            "test_heap_course.py::test_the_stiffness_that_is_asked_for_is_enough"),
     mutant("heap-glued", HEAPS + "course.py", "b.state.pos[0], b.state.pos[1], b.shape.radius", "b.state.pos[1], b.state.pos[0], b.shape.radius",
            "glued disks stand at their heights", "test_heap_course.py::test_glued_disks_count_as_contacts"),
-    mutant("heap-film", HEAPS + "course.py", "now >= (len(film) * FILM - 1e-9) * unit", "now >= len(film) * FILM", "a film's frames come by seconds",
+    mutant("heap-film", HEAPS + "course.py", "now >= (len(self.film) * FILM - 1e-9) * unit", "now >= len(self.film) * FILM", "a film's frames come by seconds",
            "test_heap_course.py::test_rows_and_frames_come_when_they_are_due"),
     # ---- packings
     mutant("pack-swap-layers", "py/nonsmooth/packing.py", "gain &= self.layer[small] == self.layer[large]", "gain &= self.layer[small] <= self.layer[large]",
