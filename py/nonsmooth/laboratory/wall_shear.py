@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import keys, packing, records, section, side_by_side
+from ..course import driver
 from ..errors import UserError
 from ..kept_runs import Progress
 from . import materials
@@ -143,29 +144,43 @@ def slide(test, record=lambda row: None):
         step((k + 1) / PRESSING)
     engine.view()
     bonded = [2 * _radius(O, i, base) for i in O.interactions if base in (i.id1, i.id2) and i.isReal and i.phys.bonded]
-    pulled, peak, late = 0.0, (0.0, 0.0), []
-    while pulled < test.way:
-        v = SPEED * min(1.0, pulled / 1e-3 + 0.05)
-        O.bodies[base].state.vel = (v, 0, 0)
+
+    def pull(speed):
+        O.bodies[base].state.vel = (speed, 0, 0)
         step(1.0)
-        pulled += v * O.dt
         force = O.forces.f(base)
-        normal, shear = -force[1], -force[0]
-        record({"step": O.iter, "slip_m": pulled, "normal_Pa": normal / width, "shear_Pa": shear / width})
-        if pulled < PEAK_SLIP and shear > peak[1]:
-            peak = (normal, shear)
-        if pulled > 0.5 * test.way:
-            late.append((normal, shear))
-    engine.view()
-    residual = np.mean(late, axis=0)
-    return Slide(
-        peak[0] / width,
-        peak[1] / width,
-        residual[0] / width,
-        residual[1] / width,
-        float(sum(bonded)) / width,
-        len(made),
-    )
+        return O.iter, speed * O.dt, -force[1], -force[0]
+
+    course = _Pull(test.way, width, pull, record)
+    driver.drive(course)
+    stresses = (force / width for force in (*course.peak, *np.mean(course.late, axis=0)))
+    return Slide(*stresses, float(sum(bonded)) / width, len(made))
+
+
+class _Pull(driver.Course):
+    """The slip of a block that is pressed, along a ``way`` on a ``width`` [m]. ``pull``: makes a step at a speed [m/s], and returns its number, its way, normal and shear force."""
+
+    unsaved = "a slide"
+
+    def __init__(self, way, width, pull, record):
+        super().__init__()
+        self.way, self.width, self.pull, self.record = way, width, pull, record
+        self.pulled, self.peak, self.late = 0.0, (0.0, 0.0), []
+
+    def _over(self):
+        return self.pulled >= self.way
+
+    def _steps(self):
+        return self.pull(SPEED * min(1.0, self.pulled / 1e-3 + 0.05))
+
+    def _look(self, made):
+        step, way, normal, shear = made
+        self.pulled, width = self.pulled + way, self.width
+        self.record({"step": step, "slip_m": self.pulled, "normal_Pa": normal / width, "shear_Pa": shear / width})
+        if self.pulled < PEAK_SLIP and shear > self.peak[1]:
+            self.peak = (normal, shear)
+        if self.pulled > 0.5 * self.way:
+            self.late.append((normal, shear))
 
 
 def _radius(O, interaction, wall):
