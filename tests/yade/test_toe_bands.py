@@ -9,10 +9,12 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 import drawn  # noqa: E402
+import known_slope  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
-toe_bands, figures_toe, section, similar, style = (
-    synthetic.load(name) for name in ("measure.toe_bands", "figures.toe", "section", "similar", "figures.style")
+toe_bands, figures_toe, section, similar, style, records, results = (
+    synthetic.load(name)
+    for name in ("measure.toe_bands", "figures.toe", "section", "similar", "figures.style", "records", "results")
 )
 SHIPPED = section.load("jiufengershan")
 THRUST, BACK = 28.0, 40.0  # degrees to the slope
@@ -65,6 +67,41 @@ def test_a_mirrored_toe_has_the_mirrored_bands():
         assert other.inclination_deg == one.inclination_deg and other.width == pytest.approx(one.width, rel=1e-6)
         assert other.rotation == pytest.approx(-one.rotation, rel=1e-6)
         assert other.through == pytest.approx((-one.through[0], one.through[1]), abs=1e-6)
+
+
+def test_a_summary_tells_the_bands_of_triggering_and_those_of_weakening_apart(tmp_path):
+    """Of the known run: until t1 (29.1 s), and so until t2, two bands of 28° and 34° turn, which are conjugate by the rule of 10°; after t2, and so from t1 to t3, two others of 22° and 40°,
+    which are not, three times as far."""
+    begin, early = snapshots(28.0, 34.0)
+    late = snapshots(22.0, 40.0)[1]
+    angles = {"t0": begin.angle, "t1": early.angle, "t2": early.angle, "t3": early.angle + 3.0 * late.angle}
+
+    def arrays(name):
+        fields = ("x", "y", "r", "vx", "vy", "layer", "wet", "released")
+        return {"angle": angles[name]} | {field: getattr(begin, field) for field in fields}
+
+    known_slope.write(tmp_path, start=lambda: arrays("t0"), stop=None)
+    (tmp_path / "snapshots").mkdir()
+    series = records.read_series(tmp_path / "series.csv")
+    for name, time in (("t1", 29.1), ("t2", 30.5), ("t3", 39.1)):
+        step = int(series["step"][np.argmin(np.abs(series["time_s"] - time))])
+        path = tmp_path / "snapshots" / f"{step:08d}.npz"
+        records.write_snapshot(path, time_s=time, step=step, water_m=0.0, **arrays(name))
+    found = results.summarise(tmp_path, SHIPPED, known_slope.STATE)
+    assert [found["times_s"][name] for name in ("t1", "t2", "t3")] == pytest.approx([29.1, 30.5, 39.1])
+    # angles are looked for by degrees, and a strip is as wide as a disk: 2 m, as above
+    for name, rise, back, both, turned in (
+        ("toe_bands_triggering", 28.0, 34.0, True, 1.0),
+        ("toe_bands", 22.0, 40.0, False, 3.0),
+    ):
+        towards, away = (found[name][one] for one in ("towards_foot", "conjugate"))
+        assert towards["inclination_deg"] == pytest.approx(rise, abs=3), name
+        assert away["inclination_deg"] == pytest.approx(back, abs=3), name
+        assert found[name]["both_conjugate"] is both
+        # strips are a disk wide, so those at the edges of a band are half full
+        assert towards["rotation_rad"] == pytest.approx(-TURNED * turned, rel=0.1)
+        assert away["rotation_rad"] == pytest.approx(TURNED_BACK * turned, rel=0.15)
+        assert found[name]["rankine_deg"] == pytest.approx(45 - 37.2 / 2)
 
 
 def test_a_toe_that_does_not_turn_or_has_few_disks_has_none():
