@@ -8,7 +8,7 @@ import shell
 from matplotlib.figure import Figure
 from yade import O
 from yade.nonsmooth import keys, verification
-from yade.nonsmooth.verification import Outcome, at_least, at_most, between, near, registry, report, runner
+from yade.nonsmooth.verification import Outcome, at_least, at_most, between, near, paper, registry, report, runner
 
 from contact_scenes import material
 
@@ -128,6 +128,39 @@ def test_an_outcome_without_claims_does_not_pass():
     assert not Outcome().passed
     good, bad = near("x", 1, 1, why="w"), near("x", 2, 1, why="w")
     assert Outcome([good]).passed and not Outcome([good, bad]).passed
+
+
+# ---- the statements of the paper's section 6 ------------------------------------------------------
+
+
+def failing(**changes):
+    """The statements whose claim does not hold, where all numbers are in the middle of what is claimed but for ``changes``, lists of one value a packing."""
+    middle = {name: [0.5 * (said.low + said.high)] * 3 for name, said in paper.STATEMENTS.items()}
+    claims = paper.claims_of(middle | changes)
+    return [name for name, claim in zip(paper.STATEMENTS, claims, strict=True) if not claim.passed]
+
+
+def test_a_foot_that_loses_its_strength_before_the_slope_accelerates_fails_its_claim():
+    """The force on FB may fall by a twentieth from its largest value until t2, in the mean over packings; it cannot fall by less than nothing."""
+    assert failing() == []
+    assert failing(backstop_fall=[0.12, 0.01, 0.019]) == []  # 4.97 % in the mean
+    for values in ([0.12, 0.01, 0.021], [0.25, 0.25, 0.25], [-0.01, 0.0, 0.0]):
+        assert failing(backstop_fall=values) == ["backstop_fall"]
+    assert failing(backstop_fall=[0.01, None, 0.01]) == ["backstop_fall"]  # a packing that did not come to t2
+
+
+@pytest.mark.parametrize("name", paper.STATEMENTS)
+def test_every_statement_can_fail_on_both_sides(name):
+    said = paper.STATEMENTS[name]
+    span = said.high - said.low
+    assert failing(**{name: [said.low - 0.01 * span]}) == failing(**{name: [said.high + 0.01 * span]}) == [name]
+
+
+@pytest.mark.parametrize(
+    "lengths, holds", [([64.7], True), ([0.0, 0.9], False), ([140.0, 170.0], False), ([None], False)]
+)
+def test_the_foot_of_dp_keeps_its_strength_and_no_more_of_it(lengths, holds):
+    assert paper.wedge_claim(lengths).passed is holds
 
 
 # ---- registry and runner --------------------------------------------------------------------------
