@@ -140,8 +140,18 @@ def read_arguments():
         metavar="T",
         help="longest course, in units of √(H/g) (default: %(default)g)",
     )
+    parser.add_argument(
+        "--profiles",
+        action="store_true",
+        help="of columns: speed against height at three places behind the tip, at three times, over the seeds of each aspect ratio",
+    )
     arguments.add_runs(parser, "out/column", "runs")
-    return parser.parse_args()
+    args = parser.parse_args()
+    if args.profiles and args.kind != "column":
+        parser.error(
+            f"--profiles with --kind {args.kind}: profiles are those behind the one tip of a column; leave it out, or take --kind column"
+        )
+    return args
 
 
 def cases_of(args):
@@ -183,9 +193,12 @@ def main():
             args.duration,
             lambda share: progress(share, f"{len(cases)} run{'s' if len(cases) > 1 else ''}"),
         )
-    summary = report.summarise(found)
+    summary, folders = report.summarise(found), {name: out / "runs" / name for name in found}
     if args.kind == "column":
-        summary["exponents_by_front"] = report.by_front(found, {name: out / "runs" / name for name in found})
+        summary["exponents_by_front"] = report.by_front(found, folders)
+    if args.profiles:
+        summary["profiles"] = report.profiles_by_aspect(cases, found, folders)
+        summary["tables"] = [report.profiles_table(summary["profiles"])]
     write_json(out / "summary.json", summary)
     print(report.table(found, summary))
     drawn = []
@@ -197,6 +210,8 @@ def main():
         args.kind == "column" and len(set(group["aspect"])) > 1
     ):  # points beside the published laws, with fits where there are enough of them
         drawn.append(figures.runout({f"{report.counts(found)}, {args.world}": group}, out / "runout.png"))
+    if args.profiles and summary["profiles"]:
+        drawn.append(report.draw_profiles(summary["profiles"], cases, found, folders, out / "profiles.png"))
     films = (
         []
         if film.missing()

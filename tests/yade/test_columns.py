@@ -14,6 +14,7 @@ from yade import O
 from yade.nonsmooth import errors, film, packing, processes, records, worlds
 from yade.nonsmooth.figures import columns as figures
 from yade.nonsmooth.heaps import column, course, grains, pile, preparation, report, scaling, study
+from yade.nonsmooth.measure import velocity_profiles
 from yade.wrapper import NewtonIntegrator
 
 COARSE = dict(path=0.2)
@@ -534,6 +535,36 @@ def test_command_writes_series_summary_and_figures(tmp_path):
     # two aspect ratios, still moving: no fit and no figure of it
     assert summary["at_rest"] == 0 and not any(summary["fits"].values()) and "did not come to rest" in done.stdout
     assert not (tmp_path / "runout.png").exists()
+
+
+def test_profiles_are_those_of_the_columns_that_came_to_rest(tmp_path):
+    """Two seeds of one column, hard, from the command to its summary and its picture."""
+    words = ("--disks", 150, "--aspect", "1", "--seeds", 1, 2, "--path", 0.3, "--tolerance", 1e-3)
+    done = command(*words, "--profiles", "--out", tmp_path, "--threads", 1)
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert summary["at_rest"] == 2
+    (column,) = summary["profiles"]
+    assert column["aspect"] == 1.0 and column["seeds"] == 2
+    widths = [run["width_m"] for run in summary["runs"].values()]
+    runouts = [run["runout_rel"] for run in summary["runs"].values()]
+    for row, at in zip(column["rows"], (0.25, 0.5, 0.8), strict=True):
+        # the tip is where the front is then, to what it goes in a span of the film, half of L₀ at most
+        expected = [1 + at * runout for runout in runouts]
+        assert row["length_rel"]["values"] == pytest.approx(expected, abs=0.5) and len(widths) == 2
+        assert all(sum(place["regimes"].values()) == 2 for place in row["places"])
+        # nothing is faster than a fall from the top, √2 √(g H)
+        assert all(abs(v) < 1.5 for place in row["places"] for one in place["speed_rel"] for v in one["values"])
+    ((caption, heads, rows),) = summary["tables"]
+    assert (
+        caption.startswith("Regimes")
+        and len(heads) == 6
+        and [row[:2] for row in rows] == [["1", "0.25"], ["1", "0.5"], ["1", "0.8"]]
+    )
+    assert all(
+        cell.split(";")[0].split(" (")[0].split(",")[0] in velocity_profiles.REGIMES for row in rows for cell in row[3:]
+    )
+    assert "profiles.png" in done.stdout and (tmp_path / "profiles.png").stat().st_size > 30_000
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,25 @@ from pathlib import Path
 import numpy as np
 
 from ..figures import columns as figures
-from . import measures, scaling, study
+from ..figures import spreading
+from ..measure import velocity_profiles
+from ..statistics import told
+from . import measures, profiles, scaling, study
 from .grains import HeapError
 
-__all__ = ["CHANGES", "by_front", "counts", "draw_collapse", "film_collapse", "group", "summarise", "table"]
+__all__ = [
+    "CHANGES",
+    "by_front",
+    "counts",
+    "draw_collapse",
+    "draw_profiles",
+    "film_collapse",
+    "group",
+    "profiles_by_aspect",
+    "profiles_table",
+    "summarise",
+    "table",
+]
 
 #: Aspect ratios between the two fits: where Staron and Hinch's laws change.
 CHANGES = {"runout": scaling.RUNOUT[0].change, "height": scaling.HEIGHT[0].change}
@@ -110,6 +125,80 @@ def by_front(found, folders):
             {"front": name, **{side: None if f is None else f.exponent for side, f in zip(("below", "above"), fits)}}
         )
     return found
+
+
+SHOWN = 1  # of profiles.AT: the time whose picture stands beside the profiles
+PIECES = 30  # of a column's length, of each of which the border of what rests is drawn
+
+
+def _by_aspect(cases):
+    """{aspect ratio asked for: names of the runs, one a seed}."""
+    found = {}
+    for name, (heap, _) in cases.items():
+        found.setdefault(heap.aspect, []).append(name)
+    return found
+
+
+def profiles_by_aspect(cases, found, folders):
+    """Profiles of speed of columns that came to rest (profiles.over_runs), a list of dictionaries with ``aspect``, that of the box, ``seeds``, how many, and ``rows``.
+
+    ``cases``: {name: (heap, world)}; ``found``: {name: summary of a run}; ``folders``: {name: its folder}. Raises HeapError where a run kept no places.
+    """
+    made = []
+    for aspect, names in _by_aspect(cases).items():
+        rested = [(cases[name][0], found[name], folders[name]) for name in names if found[name]["rested"]]
+        if rested:
+            made.append({"aspect": aspect, "seeds": len(rested), "rows": profiles.over_runs(rested)})
+    return made
+
+
+def profiles_table(by_aspect):
+    """[caption, heads, rows] of texts: the regimes of what :func:`profiles_by_aspect` returned, with the share of the height that rests, by time and place."""
+    rows = []
+    for one in by_aspect:
+        for row in one["rows"]:
+            cells = []
+            for place in row["places"]:
+                kinds = sorted(place["regimes"].items(), key=lambda item: -item[1])
+                cells.append(
+                    ", ".join(name if n == one["seeds"] else f"{name} ({n})" for name, n in kinds) or "no disks"
+                )
+                rest = place.get("border_rel")
+                cells[-1] += f"; {told(rest['mean'], rest['half_width'], 2)}" if rest else ""
+            rows.append(
+                [
+                    f"{one['aspect']:g}",
+                    f"{row['at']:g}",
+                    told(row["time_rel"]["mean"], row["time_rel"]["half_width"], 1),
+                    *cells,
+                ]
+            )
+    heads = [
+        "a",
+        "run-out done",
+        "time [T]",
+        *(f"{100 * share:g} % of the way from the tip" for share in profiles.BEHIND),
+    ]
+    return ["Regimes (seeds, where they differ) and the share of the height that rests", heads, rows]
+
+
+def draw_profiles(by_aspect, cases, found, folders, path=None):
+    """The figure of what :func:`profiles_by_aspect` returned, with the same arguments: the matplotlib Figure, or the ``path`` that it is written to."""
+    drawn = []
+    for one in by_aspect:
+        name = next(name for name in _by_aspect(cases)[one["aspect"]] if found[name]["rested"])
+        heap, run, film = cases[name][0], found[name], study.film(folders[name])
+        seen = profiles.looks(film, heap.place(), run["runout_rel"], run["width_m"], profiles.AT[SHOWN])
+        look, r, layer = seen[len(seen) // 2], film[2], heap.mean_diameter()
+        speed = math.sqrt(heap.gravity * run["height_m"])
+        edges = np.linspace(0, look.tip, PIECES + 1)
+        height = velocity_profiles.borders(
+            look.x, look.y, r, look.u, edges, layer, profiles.slowest(heap.gravity, layer)
+        )
+        drawn.append(
+            {**one, "shown": SHOWN, "look": look, "r": r, "width": run["width_m"], "speed": speed, "border": (0.5 * (edges[1:] + edges[:-1]), height)}
+        )  # fmt: skip
+    return spreading.profiles(drawn, path)
 
 
 def group(found):

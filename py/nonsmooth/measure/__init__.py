@@ -9,5 +9,6 @@
 * :mod:`.force_stages`: what the forces on walls do from stage to stage
 * :mod:`.bands`, :mod:`.toe_bands`: shear bands, of a sample and in the toe of a slope
 * :mod:`.creep`: how fast a mass goes on moving
+* :mod:`.velocity_profiles`: speed against height in a mass that spreads, and what of it rests
 * :mod:`.weakening`: which part of a slip surface has lost its strength
 """
