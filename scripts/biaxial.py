@@ -15,8 +15,12 @@ import time
 from pathlib import Path
 
 from yade.nonsmooth import commands, output_folder
-from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report
+from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report, strength
 from yade.nonsmooth.whole_files import write_json
+
+CYCLE_STRAIN = (
+    0.03  # at the end, in which --cycle looks: some cycles, and the forces of no more than 300 rows on the disk
+)
 
 
 def read_arguments():
@@ -119,6 +123,11 @@ def read_arguments():
         action="store_true",
         help="bonds over gaps close freely, also where the material has them as struts",
     )
+    parser.add_argument(
+        "--cycle",
+        action="store_true",
+        help="keep the forces before and after the deepest drop of stress in the last part of the plateau, and draw that cycle",
+    )
     arguments.add_runs(parser, "out/biaxial", "tests")
     args = parser.parse_args()
     if args.pressing_friction is not None:
@@ -153,6 +162,7 @@ def main():
             args.inertia,
             args.step,
             args.tolerance,
+            forces_from=max(strength.PLATEAU * args.strain, args.strain - CYCLE_STRAIN) if args.cycle else None,
         )
         for seed in args.seeds
         for p in sorted(args.confining)

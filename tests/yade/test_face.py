@@ -212,10 +212,10 @@ def test_a_plain_python_opens_runs_makes_sections_and_packs(whole):
 
 PURE = (
     "rocks section section_data section_values section_defaults section_checks section_reader roles similar scales geometry free_surface packing packing_files packing_checks course course.driver course.slope records runs results paper_figures characteristic_times verdict frames toe run_figures "
-    "measure measure.ground measure.fronts measure.surface measure.energy measure.force_stages measure.layers measure.travel measure.weakening figures figures.moving figures.runouts figures.biaxial figures.columns figures.law figures.rock_table film video paraview lessons whole_files kept_runs tables errors scene_arrays figures.scene "
+    "measure measure.ground measure.fronts measure.surface measure.energy measure.force_stages measure.layers measure.travel measure.weakening figures figures.moving figures.runouts figures.biaxial figures.columns figures.law figures.rock_table film video paraview lessons whole_files kept_runs tables errors scene_arrays figures.scene measure.velocity_profiles figures.cycle figures.spreading "
     "statistics report report.page keys installation checkpoints processes side_by_side output_folder section_arguments campaign campaign.plan campaign.sweep campaign.paper_slopes campaign.cluster laboratory.biaxial_test "
-    "laboratory.campaign laboratory.strength laboratory.fluctuations measure.bands measure.toe_bands laboratory.report laboratory.effects laboratory.calibration laboratory.wall_shear laboratory.readings laboratory.reading_numbers laboratory.closing_decision figures.readings laboratory.table1 laboratory.rock_table laboratory.pressing "
-    "requirements worlds heaps.column heaps.pile heaps.grains heaps.study heaps.report campaign.heaps campaign.scripts campaign.comparisons soft"
+    "laboratory.campaign laboratory.strength laboratory.fluctuations measure.bands measure.toe_bands laboratory.report laboratory.effects laboratory.calibration laboratory.wall_shear laboratory.readings laboratory.reading_numbers laboratory.closing_decision figures.readings laboratory.table1 laboratory.rock_table laboratory.pressing laboratory.cycles "
+    "requirements worlds heaps.column heaps.pile heaps.grains heaps.study heaps.report campaign.heaps campaign.scripts campaign.comparisons soft heaps.profiles"
 )
 
 

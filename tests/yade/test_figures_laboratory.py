@@ -8,9 +8,10 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-style, biaxial, wall_shear, creep_module, moving = (
-    synthetic.load(f"figures.{name}") for name in ("style", "biaxial", "wall_shear", "creep", "moving")
+style, biaxial, wall_shear, creep_module, moving, cycle_figure = (
+    synthetic.load(f"figures.{name}") for name in ("style", "biaxial", "wall_shear", "creep", "moving", "cycle")
 )
+cycles = synthetic.load("laboratory.cycles")
 BLUE, RED = "#1f5fa8", "#d62728"  # compression, tension
 PEAK, PLATEAU = (style.LINES[name].lower() for name in ("blue", "orange"))
 
@@ -92,6 +93,56 @@ def test_stress_itself_of_the_papers_pressures_in_its_greys():
     # where none of the paper's was tested, all of ours
     top, _ = biaxial.stress([tests[0], strained(1e6, 3e6, 2e6)]).axes
     assert list(drawn.legend(top)) == ["2 (ours)", "1 (ours)"] and len(set(drawn.legend(top).values())) == 2
+
+
+# ---- a cycle of stress ----------------------------------------------------------------------------
+
+
+def test_a_cycle_has_its_three_curves_its_phases_and_its_chains():
+    """A rise of 2 MPa between 4 and 6 % of strain, and its drop until 6.1 %."""
+    strain = 1e-4 * np.arange(1, 1001)
+    stress = 20e6 + np.interp(strain, (0.04, 0.06, 0.061), (0, 2e6, 0))
+    series = {
+        "strain": strain,
+        "volumetric_strain": 0.1 * strain,
+        "sigma1_top_Pa": stress + 9e6,
+        "sigma1_bottom_Pa": stress + 7e6,
+        "sigma3_left_Pa": np.full(1000, 8e6),
+        "sigma3_right_Pa": np.full(1000, 8e6),
+        "energy_kinetic_J": np.where((strain > 0.06) & (strain < 0.061), 50.0, 5.0),
+    }
+    rows = cycles.Cycle(399, 599, 609)
+    before = synthetic.few([0.0, 2.0, 4.0], [0.0, 0.0, 3.0], [(0, 1, 4e5), (1, 2, -1e5)])
+    after = synthetic.few([0.0, 2.0, 4.0], [0.0, 0.0, 3.0], [(0, 1, 1e5), (1, 2, -1e5)])
+    fig = cycle_figure.cycle(series, rows, before, after, "three disks")
+    curves, (left, right) = fig.axes[:3], fig.axes[3:]
+    labels = ("σ₁ − σ₃ [MPa]", "volumetric strain [%]\n(dilation positive)", "kinetic energy [kJ/m]")
+    columns = (1e-6 * stress, 10 * strain, 1e-3 * series["energy_kinetic_J"])
+    shown = (strain > 0.0379) & (strain < 0.0631)  # 0.2 % to each side
+    for ax, label, values in zip(curves, labels, columns):
+        assert ax.get_ylabel() == label
+        (line,) = ax.lines
+        assert drawn.points(line) == pytest.approx(np.column_stack([100 * strain, values])[shown])
+        spans = sorted(
+            (patch.get_xy()[:, 0].min(), patch.get_xy()[:, 0].max(), drawn.colour(patch)) for patch in ax.patches
+        )
+        assert [one[:2] for one in spans] == [pytest.approx((4.0, 6.0)), pytest.approx((6.0, 6.1))]
+        assert [one[2] for one in spans] == [cycle_figure.BUILD, cycle_figure.DROP]
+    assert curves[0].get_title(loc="left") == "three disks"
+    assert [ax.get_title() for ax in (left, right)] == [
+        "before the drop, at 6.00 %: 22.0 MPa",
+        "after it, at 6.10 %: 20.0 MPa",
+    ]
+    # bars of both to the scale of the first: a quarter of the force is a quarter of the width
+    wide = []
+    for ax in (left, right):
+        (bars,) = (c for c in ax.collections if drawn.hexes(c.get_facecolor()) == [BLUE])
+        (corners,) = (path.vertices[:4] for path in bars.get_paths())
+        wide.append(float(np.ptp(corners[:, 1])))
+    assert wide[1] == pytest.approx(wide[0] / 4, rel=1e-6)
+    assert left.get_xlim() == right.get_xlim() and left.get_ylim() == right.get_ylim()
+    with pytest.raises(synthetic.load("records").RecordsError, match="no column energy_kinetic_J"):
+        cycle_figure.cycle({k: v for k, v in series.items() if k != "energy_kinetic_J"}, rows, before, after, "")
 
 
 # ---- Mohr's circles -------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ from yade.nonsmooth.laboratory import (
     biaxial,
     calibration,
     campaign,
+    cycles,
     effects,
     materials,
     membrane,
@@ -398,6 +399,7 @@ def test_what_cannot_be_tested_is_refused_before_anything_runs(tmp_path):
     for tests, message in (
         ([small], "ask for more disks"),
         ([dataclasses.replace(SMALL, strain=0.003)], "--strain 0.003: too short"),
+        ([dataclasses.replace(SMALL, forces_from=0.03)], "forces_from 0.03: give a strain from 0 to less than 0.03"),
         ([SMALL, SMALL], "two runs of one name; give each confining pressure and seed once"),
     ):
         with pytest.raises(errors.UserError, match=message):
@@ -672,7 +674,7 @@ def test_a_row_of_a_test_by_hand(sides):
         test=dataclasses.replace(SMALL, sides=sides),
         state={"begin_time": O.time - 7, "strain": 0.02, "area": 10.0, "rate": 3.0, "unit_s": 0.5},
     )
-    solved = {"iterations_mean": 25.0, "residual_worst": 1e-3, "unconverged": 6}
+    solved = {"iterations_mean": 25.0, "residual_worst": 1e-3, "unconverged": 6, "energy_kinetic_J": 70.0}
     biaxial.Course._row(course, 12.0, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, solved)
     # a membrane's pressure is given
     left, right = (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)
@@ -697,6 +699,7 @@ def test_a_row_of_a_test_by_hand(sides):
         "residual_worst": 1e-3,
         "unconverged": 6,
         "overlap_worst_rel": 1e-4,
+        "energy_kinetic_J": 70.0,
     }
     assert rows == [pytest.approx(known, rel=1e-12)]  # division and subtraction round
 
@@ -711,7 +714,7 @@ class MadeUpTest(biaxial.Course):
         walls = SimpleNamespace(
             height=lambda: self.height, width=lambda: 1.0, drive=lambda *_: None, step=self.step, forces=dict
         )
-        engine = SimpleNamespace(totalIterations=0, unconverged=0, residual=0.0)
+        engine = SimpleNamespace(totalIterations=0, unconverged=0, residual=0.0, kineticEnergy=0.0)
         self.sample, self.test = SimpleNamespace(engine=engine, walls=walls), dataclasses.replace(SMALL, strain=0.05)
         O.dt, self.path, self.height, self.written = 1.0, path, 1.0 - state.get("strain", 0.0), []
         self.state = {"rate": biaxial.ROW_STRAIN, "height": 1.0, "begin_time": 0.0, **state}
@@ -719,7 +722,7 @@ class MadeUpTest(biaxial.Course):
     def step(self):
         self.height -= self.path
 
-    def snapshot(self, name):
+    def snapshot(self, name, folder="snapshots"):
         self.written.append((name, round(self.strain, 9)))
 
     def nothing(self, *_):
@@ -748,7 +751,7 @@ def test_a_snapshot_is_of_the_row_in_which_its_strain_was_passed(path, state, wr
 @pytest.mark.parametrize("sides", ["rigid", "flexible"])
 def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_path, sides):
     # rough platens: between smooth ones so small a sample in a membrane ends up on one slip plane, with a contact's friction and less
-    test = dataclasses.replace(SMALL, sides=sides, platens="rough")
+    test = dataclasses.replace(SMALL, sides=sides, platens="rough", forces_from=0.01)
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     for folder in (whole, broken):
         folder.mkdir()
@@ -759,6 +762,17 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
     for name in ("1", "2"):  # %; of the first row that has come to it
         shot = records.read_snapshot(whole / "snapshots" / f"{name}.npz")
         assert shot.step == series["step"][np.argmax(100 * series["strain"] >= float(name))]
+    # of the rows from 1 % on, those of one cycle stay: its deepest drop there
+    found = cycles.deepest(series, 0.01, test.strain)
+    shots = {path.stem: records.read_snapshot(path) for path in (whole / "cycle").iterdir()}
+    assert {name: shot.step for name, shot in shots.items()} == {
+        name: series["step"][row] for name, row in zip(("begin", "peak", "end"), (found.begin, found.peak, found.end))
+    }
+    assert (shots["peak"].cn > 0).any()
+    # half of the mass times the mean square of the speeds, which is above the square of their mean, and by less than thirty times where some disks jump
+    mass = float(np.sum(test.material.density * math.pi * shots["peak"].r ** 2))
+    even = 0.5 * mass * np.mean(series["speed_mean_m_per_s"][late] ** 2)
+    assert even < np.mean(series["energy_kinetic_J"][late]) < 30 * even
     for name in ("left", "right"):
         # each row is the mean of 10 steps; the wall's own inertia and the tolerance make the rest
         assert np.mean(series[f"sigma3_{name}_Pa"][late]) == pytest.approx(1e6, rel=0.01)
@@ -794,6 +808,8 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
         sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.npz")) for folder in (whole, broken)
     ]
     assert names[0] == names[1] and leftovers.found(broken) == []
+    for name in ("begin", "peak", "end"):
+        assert (broken / "cycle" / f"{name}.npz").read_bytes() == (whole / "cycle" / f"{name}.npz").read_bytes()
     with pytest.raises(biaxial.TestError, match="other settings"):
         biaxial.Course.resume(dataclasses.replace(test, inertia=2e-4), broken)
 

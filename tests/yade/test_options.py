@@ -207,6 +207,8 @@ WHERE = {
         "--pressing-friction": (("--pressing-friction", 0.4), lambda a: first(a).shape.friction, 0.4),
         "--bond-distance": (("--bond-distance", 0.013), lambda a: first(a).material.bond_creation_distance, 0.013),
         "--closing-bonds": (("--closing-bonds",), lambda a: first(a).material.bonds_close, True),
+        # the last 3 % of strain, and no more than the plateau
+        "--cycle": (("--cycle", "--strain", 0.2), lambda a: round(first(a).forces_from, 9), 0.17),
         "--out": ((), lambda a: str(a.words[1]), "{out}"),
         "--threads": (("--threads", 7), lambda a: a.words[2], 7),
         "--resume": (("--resume",), lambda a: a.words[3], True),
@@ -448,6 +450,7 @@ RUN = {
         "--no-figures": "test_any_slope.py::test_a_mirrored_slope_has_the_mirrored_bits",
         "--list": "test_any_slope.py::test_shipped_sections_are_listed",
     },
+    "column.py": {"--profiles": "test_columns.py::test_profiles_are_those_of_the_columns_that_came_to_rest"},
     "film.py": {
         "--out": "test_moving.py::test_any_script_is_filmed_as_it_is",
         "--frames": "test_moving.py::test_any_script_is_filmed_as_it_is",
@@ -593,6 +596,7 @@ def test_checks_are_listed(in_process):
         ("benchmark.py", ("--threads", 0), "--threads 0"),
         ("benchmark.py", ("--scale", "10,10"), "each once"),
         ("column.py", ("--aspect", "1,1"), "give each number once"),
+        ("column.py", ("--profiles", "--kind", "pile"), "--profiles with --kind pile"),
         ("verify.py", ("--only", "perpetual-motion"), "--list names them"),
     ],
 )

@@ -207,20 +207,20 @@ def rotations(begin, panels, path=None, pdf=False):
     return style.save(fig, path, pdf)
 
 
-@style.styled
-def chains(snapshot, title, path=None, pdf=False):
-    """Normal forces of a sample as bars between centres, compression blue, tension red."""
-    ratio = np.ptp(snapshot.y) / np.ptp(snapshot.x)
-    fig = style.figure(5.2, 5.2 * ratio + 0.7, layout="constrained")
-    ax = fig.subplots()
-    _frame(ax, snapshot)
+def strong(snapshot):
+    """The force [N/m] that bars are as wide as disks at: a fiftieth of the contacts bears more."""
+    return max(float(np.quantile(np.abs(snapshot.cn), 0.98)), 1e-12)
+
+
+def draw_chains(ax, snapshot, reference, *framed):
+    """Draws a sample with its normal forces as bars between centres, whose width is that at ``reference`` [N/m] by the force; ``framed``: Snapshots that the frame holds."""
+    _frame(ax, *framed)
     style.draw_disks(ax, snapshot, np.tile([0.95, 0.94, 0.91, 1.0], (len(snapshot.x), 1)), edge="#c9c4ba", width=0.2)
-    strong = max(float(np.quantile(np.abs(snapshot.cn), 0.98)), 1e-12)
     for sign, colour in ((1, style.COMPRESSION), (-1, style.TENSION)):
         chosen = np.flatnonzero(sign * snapshot.cn > 0)
         ax.add_collection(
             PolyCollection(
-                forces.force_bars(snapshot, chosen, strong, 1.2 * np.median(snapshot.r)),
+                forces.force_bars(snapshot, chosen, reference, 1.2 * np.median(snapshot.r)),
                 facecolors=colour,
                 lw=0,
                 zorder=3,
@@ -228,6 +228,15 @@ def chains(snapshot, title, path=None, pdf=False):
             ),
             autolim=False,
         )
+
+
+@style.styled
+def chains(snapshot, title, path=None, pdf=False):
+    """Normal forces of a sample as bars between centres, compression blue, tension red."""
+    ratio = np.ptp(snapshot.y) / np.ptp(snapshot.x)
+    fig = style.figure(5.2, 5.2 * ratio + 0.7, layout="constrained")
+    ax = fig.subplots()
+    draw_chains(ax, snapshot, strong(snapshot), snapshot)
     ax.set_title(title)
     fig.legend(
         handles=[Patch(color=style.COMPRESSION, label="compression"), Patch(color=style.TENSION, label="tension")],

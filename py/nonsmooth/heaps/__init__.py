@@ -16,6 +16,7 @@
 * :mod:`course`: the scene in a world, its release and its course until rest;
 * :mod:`measures`: front, surface, angle of repose and overlaps from places alone;
 * :mod:`study`: many runs, kept and resumed;
+* :mod:`profiles`: speed against height behind a tip, over seeds;
 * :mod:`scaling`: published laws of runout and height, and fitted exponents.
 
 All lengths are in m, and forces and energies are those of a slice 1 m thick.

@@ -10,6 +10,7 @@ Strength of a slope comes from tests of a sample of its rock (Taboada and Estrad
 * :mod:`biaxial_test`, :mod:`biaxial`: one test as data; from compression to the residual state, with checkpoints;
 * :mod:`strength`: peak, plateau, dilatancy, and the envelope of the circles;
 * :mod:`bands`: shear bands from the rotation of disks;
+* :mod:`fluctuations`, :mod:`cycles`: how the stress fluctuates, and its rises and drops;
 * :mod:`campaign`, :mod:`report`: many tests side by side, and what they say together;
 * :mod:`effects`: what the strength depends on besides the material;
 * :mod:`wall_shear`: sliding of a block on a wall;

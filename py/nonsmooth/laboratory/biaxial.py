@@ -25,9 +25,9 @@ from ..course import driver
 from ..errors import UserError
 from ..kept_runs import Progress
 from ..stepping import advance
-from ..whole_files import remove_parts, write_arrays
-from . import membrane, sample
-from .biaxial_test import Test, key_of
+from ..whole_files import remove, remove_parts, whole, write_arrays
+from . import cycles, membrane, sample
+from .biaxial_test import CYCLE, PHASES, Test, key_of
 from .walls import Walls
 
 RAMP = 0.002  # strain in which the platens reach their speed
@@ -58,9 +58,10 @@ COLUMNS = (
     "residual_worst",
     "unconverged",
     "overlap_worst_rel",
+    "energy_kinetic_J",
 )
 #: Columns that only a test of rigid contacts has.
-OF_SOLVER = ("iterations_mean", "residual_worst", "unconverged")
+OF_SOLVER = ("iterations_mean", "residual_worst", "unconverged", "energy_kinetic_J")
 
 
 class TestError(UserError, RuntimeError):
@@ -187,7 +188,7 @@ class Course(driver.Course):
         least = 1 if self.hard else SAMPLES
         per_row = max(least, round(ROW_STRAIN / (s["rate"] * O.dt)))
         parts = [len(p) for p in np.array_split(np.arange(per_row), per_row if self.hard else SAMPLES)]
-        sums, worst = {}, 0.0
+        sums, worst, kinetic = {}, 0.0, 0.0
         if self.hard:
             sweeps, missed = engine.totalIterations, engine.unconverged
         for part in parts:
@@ -199,11 +200,12 @@ class Course(driver.Course):
                 walls.step()
             if self.hard:
                 worst = max(worst, engine.residual)
+                kinetic += engine.kineticEnergy / per_row
             for name, force in walls.forces().items():
                 sums[name] = sums.get(name, 0.0) + force / len(parts)
         if not self.hard:
             return sums, {}
-        solved = ((engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed)
+        solved = ((engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed, kinetic)
         return sums, dict(zip(OF_SOLVER, solved, strict=True))
 
     def _look(self, made):
@@ -211,6 +213,8 @@ class Course(driver.Course):
         area = self._area()
         before, s["strain"] = s.get("strain", 0.0), self.strain
         self._row(area, *made)
+        if test.forces_from is not None and s["strain"] >= test.forces_from - 1e-9:
+            self.snapshot(f"{O.iter:09d}", CYCLE)
         for strain in SNAPSHOTS:
             if before < strain <= s["strain"] and strain < test.strain - 1e-9:
                 self.snapshot(f"{100 * strain:g}")
@@ -269,11 +273,11 @@ class Course(driver.Course):
         self.series.write(row | solved)
 
     # ---- records --------------------------------------------------------------------------------
-    def snapshot(self, name):
-        """Writes the present state with its forces as ``snapshots/NAME.npz``, a records.Snapshot; walls are numbered as in Walls.ids."""
+    def snapshot(self, name, folder="snapshots"):
+        """Writes the present state with its forces as ``NAME.npz`` of a ``folder``, a records.Snapshot; walls are numbered as in Walls.ids."""
         body = self.sample
         t = tables.bodies(body.engine)
-        folder = self.folder / "snapshots"
+        folder = self.folder / folder
         folder.mkdir(parents=True, exist_ok=True)
         none = np.zeros(body.count, bool)
         records.write_snapshot(
@@ -321,6 +325,20 @@ class Course(driver.Course):
         )
 
 
+def keep_cycle(folder, begin, end):
+    """Of the forces of rows in a test's folder, keeps those of the cycle with the deepest drop between two strains, by the names ``begin``, ``peak`` and ``end``, and removes the others; all
+    where there is no cycle. Returns the cycles.Cycle, or None."""
+    folder = Path(folder)
+    series = records.read_series(folder / "series.csv")
+    chosen = cycles.deepest(series, begin, end)
+    for name, row in zip(PHASES, (chosen.begin, chosen.peak, chosen.end) if chosen else ()):
+        path = folder / CYCLE / f"{int(series['step'][row]):09d}.npz"
+        if path.exists():  # not where a killed run has done so already
+            path.replace(folder / CYCLE / f"{name}.npz")
+    remove([path for path in whole(folder / CYCLE, "*.npz") if path.stem.isdecimal()], "rows that no picture shows")
+    return chosen
+
+
 def run(folder, world=None, **plain):
     """Runs the test given as plain data (see :meth:`Test.of`) in the folder, from its checkpoint if it has one; returns numbers of the course.
 
@@ -328,10 +346,12 @@ def run(folder, world=None, **plain):
     checkpoints [s]. The share done is kept in the file ``progress``.
     """
     test, folder = Test.of(plain), Path(folder)
-    remove_parts(folder, folder / "snapshots", folder / "frames", folder / "checkpoint")
+    remove_parts(folder, folder / "snapshots", folder / "frames", folder / CYCLE, folder / "checkpoint")
     resumes = world is None and checkpoints.exists(folder)
     course = Course.resume(test, folder) if resumes else Course.begin(test, folder, world)
     course.run(Progress(folder))
+    if test.forces_from is not None:
+        keep_cycle(folder, test.forces_from, test.strain)
     s, engine = course.state, course.sample.engine
     steps = O.iter - s["begin"]
     found = {name: s[name] for name in ("disks", "bonds", "contacts", "wall_s", "wall_steps_s")} | {

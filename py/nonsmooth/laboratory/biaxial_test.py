@@ -7,7 +7,10 @@ from dataclasses import asdict, dataclass, replace
 from .. import keys, section
 from . import materials, pressing
 
-__all__ = ["Test", "key_of"]
+__all__ = ["CYCLE", "PHASES", "Test", "key_of"]
+
+CYCLE = "cycle"  # folder of the forces of rows by their steps, and in the end of those of PHASES
+PHASES = ("begin", "peak", "end")  # of a cycle of stress
 
 
 @dataclass(frozen=True)
@@ -16,7 +19,8 @@ class Test:
 
     ``platens``: "smooth", "rough" (friction and rolling friction of the rock, no bonds) or "glued" (bonded as the rock is); ``sides``: "rigid" or
     "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i; ``adhesion_range``: largest gap over which the
-    residual tensile strength acts, in ℓ.
+    residual tensile strength acts, in ℓ; ``forces_from``: strain from which on the forces of each row are kept for the pictures of a cycle of
+    stress (:mod:`.cycles`), of which three stay in the end; None: none.
     """
 
     __test__ = False  # no test of pytest's
@@ -32,6 +36,7 @@ class Test:
     tolerance: float = 1e-5
     max_iterations: int = 1000
     adhesion_range: float = 1e-3
+    forces_from: float | None = None
 
     def __post_init__(self):
         object.__setattr__(self, "material", materials.bare(self.material))

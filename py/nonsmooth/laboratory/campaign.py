@@ -15,7 +15,7 @@ from .. import checks, processes, records, side_by_side
 from ..errors import UserError
 from ..statistics import Estimate, over_seeds
 from ..measure import bands
-from . import biaxial_test, fluctuations, pressing, strength
+from . import biaxial_test, cycles, fluctuations, pressing, strength
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}
@@ -51,6 +51,9 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
         if not isinstance(test, biaxial_test.Test):
             raise CampaignError(f"tests, {checks.shown(test)}: give a list of biaxial_test.Test")
     for test in tests:
+        if test.forces_from is not None:
+            remedy = f"give a strain from 0 to less than {test.strain:g}, where the test ends, or None"
+            checks.number("forces_from", test.forces_from, CampaignError, remedy, least=0, below=test.strain)
         if test.strain < strength.SHORTEST:
             raise CampaignError(
                 f"--strain {test.strain:g}: too short to measure a peak and what follows; give {strength.SHORTEST:g} or more"
@@ -116,6 +119,7 @@ def measure(test, folder):
         "volumetric_strain_end": c.volumetric_end,
         "platen_difference_rel": c.imbalance,
         **fluctuations.measure(series, plateau, found["height_m"] * found["width_m"], _disk_area(folder)),
+        **cycles.measure(series, plateau),
         **{key: bands_of(folder, snapshot) for key, snapshot in BANDS_AT.items()},
         **{
             key: found[key]
@@ -171,6 +175,7 @@ OF_TEST = (
     "stress_fluctuation_rel",
     "contractions_per_percent",
     "contraction_with_drop",
+    *cycles.NUMBERS,
 )
 
 

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from .. import checks, film, paraview, records
 from ..errors import UserError
 from ..figures import biaxial as figures
+from ..figures import cycle as cycle_figure
 from ..statistics import told
 from ..whole_files import whole
+from . import biaxial_test, cycles
 from .campaign import name_of_result
 
 
@@ -87,6 +91,7 @@ def draw(out, summary):
     if "cohesion_peak_kPa" in summary:
         made.append(figures.mohr(summary, out / "mohr.png"))
     shown = min(first, key=lambda t: abs(t["confining_Pa"] - 8e6))  # the paper's Figure 9 is at 8 MPa
+    made += _cycle(shown, out)
     for t in summary["tests"]:
         home = out / "tests" / name_of_result(t)
         frames = {path.stem: records.read_snapshot(path) for path in whole(home / "snapshots", "*.npz")}
@@ -110,6 +115,18 @@ def _pictures(test, frames, out):
         figures.rotations(frames["begin"], panels, out / "bands.png"),
         figures.chains(frames[order[0]], panels[0][0], out / "force_chains.png"),
     ]
+
+
+def _cycle(test, out):
+    """The deepest cycle of stress whose forces a test has kept; nothing where it has kept none."""
+    home = out / "tests" / name_of_result(test)
+    shots = {path.stem: records.read_snapshot(path) for path in whole(home / biaxial_test.CYCLE, "*.npz")}
+    if not shots:
+        return []
+    series = records.read_series(home / "series.csv")
+    rows = cycles.Cycle(*(int(np.flatnonzero(series["step"] == shots[name].step)[0]) for name in biaxial_test.PHASES))
+    words = f"σ₃ = {test['confining_Pa'] / 1e6:g} MPa, {test['disks']:,} disks"
+    return [cycle_figure.cycle(series, rows, shots["peak"], shots["end"], words, out / "cycle.png")]
 
 
 def _paraview(frames, folder):
