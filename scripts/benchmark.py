@@ -14,11 +14,13 @@ import argparse
 import time
 from pathlib import Path
 
-from yade.nonsmooth import commands, output_folder
-from yade.nonsmooth.benchmark import report, scale, states, suite
-from yade.nonsmooth.figures.scale import cost_by_size
-from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth import commands
+from yade.nonsmooth.commands import arguments
+from yade.nonsmooth.judges.benchmark import report, scale, suite
+from yade.nonsmooth.judges.benchmark.scale_figure import cost_by_size
+from yade.nonsmooth.studies.slope import states
+from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():

@@ -14,9 +14,12 @@ import dataclasses
 import time
 from pathlib import Path
 
-from yade.nonsmooth import commands, output_folder
-from yade.nonsmooth.laboratory import arguments, biaxial, campaign, materials, pressing, report, strength
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth import commands
+from yade.nonsmooth.commands import arguments
+from yade.nonsmooth.laboratory import biaxial, campaign, materials, pressing, report
+from yade.nonsmooth.measure import strength
+from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 CYCLE_STRAIN = (
     0.03  # at the end, in which --cycle looks: some cycles, and the forces of no more than 300 rows on the disk

@@ -14,10 +14,12 @@ from pathlib import Path
 
 from tabulate import tabulate
 
-from yade.nonsmooth import commands, output_folder
+from yade.nonsmooth import commands
+from yade.nonsmooth.commands import arguments
 from yade.nonsmooth.figures import biaxial as figures
-from yade.nonsmooth.laboratory import arguments, effects, materials
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth.laboratory import effects, materials
+from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():

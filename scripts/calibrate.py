@@ -17,9 +17,12 @@ import dataclasses
 import time
 from pathlib import Path
 
-from yade.nonsmooth import commands, output_folder, rocks, section
-from yade.nonsmooth.laboratory import arguments, calibration, materials
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth import commands, section
+from yade.nonsmooth.commands import arguments
+from yade.nonsmooth.laboratory import calibration, materials
+from yade.nonsmooth.model import rocks
+from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 
 WEAKEST = 1000.0  # Pa; a smaller cohesion is one in kPa

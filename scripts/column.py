@@ -13,11 +13,12 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import argparse
 from pathlib import Path
 
-from yade.nonsmooth import commands, film, output_folder, worlds
-from yade.nonsmooth.figures import columns as figures
+from yade.nonsmooth import commands, worlds
+from yade.nonsmooth.commands import arguments
+from yade.nonsmooth.figures import columns as figures, film
 from yade.nonsmooth.heaps import grains, report, study
-from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 ASPECTS = "0.5,0.7,1,1.4,2,2.8,4,5.6,8,10"
 

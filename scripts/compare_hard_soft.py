@@ -12,9 +12,10 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 
 from pathlib import Path
 
-from yade.nonsmooth import commands, output_folder
-from yade.nonsmooth.comparison import cost, cost_report, course, options
-from yade.nonsmooth.laboratory import arguments
+from yade.nonsmooth import commands
+from yade.nonsmooth.commands import arguments
+from yade.nonsmooth.studies.comparison import cost, cost_report, course, options
+from yade.nonsmooth.system import output_folder
 
 
 def tell(questions):

@@ -14,9 +14,9 @@ import argparse
 from pathlib import Path
 
 from yade import O
-from yade.nonsmooth import commands, figures, film, section_arguments
-from yade.nonsmooth.figures import moving
-from yade.nonsmooth.laboratory import arguments
+from yade.nonsmooth import commands, figures
+from yade.nonsmooth.commands import arguments, section_arguments
+from yade.nonsmooth.figures import film, moving
 
 
 def read_arguments():

@@ -12,9 +12,12 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import argparse
 from pathlib import Path
 
-from yade.nonsmooth import commands, film, lessons, output_folder, statistics
-from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth import commands, lessons
+from yade.nonsmooth.commands import arguments
+from yade.nonsmooth.figures import film
+from yade.nonsmooth.measure import statistics
+from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 
 def shown(value):

@@ -12,16 +12,20 @@ from pathlib import Path
 from tabulate import tabulate
 
 if "yade" in sys.modules:  # started by the launcher
-    from yade.nonsmooth import commands, output_folder
+    from yade.nonsmooth import commands
+    from yade.nonsmooth.commands import arguments
     from yade.nonsmooth.figures import rock_table as figures
-    from yade.nonsmooth.laboratory import arguments, rock_table
-    from yade.nonsmooth.whole_files import write_json
+    from yade.nonsmooth.laboratory import rock_table
+    from yade.nonsmooth.system import output_folder
+    from yade.nonsmooth.system.whole_files import write_json
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
-    from nonsmooth import commands, output_folder
+    from nonsmooth import commands
+    from nonsmooth.commands import arguments
     from nonsmooth.figures import rock_table as figures
-    from nonsmooth.laboratory import arguments, rock_table
-    from nonsmooth.whole_files import write_json
+    from nonsmooth.laboratory import rock_table
+    from nonsmooth.system import output_folder
+    from nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():

@@ -10,7 +10,8 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
     launcher = os.path.join(os.path.dirname(os.path.realpath(__file__)), "yade-nonsmooth")
     os.execv(launcher, [launcher, os.path.realpath(__file__), *sys.argv[1:]])
 
-from yade.nonsmooth import commands, slope_command
+from yade.nonsmooth import commands
+from yade.nonsmooth.studies.slope import slope_command
 
 commands.run(
     lambda: slope_command.run("slope.py", __doc__.splitlines()[0]),

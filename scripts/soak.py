@@ -12,11 +12,11 @@ if "yade" not in sys.modules:  # started as it is: hand over to the launcher
 import argparse
 from pathlib import Path
 
-from yade.nonsmooth import commands, output_folder
-from yade.nonsmooth.benchmark import machine
-from yade.nonsmooth.laboratory import arguments
-from yade.nonsmooth.verification import soak
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth import commands
+from yade.nonsmooth.commands import arguments
+from yade.nonsmooth.judges.verification import soak
+from yade.nonsmooth.system import machine, output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():

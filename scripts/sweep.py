@@ -15,12 +15,14 @@ import yaml
 from tabulate import tabulate
 
 if "yade" in sys.modules:  # started by the launcher
-    from yade.nonsmooth import campaign, commands, figures, section_arguments, section_reader
-    from yade.nonsmooth.laboratory import arguments
+    from yade.nonsmooth import campaign, commands, figures
+    from yade.nonsmooth.commands import arguments, section_arguments
+    from yade.nonsmooth.model.section import reader as section_reader
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
-    from nonsmooth import campaign, commands, figures, section_arguments, section_reader
-    from nonsmooth.laboratory import arguments
+    from nonsmooth import campaign, commands, figures
+    from nonsmooth.commands import arguments, section_arguments
+    from nonsmooth.model.section import reader as section_reader
 
 NOTES = 3  # on what runs do, that are printed
 SHOWN = ("verdict", "water_highest_m", "water_at_failure_m", "front_travel_m", "deposit_thickness_max_m")

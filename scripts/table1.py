@@ -10,14 +10,18 @@ from pathlib import Path
 from tabulate import tabulate
 
 if "yade" in sys.modules:  # started by the launcher
-    from yade.nonsmooth import commands, output_folder
-    from yade.nonsmooth.laboratory import arguments, biaxial_test, report, table1
-    from yade.nonsmooth.whole_files import write_json
+    from yade.nonsmooth import commands
+    from yade.nonsmooth.commands import arguments
+    from yade.nonsmooth.laboratory import biaxial_test, report, table1
+    from yade.nonsmooth.system import output_folder
+    from yade.nonsmooth.system.whole_files import write_json
 else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
-    from nonsmooth import commands, output_folder
-    from nonsmooth.laboratory import arguments, biaxial_test, report, table1
-    from nonsmooth.whole_files import write_json
+    from nonsmooth import commands
+    from nonsmooth.commands import arguments
+    from nonsmooth.laboratory import biaxial_test, report, table1
+    from nonsmooth.system import output_folder
+    from nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():

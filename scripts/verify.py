@@ -15,8 +15,10 @@ from pathlib import Path
 
 from tqdm import tqdm
 from yade import config
-from yade.nonsmooth import commands, output_folder, verification
-from yade.nonsmooth.verification import report, runner, siconos_solve
+from yade.nonsmooth import commands
+from yade.nonsmooth.judges import verification
+from yade.nonsmooth.judges.verification import report, runner, siconos_solve
+from yade.nonsmooth.system import output_folder
 
 
 def arguments():

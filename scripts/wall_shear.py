@@ -13,10 +13,12 @@ import argparse
 import dataclasses
 from pathlib import Path
 
-from yade.nonsmooth import commands, errors, output_folder, records
+from yade.nonsmooth import commands, errors, records
+from yade.nonsmooth.commands import arguments
 from yade.nonsmooth.figures import wall_shear as figures
-from yade.nonsmooth.laboratory import arguments, materials, wall_shear
-from yade.nonsmooth.whole_files import write_json
+from yade.nonsmooth.laboratory import materials, wall_shear
+from yade.nonsmooth.system import output_folder
+from yade.nonsmooth.system.whole_files import write_json
 
 
 def read_arguments():

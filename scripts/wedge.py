@@ -15,11 +15,12 @@ from pathlib import Path
 
 import numpy as np
 from tqdm import tqdm
-from yade.nonsmooth import commands, errors, keys, output_folder
+from yade.nonsmooth import commands, errors
 from yade.nonsmooth.figures.creep import creep
 from yade.nonsmooth.figures.style import LINES
 from yade.nonsmooth.measure.creep import rate
-from yade.nonsmooth.whole_files import write_atomically, write_json
+from yade.nonsmooth.system import keys, output_folder
+from yade.nonsmooth.system.whole_files import write_atomically, write_json
 
 EXAMPLES = Path(sys.argv[0]).resolve().with_name("examples")
 # (key, title of the panel, the joint and its water)
@@ -78,7 +79,7 @@ def curve(out, key, script, parameters, resume):
             raise WedgeError(f"{script} with {table}: ended with status {done.returncode}: {done.stderr[-500:]}")
         os.replace(part, kept)
     found = np.genfromtxt(kept, names=True)
-    # O.run may lose an engine's refusal (see yade.nonsmooth.stepping), and the script then ends as if nothing were wrong
+    # O.run may lose an engine's refusal (see yade.nonsmooth.world.stepping), and the script then ends as if nothing were wrong
     if not found["t"].size or found["t"].max() < parameters["seconds"] - 0.2:
         raise WedgeError(
             f"{kept}: the run ended before {parameters['seconds']:g} s; see what {script} says with YADE_BATCH={table}:2, remove the file, and run again"

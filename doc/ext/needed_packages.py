@@ -1,4 +1,4 @@
-"""``.. needed-packages::`` a table of what a plain Python needs, from the package's list (py/nonsmooth/requirements.txt)."""
+"""``.. needed-packages::`` a table of what a plain Python needs, from the package's list (py/nonsmooth/system/requirements.txt)."""
 from docutils.parsers.rst import Directive
 
 import rst
@@ -6,7 +6,7 @@ import rst
 
 class Packages(Directive):
     def run(self):
-        from yade.nonsmooth import requirements
+        from yade.nonsmooth.system import requirements
 
         table = [(f"``{one.pip}``", f"``{one.debian}``", one.use) for one in requirements.listed()]
         return rst.parse(self, rst.table(("pip", "Debian", "for"), table, (18, 30, 52)), "requirements.txt")

@@ -19,7 +19,17 @@ def modules():
     import yade.nonsmooth
 
     names = [m.name for m in pkgutil.walk_packages(yade.nonsmooth.__path__, PREFIX)]
-    return [n for n in sorted(names) if not any(part.startswith("_") for part in n.split("."))]
+    return sorted({_shown(n) for n in names if not any(part.startswith("_") for part in n.split("."))})
+
+
+def _shown(name):
+    """The name by which scripts import a module, where the package's face has one."""
+    import yade.nonsmooth
+
+    for short, place in sorted(yade.nonsmooth.FACE.items(), key=lambda item: -len(item[1])):
+        if f"{name}.".startswith(f"{PREFIX}{place}."):
+            return PREFIX + short + name[len(PREFIX + place) :]
+    return name
 
 
 def document(directive, names, underline):
@@ -30,7 +40,9 @@ def document(directive, names, underline):
         module = importlib.import_module(name)
         # what a module takes from another is documented there
         elsewhere = [
-            n for n in getattr(module, "__all__", ()) if getattr(getattr(module, n, None), "__module__", name) != name
+            n
+            for n in getattr(module, "__all__", ())
+            if getattr(getattr(module, n, None), "__module__", module.__name__) != module.__name__
         ]
         lines += [short, underline * len(short), "", f".. automodule:: {name}", "   :members:"]
         if elsewhere:

@@ -85,7 +85,7 @@ class SectionKeys(Directive):
 
 class SectionHints(Directive):
     def run(self):
-        from yade.nonsmooth import section_hints
+        from yade.nonsmooth.model.section import hints as section_hints
 
         self.state.document.settings.env.note_dependency(section_hints.__file__)
         rows = []

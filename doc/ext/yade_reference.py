@@ -179,8 +179,8 @@ def python_reference(target, text):
         if target == name:
             return f":py:mod:`{text} <{name}>`"
         if target in (f"{name}.{member}", f"yade.nonsmooth.{member}"):
-            found = getattr(importlib.import_module(name), member, None)
-            if getattr(found, "__module__", None) == name:
+            module = importlib.import_module(name)
+            if getattr(getattr(module, member, None), "__module__", None) == module.__name__:
                 return f":py:obj:`{text} <{name}.{member}>`"
     return f"``{text}``"
 

@@ -50,7 +50,7 @@ namespace {
 void watchBackgroundRuns()
 {
 	try {
-		py::import("yade.nonsmooth.background")
+		py::import("yade.nonsmooth.world.background")
 		        .attr("watch")(py::make_function(&takeFailure), py::make_function(&isOver));
 	} catch (const py::error_already_set&) {
 		PyErr_Print(); // YADE's loop over classes would hide it, and try this one a hundred times

@@ -95,6 +95,8 @@ class VelocityChanges:
 
 @dataclass(frozen=True)
 class Solution:
+    """What a solve found: impulses, velocities, and how well they hold."""
+
     impulse: np.ndarray  # (c, 3)
     velocity: np.ndarray  # (b, 3)
     iterations: int

@@ -7,7 +7,9 @@ import os
 from pathlib import Path
 
 from yade import utils
-from yade.nonsmooth import campaign, figures, runs, section, section_values, statistics, whole_files
+from yade.nonsmooth import campaign, figures, runs, section, section_values
+from yade.nonsmooth.measure import statistics
+from yade.nonsmooth.system import whole_files
 
 utils.readParamsFromTable(section="interface", disks=1500, seeds=5, folder="out/beds", noTableOk=True)
 from yade.params import table

@@ -15,7 +15,9 @@ import tempfile
 from pathlib import Path
 
 from yade import O
-from yade.nonsmooth import characteristic_times, experiment, packing, records, section, slope
+from yade.nonsmooth import experiment, packing, records, section
+from yade.nonsmooth.measure import characteristic_times
+from yade.nonsmooth.studies.slope import slope
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from deflated import deflate

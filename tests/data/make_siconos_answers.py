@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 from nonsmooth import contact
-from nonsmooth.verification import disk_problems
-from nonsmooth.verification.siconos_solve import solve_with_siconos
+from nonsmooth.judges.verification import disk_problems
+from nonsmooth.judges.verification.siconos_solve import solve_with_siconos
 
 from deflated import deflate
 

@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 import fuzzing  # noqa: E402
-from nonsmooth import packing, packing_checks, packing_files  # noqa: E402
+from nonsmooth import packing, packing_files  # noqa: E402
+from nonsmooth.packing import checks as packing_checks  # noqa: E402
 from nonsmooth.section import load  # noqa: E402
 
 WORDS = [

@@ -21,6 +21,7 @@ class NearTests:
             _dotted(path.relative_to(self.root / PACKAGE)): path for path in (self.root / PACKAGE).rglob("*.py")
         }
         self.trees = {name: ast.parse(path.read_text()) for name, path in self.modules.items()}
+        self.public = _public(self.trees.get(""))
         self.faces = {name: self._face(name) for name, path in self.modules.items() if path.name == "__init__.py"}
         self.used_by_modules = {name: self._used(tree, name) - {name} for name, tree in self.trees.items()}
         self.used_by_scripts = {
@@ -89,6 +90,8 @@ class NearTests:
 
     def _resolve(self, parts):
         """The modules on the way from the package to a name."""
+        if parts and parts[0] in self.public:
+            parts = [*self.public[parts[0]].split("."), *parts[1:]]
         here, found = "", set()
         for part in parts:
             further = f"{here}.{part}".strip(".")
@@ -140,6 +143,7 @@ class NearTests:
                 name = next(filter(None, said.groups()), "") if said else node.value.strip(".") if by_name else ""
                 if within:
                     before.add(f"{within}.")
+                used |= {self.public[name]} if name in self.public else set()
                 used |= {f"{one}{name}" for one in before if name and f"{one}{name}" in self.modules}
         return used
 
@@ -204,6 +208,14 @@ def _dotted(path):
     """Name of a module below the package, "" for the package."""
     parts = path.with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def _public(tree):
+    """{name by which scripts import a module: where it stands}, from the package's face."""
+    for node in tree.body if tree else ():
+        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "FACE":
+            return ast.literal_eval(node.value)
+    return {}
 
 
 def _inside(name):

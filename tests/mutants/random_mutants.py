@@ -27,7 +27,7 @@ from tqdm import tqdm
 from workplace import ROOT, BuildError, Place, build, mutated_sources, share
 
 sys.path.insert(0, str(ROOT / "py"))
-from nonsmooth.whole_files import write_json
+from nonsmooth.system.whole_files import write_json
 
 PLAIN = ("plain:", "gtest:", "bindings/", "fuzz/")  # begin of the names of tests that need no YADE
 LEAST = 0.92  # share that is to be caught

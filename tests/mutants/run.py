@@ -23,7 +23,7 @@ from mutants import KNOWN, MUTANTS
 from workplace import ROOT, BuildError, Place, build, mutated_sources, share
 
 sys.path.insert(0, str(ROOT / "py"))
-from nonsmooth.whole_files import write_json
+from nonsmooth.system.whole_files import write_json
 
 COUNT = 30  # mutants of the quick part
 OUTCOMES = (judging.CAUGHT, judging.CRASHED, judging.TIMEOUT, judging.SURVIVED, judging.BROKEN)

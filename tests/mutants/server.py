@@ -45,7 +45,7 @@ def child(job):
     status = 3
     try:
         if watched:
-            importlib.import_module("yade.nonsmooth.background").watch(*watched)
+            importlib.import_module("yade.nonsmooth.world.background").watch(*watched)
         status = int(pytest.main(job["arguments"]))
     finally:
         sys.stdout.flush()
@@ -72,8 +72,8 @@ def serve(job):
 
 
 def forget_background():
-    """Takes back what the engines had yade.nonsmooth.background do when YADE loaded them, and forgets the package. Returns the arguments of its watch(), None without YADE."""
-    found = sys.modules.get("yade.nonsmooth.background")
+    """Takes back what the engines had yade.nonsmooth.world.background do when YADE loaded them, and forgets the package. Returns the arguments of its watch(), None without YADE."""
+    found = sys.modules.get("yade.nonsmooth.world.background")
     if found is None:
         return None
     from yade.wrapper import Omega

@@ -24,7 +24,7 @@ from threading import Event, Lock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "py"))
-from nonsmooth.whole_files import write_atomically
+from nonsmooth.system.whole_files import write_atomically
 
 RUNNING, STOPPED = set(), Event()  # leaders of groups of processes; whether no more may begin
 COLUMNS = ("commit", "round", "tests", "seconds", "status", "failed")

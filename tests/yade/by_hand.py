@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 from yade.nonsmooth import contact, records
-from yade.nonsmooth.verification import sweep_methods
+from yade.nonsmooth.judges.verification import sweep_methods
 
 
 class Known:

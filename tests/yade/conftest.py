@@ -48,7 +48,7 @@ def in_process(monkeypatch, capsys):
 @pytest.fixture
 def cases_here(monkeypatch):
     """Cases of checks are called in this process, one after the other, and not in processes of their own, which test_laboratory and others are for."""
-    from yade.nonsmooth.verification import cases
+    from yade.nonsmooth.judges.verification import cases
 
     known = {}
 

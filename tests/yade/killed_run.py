@@ -8,8 +8,9 @@ import signal
 import sys
 from pathlib import Path
 
-from yade.nonsmooth import commands, experiment, section, slope, slope_packing
+from yade.nonsmooth import commands, experiment, section
 from yade.nonsmooth.course import driver
+from yade.nonsmooth.studies.slope import slope, slope_packing
 
 source, disks, out, end, look = (
     sys.argv[1],

@@ -11,7 +11,7 @@ import numpy as np
 
 import synthetic_slope as synthetic
 
-records, section = synthetic.load("records"), synthetic.load("section")
+records, section = synthetic.load("records"), synthetic.load("model.section")
 SHIPPED = section.load("jiufengershan")
 ROW, COUNT = 0.1, 1000
 STATE = {

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import synthetic_slope as synthetic
 
-reading_numbers = synthetic.load("laboratory.reading_numbers")
+reading_numbers = synthetic.load("studies.paper.reading_numbers")
 
 
 def made_up(name, platens, strain_peak=((0.01,) * 3,) * 3, disks=2000, bands=2, **changes):

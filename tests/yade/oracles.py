@@ -3,7 +3,7 @@ import os
 import shutil
 
 import pytest
-from yade.nonsmooth.verification import siconos_solve
+from yade.nonsmooth.judges.verification import siconos_solve
 
 
 class _LastLine:

@@ -7,21 +7,11 @@ import pytest
 import shell
 from slope_scenes import SMALL, write_changed
 from yade import O
-from yade.nonsmooth import (
-    experiment,
-    records,
-    results,
-    run_figures,
-    scene,
-    section,
-    similar,
-    slope,
-    slope_packing,
-    tables,
-)
+from yade.nonsmooth import experiment, records, run_figures, scene, section, similar, tables
 from yade.nonsmooth.figures import style
 from yade.nonsmooth.packing_files import Packing
-from yade.nonsmooth.stepping import advance
+from yade.nonsmooth.studies.slope import results, slope, slope_packing
+from yade.nonsmooth.world.stepping import advance
 
 import drawn
 

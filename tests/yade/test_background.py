@@ -11,7 +11,7 @@ import shell
 import yade.config
 from contact_scenes import begin, floor, free_disk, launch, material, spoilt
 from yade import O
-from yade.nonsmooth import background
+from yade.nonsmooth.world import background
 from yade.wrapper import Collider, InteractionLoop, PorePressureEngine, PyRunner, WallForceEngine
 
 pytestmark = pytest.mark.usefixtures("empty")

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 import shell
 from slope_scenes import SMALL, write_changed
-from yade.nonsmooth import experiment, geometry, packing, records, results, section, similar, slope
-from yade.nonsmooth.stepping import advance
+from yade.nonsmooth import experiment, packing, records, section, similar
+from yade.nonsmooth.model import geometry
+from yade.nonsmooth.studies.slope import results, slope
+from yade.nonsmooth.world.stepping import advance
 
 pytestmark = pytest.mark.usefixtures("empty")
 

@@ -12,10 +12,14 @@ import pytest
 import shell
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import checkpoints, contact, scene, statistics, stepping, tables
-from yade.nonsmooth.benchmark import cold_start, report, states, sweeps
-from yade.nonsmooth.comparison import cost
+from yade.nonsmooth import contact, scene, tables
+from yade.nonsmooth.judges.benchmark import cold_start, report, sweeps
+from yade.nonsmooth.measure import statistics
+from yade.nonsmooth.records import checkpoints
 from yade.nonsmooth.soft import bonds as soft_bonds
+from yade.nonsmooth.studies.comparison import cost
+from yade.nonsmooth.studies.slope import states
+from yade.nonsmooth.world import stepping
 from yade.wrapper import NewtonIntegrator, PorePressureEngine, Segment, Sphere
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -6,7 +6,8 @@ import _nonsmooth_contact
 import numpy as np
 import pytest
 from yade.nonsmooth import contact
-from yade.nonsmooth.benchmark import course, report, scale, states, steps, sweeps
+from yade.nonsmooth.judges.benchmark import report, scale, steps, sweeps
+from yade.nonsmooth.studies.slope import measuring as course, states
 
 ONE = 1000  # contacts of the problem
 #: Seconds of a sweep over ONE contacts, by path, threads and precision.

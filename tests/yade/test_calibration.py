@@ -13,7 +13,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
 calibration, campaign, materials, rocks = (
-    synthetic.load(name) for name in ("laboratory.calibration", "laboratory.campaign", "laboratory.materials", "rocks")
+    synthetic.load(name)
+    for name in ("studies.laboratory.calibration", "studies.laboratory.campaign", "model.materials", "model.rocks")
 )
 PEAK, ALL = calibration.Wanted(60e3, 34.0), calibration.Wanted(60e3, 34.0, 6e3, 25.0)
 

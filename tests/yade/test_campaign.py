@@ -12,7 +12,10 @@ import oracles
 import pytest
 import shell
 from shell import ROOT
-from yade.nonsmooth import campaign, figures, kept_runs, keys, output_folder, processes, section, section_data
+from yade.nonsmooth import campaign, figures, section
+from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.running import kept_runs, processes
+from yade.nonsmooth.system import keys, output_folder
 
 SHIPPED = section.load("interface")
 PYTHON = "/usr/bin/python3"
@@ -146,7 +149,7 @@ def called(monkeypatch):
 
     def call(function, folder, arguments, threads=1):
         names.append(folder.name)
-        assert function == "campaign.slope_run:run"
+        assert function == "studies.slope.slope_run:run"
         made = section.of(arguments["data"])
         if made.materials["rock"].friction == 0.9:
             raise processes.RunError("it broke")

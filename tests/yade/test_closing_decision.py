@@ -5,7 +5,9 @@ import pytest
 import synthetic_slope as synthetic
 from made_up_readings import made_up
 
-decision, reading_numbers = (synthetic.load(f"laboratory.{name}") for name in ("closing_decision", "reading_numbers"))
+decision, reading_numbers = (
+    synthetic.load(f"studies.paper.{name}") for name in ("closing_decision", "reading_numbers")
+)
 
 SHIPPED = made_up("shipped", "smooth")
 

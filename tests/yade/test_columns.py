@@ -11,10 +11,11 @@ import shell
 
 import drawn
 from yade import O
-from yade.nonsmooth import errors, film, packing, processes, records, worlds
-from yade.nonsmooth.figures import columns as figures
-from yade.nonsmooth.heaps import column, course, grains, pile, preparation, report, scaling, study
-from yade.nonsmooth.measure import velocity_profiles
+from yade.nonsmooth import errors, packing, records, worlds
+from yade.nonsmooth.figures import columns as figures, film
+from yade.nonsmooth.heaps import column, course, grains, pile, preparation, report, study
+from yade.nonsmooth.measure import power_laws as scaling, velocity_profiles
+from yade.nonsmooth.running import processes
 from yade.wrapper import NewtonIntegrator
 
 COARSE = dict(path=0.2)

@@ -15,21 +15,13 @@ import slope_scenes
 from contact_scenes import material
 from shell import SCRIPTS, ended, start
 from yade import O
-from yade.nonsmooth import (
-    checkpoints,
-    commands,
-    errors,
-    interrupts,
-    keys,
-    output_folder,
-    records,
-    results,
-    scene,
-    side_by_side,
-    stepping,
-    whole_files,
-)
+from yade.nonsmooth import commands, errors, records, scene
 from yade.nonsmooth.laboratory import calibration, campaign, materials
+from yade.nonsmooth.records import checkpoints
+from yade.nonsmooth.running import interrupts, side_by_side
+from yade.nonsmooth.studies.slope import results
+from yade.nonsmooth.system import keys, output_folder, whole_files
+from yade.nonsmooth.world import stepping
 from yade.wrapper import NonsmoothTimeStepper
 
 ENVIRONMENT = shell.environment()

@@ -12,11 +12,13 @@ import numpy as np
 import pytest
 import shell
 from yade import O
-from yade.nonsmooth import output_folder, records, section, slope, slope_packing, worlds
-from yade.nonsmooth.comparison import biaxials, cases, collapses, course, runs, slopes
+from yade.nonsmooth import records, section, worlds
 from yade.nonsmooth.laboratory import biaxial as laboratory_test
+from yade.nonsmooth.studies.comparison import biaxials, cases, collapses, course, runs, slopes
+from yade.nonsmooth.studies.slope import slope, slope_packing
+from yade.nonsmooth.system import output_folder
 
-SHIPPED = Path(slopes.section.__file__).parent / "sections" / "jiufengershan.yaml"
+SHIPPED = section.FOLDER / "jiufengershan.yaml"
 # The shipped section with short stages and a looser solve, so that a run takes seconds.
 QUICK = {
     "packing_fraction: 0.848": "packing_fraction: 0.82",

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from yade.nonsmooth import worlds
-from yade.nonsmooth.benchmark import machine
-from yade.nonsmooth.comparison import (
+from yade.nonsmooth.figures import style
+from yade.nonsmooth.studies.comparison import (
     answers,
     biaxial_report,
     biaxials,
@@ -30,8 +30,8 @@ from yade.nonsmooth.comparison import (
     slopes,
     summary,
 )
-from yade.nonsmooth.comparison.outcomes import Cost, Outcome
-from yade.nonsmooth.figures import style
+from yade.nonsmooth.studies.comparison.outcomes import Cost, Outcome
+from yade.nonsmooth.system import machine
 
 
 # ---- deposits -------------------------------------------------------------------------------------
@@ -507,8 +507,7 @@ def test_the_overlap_of_a_snapshot_is_of_pairs_of_disks():
 
 def test_the_limit_of_stiffness_is_that_of_the_heap():
     """What passes before anything runs stands later; and what is refused is not far below: disks settle by some per cent of the box."""
-    from yade.nonsmooth.heaps import column, grains
-    from yade.nonsmooth.heaps import course as heap_course
+    from yade.nonsmooth.heaps import column, course as heap_course, grains
 
     heap, least = column.Column(disks=100, aspect=1.0), collapses.COLUMN.least_stiffness(
         soft_case(disks=100, options={"aspect": 1.0})

@@ -8,7 +8,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-answers = synthetic.load("comparison.answers")
+answers = synthetic.load("studies.comparison.answers")
 
 
 # ---- numbers ----------------------------------------------------------------------------------------

@@ -13,7 +13,8 @@ import known_slope  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
 cases, deposits, outcomes, precision, slopes, summary = (
-    synthetic.load(f"comparison.{name}") for name in ("cases", "deposits", "outcomes", "precision", "slopes", "summary")
+    synthetic.load(f"studies.comparison.{name}")
+    for name in ("cases", "deposits", "outcomes", "precision", "slopes", "summary")
 )
 records = synthetic.load("records")
 SAME = 1e-9  # relative: rounding
@@ -80,7 +81,7 @@ def test_a_slope_to_the_left_has_the_numbers_of_its_mirror(tmp_path, monkeypatch
     flipped = {name: known_slope.series()[name] * -1.0 for name in ("front_m", "centroid_x_m")}
     ends = [lambda end=end: {**end(), "x": -end()["x"]} for end in (known_slope.begin, known_slope.end)]
     known_slope.write(tmp_path / "left", known_slope.series() | flipped, *ends)
-    mirror = synthetic.load("similar").mirrored(known_slope.SHIPPED)
+    mirror = synthetic.load("model.section.similar").mirrored(known_slope.SHIPPED)
     state = dict(failed_dry=failed_dry, front0=-known_slope.STATE["front0"])
     left = measured(tmp_path / "left", monkeypatch, mirror, **state)
     assert left.values["front_travel_m"] > 1000 and left.values == right.values

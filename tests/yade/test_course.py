@@ -12,7 +12,9 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-course, rules, scales, section = (synthetic.load(name) for name in ("course", "course.slope", "scales", "section"))
+course, rules, scales, section = (
+    synthetic.load(name) for name in ("course", "course.slope", "model.scales", "model.section")
+)
 SHIPPED = section.load("jiufengershan")
 STEP = 1e-2  # s
 ROUNDING = 1e-9  # of sums of some hundred times and heights

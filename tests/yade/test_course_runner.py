@@ -10,7 +10,7 @@ from slope_scenes import SMALL
 from yade import O
 from yade.nonsmooth import experiment, section
 from yade.nonsmooth.course import driver
-from yade.nonsmooth.stepping import advance
+from yade.nonsmooth.world.stepping import advance
 from yade.wrapper import CourseRunner, PyRunner
 
 pytestmark = pytest.mark.usefixtures("empty")

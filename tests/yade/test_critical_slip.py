@@ -9,8 +9,9 @@ import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from nonsmooth import section, section_checks, section_data, similar  # noqa: E402
-from nonsmooth.scales import AREA  # noqa: E402
+from nonsmooth import section, similar  # noqa: E402
+from nonsmooth.model.scales import AREA  # noqa: E402
+from nonsmooth.model.section import checks as section_checks, data as section_data  # noqa: E402
 from slope_scenes import SMALL, write_changed  # noqa: E402
 
 WEAK = {"law": "linear", "critical_slip": 0.5}

@@ -5,7 +5,7 @@ import pytest
 
 import synthetic_slope as synthetic
 
-cycles = synthetic.load("laboratory.cycles")
+cycles = synthetic.load("measure.cycles")
 STRAIN = 1e-4 * np.arange(1, 1001)  # to 10 %
 
 

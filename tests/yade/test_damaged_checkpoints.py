@@ -16,7 +16,9 @@ import slope_scenes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from yade import O
-from yade.nonsmooth import checkpoints, errors, experiment, section, whole_files
+from yade.nonsmooth import errors, experiment, section
+from yade.nonsmooth.records import checkpoints
+from yade.nonsmooth.system import whole_files
 
 EXAMPLES = int(os.environ.get("NONSMOOTH_FUZZ_CHECKPOINTS", "100"))
 DISKS = 200

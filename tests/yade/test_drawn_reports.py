@@ -9,7 +9,11 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 from yade.nonsmooth import records, run_figures, section
-from yade.nonsmooth.comparison import (
+from yade.nonsmooth.figures import style
+from yade.nonsmooth.heaps import column, report as heap_report
+from yade.nonsmooth.judges.verification import collapse
+from yade.nonsmooth.laboratory import report as laboratory_report
+from yade.nonsmooth.studies.comparison import (
     biaxial_report,
     biaxials,
     cases,
@@ -20,13 +24,8 @@ from yade.nonsmooth.comparison import (
     slopes,
     summary,
 )
-from yade.nonsmooth.comparison.outcomes import Cost, Outcome
-from yade.nonsmooth.figures import style
-from yade.nonsmooth.heaps import column
-from yade.nonsmooth.heaps import report as heap_report
-from yade.nonsmooth.laboratory import report as laboratory_report
-from yade.nonsmooth.verification import collapse
-from yade.nonsmooth.whole_files import write_arrays
+from yade.nonsmooth.studies.comparison.outcomes import Cost, Outcome
+from yade.nonsmooth.system.whole_files import write_arrays
 
 
 @pytest.fixture

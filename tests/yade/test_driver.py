@@ -4,8 +4,8 @@ import signal
 from types import SimpleNamespace
 
 import pytest
-from yade.nonsmooth import interrupts
 from yade.nonsmooth.course import driver
+from yade.nonsmooth.running import interrupts
 
 pytestmark = pytest.mark.usefixtures("empty")
 

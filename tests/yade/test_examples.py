@@ -14,8 +14,9 @@ import pytest
 import shell
 from shell import PREFIX, ROOT, SCRIPTS
 from yade import O, utils
-from yade.nonsmooth import keys, lessons
+from yade.nonsmooth import lessons
 from yade.nonsmooth.measure import creep
+from yade.nonsmooth.system import keys
 
 pytestmark = pytest.mark.filterwarnings("ignore:Overwriting yade.params")  # one call after another
 EXAMPLES = os.path.join(SCRIPTS, "examples")

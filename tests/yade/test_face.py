@@ -12,7 +12,9 @@ import pytest
 import shell
 from slope_scenes import SMALL
 from shell import ROOT
-from yade.nonsmooth import records, runs, scales, section, section_data, similar
+from yade.nonsmooth import records, runs, section, similar
+from yade.nonsmooth.model import scales
+from yade.nonsmooth.model.section import data as section_data
 
 SHIPPED = section.load("jiufengershan")
 EXAMPLE = ROOT / "doc" / "examples" / "own_slope.py"
@@ -190,7 +192,8 @@ def test_a_slopes_video_is_drawn_where_it_is_missing(whole, tmp_path):
 PLAIN = """\
 import sys
 sys.path.insert(0, {py!r})
-from nonsmooth import runs, section, section_data, packing, similar
+from nonsmooth import packing, runs, section, similar
+from nonsmooth.model.section import data as section_data
 run = runs.open_run({folder!r})
 print(run.summary["front_travel_m"], len(run.figure("deposit").axes), similar.mirrored(run.section).side, len(packing.pack(run.section)))
 assert not any(name == "yade" or name.startswith("yade.") for name in sys.modules), "YADE was imported"
@@ -211,11 +214,11 @@ def test_a_plain_python_opens_runs_makes_sections_and_packs(whole):
 
 
 PURE = (
-    "rocks section section_data section_values section_defaults section_checks section_reader roles similar scales geometry free_surface packing packing_files packing_checks course course.driver course.slope records runs results paper_figures characteristic_times verdict frames toe run_figures "
-    "measure measure.ground measure.fronts measure.surface measure.energy measure.force_stages measure.layers measure.travel measure.weakening figures figures.moving figures.runouts figures.biaxial figures.columns figures.law figures.rock_table film video paraview lessons whole_files kept_runs tables errors scene_arrays figures.scene measure.velocity_profiles figures.cycle figures.spreading "
-    "statistics report report.page keys installation checkpoints processes side_by_side output_folder section_arguments campaign campaign.plan campaign.sweep campaign.paper_slopes campaign.cluster laboratory.biaxial_test "
-    "laboratory.campaign laboratory.strength laboratory.fluctuations measure.bands measure.toe_bands laboratory.report laboratory.effects laboratory.calibration laboratory.wall_shear laboratory.readings laboratory.reading_numbers laboratory.closing_decision figures.readings laboratory.table1 laboratory.rock_table laboratory.pressing laboratory.cycles "
-    "requirements worlds heaps.column heaps.pile heaps.grains heaps.study heaps.report campaign.heaps campaign.scripts campaign.comparisons soft heaps.profiles"
+    "model.rocks model.section model.section.data model.section.values model.section.defaults model.section.checks model.section.reader model.roles model.section.similar model.scales model.geometry model.free_surface packing packing.files packing.checks course course.driver course.slope records studies.slope.runs studies.slope.results studies.paper.paper_figures measure.characteristic_times studies.slope.verdict studies.slope.frames measure.toe studies.slope.run_figures "
+    "measure measure.ground measure.fronts measure.surface measure.energy measure.force_stages measure.layers measure.travel measure.weakening figures figures.moving figures.runouts figures.biaxial figures.columns figures.law figures.rock_table figures.film figures.video figures.paraview studies.lessons system.whole_files running.kept_runs world.tables errors world.scene_arrays figures.scene measure.velocity_profiles figures.cycle figures.spreading "
+    "measure.statistics report report.page system.keys system.installation records.checkpoints running.processes running.side_by_side system.output_folder commands.section_arguments campaign campaign.plan campaign.sweep studies.paper.paper_slopes campaign.cluster studies.laboratory.biaxial_test "
+    "studies.laboratory.campaign measure.strength measure.fluctuations measure.bands measure.toe_bands studies.laboratory.report studies.laboratory.effects studies.laboratory.calibration studies.laboratory.wall_shear studies.paper.readings studies.paper.reading_numbers studies.paper.closing_decision studies.paper.readings_figure studies.laboratory.table1 studies.laboratory.rock_table studies.laboratory.pressing measure.cycles "
+    "system.requirements world.worlds studies.heaps.column studies.heaps.pile studies.heaps.grains studies.heaps.study studies.heaps.report campaign.heaps campaign.scripts campaign.comparisons world.soft studies.heaps.profiles"
 )
 
 
@@ -259,7 +262,7 @@ def test_a_module_of_the_house_that_needs_no_yade_imports_none(module):
 
 @pytest.mark.parametrize(
     "module",
-    "experiment campaign campaign.slope_run campaign.script_run laboratory.biaxial comparison.slopes heaps.column benchmark.steps".split(),
+    "studies.slope.experiment campaign studies.slope.slope_run campaign.script_run studies.laboratory.biaxial studies.comparison.slopes studies.heaps.column judges.benchmark.steps".split(),
 )
 def test_a_process_that_draws_nothing_waits_for_no_library_that_draws(module):
     """They take as long as the rest of a start, and a sweep starts hundreds."""
@@ -294,4 +297,4 @@ def test_the_page_of_the_package_begins_with_what_people_build_on():
     assert set(public) - {"__all__"} <= set(named) and len(named) == len(set(named))
     face = ["section", "experiment", "runs", "campaign", "scene", "figures", "laboratory"]
     assert [name for name in named if name in face] == face and named[0] == "section"
-    assert not {name.split(".")[0] for name in named} & {"verification", "comparison", "benchmark"}
+    assert not {name.split(".")[0] for name in named} & {"judges", "studies"}

@@ -193,7 +193,7 @@ def test_importing_needs_no_display_and_leaves_the_settings_alone(series):
         assert matplotlib.rcParams["font.size"] == 33
     assert fig.axes[0].title.get_fontsize() != 33 and {one.get_linewidth() for one in fig.axes[0].lines} == {1.5, 0.7}
     code = (
-        "import sys; sys.path.insert(0, %r); import synthetic_slope as s; s.load('video'); s.load('figures');"
+        "import sys; sys.path.insert(0, %r); import synthetic_slope as s; s.load('figures.video'); s.load('figures');"
         "assert 'matplotlib.pyplot' not in sys.modules and 'yade' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code % str(Path(__file__).parent)], check=True, env={"PATH": "/usr/bin"})

@@ -8,7 +8,7 @@ from shapely.geometry import Point, Polygon, box
 import drawn
 import synthetic_slope as synthetic
 
-figures, style = (synthetic.load(name) for name in ("comparison.figures", "figures.style"))
+figures, style = (synthetic.load(name) for name in ("studies.comparison.figures", "figures.style"))
 HARD, SOFT, GREY = "#0072b2", "#d55e00", "#777777"
 MODULI = [1e7, 1e8, 1e9]
 

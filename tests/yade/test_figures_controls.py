@@ -9,7 +9,7 @@ import drawn
 import synthetic_slope as synthetic
 
 records, controls, markers, toes, toe = (
-    synthetic.load(name) for name in ("records", "figures.controls", "figures.markers", "figures.toe", "toe")
+    synthetic.load(name) for name in ("records", "figures.controls", "figures.markers", "figures.toe", "measure.toe")
 )
 style = synthetic.load("figures.style")
 SECTION = synthetic.Section()
@@ -101,7 +101,7 @@ def test_forces_against_the_water_stand_beside_the_equations():
 
 def test_the_resistance_of_a_toe_is_what_its_passive_state_says():
     """At the height where push and resistance are equal, and without water."""
-    section = synthetic.load("section").load("jiufengershan")
+    section = synthetic.load("model.section").load("jiufengershan")
     found = toe.passive(section, 85.9e3, 37.2, 0.84)
     assert found.resistance(0.0) == found.resistance_dry
     assert found.resistance(found.water_m) == pytest.approx(found.push_N_per_m, rel=1e-9)
@@ -156,7 +156,7 @@ def test_columns_are_thin_and_at_equal_distances():
         low, high = x[column == k].min(), x[column == k].max()
         assert 4.0 <= high - low <= 6.0 and abs((low + high) / 2 - middle) <= 2.0  # to the disks' places
         assert np.count_nonzero(column == k) in (15, 20)
-    section = synthetic.load("section").load("jiufengershan")
+    section = synthetic.load("model.section").load("jiufengershan")
     snapshot = synthetic.load("records.snapshots").checked(synthetic.snapshot_arrays(2000, contacts=False), "made up")
     column = markers.columns(snapshot, section)
     along = snapshot.x * section.downslope[0] + snapshot.y * section.downslope[1]
@@ -166,7 +166,7 @@ def test_columns_are_thin_and_at_equal_distances():
 
 def test_the_same_disks_are_strong_in_all_panels():
     start = block()
-    section = synthetic.load("section").load("jiufengershan")
+    section = synthetic.load("model.section").load("jiufengershan")
     later = dataclasses.replace(start, x=start.x + 40.0 * start.y, time_s=50.0)
     fig = markers.markers([("t0", start), ("t4", later), ("the end", later)], section, number=4)
     column = markers.columns(start, section, 4)
@@ -187,7 +187,7 @@ def test_the_same_disks_are_strong_in_all_panels():
 # ---- toes -----------------------------------------------------------------------------------------
 def test_toes_of_several_packings_have_one_scale_of_colours():
     """Of few disks too, where no bands can be told. One has turned by 0.4 rad, the other by 0.1."""
-    section = synthetic.load("section").load("jiufengershan")
+    section = synthetic.load("model.section").load("jiufengershan")
     rng = np.random.default_rng(5)
     up, off = rng.uniform(0, 190, 200), rng.uniform(1, 64, 200)
     x, y = (off[:, None] * np.array(section.normal) - up[:, None] * np.array(section.downslope)).T

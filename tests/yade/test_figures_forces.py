@@ -256,7 +256,7 @@ def test_the_sketch_has_the_water_table_of_the_slope(side):
     assert c[1] == d[1] and c[1] == pytest.approx(down * c[0], rel=1e-9) and d[0] == pytest.approx(1.6 / 2.6, abs=0.01)
     a, b = table(back="", rise=-0.1)
     assert b[0] > 2 and (b - a)[1] / (b - a)[0] == pytest.approx(-0.1, rel=1e-9)
-    assert forces.ground_of(synthetic.load("section").load("chair")).table_slope == 0  # a reservoir
+    assert forces.ground_of(synthetic.load("model.section").load("chair")).table_slope == 0  # a reservoir
     assert forces.ground_of(WALLS).table_slope is None
 
 

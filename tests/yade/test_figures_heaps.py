@@ -10,7 +10,8 @@ import drawn
 import synthetic_slope as synthetic
 
 columns, scaling, style, records, moving = (
-    synthetic.load(name) for name in ("figures.columns", "heaps.scaling", "figures.style", "records", "figures.moving")
+    synthetic.load(name)
+    for name in ("figures.columns", "measure.power_laws", "figures.style", "records", "figures.moving")
 )
 
 

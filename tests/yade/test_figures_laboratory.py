@@ -11,7 +11,7 @@ import synthetic_slope as synthetic
 style, biaxial, wall_shear, creep_module, moving, cycle_figure = (
     synthetic.load(f"figures.{name}") for name in ("style", "biaxial", "wall_shear", "creep", "moving", "cycle")
 )
-cycles = synthetic.load("laboratory.cycles")
+cycles = synthetic.load("measure.cycles")
 BLUE, RED = "#1f5fa8", "#d62728"  # compression, tension
 PEAK, PLATEAU = (style.LINES[name].lower() for name in ("blue", "orange"))
 

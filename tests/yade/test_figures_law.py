@@ -10,7 +10,7 @@ from matplotlib.patches import Circle, Ellipse, Rectangle
 import drawn
 import synthetic_slope as synthetic
 
-figures, parts, law = (synthetic.load(name) for name in ("figures", "section_parts", "figures.law"))
+figures, parts, law = (synthetic.load(name) for name in ("figures", "model.section.parts", "figures.law"))
 UserError = synthetic.load("errors").UserError
 exact = dict(rel=1e-12, abs=1e-12)  # rounding
 ROCK = parts.Material("rock", 0.5, 0.4, 0.2, 0.1, 120e3, 30e3, (0.02, 0.03), 0.05)

@@ -10,7 +10,13 @@ import synthetic_slope as synthetic
 
 figures, style, scale, convergence, energy = (
     synthetic.load(name)
-    for name in ("figures", "figures.style", "figures.scale", "verification.convergence", "measure.energy")
+    for name in (
+        "figures",
+        "figures.style",
+        "judges.benchmark.scale_figure",
+        "judges.verification.convergence",
+        "measure.energy",
+    )
 )
 TIMES = {"t0": 10.0, "t1": 40.0, "t2": 50.0, "t3": 60.0, "t4": 70.0, "t5": 90.0}
 TIME = np.linspace(0, 100, 101)

@@ -338,7 +338,7 @@ def test_water_stands_above_a_plane_that_falls_to_either_side():
 def test_a_table_over_a_plane_of_its_own_dips_with_it():
     import dataclasses
 
-    made = synthetic.load("section").load("jiufengershan")
+    made = synthetic.load("model.section").load("jiufengershan")
     made = dataclasses.replace(made, water=dataclasses.replace(made.water, wall=None, point=(-100.0, 50.0), dip=10.0))
     (x0, y0), (x1, y1) = ground.ground_of(made).water_points(0.0)
     assert (x0, x1) == pytest.approx((-1400.371, 23.294)) and (y0, y1) == pytest.approx(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth.laboratory import fluctuations  # noqa: E402
+from nonsmooth.measure import fluctuations  # noqa: E402
 
 STRAIN = 1e-4 * np.arange(1, 1001)  # to 10 %
 

@@ -8,7 +8,8 @@ import pytest
 import synthetic_slope as synthetic
 
 characteristic_times, course, frames, scales, section = (
-    synthetic.load(name) for name in ("characteristic_times", "course", "frames", "scales", "section")
+    synthetic.load(name)
+    for name in ("measure.characteristic_times", "course", "studies.slope.frames", "model.scales", "model.section")
 )
 SHIPPED = section.load("jiufengershan")
 SCALE = scales.of(SHIPPED)

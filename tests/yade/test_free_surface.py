@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import free_surface, geometry, similar  # noqa: E402
+from nonsmooth import similar  # noqa: E402
+from nonsmooth.model import free_surface, geometry  # noqa: E402
 from nonsmooth.section import load, shipped  # noqa: E402
 
 SLOPE = load("jiufengershan")

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import scene as makers, worlds
-from yade.nonsmooth.heaps import column, course, grains, measures, preparation
+from yade.nonsmooth.heaps import column, course, grains, preparation
+from yade.nonsmooth.measure import heap as measures
 from yade.wrapper import NewtonIntegrator
 
 pytestmark = pytest.mark.usefixtures("empty")

@@ -10,7 +10,9 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-grains, measures, scaling = (synthetic.load(name) for name in ("heaps.grains", "heaps.measures", "heaps.scaling"))
+grains, measures, scaling = (
+    synthetic.load(name) for name in ("studies.heaps.grains", "measure.heap", "measure.power_laws")
+)
 
 
 # ---- measures ---------------------------------------------------------------------------------------
@@ -143,9 +145,9 @@ def test_exponents_of_made_up_laws():
     assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[0] is None  # two points fit any power law
     assert scaling.exponents([0.5, 1, 3, 4, 5], [1, 2, 3, 4, 5], 2.0)[1] is not None
     assert scaling.exponents([0.998, 0.999, 1.0, 1.001], [1, 2, 3, 4], 2.0) == (None, None)  # seeds of one aspect ratio
-    with pytest.raises(grains.HeapError, match="two or more"):
+    with pytest.raises(scaling.PowerLawError, match="two or more"):
         scaling.fit([1, 1], [2, 3])
-    with pytest.raises(grains.HeapError, match="above 0"):
+    with pytest.raises(scaling.PowerLawError, match="above 0"):
         scaling.fit([1, 2], [2, 0])
 
 

@@ -9,7 +9,8 @@ import drawn
 import synthetic_slope as synthetic
 
 profiles, grains, records, spreading, whole_files = (
-    synthetic.load(name) for name in ("heaps.profiles", "heaps.grains", "records", "figures.spreading", "whole_files")
+    synthetic.load(name)
+    for name in ("studies.heaps.profiles", "studies.heaps.grains", "records", "figures.spreading", "system.whole_files")
 )
 D, COLUMNS, ROWS = 0.5, 100, 20  # m, disks side by side and above each other
 WIDTH, HEIGHT, GRAVITY, PLACE = 50.0, 10.0, 10.0, -3.0  # m, m/s², m

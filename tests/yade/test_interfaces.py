@@ -5,7 +5,7 @@ import pytest
 from contact_scenes import G, begin, contacts, material, spoilt
 from yade import O
 from yade.nonsmooth import scene
-from yade.nonsmooth.stepping import advance
+from yade.nonsmooth.world.stepping import advance
 from yade.wrapper import NscdMat, SlipWeakeningMat
 
 pytestmark = pytest.mark.usefixtures("empty")

@@ -12,7 +12,9 @@ from pathlib import Path
 import pytest
 import slope_scenes
 from shell import ended, start, wait_for
-from yade.nonsmooth import commands, interrupts, output_folder, processes, records, side_by_side
+from yade.nonsmooth import commands, records
+from yade.nonsmooth.running import interrupts, processes, side_by_side
+from yade.nonsmooth.system import output_folder
 
 SLOPE = ("--disks", "300", "--threads", "1", "--seed", "1")
 
@@ -220,7 +222,7 @@ def test_ctrl_c_that_comes_while_a_process_begins_is_heard(heard, tmp_path, monk
     with ThreadPoolExecutor(1) as pool:
         call = pool.submit(
             processes.call,
-            "verification.packings:shear",
+            "judges.verification.packings:shear",
             tmp_path,
             dict(count=1000, seed=1, inertia=1e-4, strain=1.0, step=0.1),
         )

@@ -1,11 +1,14 @@
 """Keys of what a cache keeps: other engines or other code make their own, other words do not."""
 
+from pathlib import Path
+
 import pytest
 
-from yade.nonsmooth import keys, packing, packing_files, section, slope_packing
-from yade.nonsmooth.benchmark import states
+from yade.nonsmooth import packing, packing_files, section
 from yade.nonsmooth.heaps import column, preparation
 from yade.nonsmooth.laboratory import pressing
+from yade.nonsmooth.studies.slope import slope_packing, states
+from yade.nonsmooth.system import keys
 
 SOURCE = '''
 """Squares."""
@@ -56,7 +59,7 @@ CACHES = {
 }
 
 
-NOT_BEHIND = ("figures/forces.py", "video.py", "report/page.py")  # of what is drawn
+NOT_BEHIND = ("figures/forces.py", "figures/video.py", "report/page.py")  # of what is drawn
 
 
 @pytest.mark.parametrize("cache", CACHES)
@@ -66,8 +69,9 @@ def test_other_code_or_engines_make_their_own(cache, monkeypatch):
     whole, behind, before = keys.statements, keys.made_by(module.__name__), path()
     assert path() == before
     # what gives disks their masses is behind all of them: it was forgotten twice; as were borders of regions and sweeps of a packing
-    own = module.__name__.removeprefix("yade.nonsmooth.").replace(".", "/") + ".py"
-    wanted = {own, "packing.py", "geometry.py", "section.py"} | ({"scene.py"} if cache != "packings" else set())
+    own = Path(module.__file__).resolve().relative_to(keys.HOME).as_posix()
+    wanted = {own, "packing/__init__.py", "model/geometry.py", "model/section/section.py"}
+    wanted |= {"world/scene.py"} if cache != "packings" else set()
     assert wanted <= set(behind)
     modules = [file for file in behind if file.endswith(".py")]
     for file in modules:
@@ -137,8 +141,13 @@ def test_who_executes_a_script_is_made_by_all(package):
 
 
 def test_a_function_a_name_and_a_module_are_of_one_module():
-    for one in (pressing.cache_path, "laboratory.pressing:cache_path", "laboratory.pressing", pressing.__name__):
-        assert keys.module_of(one) == "laboratory.pressing"
+    for one in (
+        pressing.cache_path,
+        "studies.laboratory.pressing:cache_path",
+        "studies.laboratory.pressing",
+        pressing.__name__,
+    ):
+        assert keys.module_of(one) == "studies.laboratory.pressing"
     assert keys.module_of(print) is keys.module_of("pressing") is keys.module_of(None) is None
 
 

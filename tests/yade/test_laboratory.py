@@ -12,23 +12,24 @@ import shell
 
 import drawn
 from yade import O
-from yade.nonsmooth import errors, film, processes, records, rocks, section
+from yade.nonsmooth import errors, records, section
 from yade.nonsmooth.course import driver
-from yade.nonsmooth.figures import wall_shear as wall_shear_figure
+from yade.nonsmooth.figures import film, wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import (
     biaxial,
     calibration,
     campaign,
-    cycles,
     effects,
     materials,
     membrane,
     pressing,
     report,
     sample,
-    strength,
     wall_shear,
 )
+from yade.nonsmooth.measure import cycles, strength
+from yade.nonsmooth.model import rocks
+from yade.nonsmooth.running import processes
 from yade.wrapper import Law2_ScGeom_NscdPhys_SignoriniCoulomb, NscdInteractionLoop
 
 

@@ -4,7 +4,8 @@ import math
 
 import pytest
 from yade.nonsmooth import records
-from yade.nonsmooth.laboratory import calibration, effects, materials, strength
+from yade.nonsmooth.laboratory import calibration, effects, materials
+from yade.nonsmooth.measure import strength
 
 
 def made_up(material, disks, with_residual):

@@ -6,7 +6,8 @@ import leftovers
 import pytest
 import slope_scenes
 from yade import O
-from yade.nonsmooth import experiment, records, results, run_figures, section, slope, slope_packing
+from yade.nonsmooth import experiment, records, run_figures, section
+from yade.nonsmooth.studies.slope import results, slope, slope_packing
 
 FILES = (
     "summary.json",

@@ -5,7 +5,8 @@ import re
 import numpy as np
 import pytest
 import shell
-from yade.nonsmooth import film, lessons
+from yade.nonsmooth import lessons
+from yade.nonsmooth.figures import film
 
 MEASURED = json.loads((shell.ROOT / "doc" / "measured" / "lessons.json").read_text())
 PRINTED = """disks 288, bonds 777

@@ -9,7 +9,8 @@ import textwrap
 import pytest
 import shell
 from shell import PREFIX
-from yade.nonsmooth import processes, servers
+from yade.nonsmooth import servers
+from yade.nonsmooth.running import processes
 
 from contact_scenes import launch
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.nonsmooth import contact
-from yade.nonsmooth.verification import Bench, lmgc90, solver
+from yade.nonsmooth.judges.verification import Bench, lmgc90, solver
 
 from contact_scenes import begin, box, engine, loose_heap, material, run
 

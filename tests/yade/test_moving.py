@@ -12,9 +12,9 @@ import shell
 from matplotlib.collections import EllipseCollection, PolyCollection
 from PIL import Image
 from yade import O, utils
-from yade.nonsmooth import figures, film, records, scene, scene_arrays
-from yade.nonsmooth.figures import moving, style
-from yade.nonsmooth.stepping import advance
+from yade.nonsmooth import figures, records, scene, scene_arrays
+from yade.nonsmooth.figures import film, moving, style
+from yade.nonsmooth.world.stepping import advance
 from yade.wrapper import FrictMat, NewtonIntegrator, NscdMat
 
 from contact_scenes import begin, material

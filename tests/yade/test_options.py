@@ -10,14 +10,14 @@ import pytest
 import yaml
 from shell import SCRIPTS
 from slope_scenes import SMALL
-from yade.nonsmooth import campaign as campaigns
-from yade.nonsmooth import errors, experiment, lessons, packing, section, slope
-from yade.nonsmooth.benchmark import scale, suite
-from yade.nonsmooth.campaign import paper_slopes
-from yade.nonsmooth.comparison import cost, course
+from yade.nonsmooth import campaign as campaigns, errors, experiment, lessons, packing, section
 from yade.nonsmooth.heaps import study
-from yade.nonsmooth.laboratory import calibration, campaign, effects, readings, rock_table, table1, wall_shear
-from yade.nonsmooth.verification import runner, soak
+from yade.nonsmooth.judges.benchmark import scale, suite
+from yade.nonsmooth.judges.verification import runner, soak
+from yade.nonsmooth.laboratory import calibration, campaign, effects, rock_table, table1, wall_shear
+from yade.nonsmooth.studies.comparison import cost, course
+from yade.nonsmooth.studies.paper import paper_slopes, readings
+from yade.nonsmooth.studies.slope import slope
 
 COMMANDS = sorted(path.name for path in SCRIPTS.glob("*.py"))
 ROCK = dict(friction=0.35, rolling_friction=0.11, tensile_strength=7e4, density=2400.0)

@@ -11,10 +11,11 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import free_surface, geometry, packing, packing_checks, similar  # noqa: E402
-from nonsmooth.packing import Packing, PackingError  # noqa: E402
+from nonsmooth import packing, similar  # noqa: E402
+from nonsmooth.model import free_surface, geometry  # noqa: E402
+from nonsmooth.packing import Packing, PackingError, checks as packing_checks  # noqa: E402
 from nonsmooth.section import FOLDER, load  # noqa: E402
-from nonsmooth.whole_files import WriteError  # noqa: E402
+from nonsmooth.system.whole_files import WriteError  # noqa: E402
 
 
 @pytest.fixture(scope="module")

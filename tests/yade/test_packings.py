@@ -1,8 +1,8 @@
 """The quick variants of the checks of packings hold: friction of frictionless disks, statistics of forces."""
 import numpy as np
 import pytest
-from yade.nonsmooth.verification import packings
-from yade.nonsmooth.verification.registry import Bench
+from yade.nonsmooth.judges.verification import packings
+from yade.nonsmooth.judges.verification.registry import Bench
 
 
 pytestmark = pytest.mark.usefixtures("empty")

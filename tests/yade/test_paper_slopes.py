@@ -6,10 +6,11 @@ from types import SimpleNamespace
 
 import pytest
 import drawn
-from yade.nonsmooth import paper_figures, runs, section, section_data
-from yade.nonsmooth.campaign import paper_slopes
+from yade.nonsmooth import runs, section
 from yade.nonsmooth.campaign.plan import PlanError
 from yade.nonsmooth.figures import style
+from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.studies.paper import paper_figures, paper_slopes
 
 SUMMARY = {"water_at_failure_m": 17.25}
 

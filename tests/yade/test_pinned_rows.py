@@ -7,9 +7,10 @@ import hashlib
 from dataclasses import asdict
 
 import pytest
-from yade.nonsmooth import experiment, section, slope, slope_packing
+from yade.nonsmooth import experiment, section
 from yade.nonsmooth.heaps import column, study
 from yade.nonsmooth.laboratory import biaxial, materials, pressing
+from yade.nonsmooth.studies.slope import slope, slope_packing
 
 from slope_scenes import write_quick
 

@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 import shell
 from shell import ROOT
-from yade.nonsmooth import campaign, errors, processes, requirements, runs
+from yade.nonsmooth import campaign, errors, runs
 from yade.nonsmooth.heaps import column, pile
 from yade.nonsmooth.heaps.grains import HeapError
+from yade.nonsmooth.running import processes
+from yade.nonsmooth.system import requirements
 
 PYTHON = "/usr/bin/python3"
 SMALL = column.Column(disks=60, aspect=1.0, diameter=0.1)
@@ -321,8 +323,8 @@ def test_a_comparison_is_asked_for_and_opened_with_its_answers(tmp_path, monkeyp
         found = getattr(importlib.import_module(f"yade.nonsmooth.{module}"), name)(folder, **arguments)
         (folder / "found.json").write_text(json.dumps(found))
 
-    monkeypatch.setattr("yade.nonsmooth.comparison.course.compare", compare)
-    monkeypatch.setattr("yade.nonsmooth.processes.call", call)
+    monkeypatch.setattr("yade.nonsmooth.studies.comparison.course.compare", compare)
+    monkeypatch.setattr("yade.nonsmooth.running.processes.call", call)
     with pytest.raises(runs.RunError, match="no comparison has ended here"):
         campaign.open_comparison(tmp_path)
     found = campaign.run_comparison("column", tmp_path / "out", (1, 2), threads=2, disks=50)
@@ -394,7 +396,7 @@ def test_a_missing_package_is_one_message(without, tmp_path):
     done = plain(f"{path}from nonsmooth import records\nprint('read')\nfrom nonsmooth import section", tmp_path)
     # what needs none of it works
     assert done.stdout == "read\n" and done.returncode == 1
-    assert done.stderr == f"error: nonsmooth.geometry needs {SAID.format(python=PYTHON)}\n"
+    assert done.stderr == f"error: nonsmooth.model.geometry needs {SAID.format(python=PYTHON)}\n"
     # imports by others stay Python's own, and one who tries without is heard
     done = plain(
         f"{path}import nonsmooth\n"

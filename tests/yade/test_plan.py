@@ -11,9 +11,17 @@ sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
 plan, sweep, keys, processes, installation, section = (
-    synthetic.load(name) for name in ("campaign.plan", "campaign.sweep", "keys", "processes", "installation", "section")
+    synthetic.load(name)
+    for name in (
+        "campaign.plan",
+        "campaign.sweep",
+        "system.keys",
+        "running.processes",
+        "system.installation",
+        "model.section",
+    )
 )
-kept_runs = synthetic.load("kept_runs")
+kept_runs = synthetic.load("running.kept_runs")
 SHIPPED = section.load("interface")
 
 
@@ -61,7 +69,7 @@ def test_the_same_values_of_another_section_are_another_run():
     mine = sweep.sweep(SHIPPED, over)
     again = sweep.sweep(SHIPPED, over)
     assert [one.key for one in again.runs] == [one.key for one in mine.runs] and mine.runs[0].key != mine.runs[1].key
-    with_values = synthetic.load("section_values").with_values
+    with_values = synthetic.load("model.section.values").with_values
     for key, value in (("materials.rock.friction", 0.123), ("gravity", 1.62)):
         other = sweep.sweep(with_values(SHIPPED, {key: value}), over)
         assert [one.values for one in other.runs] == [one.values for one in mine.runs]

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from shapely.geometry import LineString, Polygon
 from shapely.ops import unary_union
-from yade.nonsmooth import records, section, section_data
-from yade.nonsmooth.figures import readings as figures
-from yade.nonsmooth.laboratory import biaxial_test, reading_numbers, readings
+from yade.nonsmooth import records, section
+from yade.nonsmooth.laboratory import biaxial_test
+from yade.nonsmooth.model.section import data as section_data
+from yade.nonsmooth.studies.paper import reading_numbers, readings, readings_figure as figures
 
 import drawn
 from made_up_readings import made_up

@@ -293,7 +293,7 @@ def test_a_refused_snapshot_leaves_the_old_file(tmp_path, arrays):
         with pytest.raises(RecordsError, match=message):
             records.write_snapshot(path, **{**arrays, **change})
     assert path.read_bytes() == before and len(list(tmp_path.iterdir())) == 1
-    with pytest.raises(synthetic.load("whole_files").WriteError, match="a.npz.*cannot be written"):
+    with pytest.raises(synthetic.load("system.whole_files").WriteError, match="a.npz.*cannot be written"):
         records.write_snapshot(path / "a.npz", **arrays)  # a file is no folder
 
 

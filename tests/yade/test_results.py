@@ -14,7 +14,7 @@ import known_slope  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
 records, results, toe, characteristic_times = (
-    synthetic.load(name) for name in ("records", "results", "toe", "characteristic_times")
+    synthetic.load(name) for name in ("records", "studies.slope.results", "measure.toe", "measure.characteristic_times")
 )
 force_stages = synthetic.load("measure.force_stages")
 SHIPPED, STATE = known_slope.SHIPPED, known_slope.STATE

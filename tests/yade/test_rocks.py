@@ -9,9 +9,13 @@ import numpy as np
 import pytest
 from shell import ROOT
 from slope_scenes import SMALL
-from yade.nonsmooth import keys, rocks, section, section_checks, section_data, similar, statistics
+from yade.nonsmooth import section, similar
 from yade.nonsmooth.figures import rock_table as figures
-from yade.nonsmooth.laboratory import biaxial_test, campaign, materials, pressing, rock_table, strength
+from yade.nonsmooth.laboratory import biaxial_test, campaign, materials, pressing, rock_table
+from yade.nonsmooth.measure import statistics, strength
+from yade.nonsmooth.model import rocks
+from yade.nonsmooth.model.section import checks as section_checks, data as section_data
+from yade.nonsmooth.system import keys
 
 MEASURED = ROOT / "doc" / "measured"
 LOW, HIGH = rocks.interval()

@@ -10,7 +10,8 @@ import synthetic_slope as synthetic
 from slope_scenes import SHIPPED, write_changed
 
 packing, roles, scales, section, similar = (
-    synthetic.load(name) for name in ("packing", "roles", "scales", "section", "similar")
+    synthetic.load(name)
+    for name in ("packing", "model.roles", "model.scales", "model.section", "model.section.similar")
 )
 JIUFENGERSHAN = section.load("jiufengershan")
 

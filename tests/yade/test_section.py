@@ -11,8 +11,9 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import geometry, section_data  # noqa: E402
 from nonsmooth.errors import OldNameWarning  # noqa: E402
+from nonsmooth.model import geometry  # noqa: E402
+from nonsmooth.model.section import data as section_data  # noqa: E402
 from nonsmooth.section import FOLDER, Disks, SectionError, block, load, shipped  # noqa: E402
 
 TEXT = (FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8")

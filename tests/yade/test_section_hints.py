@@ -8,8 +8,8 @@ import pytest
 import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import section_hints  # noqa: E402
 from nonsmooth.laboratory import materials  # noqa: E402
+from nonsmooth.model.section import hints as section_hints  # noqa: E402
 from nonsmooth.section import FOLDER, SectionError, load  # noqa: E402
 
 

@@ -9,7 +9,10 @@ import yaml
 from slope_scenes import SMALL
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import experiment, packing, records, results, rocks, section, slope, toe
+from yade.nonsmooth import experiment, packing, records, section
+from yade.nonsmooth.measure import toe
+from yade.nonsmooth.model import rocks
+from yade.nonsmooth.studies.slope import results, slope
 from yade.wrapper import NewtonIntegrator, NonsmoothTimeStepper, PlanarGridCollider
 
 SCHEMA = yaml.safe_load((section.FOLDER / "section.schema.yaml").read_text())

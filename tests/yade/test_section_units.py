@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
-from nonsmooth import section, section_checks, section_data, similar  # noqa: E402
+from nonsmooth import section, similar  # noqa: E402
 from nonsmooth.laboratory import materials  # noqa: E402
+from nonsmooth.model.section import checks as section_checks, data as section_data  # noqa: E402
 from nonsmooth.section import SectionError  # noqa: E402
 
 SHIPPED = section.load("jiufengershan")  # 281 m; ρ g L is 5.5 MPa

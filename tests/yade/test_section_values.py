@@ -10,18 +10,11 @@ from pathlib import Path
 import pytest
 import yaml
 from test_section_keys import BASE, SCHEMA, WHERE
-from yade.nonsmooth import (
-    campaign,
-    packing,
-    section,
-    section_arguments,
-    section_data,
-    section_reader,
-    section_values,
-    similar,
-)
-from yade.nonsmooth.campaign import slope_run
+from yade.nonsmooth import campaign, packing, section, section_values, similar
+from yade.nonsmooth.commands import section_arguments
 from yade.nonsmooth.laboratory import materials
+from yade.nonsmooth.model.section import data as section_data, reader as section_reader
+from yade.nonsmooth.studies.slope import slope_run
 
 # with the numbers as a section file has them
 with tempfile.TemporaryDirectory() as folder:

@@ -7,8 +7,9 @@ from pathlib import Path
 import docutils.core
 import numpy as np
 import pytest
-from yade.nonsmooth import contact, verification
-from yade.nonsmooth.verification import Bench, disk_problems, siconos, siconos_solve
+from yade.nonsmooth import contact
+from yade.nonsmooth.judges import verification
+from yade.nonsmooth.judges.verification import Bench, disk_problems, siconos, siconos_solve
 
 import oracles
 

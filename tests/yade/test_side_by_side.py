@@ -5,7 +5,9 @@ import threading
 
 import pytest
 
-from yade.nonsmooth import errors, kept_runs, keys, output_folder, processes, side_by_side
+from yade.nonsmooth import errors
+from yade.nonsmooth.running import kept_runs, processes, side_by_side
+from yade.nonsmooth.system import keys, output_folder
 
 
 class MadeUpError(errors.UserError):
@@ -158,7 +160,7 @@ def test_what_a_run_was_made_by_is_kept_and_what_changed_since_is_named(tmp_path
     assert kept_runs.changed(tmp_path / "a") == kept_runs.changed(tmp_path / "a", "k", print) == []
     assert kept_runs.changed(tmp_path / "a", "other") == ["input"]
     whole = keys.statements
-    monkeypatch.setattr(keys, "statements", lambda path: "x" if path.name == "slope.py" else whole(path))
+    monkeypatch.setattr(keys, "statements", lambda path: "x" if path.name == "slope_packing.py" else whole(path))
     monkeypatch.setattr(keys, "engines_key", lambda: "others")
-    assert kept_runs.changed(tmp_path / "a") == ["engines", "slope.py"]
+    assert kept_runs.changed(tmp_path / "a") == ["engines", "studies/slope/slope_packing.py"]
     assert kept_runs.changed(tmp_path / "none") is None

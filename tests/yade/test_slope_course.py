@@ -11,7 +11,9 @@ import yaml
 from slope_scenes import SHIPPED
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import characteristic_times, course, experiment, packing, records, section, slope
+from yade.nonsmooth import course, experiment, packing, records, section
+from yade.nonsmooth.measure import characteristic_times
+from yade.nonsmooth.studies.slope import slope
 from yade.nonsmooth.wall_forces import WallForces
 from yade.wrapper import WallForceEngine
 

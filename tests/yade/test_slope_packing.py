@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from slope_scenes import SMALL
 from yade import Body, O, Sphere
-from yade.nonsmooth import free_surface, geometry, packing, section, similar, slope_packing, tables
+from yade.nonsmooth import packing, section, similar, tables
+from yade.nonsmooth.model import free_surface, geometry
+from yade.nonsmooth.studies.slope import slope_packing
 from yade.wrapper import NewtonIntegrator
 
 SHIPPED = section.load("jiufengershan").with_disks(1500)

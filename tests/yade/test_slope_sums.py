@@ -7,8 +7,9 @@ import pytest
 from slope_scenes import SMALL
 from watched_slope import Work, solved, sorted_contacts
 from yade import O
-from yade.nonsmooth import experiment, records, section, slope, slope_packing, tables, worlds
-from yade.nonsmooth.slope import hard
+from yade.nonsmooth import experiment, records, section, tables, worlds
+from yade.nonsmooth.studies.slope import slope, slope_packing
+from yade.nonsmooth.studies.slope.slope import hard
 
 MODES = ("tension", "shear", "torque", "mixed")
 

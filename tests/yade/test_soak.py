@@ -4,7 +4,7 @@ import json
 import pytest
 import shell
 from yade import O
-from yade.nonsmooth.verification import soak
+from yade.nonsmooth.judges.verification import soak
 
 
 def command(*arguments):

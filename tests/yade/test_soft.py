@@ -6,8 +6,18 @@ import random
 import pytest
 from yade import O
 from yade.nonsmooth import scene, section, soft
+from yade.nonsmooth.judges.verification.bonds import (
+    FRICTION,
+    F_A,
+    LENGTH,
+    RADIUS,
+    RESIDUAL,
+    ROLLING,
+    SIGMA,
+    Pair,
+    cases,
+)
 from yade.nonsmooth.soft.bonds import bonded
-from yade.nonsmooth.verification.bonds import F_A, FRICTION, LENGTH, RADIUS, RESIDUAL, ROLLING, SIGMA, Pair, cases
 from yade.wrapper import CohFrictMat, FrictMat, JCFpmMat, NewtonIntegrator
 
 from contact_scenes import begin, contacts, engine, run

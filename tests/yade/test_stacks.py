@@ -10,8 +10,10 @@ import drawn
 import known_slope
 import synthetic_slope as synthetic
 
-section, stacks, records, figures = (synthetic.load(name) for name in ("section", "stacks", "records", "figures"))
-characteristic_times, video = synthetic.load("characteristic_times"), synthetic.load("video")
+section, stacks, records, figures = (
+    synthetic.load(name) for name in ("model.section", "model.stacks", "records", "figures")
+)
+characteristic_times, video = synthetic.load("measure.characteristic_times"), synthetic.load("figures.video")
 STATE = known_slope.STATE
 
 # four layers of 100 m² each, one upon another; an interface between each two, the first of which is no slip surface
@@ -130,7 +132,7 @@ def test_times_are_of_the_surface_that_weakens_first():
     begins = lambda **when: characteristic_times.weakening_begins(rows(**when), made, STATE)  # noqa: E731
     assert begins(lower=33.0, upper=40.0) == 33.0 and begins(lower=40.0, upper=33.0) == 33.0 and begins() is None
     # the lower one's mean over what counts as a second for a slope of this size has fallen by 90 % at 39 s, the upper one's at 44 s
-    second = synthetic.load("scales").of(made).mean_seconds
+    second = synthetic.load("model.scales").of(made).mean_seconds
     assert 38.6 - 0.11 <= of(lower=33.0, upper=40.0)["t3"] <= 38.6 + second + 0.11
     assert 43.9 - 0.11 <= of(lower=40.0, upper=33.0)["t3"] <= 43.9 + second + 0.11
     assert of()["t3"] is None

@@ -10,7 +10,9 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-bands, strength, statistics = (synthetic.load(name) for name in ("measure.bands", "laboratory.strength", "statistics"))
+bands, strength, statistics = (
+    synthetic.load(name) for name in ("measure.bands", "measure.strength", "measure.statistics")
+)
 
 
 # ---- curves and envelopes -------------------------------------------------------------------------

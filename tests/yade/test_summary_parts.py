@@ -13,7 +13,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 import known_slope  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
-records, results, similar, toe = (synthetic.load(name) for name in ("records", "results", "similar", "toe"))
+records, results, similar, toe = (
+    synthetic.load(name) for name in ("records", "studies.slope.results", "model.section.similar", "measure.toe")
+)
 SHIPPED, STATE = known_slope.SHIPPED, known_slope.STATE
 SAME = 1e-9  # relative: rounding
 

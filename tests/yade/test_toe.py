@@ -9,7 +9,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic_slope as synthetic  # noqa: E402
 
-results, section, toe = (synthetic.load(name) for name in ("results", "section", "toe"))
+results, section, toe = (synthetic.load(name) for name in ("studies.slope.results", "model.section", "measure.toe"))
 SHIPPED = section.load("jiufengershan")
 BETA = math.radians(21)
 BULK = 2500 * 0.84 * 9.81  # N/m³

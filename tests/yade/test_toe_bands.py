@@ -14,7 +14,15 @@ import synthetic_slope as synthetic  # noqa: E402
 
 toe_bands, figures_toe, section, similar, style, records, results = (
     synthetic.load(name)
-    for name in ("measure.toe_bands", "figures.toe", "section", "similar", "figures.style", "records", "results")
+    for name in (
+        "measure.toe_bands",
+        "figures.toe",
+        "model.section",
+        "model.section.similar",
+        "figures.style",
+        "records",
+        "studies.slope.results",
+    )
 )
 SHIPPED = section.load("jiufengershan")
 THRUST, BACK = 28.0, 40.0  # degrees to the slope

@@ -13,7 +13,7 @@ import known_slope  # noqa: E402
 import synthetic_slope as synthetic  # noqa: E402
 
 characteristic_times, results, verdict = (
-    synthetic.load(name) for name in ("characteristic_times", "results", "verdict")
+    synthetic.load(name) for name in ("measure.characteristic_times", "studies.slope.results", "studies.slope.verdict")
 )
 SHIPPED = known_slope.SHIPPED
 STATE = known_slope.STATE | {"outside": 0.0, "rested": 4.0, "quiet_since": None}
@@ -67,7 +67,7 @@ def test_every_verdict_is_said_and_each_has_its_meaning():
 
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_a_failure_by_water_has_its_height(mirrored):
-    section = synthetic.load("similar").mirrored(SHIPPED) if mirrored else SHIPPED
+    section = synthetic.load("model.section.similar").mirrored(SHIPPED) if mirrored else SHIPPED
     found = of(section)
     assert found.kind == "failed by water" and found.before is None and "with the table at 9.55 m" in found.says
     shaken = of(section, outside=2e6)

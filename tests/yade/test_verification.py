@@ -7,8 +7,19 @@ import pytest
 import shell
 from matplotlib.figure import Figure
 from yade import O
-from yade.nonsmooth import keys, verification
-from yade.nonsmooth.verification import Outcome, at_least, at_most, between, near, paper, registry, report, runner
+from yade.nonsmooth.judges import verification
+from yade.nonsmooth.judges.verification import (
+    Outcome,
+    at_least,
+    at_most,
+    between,
+    near,
+    paper,
+    registry,
+    report,
+    runner,
+)
+from yade.nonsmooth.system import keys
 
 from contact_scenes import material
 

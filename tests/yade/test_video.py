@@ -12,7 +12,9 @@ from matplotlib.collections import EllipseCollection
 import drawn
 import synthetic_slope as synthetic
 
-records, video, film, style = (synthetic.load(name) for name in ("records", "video", "film", "figures.style"))
+records, video, film, style = (
+    synthetic.load(name) for name in ("records", "figures.video", "figures.film", "figures.style")
+)
 RecordsError = records.RecordsError
 WALLS = [
     ("DP", [[-100.0, 75.0], [0.0, 0.0]], "slip"),
@@ -259,7 +261,7 @@ def test_a_video_that_fails_leaves_the_old_one(tmp_path, files):
 
 def test_interfaces_and_their_names_lie_over_the_disks():
     """What moves is drawn anew over all that does not; an interface runs through the disks, and walls do not."""
-    made = synthetic.load("section").load("interface")
+    made = synthetic.load("model.section").load("interface")
     x, y = made.line_of(made.interfaces[0]).mean(axis=0)
     shot = synthetic.few([x - 200.0, x, x + 200.0], [y + 80.0, y, y - 70.0])
     ground = synthetic.load("measure.ground").ground_of(made)

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from slope_scenes import write_changed
 from yade import O
-from yade.nonsmooth import packing, records, section, similar, slope, worlds
-from yade.nonsmooth.wall_series import WallSeries
+from yade.nonsmooth import packing, records, section, similar, worlds
+from yade.nonsmooth.studies.slope import slope
+from yade.nonsmooth.studies.slope.wall_series import WallSeries
 
 pytestmark = pytest.mark.usefixtures("empty")
 

@@ -10,7 +10,8 @@ import drawn
 import synthetic_slope as synthetic
 
 records, figures, style, measured, section, similar = (
-    synthetic.load(name) for name in ("records", "figures", "figures.style", "measure.weakening", "section", "similar")
+    synthetic.load(name)
+    for name in ("records", "figures", "figures.style", "measure.weakening", "model.section", "model.section.similar")
 )
 DOWN, NORMAL = np.array([0.8, -0.6]), np.array([0.6, 0.8])  # of a slope of 3 : 4 : 5 that falls to the right
 PLANE = [[-48.0, 36.0], [0.0, 0.0]]  # 60 m, of ten bins of three mean diameters of 2 m

@@ -2,7 +2,8 @@
 import numpy as np
 import pytest
 from by_hand import Known
-from yade.nonsmooth import frames, records
+from yade.nonsmooth import records
+from yade.nonsmooth.studies.slope import frames
 
 
 def test_it_settles_gets_wet_fails_weakens_moves_and_rests(whole):

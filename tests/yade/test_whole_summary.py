@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from yade.nonsmooth import geometry, records, toe
-from yade.nonsmooth.measure import toe_bands
+from yade.nonsmooth import records
+from yade.nonsmooth.measure import toe, toe_bands
+from yade.nonsmooth.model import geometry
 
 
 class Summary:

@@ -8,7 +8,8 @@ import pytest
 from slope_scenes import SMALL, write_changed
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import course, experiment, records, section, similar, slope, slope_packing, worlds
+from yade.nonsmooth import course, experiment, records, section, similar, worlds
+from yade.nonsmooth.studies.slope import slope, slope_packing
 from yade.wrapper import PyRunner
 
 pytestmark = pytest.mark.usefixtures("empty")
@@ -192,7 +193,7 @@ def test_soft_contacts_have_a_verdict_too(tmp_path):
 )
 def test_an_error_of_energy_is_told_of_a_slope_that_moved(kind, t4, told):
     """Beside the little that a slope at rest turns over, any error is large: that of one that was stopped before it moved was told as 54."""
-    from yade.nonsmooth import slope_command
+    from yade.nonsmooth.studies.slope import slope_command
 
     line = slope_command.number_line(
         "energy_error_rel", {"energy_error_rel": 54.2, "verdict": kind, "times_s": {"t4": t4}}

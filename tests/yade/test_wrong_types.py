@@ -7,7 +7,6 @@ import pytest
 from yade import O
 from yade.nonsmooth import (
     campaign,
-    checks,
     experiment,
     figures,
     paraview,
@@ -24,6 +23,7 @@ from yade.nonsmooth import (
 from yade.nonsmooth.errors import UserError
 from yade.nonsmooth.heaps import column
 from yade.nonsmooth.laboratory import biaxial_test, campaign as tests_of_rock, materials, report
+from yade.nonsmooth.system import checks
 from yade.wrapper import ContactDynamicsEngine, NscdMat, PorePressureEngine
 
 pytestmark = pytest.mark.usefixtures("empty")

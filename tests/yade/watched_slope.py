@@ -9,7 +9,8 @@ import numpy as np
 from slope_scenes import SMALL
 from yade import O
 from yade.minieigenHP import Vector3
-from yade.nonsmooth import contact, experiment, records, results, section, slope, slope_packing, tables
+from yade.nonsmooth import contact, experiment, records, section, tables
+from yade.nonsmooth.studies.slope import results, slope, slope_packing
 
 DUMPED = 40  # rows between two contact problems that are kept
 

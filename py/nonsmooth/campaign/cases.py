@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from .. import checks, output_folder, runs, side_by_side
+from ..running import side_by_side
+from ..studies.slope import runs
+from ..system import checks, output_folder
 
 __all__ = ["run"]
 

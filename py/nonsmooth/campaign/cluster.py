@@ -7,7 +7,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from ..whole_files import write_atomically
+from ..system.whole_files import write_atomically
 
 __all__ = ["write"]
 

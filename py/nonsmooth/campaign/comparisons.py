@@ -14,14 +14,16 @@ from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
 
-from .. import checks, output_folder, processes, runs
 from ..errors import UserError
-from ..whole_files import whole
+from ..running import processes
+from ..studies.slope import runs
+from ..system import checks, output_folder
+from ..system.whole_files import whole
 
 __all__ = ["ComparisonError", "ComparisonRun", "open_comparison", "run_comparison"]
 
 COMMAND = "compare_hard_soft.py"  # which writes the same records
-FUNCTION = "comparison.course:answered"
+FUNCTION = "studies.comparison.course:answered"
 ANSWERS = "found.json"
 
 

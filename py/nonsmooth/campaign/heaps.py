@@ -14,9 +14,12 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from .. import checks, output_folder, records, runs, side_by_side
-from ..heaps import column, pile, study
-from ..heaps.grains import HeapError
+from .. import records
+from ..running import side_by_side
+from ..studies.heaps import column, pile, study
+from ..studies.heaps.grains import HeapError
+from ..studies.slope import runs
+from ..system import checks, output_folder
 from .cases import run as run_cases
 
 __all__ = ["HeapRun", "open_heap", "run_column", "run_heaps", "run_pile"]
@@ -62,7 +65,7 @@ class HeapRun(runs.Opened):
         """``collapse``: the disks at several times, as a matplotlib Figure that is not written. Raises RunError for another name."""
         if name != "collapse":
             raise runs.RunError(f"{self.folder}: no figure is called {name!r}; give collapse")
-        from ..heaps import report  # brings matplotlib, which a reader of numbers need not wait for
+        from ..studies.heaps import report  # brings matplotlib, which a reader of numbers need not wait for
 
         self._file("places.npz")
         return report.draw_collapse(self.heap, self.summary, self.folder)

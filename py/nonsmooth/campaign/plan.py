@@ -18,10 +18,12 @@ import math
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from .. import checks, installation, kept_runs, keys, output_folder, runs, side_by_side
 from ..errors import UserError
-from ..statistics import over_seeds
-from ..whole_files import write_atomically, write_json
+from ..measure.statistics import over_seeds
+from ..running import kept_runs, side_by_side
+from ..studies.slope import runs
+from ..system import checks, installation, keys, output_folder
+from ..system.whole_files import write_atomically, write_json
 from . import cluster
 
 __all__ = ["SEED", "Plan", "PlanError", "Planned", "collect", "means", "numbers", "read", "run_one"]
@@ -158,7 +160,7 @@ def collect(out) -> dict:
 
 
 def means(table, varied) -> list:
-    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`yade.nonsmooth.verdict.MEANINGS`), as a slope that
+    """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`yade.nonsmooth.studies.slope.verdict.MEANINGS`), as a slope that
     stood and one that failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None in a table that has none), ``seeds``,
     ``of``, the number of runs of this combination whatever became of them, ``times_missing``, {time: why it did not come, a list, one a run}, and ``numbers``, {name: see
     statistics.over_seeds}. Where no seed was varied each run is a row of its own.

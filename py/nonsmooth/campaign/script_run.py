@@ -8,11 +8,9 @@ import os
 import sys
 from pathlib import Path
 
-from yade import O
-
-from .. import scene_arrays
 from ..records import RecordsError
-from ..whole_files import write_atomically
+from ..system.whole_files import write_atomically
+from ..world import scene_arrays
 from .scripts import OUTPUT, SCENE
 
 __all__ = ["run"]
@@ -33,6 +31,8 @@ def run(folder, script, parameters):
 
     Writes ``output.txt``, what the script has printed, and ``scene.npz``, where disks are left. Returns ``steps`` and the simulated ``time_s`` of its last scene.
     """
+    from yade import O
+
     folder, home = Path(folder).resolve(), Path.cwd()
     os.environ.pop("YADE_BATCH", None)  # a table that this process was given is not the script's
     if parameters:

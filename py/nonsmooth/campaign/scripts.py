@@ -19,8 +19,10 @@ import re
 from functools import cached_property
 from pathlib import Path
 
-from .. import checks, keys, output_folder, runs, side_by_side
 from ..errors import UserError
+from ..running import side_by_side
+from ..studies.slope import runs
+from ..system import checks, keys, output_folder
 from .cases import run as run_cases
 
 __all__ = [
@@ -113,7 +115,7 @@ class ScriptRun(runs.Opened):
 
     def scene(self):
         """The scene at the end, a scene_arrays.Scene. Raises RunError where the script has left no disk in it."""
-        from .. import scene_arrays
+        from ..world import scene_arrays
 
         return scene_arrays.load(self._file(SCENE))
 

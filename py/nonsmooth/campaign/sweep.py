@@ -6,25 +6,19 @@ import itertools
 import re
 from collections.abc import Iterable, Mapping
 
-from .. import (
-    checkpoints,
-    checks,
-    output_folder,
-    processes,
-    results,
-    runs,
-    section,
-    section_checks,
-    section_data,
-    section_values,
-)
+from ..model import section
+from ..model.section import checks as section_checks, data as section_data, values as section_values
+from ..records import checkpoints
+from ..running import processes
+from ..studies.slope import results, runs
+from ..system import checks, output_folder
 from .plan import Plan, PlanError, Planned
 
 __all__ = ["FUNCTION", "arguments_of", "results_of", "run_slope", "sweep"]
 
 MOST = 10_000  # runs of a plan
 LONGEST = 150  # characters of a folder's name; longer ones become numbers
-FUNCTION = "campaign.slope_run:run"
+FUNCTION = "studies.slope.slope_run:run"
 
 
 def sweep(base, over, end=None, figures=False) -> Plan:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 
-from .. import interrupts
+from ..running import interrupts
 
 __all__ = ["Course", "drive"]
 

@@ -6,7 +6,7 @@ Rules:
 * settled: the mean speed is below ``stages.settle.speed_rest``, or ``time_max`` has passed; the dry rest begins;
 * failed dry: before t0 the mean speed has reached 2 m/s, or the mass has collapsed: its centre has gone :data:`COLLAPSED` of its size sideways, or
   :data:`CRACKED_WAY` of it with :data:`CRACKED` of the bonds broken; or the mean speed is 0.2 m/s at t0, or comes to that without having been below
-  0.02 m/s since. The water does not rise, or no further; the slope is followed until it rests. What moved it, its weight or something else, says :mod:`yade.nonsmooth.verdict`;
+  0.02 m/s since. The water does not rise, or no further; the slope is followed until it rests. What moved it, its weight or something else, says :mod:`yade.nonsmooth.studies.slope.verdict`;
 * t0: the dry rest ends, the water begins to rise;
 * moving, t2: the mean speed reaches 0.2 m/s: the slope no longer just follows the water. With ``water.hold: motion`` the table stays where it
   is from here on, and the solver's tolerance is ``tolerance_moving``, until the mean speed is down to a tenth of its maximum; from there

@@ -11,8 +11,8 @@ from .forces import force_chains, forces_against_time
 from .law import bond_zone, contact_law, water_forces
 from .markers import markers
 from .moving import animate, record, recording
-from .profiles import deposit, snapshots
 from .numerics import energy, solver
+from .profiles import deposit, snapshots
 from .runouts import runouts
 from .scene import draw
 from .sweep import means

@@ -8,10 +8,12 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
-from ..laboratory import strength
+from ..measure import strength
 from ..records import RecordsError
-from ..scene_arrays import Scene
+from ..world.scene_arrays import Scene
 from . import forces, moving, style
+
+__all__ = ["MEGA", "chains", "draw_chains", "effects", "film", "mohr", "rotations", "stress", "stress_strain", "strong"]
 
 MEGA = 1e6
 PAPER = {4e6: "#000000", 8e6: "#6e6e6e", 16e6: "#b4b4b4"}  # Pa, and the greys of its Figure 10

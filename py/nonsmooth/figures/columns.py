@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ..heaps import measures, scaling
+from ..measure import heap as measures, power_laws as scaling
 from ..records import RecordsError
-from ..scene_arrays import Scene
+from ..world.scene_arrays import Scene
 from . import moving, style
 from .style import LINES
 

@@ -3,11 +3,13 @@
 import numpy as np
 from matplotlib.lines import Line2D
 
-from ..characteristic_times import FASTER, RESTING
+from ..measure.characteristic_times import FASTER, RESTING
 from ..measure.ground import ground_of
 from ..measure.surface import deposit_profile
 from . import given, style
 from .forces import SKETCHED
+
+__all__ = ["displacement", "forces_against_water", "speeds", "with_and_without"]
 
 THIN, ALPHA = 0.9, 0.75  # of lines of single packings
 LEADS = 5.0  # s before t2 that the onset is drawn from
@@ -79,7 +81,7 @@ def forces_against_water(cases, path=None, pdf=False, toe=None, walls=None):
     packing (the paper's section 6.1).
 
     ``cases``: list of (series, times t0 … t5 [s], friction of the slip surface). Dashed, of the mean dry slope: what its equations (19) to (21) say; they hold the friction of the slip surface for used
-    up from the beginning on. ``walls``: a Section, for the names of its walls (those of the paper where it is left out). ``toe``: a :class:`~nonsmooth.toe.Toe`, whose resistance, Rankine's passive limit of the foot, is dotted.
+    up from the beginning on. ``walls``: a Section, for the names of its walls (those of the paper where it is left out). ``toe``: a :class:`~nonsmooth.measure.toe.Toe`, whose resistance, Rankine's passive limit of the foot, is dotted.
     """
     cases = [(series, style.known_times(times), friction) for series, times, friction in cases]
     cases = [one for one in cases if {"t0", "t2"} <= set(one[1])]
@@ -143,7 +145,7 @@ def speeds(cases, path=None, pdf=False, moving=0.2):
     """Mean speeds against time from t3 on either side, a thin line for each packing: left, the onset, with the speeds by which t2 may be told and when each is reached for good; right, all of the
     motion, with the shares of the largest speed by which t5 may be told.
 
-    ``cases``: list of (series, summary), the second with ``times_s``, ``t2_by_speed_s`` and ``t5_by_speed_s`` (:func:`~nonsmooth.characteristic_times.by_threshold`); ``moving``: speed of a slope that moves [m/s].
+    ``cases``: list of (series, summary), the second with ``times_s``, ``t2_by_speed_s`` and ``t5_by_speed_s`` (:func:`~nonsmooth.measure.characteristic_times.by_threshold`); ``moving``: speed of a slope that moves [m/s].
     """
     cases = [one for one in cases if one[1]["times_s"]["t3"] is not None]
     if not cases:

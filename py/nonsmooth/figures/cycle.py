@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.patches import Patch
 
-from ..laboratory import cycles
+from ..measure import cycles
 from . import biaxial, style
 
 __all__ = ["cycle"]

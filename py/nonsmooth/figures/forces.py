@@ -12,6 +12,8 @@ from ..measure.ground import ground_of
 from . import given, style
 from .style import COMPRESSION, INK, LINES, TENSION
 
+__all__ = ["SKETCHED", "force_bars", "force_chains", "forces_against_time"]
+
 CLOSER = 2.5  # of the second window on force chains to the first one, at least
 SKETCHED = {"slip": "DP", "backstop": "FB"}  # names of the paper's walls, where nobody gives others
 

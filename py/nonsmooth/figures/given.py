@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from .. import checks
 from ..records import RecordsError
 from ..records.given import FILE, SNAPSHOT
+from ..system import checks
 
 __all__ = ["CASES", "MATERIAL", "SCENE", "SECTION", "SERIES", "SNAPSHOT", "WALLS", "takes"]
 

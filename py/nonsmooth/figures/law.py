@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Arc, Circle, Ellipse, Polygon, Rectangle
 
-from .. import checks
 from ..errors import UserError
+from ..system import checks
 from . import given, style
 from .style import DRY, GROUND, INK, LINES, WALL, WATER, WET
 

@@ -7,6 +7,8 @@ from matplotlib.patches import Patch
 from ..measure.ground import ground_of
 from . import given, style
 
+__all__ = ["MARKERS", "columns", "markers"]
+
 # of columns of disks that are followed: told apart by lightness and hue, none a layer's colour
 MARKERS = ("#0072B2", "#B00020", "#009E73", "#4B2E83")
 COLUMN = 3.0  # mean diameters, width of a column

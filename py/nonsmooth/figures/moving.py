@@ -10,10 +10,10 @@ import tempfile
 import weakref
 from pathlib import Path
 
-from .. import checks, film
 from ..records import RecordsError
-from ..scene_arrays import read
-from . import given, scene as pictures, style
+from ..system import checks
+from ..world.scene_arrays import read
+from . import film, given, scene as pictures, style
 
 __all__ = ["Recorder", "animate", "record", "recording"]
 
@@ -246,7 +246,7 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
         dues = [k * period for k in range(1, min(count, steps) + 1)] + [seconds]
     made = Recorder(O, dues[0] if period is None else period, most=max(2, len(dues) + 1), path=path, **drawn)
     made.take()
-    from ..stepping import advance
+    from ..world.stepping import advance
 
     begin = O.time
     for due in dues:

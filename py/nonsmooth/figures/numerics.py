@@ -6,6 +6,8 @@ from ..measure.energy import balance_error
 from . import given, style
 from .style import INK, LINES
 
+__all__ = ["energy", "solver"]
+
 
 def _row(fig, rows, titles, time, times):
     axes = fig.subplots(rows, 1, sharex=True)

@@ -11,6 +11,8 @@ from ..measure.surface import deposit_profile
 from . import given, style
 from .style import INK
 
+__all__ = ["deposit", "snapshots"]
+
 
 def _time_label(label):
     """``t0`` as mathematics; anything else as it is."""

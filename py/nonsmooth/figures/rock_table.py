@@ -6,6 +6,8 @@ import numpy as np
 
 from . import style
 
+__all__ = ["table"]
+
 
 def table(found, path=None, pdf=False):
     """Two panels against μ_s; dots: samples, squares: means with their 95 % interval, lines: the law between the rocks.

@@ -9,6 +9,8 @@ from ..measure.ground import ground_of
 from . import given, style
 from .style import INK
 
+__all__ = ["runouts"]
+
 
 @given.takes(cases=given.CASES, walls=given.WALLS)
 @style.styled

@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgba, to_rgba_array
 from matplotlib.lines import Line2D
 
 from ..records import RecordsError
-from ..scene_arrays import read
+from ..world.scene_arrays import read
 from . import given, style
 from .forces import force_bars
 from .style import COMPRESSION, INK, TENSION, WALL

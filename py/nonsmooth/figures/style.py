@@ -13,7 +13,53 @@ from matplotlib.patheffects import withStroke
 
 from ..measure.weakening import stretch, stretches, weakened_share
 from ..records import RecordsError
-from ..whole_files import beside
+from ..system.whole_files import beside
+
+__all__ = [
+    "COMPRESSION",
+    "DRY",
+    "EDGE",
+    "GROUND",
+    "INK",
+    "LAYERS",
+    "LINES",
+    "RC",
+    "RELEASED",
+    "STACKED",
+    "STRONG",
+    "TENSION",
+    "TIME_NAMES",
+    "WALL",
+    "WATER",
+    "WEAKENED",
+    "WET",
+    "draw_disks",
+    "draw_walls",
+    "draw_weakened",
+    "figure",
+    "force_unit",
+    "frame",
+    "known_times",
+    "layer_colours",
+    "length",
+    "length_unit",
+    "line_colours",
+    "mark_times",
+    "need",
+    "nice",
+    "plain",
+    "running_mean",
+    "save",
+    "scale_bar",
+    "seconds",
+    "shade_phases",
+    "state_colours",
+    "styled",
+    "symbol",
+    "view",
+    "water_line",
+    "water_table",
+]
 
 # Told apart by lightness as well as by hue, so that they survive colour blindness and grey printing.
 LAYERS = ("#5a2d0c", "#b5651d", "#e9a23b", "#f7d98b", "#8c8c7a")

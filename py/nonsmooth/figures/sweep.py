@@ -5,11 +5,13 @@ from collections import Counter
 
 from matplotlib.lines import Line2D
 
-from .. import section_values
-from ..characteristic_times import reason_of
+from ..measure.characteristic_times import reason_of
+from ..model.section import values as section_values
 from . import given, style
 
-#: Markers of verdicts (:data:`nonsmooth.verdict.MEANINGS`): filled where the slope moved off, open where it did not.
+__all__ = ["MARKERS", "means"]
+
+#: Markers of verdicts (:data:`nonsmooth.studies.slope.verdict.MEANINGS`): filled where the slope moved off, open where it did not.
 MARKERS = {
     "failed by water": ("s", True),
     "stood": ("o", False),

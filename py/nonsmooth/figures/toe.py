@@ -9,6 +9,8 @@ from ..measure import toe_bands
 from ..measure.ground import ground_of
 from . import given, style
 
+__all__ = ["toe", "toes"]
+
 WIDTH, ACROSS = 8.0, 3  # inches of a toe alone; panels side by side
 
 

@@ -4,6 +4,8 @@ import numpy as np
 
 from . import style
 
+__all__ = ["slides"]
+
 MEGA = 1e6
 
 

@@ -8,6 +8,8 @@ from ..measure.ground import ground_of
 from ..measure.weakening import weakened_share
 from . import given, style
 
+__all__ = ["weakening"]
+
 SHADES = LinearSegmentedColormap.from_list("weakened", [style.STRONG, style.WEAKENED])
 
 

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+__all__ = ["CONJUGATE", "Band", "find"]
+
 CONJUGATE = 10.0  # ° by which the inclinations of two bands that cross may differ; they are known to 3°
 STRIP = 1.0  # d, width of a strip
 ANGLES = np.radians(np.arange(35, 81, 1.0))  # of a band to the horizontal; the minor stress is horizontal

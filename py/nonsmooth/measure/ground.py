@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import UserError
-from .. import stacks
-from ..roles import chord
+from ..model import stacks
+from ..model.roles import chord
 
 __all__ = ["Ground", "GroundError", "Wall", "ground_of"]
 

@@ -4,13 +4,16 @@ from pathlib import Path
 
 import numpy as np
 
-from ..tables import BREAK_MODES
-from ..whole_files import write_atomically
-from .. import checks
+from ..system import checks
+from ..system.whole_files import write_atomically
 from . import given
 from .error import RecordsError
 
+__all__ = ["BREAK_COLUMNS", "BREAK_MODES", "read_breaks", "write_breaks"]
+
 NAMES = ("step", "time", "id1", "id2", "mode", "x", "y")  # of tables.breaks
+#: How a bond broke, by NscdPhys.brokenMode.
+BREAK_MODES = ("none", "tension", "shear", "torque", "mixed")
 BREAK_COLUMNS = ("step", "time_s", "disk1", "disk2", "mode", "x_m", "y_m")
 
 

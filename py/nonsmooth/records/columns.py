@@ -3,6 +3,8 @@
 import re
 from typing import NamedTuple
 
+__all__ = ["COLUMNS", "LOSSES", "OWN", "WALL_COLUMNS", "Column", "column", "own_columns", "stem"]
+
 
 class Column(NamedTuple):
     """What a column of the series means."""

@@ -2,7 +2,7 @@
 
 import os
 
-from .. import checks
+from ..system import checks
 from .error import RecordsError
 
 __all__ = ["BREAKS", "ENTRIES", "FILE", "SNAPSHOT", "takes"]

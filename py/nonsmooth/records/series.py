@@ -10,10 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import checks
-from ..tables import BREAK_MODES
+from ..system import checks
+from .breaks import BREAK_MODES
 from .columns import COLUMNS, WALL_COLUMNS, stem
 from .error import RecordsError
+
+__all__ = ["SeriesWriter", "broken_bonds", "kept", "read_series", "read_walls", "since_settled"]
 
 
 def _encode(name, value):

@@ -8,10 +8,12 @@ from typing import Optional
 
 import numpy as np
 
-from ..whole_files import write_arrays
-from .. import checks
+from ..system import checks
+from ..system.whole_files import write_arrays
 from . import given
 from .error import RecordsError
+
+__all__ = ["Snapshot", "checked", "read_snapshot", "write_snapshot"]
 
 
 @dataclass
@@ -108,7 +110,7 @@ def write_snapshot(path, **arrays):
     """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as ``.npz``; returns its path.
 
     Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN or a bad index, and
-    :class:`~yade.nonsmooth.whole_files.WriteError` for a file that cannot be written.
+    :class:`~yade.nonsmooth.system.whole_files.WriteError` for a file that cannot be written.
     """
     path = Path(path)
     snapshot = checked(arrays, path)

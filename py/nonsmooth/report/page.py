@@ -9,7 +9,7 @@ from pathlib import Path
 import docutils.core
 import jinja2
 
-from ..whole_files import write_atomically
+from ..system.whole_files import write_atomically
 
 __all__ = ["write"]
 

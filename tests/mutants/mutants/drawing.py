@@ -3,7 +3,7 @@ from mutant import mutant
 
 FIGURES = "py/nonsmooth/figures/"
 FORCES, STYLE, PROFILES, NUMERICS = (FIGURES + name for name in ("forces.py", "style.py", "profiles.py", "numerics.py"))
-PARAVIEW = "py/nonsmooth/paraview.py"
+PARAVIEW = "py/nonsmooth/figures/paraview.py"
 
 GROUND, FRONTS, SURFACE, WEAKENING = ("py/nonsmooth/measure/" + name for name in ("ground.py", "fronts.py", "surface.py", "weakening.py"))
 
@@ -20,11 +20,11 @@ MUTANTS = (
     mutant("scene-sign", SCENE, '(1, COMPRESSION, "compression"), (-1, TENSION, "tension")', '(-1, COMPRESSION, "compression"), (1, TENSION, "tension")', "tension is drawn as compression",
            "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-bonds", SCENE, "held = (scene.cj >= 0) & scene.bonded", "held = scene.cj >= 0", "all contacts are drawn as bonds", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
-    mutant("scene-turn", "py/nonsmooth/scene_arrays.py", "turn[1, k] * c[k] for k", "turn[k, 1] * c[k] for k", "walls are turned the other way", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
+    mutant("scene-turn", "py/nonsmooth/world/scene_arrays.py", "turn[1, k] * c[k] for k", "turn[k, 1] * c[k] for k", "walls are turned the other way", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-fixed", SCENE, "colours[scene.fixed] = to_rgba(FIXED)", "pass", "disks that are held look like others", "test_figures_scene.py::test_disks_walls_bonds_and_forces_are_where_they_are"),
     mutant("scene-scale", SCENE, "lw=look.width * force / look.reference * points", "lw=look.width * points", "the scale of forces shows another bar than the picture",
            "test_moving.py::test_the_scale_of_forces_is_one_for_all_frames_and_told"),
-    mutant("scene-colours", "py/nonsmooth/scene_arrays.py", "2 * len(set(colours)) <= len(colours)", "colours", "YADE's random colours count as chosen",
+    mutant("scene-colours", "py/nonsmooth/world/scene_arrays.py", "2 * len(set(colours)) <= len(colours)", "colours", "YADE's random colours count as chosen",
            "test_moving.py::test_bodies_own_colours_are_taken_where_they_were_chosen"),
     mutant("moving-thin", MOVING, "self.frames = self.frames[::2]", "self.frames = self.frames[1:]", "a recorder forgets the beginning",
            "test_moving.py::test_a_recorder_keeps_a_bounded_number_of_frames_at_equal_times"),
@@ -137,7 +137,7 @@ MUTANTS = (
            "plain:test_figures_heaps.py::test_runout_and_height_with_fits_and_published_laws"),
     mutant("creep-direction", FIGURES + "creep.py", "np.maximum(np.abs(way), 1e-6)", "np.maximum(way, 1e-6)", "a wedge that creeps up is drawn as standing",
            "plain:test_figures_laboratory.py::test_creep_is_drawn_by_its_size_on_a_logarithm"),
-    mutant("video-unit", "py/nonsmooth/video.py", "force) / newtons", "force) / 1e3", "kilonewtons are drawn as meganewtons in the video",
+    mutant("video-unit", "py/nonsmooth/figures/video.py", "force) / newtons", "force) / 1e3", "kilonewtons are drawn as meganewtons in the video",
            "plain:test_video.py::test_the_strip_of_forces_has_a_cursor_at_the_time_of_the_frame"),
     mutant("paraview-wet", PARAVIEW, '"wet": s.wet.astype(np.int8)', '"wet": s.released.astype(np.int8)', "released disks are wet in ParaView",
            "test_paraview.py::test_disks_are_the_snapshot_field_by_field"),

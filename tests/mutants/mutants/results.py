@@ -3,7 +3,7 @@ from mutant import mutant
 
 PY = "py/nonsmooth/"
 ANSWERS, PLAN, RESULTS, WALLS, SECTION = (
-    PY + name for name in ("comparison/answers.py", "campaign/plan.py", "results.py", "wall_series.py", "section.py")
+    PY + name for name in ("studies/comparison/answers.py", "campaign/plan.py", "studies/slope/results.py", "studies/slope/wall_series.py", "model/section/section.py")
 )
 SAID, PLANNED, PARTS, ROWS = "plain:test_comparison_answers.py", "plain:test_plan.py", "plain:test_summary_parts.py", "test_wall_series.py"
 
@@ -38,11 +38,11 @@ MUTANTS = (
            "plain:test_layers.py::test_the_hollow_before_the_backstop_is_no_ground"),
     mutant("stages-fall", PY + "measure/force_stages.py", "min(pushes[largest:])", "min(pushes)", "what the backstop bore before its largest force is a fall",
            "plain:test_force_stages.py::test_a_foot_that_loses_its_strength_before_the_slope_accelerates_shows"),
-    mutant("times-speed", PY + "characteristic_times.py", "speed[: last + 1] < percent / 100 * moving", "speed[: last + 1] < moving", "t2 is the same for all speeds",
+    mutant("times-speed", PY + "measure/characteristic_times.py", "speed[: last + 1] < percent / 100 * moving", "speed[: last + 1] < moving", "t2 is the same for all speeds",
            "plain:test_results.py::test_each_key_of_a_summary"),
-    mutant("control-held", PY + "campaign/paper_slopes.py", "slope_of(name, disks, seed, told), seed)", "slope_of(name, disks, seed, shipped[0]), seed)", "all tables stop where that of the first packing did",
+    mutant("control-held", PY + "studies/paper/paper_slopes.py", "slope_of(name, disks, seed, told), seed)", "slope_of(name, disks, seed, shipped[0]), seed)", "all tables stop where that of the first packing did",
            "test_paper_slopes.py::test_the_table_that_stops_at_t1_runs_after_the_shipped_slopes"),
-    mutant("control-release", PY + "campaign/paper_slopes.py", "{D_C: BEYOND, RELEASE: 5.0}", "{D_C: BEYOND}", "without weakening there is no release either",
+    mutant("control-release", PY + "studies/paper/paper_slopes.py", "{D_C: BEYOND, RELEASE: 5.0}", "{D_C: BEYOND}", "without weakening there is no release either",
            "test_paper_slopes.py::test_a_variant_changes_what_it_says_and_nothing_else"),
     mutant("results-highest", RESULTS, 'float(np.max(series["water_m"]))', 'float(series["water_m"][-1])', "the highest water is the last", PARTS + "::test_the_highest_water_is_not_the_last"),
     mutant("results-foot", RESULTS, "section.side * (end.x - ground.foot[0]) > 0", "end.x - ground.foot[0] > 0", "on a slope to the left what stayed is the deposit",
@@ -70,24 +70,24 @@ MUTANTS = (
     mutant("wall-upper", WALLS, "(one == upper) & (other == lower)", "(one == upper) & (other == upper)", "disks below with the higher id do not press",
            ROWS + "::test_each_interface_of_a_layer_has_its_own_law"),
     mutant("wall-lies", WALLS, "(one != k) & (one >= 0)", "(one != k)", "an obstacle is pushed by the wall that it stands on", ROWS + "::test_an_obstacle_is_pushed_by_what_hits_it_alone"),
-    mutant("slope-interface", PY + "slope.py", "lower.interfaceLaws[list(lower.interfaceLayers).index(upper.layer)]", "lower.interfaceLaws[0]", "all interfaces of a layer have the law of the first",
+    mutant("slope-interface", PY + "studies/slope/slope.py", "lower.interfaceLaws[list(lower.interfaceLayers).index(upper.layer)]", "lower.interfaceLaws[0]", "all interfaces of a layer have the law of the first",
            ROWS + "::test_each_interface_of_a_layer_has_its_own_law"),
     mutant("section-largest", SECTION, "return max(self.disks_of(layer).d_max for layer in self.layers)", "return self.disks.d_max", "a layer's own largest disks are forgotten",
            "plain:test_section.py::test_the_smallest_and_the_largest_disk_are_of_all_layers"),
-    mutant("pressed-calm", PY + "slope_packing.py", "mean - before < CALM * mean", "mean - before < CALM", "a large slope is pressed for ever, a small one is not",
+    mutant("pressed-calm", PY + "studies/slope/slope_packing.py", "mean - before < CALM * mean", "mean - before < CALM", "a large slope is pressed for ever, a small one is not",
            "test_slope_packing.py::test_pressing_ends_when_the_mean_depth_grows_no_more_at_any_size"),
-    mutant("course-left", PY + "experiment.py", "        if out.any():\n", "        if False:\n", "a disk that leaves the section is not noticed", "test_slope_course.py::test_a_disk_that_leaves_the_section_is_refused"),
-    mutant("course-seen", PY + "experiment.py", "        self._inside(disks)\n", "", "no row looks whether disks are still there",
+    mutant("course-left", PY + "studies/slope/experiment.py", "        if out.any():\n", "        if False:\n", "a disk that leaves the section is not noticed", "test_slope_course.py::test_a_disk_that_leaves_the_section_is_refused"),
+    mutant("course-seen", PY + "studies/slope/experiment.py", "        self._inside(disks)\n", "", "no row looks whether disks are still there",
            "test_slope_course.py::test_a_row_that_sees_a_lost_disk_ends_the_run_and_is_not_written"),
-    mutant("course-below", PY + "experiment.py", ' & (t["y"] > y0 - margin)', "", "a disk that falls through the ground is not noticed", "test_slope_course.py::test_a_disk_that_leaves_the_section_is_refused"),
-    mutant("compare-side", PY + "comparison/slopes.py", "None if front0 is None else s.side * float(", "None if front0 is None else float(", "a slope to the left has come back",
+    mutant("course-below", PY + "studies/slope/experiment.py", ' & (t["y"] > y0 - margin)', "", "a disk that falls through the ground is not noticed", "test_slope_course.py::test_a_disk_that_leaves_the_section_is_refused"),
+    mutant("compare-side", PY + "studies/comparison/slopes.py", "None if front0 is None else s.side * float(", "None if front0 is None else float(", "a slope to the left has come back",
            "plain:test_comparison_numbers.py::test_a_slope_to_the_left_has_the_numbers_of_its_mirror"),
-    mutant("compare-side-curve", PY + "comparison/slopes.py", '"front": s.side * (series', '"front": (series', "the way of a slope to the left is drawn downwards",
+    mutant("compare-side-curve", PY + "studies/comparison/slopes.py", '"front": s.side * (series', '"front": (series', "the way of a slope to the left is drawn downwards",
            "plain:test_comparison_numbers.py::test_a_slope_to_the_left_has_the_numbers_of_its_mirror"),
     # ---- files that are written
     mutant("given-file", PY + "records/given.py", "isinstance(v, (str, os.PathLike)) and bool(os.fspath(v))", "isinstance(v, (str, os.PathLike))", "a file of no name is written",
            "test_wrong_types.py::test_a_value_of_another_kind_is_named"),
-    mutant("given-water", PY + "tables.py", 'hasattr(v, "bodyTable") and not hasattr(v, "contactTable")', 'hasattr(v, "bodyTable")', "the table of the contacts' engine is read as the water's",
+    mutant("given-water", PY + "world/tables.py", 'hasattr(v, "bodyTable") and not hasattr(v, "contactTable")', 'hasattr(v, "bodyTable")', "the table of the contacts' engine is read as the water's",
            "test_wrong_types.py::test_a_value_of_another_kind_is_named"),
     mutant("given-entries", PY + "records/given.py", "len(one) == 2 for one in v", "True for one in v", "a list of three things is written as times and files",
            "test_wrong_types.py::test_a_value_of_another_kind_is_named"),

@@ -6,7 +6,7 @@ MAT, PHYS, PHYS_H, COLLIDER = "pkg/dem/NscdMat.cpp", "pkg/dem/NscdPhys.cpp", "pk
 LOOP, ENGINE, WATER, PLATE = "pkg/dem/NscdInteractionLoop.cpp", "pkg/dem/ContactDynamicsEngine.cpp", "pkg/dem/PorePressureEngine.cpp", "pkg/dem/PlateLoadEngine.cpp"
 GIVEN, STEPPER, ELLIPSE, CHECK = "pkg/dem/seam/GivenMotion.cpp", "pkg/dem/NonsmoothTimeStepper.cpp", "pkg/dem/BondEllipseEngine.cpp", "pkg/dem/SceneCheck.cpp"
 OUTLIVED, EVENTS, NUMBERS, EVERY = "test_outlived_state.py", "test_state_events.py", "test_numbers_without_sense.py", "test_every_number.py"
-BACKGROUND, WATCHED = "py/nonsmooth/background.py", "test_background.py"
+BACKGROUND, WATCHED = "py/nonsmooth/world/background.py", "test_background.py"
 
 MUTANTS = (
     # ---- written to beside a run

@@ -5,7 +5,7 @@ SEGMENT, JOINTS, JOINTS_H, ARC, ARC_H = (
     f"pkg/dem/{name}" for name in ("Segment.cpp", "WallJoints.cpp", "WallJoints.hpp", "Arc.cpp", "Arc.hpp")
 )
 PLATE, LOOP, READING = "pkg/dem/PlateLoadEngine.cpp", "pkg/dem/NscdInteractionLoop.cpp", "pkg/dem/seam/ContactReading.hpp"
-SEAM, CORRECT, SCENE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "py/nonsmooth/scene.py"
+SEAM, CORRECT, SCENE = "pkg/dem/seam/ContactSeam.cpp", "pkg/dem/seam/ContactSeamCorrect.cpp", "py/nonsmooth/world/scene.py"
 KEPT = "test_joints.py::test_a_disk_keeps_its_speed_over_joints_of_walls_made"
 CORNERS = "test_joints.py::test_corners_of_single_walls_are_those_of_a_polyline"
 SWING = "test_arcs.py::test_a_swing_in_a_bowl_keeps_its_energy"

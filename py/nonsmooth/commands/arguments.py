@@ -1,0 +1,72 @@
+"""What the laboratory's scripts share on the command line: types of arguments, and the progress bar."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+
+__all__ = ["add_runs", "bar", "positive", "pressures"]
+
+
+def pressures(least=1):
+    """Type of a list of ``least`` or more different pressures, as "0.5,1,2"."""
+
+    def read(text):
+        try:
+            values = [float(part) for part in text.split(",")]
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r}: give pressures in MPa, separated by commas") from None
+        if not all(v > 0 for v in values) or len(set(values)) < max(least, len(values)):
+            raise argparse.ArgumentTypeError(
+                f"{text!r}: give {'' if least < 2 else f'{least} or more '}positive pressures, each once"
+            )
+        return values
+
+    return read
+
+
+def positive(text):
+    """Type of a number above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
+    if not value > 0:
+        raise argparse.ArgumentTypeError(f"{text}: it must be positive")
+    return value
+
+
+def add_runs(parser, out, what):
+    """Adds what commands that run many things side by side share: ``out``: their usual folder; ``what``: the things, as "tests"."""
+    parser.add_argument("--out", default=out, metavar="DIR", help="folder for the results (default: %(default)s)")
+    parser.add_argument(
+        "--threads", type=int, default=os.cpu_count(), metavar="T", help=f"{what} at a time (default: all cores)"
+    )
+    parser.add_argument(
+        "--resume", action="store_true", help=f"keep {what} in DIR that have ended, and go on with others"
+    )
+
+
+@contextlib.contextmanager
+def bar():
+    """A progress bar; gives a function to call with the share done and what is being done, in words."""
+    from tqdm import tqdm
+
+    from . import closing
+
+    # a file gets a line every half a minute
+    with closing(
+        tqdm(
+            total=1000,
+            mininterval=0.5 if sys.stderr.isatty() else 30,
+            bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed} gone, about {remaining} left",
+        )
+    ) as shown:
+
+        def progress(share, doing):
+            shown.set_description_str(doing, refresh=False)
+            shown.update(int(1000 * share) - shown.n)
+
+        yield progress

@@ -1,0 +1,105 @@
+"""A section as the data of a section file, with nothing left out: what a run keeps of what it was asked for. Needs no YADE."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import yaml
+
+from ...system.whole_files import write_atomically
+
+__all__ = ["FILE", "material", "plain", "write"]
+
+FILE = "section.yaml"  # in the folder of a run
+
+
+def plain(section) -> dict:
+    """The keys and values of a section file that gives this Section; `section.of` takes them too. A similar section (`like`) loses where it came from."""
+    disks = lambda d: {
+        "diameter": [d.d_min, d.d_max],
+        "distribution": d.distribution,
+        "packing_fraction": d.packing_fraction,
+    }  # noqa: E731
+    points = lambda item: [list(map(float, p)) for p in item.vertices]  # noqa: E731
+    water, stages = section.water, section.stages
+    data = {
+        "name": section.name,
+        "description": section.description,
+        "gravity": section.gravity,
+        "seed": section.seed,
+        "walls": [
+            {
+                "name": w.name,
+                "material": w.material,
+                "role": w.role,
+                **({"apart": True} if w.apart else {}),
+                "vertices": points(w),
+            }
+            for w in section.walls
+        ],
+        "layers": [
+            {
+                "name": layer.name,
+                "material": layer.material,
+                "role": layer.role,
+                **({"disks": disks(layer.disks)} if layer.disks else {}),
+                "vertices": points(layer),
+            }
+            for layer in section.layers
+        ],
+        "interfaces": [
+            {
+                "name": i.name,
+                "between": list(i.between),
+                "material": i.material,
+                "flat": i.flat,
+                **({"role": i.role} if i.role else {}),
+            }
+            for i in section.interfaces
+        ],
+        "materials": {name: material(m) for name, m in section.materials.items()},
+        "disks": disks(section.disks) | ({"pressed": True} if section.pressed else {}),
+        "stages": {
+            "settle": dataclasses.asdict(stages.settle),
+            "dry": stages.dry,
+            "water": {"hold": stages.water_hold},
+            "end": dataclasses.asdict(stages.end),
+        },
+        "numerics": {k: v for k, v in dataclasses.asdict(section.numerics).items() if v is not None},
+    }
+    if section.unusual:
+        data["unusual"] = list(section.unusual)
+    if not section.interfaces:
+        del data["interfaces"]
+    if water is not None:
+        # the rate goes on from the last point, and a file has one of the two
+        table = {"rate": water.rate} if water.table == ((0.0, 0.0),) else {"points": [list(p) for p in water.table]}
+        data["water"] = {
+            "unit_weight": water.unit_weight,
+            "plane": water.wall or {"point": list(map(float, water.point)), "dip": float(water.dip)},
+            "pressure_gradient": (
+                water.pressure_gradient
+                if isinstance(water.pressure_gradient, str)
+                else [float(g) for g in water.pressure_gradient]
+            ),
+            "volume": water.volume,
+            "table": table,
+            "release_distance": water.release_distance,
+        }
+    return data
+
+
+def material(m) -> dict:
+    """The keys and values of a Material in a section file."""
+    found = {k: v for k, v in dataclasses.asdict(m).items() if k != "name" and v is not None}
+    return found | {"bond_ellipse": list(m.bond_ellipse)}
+
+
+def write(section, path):
+    """Writes the section file, whole or not at all."""
+    write_atomically(
+        path,
+        yaml.safe_dump(
+            plain(section), sort_keys=False, allow_unicode=True, default_flow_style=None, width=150
+        ).encode(),
+    )

@@ -1,0 +1,282 @@
+"""The report of a comparison as one HTML page with its figures in it; the first screen answers the questions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ... import report
+from . import answers, figures
+from .answers import number, spread
+from .cases import modulus_label
+
+__all__ = ["Section", "common_sections", "tables_of", "write"]
+
+TEMPLATE = Path(__file__).with_name("report.html.j2")
+
+
+SHOWN = ("error", "overlap", "front_travel_m")  # of the convergence, in the figure, besides curves and key quantities
+
+
+@dataclass
+class Section:
+    """A part of the page: ``text`` (sentences), ``plots`` [(path of a PNG, caption)], ``tables`` [(caption, heads, rows)]."""
+
+    title: str
+    text: list = field(default_factory=list)
+    plots: list = field(default_factory=list)
+    tables: list = field(default_factory=list)
+
+
+def write(path, title, lead, questions, sections, machine):
+    """Writes the page.
+
+    ``lead``: sentences on what was compared; ``questions``: [(question, verdict, sentences)]; ``machine``: as benchmark.machine.describe tells.
+    """
+    # from the working folder, and not from the page's
+    found = [replace(s, plots=[(Path(plot).absolute(), caption) for plot, caption in s.plots]) for s in sections]
+    return report.write(path, TEMPLATE, title=title, lead=lead, questions=questions, sections=found, machine=machine)
+
+
+def tables_of(sections):
+    """Title, heads and rows of each table of ``sections``, as ``summary.json`` holds them: cells are words."""
+    return [
+        [s.title, list(heads), [[str(cell) for cell in row] for row in rows]]
+        for s in sections
+        for _, heads, rows in s.tables
+    ]
+
+
+def _percent(value):
+    return "–" if value is None else f"{100 * value:.2g} %"
+
+
+def common_sections(out, scenario, plan, outcomes, summary):
+    """Sections that every scenario has: quantities, cost, work and precision, convergence, runs. Figures go to ``out/figures``."""
+    folder = Path(out) / "figures"
+    return [
+        _quantities(summary),
+        _overlaps(folder, scenario, plan, outcomes, summary),
+        _work(folder, scenario, summary),
+        _convergence(folder, scenario, summary),
+        _runs(scenario, outcomes),
+    ]
+
+
+def _quantities(summary):
+    rows = []
+    for q in summary["quantities"].values():
+        cell = lambda w: spread(q[w]["mean"], q[w]["sd"], q["unit"])  # noqa: E731
+        within = {None: "not told", True: "yes", False: "no"}[q["agree"]]
+        rows.append(
+            (
+                q["means"],
+                cell("hard"),
+                cell("soft"),
+                number(q["difference"], q["unit"]),
+                "–" if q["difference_95"] is None else "± " + number(q["difference_95"], q["unit"]),
+                within,
+            )
+        )
+    caption = (
+        f"Means and standard deviations over seeds {', '.join(map(str, summary['seeds']))}; soft with "
+        f"{modulus_label(summary['ensemble_stiffness_Pa'])}. "
+        "Differences are soft minus hard of the same packing, with their 95 % confidence (Student's t)."
+    )
+    return Section(
+        "All quantities", tables=[(caption, ("quantity", "hard", "soft", "difference", "confidence", "the same"), rows)]
+    )
+
+
+def _overlaps(folder, scenario, plan, outcomes, summary):
+    sweep, hard = [outcomes[c] for c in plan.sweep], outcomes[plan.ensemble[0][0]]
+    moduli = [o.case.stiffness for o in sweep]
+    plots = [
+        (
+            figures.overlaps(
+                moduli,
+                [o.overlap_rest for o in sweep],
+                [o.overlap for o in sweep],
+                hard.overlap_rest,
+                hard.overlap,
+                folder / "overlaps.png",
+                scenario.OVERLAP_WHEN,
+            ),
+            f"{scenario.OVERLAP} The same in both worlds.",
+        ),
+        (
+            figures.cost(
+                moduli,
+                [o.cost.rate for o in sweep],
+                [1 / o.cost.step_s for o in sweep],
+                hard.cost.rate,
+                1 / hard.cost.step_s,
+                folder / "cost.png",
+            ),
+            f"Cost of a second of simulation {scenario.COST_WHEN}: steps alone, without records; one thread a run.",
+        ),
+    ]
+    return Section(
+        "Overlaps and cost",
+        [
+            *answers.answer_cost(summary),
+            "Wall times were taken while other runs of the comparison shared the machine; scripts/compare_hard_soft.py "
+            "--cost measures them alone.",
+        ],
+        plots,
+    )
+
+
+def _work(folder, scenario, summary):
+    work = summary["work_precision"]
+    short = lambda label: label.removeprefix("soft, ").removeprefix("hard, ")  # noqa: E731
+    panels = [
+        (
+            title,
+            *(
+                [(p["wall_s"], p["error"], short(p["label"])) for p in work[kind][world]]
+                for world in ("hard", "soft", "soft_aside")
+            ),
+        )
+        for kind, title in (
+            ("against_hard", "against the finest hard run"),
+            ("against_own", "against the finest run of its own world"),
+        )
+    ]
+    path = figures.work_precision(panels, work["scatter"], folder / "work_precision.png")
+    rows = [
+        (
+            p["label"],
+            number(p["wall_s"], "s"),
+            "–" if p["error"] is None else number(p["error"]),
+            ", ".join(
+                f"{scenario.CURVES.get(n, n.removesuffix('_m').replace('_', ' '))} {number(v, digits=2)}"
+                for n, v in p["parts"].items()
+            ),
+        )
+        for w in ("hard", "soft", "soft_aside")
+        for p in work["against_hard"][w]
+    ]
+    text = [
+        f"Error: root mean square of relative differences of {', '.join(scenario.CURVES.values())} and key quantities, against a reference run "
+        f"of the same packing. "
+        f"Hard runs vary by time step and tolerance, soft ones by stiffness, each with {summary['step_share']:g} of its stable step. "
+        + (
+            "With one seed the scatter is not known."
+            if work["scatter"] is None
+            else f"The scatter, the median of the same error between hard runs of different seeds, is {number(work['scatter'])}."
+        )
+        + (
+            " The open mark is the run with the other kind of bonds, which is not among those that are compared at equal accuracy."
+            if work["against_hard"]["soft_aside"]
+            else ""
+        )
+    ]
+    return Section(
+        "Work and precision",
+        text,
+        [
+            (
+                path,
+                "Error against wall time; the lower left is better. In the grey band errors are below the "
+                "scatter over seeds and tell nothing.",
+            )
+        ],
+        [("Errors against the finest hard run", ("run", "wall time", "error", "its parts"), rows)],
+    )
+
+
+def _convergence(folder, scenario, summary):
+    found = summary["convergence"]
+    rows = list(found["rows"].values())
+    shown = [
+        r for name, r in found["rows"].items() if name in SHOWN or name in scenario.KEYS or name in scenario.CURVES
+    ]
+    plots = [
+        (
+            figures.convergence(
+                found["stiffnesses_Pa"],
+                [(r["means"], r["differences"], r["scatter"], r["power"], r["scale"]) for r in shown],
+                folder / "convergence.png",
+            ),
+            "Relative difference of soft runs from the hard one of the same packing, against stiffness; dashed: the power of E that fits best.",
+        )
+    ]
+    forces = found["forces"]
+    if any(c is not None for c in forces["correlation"]):
+        plots.append(
+            (
+                figures.network(
+                    found["stiffnesses_Pa"],
+                    forces["correlation"],
+                    list(zip(forces["hard_runs"], forces["hard_correlation"])),
+                    folder / "network.png",
+                ),
+                "Forces at the same contacts, soft against hard, and between hard runs of different numerics: in a packing with more contacts "
+                "than it needs, forces are not unique.",
+            )
+        )
+    verdict = {True: "yes", False: "no", None: "–"}
+    table = [
+        (
+            r["means"],
+            *(number(d, digits=2) if d is not None else "–" for d in r["differences"]),
+            "–"
+            if r["power"] is None
+            else f"{r['power']:.2f}" + ("" if r["power_error"] is None else f" ± {r['power_error']:.2f}"),
+            _percent(r["scatter"]),
+            verdict[r["stiffest_within_scatter"]],
+        )
+        for r in rows
+    ]
+    heads = (
+        "difference from hard of",
+        *(modulus_label(e) for e in found["stiffnesses_Pa"]),
+        "power of E",
+        "scatter over seeds",
+        "stiffest within it",
+    )
+    text = [
+        "What converges has a clearly negative power of E; the mean overlap must, with about −1. What stays at the level of the scatter over "
+        "seeds does not converge any "
+        "further: a chaotic motion depends on details that no stiffness settles, and so do single contact forces. What stays above it does not "
+        "converge with the stiffnesses that were run."
+    ]
+    return Section("Convergence of soft to hard", text, plots, [("Relative differences by stiffness", heads, table)])
+
+
+def _runs(scenario, outcomes):
+    rows = [
+        (
+            c.label,
+            c.seed,
+            o.cost.steps,
+            number(o.cost.step_s, "s"),
+            number(o.cost.simulated_s, "s"),
+            number(o.cost.wall_s, "s"),
+            number(o.cost.wall_s / o.cost.simulated_s, "s"),
+            number(o.overlap, digits=2),
+            "; ".join(o.notes) or "–",
+        )
+        for c, o in sorted(outcomes.items(), key=lambda item: item[0].name)
+    ]
+    return Section(
+        "All runs",
+        tables=[
+            (
+                "Each run had one thread of its own; wall times are of the steps, without records.",
+                (
+                    "run",
+                    "seed",
+                    "steps",
+                    "time step",
+                    "simulated",
+                    "wall time",
+                    "wall time a simulated second",
+                    f"mean overlap, {scenario.OVERLAP_WHEN[1]}",
+                    "remarks",
+                ),
+                rows,
+            )
+        ],
+    )

@@ -1,0 +1,381 @@
+"""One biaxial test: compression by the platens at constant lateral pressure (Taboada and Estrada 2009, section 5.2, Figures 9 and 10).
+
+    ε₁ = 1 − H/H₀   axial strain, at the rate ε̇ = I/t_i with t_i = √(m/σ₃), I the inertial number,
+    σ₁ = F/W        mean over both platens,            σ₃ on the sides, held,
+    ε_v = A/A₀ − 1  volumetric strain, positive in dilation.
+
+The platens reach their rate over the strain :data:`RAMP`: with v = ε̇ H₀ the sample's inertia takes ρ H v̇ ≈ σ₃ I² (H/d)²/RAMP, half a per cent of σ₃ for
+the default I = 1e-4 and a sample 100 disks high. What remains of it, and of waves, shows as the difference between the two platens, which each
+row has. A step is :attr:`Test.step` t_i, so that a test takes the same number of steps under any pressure.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+
+import numpy as np
+
+from yade import O
+from yade.wrapper import ContactDynamicsEngine
+
+from ... import records
+from ...course import driver
+from ...errors import UserError
+from ...measure import cycles
+from ...records import checkpoints
+from ...running.kept_runs import Progress
+from ...system.whole_files import remove, remove_parts, whole, write_arrays
+from ...world import tables
+from ...world.stepping import advance
+from . import membrane, sample
+from .biaxial_test import CYCLE, PHASES, Test, key_of
+from .walls import Walls
+
+__all__ = ["COLUMNS", "OF_SOLVER", "ROW_STRAIN", "Course", "TestError", "keep_cycle", "run"]
+
+RAMP = 0.002  # strain in which the platens reach their speed
+ROW_STRAIN = 1e-4  # between two rows of series.csv
+FILM = 100  # frames of a video, besides the first
+SNAPSHOTS = (0.01, 0.02, 0.04)  # strains, besides the begin and the end
+SAMPLES = 20  # of the forces on the walls in a row, with soft contacts; each step with hard ones
+SWITCHES = 20  # times that the membrane is laid anew while soft contacts come to rest in it
+
+COLUMNS = (
+    "step",
+    "time_s",
+    "strain",
+    "volumetric_strain",
+    "sigma1_top_Pa",
+    "sigma1_bottom_Pa",
+    "sigma3_left_Pa",
+    "sigma3_right_Pa",
+    "inertial_number",
+    "bonds_alive",
+    "bonds_broken_tension",
+    "bonds_broken_shear",
+    "bonds_broken_torque",
+    "bonds_broken_mixed",
+    "contacts",
+    "speed_mean_m_per_s",
+    "iterations_mean",
+    "residual_worst",
+    "unconverged",
+    "overlap_worst_rel",
+    "energy_kinetic_J",
+)
+#: Columns that only a test of rigid contacts has.
+OF_SOLVER = ("iterations_mean", "residual_worst", "unconverged", "energy_kinetic_J")
+
+
+class TestError(UserError, RuntimeError):
+    """A test that cannot go on; the message says why and what helps."""
+
+    __test__ = False  # no test of pytest's
+
+
+class Course(driver.Course):
+    """Runs a test and writes its records into ``folder``."""
+
+    def __init__(self, test, folder, body, state):
+        """``body``: the Sample in the scene; ``state``: dictionary of numbers that a checkpoint keeps."""
+        self.test, self.folder, self.sample, self.state = test, Path(folder), body, state
+        self.hard, self.progress = isinstance(body.engine, ContactDynamicsEngine), None
+        self.unsaved = None if self.hard else "a test of soft contacts"
+        self.series = records.SeriesWriter(
+            self.folder / "series.csv",
+            COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER),
+            resume_from=state.pop("series", None),
+            overwrite=True,
+        )
+        super().__init__(self.series, spent=state)
+
+    # ---- begin ----------------------------------------------------------------------------------
+    @classmethod
+    def begin(cls, test, folder, world=None):
+        """Puts the sample into the scene, bonded and under its pressure; ``world``: a :class:`.worlds.Soft`, rigid contacts unless given."""
+        began = time.monotonic()
+        body = sample.Sample.build(
+            test.shape,
+            test.material,
+            test.platen,
+            test.confining,
+            world,
+            tolerance=min(test.tolerance, 1e-5),
+            maxIterations=max(test.max_iterations, 1000),
+            adhesion_range=test.adhesion_range,
+        )
+        engine, walls, flexible = body.engine, body.walls, test.sides == "flexible"
+        unit, width = math.sqrt(body.mass / test.confining), walls.width()
+        box = walls.height() * width
+        state = {
+            "unit_s": unit,
+            "rate": test.inertia / unit,
+            "height": walls.height(),
+            "begin_time": O.time,
+            "wall_s": 0.0,
+            "wall_steps_s": 0.0,
+        }
+        course = cls(test, folder, body, state)
+        walls.drive("top")
+        if flexible:
+            walls.remove("left", "right")
+        if course.hard:
+            engine.tolerance, engine.maxIterations = test.tolerance, test.max_iterations
+            O.dt = test.step * unit
+            state |= {"sweeps": engine.totalIterations, "unconverged": engine.unconverged}
+        else:
+            course._settle(unit)
+        state["height"] = walls.height()
+        area = course._area()
+        if not flexible and test.platens != "smooth":
+            # platens that drag must not load one side more than the other
+            walls.free("left", walls.state("right").mass)
+        state |= {
+            "width": width,
+            "area": area,
+            "bonds": body.bonds,
+            "begin": O.iter,
+            "begin_time": O.time,
+            "disks": body.count,
+            "contacts": engine.contacts,
+            "made_s": time.monotonic() - began,
+            "fraction": body.disks_area() / (box if course.hard else area),
+        }
+        course.snapshot("begin")
+        return course
+
+    def _settle(self, unit):
+        """Bonds soft contacts, at rest in the membrane where there is one.
+
+        A membrane presses on other disks than a wall did: soft contacts feel a blow that would break bonds, so they are made when it has died away. In the hard world bonds come before the membrane,
+        where they do not feel the change.
+        """
+        if self.test.sides == "flexible":
+            for _ in range(SWITCHES):
+                self._membrane()
+                advance(max(1, round(sample.REST_UNITS / SWITCHES * unit / O.dt)))
+        self.sample.bonds = self.sample.engine.bond()
+
+    @classmethod
+    def resume(cls, test, folder):
+        """From the checkpoint in ``folder``; TestError where there is none or it is another test's."""
+        content = checkpoints.read(Path(folder), key_of(test), TestError)
+        body = sample.Sample(Walls(content["walls"], test.confining), content["first_disk"], content["count"])
+        course = cls(test, folder, body, content["state"] | {"series": content["series"]})
+        if test.sides == "flexible":
+            course.state["pressed"] = []  # a saved scene keeps no permanent forces
+            course._membrane()
+        return course
+
+    # ---- the course -----------------------------------------------------------------------------
+    @property
+    def strain(self):
+        """Axial strain so far, compression positive."""
+        return 1 - self.sample.walls.height() / self.state["height"]
+
+    def run(self, progress=None):
+        """Shears the sample to the end; ``progress``: called with the share done. Ctrl-C ends it after the next row, with a checkpoint where it has some."""
+        self.progress = progress
+        self.frame(0)
+        driver.drive(self)
+
+    def _over(self):
+        return not self.strain < self.test.strain - 1e-9
+
+    def _where(self):
+        return f"at a strain of {self.state['strain']:.4f}"
+
+    def _steps(self):
+        """Those of a row; returns the mean force on each wall [N/m], and what the solver's columns hold."""
+        s, engine, walls = self.state, self.sample.engine, self.sample.walls
+        # soft steps are thousands a row
+        least = 1 if self.hard else SAMPLES
+        per_row = max(least, round(ROW_STRAIN / (s["rate"] * O.dt)))
+        parts = [len(p) for p in np.array_split(np.arange(per_row), per_row if self.hard else SAMPLES)]
+        sums, worst, kinetic = {}, 0.0, 0.0
+        if self.hard:
+            sweeps, missed = engine.totalIterations, engine.unconverged
+        for part in parts:
+            elapsed = (O.time - s["begin_time"]) * s["rate"]
+            # the speed grows linearly with the time until half of twice RAMP's strain
+            share = min(1.0, (elapsed + 0.5 * part * s["rate"] * O.dt) / (2 * RAMP))
+            walls.drive("top", (0, -share * s["rate"] * s["height"]))
+            for _ in range(part):
+                walls.step()
+            if self.hard:
+                worst = max(worst, engine.residual)
+                kinetic += engine.kineticEnergy / per_row
+            for name, force in walls.forces().items():
+                sums[name] = sums.get(name, 0.0) + force / len(parts)
+        if not self.hard:
+            return sums, {}
+        solved = ((engine.totalIterations - sweeps) / per_row, worst, engine.unconverged - missed, kinetic)
+        return sums, dict(zip(OF_SOLVER, solved, strict=True))
+
+    def _look(self, made):
+        s, test = self.state, self.test
+        area = self._area()
+        before, s["strain"] = s.get("strain", 0.0), self.strain
+        self._row(area, *made)
+        if test.forces_from is not None and s["strain"] >= test.forces_from - 1e-9:
+            self.snapshot(f"{O.iter:09d}", CYCLE)
+        for strain in SNAPSHOTS:
+            if before < strain <= s["strain"] and strain < test.strain - 1e-9:
+                self.snapshot(f"{100 * strain:g}")
+        self.frame(int(FILM * s["strain"] / test.strain + 1e-9))
+        if self.progress:
+            self.progress(s["strain"] / test.strain)
+
+    def _finish(self):
+        self.snapshot("end")
+        self._tick()
+
+    def _area(self):
+        """Area of the sample [m²]; a membrane is laid anew."""
+        walls = self.sample.walls
+        return self._membrane() if self.test.sides == "flexible" else walls.height() * walls.width()
+
+    def _membrane(self):
+        """Puts the pressure on the outermost disks; returns the sample's area [m²]."""
+        body = self.sample
+        t = tables.bodies(body.engine)
+        try:
+            found, area = membrane.forces(
+                t["x"], t["y"], t["r"], body.walls.place("bottom")[1], body.walls.place("top")[1], self.test.confining
+            )
+        except membrane.MembraneError as error:
+            raise TestError(f"at a strain of {self.strain:.4f}: {error}, or give --sides rigid") from None
+        now = set(np.flatnonzero(np.any(found != 0, axis=1)).tolist())
+        for k in self.state.get("pressed", ()):
+            if k not in now:
+                O.forces.setPermF(body.first_disk + k, (0, 0, 0))
+        for k in sorted(now):
+            O.forces.setPermF(body.first_disk + k, (float(found[k, 0]), float(found[k, 1]), 0))
+        self.state["pressed"] = sorted(now)
+        return area
+
+    def _row(self, area, sums, solved):
+        engine, s = self.sample.engine, self.state
+        height = self.sample.walls.height()
+        width = area / height
+        sides = self.test.sides == "rigid"
+        row = {
+            "step": O.iter,
+            "time_s": O.time - s["begin_time"],
+            "strain": s["strain"],
+            "volumetric_strain": area / s["area"] - 1,
+            "sigma1_top_Pa": sums["top"] / width,
+            "sigma1_bottom_Pa": sums["bottom"] / width,
+            "sigma3_left_Pa": sums["left"] / height if sides else self.test.confining,
+            "sigma3_right_Pa": sums["right"] / height if sides else self.test.confining,
+            "inertial_number": s["rate"] * s["unit_s"],
+            **tables.bonds(engine),
+            "contacts": engine.contacts,
+            "speed_mean_m_per_s": engine.meanSpeed,
+            "overlap_worst_rel": engine.overlapWorst,
+        }
+        self.series.write(row | solved)
+
+    # ---- records --------------------------------------------------------------------------------
+    def snapshot(self, name, folder="snapshots"):
+        """Writes the present state with its forces as ``NAME.npz`` of a ``folder``, a records.Snapshot; walls are numbered as in Walls.ids."""
+        body = self.sample
+        t = tables.bodies(body.engine)
+        folder = self.folder / folder
+        folder.mkdir(parents=True, exist_ok=True)
+        none = np.zeros(body.count, bool)
+        records.write_snapshot(
+            folder / f"{name}.npz",
+            time_s=O.time - self.state["begin_time"],
+            step=O.iter,
+            water_m=0.0,
+            layer=np.zeros(body.count, int),
+            wet=none,
+            released=none,
+            **{key: t[key] for key in ("x", "y", "r", "angle", "vx", "vy")},
+            **tables.loaded_contacts(
+                body.engine, body.first_disk, {i: k for k, i in enumerate(body.walls.ids.values())}
+            ),
+        )
+
+    def frame(self, number):
+        """Keeps disks and walls for the video as ``frames/NUMBER.npz``, once for a ``number`` of :data:`FILM`, in single precision."""
+        if number <= self.state.get("frame", -1):
+            return
+        self.state["frame"] = number
+        t, walls = tables.bodies(self.sample.engine), self.sample.walls
+        (self.folder / "frames").mkdir(parents=True, exist_ok=True)
+        write_arrays(
+            self.folder / "frames" / f"{number:04d}.npz",
+            compressed=True,
+            time_s=O.time - self.state["begin_time"],
+            strain=self.strain,
+            bottom_top=[walls.place(name)[1] for name in ("bottom", "top")],
+            left_right=[walls.place(name)[0] for name in ("left", "right") if name in walls.ids],
+            **{key: np.asarray(t[key], np.float32) for key in ("x", "y", "r", "angle")},
+        )
+
+    def _save(self):
+        checkpoints.write(
+            self.folder,
+            key_of(self.test),
+            {
+                "walls": self.sample.walls.ids,
+                "first_disk": self.sample.first_disk,
+                "count": self.sample.count,
+                "state": self.state,
+                "series": self.series.mark(),
+            },
+        )
+
+
+def keep_cycle(folder, begin, end):
+    """Of the forces of rows in a test's folder, keeps those of the cycle with the deepest drop between two strains, by the names ``begin``, ``peak`` and ``end``, and removes the others; all
+    where there is no cycle. Returns the cycles.Cycle, or None."""
+    folder = Path(folder)
+    series = records.read_series(folder / "series.csv")
+    chosen = cycles.deepest(series, begin, end)
+    for name, row in zip(PHASES, (chosen.begin, chosen.peak, chosen.end) if chosen else ()):
+        path = folder / CYCLE / f"{int(series['step'][row]):09d}.npz"
+        if path.exists():  # not where a killed run has done so already
+            path.replace(folder / CYCLE / f"{name}.npz")
+    remove([path for path in whole(folder / CYCLE, "*.npz") if path.stem.isdecimal()], "rows that no picture shows")
+    return chosen
+
+
+def run(folder, world=None, **plain):
+    """Runs the test given as plain data (see :meth:`Test.of`) in the folder, from its checkpoint if it has one; returns numbers of the course.
+
+    ``world``: a :class:`.worlds.Soft`, which has no checkpoints; rigid contacts unless given. ``wall_s`` counts all but making the sample, ``wall_steps_s`` the steps alone, without records and
+    checkpoints [s]. The share done is kept in the file ``progress``.
+    """
+    test, folder = Test.of(plain), Path(folder)
+    remove_parts(folder, folder / "snapshots", folder / "frames", folder / CYCLE, folder / "checkpoint")
+    resumes = world is None and checkpoints.exists(folder)
+    course = Course.resume(test, folder) if resumes else Course.begin(test, folder, world)
+    course.run(Progress(folder))
+    if test.forces_from is not None:
+        keep_cycle(folder, test.forces_from, test.strain)
+    s, engine = course.state, course.sample.engine
+    steps = O.iter - s["begin"]
+    found = {name: s[name] for name in ("disks", "bonds", "contacts", "wall_s", "wall_steps_s")} | {
+        "packing_fraction": s["fraction"],
+        "height_m": s["height"],
+        "width_m": s["width"],
+        "rate_per_s": s["rate"],
+        "inertial_number": test.inertia,
+        "time_step_s": O.dt,
+        "steps": steps,
+        "simulated_s": O.time - s["begin_time"],
+        "wall_making_s": s["made_s"],
+        "overlap_worst_rel": engine.overlapWorstEver,
+    }
+    if not course.hard:
+        return found
+    return found | {
+        "sweeps_mean": (engine.totalIterations - s["sweeps"]) / steps,
+        "unconverged": engine.unconverged - s["unconverged"],
+        "residual": engine.residual,
+    }

@@ -1,0 +1,146 @@
+"""The figures of a run, drawn from its records: one by its name, or all with the video and the files for ParaView. Needs no YADE."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
+from pathlib import Path
+
+from ... import figures, records
+from ...figures import paraview, video
+from ...measure.characteristic_times import chosen_rows
+from ...model import scales
+from ...system import checks
+from . import frames, results, verdict
+
+__all__ = ["Drawing", "draw"]
+
+
+class Drawing:
+    """Draws the figures of the run in ``folder``, of a Section, with its ``summary``."""
+
+    def __init__(self, folder, section, summary):
+        self.folder, self.section, self.times = Path(folder), section, summary["times_s"]
+        self.failed_dry = results.moved_before_water(summary)
+        self.verdict = summary.get("verdict")  # versions before had none
+        self.window = scales.of(section).mean_seconds
+
+    @cached_property
+    def every(self):
+        """All rows of the series."""
+        return records.read_series(self.folder / "series.csv")
+
+    @cached_property
+    def series(self):
+        """Its rows from where the slope rests, or fails dry."""
+        return chosen_rows(self.every, {"failed_dry": self.failed_dry})
+
+    @cached_property
+    def shots(self):
+        """[(time [s], path)] of all snapshots: those at regular times, and of the characteristic ones."""
+        return frames.of_run(self.folder, self.every)
+
+    @cached_property
+    def first(self):
+        """The Snapshot before the water rises; None where the slope never stood then."""
+        path = self.folder / results.BEGIN
+        return records.read_snapshot(path) if path.exists() and self.failed_dry is None else None
+
+    @cached_property
+    def last(self):
+        """That of the end; None where the run has not come so far."""
+        path = self.folder / results.END
+        return records.read_snapshot(path) if path.exists() else None
+
+    @cached_property
+    def video_shots(self):
+        """Paths of the snapshots that the video has, one a frame."""
+        return [path for _, path in frames.regular(self.shots, self.every, self.section, self.failed_dry)]
+
+    def video(self, progress=None):
+        """Writes ``avalanche.mp4`` into the folder: (its path, None), or (None, why there is none); None where the run has no snapshots."""
+        if not self.video_shots:
+            return None
+        return video.write_mp4(
+            self.video_shots,
+            self.section,
+            self.folder / "avalanche.mp4",
+            series=self.series,
+            times=self.times,
+            window=self.window,
+            progress=progress,
+        )
+
+    def cases(self):
+        """[(name, Snapshot)] at the characteristic times, and at the end of a slope that never fails or is stopped."""
+        found = []
+        for name, t in sorted(((name, t) for name, t in self.times.items() if t is not None), key=lambda item: item[1]):
+            if name == "t0" and self.first is not None:
+                found.append((name, self.first))
+            elif self.shots:
+                found.append((name, records.read_snapshot(frames.nearest(self.shots, t))))
+        if self.times["t5"] is None and self.last is not None and not (found and found[-1][1].step == self.last.step):
+            found.append((f"end, {self.verdict}" if self.verdict == verdict.STOOD else "end", self.last))
+        return found
+
+    def figure(self, name, path=None):
+        """One of results.PICTURES: the matplotlib Figure, or the ``path`` that it is written to; None where the records do not show it.
+        Raises records.RecordsError for another name."""
+        if name not in results.PICTURES:
+            raise records.RecordsError(f"figure {checks.shown(name)}: give one of {', '.join(results.PICTURES)}")
+        if name == "forces":
+            said = verdict.TITLES.get(self.verdict)
+            return figures.forces_against_time(
+                self.series, self.times, path, window=self.window, walls=self.section, verdict=said
+            )
+        if name == "energy":
+            return figures.energy(records.since_settled(self.every), path, times=self.times)
+        if name == "solver":
+            return figures.solver(self.series, path, times=self.times)
+        if name == "snapshots":
+            cases = self.cases()
+            return figures.snapshots(cases, self.section, path) if cases else None
+        if name == "weakening":
+            return self._weakening(path)
+        if name == "toe":
+            return self._toe(path)
+        if self.first is None:
+            return None
+        if name == "force_chains":
+            return figures.force_chains(self.first, self.section, path)
+        if self.verdict == verdict.STOOD:  # nothing was deposited
+            return None
+        return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
+
+    def _toe(self, path):
+        """Nothing where there is no backstop, where the toe has few disks, and where the run has no snapshots of its failure."""
+        seen = results.while_it_fails(self.folder, self.every, self.times) if self.section.of_role("backstop") else None
+        envelope = self.section.envelope
+        return seen and figures.toe(*seen, self.section, path, friction_deg=envelope and envelope.friction_deg)
+
+    def _weakening(self, path):
+        """Nothing where no wall weakens, or where the snapshots are of an earlier version and do not tell."""
+        if not self.section.weakening or not self.shots or records.read_snapshot(self.shots[0][1]).weakened is None:
+            return None
+        cases = (records.read_snapshot(file) for _, file in self.shots)
+        return figures.weakening(cases, self.section, path, times=self.times)
+
+
+def draw(folder, section, summary, progress=None) -> tuple[list[Path], list[str]]:
+    """Draws all figures that the records allow, and the video; returns their paths and notes on what could not be made."""
+    drawing = Drawing(folder, section, summary)
+    notes = []
+    if drawing.failed_dry is not None:
+        notes.append("no figures of force chains and deposit: the slope was on the move already when they would begin")
+    if drawing.verdict == verdict.STOOD:
+        notes.append("no figures of the toe's failure and of a deposit: the slope stood")
+    made = [
+        path for name in results.PICTURES if (path := drawing.figure(name, drawing.folder / f"{name}.png")) is not None
+    ]
+    if drawing.video_shots:
+        with ThreadPoolExecutor(1) as beside:  # it mostly compresses, while the video is mostly drawn
+            written = beside.submit(paraview.write_run, drawing.folder, section, drawing.shots)
+            path, note = drawing.video(progress)
+            made.append(written.result())
+        (made if path else notes).append(path or note)
+    return [Path(p) for p in made], notes

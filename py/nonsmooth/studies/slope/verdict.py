@@ -1,0 +1,173 @@
+"""What became of a slope's run, in a word and a sentence, from its series and its state. Needs no YADE.
+
+The words, which stay: see :data:`MEANINGS`. What a summary, the command, a sweep's rows and figures say of a run is this.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ... import course, records
+from ...model import scales
+
+__all__ = ["MEANINGS", "TITLES", "Verdict", "of"]
+
+STOOD, SLID, DRY, MOVED, WATER, RESTLESS, UNFINISHED = (
+    "stood",
+    "slid",
+    "failed dry",
+    "moved dry",
+    "failed by water",
+    "not at rest",
+    "not over",
+)
+#: The verdicts, and what each means.
+MEANINGS = {
+    STOOD: "the slope had not moved off when the run ended, and was at rest",
+    SLID: "it slid so far that it did not stand, but never fast enough to move off, and was at rest when the run ended",
+    DRY: "it collapsed or moved off by its own weight: before water acted on any disk, or without having come to rest before",
+    MOVED: "it moved off so, and not, or not surely, by its weight: a script, or a wall that moves, had done work on it; or, with soft contacts, whose work nobody counts, it "
+    "had been at rest under its weight",
+    WATER: "it moved off once water acted on it",
+    RESTLESS: "it had neither moved off nor come to rest when the run ended",
+    UNFINISHED: "the run was stopped before it was known",
+}
+
+
+#: A title for each, of figures.
+TITLES = {
+    STOOD: "the slope stood",
+    SLID: "the slope slid and came to rest",
+    DRY: "the slope failed dry",
+    MOVED: "the slope moved dry",
+    WATER: "the slope failed by water",
+    RESTLESS: "the slope did not come to rest",
+    UNFINISHED: "the run is not over",
+}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """``kind``: one of :data:`MEANINGS`; ``says``: a sentence; ``before``: when it moved [s], where that was before water acted on it."""
+
+    kind: str
+    says: str
+    before: float | None = None
+
+
+def of(series, section, state, times, disks=None) -> Verdict:
+    """The Verdict of a run. ``series``: all of its rows; ``state``: the fields of course.State as a mapping; ``times``: its characteristic times; ``disks``: how many it has,
+    where that is known."""
+    last, over = float(series["time_s"][-1]), state["stage"] == "done"
+    moved = state["failed_dry"] if state.get("failed_dry") is not None else state["moving"]
+    if moved is None:
+        return _unmoved(series, section, state, last, over, disks)
+    rest = (
+        ""
+        if times["t5"] is not None
+        else f"; it had not come to rest at {last:.1f} s, when the run {'ended' if over else 'was stopped'}"
+    )
+    if state.get("failed_dry") is not None or not _wet(series, moved):
+        return _dry(series, section, state, moved, rest)
+    fast = float(np.max(series["speed_mean_m_per_s"][series["time_s"] >= moved - 1e-9]))
+    table = _at(series, "water_m", moved)
+    if not over and fast < scales.of(section).going_speed:
+        return Verdict(
+            UNFINISHED,
+            f"the run was stopped at {last:.1f} s, while the slope moved and could still have come to rest again; it began to at {moved:.1f} s, with the water table at {table:.4g} m",
+        )
+    failure = table if times["t1"] is None else _at(series, "water_m", times["t1"])
+    also = f"; {_from_outside(state)} before, so it may not have been the water alone" if state.get("outside") else ""
+    return Verdict(
+        WATER,
+        f"the slope failed by water, with the table at {failure:.4g} m; it began to move at {moved:.1f} s{rest}{also}",
+    )
+
+
+def _unmoved(series, section, state, last, over, disks):
+    if not over:
+        doing = {"settle": "settled", "dry": "rested dry"}.get(state["stage"])
+        water = "" if doing else _water(series, section, disks)
+        return Verdict(UNFINISHED, f"the run was stopped at {last:.1f} s, while the slope {doing or 'stood'}{water}")
+    speed, water = float(series["speed_mean_m_per_s"][-1]), _water(series, section, disks)
+    if speed >= scales.of(section).stopped_speed:
+        return Verdict(
+            RESTLESS,
+            f"the slope did not come to rest, nor move off, until the run ended at {last:.1f} s (mean speed then {speed:.2g} m/s){water}",
+        )
+    slid = _slid(series, section, state)
+    if slid is not None:
+        return Verdict(
+            SLID,
+            f"the slope slid by {slid:.3g} m, its centre of mass sideways since {'the water began to rise' if state['t0'] is not None else 'it settled'}, at {np.max(series['speed_mean_m_per_s']):.2g} m/s "
+            f"at most, and was at rest when the run ended at {last:.1f} s{water}",
+        )
+    early = state.get("quiet_since") is not None and last < state["settled"] + section.stages.end.time - 1e-6 * last
+    why = "; it was at rest and nothing was to come that could change it" if early else ""
+    return Verdict(STOOD, f"the slope stood until the run ended at {last:.1f} s{water}{why}")
+
+
+def _slid(series, section, state):
+    """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that of a mass that does not stand; None where it is not."""
+    x = series["centroid_x_m"][series["time_s"] >= (state["t0"] if state["t0"] is not None else -math.inf) - 1e-9]
+    way = abs(float(x[-1] - x[0])) if len(x) else 0.0
+    return way if way >= course.COLLAPSED * section.mass_size else None
+
+
+def _water(series, section, disks):
+    """How far the water has come, as the end of a sentence."""
+    if section.water is None:
+        return ", without water"
+    highest, wet = float(np.max(series["water_m"])), int(np.max(series["wet_disks"]))
+    if not wet:
+        return f", with the water table at {highest:.4g} m at most, below all disks" if highest else ", dry"
+    share = f" ({100 * wet / disks:.0f} %)" if disks else ""
+    return f", with the water table at {highest:.4g} m at most and {wet:,} disks wet{share}"
+
+
+def _dry(series, section, state, moved, rest):
+    """Of a slope that moved off before water acted on it, or had never come to rest."""
+    outside, rested = state.get("outside", 0.0), state.get("rested")
+    travel = f"{rest}. {_motion(series, section, state)}"
+    if outside:
+        return Verdict(
+            MOVED,
+            f"the slope moved dry, at {moved:.1f} s, and not by its weight alone: {_from_outside(state)} until then{travel}",
+            moved,
+        )
+    if outside is None and rested is not None:
+        return Verdict(
+            MOVED,
+            f"the slope moved dry, at {moved:.1f} s; it had been at rest under its weight at {rested:.1f} s, so that something else may have moved it{travel}",
+            moved,
+        )
+    return Verdict(
+        DRY,
+        f"the slope failed dry, at {moved:.1f} s: it does not bear its own weight, and nothing here is a failure by water{travel}",
+        moved,
+    )
+
+
+def _from_outside(state):
+    return f"a script, or walls that move, had brought or taken {state['outside']:.3g} J/m"
+
+
+def _motion(series, section, state):
+    """How fast and how far it went, and what broke, from the beginning to the end of the run."""
+    front = section.side * float(series["front_m"][-1] - series["front_m"][0])
+    broken = records.broken_bonds(series)
+    speed = float(np.max(series["speed_mean_m_per_s"]))
+    return f"Its mean speed came to {speed:.2g} m/s, its front went {front:.3g} m, and {broken:,} of {state['bonds_initial']:,} bonds broke"
+
+
+def _wet(series, time):
+    """Whether water had acted on a disk by a time [s]."""
+    return bool(np.any(series["wet_disks"][series["time_s"] <= time + 1e-9] > 0))
+
+
+def _at(series, name, time):
+    """A column's value in the row of a time [s]."""
+    return float(series[name][np.argmin(np.abs(series["time_s"] - time))])

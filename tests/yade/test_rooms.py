@@ -1,0 +1,196 @@
+"""The rooms of the package are those of doc/house.rst, and each imports only from those above it. Needs no YADE."""
+
+import ast
+import importlib
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "py" / "nonsmooth"
+sys.path.insert(0, str(ROOT / "py"))
+#: May import YADE when they are imported themselves: scenes, what runs in one, and what is a script for YADE.
+IN_YADE = ("world", "course.driver", "studies", "judges", "running._process_worker")
+
+
+def rooms():
+    """Rooms in the order of the page, the lowest first."""
+    page = (ROOT / "doc" / "house.rst").read_text()
+    table = page.partition("Rooms of the Python half\n")[2].partition("\nWhere a new thing goes\n")[0]
+    return [name for row in re.findall(r"^   \* - (.+)$", table, re.M) for name in re.findall(r"``([\w.]+)``", row)]
+
+
+def sources():
+    """{module: (source, whether it is a package)} of the package, its face as ""."""
+    found = {}
+    for path in PACKAGE.rglob("*.py"):
+        parts = path.relative_to(PACKAGE).with_suffix("").parts
+        package = parts[-1] == "__init__"
+        found[".".join(parts[:-1] if package else parts)] = path.read_text(), package
+    return found
+
+
+def room_of(module, among):
+    """The room that a module stands in, None for one that stands in none."""
+    return max((room for room in among if f"{module}.".startswith(f"{room}.")), key=len, default=None)
+
+
+def imports(module, source, package, modules):
+    """Modules of the package that one imports, wherever in it."""
+    found = set()
+    for node in ast.walk(ast.parse(source)):
+        if not isinstance(node, ast.ImportFrom):
+            continue
+        if node.level:
+            here = module.split(".") if module else []
+            here = here if package else here[:-1]
+            base = [*here[: len(here) - node.level + 1], *filter(None, (node.module or "").split("."))]
+        elif re.match(r"(yade\.)?nonsmooth(\.|$)", node.module or ""):
+            base = re.sub(r"^(yade\.)?nonsmooth\.?", "", node.module).split(".")
+        else:
+            continue
+        for alias in node.names:
+            inner = ".".join(filter(None, [*base, alias.name]))
+            found.add(inner if inner in modules else ".".join(filter(None, base)))
+    return found - {""}
+
+
+def back_up(modules, among):
+    """Imports from a room further down the page: [(module, what it imports)]."""
+    order = {room: k for k, room in enumerate(among)}
+    arrows = []
+    for module, (source, package) in modules.items():
+        for one in imports(module, source, package, modules) if module else ():
+            here, there = room_of(module, among), room_of(one, among)
+            if here != there and (here is None or there is None or order[there] > order[here]):
+                arrows.append((module, one))
+    return sorted(arrows)
+
+
+def test_every_module_stands_in_a_room_of_the_page():
+    among, modules = rooms(), sources()
+    assert len(among) == len(set(among))
+    assert [m for m in modules if m and room_of(m, among) is None] == ["studies"]  # which holds rooms
+    # and no room of the page is empty
+    assert {room_of(m, among) for m in modules if m} >= set(among)
+
+
+def test_nothing_lies_in_the_top_but_errors_contact_and_the_face():
+    assert {p.name for p in PACKAGE.glob("*.py")} == {"__init__.py", "errors.py", "contact.py"}
+
+
+def test_no_room_imports_from_one_below_it():
+    """An order of all rooms that all imports keep has no circle between rooms either."""
+    assert back_up(sources(), rooms()) == []
+
+
+@pytest.mark.parametrize(
+    "module, line",
+    [
+        ("system.keys", "from ..records import Snapshot"),
+        ("measure.bands", "def late():\n    from ..figures import style"),
+        ("studies.laboratory.walls", "from ..comparison import cases"),
+        ("records.series", "from yade.nonsmooth.world import tables"),
+        ("model.geometry", "from .. import campaign"),
+    ],
+)
+def test_an_import_that_runs_back_up_is_seen(module, line):
+    modules = sources()
+    source, package = modules[module]
+    modules[module] = f"{source}\n{line}\n", package
+    assert [found for found, _ in back_up(modules, rooms())] == [module]
+
+
+def test_yade_is_imported_where_scenes_are():
+    modules, guilty = sources(), []
+    for module, (source, _) in modules.items():
+        if any(f"{module}.".startswith(f"{room}.") for room in IN_YADE):
+            continue
+        for node in ast.parse(source).body:
+            names = [node.module or ""] if isinstance(node, ast.ImportFrom) and not node.level else []
+            names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            guilty += [module for name in names if re.match(r"yade(\.|$)", name)]
+    assert guilty == []
+
+
+def in_plain_python(code):
+    """What a plain Python prints, with the package on its path and nothing of YADE's."""
+    done = subprocess.run(
+        ["/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {str(ROOT / 'py')!r})\n{code}"],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+def test_all_other_rooms_can_be_imported_without_yade():
+    names = [f"nonsmooth.{m}" for m in sources() if m and not f"{m}.".startswith(tuple(f"{r}." for r in IN_YADE))]
+    said = in_plain_python(
+        f"import importlib\nfor name in {sorted(names)!r}: importlib.import_module(name)\nprint('yade' in sys.modules)"
+    )
+    assert said == ["False"] and len(names) > 100
+
+
+def test_the_package_alone_loads_no_large_library():
+    large = ("matplotlib", "pandas", "scipy", "shapely", "numpy")
+    assert in_plain_python(f"import nonsmooth\nprint(*[m for m in {large!r} if m in sys.modules])") == []
+
+
+def test_the_face_shows_each_module_where_it_stands():
+    """``from nonsmooth import section`` and ``import nonsmooth.section`` give the module of its room, not a second one; others' attributes stay."""
+    code = "\n".join(
+        [
+            "import importlib, nonsmooth",
+            "for name, place in nonsmooth.FACE.items():",
+            "    try:",
+            "        real = importlib.import_module(f'nonsmooth.{place}')",
+            "    except ModuleNotFoundError as error:",
+            "        assert error.name == 'yade' or error.name.startswith('yade.'), (name, error)",
+            "        continue",
+            "    spec = real.__spec__",
+            "    assert importlib.import_module(f'nonsmooth.{name}') is real, name",
+            "    assert real.__spec__ is spec and spec.name == f'nonsmooth.{place}', name",
+            "    if '.' not in name: assert getattr(nonsmooth, name) is real and name in dir(nonsmooth), name",
+            "import nonsmooth.laboratory.strength_",  # and what is not there is not there
+        ]
+    )
+    done = subprocess.run(
+        ["/usr/bin/python3", "-c", f"import sys; sys.path.insert(0, {str(ROOT / 'py')!r})\n{code}"],
+        capture_output=True,
+        text=True,
+    )
+    assert done.stderr.strip().endswith("No module named 'nonsmooth.laboratory.strength_'"), done.stderr
+
+
+def test_a_name_that_is_not_there_is_refused():
+    import nonsmooth
+
+    with pytest.raises(AttributeError, match="no attribute 'sections_of_mine'"):
+        nonsmooth.sections_of_mine  # noqa: B018
+    with pytest.raises(ModuleNotFoundError):
+        importlib.import_module("nonsmooth.sections_of_mine")
+
+
+def test_what_is_public_says_what_it_is_and_is_listed():
+    """Each module but the judges' lists its names, and each public function, class and method has a docstring."""
+    silent, unlisted = [], []
+    for module, (source, _) in sources().items():
+        if any(part.startswith("_") for part in module.split(".")):
+            continue
+        tree = ast.parse(source)
+        made = [n for n in tree.body if isinstance(n, (ast.FunctionDef, ast.ClassDef)) and not n.name.startswith("_")]
+        inner = [
+            k
+            for n in made
+            if isinstance(n, ast.ClassDef)
+            for k in n.body
+            if isinstance(k, ast.FunctionDef) and not k.name.startswith("_")
+        ]
+        silent += [f"{module}.{n.name}" for n in made + inner if not ast.get_docstring(n)]
+        names = [n for n in tree.body if isinstance(n, ast.Assign) and getattr(n.targets[0], "id", "") == "__all__"]
+        unlisted += [module] if made and not names and not module.startswith("judges.") else []
+    assert silent == [] and unlisted == []
