@@ -17,7 +17,7 @@ from slope_scenes import write_quick
 ROWS = 200
 PINNED = {
     "slope": "1d425958fa6a026218237d219af18b51f1aa0a97cfcf3b5f00565bd719f8d347",
-    "biaxial": "7f12f953edc8651a3bb2b3353ade6a696447be512d4babfaa45155035cb95c2d",
+    "biaxial": "46e9e9042900c4de65d2c58789c8e1d3d32c427c5f472191f47e4d383a708d39",
     "column": "215126531ffbbe444eedfc466c76a76dd48e8ab220dfb85ed297fd5ade5d0831",
 }
 
