@@ -503,8 +503,11 @@ class Experiment(driver.Course):
         )
 
     # ---- checkpoints --------------------------------------------------------------------------
+    def checkpoint(self):
+        """Saves all that :func:`resume` needs; an earlier checkpoint is there until the new one is whole. With soft contacts the records alone."""
+        super().checkpoint()
+
     def _save(self):
-        """With soft contacts the records alone."""
         records.write_breaks(self.folder / "breaks.csv", tables.breaks(self.slope.solver), self.slope.first_disk)
         if self.hard:
             checkpoints.write(
