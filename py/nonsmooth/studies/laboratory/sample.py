@@ -61,6 +61,7 @@ class Sample:
         )
         O.engines, O.dt = world.engines(gravity=(0, 0, 0)), world.step_for([rock])
         made = cls(walls, ids[0], len(ids), world.measures([(rock, list(ids))]))
+        # the same mean, but for its last bits, which results keep
         made.mass = mass if hard else float(np.mean([O.bodies[i].state.mass for i in ids]))
         if not hard:
             made._relax(pressure)
