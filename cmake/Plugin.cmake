@@ -81,5 +81,5 @@ set_target_properties(nonsmooth_gate nonsmooth_engines PROPERTIES
     BUILD_RPATH "${YADE_LIBRARY_DIR}" INSTALL_RPATH "$ORIGIN")
 
 install(TARGETS nonsmooth_gate nonsmooth_engines LIBRARY DESTINATION "${YADE_SUBDIR}")
-install(DIRECTORY "${CMAKE_SOURCE_DIR}/py/nonsmooth" DESTINATION "${YADE_SUBDIR}/py/yade" PATTERN "judges" EXCLUDE
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/py/nonsmooth" DESTINATION "${YADE_SUBDIR}/py/yade"
     PATTERN "__pycache__" EXCLUDE)

@@ -224,7 +224,7 @@ def test_two_runs_do_not_write_into_one_folder(tmp_path):
 
 
 def test_a_folder_is_free_once_its_run_is_dead(tmp_path):
-    code = f"from yade.nonsmooth import output_folder; output_folder.claim({str(tmp_path)!r}, 'a.py'); import os; os.kill(os.getpid(), 9)"
+    code = f"from yade.nonsmooth.system import output_folder; output_folder.claim({str(tmp_path)!r}, 'a.py'); import os; os.kill(os.getpid(), 9)"
     script = tmp_path / "claims.py"
     script.write_text(code)
     assert subprocess.run([SCRIPTS / "yade-nonsmooth", script], env=ENVIRONMENT, capture_output=True).returncode == -9
@@ -308,7 +308,7 @@ def test_half_written_files_are_no_snapshots(tmp_path):
 
 def test_nothing_lists_files_but_asks_for_whole_ones():
     """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, folders of the benchmark's cache, the processor's caches, this package and the engines."""
-    package = Path(whole_files.__file__).resolve().parent
+    package = Path(whole_files.__file__).resolve().parents[1]
     lists = [
         path.name
         for path in sorted([*package.rglob("*.py"), *SCRIPTS.rglob("*.py")])
@@ -317,9 +317,9 @@ def test_nothing_lists_files_but_asks_for_whole_ones():
     assert sorted(lists) == [
         "installation.py",
         *["keys.py"] * 2,  # this package
+        "loading.py",
         "machine.py",
         "scripts.py",  # the lessons that there are
-        "section.py",
         "states.py",
         *["whole_files.py"] * 4,
     ]

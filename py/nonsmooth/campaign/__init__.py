@@ -4,7 +4,6 @@ no YADE: each run has a process of its own.
 * :mod:`sweep`: a slope with some of its values varied, and a slope alone;
 * :mod:`plan`: a plan in its folder: run, resumed, collected;
 * :mod:`cluster`: the same plan for Snakemake and for Slurm;
-* :mod:`slope_run`: what a process does with a slope (in YADE);
 * :mod:`heaps`: columns and piles;
 * :mod:`scripts`: lessons and any script; :mod:`script_run`: what a process does with one (in YADE);
 * :mod:`comparisons`: hard against soft.

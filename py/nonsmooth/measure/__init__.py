@@ -1,4 +1,6 @@
-"""Measures of a run: arrays in, numbers out. Needs no YADE.
+"""Measures: arrays in, numbers out. Needs no YADE.
+
+Of a slope:
 
 * :mod:`.ground`: walls by their roles, the foot of the slope, where water stands
 * :mod:`.fronts`: how far a mass has come
@@ -7,8 +9,21 @@
 * :mod:`.surface`: the surface of a mass and what lies below it
 * :mod:`.energy`: what the balance of energy leaves over
 * :mod:`.force_stages`: what the forces on walls do from stage to stage
-* :mod:`.bands`, :mod:`.toe_bands`: shear bands, of a sample and in the toe of a slope
+* :mod:`.characteristic_times`: t0 to t5
+* :mod:`.toe`, :mod:`.toe_bands`: the passive strength of the toe, and its shear bands
 * :mod:`.creep`: how fast a mass goes on moving
-* :mod:`.velocity_profiles`: speed against height in a mass that spreads, and what of it rests
 * :mod:`.weakening`: which part of a slip surface has lost its strength
+
+Of tests and heaps:
+
+* :mod:`.strength`: peak, plateau, dilatancy, and the envelope of the circles
+* :mod:`.bands`: shear bands from the rotation of disks
+* :mod:`.fluctuations`, :mod:`.cycles`: how the stress fluctuates, and its rises and drops
+* :mod:`.heap`: front, surface, angle of repose and overlaps from places alone
+* :mod:`.velocity_profiles`: speed against height in a mass that spreads, and what of it rests
+* :mod:`.power_laws`: published laws of runout and height, and fitted exponents
+
+Of several runs:
+
+* :mod:`.statistics`: confidence over seeds, medians, spreads
 """

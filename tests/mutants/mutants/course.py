@@ -332,8 +332,6 @@ MUTANTS = (
            "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
     mutant("stages-water", PY + "measure/force_stages.py", 'friction * change("dp_water")', "friction * change(normal)", "equation 19 has the total force for the water's",
            "plain:test_force_stages.py::test_each_number_is_what_the_series_says"),
-    mutant("stages-fall", PY + "measure/force_stages.py", "min(pushes[largest:])", "min(pushes)", "what the backstop bore before its largest force is a fall",
-           "plain:test_force_stages.py::test_a_foot_that_loses_its_strength_before_the_slope_accelerates_shows"),
     mutant("paper-claims", PY + "judges/verification/paper.py", "_mean(stages[name]).mean, said.low, said.high", "_mean(stages[name]).mean, said.low, math.inf", "statements have no upper bound",
            "test_verification.py::test_a_foot_that_loses_its_strength_before_the_slope_accelerates_fails_its_claim"),
     mutant("wedge-first", PY + "measure/weakening.py", "edges[weak[-1] + 1 if len(weak) else 0]", "edges[weak[0] + 1 if len(weak) else 0]", "what is not weakened begins below the highest weakened part",

@@ -14,10 +14,9 @@
 * :mod:`column`, :mod:`pile`: the two scenes, their parameters with ``build`` and ``run``;
 * :mod:`preparation`: disks at rest in the box, made once for both worlds;
 * :mod:`course`: the scene in a world, its release and its course until rest;
-* :mod:`measures`: front, surface, angle of repose and overlaps from places alone;
 * :mod:`study`: many runs, kept and resumed;
 * :mod:`profiles`: speed against height behind a tip, over seeds;
-* :mod:`scaling`: published laws of runout and height, and fitted exponents.
+* :mod:`report`: fits, tables and pictures of many runs.
 
 All lengths are in m, and forces and energies are those of a slice 1 m thick.
 """
