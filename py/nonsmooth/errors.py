@@ -1,6 +1,6 @@
 """The bases of errors that a user can mend, and of warnings: scripts print their message alone, one line, and no traceback."""
 
-__all__ = ["OldNameWarning", "UserError"]
+__all__ = ["OldNameWarning", "UserError", "UserNote"]
 
 
 class UserError(Exception):
@@ -11,5 +11,9 @@ class UserError(Exception):
         return [f"{type(self).__name__}: {self}"]
 
 
-class OldNameWarning(FutureWarning):
+class UserNote(UserWarning):
+    """What a user should know of a command that goes on; scripts print the message on one line."""
+
+
+class OldNameWarning(UserNote, FutureWarning):
     """An old name that is still read; the message says where it stands and what to write instead."""

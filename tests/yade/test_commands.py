@@ -6,6 +6,7 @@ import re
 import resource
 import signal
 import subprocess
+import warnings
 from pathlib import Path
 
 import leftovers
@@ -193,6 +194,15 @@ def test_an_old_name_is_told_in_one_line(in_process, tmp_path):
     )
 
 
+def test_a_note_is_one_line(capsys):
+    """Other warnings are left to Python, which says where they come from."""
+    commands.run(lambda: warnings.warn("a file is damaged; it is made anew", errors.UserNote))
+    assert capsys.readouterr().err == "warning: a file is damaged; it is made anew\n"
+    with pytest.warns(RuntimeWarning, match="^ours$"):
+        commands.run(lambda: warnings.warn("ours", RuntimeWarning))
+    assert capsys.readouterr().err == ""
+
+
 @pytest.mark.parametrize("leave", [True, False])
 def test_a_message_begins_a_line_after_a_bar(capfd, leave):
     import sys
@@ -307,7 +317,7 @@ def test_half_written_files_are_no_snapshots(tmp_path):
 
 
 def test_nothing_lists_files_but_asks_for_whole_ones():
-    """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, folders of the benchmark's cache, the processor's caches, this package and the engines."""
+    """Lists of folders' contents stand in whole_files.py, and where no run writes: shipped sections, the processor's caches, this package and the engines."""
     package = Path(whole_files.__file__).resolve().parents[1]
     lists = [
         path.name
@@ -320,7 +330,6 @@ def test_nothing_lists_files_but_asks_for_whole_ones():
         "loading.py",
         "machine.py",
         "scripts.py",  # the lessons that there are
-        "states.py",
         *["whole_files.py"] * 4,
     ]
 

@@ -9,7 +9,7 @@ import signal
 import sys
 import warnings
 
-from ..errors import OldNameWarning, UserError
+from ..errors import UserError, UserNote
 from ..running.interrupts import Interrupted, never_lost
 
 __all__ = ["closing", "run"]
@@ -21,7 +21,7 @@ INTERRUPTED = 130  # as a shell counts a process that Ctrl-C has ended
 
 def run(main, kept="nothing is kept: run it again"):
     """Calls ``main()``. Ends the process with status 1 after a UserError or a file that cannot be written, and with 130 after Ctrl-C, one line on stderr each;
-    an OldNameWarning is one line too.
+    a UserNote is one line too.
 
     ``kept``: what that line says where what was interrupted did not say it itself.
     """
@@ -43,7 +43,7 @@ def run(main, kept="nothing is kept: run it again"):
 
 
 def _warn(usual, message, category, *where, **more):
-    if issubclass(category, OldNameWarning):
+    if issubclass(category, UserNote):
         print(f"warning: {message}", file=sys.stderr, flush=True)
     else:
         usual(message, category, *where, **more)
