@@ -186,13 +186,21 @@ def test_another_section_or_plugin_makes_states_anew(measured, tmp_path, monkeyp
     assert states.key_of(one) != before
 
 
-def test_states_that_nobody_used_for_long_are_removed(monkeypatch, tmp_path):
+def test_states_that_nobody_used_for_long_are_removed_before_others_are_made(monkeypatch, tmp_path):
+    class Made(Exception):
+        pass
+
+    def settle(*_):
+        raise Made
+
+    monkeypatch.setattr(states, "_settle", settle)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     home = tmp_path / "yade-nonsmooth" / "benchmark"
     for name, days in (("old", states.KEPT_DAYS + 1), ("recent", states.KEPT_DAYS - 1)):
         (home / name).mkdir(parents=True)
         os.utime(home / name, (time.time() - 86400 * days,) * 2)
-    states._forget_old()
+    with pytest.raises(Made):
+        states.make(tmp_path, "jiufengershan", DISKS)
     assert [p.name for p in home.iterdir()] == ["recent"]
 
 

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from yade.nonsmooth import packing, packing_files, section
+from yade.nonsmooth import packing, section
 from yade.nonsmooth.heaps import column, preparation
 from yade.nonsmooth.laboratory import pressing
 from yade.nonsmooth.studies.slope import slope_packing, states
-from yade.nonsmooth.system import keys
+from yade.nonsmooth.system import cache, keys
 
 SOURCE = '''
 """Squares."""
@@ -151,12 +151,11 @@ def test_a_function_a_name_and_a_module_are_of_one_module():
     assert keys.module_of(print) is keys.module_of("pressing") is keys.module_of(None) is None
 
 
-@pytest.mark.parametrize(
-    "path", [CACHES["slopes"][1], CACHES["heaps"][1], CACHES["packings"][1]], ids=["slope", "heap", "packing"]
-)
-def test_a_new_format_leaves_old_files_alone(path, monkeypatch):
-    """A file of the same name would be there, and refuse to be read."""
+@pytest.mark.parametrize("name", ["packings", "samples", "slopes", "heaps"])
+def test_a_new_format_leaves_old_files_alone(name, monkeypatch):
+    """A file of the same name would be there, and be made anew by each version in turn."""
+    path = CACHES[name][1]
     before = path()
-    monkeypatch.setattr(packing_files, "FORMAT", packing_files.FORMAT + 1)
+    monkeypatch.setattr(cache, "FORMAT", cache.FORMAT + 1)
     assert path() != before
     assert path().parent == before.parent

@@ -122,6 +122,28 @@ def test_samples_that_other_engines_have_pressed_are_not_taken(monkeypatch):
     assert pressing.cache_path(shape) != here
 
 
+def test_a_damaged_sample_is_pressed_anew(tmp_path, monkeypatch):
+    """Here not pressed, which is as good: the same bytes again, with a note of the one who asks for it."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(processes, "call", lambda make, folder, arguments: make(folder, **arguments))
+    shape = pressing.Shape(150, 1, friction=None)
+    pressing.prepare(shape, tmp_path / "pressing")
+    path, made = pressing.cache_path(shape), pressing.load(shape)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-400])
+    with pytest.warns(errors.UserNote, match="made anew"), pytest.raises(
+        pressing.SampleError, match="prepare it first$"
+    ):
+        pressing.load(shape)
+    with pytest.warns(errors.UserNote, match="made anew"):
+        pressing.prepare(shape, tmp_path / "pressing")
+    assert path.read_bytes() == whole and not (tmp_path / "pressing").exists()
+    again = pressing.load(shape)
+    assert np.array_equal(again.x, made.x) and (again.width, again.height) == (made.width, made.height)
+    monkeypatch.setattr(processes, "call", None)  # it is there
+    pressing.prepare(shape, tmp_path / "pressing")
+
+
 # ---- walls ----------------------------------------------------------------------------------------
 
 

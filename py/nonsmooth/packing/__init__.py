@@ -20,10 +20,11 @@ from scipy.spatial import cKDTree
 
 from ..model import free_surface, geometry
 from ..model.section import similar
-from ..system import keys
-from .files import FORMAT, Packing, PackingError, cache_file, load, read_text, save, write_text
+from ..system import cache, keys
+from .files import FORMAT, Packing, PackingError, load, read_text, save, write_text
 
 __all__ = [
+    "CACHE",
     "FORMAT",
     "Overlaps",
     "Packing",
@@ -38,6 +39,8 @@ __all__ = [
     "save",
     "write_text",
 ]
+
+CACHE = cache.Cache("packings", Packing)
 
 # Disks are packed with radii this much larger than they get, so that overlaps left are gaps in the end.
 INFLATION = 5e-4
@@ -332,19 +335,11 @@ def packing_fraction(packing: Packing, polygon, margin: float | None = None) -> 
 
 
 def cache_path(section, seed: int | None = None):
-    """Where the packing of `section` and `seed` is kept, in the cache folder "packings". Other code makes its own."""
+    """Where the packing of `section` and `seed` is kept, in :data:`CACHE`. Other code makes its own."""
     key = keys.key_of([section.key(), keys.made_by(__name__)])
-    return cache_file("packings", f"{key[:32]}-{section.seed if seed is None else seed}")
+    return CACHE.path(key, f"-{section.seed if seed is None else seed}")
 
 
 def cached_pack(section, seed: int | None = None, progress=None) -> Packing:
-    """`pack`, or what it made before for the same layers, disks and seed (see `cache_path`).
-
-    Raises PackingError for a damaged cache file, with the remedy.
-    """
-    path = cache_path(section, seed)
-    if path.exists():
-        return load(path)
-    packing = pack(section, seed, progress)
-    save(packing, path)
-    return packing
+    """`pack`, or what it made before for the same layers, disks and seed (see `cache_path`)."""
+    return CACHE.of(cache_path(section, seed), lambda: pack(section, seed, progress))

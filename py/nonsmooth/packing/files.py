@@ -15,11 +15,11 @@ import numpy as np
 from ..errors import UserError
 from ..system.whole_files import write_arrays, write_atomically
 
-__all__ = ["FORMAT", "Packing", "PackingError", "cache_file", "cache_folder", "load", "read_text", "save", "write_text"]
+__all__ = ["FORMAT", "Packing", "PackingError", "load", "read_text", "save", "write_text"]
 
 LARGEST_FILE = 2_000_000_000  # bytes of a text file; ten million disks have less
 FARTHEST = 1e7  # m, as in a section
-FORMAT = 2  # of cache files and of the way packings are made; a new number makes old files unused
+FORMAT = 2  # of files; others are refused
 
 
 class PackingError(UserError, ValueError):
@@ -93,16 +93,6 @@ def load(path) -> Packing:
     if checksum != packing.checksum:
         raise PackingError(f"{path}: its content does not match its checksum; {remedy}")
     return packing
-
-
-def cache_folder(name) -> Path:
-    """Where what is made once is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/NAME."""
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "yade-nonsmooth" / name
-
-
-def cache_file(folder, name) -> Path:
-    """Where a packing is kept in a cache folder. Files of another format have another name, so that what an older version left is made anew."""
-    return cache_folder(folder) / f"{name}-v{FORMAT}.npz"
 
 
 def write_text(packing: Packing, path) -> None:

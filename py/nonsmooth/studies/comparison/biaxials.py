@@ -11,7 +11,7 @@ import numpy as np
 from ... import records
 from ...measure import strength
 from ...model import materials
-from ...packing.files import cache_folder
+from ...system import cache
 from ...world import worlds
 from ..laboratory import biaxial, pressing
 from .cases import Case, ComparisonError
@@ -86,7 +86,7 @@ def disks_of(case: Case):
 
 def prepare(case: Case):
     """Presses the sample of a case, unless it is in the cache."""
-    pressing.prepare(test_of(case).shape, cache_folder("samples") / f"pressing-{case.disks}-{case.seed}")
+    pressing.prepare(test_of(case).shape, cache.folder("samples") / f"pressing-{case.disks}-{case.seed}")
 
 
 def run(folder, **plain):

@@ -10,13 +10,14 @@ from yade import O
 from yade.wrapper import ContactDynamicsEngine
 
 from ... import packing
-from ...packing import files as packing_files
-from ...system import keys
+from ...system import cache, keys
 from ...world import scene, tables, worlds
 from ...world.stepping import until
 from .grains import HeapError, sizes_along
 
 __all__ = ["Prepared", "Stand", "cache_path", "disk_table", "prepared", "put"]
+
+CACHE = cache.Cache("heaps", packing.Packing)
 
 STEP = 0.05  # √(d/g)
 TOLERANCE = 1e-5
@@ -54,10 +55,10 @@ class Stand:
 
 
 def cache_path(heap):
-    """Where the prepared disks of a heap are kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/heaps. Neither restitution nor wall friction matter to them;
+    """Where the prepared disks of a heap are kept. Neither restitution nor wall friction matter to them;
     engines and code do, so that a run has the same bits with and without a cache from earlier ones."""
     plain = {k: v for k, v in heap.plain().items() if k not in ("restitution", "wall_friction")}
-    return packing_files.cache_file("heaps", keys.key_of([plain, keys.making_key(__name__)])[:32])
+    return CACHE.path(keys.key_of([plain, keys.making_key(__name__)]))
 
 
 def prepared(heap):
@@ -66,12 +67,7 @@ def prepared(heap):
     They are packed just short of touching (or taken from the file) and settle between walls without friction. Raises PackingError, SampleError or
     HeapError where that cannot be done.
     """
-    path, (width, _) = cache_path(heap), heap.box()
-    if path.exists():
-        kept = packing_files.load(path)
-    else:
-        kept = _settle(heap)
-        packing_files.save(kept, path)
+    kept, (width, _) = CACHE.of(cache_path(heap), lambda: _settle(heap)), heap.box()
     area = kept.r**2
     return Prepared(kept.x, kept.y, kept.r, width, 2 * float(np.sum(area * kept.y) / np.sum(area)))
 

@@ -96,7 +96,7 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
 
 def _press(shapes, home, threads, progress):
     """Makes the samples that are not in the cache, before many tests ask for them."""
-    missing = sorted((s for s in shapes if not pressing.cache_path(s).exists()), key=lambda s: s.seed)
+    missing = sorted((s for s in shapes if pressing.CACHE.find(pressing.cache_path(s)) is None), key=lambda s: s.seed)
     if not missing:
         return
     for shape in missing:

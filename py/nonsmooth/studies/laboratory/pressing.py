@@ -21,10 +21,8 @@ import numpy as np
 from ... import packing
 from ...errors import UserError
 from ...model import section
-from ...packing.files import cache_folder
 from ...running import processes
-from ...system import keys
-from ...system.whole_files import write_arrays
+from ...system import cache, keys
 
 __all__ = ["RAMP", "STEP", "WALL_MASS", "Pressed", "SampleError", "Shape", "cache_path", "load", "make", "prepare"]
 
@@ -96,22 +94,21 @@ class Pressed:
         return 2 * float(self.r.min()), 2 * float(self.r.max())
 
 
+CACHE = cache.Cache("samples", Pressed)
+
+
 def cache_path(shape):
-    """Where the pressed sample of a shape is kept: ${XDG_CACHE_HOME:-~/.cache}/yade-nonsmooth/samples. Other engines and other code press their own, so
+    """Where the pressed sample of a shape is kept. Other engines and other code press their own, so
     that a test has the same bits with and without a cache from earlier ones."""
-    return cache_folder("samples") / f"{keys.key_of([asdict(shape), keys.making_key(__name__)])[:32]}.npz"
+    return CACHE.path(keys.key_of([asdict(shape), keys.making_key(__name__)]))
 
 
 def load(shape):
-    """The pressed sample from the cache; SampleError where it is not there or cannot be read."""
+    """The pressed sample from the cache; SampleError where it is not there or damaged."""
     path = cache_path(shape)
-    try:
-        with np.load(path, allow_pickle=False) as data:
-            return Pressed(data["x"], data["y"], data["r"], float(data["width"]), float(data["height"]))
-    except FileNotFoundError:
-        raise SampleError(f"{path}: there is no such sample; prepare it first") from None
-    except Exception as error:  # numpy and zipfile raise what they like for a damaged file
-        raise SampleError(f"{path}: no sample ({error}); delete the file, and the command makes it again") from None
+    if (found := CACHE.find(path)) is None:
+        raise SampleError(f"{path}: there is no such sample; prepare it first")
+    return found
 
 
 def prepare(shape, folder):
@@ -120,7 +117,7 @@ def prepare(shape, folder):
 
     Raises processes.RunError where it fails.
     """
-    if not cache_path(shape).exists():
+    if CACHE.find(cache_path(shape)) is None:
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
         processes.call(make, folder, asdict(shape))
@@ -144,7 +141,7 @@ def make(folder, **plain):
     made = packing.cached_pack(box)
     order = np.argsort(made.y, kind="stable")  # neighbours in space are neighbours in memory
     if shape.friction is None:
-        _keep(shape, made.x[order], made.y[order], made.r[order], *box.layers[0].points[2])
+        CACHE.keep(cache_path(shape), Pressed(made.x[order], made.y[order], made.r[order], *box.layers[0].points[2]))
         return {"disks": len(made)}
     angle = math.atan(shape.friction)
     O.reset()
@@ -190,14 +187,11 @@ def make(folder, **plain):
             f"stresses {mean}; try another seed"
         )
     t, corner = tables.bodies(engine), (walls.place("left")[0], walls.place("bottom")[1])
-    _keep(shape, t["x"] - corner[0], t["y"] - corner[1], t["r"], walls.width(), walls.height())
+    found = Pressed(t["x"] - corner[0], t["y"] - corner[1], t["r"], walls.width(), walls.height())
+    CACHE.keep(cache_path(shape), found)
     return {
         "steps": O.iter,
         "disks": len(made),
         "sweeps_mean": engine.totalIterations / O.iter,
         "overlap_worst_rel": engine.overlapWorst,
     }
-
-
-def _keep(shape, x, y, r, width, height):
-    write_arrays(cache_path(shape), x=x, y=y, r=r, width=width, height=height)

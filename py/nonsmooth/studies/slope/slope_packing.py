@@ -21,7 +21,7 @@ from yade.wrapper import NewtonIntegrator
 from ... import packing
 from ...model import free_surface
 from ...model.section import similar
-from ...packing.files import Packing, cache_file, load, save
+from ...packing.files import Packing
 from ...system import keys
 from ...world import tables
 from ...world.stepping import advance
@@ -46,17 +46,13 @@ def of(section, seed: int | None = None, progress=None) -> Packing:
         return similar.scaled_packing(of(original, section.seed if seed is None else seed, progress), factor)
     if section.side < 0:
         return similar.mirrored_packing(of(similar.mirrored(section), seed, progress))
-    path = cache_path(section, seed)
-    if path.exists():
-        return load(path)
     progress = progress or (lambda share: None)
-    made = press(
-        section,
-        packing.cached_pack(section, seed, lambda share: progress(0.2 * share)),
-        lambda share: progress(0.2 + 0.8 * share),
-    )
-    save(made, path)
-    return made
+
+    def make():
+        loose = packing.cached_pack(section, seed, lambda share: progress(0.2 * share))
+        return press(section, loose, lambda share: progress(0.2 + 0.8 * share))
+
+    return packing.CACHE.of(cache_path(section, seed), make)
 
 
 def cache_path(section, seed: int | None = None):
@@ -66,7 +62,7 @@ def cache_path(section, seed: int | None = None):
     key = keys.key_of(
         [section.key(), section.gravity, n.time_step, n.path, n.verlet_distance, keys.making_key(__name__)]
     )
-    return cache_file("packings", f"{key[:32]}-{section.seed if seed is None else seed}-pressed")
+    return packing.CACHE.path(key, f"-{section.seed if seed is None else seed}-pressed")
 
 
 def press(section, made, progress=None) -> Packing:

@@ -8,10 +8,7 @@ contacts in the place of the rigid ones at rest, after a second in which gaps ha
 from __future__ import annotations
 
 import dataclasses
-import os
-import shutil
 import tempfile
-import time
 from pathlib import Path
 
 from yade import O, config
@@ -19,10 +16,9 @@ from yade import O, config
 from ... import course
 from ...errors import UserError
 from ...model import section
-from ...packing.files import cache_folder
 from ...records import checkpoints
 from ...running.kept_runs import Progress
-from ...system import keys
+from ...system import cache, keys
 from ...world.stepping import advance
 from . import experiment, slope, slope_packing, soft_contacts
 
@@ -77,7 +73,7 @@ def key_of(chosen):
 
 def folder_of(chosen) -> Path:
     """Where the states of a Section are kept, in the cache folder "benchmark"."""
-    return cache_folder("benchmark") / key_of(chosen)[:32]
+    return cache.folder("benchmark") / key_of(chosen)[:32]
 
 
 def exist(source, disks):
@@ -92,7 +88,7 @@ def make(folder, source, disks):
     Raises BenchmarkError where the slope does not come to rest, or does not begin to move.
     """
     chosen = section_of(source, disks)
-    _forget_old()
+    cache.clear(KEPT_DAYS, "benchmark")
     note = Progress(folder)
     built = _settle(chosen, lambda share: note(0.5 * share))
     _save("rest", chosen, built)
@@ -112,13 +108,7 @@ def load(source, disks, name):
     """
     chosen = section_of(source, disks)
     checkpoints.read(folder_of(chosen) / name, key_of(chosen), BenchmarkError, "run again")
-    os.utime(folder_of(chosen))  # used now
-
-
-def _forget_old():
-    for folder in cache_folder("benchmark").glob("*"):
-        if folder.stat().st_mtime < time.time() - 86400 * KEPT_DAYS:
-            shutil.rmtree(folder, ignore_errors=True)
+    cache.used(folder_of(chosen))
 
 
 def _save(name, chosen, built):
