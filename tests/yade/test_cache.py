@@ -127,7 +127,10 @@ DAMAGES = {
     "half": (lambda path: path.write_bytes(path.read_bytes()[: path.stat().st_size // 2]), ""),
     "text": (lambda path: path.write_text("no arrays\n"), ""),
     "one array": (lambda path: path.write_bytes(ONE_ARRAY), ""),
-    "a bit": (lambda path: changed(path, x=MADE.x + np.array([0, 1e-17, 0, 0])), "does not match its checksum"),
+    "a_bit": (
+        lambda path: changed(path, x=np.where([1, 0, 0, 0], np.nextafter(MADE.x, 1), MADE.x)),
+        "does not match its checksum",
+    ),
     "a sign": (lambda path: changed(path, x=np.abs(MADE.x)), "does not match its checksum"),
     "a type": (lambda path: changed(path, layer=MADE.layer.view("<u8")), "does not match its checksum"),
     "a shape": (lambda path: changed(path, layer=MADE.layer.T), "does not match its checksum"),

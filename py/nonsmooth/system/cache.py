@@ -59,9 +59,7 @@ class Cache:
     def find(self, path):
         """The value of an entry, which counts as used now; None where there is none, and, with a UserNote, where it is damaged, cannot be read or has another format."""
         try:
-            with open(path, "rb") as file, np.load(
-                file, allow_pickle=False
-            ) as arrays:  # NumPy alone would leave a damaged one open
+            with open(path, "rb") as file, np.load(file) as arrays:  # NumPy alone would leave a damaged one open
                 stored = dict(arrays)
             version, checksum = int(stored.pop("format")), str(stored.pop("checksum"))
             if version != FORMAT:

@@ -11,6 +11,7 @@ SECTION, READER, CHECKS, GEOMETRY, VALUES, HINTS = (
     PY + f"{name}.py" for name in ("model/section/section", "model/section/reader", "model/section/checks", "model/geometry", "model/section/values", "model/section/hints")
 )
 RULES, DRIVER = PY + "course/slope.py", PY + "course/driver.py"
+CACHE = PY + "system/cache.py"
 FREE_SURFACE, SLOPE_PACKING = PY + "model/free_surface.py", PY + "studies/slope/slope_packing.py"
 PACKING, PACKING_CHECKS, PACKING_FILES = (PY + name for name in ("packing/__init__.py", "packing/checks.py", "packing/files.py"))
 
@@ -305,6 +306,28 @@ MUTANTS = (
     mutant("runs-changed", PY + "running/kept_runs.py", "then.get(file) != now.get(file)", "file not in now", "no module is said to have changed",
            "test_side_by_side.py::test_what_a_run_was_made_by_is_kept_and_what_changed_since_is_named"),
     mutant("cache-words", PY + "system/keys.py", "del node.body[0]", "node.body[0]", "a word in a docstring makes all caches anew", "test_keys.py::test_words_and_layout_do_not_count"),
+    mutant("cache-checksum", CACHE, "checksum != _checksum(stored)", "not checksum", "places that a damaged file has changed are taken", "plain:test_cache.py::test_what_is_damaged_is_made_anew_with_one_note"),
+    mutant("cache-bits", CACHE, "digest.update(value.tobytes())", "digest.update(value.tobytes()[1:])", "the first byte of an array may be another", "plain:test_cache.py::test_what_is_damaged_is_made_anew_with_one_note[a_bit]"),
+    mutant("cache-shapes", CACHE, "{name} {value.dtype.str} {value.shape} ", "{name} ", "arrays of another type or shape are taken", "plain:test_cache.py::test_what_is_damaged_is_made_anew_with_one_note"),
+    mutant("cache-version", CACHE, "if version != FORMAT:", "if version > FORMAT:", "a file of an older format is read as one of this", "plain:test_cache.py::test_what_is_damaged_is_made_anew_with_one_note[older]"),
+    mutant("cache-renamed", CACHE, "{tail}-v{FORMAT}.npz", "{tail}.npz", "versions of other formats write over each other's files", "test_keys.py::test_a_new_format_leaves_old_files_alone"),
+    mutant("cache-tail", CACHE, "{key[:32]}{tail}-v", "{key[:32]}-v", "a pressed packing is taken for one that is not", "plain:test_cache.py::test_names_have_the_folder_the_key_and_the_format"),
+    mutant("cache-again", CACHE, "            self.keep(path, found)\n", "", "what is made is not kept", "plain:test_cache.py::test_what_is_kept_comes_back_to_the_bit_and_is_made_once"),
+    mutant("cache-quiet", CACHE, "it is made anew\", UserNote)", "it is made anew\")", "a damaged file ends in a note of the wrong kind, which commands print with a line of code", "plain:test_cache.py::test_what_is_damaged_is_made_anew_with_one_note"),
+    mutant("cache-refused", CACHE, "except Exception as error:  # NumPy", "except ValueError as error:  # NumPy", "a truncated file of the cache ends a command", "plain:test_cache.py::test_what_is_damaged_is_made_anew_with_one_note"),
+    mutant("cache-numbers", CACHE, "value if value.ndim else value.item()", "value", "a width comes back as an array", "plain:test_cache.py::test_what_is_kept_comes_back_to_the_bit_and_is_made_once"),
+    mutant("cache-open", CACHE, 'open(path, "rb") as file, np.load(file)', "np.load(path)", "a damaged file stays open", "plain:test_cache.py::test_what_is_damaged_is_made_anew_with_one_note"),
+    mutant("cache-use", CACHE, "        used(path)\n", "", "what is used every day counts as old", "plain:test_cache.py::test_the_age_counts_from_the_last_use"),
+    mutant("cache-days", CACHE, "time.time() - 86400 *", "time.time() - 3600 *", "days are hours", "plain:test_cache.py::test_the_age_counts_from_the_last_use"),
+    mutant("cache-young", CACHE, "if _last_use(path) < before)", "if _last_use(path) > before)", "what is new is removed", "plain:test_cache.py::test_the_age_counts_from_the_last_use"),
+    mutant("cache-setup", CACHE, "    if name not in FOLDERS:", "    if not name:", "the set-up's folders are taken for the cache's", "plain:test_cache.py::test_other_folders_are_not_the_caches"),
+    mutant("cache-linked", CACHE, "path.is_dir() and not path.is_symlink()", "path.is_dir()", "a link to a folder stays for ever", "plain:test_cache.py::test_what_is_old_goes_and_all_else_stays"),
+    mutant("cache-gone", CACHE, "[path for path in found if not os.path.lexists(path)]", "found", "what cannot be removed is said to have gone", "plain:test_cache.py::test_what_cannot_go_is_not_said_to_have_gone"),
+    mutant("cache-samples", PY + "studies/laboratory/pressing.py", "    if CACHE.find(cache_path(shape)) is None:", "    if not cache_path(shape).exists():", "a damaged sample is found to be there, and no test can begin",
+           "test_laboratory.py::test_a_damaged_sample_is_pressed_anew"),
+    mutant("cache-heaps", PY + "studies/heaps/preparation.py", "keys.key_of([plain, keys.making_key(__name__)])", "keys.key_of([plain])", "heaps are taken from other code and engines", "test_keys.py::test_other_code_or_engines_make_their_own[heaps]"),
+    mutant("cache-states", PY + "studies/slope/states.py", '    cache.clear(KEPT_DAYS, "benchmark")\n', "", "states of all builds are kept for ever", "test_benchmark.py::test_states_that_nobody_used_for_long_are_removed_before_others_are_made"),
+    mutant("note-line", PY + "commands/__init__.py", "issubclass(category, UserNote)", "issubclass(category, FutureWarning)", "a note is printed with a line of code", "test_commands.py::test_a_note_is_one_line"),
     mutant("runs-begun", PY + "running/side_by_side.py", "resume and go_on and kept_runs.begun(r.folder, r.key, r.function)", "resume and go_on", "a run goes on from what other code has left",
            "test_side_by_side.py::test_a_resume_takes_nothing_of_other_engines_or_code"),
     mutant("sweep-names", VALUES, "place[names.index(word)]", "place[-1]", "the last item of a list is varied, whatever its name",
