@@ -40,7 +40,7 @@ def read_arguments():
     parser.add_argument(
         "--fps",
         type=section_arguments.number(
-            float, moving.LEAST_FPS, moving.MOST_FPS, f"frames a second from {moving.LEAST_FPS:g} to {moving.MOST_FPS}"
+            float, film.LEAST_FPS, film.MOST_FPS, f"frames a second from {film.LEAST_FPS:g} to {film.MOST_FPS}"
         ),
         default=moving.FPS,
         metavar="F",

@@ -44,6 +44,22 @@ def test_a_figure_is_returned_or_written(tmp_path, series):
         figures.energy(series, tmp_path / "file" / "f.png")
 
 
+@pytest.mark.parametrize("name", ["energy", "energy.", "energy.final", "folder.d/energy", ".png"])
+@pytest.mark.parametrize("draw", ["energy", "water_forces"])
+def test_a_name_that_no_figure_has_is_refused_and_leaves_nothing(tmp_path, series, name, draw):
+    """Without a suffix matplotlib adds one, to a file that nobody asked for."""
+    with pytest.raises(RecordsError, match="^path .*: give the name of a PNG, as figure.png") as told:
+        figures.energy(series, tmp_path / name) if draw == "energy" else figures.water_forces(20, path=tmp_path / name)
+    assert "\n" not in str(told.value) and not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("suffix", [".pdf", ".svg", ".PNG"])
+def test_other_kinds_of_files_are_what_they_are_called(tmp_path, series, suffix):
+    path = figures.energy(series, tmp_path / f"e{suffix}")
+    begins = {".pdf": b"%PDF", ".svg": b"<?xml", ".PNG": b"\x89PNG"}[suffix]
+    assert [*tmp_path.iterdir()] == [path] and path.read_bytes().startswith(begins)
+
+
 def test_disks_have_their_true_radii():
     """Two disks that touch meet on the picture, and cover the area they should."""
     fig = style.figure(4, 2, dpi=100)

@@ -6,6 +6,7 @@ from matplotlib.lines import Line2D
 from ..measure.characteristic_times import FASTER, RESTING
 from ..measure.ground import ground_of
 from ..measure.surface import deposit_profile
+from ..system import checks
 from . import given, style
 from .forces import SKETCHED
 
@@ -14,6 +15,7 @@ __all__ = ["displacement", "forces_against_water", "speeds", "with_and_without"]
 THIN, ALPHA = 0.9, 0.75  # of lines of single packings
 LEADS = 5.0  # s before t2 that the onset is drawn from
 MEGA = 1e6
+LINES = given.cases("(series, t0)", given.SERIES, checks.real(""))
 
 
 def displacement(series, t0):
@@ -24,7 +26,16 @@ def displacement(series, t0):
     return t - t0, np.hypot(x - x[0], y - y[0]) if len(t) else t
 
 
-@given.takes(cases=given.CASES)
+@given.takes(
+    cases=given.cases(
+        "(label, [(series, t0)], first Snapshot, last Snapshot, walls)",
+        None,
+        LINES,
+        given.SNAPSHOT,
+        given.SNAPSHOT,
+        given.WALLS,
+    )
+)
 @style.styled
 def with_and_without(cases, path=None, pdf=False):
     """Slopes beside those whose slip surface does not weaken, or with any other change: above, the way of their centres of mass against time, a thin line for each packing; below, what the first
@@ -74,7 +85,7 @@ def with_and_without(cases, path=None, pdf=False):
     return style.save(fig, path, pdf)
 
 
-@given.takes(cases=given.CASES)
+@given.takes(cases=given.cases("(series, times, friction)", given.SERIES, given.TIMES, checks.real("")))
 @style.styled
 def forces_against_water(cases, path=None, pdf=False, toe=None, walls=None):
     """The force on the backstops and the shear force on the slip surfaces against the height of the water table, from where it begins to rise until the slope accelerates: a thin line for each
@@ -139,7 +150,13 @@ def forces_against_water(cases, path=None, pdf=False, toe=None, walls=None):
     return style.save(fig, path, pdf)
 
 
-@given.takes(cases=given.CASES)
+@given.takes(
+    cases=given.cases(
+        "(series, summary with times_s, t2_by_speed_s and t5_by_speed_s)",
+        given.SERIES,
+        checks.holds("times_s t2_by_speed_s t5_by_speed_s", ""),
+    )
+)
 @style.styled
 def speeds(cases, path=None, pdf=False, moving=0.2):
     """Mean speeds against time from t3 on either side, a thin line for each packing: left, the onset, with the speeds by which t2 may be told and when each is reached for good; right, all of the

@@ -10,10 +10,11 @@ from ..records import RecordsError
 from ..system import checks
 from ..system.whole_files import beside
 
-__all__ = ["Stage", "check", "write"]
+__all__ = ["Stage", "check", "check_fps", "missing", "named", "write"]
 
 HOLD = 1.5  # seconds for which the last picture stays
 KINDS = (".mp4", ".gif")
+LEAST_FPS, MOST_FPS = 0.1, 100  # frames a second: the clock of a GIF has hundredths of a second
 
 
 class Stage:
@@ -95,14 +96,26 @@ def missing():
     return None if FFMpegWriter.isAvailable() else "ffmpeg is not installed (apt install ffmpeg)"
 
 
-def check(path):
-    """The path of a film that can be made, before anything is computed for it. Raises RecordsError for another suffix than .mp4 or .gif, and for an MP4 without ffmpeg."""
+def named(path):
+    """The path of a film. Raises RecordsError for another suffix than .mp4 or .gif."""
     path = Path(checks.path("path", path, RecordsError, f"give the name of a file that ends in {' or '.join(KINDS)}"))
     if path.suffix.lower() not in KINDS:
         raise RecordsError(f"{path}: a video ends in {' or '.join(KINDS)}; give such a name")
+    return path
+
+
+def check(path):
+    """The path of a film that can be made, before anything is computed for it. Raises RecordsError as :func:`named`, and for an MP4 without ffmpeg."""
+    path = named(path)
     if path.suffix.lower() == ".mp4" and missing():
         raise RecordsError(f"{path}: {missing()}; install it, or give a name that ends in .gif, which needs none")
     return path
+
+
+def check_fps(fps):
+    """Raises RecordsError for a number of frames a second that no video has."""
+    remedy = f"give frames a second, from {LEAST_FPS:g} to {MOST_FPS}"
+    checks.number("fps", fps, RecordsError, remedy, least=LEAST_FPS, most=MOST_FPS)
 
 
 def write(path, fig, pictures, fps):

@@ -28,7 +28,7 @@ def columns(start, walls, number=16):
     return np.where(mass & (np.abs(along - middles[nearest]) <= width / 2), nearest, -1)
 
 
-@given.takes(cases=given.CASES, section=given.SECTION)
+@given.takes(cases=given.LABELLED, section=given.SECTION)
 @style.styled
 def markers(cases, section, path=None, pdf=False, number=16):
     """What becomes of thin columns of disks that lay across the layers: tilted and bent they show shear, turned over with the layers they show folds, scattered they would show mixing.

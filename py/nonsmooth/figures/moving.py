@@ -22,7 +22,6 @@ WIDE, HIGH, LEAST = 1280, 720, 480  # pixels: the largest size of the picture, a
 HEAD = 44  # pixels above it, with the time
 BAR = 110  # pixels beside it, with a bar of colours
 FPS = 25
-LEAST_FPS, MOST_FPS = 0.1, 100  # frames a second: the clock of a GIF has hundredths of a second
 
 _numbers = itertools.count()
 _recorders = weakref.WeakValueDictionary()
@@ -158,11 +157,6 @@ def _check_period(period):
         checks.number("period", period, RecordsError, remedy, above=0)
 
 
-def _check_fps(fps):
-    remedy = f"give frames a second, from {LEAST_FPS:g} to {MOST_FPS}"
-    checks.number("fps", fps, RecordsError, remedy, least=LEAST_FPS, most=MOST_FPS)
-
-
 def _drawn(options):
     """Options of :func:`write`, with values that can be used."""
     unknown = set(options) - {"forces", "view", "colours"}
@@ -232,7 +226,7 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
         checks.count("frames", frames, RecordsError, "give a whole number from 1 to 10000", most=10_000)
     _check_scene(O)
     _check_period(period)
-    _check_fps(fps)
+    film.check_fps(fps)
     read(O)  # a scene without disks is refused now
     if not O.dt > 0:
         raise RecordsError(f"O.dt = {O.dt:g}: set the time step of the scene, above 0 s, before it is run")
@@ -257,7 +251,7 @@ def animate(O, path=None, seconds=1.0, frames=None, period=None, fps=FPS, **draw
     return made if path is None else made.write(fps=fps)
 
 
-@style.styled
+@style.with_settings
 def write(frames, path, fps=FPS, words=None, bar=None, **drawn):
     """Writes ``frames``, a list of (time [s], :class:`.scene_arrays.Scene`), as the video ``path``; ``words``: of a time and a scene, said beside the time; ``bar``: a ScalarMappable that the colours are
     of, and what it shows. Others: as of :func:`animate`.
@@ -269,7 +263,7 @@ def write(frames, path, fps=FPS, words=None, bar=None, **drawn):
         raise RecordsError(
             f"{path}: no frame has been kept; put disks into the scene and run it before its video is written"
         )
-    _check_fps(fps)
+    film.check_fps(fps)
     look, longest = pictures.Look([s for _, s in frames], **drawn), frames[-1][0]
     x0, x1, y0, y1 = look.box
     scale = min(WIDE / (x1 - x0), HIGH / (y1 - y0))

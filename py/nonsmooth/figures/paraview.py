@@ -122,10 +122,18 @@ def write_scene_walls(O, path):
 
 @given.takes(entries=given.ENTRIES)
 def write_collection(entries, path):
-    """The .pvd file that shows files in the course of time; ``entries``: (time [s], path) pairs in one folder or below ``path``'s."""
+    """The .pvd file that shows files in the course of time; ``entries``: (time [s], path) pairs in one folder or below ``path``'s. Raises RecordsError for a time that
+    is no finite number, and for a file that is not there."""
     path = Path(path)
+    for k, (time, file) in enumerate(entries):
+        checks.number(f"entries[{k}]: time", time, RecordsError, "give seconds, a finite number")
+        checks.path(f"entries[{k}]: file", file, RecordsError, "give the path of a file of write_disks")
+        if not Path(file).is_file():
+            raise RecordsError(
+                f"entries[{k}]: file {str(file)!r}: there is no such file; write it first, with write_disks or another of these functions"
+            )
     lines = [
-        f'    <DataSet timestep="{time!r}" file={quoteattr(os.path.relpath(file, path.parent))}/>'
+        f'    <DataSet timestep="{float(time)!r}" file={quoteattr(os.path.relpath(file, path.parent))}/>'
         for time, file in entries
     ]
     text = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n{}\n  </Collection>\n</VTKFile>\n'

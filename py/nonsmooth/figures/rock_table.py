@@ -9,6 +9,7 @@ from . import style
 __all__ = ["table"]
 
 
+@style.styled
 def table(found, path=None, pdf=False):
     """Two panels against μ_s; dots: samples, squares: means with their 95 % interval, lines: the law between the rocks.
 

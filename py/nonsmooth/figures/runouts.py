@@ -12,7 +12,12 @@ from .style import INK
 __all__ = ["runouts"]
 
 
-@given.takes(cases=given.CASES, walls=given.WALLS)
+FIRST_AND_LAST = given.cases(
+    "(label, Snapshot of the beginning, Snapshot of the end)", None, given.SNAPSHOT, given.SNAPSHOT
+)
+
+
+@given.takes(cases=FIRST_AND_LAST, walls=given.WALLS)
 @style.styled
 def runouts(cases, walls, path=None, pdf=False):
     """Where masses have come to rest, in panels of one scale.

@@ -1,5 +1,6 @@
 """What the figures share: colours, drawing of disks and walls, time marks, saving."""
 
+import functools
 import math
 from pathlib import Path
 
@@ -13,7 +14,9 @@ from matplotlib.patheffects import withStroke
 
 from ..measure.weakening import stretch, stretches, weakened_share
 from ..records import RecordsError
+from ..system import checks
 from ..system.whole_files import beside
+from .given import PATH
 
 __all__ = [
     "COMPRESSION",
@@ -59,6 +62,7 @@ __all__ = [
     "view",
     "water_line",
     "water_table",
+    "with_settings",
 ]
 
 # Told apart by lightness as well as by hue, so that they survive colour blindness and grey printing.
@@ -117,10 +121,14 @@ def figure(width, height, **options):
 
 
 def styled(function):
-    """Run a figure function under this project's settings, whatever the user's matplotlibrc says."""
-    from functools import wraps
+    """Run a figure function under this project's settings, see :func:`with_settings`. Raises RecordsError, before anything is drawn, for a ``path`` that no figure can have."""
+    return checks.takes(RecordsError, path=PATH)(with_settings(function))
 
-    @wraps(function)
+
+def with_settings(function):
+    """Run what draws, as a film, under this project's settings, whatever the user's matplotlibrc says."""
+
+    @functools.wraps(function)
     def run(*args, **options):
         with matplotlib.rc_context():
             matplotlib.rcdefaults()

@@ -7,6 +7,8 @@ from matplotlib.lines import Line2D
 
 from ..measure.characteristic_times import reason_of
 from ..model.section import values as section_values
+from ..records import RecordsError
+from ..system import checks
 from . import given, style
 
 __all__ = ["MARKERS", "means"]
@@ -40,8 +42,10 @@ def means(rows, key, names, path=None, pdf=False):
     """Results against the values of ``key``, a panel for each of the ``names``; dots: runs, large markers: means over seeds with their 95 % interval, a kind of marker for each verdict.
     A panel says which runs have no such result, by their verdicts.
 
-    ``rows``: of `campaign.means`; those that differ in other keys too are lines of their own. Values that are no numbers stand side by side.
+    ``rows``: of `campaign.means`; those that differ in other keys too are lines of their own. Values that are no numbers stand side by side. Raises RecordsError for no rows, and for a key or
+    a name that they have not.
     """
+    _check(rows, key, names)
     fig = style.figure(PANEL * len(names) + 0.4, HEIGHT)
     panels = fig.subplots(1, len(names), squeeze=False)[0]
     groups, short = {}, section_values.short([k for k in rows[0]["values"] if k != key])
@@ -79,6 +83,20 @@ def means(rows, key, names, path=None, pdf=False):
             ax.set_ylim(0, high)
     _make_room(fig, max(TOP, _legend(fig, looks, verdicts) + 0.5), BOTTOM + LINE * max(0, below - 3))
     return style.save(fig, path, pdf)
+
+
+def _check(rows, key, names):
+    """Raises RecordsError where there is nothing to draw, or a row has not what is asked for."""
+    if not rows or not names:
+        raise RecordsError(f"{'names' if rows else 'rows'} []: nothing to draw; give at least one")
+    for part, asked in (("values", [key]), ("numbers", names)):
+        for name in asked:
+            if not all(name in row.get(part, {}) for row in rows):
+                known = [one for one in rows[0].get(part, {}) if all(one in row.get(part, {}) for row in rows)]
+                what = "key" if part == "values" else "names"
+                raise RecordsError(
+                    f"{what} {checks.shown(name)}: the rows have no such {part}; give {'some' if part == 'numbers' else 'one'} of {', '.join(known)}"
+                )
 
 
 def _text(value):

@@ -11,6 +11,9 @@ from . import given, style
 
 __all__ = ["toe", "toes"]
 
+BEFORE_AND_AFTER = given.cases(
+    "(title, Snapshot before, Snapshot after, Section)", None, given.SNAPSHOT, given.SNAPSHOT, given.SECTION
+)
 WIDTH, ACROSS = 8.0, 3  # inches of a toe alone; panels side by side
 
 
@@ -39,7 +42,7 @@ def toe(before, after, section, path=None, pdf=False, friction_deg=None):
     return style.save(fig, path, pdf)
 
 
-@given.takes(cases=given.CASES)
+@given.takes(cases=BEFORE_AND_AFTER)
 @style.styled
 def toes(cases, path=None, pdf=False, friction_deg=None):
     """The toes of several slopes side by side, each as :func:`toe` draws it, with one scale of colours, whatever number of disks they have; bands and Rankine's directions where a toe has disks

@@ -17,7 +17,12 @@ from . import film, given, style
 
 __all__ = ["FORCES", "write_mp4"]
 
-SNAPSHOTS = (given.CASES[0], "give a list of the files of a run's snapshots, in the order of time")
+SNAPSHOTS = (
+    lambda v: given.CASES[0](v) and (not isinstance(v, (list, tuple)) or all(FILE[0](one) for one in v)),
+    "give a list of the files of a run's snapshots, in the order of time",
+)
+SERIES = (lambda v: v is None or given.SERIES[0](v), f"{given.SERIES[1]}, or None for no forces")
+SMALLEST, LARGEST = 64, 8192  # pixels, that have room for something, and that players play
 
 FORCES = (  # column, symbol, meaning, role of the walls, colour
     ("dp_normal_effective_N_per_m", "N'", "effective normal force", "slip", "blue"),
@@ -116,13 +121,22 @@ class _Frames(film.Stage):
         return self.picture()
 
 
+def _pixels(size):
+    """Width and height of a video, as whole numbers. Raises RecordsError."""
+    remedy = f"give (width, height) in pixels, two even whole numbers from {SMALLEST} to {LARGEST}"
+    found = checks.numbers_of("size", size, RecordsError, remedy, least=2, most=2)
+    if any(v % 2 or not SMALLEST <= v <= LARGEST for v in found):
+        raise RecordsError(f"size {checks.shown(size)}: {remedy}")
+    return tuple(map(int, found))
+
+
 def _sample(paths):
     """The first, the last and some snapshots between: enough to choose the limits of the picture."""
     last = len(paths) - 1
     return [read_snapshot(paths[k]) for k in sorted({0, last // 2, 3 * last // 4, last})]
 
 
-@checks.takes(RecordsError, snapshot_paths=SNAPSHOTS, walls=given.WALLS, path=FILE)
+@given.takes(snapshot_paths=SNAPSHOTS, walls=given.WALLS, path=FILE, series=SERIES)
 def write_mp4(
     snapshot_paths, walls, path, fps=15, series=None, times=None, size=(1280, 720), window=1.0, progress=None
 ):
@@ -132,10 +146,12 @@ def write_mp4(
     are read one by one. ``walls``: see :mod:`nonsmooth.figures`. ``size``: pixels, even numbers. ``series`` (with
     ``times``): adds a strip of forces against time with a cursor, means over ``window`` [s] once the avalanche moves. ``progress``: called with (frames done, all
     frames) after each frame. Returns (path, None), or (None, note) when there is no ffmpeg or it failed; a file that
-    was there before is replaced only by a whole new one. Raises :class:`~nonsmooth.records.RecordsError` if there is
-    no snapshot, one is unreadable, or their numbers of disks differ.
+    was there before is replaced only by a whole new one. Raises :class:`~nonsmooth.records.RecordsError` for a name, size or number of frames a second (``fps``) that no video can have, if
+    there is no snapshot, one is unreadable, or their numbers of disks differ.
     """
-    paths, path, ground = [Path(p) for p in snapshot_paths], Path(path), ground_of(walls)
+    paths, path, ground = [Path(p) for p in snapshot_paths], film.named(path), ground_of(walls)
+    film.check_fps(fps)
+    size = _pixels(size)
     if not paths:
         raise RecordsError("there are no snapshots to make a video of; let the run write some first")
     if film.missing():

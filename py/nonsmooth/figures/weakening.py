@@ -13,7 +13,7 @@ __all__ = ["weakening"]
 SHADES = LinearSegmentedColormap.from_list("weakened", [style.STRONG, style.WEAKENED])
 
 
-@given.takes(cases=given.CASES, walls=given.WALLS)
+@given.takes(cases=given.SNAPSHOTS, walls=given.WALLS)
 @style.styled
 def weakening(cases, walls, path=None, times=None, pdf=False):
     """Which part of each surface that weakens is weakened, along the surface against time, one panel a surface.

@@ -16,7 +16,6 @@ ENTRIES = (
     "give a list of (time, file) pairs",
 )
 
-
 BREAKS = checks.holds("time_s mode x_m y_m", "give broken bonds, as run.breaks or records.read_breaks(path) has them")
 
 

@@ -11,13 +11,13 @@ from collections.abc import Mapping
 
 __all__ = ["count", "has", "holds", "kind", "mapping", "number", "numbers_of", "path", "real", "shown", "takes", "text"]
 
-LONGEST = 60  # characters of a value in a message
+LONGEST, END = 60, 24  # characters of a value in a message, and of its end
 
 
 def shown(value):
-    """A value as a message shows it, on one line and cut where it is long."""
+    """A value as a message shows it, on one line; where it is long its beginning and its end, as of a path."""
     told = " ".join(repr(value).split())
-    return told if len(told) <= LONGEST else f"{told[:LONGEST]}…"
+    return told if len(told) <= LONGEST else f"{told[:LONGEST - END]}…{told[-END:]}"
 
 
 def number(name, value, error, remedy, above=-math.inf, least=-math.inf, most=math.inf, below=math.inf):
