@@ -65,6 +65,7 @@ def read_arguments():
         "--seeds",
         type=int,
         nargs="+",
+        action=arguments.EachOnce,
         default=[1],
         metavar="S",
         help="seeds of the packings; several give confidence intervals",

@@ -55,6 +55,7 @@ def read_arguments():
         "--seeds",
         type=int,
         nargs="+",
+        action=arguments.EachOnce,
         metavar="S",
         help="seeds of the samples (default: 11 12, with --quick 11 to 14: smaller samples scatter more)",
     )

@@ -55,7 +55,13 @@ def read_arguments():
         help="disks of each; boxes of some hundred or fewer may miss it by some per cent, see the table (default: %(default)s)",
     )
     parser.add_argument(
-        "--seeds", type=int, nargs="+", default=[1], metavar="S", help="seeds of the packings (default: 1)"
+        "--seeds",
+        type=int,
+        nargs="+",
+        action=arguments.EachOnce,
+        default=[1],
+        metavar="S",
+        help="seeds of the packings (default: 1)",
     )
     parser.add_argument(
         "--diameter", type=float, default=usual.diameter, metavar="M", help="mean diameter [m] (default: %(default)g)"

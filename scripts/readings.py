@@ -51,6 +51,7 @@ def read_arguments():
         "--seeds",
         type=int,
         nargs="+",
+        action=arguments.EachOnce,
         default=[1, 2, 3, 4, 5],
         metavar="S",
         help="of slopes and samples (default: 1 to 5)",

@@ -50,6 +50,7 @@ def read_arguments():
         "--seeds",
         type=int,
         nargs="+",
+        action=arguments.EachOnce,
         default=[1, 2, 3, 4, 5],
         metavar="S",
         help="seeds of the samples (default: 1 to 5)",

@@ -127,6 +127,15 @@ def test_a_result_is_in_units_of_its_box():
         (dict(base="bumpy"), "base 'bumpy': give one of smooth, rough"),
         (dict(restitution=1), "restitution 1"),
         (dict(friction=-1), "friction -1"),
+        (
+            dict(friction=30),
+            "^friction 30: 30 is no coefficient of friction; friction is the tangent of an angle: 30 degrees are 0.577$",
+        ),
+        (dict(friction=3.01), "friction 3.01: 3.01 is no coefficient of friction"),
+        (
+            dict(rolling_friction=2.1),
+            "^rolling_friction 2.1: 2.1 is no coefficient of rolling friction; it is in mean diameters",
+        ),
         (dict(base_friction=0.9), "base_friction 0.9"),
         (dict(wall_friction=0.9), "wall_friction 0.9"),
         (dict(seed=-1), "seed -1"),
@@ -145,6 +154,13 @@ def test_a_result_is_in_units_of_its_box():
 def test_wrong_parameters_are_named(wrong, said):
     with pytest.raises(grains.HeapError, match=said):
         column.Column(**wrong)
+
+
+@pytest.mark.parametrize("kind", [column.Column, pile.Pile])
+def test_friction_in_degrees_is_refused_and_coefficients_at_their_bounds_are_taken(kind):
+    with pytest.raises(grains.HeapError, match="^friction 30: .* 30 degrees are 0.577$"):
+        kind(friction=30)
+    assert kind(friction=3.0, rolling_friction=2.0).material().friction == 3.0
 
 
 def test_a_column_that_is_too_thin_is_refused():

@@ -596,6 +596,23 @@ def test_checks_are_listed(in_process):
         ("benchmark.py", ("--threads", 0), "--threads 0"),
         ("benchmark.py", ("--scale", "10,10"), "each once"),
         ("column.py", ("--aspect", "1,1"), "give each number once"),
+        (
+            "column.py",
+            ("--friction", 30),
+            "30 is no coefficient of friction; friction is the tangent of an angle: 30 degrees are 0.577",
+        ),
+        *(
+            (f"{name}.py", ("--seeds", 1, 2, 1, *more), "--seeds: 1 2 1: give each once")
+            for name, *more in (
+                ("column",),
+                ("biaxial",),
+                ("biaxial_effects",),
+                ("readings",),
+                ("table1",),
+                ("wall_shear",),
+                ("calibrate", "--cohesion", 5e4, "--friction", 30),
+            )
+        ),
         ("column.py", ("--profiles", "--kind", "pile"), "--profiles with --kind pile"),
         ("verify.py", ("--only", "perpetual-motion"), "--list names them"),
     ],

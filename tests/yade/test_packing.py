@@ -214,6 +214,10 @@ def test_text(three, tmp_path):
         ("0 0 1 -1\n", r"line 1: the layer is -1"),
         ("# nothing\n", "holds no disk"),
         ("# disks: 3\n0 0 1 0\n", "holds 1 disks of the 3.*truncated"),
+        (
+            "# disks: 1\n0 0 1 0\n9 9 1 0\n",
+            "holds 2 disks, 1 more than the 1 it announces; take out the lines .*# disks: 1'$",
+        ),
         ("1e308 0 1\n", r"line 1: x is 1e\+308; give m, at most 1e\+07"),
         ("0 0 5e-324\n", "line 1: the radius is"),
         ("0 0 1 " + "9" * 30 + "\n", "line 1: the layer is 9999"),

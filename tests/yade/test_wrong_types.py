@@ -65,6 +65,7 @@ def test_what_is_no_count():
 
 def test_a_value_is_shown_on_one_line_and_cut():
     assert checks.shown("a\nb") == r"'a\nb'" and len(checks.shown(list(range(1000)))) == checks.LONGEST + 1
+    assert checks.shown("/a" * 100 + "/figure.xyz").endswith("/figure.xyz'")
     assert "\n" not in checks.shown(CIRCLE)
 
 
@@ -134,7 +135,7 @@ CALLS = [
     ("path", lambda v: video.write_mp4([], CIRCLE, v), (None, 3, [1], ""), "give the path of the file to write"),
     (".*film", lambda v: video.write_mp4([], CIRCLE, v), ("film", "film.avi"), "a video ends in .mp4 or .gif"),
     ("snapshot_paths", lambda v: video.write_mp4(v, CIRCLE, "a.mp4"), ([1], ["a.npz", None]), "give a list of the files of a run's snapshots"),
-    ("fps", lambda v: video.write_mp4(["a.npz"], CIRCLE, "a.mp4", fps=v), (None, "15", 0, -1, 241, NAN, INF), "give frames a second, above 0, at most 240"),
+    ("fps", lambda v: video.write_mp4(["a.npz"], CIRCLE, "a.mp4", fps=v), (None, "15", 0, -1, 101, NAN, INF), "give frames a second, from 0.1 to 100"),
     ("size", lambda v: video.write_mp4(["a.npz"], CIRCLE, "a.mp4", size=v), (None, 720, "720", (1280,), (1280, 721), (0, 0), (62, 64), (64, 8194), (NAN, 720)), "two even whole numbers from 64 to 8192"),
     ("window", lambda v: video.write_mp4(["a.npz"], CIRCLE, "a.mp4", window=v), (None, "1", 0, -1, NAN, INF), "give the seconds that a mean is over"),
     ("series", lambda v: video.write_mp4(["a.npz"], CIRCLE, "a.mp4", series=v), ("x", [1]), "give columns {name: array}"),
@@ -147,10 +148,10 @@ CALLS = [
     ("packing", lambda v: similar.mirrored_packing(v), (None, "circle", [1]), "give a Packing"),
     ("packing", lambda v: similar.scaled_packing(v, 2), (None, "circle", [1]), "give a Packing"),
     ("built", lambda v: experiment.Experiment(v, "out"), (None, "circle", CIRCLE), "give a Slope, as slope.build"),
-    ("summary", lambda v: report.table(v), (None, "x", {}), "give the summary of a campaign"),
-    ("summary", lambda v: report.pressures(v), (None, "x", {"tests": []}), "give the summary of a campaign"),
-    ("summary", lambda v: report.draw("out", v), (None, "x", {"tests": []}), "give the summary of a campaign"),
-    ("out", lambda v: report.draw(v, {"tests": [], "seeds": []}), (None, 3, ""), "give the path of the folder"),
+    ("summary", lambda v: report.table(v), (None, "x", {}, {"tests": []}), "give the summary of a campaign of biaxial tests, of one or more"),
+    ("summary", lambda v: report.pressures(v), (None, "x", {"tests": []}, {"by_pressure": []}), "give the summary of a campaign"),
+    ("summary", lambda v: report.draw("out", v), (None, "x", {"tests": []}, {"tests": [], "seeds": []}), "give the summary of a campaign"),
+    ("out", lambda v: report.draw(v, {"tests": [{}], "seeds": [1]}), (None, 3, ""), "give the path of the folder"),
     ("base", lambda v: campaign.sweep(v, {}), (None, "circle", {}), "give a Section"),
     ("over", lambda v: campaign.sweep(CIRCLE, v), (None, "seed", [1], 3), "give a dictionary {key: values}"),
     ("seed:", lambda v: campaign.sweep(CIRCLE, {"seed": v}), (None, "12", 3), "give the values to run with"),
@@ -159,6 +160,8 @@ CALLS = [
     ("out", lambda v: campaign.run_slope(CIRCLE, v), (None, 3, [1]), "give the path of a folder"),
     ("threads", lambda v: campaign.run_slope(CIRCLE, "out", threads=v), (None, "2", 0, 1.5), "give a whole number from 1"),
     ("out", lambda v: campaign.read(v), (None, 3), "give the path of the folder of a plan"),
+    ("table", lambda v: campaign.means(v, ["seed"]), (None, "x", [1], {}, {"seed": [1]}), "give the table of a plan|the table has no column 'run'"),
+    ("varied", lambda v: campaign.means({"run": ["a"], "seed": [1]}, v), (None, "seed", [1], ["friction"]), "give the list of the keys|the table has no column 'friction'; it has run, seed"),
     ("lesson", lambda v: campaign.lesson(v), (None, 3, [1]), "give one of beam, bounce"),
     ("disk, centre", lambda v: scene.disk(v, 1, stuff()), (None, "xy", 3, [1], (NAN, 0), (0, INF), (1, 2, 3, 4)), r"give \(x, y\)"),
     (r"disk at \(0, 0\): radius", lambda v: scene.disk((0, 0), v, stuff()), (None, "1", [1], 0, -1, NAN, INF), "give a positive radius"),
@@ -215,7 +218,7 @@ CALLS = [
     ("world", lambda v: column.build(column.Column(), v), (None, "hard", [1]), r"give worlds.Hard\(...\)"),
     ("material", lambda v: materials.load(v), (None, 3, [1]), "give one of wwr, dp"),
     ("material", lambda v: biaxial_test.Test(v, 1e6, None), (None, "wwr", 3), "give a section.Material"),
-    ("tests", lambda v: tests_of_rock.run(v, "out", 1), (None, "x", [1], 3), "give a list of biaxial_test.Test"),
+    ("tests", lambda v: tests_of_rock.run(v, "out", 1), (None, "x", [1], 3, []), "give a list of biaxial_test.Test|give one biaxial_test.Test or more"),
     ("out", lambda v: tests_of_rock.run([], v, 1), (None, 3), "give the path of a folder"),
     ("threads", lambda v: tests_of_rock.run([], "out", v), (None, "2", 0), "give a whole number from 1"),
 ]  # fmt: skip

@@ -163,8 +163,16 @@ def means(table, varied) -> list:
     """Means over seeds of the numbers in a table (see :func:`collect`) for each combination of the other ``varied`` keys and each verdict (:data:`yade.nonsmooth.studies.slope.verdict.MEANINGS`), as a slope that
     stood and one that failed have nothing in common that a mean would tell: dictionaries with ``values`` of these keys, ``verdict`` (None in a table that has none), ``seeds``,
     ``of``, the number of runs of this combination whatever became of them, ``times_missing``, {time: why it did not come, a list, one a run}, and ``numbers``, {name: see
-    statistics.over_seeds}. Where no seed was varied each run is a row of its own.
+    statistics.over_seeds}. Where no seed was varied each run is a row of its own. Raises PlanError for a table without the column ``run``, or without one of the ``varied`` keys.
     """
+    checks.mapping(
+        "table", table, PlanError, "give the table of a plan, {column: list}, as campaign.collect(...) returns it"
+    )
+    for key in ("run", *_keys(varied)):
+        if key not in table:
+            raise PlanError(
+                f"{'varied' if key != 'run' else 'table'}: the table has no column {key!r}; it has {', '.join(table)}"
+            )
     others = [key for key in varied if key != SEED]
     verdicts = table.get(VERDICT, [None] * len(table["run"]))
     rows, number = {}, {}
@@ -185,6 +193,15 @@ def means(table, varied) -> list:
         }
         for (values, verdict), found in rows.items()
     ]
+
+
+def _keys(varied):
+    """Keys that were varied. Raises PlanError where they are none."""
+    if isinstance(varied, (list, tuple)) and all(isinstance(key, str) for key in varied):
+        return varied
+    raise PlanError(
+        f"varied {checks.shown(varied)}: give the list of the keys that were varied, as ['seed', 'water.rate']"
+    )
 
 
 def numbers(result, prefix="") -> dict:

@@ -7,7 +7,7 @@ import contextlib
 import os
 import sys
 
-__all__ = ["add_runs", "bar", "positive", "pressures"]
+__all__ = ["EachOnce", "add_runs", "bar", "positive", "pressures"]
 
 
 def pressures(least=1):
@@ -25,6 +25,15 @@ def pressures(least=1):
         return values
 
     return read
+
+
+class EachOnce(argparse.Action):
+    """Action of an option that takes several values, as seeds: a value that stands twice would be run once, and counted twice or not at all."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        if len(set(values)) < len(values):
+            raise argparse.ArgumentError(self, f"{' '.join(map(str, values))}: give each once")
+        setattr(namespace, self.dest, values)
 
 
 def positive(text):

@@ -108,7 +108,7 @@ def write_text(packing: Packing, path) -> None:
 def read_text(path) -> Packing:
     """Read lines of `x y r [layer]` [m], layers from 0 (0 where not given); # starts a comment.
 
-    A comment `# disks: N`, as `write_text` makes, guards against a truncated file. Raises
+    A comment `# disks: N`, as `write_text` makes, guards against lines that are missing or too many. Raises
     PackingError with file, line and remedy.
     """
     path = Path(path)
@@ -162,9 +162,13 @@ def read_text(path) -> Packing:
         rows.append((x, y, r, layer))
     if not rows:
         raise PackingError(f"{path}: holds no disk; give lines of x y r [layer]")
-    if announced is not None and announced != len(rows):
+    if announced is not None and announced > len(rows):
         raise PackingError(
-            f"{path}: holds {len(rows)} disks of the {announced} it announces; " "it is truncated: write it again"
+            f"{path}: holds {len(rows)} disks of the {announced} it announces; it is truncated: write it again"
+        )
+    if announced is not None and announced < len(rows):
+        raise PackingError(
+            f"{path}: holds {len(rows)} disks, {len(rows) - announced} more than the {announced} it announces; take out the lines that do not belong to it, or correct its comment '# disks: {announced}'"
         )
     x, y, r, layer = map(np.array, zip(*rows))
     return Packing(x, y, r, layer)

@@ -10,7 +10,7 @@ import math
 from .. import geometry
 from ..scales import GRAVITY
 
-__all__ = ["check", "check_material", "hint"]
+__all__ = ["check", "check_material", "hint", "wrong"]
 
 STEEPEST = 3.0  # coefficient of sliding friction, of 72°; no contact of rock or soil has it
 ROLLING = 2.0  # of rolling friction in mean diameters: a grain would have to be rolled over more than its own length
@@ -57,6 +57,11 @@ def hint(key, value) -> str:
         _unit_weight(value, GRAVITY) if key == "unit_weight" else None
     )
     return found[1] if found else ""
+
+
+def wrong(key, value) -> str:
+    """What is wrong with a number of a material that stands in no section, and what may be meant, as one sentence; empty where nothing is."""
+    return "; ".join(_of_material((key,), value, GRAVITY, 0.0) or ())
 
 
 def _values(material):

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from ...errors import UserError
-from ...model.section import Material
+from ...model.section import Material, units
 from ...packing import files as packing_files
 from ...system import checks
 from ...world.soft.parameters import ROLLING_MODELS
@@ -65,6 +65,9 @@ class Heap:
             number(key, "give a number above 0", above=0)
         for key in ("friction", "rolling_friction"):
             number(key, "give 0 or more", least=0)
+            wrong = units.wrong(key, getattr(self, key))
+            if wrong:
+                raise HeapError(f"{key} {getattr(self, key):g}: {wrong}")
         number("size_spread", "give largest over smallest diameter, from 1 to 8", least=1, most=8)
         number("restitution", "give a number from 0 to less than 1", least=0, below=1)
         if self.base not in BASES:

@@ -63,6 +63,8 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     if not isinstance(tests, Iterable) or isinstance(tests, str):
         raise CampaignError(f"tests {checks.shown(tests)}: give a list of biaxial_test.Test")
     home, tests = Path(out) / "tests", list(tests)
+    if not tests:
+        raise CampaignError("tests []: there is nothing to run; give one biaxial_test.Test or more")
     for test in tests:
         if not isinstance(test, biaxial_test.Test):
             raise CampaignError(f"tests, {checks.shown(test)}: give a list of biaxial_test.Test")
