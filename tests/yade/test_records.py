@@ -289,10 +289,21 @@ def test_a_refused_snapshot_leaves_the_old_file(tmp_path, arrays):
         ({"ci": arrays["ci"] + 10**6}, "beyond"),
         ({"colour": 1}, "unknown.*colour"),
         ({"time_s": [1.0, 2.0]}, "time_s has shape"),
+        ({"time_s": "now"}, "time_s holds .* instead of numbers"),
+        ({"layer": arrays["layer"] + 0.5}, r"layer\[0\] is .*5, no whole number; give whole numbers"),
+        ({"step": 10.5}, "step is 10.5, no whole number"),
+        (
+            {"cj": np.where(np.arange(len(arrays["ci"])) == 3, arrays["ci"], arrays["cj"])},
+            f"contact 3 is of disk {arrays['ci'][3]} with itself; give another disk as cj",
+        ),
+        ({"cj": arrays["cj"] + 0.25}, r"cj\[0\] is .*no whole number"),
+        ({"wet": arrays["wet"] + 0.5}, r"wet\[0\] is .*neither True nor False"),
     ):
         with pytest.raises(RecordsError, match=message):
             records.write_snapshot(path, **{**arrays, **change})
     assert path.read_bytes() == before and len(list(tmp_path.iterdir())) == 1
+    whole = {name: arrays[name].astype(float) for name in ("layer", "ci", "cj", "wet")}
+    assert records.write_snapshot(path, **{**arrays, **whole, "step": float(arrays["step"])}).read_bytes() == before
     with pytest.raises(synthetic.load("system.whole_files").WriteError, match="a.npz.*cannot be written"):
         records.write_snapshot(path / "a.npz", **arrays)  # a file is no folder
 

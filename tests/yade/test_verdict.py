@@ -44,6 +44,18 @@ def test_a_slope_that_slid_and_was_held_has_not_stood(side):
     assert of(moving=None, columns=slid(0.008 * side)).kind == "stood"
 
 
+def test_a_slide_has_the_water_of_its_own_time_and_not_the_highest():
+    """Down 2 % of the size from 20 s to 30 s: 1 % at 25 s, where the table, which rises by 0.5 m/s from 10 s to 30.5 s, is at 7.5 m."""
+    said = of(moving=None, columns=slid(0.02)).says
+    assert said.endswith(
+        "; it had slid by 1 % of its size at 25.0 s, with the water table at 7.5 m and 110 disks wet (20 %)"
+    ), said
+    assert "10.25" not in said
+    early = dict(wet_disks=lambda t: np.where(t > 27, 110, 0))
+    assert of(moving=None, columns=slid(0.02) | early).says.endswith("with the water table at 7.5 m, below all disks")
+    assert of(moving=None, columns=slid(0.02) | DRY).says.endswith("of its size at 25.0 s, dry")
+
+
 def test_a_slope_slides_from_when_the_water_came():
     """5 % of its size in the seconds before t0 are no slide; where no water came they are."""
     early = RESTING | dict(centroid_x_m=lambda t: 40.0 + 0.05 * SIZE * np.clip((t - 6.0) / 3.0, 0, 1))

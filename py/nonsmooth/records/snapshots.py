@@ -78,15 +78,27 @@ def checked(arrays, source):
     found = {}
     for name in names:
         value = np.asarray(arrays[name])
+        if value.dtype.kind not in "biuf":
+            raise wrong(f"{name} holds {value.dtype} instead of numbers", "give an array of numbers")
         if not np.isfinite(value).all():
             at = int(np.flatnonzero(~np.isfinite(value))[0]) if value.ndim else 0
             raise wrong(f"{name}[{at}] is not a finite number", "go back to an earlier snapshot or checkpoint")
+        kind = np.int64 if name == "step" else _KINDS.get(name, np.float64)
+        changed = np.flatnonzero(value != value.astype(kind)) if kind is not np.float64 else ()
+        if len(changed):  # a conversion would round it in silence
+            at = f"[{changed[0]}]" if value.ndim else ""
+            no, remedy = (
+                ("no whole number", "give whole numbers")
+                if kind is np.int64
+                else ("neither True nor False", "give these")
+            )
+            raise wrong(f"{name}{at} is {value.flat[changed[0]]:g}, {no}", remedy)
         if name in _SCALARS:
             if value.ndim:
                 raise wrong(f"{name} has shape {value.shape} instead of being one number", "give one number")
             found[name] = int(value) if name == "step" else float(value)
         else:
-            found[name] = value.astype(_KINDS.get(name, np.float64), copy=False)
+            found[name] = value.astype(kind, copy=False)
     for group, key in ((_DISKS, "x"), (_CONTACTS, "ci")):
         for name in group:
             if name not in found:
@@ -102,6 +114,12 @@ def checked(arrays, source):
         raise wrong(f"radius of disk {int(np.argmin(found['r']))} is {found['r'].min()}", "radii are positive")
     if ((found["ci"] < 0) | (found["ci"] >= count) | (found["cj"] >= count)).any():
         raise wrong(f"a contact names a disk beyond the {count} there are", "check how indices are made")
+    alone = np.flatnonzero(found["ci"] == found["cj"])
+    if len(alone):
+        raise wrong(
+            f"contact {alone[0]} is of disk {found['ci'][alone[0]]} with itself",
+            "give another disk as cj, or -1 - k for wall number k",
+        )
     return Snapshot(**found)
 
 
@@ -109,7 +127,8 @@ def checked(arrays, source):
 def write_snapshot(path, **arrays):
     """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as ``.npz``; returns its path.
 
-    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN or a bad index, and
+    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN, a layer or step that is no whole number, a bad index or a contact of a
+    disk with itself, and
     :class:`~yade.nonsmooth.system.whole_files.WriteError` for a file that cannot be written.
     """
     path = Path(path)

@@ -152,7 +152,7 @@ MUTANTS = (
            "plain:test_course.py::test_as_long_as_anything_goes_on_it_does_not_end"),
     mutant("experiment-brought", COURSE, 'brought = 0.0 if self.state.stage == "settle" else abs(e.broughtEnergy)', "brought = 0.0", "nobody sees that a script shook the slope",
            "test_whole_verdicts.py::test_a_slope_that_a_script_shook_has_not_failed_dry"),
-    mutant("verdict-slid", PY + "studies/slope/verdict.py", "return way if way >= course.COLLAPSED * section.mass_size else None", "return None", "a slope that slid and was held has stood",
+    mutant("verdict-slid", PY + "studies/slope/verdict.py", "ways[-1] < far:", "True:", "a slope that slid and was held has stood",
            "plain:test_verdict.py::test_a_slope_that_slid_and_was_held_has_not_stood"),
     mutant("runs-foreign", PY + "running/side_by_side.py", "known[r.folder] is None and found is not None", "False", "a run empties a folder of a user's files", "test_side_by_side.py::test_a_folder_that_no_run_has_made_is_not_emptied"),
     mutant("verdict-outside", PY + "studies/slope/verdict.py", "    if outside:\n", "    if False:\n", "a slope that a script shook has failed dry",

@@ -100,10 +100,11 @@ def _unmoved(series, section, state, last, over, disks):
         )
     slid = _slid(series, section, state)
     if slid is not None:
+        way, when = slid
         return Verdict(
             SLID,
-            f"the slope slid by {slid:.3g} m, its centre of mass sideways since {'the water began to rise' if state['t0'] is not None else 'it settled'}, at {np.max(series['speed_mean_m_per_s']):.2g} m/s "
-            f"at most, and was at rest when the run ended at {last:.1f} s{water}",
+            f"the slope slid by {way:.3g} m, its centre of mass sideways since {'the water began to rise' if state['t0'] is not None else 'it settled'}, at {np.max(series['speed_mean_m_per_s']):.2g} m/s "
+            f"at most, and was at rest when the run ended at {last:.1f} s; it had slid by {100 * course.COLLAPSED:g} % of its size at {when:.1f} s{_water(series, section, disks, when)}",
         )
     early = state.get("quiet_since") is not None and last < state["settled"] + section.stages.end.time - 1e-6 * last
     why = "; it was at rest and nothing was to come that could change it" if early else ""
@@ -111,21 +112,28 @@ def _unmoved(series, section, state, last, over, disks):
 
 
 def _slid(series, section, state):
-    """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that of a mass that does not stand; None where it is not."""
-    x = series["centroid_x_m"][series["time_s"] >= (state["t0"] if state["t0"] is not None else -math.inf) - 1e-9]
-    way = abs(float(x[-1] - x[0])) if len(x) else 0.0
-    return way if way >= course.COLLAPSED * section.mass_size else None
+    """Way of the mass's centre [m] sideways from t0 on (from its beginning, where that did not come), where it is that of a mass that does not stand, and the time [s] at which it had become so;
+    None where it is not."""
+    since = series["time_s"] >= (state["t0"] if state["t0"] is not None else -math.inf) - 1e-9
+    ways = np.abs(series["centroid_x_m"][since] - series["centroid_x_m"][since][:1])
+    far = course.COLLAPSED * section.mass_size
+    if not len(ways) or ways[-1] < far:
+        return None
+    return float(ways[-1]), float(series["time_s"][since][np.argmax(ways >= far)])
 
 
-def _water(series, section, disks):
-    """How far the water has come, as the end of a sentence."""
+def _water(series, section, disks, time=None):
+    """How far the water has come, at most or by a ``time`` [s], as the end of a sentence."""
     if section.water is None:
         return ", without water"
-    highest, wet = float(np.max(series["water_m"])), int(np.max(series["wet_disks"]))
+    table, wet = (
+        float(np.max(series[name])) if time is None else _at(series, name, time) for name in ("water_m", "wet_disks")
+    )
+    most = " at most" if time is None else ""
     if not wet:
-        return f", with the water table at {highest:.4g} m at most, below all disks" if highest else ", dry"
+        return f", with the water table at {table:.4g} m{most}, below all disks" if table else ", dry"
     share = f" ({100 * wet / disks:.0f} %)" if disks else ""
-    return f", with the water table at {highest:.4g} m at most and {wet:,} disks wet{share}"
+    return f", with the water table at {table:.4g} m{most} and {wet:,.0f} disks wet{share}"
 
 
 def _dry(series, section, state, moved, rest):
