@@ -1,5 +1,7 @@
 """Figures of forces, read from their artists: chains in the slope, and sums on its walls against time. Needs no YADE."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -105,7 +107,10 @@ def test_the_whole_slope_is_drawn_by_layers(slope, chains):
     ]
     light = lambda c: sum(int(c[k : k + 2], 16) for k in (1, 3, 5))  # noqa: E731
     assert light(told["1"]) < light(told["2"]) < light(told["3 (top)"])
-    assert drawn.texts(chains) == ["Initial state: 6 disks, 5 contacts, 2 of them in tension"]
+    assert drawn.texts(chains) == ["t = 0.000 s: 6 disks, 5 contacts, 2 of them in tension"]
+    later = dataclasses.replace(slope, time_s=31.25)
+    for title, begins in ((None, "t = 31.2 s: 6 disks"), ("Initial state", "Initial state: 6 disks")):
+        assert drawn.texts(figures.force_chains(later, WALLS, title=title))[0].startswith(begins)
 
 
 def test_windows_are_where_their_frames_are(chains):
@@ -128,6 +133,23 @@ def test_windows_are_where_their_frames_are(chains):
         windows[0].get_position().x1 < windows[1].get_position().x0
         and windows[0].get_position().y1 < top.get_position().y0
     )
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_names_of_walls_do_not_cover_each_other_nor_the_scale(slope, side):
+    """Three walls that end at one foot, with long names: each has its name or none, and none lies on another, on the letter or on the scale."""
+    low = [(name, np.array(points) * (side, 1), role) for name, points, role in WALLS]
+    long = [(f"the {role} called {name}", points, role) for name, points, role in low]
+    more = [("a second slip surface", np.array([[-100.0, 49.0], [0.0, -1.0]]) * (side, 1), "slip")]
+    mirrored = dataclasses.replace(slope, x=side * slope.x, cx=side * slope.cx)
+    fig = figures.force_chains(mirrored, long + more)
+    for window in fig.axes[1:]:
+        renderer = fig.canvas.get_renderer()
+        boxes = [one.get_window_extent(renderer) for one in window.texts]
+        assert len(boxes) >= 4  # the letter, the scale and two names
+        edges = window.get_window_extent()
+        assert all(edges.x0 <= box.x0 and box.x1 <= edges.x1 for box in boxes)
+        assert not [(a, b) for k, a in enumerate(boxes) for b in boxes[:k] if a.overlaps(b)]
 
 
 def test_bars_of_many_disks_join_centres_and_are_as_wide_as_the_force():
@@ -258,6 +280,17 @@ def test_the_sketch_has_the_water_table_of_the_slope(side):
     assert b[0] > 2 and (b - a)[1] / (b - a)[0] == pytest.approx(-0.1, rel=1e-9)
     assert forces.ground_of(synthetic.load("model.section").load("chair")).table_slope == 0  # a reservoir
     assert forces.ground_of(WALLS).table_slope is None
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_sketch_falls_to_the_side_that_the_slope_falls_to(side):
+    """On the picture, whatever the axes' own direction: the crown is above, on the other side."""
+    walls = [(name, np.array(points) * (side, 1), role) for name, points, role in WALLS]
+    sketch = figures.forces_against_time(straight(), TIMES, walls=walls).axes[0]
+    (rock,) = (p for p in sketch.patches if drawn.hexes([p.get_facecolor()]) == ["#ead9b5"])
+    corners = sketch.transData.transform(rock.get_xy())
+    crown, foot = corners[np.argmax(corners[:, 1])], corners[np.argmin(corners[:, 1])]
+    assert side * (foot[0] - crown[0]) > 50 and crown[1] > foot[1] + 20  # pixels of a sketch some 280 wide
 
 
 def test_the_sketch_shows_what_the_walls_exert_on_the_mass(courses):

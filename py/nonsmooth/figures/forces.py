@@ -31,13 +31,18 @@ def force_bars(snapshot, chosen, reference, width):
     return np.stack([a - half, b - half, b + half, a + half], axis=1)
 
 
-def _close_up(ax, snapshot, ground, box, reference, width, outline):
-    """One window of the slope: disks as outlines, normal forces as bars."""
+def _close_up(ax, snapshot, ground, box, reference, width, outline, letter):
+    """One window of the slope, with its ``letter``: disks as outlines, normal forces as bars."""
     x0, x1, y0, y1 = box
     style.frame(ax, *box)
     for spine in ax.spines.values():
         spine.set_visible(True)
-    style.draw_walls(ax, ground, size=11, width=2)
+    ax.text(
+        0.02, 0.97, letter, transform=ax.transAxes, ha="left", va="top", fontsize=13, fontweight="bold",
+        bbox={"fc": "white", "ec": "#999999", "lw": 0.6, "pad": 3}, zorder=9,
+    )  # fmt: skip
+    style.scale_bar(ax, 0.965 if ground.side > 0 else 0.21, 0.045, 0.17)
+    style.draw_walls(ax, ground, size=11, width=2, apart=True)
     reach = 2 * snapshot.r.max()
     seen = (np.abs(snapshot.x - (x0 + x1) / 2) < (x1 - x0) / 2 + reach) & (
         np.abs(snapshot.y - (y0 + y1) / 2) < (y1 - y0) / 2 + reach
@@ -80,13 +85,13 @@ def _force_scale(ax, reference, width):
 
 @given.takes(snapshot=given.SNAPSHOT, walls=given.WALLS)
 @style.styled
-def force_chains(snapshot, walls, path=None, pdf=False):
+def force_chains(snapshot, walls, path=None, pdf=False, title=None):
     """The slope and the normal forces in its foot (the paper's Figure 8).
 
     ``snapshot``: a :class:`~nonsmooth.records.Snapshot` with contacts. ``walls``: see :mod:`nonsmooth.figures`.
     Above the whole slope by layers; below two windows at the foot (or at the lowest disk, where none is near it), with bars between the centres of disks that
     are in contact or bonded over a gap, as wide as the force is large (linear, the same in both windows), compression blue, tension red. Tensile bars have
-    a hairline outline so that small ones can be seen.
+    a hairline outline so that small ones can be seen. ``title``: what state it is, as "Initial state"; None: the snapshot's time.
     """
     ground = ground_of(walls)
     if len(snapshot.ci) == 0:
@@ -136,7 +141,7 @@ def force_chains(snapshot, walls, path=None, pdf=False):
         handlelength=1.3,
     )
     fig.text(
-        0.5, 0.985, f"Initial state: {len(snapshot.x):,} disks, {len(snapshot.ci):,} contacts, "
+        0.5, 0.985, f"{f't = {style.seconds(snapshot.time_s, snapshot.time_s)}' if title is None else style.plain(title)}: {len(snapshot.x):,} disks, {len(snapshot.ci):,} contacts, "
         f"{int((snapshot.cn < 0).sum()):,} of them in tension", ha="center", va="top", fontsize=11.5,
     )  # fmt: skip
     for ax, box, letter in (
@@ -144,12 +149,7 @@ def force_chains(snapshot, walls, path=None, pdf=False):
         (fig.add_axes([0.512, 0.035, 0.476, 0.455]), boxes[1], "b"),
     ):
         outline = 0.25 if letter == "a" else 0.7
-        _close_up(ax, snapshot, ground, box, reference, width, outline)
-        ax.text(
-            0.02, 0.97, letter, transform=ax.transAxes, ha="left", va="top", fontsize=13, fontweight="bold",
-            bbox={"fc": "white", "ec": "#999999", "lw": 0.6, "pad": 3}, zorder=9,
-        )  # fmt: skip
-        style.scale_bar(ax, 0.965 if ground.side > 0 else 0.21, 0.045, 0.17)
+        _close_up(ax, snapshot, ground, box, reference, width, outline, letter)
         bx0, bx1, by0, by1 = box
         top.add_patch(Rectangle((bx0, by0), bx1 - bx0, by1 - by0, fill=False, ec=INK, lw=1.1, zorder=6))
         top.text(
@@ -195,7 +195,7 @@ def _sketch(ax, side, name, back, wet, rise=None, coloured=True):
     symbol = lambda letter, of: (lambda told: told if " (" not in told else f"${letter}$")(
         style.symbol(letter, of)
     )  # noqa: E731
-    style.frame(ax, *(-10.8 * side, 4.6 * side), -1.6, 6.6)
+    style.frame(ax, *sorted((-10.8 * side, 4.6 * side)), -1.6, 6.6)
     at = lambda points: np.asarray(points) * (side, 1)  # noqa: E731
     slope, after = np.tan(np.radians(21)), "left" if side > 0 else "right"
     plane = np.array([[-10, 10 * slope], [0, 0]])

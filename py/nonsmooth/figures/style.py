@@ -94,6 +94,8 @@ RC = {
 }  # fmt: skip
 
 FINE = 2001  # places across a picture where the water table is compared with the ground
+PLACES = (0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92)  # of the visible part of a wall, where its name may stand
+EDGE_ROOM = 5  # pixels, between a name and the edge of its window
 SCARCE = 0.04  # of the picture's width or height: of a wall that shows less of itself the name is left out
 
 #: What the characteristic times of the paper (section 6) mark, and the phases between them.
@@ -237,14 +239,15 @@ def draw_disks(ax, snapshot, colours, mask=slice(None), edge="none", width=0.0, 
     return disks
 
 
-def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
-    """Walls as lines with the ground below them filled, to the sides of the picture, and the names of those whose role is in ``named`` (all where None) beside them.
+def draw_walls(ax, ground, named=None, size=9.5, width=1.6, apart=False):
+    """Walls as lines with the ground below them filled, to the sides of the picture, and the names of those whose role is in ``named`` (all where None) beside them; ``apart``: where
+    they do not cover each other nor what is written there already, and without those that have no such place.
 
     ``ground``: a :class:`~nonsmooth.measure.ground.Ground`. Returns the artists of interfaces between layers, which lie over the disks.
     """
     x0, x1 = ax.get_xlim()
     y0, y1 = ax.get_ylim()
-    over = []
+    over, taken = [], _written(ax) if apart else None
     for wall in ground.walls:
         if wall.buried:
             continue
@@ -263,13 +266,21 @@ def draw_walls(ax, ground, named=None, size=9.5, width=1.6):
             zorder=4,
         )
         if named is None or wall.role in named:
-            drawn.append(_name_wall(ax, wall, ground.side, (x0, x1, y0, y1), size))
+            drawn.append(_name_wall(ax, wall, ground.side, (x0, x1, y0, y1), size, taken))
         over += [one for one in drawn if one is not None] if wall.buried else []
     return over
 
 
-def _name_wall(ax, wall, side, box, size):
-    """Write a wall's name below the middle of its visible part, or beside it where it stands upright; returns it, None where so little of the wall is seen that it has none."""
+def _written(ax):
+    """Boxes, in pixels, of what is written on axes."""
+    ax.apply_aspect()
+    return [one.get_window_extent(ax.figure.canvas.get_renderer()) for one in (*ax.texts, *ax.lines)]
+
+
+def _name_wall(ax, wall, side, box, size, taken=None):
+    """Write a wall's name below the middle of its visible part, or beside it where it stands upright; returns it, None where so little of the wall is seen that it has none. ``taken``: boxes
+    that it must not cover, to which its own is added: then it may stand elsewhere along the wall, and has no name without such a place.
+    """
     x0, x1, y0, y1 = box
     leg = np.r_[0, np.cumsum(np.hypot(*np.diff(wall.vertices, axis=0).T))]
     along = np.linspace(0, leg[-1], 400)
@@ -277,9 +288,33 @@ def _name_wall(ax, wall, side, box, size):
     seen = path[(path[:, 0] > x0) & (path[:, 0] < x1) & (path[:, 1] > y0) & (path[:, 1] < y1)]
     if len(seen) == 0 or max(np.ptp(seen[:, 0]) / (x1 - x0), np.ptp(seen[:, 1]) / (y1 - y0)) < SCARCE:
         return None
+    for share in PLACES if taken is not None else PLACES[:1]:
+        name = _wall_name(ax, wall, side, seen[int(share * len(seen))], size)
+        if taken is None:
+            return name
+        covers = _moved_inside(ax, name)
+        if not any(covers.overlaps(other) for other in taken):
+            taken.append(covers)
+            return name
+        name.remove()
+    return None
+
+
+def _moved_inside(ax, name):
+    """Moves a name sideways so that it is within the axes, if it is no longer than these; returns its box in pixels."""
+    renderer, inside = ax.figure.canvas.get_renderer(), ax.get_window_extent()
+    covers = name.get_window_extent(renderer)
+    beyond = max(0.0, covers.x1 - inside.x1 + EDGE_ROOM) - max(0.0, inside.x0 + EDGE_ROOM - covers.x0)
+    x, y = name.xyann
+    name.xyann = (x - beyond * 72 / ax.figure.dpi, y)
+    return name.get_window_extent(renderer)
+
+
+def _wall_name(ax, wall, side, place, size):
+    """A wall's name at a ``place`` (x, y) of it."""
     beside = wall.role == "backstop"
     return ax.annotate(
-        plain(wall.name), seen[len(seen) // 2], xytext=(9 * side, -5) if beside else (-3 * side, -6), textcoords="offset points",
+        plain(wall.name), place, xytext=(9 * side, -5) if beside else (-3 * side, -6), textcoords="offset points",
         ha=("left" if side > 0 else "right") if beside else "center", va="top", fontsize=size, fontweight="bold", color=INK, zorder=6, annotation_clip=True,
         path_effects=EDGE, bbox={"fc": "white", "ec": "none", "alpha": 0.7, "pad": 1.0} if wall.buried else None,
     )  # fmt: skip

@@ -107,7 +107,7 @@ class Drawing:
         if self.first is None:
             return None
         if name == "force_chains":
-            return figures.force_chains(self.first, self.section, path)
+            return figures.force_chains(self.first, self.section, path, title="Initial state")
         if self.verdict == verdict.STOOD:  # nothing was deposited
             return None
         return figures.deposit(self.last, self.first, self.section, path) if self.last is not None else None
