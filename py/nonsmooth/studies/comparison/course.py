@@ -69,6 +69,7 @@ def compare(
         plan_options["damping_moving"] = None
     if stiffnesses is None and plan_options.get("ensemble") is None:
         plan_options["ensemble"] = experiment.ENSEMBLE_STIFFNESS
+    # the finest numerics stay: they are the reference of the hard world, without which no run has an error
     parts = dict(
         numerics=HARD_NUMERICS[-1:] if "numerics" in without else HARD_NUMERICS,
         damping_run="damping" not in without,

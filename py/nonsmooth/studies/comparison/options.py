@@ -120,7 +120,7 @@ def _parser(about):
         nargs="+",
         choices=course.PARTS,
         metavar="PART",
-        help="leave out: numerics (hard runs of other steps and tolerances), damping, bonds (one soft run each)",
+        help="leave out: numerics (hard runs of other steps and tolerances but for the finest, which errors are measured against), damping, bonds (one soft run each)",
     )
     add(
         "--cost",
