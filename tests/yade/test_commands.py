@@ -67,7 +67,7 @@ def test_a_scene_is_followed_until_it_is_calm_or_its_steps_are_used_up():
 
 
 def test_the_library_makes_no_steps_in_a_thread_that_swallows_refusals():
-    package = Path(stepping.__file__).resolve().parent
+    package = Path(stepping.__file__).resolve().parents[1]
     found = [
         path.name
         for path in package.rglob("*.py")
