@@ -164,8 +164,9 @@ def test_the_states_shares_of_their_making_follow_each_other(monkeypatch, tmp_pa
         for share in (0.0, 0.5, 1.0):
             arguments[-1](share)
 
-    for name in ("section_of", "_forget_old", "_save", "load"):
+    for name in ("section_of", "_save", "load"):
         monkeypatch.setattr(states, name, lambda *arguments: None)
+    monkeypatch.setattr(states.cache, "clear", lambda *arguments: None)
     monkeypatch.setattr(states.soft_contacts, "soften", lambda built: None)
     monkeypatch.setattr(states, "Progress", lambda folder: told.append)
     for name in ("_settle", "_move", "_run_soft"):
