@@ -50,9 +50,11 @@ class _Face(importlib.abc.MetaPathFinder, importlib.abc.Loader):
     """Imports a module by the name that it has in :data:`FACE`: the same module, not a second one."""
 
     def find_spec(self, name, path=None, target=None):
+        if not name.startswith(f"{__name__}."):  # of all that a process imports
+            return None
         short = name.removeprefix(f"{__name__}.")
         first = max((one for one in FACE if f"{short}.".startswith(f"{one}.")), key=len, default=None)
-        if first is None or short == name:
+        if first is None:
             return None
         real = f"{__name__}.{FACE[first]}{short[len(first):]}"
         if importlib.util.find_spec(real) is None:

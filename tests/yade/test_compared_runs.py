@@ -5,7 +5,6 @@ import html
 import json
 import math
 import shutil
-from pathlib import Path
 
 import leftovers
 import numpy as np

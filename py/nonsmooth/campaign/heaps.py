@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import json
 from functools import cached_property
-from pathlib import Path
 
 from .. import records
 from ..running import side_by_side

@@ -9,30 +9,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from types import MappingProxyType
 
 import numpy as np
 
 from ...system import checks
 from .. import free_surface, geometry, roles, stacks
 from . import data as section_data, values as section_values
-from .parts import (
-    Disks,
-    End,
-    Envelope,
-    Interface,
-    Layer,
-    Material,
-    Numerics,
-    Settle,
-    SlipWeakening,
-    Stages,
-    Wall,
-    Water,
-    normal_of,
-)
-from .reader import SectionError, read, take
+from .parts import Disks, Envelope, Interface, Layer, Material, Numerics, Stages, Wall, Water, normal_of
+from .reader import SectionError
 
 __all__ = ["Section"]
 

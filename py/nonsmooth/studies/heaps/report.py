@@ -11,7 +11,6 @@ from ...figures import columns as figures, spreading
 from ...measure import heap as measures, power_laws as scaling, velocity_profiles
 from ...measure.statistics import told
 from . import profiles, study
-from .grains import HeapError
 
 __all__ = [
     "CHANGES",

@@ -10,7 +10,6 @@ Times are counted in t_i = √(m/p), with m the mean mass of a disk per metre an
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import shutil
 from dataclasses import asdict, dataclass

@@ -13,7 +13,6 @@ from pathlib import Path
 
 from yade import O, config
 
-from ... import course
 from ...errors import UserError
 from ...model import section
 from ...records import checkpoints
