@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What the paper leaves open, read in several ways: for each reading the strengths of the rock and the water that its slope bears, beside the paper's.
 
-  scripts/readings.py [--only NAME …] [--platens KIND …] [--disks N] [--samples N] [--seeds S …] [--out DIR] [--threads T] [--resume]
+  scripts/readings.py [--only NAME …] [--platens KIND …] [--disks N] [--samples N] [--seeds S …] [--confining MPA,…] [--strain E] [--no-slopes] [--out DIR] [--threads T] [--resume]
 """
 import argparse
 import sys
@@ -12,6 +12,7 @@ from tabulate import tabulate
 if "yade" in sys.modules:  # started by the launcher
     from yade.nonsmooth import commands
     from yade.nonsmooth.commands import arguments
+    from yade.nonsmooth.studies.laboratory import biaxial_test
     from yade.nonsmooth.studies.paper import closing_decision, reading_numbers, readings, readings_figure as figures
     from yade.nonsmooth.system import output_folder
     from yade.nonsmooth.system.whole_files import write_json
@@ -19,6 +20,7 @@ else:  # YADE runs in processes of its own
     sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "py"))
     from nonsmooth import commands
     from nonsmooth.commands import arguments
+    from nonsmooth.studies.laboratory import biaxial_test
     from nonsmooth.studies.paper import closing_decision, reading_numbers, readings, readings_figure as figures
     from nonsmooth.system import output_folder
     from nonsmooth.system.whole_files import write_json
@@ -56,6 +58,20 @@ def read_arguments():
         metavar="S",
         help="of slopes and samples (default: 1 to 5)",
     )
+    parser.add_argument(
+        "--confining",
+        type=arguments.pressures(),
+        default=[p / 1e6 for p in readings.PRESSURES],
+        metavar="MPA,…",
+        help="confining pressures [MPa]; a single one tells no cohesion (default: 0.5, 4, 8 and 16)",
+    )
+    parser.add_argument(
+        "--strain",
+        type=arguments.positive,
+        default=biaxial_test.Test.strain,
+        help="axial strain at the end of a test (default: %(default)s)",
+    )
+    parser.add_argument("--no-slopes", action="store_true", help="samples alone, no slopes under rising water")
     arguments.add_runs(parser, "out/readings", "runs")
     return parser.parse_args()
 
@@ -73,6 +89,9 @@ def main():
             args.samples,
             args.seeds,
             args.platens,
+            args.strain,
+            [1e6 * p for p in args.confining],
+            not args.no_slopes,
             threads=args.threads,
             resume=args.resume,
             progress=progress,
@@ -84,6 +103,9 @@ def main():
         "disks": args.disks,
         "samples": args.samples,
         "seeds": args.seeds,
+        "confining_MPa": args.confining,
+        "strain": args.strain,
+        "slopes": not args.no_slopes,
         "paper": reading_numbers.PAPER,
         "toe_water": reading_numbers.toe_water(),
         "rows": of,

@@ -91,3 +91,17 @@ def test_verdicts_are_of_closing_readings_beside_the_shipped_one_between_smooth_
     assert (label, platens, lost, default) == ("closing-0.02", "rough", "residual cohesion [kPa]", "no")
     assert criteria == ["5 of 5: yes", "5 of 5: yes", "88, 38.5: yes", "26.2: yes", "22.5: yes"]
     assert heads[5].endswith("[°] 26.2 ± 2") and len(heads) == 9
+
+
+def test_what_was_not_run_is_undecided_until_something_fails():
+    """Samples under one pressure tell a and b alone. A slope that did not fail was run, and does not meet e."""
+    alone = dict.fromkeys(("cohesion_peak_kPa", "friction_peak_deg", "cohesion_residual_kPa"))
+    alone |= dict.fromkeys(("friction_residual_deg", "water_highest_m")) | {"water_highest_m_each": []}
+    found = decision.verdict(closing(**alone), SHIPPED)
+    assert [c["met"] for c in found["criteria"].values()] == [True, True, None, None, None]
+    assert found["default"] is None and found["lost"] == []
+    assert decision.verdict(closing(inside=3, **alone), SHIPPED)["default"] is False
+    dry = decision.verdict(closing(water_highest_m=None), SHIPPED)
+    assert dry["criteria"]["e"]["met"] is False and dry["default"] is False
+    (line,) = decision.table([found])[2]
+    assert [text.split(": ")[-1] for text in line[2:7]] == ["yes", "yes", "undecided", "undecided", "undecided"]

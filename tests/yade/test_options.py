@@ -388,6 +388,9 @@ WHERE = {
     "readings.py": {
         "--only": (("--only", "packed", "half"), lambda a: sorted(a.words[0]), ["half", "packed"]),
         "--platens": (("--platens", "rough"), lambda a: a.words[5], ["rough"]),
+        "--strain": (("--strain", 0.06), lambda a: a.words[6], 0.06),
+        "--confining": (("--confining", "0.5,8"), lambda a: a.words[7], [0.5e6, 8e6]),
+        "--no-slopes": (("--no-slopes",), lambda a: a.words[8], False),
         "--disks": (("--disks", 66), lambda a: a.words[2], 66),
         "--samples": (("--samples", 77), lambda a: a.words[3], 77),
         "--seeds": (("--seeds", 7, 8), lambda a: a.words[4], [7, 8]),

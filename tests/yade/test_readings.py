@@ -278,3 +278,24 @@ def test_small_runs_and_what_is_shared(tmp_path):
     assert one["friction_peak_deg_95"] is None and one["misses"]["friction_residual_deg"] is None
     assert one["distance"] is None and set(one["samples"][0]["residual_deg"].values()) == {None}
     assert figures.beside(list(rows.values()), tmp_path / "readings.png").stat().st_size > 1e4
+
+
+def test_samples_under_one_pressure_without_slopes(tmp_path):
+    """What other pressures and slopes would tell is missing, and nothing is made up for it; the sample that was tested is told, and drawn where 8 MPa were asked for."""
+    chosen = {reading_numbers.SHIPPED: SHIPPED}
+    of = lambda *pressures: readings.run(  # noqa: E731
+        chosen, tmp_path / str(pressures[0]), 600, 150, [1], ["smooth"], 0.01, pressures, slopes=False
+    )
+    (row,) = of(reading_numbers.FIGURE_9)
+    assert [folder.name for folder in (tmp_path / "8000000.0").iterdir()] == ["samples"]
+    assert [name for name in PAPER if row[name] is None] == list(PAPER)[:4] + ["water_highest_m"]
+    assert np.shape(row["strain_peak"]) == (1, 1) and row["misses"]["strain_peak"] is not None
+    assert row["water_highest_m_each"] == [] and row["distance"] is None and row["water_highest_m_95"] is None
+    (sample,) = row["samples"]
+    assert sample["cohesion_peak_kPa"] is None and sample["strain_peak"] == row["strain_peak"][0][0]
+    (_, heads, (_, line)), (_, _, samples) = reading_numbers.tables([row])
+    assert line[2:7] == ["–"] * 5 and len(samples) == 1
+    (other,) = of(0.5e6)
+    assert other["samples"] == [] and other["misses"]["strain_peak"] is None
+    assert reading_numbers.tables([other])[1][2] == [] and figures.stress_strain_of([other], tmp_path) == []
+    assert figures.beside([row, other], tmp_path / "readings.png").stat().st_size > 1e4

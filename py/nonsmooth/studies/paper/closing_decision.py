@@ -27,26 +27,30 @@ MEANS = {
     "e": {"water_highest_m": (22.5, 4.0)},
 }
 
+WHETHER = {True: "yes", False: "no", None: "undecided"}
 WORDS = {name: SHOWN[name][0] if name in SHOWN else PEAKS for name in PAPER}
 
 
 def verdict(row, shipped):
     """What the measure says of a reading. ``row``, ``shipped``: rows of :func:`.readings.run`, of the reading and of the shipped one.
 
-    Returns a dictionary: ``name``, ``label``, ``platens``; ``criteria``, {criterion: {"found": text, "met": bool}}; ``lost``, numbers of PAPER that the shipped reading meets and this one does not; ``default``,
-    whether it becomes the default, None where not :data:`SAMPLES` samples of :data:`DISKS` disks were tested, which then decide nothing.
+    Returns a dictionary: ``name``, ``label``, ``platens``; ``criteria``, {criterion: {"found": text, "met": bool, None where nothing was run that tells it}};
+    ``lost``, numbers of PAPER that the shipped reading meets and this one does not; ``default``, whether it becomes the default: False where a criterion is not met or a number is lost, None where all that was
+    tested is met but not all was tested. It is None too where not :data:`SAMPLES` samples of :data:`DISKS` disks were tested, which decide nothing.
     """
     samples = row["samples"]
     criteria = {}
     for key, (_, name, low, high) in COUNTED.items():
         count = sum(low <= sample[name] <= high for sample in samples)
-        criteria[key] = {"found": f"{count} of {len(samples)}", "met": count >= LEAST}
+        criteria[key] = {"found": f"{count} of {len(samples)}", "met": count >= LEAST if samples else None}
     for key, numbers in MEANS.items():
         found = ", ".join("–" if row[name] is None else f"{row[name]:.{SHOWN[name][1]}f}" for name in numbers)
-        met = all(row[n] is not None and abs(row[n] - wanted) <= allowed for n, (wanted, allowed) in numbers.items())
-        criteria[key] = {"found": found, "met": met}
+        met = [row[n] is not None and abs(row[n] - wanted) <= allowed for n, (wanted, allowed) in numbers.items()]
+        criteria[key] = {"found": found, "met": all(met) if all(_told(row, n) for n in numbers) else None}
     meets = lambda one, name: one["misses"][name] is not None and abs(one["misses"][name]) <= 1  # noqa: E731
-    lost = [name for name in PAPER if meets(shipped, name) and not meets(row, name)]
+    lost = [name for name in PAPER if meets(shipped, name) and not meets(row, name) and _told(row, name)]
+    met = [c["met"] for c in criteria.values()]
+    default = False if False in met or lost else None if None in met else True
     # a packing has some per cent fewer or more disks than it was asked for
     asked = len(samples) == SAMPLES and all(abs(s["disks"] / DISKS - 1) < 0.1 for s in samples)
     return {
@@ -55,8 +59,13 @@ def verdict(row, shipped):
         "platens": row["platens"],
         "criteria": criteria,
         "lost": lost,
-        "default": all(c["met"] for c in criteria.values()) and not lost if asked else None,
+        "default": default if asked else None,
     }
+
+
+def _told(row, name):
+    """Whether what was run tells a number of a row. Slopes one of which did not fail have no mean, and were run."""
+    return row[name] not in (None, []) or bool(row.get(f"{name}_each"))
 
 
 def verdicts(rows):
@@ -74,9 +83,9 @@ def table(found):
         [
             v["label"],
             v["platens"],
-            *(f"{c['found']}: {'yes' if c['met'] else 'no'}" for c in v["criteria"].values()),
+            *(f"{c['found']}: {WHETHER[c['met']]}" for c in v["criteria"].values()),
             ", ".join(WORDS[name] for name in v["lost"]) or "none",
-            {True: "yes", False: "no", None: "undecided"}[v["default"]],
+            WHETHER[v["default"]],
         ]
         for v in found
     ]

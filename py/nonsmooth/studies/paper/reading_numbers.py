@@ -51,20 +51,21 @@ SHIPPED = "shipped"  # the reading that is
 def row(summary, folder, slopes):
     """The numbers of a reading, a dictionary that JSON can hold.
 
-    ``summary``: of its tests (:func:`.campaign.summarise`), in the ``folder``; ``slopes``: results of its slopes. For each strength of :data:`PAPER` and for ``water_highest_m`` the mean over
+    ``summary``: of its tests (:func:`.campaign.summarise`), in the ``folder``; ``slopes``: results of its slopes, none where they were not run. A number is None where no test tells it, as the cohesion
+    of a single pressure. For each strength of :data:`PAPER` and for ``water_highest_m`` the mean over
     seeds and ``…_95``, half of the 95 % interval (None for one seed); ``water_highest_m_each``; ``strain_peak``: those of all samples, [[under 4, 8, 16 MPa], one list a seed]; ``samples``: see
     :func:`samples_of`; ``misses`` (see :func:`misses`) and their root mean square ``distance``, None where a number is missing.
     """
     found = {}
     for name in list(PAPER)[:4]:
         middle, unit = name.rsplit("_", 1)
-        found |= {name: summary[name], f"{name}_95": summary[f"{middle}_95_{unit}"]}
+        found |= {name: summary.get(name), f"{name}_95": summary.get(f"{middle}_95_{unit}")}
     found["strain_peak"] = [
         [t["strain_peak"] for t in summary["tests"] if t["seed"] == seed and t["confining_Pa"] in FIGURE_10]
         for seed in summary["seeds"]
     ]
     waters = [s["water_highest_m"] for s in slopes]
-    mean = over_seeds(waters)
+    mean = over_seeds(waters or [None])
     found |= {
         "water_highest_m": mean["mean"],
         "water_highest_m_95": mean["half_width"],
@@ -80,7 +81,7 @@ def samples_of(tests, folder):
     """What each sample says under :data:`FIGURE_9`, a list of dictionaries, one a seed.
 
     ``tests``: dictionaries of :func:`.campaign.measure`; ``folder``: in which they were run. ``seed``, ``disks``; ``strain_peak``; ``deviator_peak_MPa``, the largest σ₁ − σ₃; ``cohesion_peak_kPa``, of
-    this sample's envelope over all of its pressures; ``bands_at_1_percent``, 2 where two bands are conjugate at 1 % of strain, 1 where there is one that prevails, 0 without any; ``residual_deg``, {window:
+    this sample's envelope over all of its pressures, None of a single one; ``bands_at_1_percent``, 2 where two bands are conjugate at 1 % of strain, 1 where there is one that prevails, 0 without any; ``residual_deg``, {window:
     apparent angle of friction [°] of the mean stresses between the strains of :data:`WINDOWS`}, None where the test ends before.
     """
     found = []
@@ -88,7 +89,7 @@ def samples_of(tests, folder):
         if t["confining_Pa"] != FIGURE_9:
             continue
         group = [one for one in tests if one["seed"] == t["seed"]]
-        fit = strength.envelope([one["sigma3_peak_Pa"] for one in group], [one["sigma1_peak_Pa"] for one in group])
+        circles = [one["sigma3_peak_Pa"] for one in group], [one["sigma1_peak_Pa"] for one in group]
         series = series_of(t, folder)
         means = {name: strength.mean_between(series, *window) for name, window in WINDOWS.items()}
         found.append(
@@ -97,7 +98,7 @@ def samples_of(tests, folder):
                 "disks": t["disks"],
                 "strain_peak": t["strain_peak"],
                 "deviator_peak_MPa": 1e-6 * (t["sigma1_peak_Pa"] - t["sigma3_peak_Pa"]),
-                "cohesion_peak_kPa": 1e-3 * fit.cohesion,
+                "cohesion_peak_kPa": 1e-3 * strength.envelope(*circles).cohesion if len(group) > 1 else None,
                 "bands_at_1_percent": campaign.conjugate_bands(t["bands"]),
                 "residual_deg": {
                     name: stresses and strength.apparent_deg(*stresses) for name, stresses in means.items()
@@ -119,7 +120,8 @@ def misses(row):
     for name, (wanted, allowed) in PAPER.items():
         value = row[name]
         if name == "strain_peak":
-            value = math.sqrt(np.mean([math.log2(value / wanted) ** 2 for value in np.ravel(value)]))
+            octaves = [math.log2(strain / wanted) for strain in np.ravel(value)]
+            value = math.sqrt(np.mean(np.square(octaves))) if octaves else None
         elif value is not None:
             value -= wanted
         found[name] = None if value is None else value / allowed
@@ -160,7 +162,7 @@ def tables(rows):
         for r in ordered
     ]
     # what several readings share stands under the one that was tested
-    own = [r for r in ordered if Path(r["folder"]).parts[-2:] == (r["name"], r["platens"])]
+    own = [r for r in ordered if r["samples"] and Path(r["folder"]).parts[-2:] == (r["name"], r["platens"])]
     samples = [[r["label"], r["platens"], *_of_samples(r["samples"])] for r in own]
     return [
         ["Readings", heads, lines],

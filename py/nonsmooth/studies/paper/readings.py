@@ -152,8 +152,8 @@ def slope_of(reading, disks, seed):
     return dataclasses.replace(section_of(reading), seed=seed).with_disks(disks)
 
 
-def tests_of(reading, disks, seeds, platens, strain=biaxial_test.Test.strain):
-    """The biaxial Tests of a Reading between ``platens`` (see biaxial_test.Test): of its rock, one for each seed and for each of :data:`PRESSURES`."""
+def tests_of(reading, disks, seeds, platens, strain=biaxial_test.Test.strain, pressures=PRESSURES):
+    """The biaxial Tests of a Reading between ``platens`` (see biaxial_test.Test): of its rock, one for each seed and for each of the ``pressures`` [Pa]."""
     fields = dict(reading.test)
     count = round(disks * fields.pop("count", 1.0))
     shape = {key: fields.pop(key) for key in ("friction", "aspect") if key in fields}
@@ -161,7 +161,7 @@ def tests_of(reading, disks, seeds, platens, strain=biaxial_test.Test.strain):
     return [
         biaxial_test.Test(rock, p, pressing.Shape(count, seed, **shape), strain, platens, **fields)
         for seed in seeds
-        for p in PRESSURES
+        for p in pressures
     ]
 
 
@@ -173,12 +173,16 @@ def run(
     seeds,
     platens=PLATENS,
     strain=biaxial_test.Test.strain,
+    pressures=PRESSURES,
+    slopes=True,
     threads=1,
     resume=False,
     progress=lambda share, doing: None,
 ):
     """Runs the tests and the slopes of ``chosen``, {name: Reading}, below the folder ``out``; those that several share are run once. Returns rows, a list of dictionaries, one for each
     reading and each of the ``platens`` between which its samples are tested; a reading that stands once is tested between its own.
+
+    ``pressures`` [Pa]; ``slopes``: whether the slopes are run. What a row would take from other tests, or from slopes, is None in it.
 
     A row has ``name``, ``label``, ``platens``, ``folder`` (of its tests, below ``out``), and what :func:`.reading_numbers.row` says. ``progress``: called with the share done and what
     is being done. Raises what campaign.run raises, and processes.RunError.
@@ -189,15 +193,16 @@ def run(
         sloped_key = keys.key_of(data)
         for p in reading.platens:
             if p in platens or len(reading.platens) == 1:
-                tests = tests_of(reading, sample_disks, seeds, p, strain)
+                tests = tests_of(reading, sample_disks, seeds, p, strain, pressures)
                 wanted[name, p] = tests, data, tuple(map(biaxial_test.key_of, tests)), sloped_key
     # the first of those that share a key is run
     tested = {key: (name, tests) for name, (tests, _, key, _) in reversed(wanted.items())}
-    sloped = {key: (name, data) for (name, _), (_, data, _, key) in reversed(wanted.items())}
+    sloped = {key: (name, data) for (name, _), (_, data, _, key) in reversed(wanted.items())} if slopes else {}
     measured, failed = {}, {}
+    share_of_tests = 0.6 if sloped else 1.0
     for k, (key, (name, tests)) in enumerate(tested.items()):
         shown = lambda share, doing, k=k, name=name: progress(  # noqa: E731
-            0.6 * (k + share) / len(tested), f"{', '.join(name)}: {doing}"
+            share_of_tests * (k + share) / len(tested), f"{', '.join(name)}: {doing}"
         )
         folder = Path("samples", *name)
         found = campaign.run(tests, out / folder, threads, resume, shown)
@@ -214,12 +219,12 @@ def run(
         for seed, one in zip(seeds, data)
     ]
     shown = lambda share, ended: progress(0.6 + 0.4 * share, f"{ended} of {len(made)} slopes")  # noqa: E731
-    found = iter(side_by_side.run(made, threads, resume, progress=shown, go_on=True))
+    found = iter(side_by_side.run(made, threads, resume, progress=shown, go_on=True) if made else ())
     for key in sloped:
         failed[key] = [next(found) for _ in seeds]
     rows = []
     for (name, p), (_, _, tested_key, sloped_key) in wanted.items():
         folder, samples = measured[tested_key]
         told = {"name": name, "label": chosen[name].label, "platens": p, "folder": folder}
-        rows.append(told | reading_numbers.row(samples, out / folder, failed[sloped_key]))
+        rows.append(told | reading_numbers.row(samples, out / folder, failed.get(sloped_key, ())))
     return rows

@@ -153,7 +153,7 @@ def stress_strain_of(rows, out):
     ``readings_stress_strain.png``, else with the platens behind. Returns the paths."""
     made, names = [], [name for one in BONDS.values() for name in one]
     for platens in dict.fromkeys(row["platens"] for row in rows):
-        of = {row["name"]: row for row in rows if row["platens"] == platens and row["name"] in names}
+        of = {r["name"]: r for r in rows if r["platens"] == platens and r["name"] in names and r["samples"]}
         if len(of) < len(names):
             continue
         curves = {
