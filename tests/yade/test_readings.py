@@ -224,6 +224,9 @@ def test_stress_against_strain_of_each_sample_beside_the_papers_peaks():
     assert names == ["gap-0.015", "gap-0.02", "shipped", "closing-0.015", "closing-0.02", "closing-0.025"]
     curves = {name: {1: curve(0.004, 3e7 + 1e6 * k), 2: curve(0.015, 2.5e7)} for k, name in enumerate(names)}
     axes = figures.stress_strain(curves).axes
+    assert axes[0].get_xlim() == (0, 6)
+    short = {name: {1: {key: values[:400] for key, values in of[1].items()}} for name, of in curves.items()}
+    assert figures.stress_strain(short).axes[0].get_xlim() == pytest.approx((0, 4))
     assert [ax.get_title() for ax in axes] == ["Δ = 0.015 ℓ", "Δ = 0.02 ℓ", "Δ = 0.025 ℓ", "", "", ""]
     for k, ax in enumerate(axes):
         (band,) = ax.patches

@@ -19,7 +19,7 @@ BONDS = {
     "bonds close freely": ("closing-0.015", "closing-0.02", "closing-0.025"),
 }
 TALLEST = (0.01, 0.02)  # strains of the paper's peaks ([107])
-END = 0.06  # strain at the right end
+END = 0.06  # strain at the right end, or where the tests end before
 
 
 @style.styled
@@ -134,8 +134,9 @@ def stress_strain(curves, path=None, pdf=False):
         line[0].set_ylabel(f"{words}\n\nσ₁ [MPa]")
     for ax in axes[1]:
         ax.set_xlabel("axial strain ε₁ [%]")
+    last = min(END, *(series["strain"][-1] for of in curves.values() for series in of.values()))
     lowest = min(line.get_ydata().min() for ax in axes.flat for line in ax.lines)
-    axes[0, 0].set(xlim=(0, 100 * END), ylim=(0.8 * lowest, None))  # room for words
+    axes[0, 0].set(xlim=(0, 100 * last), ylim=(0.8 * lowest, None))  # room for words
     axes[0, 0].text(
         50 * sum(TALLEST),
         0.03,
