@@ -35,6 +35,15 @@ from yade.nonsmooth.system import machine
 
 
 # ---- deposits -------------------------------------------------------------------------------------
+def test_the_outline_of_one_disk_has_sixteen_corners():
+    """Drawn on a circle wider by the mean radius, and taken in by as much: a regular polygon whose sides are that much nearer to the centre."""
+    (r,) = radius = np.array([2.0])
+    inner = 2 * r * math.cos(math.pi / 16) - r
+    outline = deposits.outline(np.array([5.0]), np.array([-1.0]), radius)
+    # rounding, and corners that are taken in: none, since all sides are equally far
+    assert outline.area == pytest.approx(16 * math.tan(math.pi / 16) * inner**2, rel=1e-6)
+
+
 def test_overlap_of_deposits():
     """Two rectangles of disks, shifted by a third of their length: they share two thirds, so half of what either covers."""
     x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(60), np.arange(6)))

@@ -87,6 +87,17 @@ def test_the_second_window_is_a_close_up_also_of_few_disks():
     assert 2.5 <= wide / tight * (1 + 1e-9)
 
 
+def test_both_windows_have_the_shape_of_their_axes(chains):
+    """Equal scales: what is shown is as high by its width as the axes are, to a per cent, as the frame takes no room; the foot is near the lower edge."""
+    for window, below in zip(chains.axes[1:], (0.07, 0.13)):
+        height, wide = np.ptp(window.get_ylim()), np.ptp(window.get_xlim())
+        place = window.get_position(original=True)
+        assert height / wide == pytest.approx(
+            place.height * chains.get_figheight() / (place.width * chains.get_figwidth()), rel=0.01
+        )
+        assert window.get_ylim()[0] == pytest.approx(-below * height, rel=1e-9)
+
+
 def test_windows_go_with_the_slope_wherever_its_foot_is(slope, chains):
     """A foot that is no origin, as far to the right as it is not high."""
     moved = [(name, np.array(points) + (137.0, 20.0), role) for name, points, role in WALLS]

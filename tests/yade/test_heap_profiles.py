@@ -140,5 +140,13 @@ def test_the_figure_has_a_row_for_each_column_with_means_intervals_and_borders(r
                 one for one in ax.lines if one.get_linestyle() == "--" and drawn.colour(one) == drawn.colour(line)
             ]
             assert [one.get_ydata()[0] for one in dashes] == pytest.approx([height])
+    assert [ax.get_ylim() for ax in panels] == [
+        pytest.approx((0, 1.75 * (0.5 + max(max(row["places"][m]["z_d"]) for row in rows)))) for m in range(3)
+    ]
+    # a mass that is lower than a disk has room for names all the same
+    for row in rows:
+        for place in row["places"]:
+            place["z_d"] = [0.01 * z for z in place["z_d"]]
+    assert [ax.get_ylim() for ax in spreading.profiles([column]).axes[1:4]] == [pytest.approx((0, 1.75))] * 3
     with pytest.raises(records.RecordsError, match="no columns to draw profiles of"):
         spreading.profiles([])

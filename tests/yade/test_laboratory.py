@@ -929,6 +929,8 @@ def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path
 
     def made_up(tests, out, threads, resume, progress):
         runs.append(out)
+        progress(0.0, "")
+        progress(1.0, "")
         strong = lambda t: 30e6 * (1 + 0.1 * t.shape.seed) * (1.02 if t.inertia > 1.5e-4 else 1.0)  # noqa: E731
         return [
             {
@@ -944,7 +946,11 @@ def test_effects_compare_each_value_with_the_usual_one_sample_by_sample(tmp_path
         ]
 
     monkeypatch.setattr(effects.campaign, "run", made_up)
-    rows = effects.run(effects.effects(materials.load("wwr"), [1, 2]), tmp_path, 1)
+    shares = []
+    asked = effects.effects(materials.load("wwr"), [1, 2])
+    rows = effects.run(asked, tmp_path, 1, progress=lambda share, doing: shares.append(share))
+    # from nothing to all, and each group begins where the one before has ended; the last ones have been run before
+    assert shares == sorted(shares) and shares[0] == 0 and 0.5 < shares[-1] <= 1 and len(set(shares)) > 11
     assert len(rows) == 14 and len(runs) == 11  # the usual test belongs to all four effects and is run once
     assert sum(row["usual"] for row in rows) == 4
     for row in rows:

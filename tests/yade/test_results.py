@@ -533,6 +533,15 @@ def test_a_run_that_failed_dry_is_told_from_its_beginning(tmp_path):
     # energies are those since it settled, when they begin anew
 
 
+def test_the_centre_of_mass_has_come_to_where_it_is_in_the_last_row(tmp_path):
+    """From (−500, 300) m at t0; the known run moves 200 m and 150 m from there, and 7 m and 3 m more in its last row alone."""
+    series = known_slope.series()
+    series["centroid_x_m"][-1] += 7.0
+    series["centroid_y_m"][-1] -= 3.0
+    found = summary_of(known_slope.write(tmp_path, series))
+    assert found["centroid_travel_m"] == near(math.hypot(207, 153))
+
+
 def test_without_losses_energies_are_of_the_motion(tmp_path):
     still = {name: 0 * values if name in records.LOSSES else values for name, values in known_slope.series().items()}
     found = summary_of(known_slope.write(tmp_path, still))

@@ -372,6 +372,7 @@ COHESIVE = dict(
         (lambda: soft.material_of(3.0, 1.0), "float"),
         (lambda: parameters("mindlin"), "mindlin"),
         (lambda: parameters(diameter=(2, 1)), "diameter"),
+        (lambda: parameters(diameter=(1, math.inf)), r"diameter \(1, inf\)"),
         (lambda: soft.equivalent(ROCK, 0, diameter=1), "stiffness 0"),
         (lambda: parameters(shear_ratio=0), "shear_ratio"),
         (lambda: parameters(rolling_ratio=0), "rolling_ratio"),

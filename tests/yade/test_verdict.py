@@ -64,6 +64,14 @@ def test_a_slope_slides_from_when_the_water_came():
     assert dry.kind == "slid" and f"by {0.05 * SIZE:.3g} m, its centre of mass sideways since it settled" in dry.says
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_slope_that_failed_dry_says_how_far_its_front_went(side):
+    """From where it is in the first row to where it is in the last, down the slope."""
+    section = synthetic.load("model.section.similar").mirrored(SHIPPED) if side < 0 else SHIPPED
+    columns = dict(front_m=lambda t: side * np.linspace(20.0, 150.0, len(t)))
+    assert ", its front went 130 m, and " in of(section, failed_dry=3.0, columns=columns).says
+
+
 def test_every_verdict_is_said_and_each_has_its_meaning():
     found = {
         of().kind,

@@ -155,7 +155,7 @@ class Course(driver.Course):
         if self.test.sides == "flexible":
             for _ in range(SWITCHES):
                 self._membrane()
-                advance(max(1, round(sample.REST_UNITS / SWITCHES * unit / O.dt)))
+                advance(round(sample.REST_UNITS / SWITCHES * unit / O.dt))
         self.sample.bonds = self.sample.engine.bond()
 
     @classmethod
