@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from shapely.geometry import Polygon
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 from nonsmooth import similar  # noqa: E402
@@ -31,6 +32,15 @@ def test_free_are_the_top_and_the_cut_of_the_crown():
         math.dist((23.294, 60.683), (-1346.109, 561.711)) + math.dist((-1346.109, 561.711), (-1400.371, 537.552)),
         abs=1e-6,
     )
+
+
+def test_a_triangle_as_thin_as_idle_vertices_lie_off_a_line_keeps_its_three():
+    """10 m long and 0.18 mm high, with vertices that count as idle within 0.2 mm: two would be no polygon."""
+    thin = Polygon([(0, 0), (10, 0), (5, 1.8e-4)])
+    found = geometry.outline([thin], 1e-4)
+    assert len(found.geoms) == 1 and len(found.geoms[0].exterior.coords) == 4
+    # a pointed corner is cut off where rims are moved out and in again
+    assert found.area == pytest.approx(thin.area, rel=0.5)
 
 
 def test_an_edge_is_cut_where_its_wall_ends():

@@ -126,6 +126,9 @@ def test_the_figure_has_a_row_for_each_column_with_means_intervals_and_borders(r
     marks = sorted(one.get_xdata()[0] for one in picture.lines if len(set(one.get_xdata())) == 1)
     assert marks == pytest.approx(sorted((1 - share) * look.tip / WIDTH for share in profiles.BEHIND))
     regimes = ("plug", "simple shear", "two layers")
+    assert [ax.get_title(loc="left") for ax in panels] == [
+        f"{'abc'[m]}: {percent} % of the way from the tip" for m, percent in enumerate((10, 40, 75))
+    ]
     for m, (ax, regime) in enumerate(zip(panels, regimes)):
         labels = list(drawn.legend(ax))
         assert labels[0] == f"0.25 of the run-out, 1.2 T\n   {regime}, 2 of 2" and len(labels) == 3

@@ -209,6 +209,10 @@ def test_each_number_of_a_reading_has_a_column_with_the_papers_band():
     assert dots["friction_peak_deg"] == [("o", 38.5, -0.17), ("o", 44.5, 0.17), ("s", 38.5, 1.0)]
     fills = [line.get_markerfacecolor() for line in axes["distance"].lines]
     assert fills[1] == "white" != fills[0]
+    # the shipped one stands out
+    orange, ink = figures.style.LINES["orange"], figures.style.INK
+    assert [line.get_color() for line in axes["distance"].lines] == [orange, orange, ink]
+    assert [text.get_color() for text in axes["cohesion_peak_kPa"].get_yticklabels()] == [orange, ink]
     assert {len(line.get_xdata()) for line in axes["strain_peak"].lines} == {9}  # three samples under three pressures
 
 
