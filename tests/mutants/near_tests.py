@@ -138,6 +138,8 @@ class NearTests:
                     node = node.value
                 if isinstance(node, ast.Name) and node.id in aliases:
                     used |= self._resolve([*aliases[node.id], *chain])
+                elif isinstance(node, ast.Name) and by_name and node.id in self.modules:  # figures = load("figures")
+                    used |= self._resolve([node.id, *chain])
             elif isinstance(node, ast.Constant) and isinstance(node.value, str):
                 said = re.fullmatch(r"(?:yade\.)?nonsmooth\.([\w.]+)|(\w+)\.py", node.value)
                 name = next(filter(None, said.groups()), "") if said else node.value.strip(".") if by_name else ""

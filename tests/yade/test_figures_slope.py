@@ -503,6 +503,8 @@ def test_runouts_are_drawn_with_the_way_of_their_fronts():
         assert way == "-|>" and (start[0], end[0]) == pytest.approx(ends, abs=1e-9)
     assert list(drawn.handles(fig)) == ["layer 1", "front of the mass, before and after"]
     upper, lower = fig.axes
+    # one scale for all, below
+    assert ["20 m" in drawn.texts(ax) for ax in (upper, lower)] == [False, True], drawn.texts(lower)
     assert upper.get_xlim() == lower.get_xlim() and upper.get_position().y0 >= lower.get_position().y1 - 1e-9
     with pytest.raises(records.RecordsError, match="no run to draw"):
         figures.runouts([], LEVEL)

@@ -30,6 +30,7 @@ from yade.nonsmooth.laboratory import (
 from yade.nonsmooth.measure import cycles, strength
 from yade.nonsmooth.model import rocks
 from yade.nonsmooth.running import processes
+from yade.nonsmooth.world import stepping
 from yade.wrapper import Law2_ScGeom_NscdPhys_SignoriniCoulomb, NscdInteractionLoop
 
 
@@ -162,6 +163,25 @@ def test_a_wall_has_the_strength_of_its_contacts(name, peak, residual):
     ] == pytest.approx(0, abs=0.5)
     if m.bonded:
         assert 0.75 < found["coverage"] < 1.0  # disks cover most of a line, but not all
+
+
+def test_a_block_is_pressed_by_a_load_that_grows_to_the_whole_of_it(monkeypatch):
+    """In equal parts to the pressure times the block's width, which it keeps while it slides; disks have the paper's sizes ([104]) where nothing else is said."""
+    loads, step = [], stepping.advance
+
+    def listening(steps=1, **told):
+        if told:
+            loads.append(-O.forces.permF(told["view"][0])[1])
+        return step(steps, **told)
+
+    monkeypatch.setattr(stepping, "advance", listening)
+    test = wall_shear.Test(materials.load("ss"), 0.5e6)
+    wall_shear.slide(test)
+    grows, whole = loads[: wall_shear.PRESSING], loads[-1]
+    assert grows == pytest.approx(whole * np.arange(1, wall_shear.PRESSING + 1) / wall_shear.PRESSING, rel=1e-12)
+    assert set(loads[wall_shear.PRESSING :]) == {whole} and (test.d_min, test.d_max) == (1.0, 4.0)
+    # the block is as wide as it was asked for, but for what its packing takes
+    assert whole == pytest.approx(0.5e6 * test.extent[0], rel=0.1)
 
 
 def test_slides_run_side_by_side_and_are_kept(tmp_path):

@@ -28,6 +28,15 @@ def nameless(data):
     data["water"]["plane"] = "one"
 
 
+def test_walls_fall_whichever_way_their_vertices_stand():
+    """Each from its upper end; a level one counts to the right."""
+    falls, level = np.array([(0.0, 3.0), (4.0, 0.0)]), np.array([(1.0, 2.0), (6.0, 2.0)])
+    for line, way in ((falls, (4, -3)), (level, (5, 0))):
+        assert roles.chord([line]) == pytest.approx(way) and roles.chord([line[::-1]]) == pytest.approx(way)
+    left = falls * (-1, 1)
+    assert roles.chord([left, level[::-1], falls[:1]]) == pytest.approx((1, -3))
+
+
 def test_roles_follow_from_what_walls_do_and_not_from_their_names(tmp_path):
     made = written(tmp_path, nameless)
     assert [(w.name, w.role) for w in made.walls] == [("one", "slip"), ("two", "backstop"), ("three", "ground")]

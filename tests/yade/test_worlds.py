@@ -3,7 +3,7 @@ import dataclasses
 import math
 
 import pytest
-from yade import O
+from yade import O, wrapper
 from yade.nonsmooth import scene, section, worlds
 
 ROCK = section.Material(
@@ -50,6 +50,13 @@ def test_disk_rests_on_the_wall(world):
     # a spring E R yields by m g/(E R) = 4e-4 m; rigid disks not at all
     assert O.bodies[i].state.pos[1] == pytest.approx(0.5, abs=5e-4)
     assert O.bodies[i].state.vel.norm() < 1e-3
+
+
+def test_the_margin_of_the_collider_goes_with_the_smallest_disk():
+    """0.6 of its radius where nothing else is said: a number below 0 is in radii, one above 0 in metres, which would be another margin at another size."""
+    hard = worlds.Hard(time_step=1e-3)
+    collider = next(e for e in hard.engines() if isinstance(e, wrapper.Collider))
+    assert (collider.verletDist, hard.verlet) == (-0.6, -0.6)
 
 
 @pytest.mark.parametrize("world", WORLDS, ids=lambda w: w.name)
