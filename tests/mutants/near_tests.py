@@ -27,15 +27,15 @@ class NearTests:
         self.used_by_scripts = {
             path.name: self._used(ast.parse(path.read_text())) for path in (self.root / "scripts").glob("*.py")
         }
-        self.texts, self.tests = {}, {}
+        self.texts, self.tests, self.words = {}, {}, {}
         self._read_tests()
 
     def of(self, file, scope=""):
         """Names of tests (as a Mutant has them), nearest first: those that name the function ``scope`` and are named after the module or its package, then those of
         one of the two; of equally near ones those that need no YADE, and small ones; what tries thousands of inputs comes last.
         """
-        near = self._of_python(file) if file.endswith(".py") else self._of_cpp(file)
         words = [w.strip("_") for w in scope.split(".") if w.strip("_")] or [Path(file).stem]
+        near = self._of_python(file, words) if file.endswith(".py") else self._of_cpp(file)
         parts = [p for p in Path(file).with_suffix("").parts if p not in (*PACKAGE.parts, "pkg", "dem", "__init__")]
         # WallForceEngine: wall_force
         parts = [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", p).lower().removesuffix("_engine") for p in parts]
@@ -54,18 +54,30 @@ class NearTests:
         return sorted(near, key=rank)
 
     # ---- Python
-    def _of_python(self, file):
+    def _of_python(self, file, names):
         """Tests that import the module, or call a script that does; where none does those that import a module which does, and so on. Of those further on also the ones
-        that have a word of the module's name in their own, as test_section of section_checks."""
+        that have a word of the module's name in their own, as test_section of section_checks, and those that say one of the ``names``, where it is no word like any other.
+        """
         modules, seen, found = {_dotted(Path(file).relative_to(PACKAGE))}, set(), []
         words = Path(file).stem.split("_")
+        said = {name for name in names if "_" in name}
         while modules:
             scripts = {name for name, used in self.used_by_scripts.items() if used & modules}
             tests = [t for t, (used, called) in self.tests.items() if used & modules or called & scripts]
-            found += [t for t in tests if t not in found and (not found or any(w in t for w in words))]
+            found += [
+                t
+                for t in tests
+                if t not in found and (not found or any(w in t for w in words) or said & self._words(t))
+            ]
             seen |= modules
             modules = {name for name, used in self.used_by_modules.items() if used & modules} - seen
         return found
+
+    def _words(self, test):
+        """Names in the text of a file of tests."""
+        if test not in self.words:
+            self.words[test] = set(re.findall(r"\w+", self.texts[test]))
+        return self.words[test]
 
     def _face(self, name):
         """{name that a package shows: module from which it comes}."""

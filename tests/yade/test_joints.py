@@ -104,6 +104,14 @@ def test_joints_of_walls_of_any_size_and_far_from_the_origin(size, far):
     assert s.vel[0] == pytest.approx(speed, rel=1e-7) and s.pos[0] - far > 15 * 0.3 * size
 
 
+@pytest.mark.parametrize(
+    "piece, lengths", [(None, [5.0]), (7.0, [5.0]), (5.0, [5.0]), (4.9, [2.5, 2.5]), (2.0, 3 * [5 / 3])]
+)
+def test_pieces_of_a_wall_are_as_few_as_their_length_allows(piece, lengths):
+    bodies = scene.segments([(0, 0), (3, 4)], material(0.5), piece=piece)
+    assert [2 * b.shape.halfLength for b in bodies] == pytest.approx(lengths)
+
+
 def test_walls_that_come_during_the_run_join_those_that_are_there():
     stuff = material(0.3)
     for k in range(25):
