@@ -175,6 +175,22 @@ def test_the_states_shares_of_their_making_follow_each_other(monkeypatch, tmp_pa
     assert told == pytest.approx([0, 0.25, 0.5, 0.5, 0.65, 0.8, 0.8, 0.9, 1.0], abs=1e-12)  # rounding
 
 
+def test_a_course_of_measurements_makes_its_folders(tmp_path, monkeypatch):
+    """Below a folder that is not there yet; a second call in it finds no progress of the first."""
+    asked = []
+
+    def call(function, folder, arguments, threads):
+        asked.append((function, folder, arguments, threads, (folder / "progress").exists()))
+        (folder / "progress").write_text("1")
+        return 3.0
+
+    monkeypatch.setattr(course.processes, "call", call)
+    made = course.Course(tmp_path / "new" / "out", 100.0, lambda *arguments: None)
+    for gone in (30.0, 60.0):
+        assert made.call("sweeps", 30.0, "module:name", {"disks": 3}, threads=2) == 3.0 and made.gone == gone
+    assert asked == [("module:name", tmp_path / "new" / "out" / "runs" / "sweeps", {"disks": 3}, 2, False)] * 2
+
+
 @pytest.mark.parametrize("noted, share", [("0.5", 0.4), ("", 0.2), (None, 0.2), ("9", 1.0)])
 def test_a_course_of_measurements_says_how_far_it_is(tmp_path, noted, share):
     """Of 100 s foreseen 20 s are gone, and one of 40 s has noted its share; what takes longer than foreseen does not go beyond the whole."""
