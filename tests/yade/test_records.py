@@ -14,7 +14,10 @@ import synthetic_slope as synthetic  # noqa: E402
 
 records = synthetic.load("records")
 RecordsError = records.RecordsError
-COLUMNS = ("step", "time_s", "residual", "contacts", "extra")
+count, Column, declared = (getattr(records.columns, name) for name in ("count", "Column", "declared"))
+COLUMNS = declared(
+    count("step", ""), *(Column(name) for name in ("time_s", "residual")), count("contacts", ""), Column("extra")
+)
 
 
 def row(step):
@@ -39,7 +42,7 @@ def test_numbers_come_back_bit_for_bit(tmp_path):
 
 
 def test_a_float_column_stays_float_when_given_whole_numbers(tmp_path):
-    with records.SeriesWriter(tmp_path / "s.csv", ("step", "time_s")) as writer:
+    with records.SeriesWriter(tmp_path / "s.csv", declared(count("step", ""), Column("time_s"))) as writer:
         writer.write({"step": 0, "time_s": 0})
     assert (tmp_path / "s.csv").read_text() == "step,time_s\n0,0.0\n"
     assert records.read_series(tmp_path / "s.csv")["time_s"].dtype == np.float64
@@ -195,7 +198,7 @@ def test_messages_name_the_file_and_the_remedy(tmp_path):
     path = tmp_path / "s.csv"
     mark = marked(path, range(3))
     with pytest.raises(RecordsError, match="columns are not those"):
-        records.SeriesWriter(path, COLUMNS[:-1] + ("other",), resume_from=mark)
+        records.SeriesWriter(path, (*list(COLUMNS)[:-1], "other"), resume_from=mark)
     path.write_text(path.read_text().replace("\n1,", "\n1,?,"))
     with pytest.raises(RecordsError, match="line 3: damaged row"):
         records.read_series(path)
@@ -225,12 +228,41 @@ def test_all_losses_are_columns():
     )
 
 
-def test_every_known_column_is_documented():
-    for name, column in records.COLUMNS.items():
-        assert column.unit and column.description, name
-        for ending, unit in (("_N_per_m", "N/m"), ("_m_per_s", "m/s"), ("_J", "J/m"), ("_rel", "1")):
+@pytest.mark.parametrize(
+    "module, name",
+    [
+        ("studies.slope.columns", "COLUMNS"),
+        ("studies.slope.columns", "WALL_COLUMNS"),
+        ("studies.laboratory.biaxial_test", "COLUMNS"),
+        ("studies.laboratory.wall_shear", "COLUMNS"),
+        ("studies.heaps.columns", "COLUMNS"),
+    ],
+)
+def test_every_declared_column_is_documented(module, name):
+    for name, column in getattr(synthetic.load(module), name).items():
+        assert column.name == name and column.unit and column.meaning, name
+        for ending, unit in (("_N_per_m", "N/m"), ("_m_per_s", "m/s"), ("_J", "J/m"), ("_rel", "1"), ("_Pa", "Pa")):
             if name.endswith(ending):
                 assert column.unit == unit, name
+
+
+def test_what_is_declared_decides_how_a_number_is_written_and_whether_a_cell_is_empty(tmp_path):
+    columns = declared(count("step", ""), Column("name", "-", kind=str), Column("x"), count("n", "", optional=True))
+    with records.SeriesWriter(tmp_path / "s.csv", columns) as writer:
+        writer.write({"step": 1, "name": "a,b", "x": 2, "n": None})
+        with pytest.raises(RecordsError, match="x = None at step 2: give a number"):
+            writer.write({"step": 2, "name": "a", "x": None, "n": 1})
+        with pytest.raises(RecordsError, match="x = 'a' at step 2: give a number"):
+            writer.write({"step": 2, "name": "a", "x": "a", "n": 1})
+    assert (tmp_path / "s.csv").read_text() == 'step,name,x,n\n1,"a,b",2.0,\n'
+
+
+def test_the_slopes_columns_are_found_where_they_were():
+    slope = synthetic.load("studies.slope.columns")
+    assert records.COLUMNS is slope.COLUMNS is records.columns.COLUMNS and records.WALL_COLUMNS is slope.WALL_COLUMNS
+    assert (records.COLUMNS["step"].integer, records.COLUMNS["time_s"].description) == (True, "simulated time")
+    with pytest.raises(AttributeError, match="no attribute 'HEAP_COLUMNS'"):
+        records.HEAP_COLUMNS  # noqa: B018
 
 
 # --- snapshots ---------------------------------------------------------------------------------------------------

@@ -1,28 +1,27 @@
 """Records of a run: the time series (``series.csv``, ``walls.csv``), the bonds that broke (``breaks.csv``) and the snapshots (``.npz``).
 
 All can be read and written without YADE. All quantities are in SI units, forces and energies per metre of
-thickness (the model is two-dimensional). Every failure is a :class:`RecordsError` that names the file, what is
+thickness (the model is two-dimensional). ``COLUMNS`` and ``WALL_COLUMNS`` are those of a slope. Every failure is a :class:`RecordsError` that names the file, what is
 wrong with it and what to do.
 """
 
 from .breaks import BREAK_COLUMNS, read_breaks, write_breaks
-from .columns import COLUMNS, LOSSES, OWN, WALL_COLUMNS, Column, column, own_columns, stem
+from .columns import LOSSES, OWN, Column, __getattr__, column, declared, own_columns, stem
 from .error import RecordsError
 from .series import SeriesWriter, broken_bonds, kept, read_series, read_walls, since_settled
 from .snapshots import Snapshot, read_snapshot, write_snapshot
 
 __all__ = [
     "BREAK_COLUMNS",
-    "COLUMNS",
     "LOSSES",
     "OWN",
-    "WALL_COLUMNS",
     "Column",
     "RecordsError",
     "SeriesWriter",
     "Snapshot",
     "broken_bonds",
     "column",
+    "declared",
     "kept",
     "own_columns",
     "read_breaks",

@@ -5,28 +5,26 @@ import hashlib
 import math
 import numbers
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from ..system import checks
 from .breaks import BREAK_MODES
-from .columns import COLUMNS, WALL_COLUMNS, stem
+from .columns import STEP, Column
 from .error import RecordsError
 
 __all__ = ["SeriesWriter", "broken_bonds", "kept", "read_series", "read_walls", "since_settled"]
 
 
-def _encode(name, value):
-    """Text of one number such that reading it gives the same bits."""
+def _encode(column, value):
+    """Text of one cell such that reading it gives the same bits."""
     if value is None:
         return ""
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"' if set(value) & set(',"') else value
-    known = COLUMNS.get(stem(name)) or WALL_COLUMNS.get(name)
-    integer = known.integer if known else isinstance(value, (bool, int, np.integer, np.bool_))
-    if integer:
+    if column.integer or (column.kind is None and isinstance(value, (bool, int, np.integer, np.bool_))):
         if float(value) != int(value):
             raise ValueError("a count must be a whole number")
         return str(int(value))
@@ -63,7 +61,8 @@ def kept(path, mark):
 class SeriesWriter:
     """Appends rows to a series file, each row in one unbuffered write.
 
-    ``path``: the CSV file. ``columns``: names in order, beginning with ``step``. ``resume_from``: a :meth:`mark` that a
+    ``path``: the CSV file. ``columns``: {name: Column} in order, beginning with ``step``, as :func:`.columns.declared` returns them; or names alone, of columns that then hold whole numbers
+    and others as they come. ``resume_from``: a :meth:`mark` that a
     checkpoint kept: what the file held then is kept byte for byte, and must still be the same; later rows and a
     half-written last line are removed. Without it a file that already holds rows is refused unless ``overwrite`` is true.
 
@@ -79,7 +78,9 @@ class SeriesWriter:
             raise RecordsError(
                 f"columns {checks.shown(columns)}: give the names of the columns, a list that begins with 'step'"
             )
+        known = columns if isinstance(columns, Mapping) else {}
         self.columns = tuple(columns)
+        self._declared = [known.get(name, STEP if name == "step" else Column(name, kind=None)) for name in self.columns]
         self.last_step = None
         self._file, self._sum = None, hashlib.sha256()
         if not self.columns or self.columns[0] != "step" or len(set(self.columns)) != len(self.columns):
@@ -165,7 +166,7 @@ class SeriesWriter:
         self._sum.update(data)
 
     def write(self, *rows):
-        """Append a row, or the rows of one step: mappings from column name to number, with exactly the columns of this series. A column of WALL_COLUMNS may be
+        """Append a row, or the rows of one step: mappings from column name to number, with exactly the columns of this series. What is optional may be
         None, where it has no meaning.
 
         Raises :class:`RecordsError` for a missing or unknown column, a NaN or infinite number, a fractional count,
@@ -194,16 +195,9 @@ class SeriesWriter:
                 "give exactly the columns the series was opened with"
             )
         texts = []
-        for name in self.columns:
-            value = row[name]
-            # walls.csv has names of walls, and numbers that a wall does not have
-            may = (
-                (str,)
-                if name == "wall"
-                else (type(None),)
-                if name in WALL_COLUMNS and name not in ("step", "time_s")
-                else ()
-            )
+        for column in self._declared:
+            name, value = column.name, row[column.name]
+            may = (str,) * (column.kind is str) + (type(None),) * column.optional
             if isinstance(value, may):
                 pass
             elif not isinstance(value, (numbers.Real, np.bool_)):
@@ -214,7 +208,7 @@ class SeriesWriter:
                     "row, go back to the last checkpoint with a smaller time step"
                 )
             try:
-                texts.append(_encode(name, value))
+                texts.append(_encode(column, value))
             except ValueError as error:
                 raise RecordsError(f"{self.path}: {name} = {value} at step {row['step']}: {error}") from error
         return ",".join(texts) + "\n"
@@ -255,7 +249,7 @@ def _parse_row(path, number, line, columns):
 
 
 def read_series(path):
-    """Read a series: dict from column name to an array of shape (rows,), int64 for counts, float64 otherwise.
+    """Read a series of any study: dict from column name to an array of shape (rows,), int64 for what holds whole numbers alone (counts, as a writer writes them), float64 otherwise.
 
     A half-written last line (a run that still goes on, or was killed) is left out. Raises :class:`RecordsError` if
     the file is missing, has no header, or a row is damaged.
@@ -272,8 +266,7 @@ def read_series(path):
     rows = [_parse_row(path, number, line, columns) for number, line in enumerate(lines[1:], start=2)]
     series = {}
     for name, values in zip(columns, zip(*rows) if rows else [()] * len(columns)):
-        known = COLUMNS.get(stem(name))
-        integer = known.integer if known else bool(values) and all(type(v) is int for v in values)
+        integer = name == "step" or bool(values) and all(type(v) is int for v in values)
         series[name] = np.array(values, dtype=np.int64 if integer else np.float64)
     return series
 
@@ -287,7 +280,7 @@ def read_walls(path):
     try:
         text = path.read_bytes().decode()
         header, *rows = csv.reader(text[: text.rfind("\n") + 1].splitlines())
-        if header != list(WALL_COLUMNS) or any(len(row) != len(header) for row in rows):
+        if header[:3] != ["step", "time_s", "wall"] or any(len(row) != len(header) for row in rows):
             raise ValueError("wrong columns")
         columns = dict(zip(header, zip(*rows) if rows else [()] * len(header)))
         return {

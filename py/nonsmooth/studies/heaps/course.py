@@ -16,27 +16,10 @@ from ...measure import heap as measures
 from ...system import checks
 from ...world.stepping import advance, until
 from . import preparation
+from .columns import COLUMNS
 from .grains import Heap, HeapError, check_damping
 
 __all__ = ["COLUMNS", "Result", "Scene", "build", "run"]
-
-#: Columns of the series; units are in the names, see :class:`Result`.
-COLUMNS = (
-    "step",
-    "time_s",
-    "front_m",
-    "front_left_m",
-    "farthest_m",
-    "height_m",
-    "centroid_x_m",
-    "centroid_y_m",
-    "energy_kinetic_J",
-    "energy_potential_J",
-    "connected_disks",
-    "overlap_mean_rel",
-    "overlap_worst_rel",
-    "wall_s",
-)
 
 RECORDS = 20  # to T = √(H/g)
 REST_SPEED = 0.02  # √(g d), rms speed of the connected disks at rest ...

@@ -25,12 +25,13 @@ from ...course import driver
 from ...errors import UserError
 from ...measure import cycles
 from ...records import checkpoints
+from ...records.columns import without
 from ...running.kept_runs import Progress
 from ...system.whole_files import remove, remove_parts, whole, write_arrays
 from ...world import tables
 from ...world.stepping import advance
 from . import membrane, sample
-from .biaxial_test import CYCLE, PHASES, Test, key_of
+from .biaxial_test import COLUMNS, CYCLE, OF_SOLVER, PHASES, Test, key_of
 from .walls import Walls
 
 __all__ = ["COLUMNS", "OF_SOLVER", "ROW_STRAIN", "Course", "TestError", "keep_cycle", "run"]
@@ -41,32 +42,6 @@ FILM = 100  # frames of a video, besides the first
 SNAPSHOTS = (0.01, 0.02, 0.04)  # strains, besides the begin and the end
 SAMPLES = 20  # of the forces on the walls in a row, with soft contacts; each step with hard ones
 SWITCHES = 20  # times that the membrane is laid anew while soft contacts come to rest in it
-
-COLUMNS = (
-    "step",
-    "time_s",
-    "strain",
-    "volumetric_strain",
-    "sigma1_top_Pa",
-    "sigma1_bottom_Pa",
-    "sigma3_left_Pa",
-    "sigma3_right_Pa",
-    "inertial_number",
-    "bonds_alive",
-    "bonds_broken_tension",
-    "bonds_broken_shear",
-    "bonds_broken_torque",
-    "bonds_broken_mixed",
-    "contacts",
-    "speed_mean_m_per_s",
-    "iterations_mean",
-    "residual_worst",
-    "unconverged",
-    "overlap_worst_rel",
-    "energy_kinetic_J",
-)
-#: Columns that only a test of rigid contacts has.
-OF_SOLVER = ("iterations_mean", "residual_worst", "unconverged", "energy_kinetic_J")
 
 
 class TestError(UserError, RuntimeError):
@@ -85,7 +60,7 @@ class Course(driver.Course):
         self.unsaved = None if self.hard else "a test of soft contacts"
         self.series = records.SeriesWriter(
             self.folder / "series.csv",
-            COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER),
+            COLUMNS if self.hard else without(COLUMNS, OF_SOLVER),
             resume_from=state.pop("series", None),
             overwrite=True,
         )

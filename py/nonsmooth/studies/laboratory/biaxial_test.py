@@ -5,13 +5,45 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, replace
 
 from ...model import materials, section
+from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 from ...system import keys
 from . import pressing
 
-__all__ = ["CYCLE", "PHASES", "Test", "key_of"]
+__all__ = ["COLUMNS", "CYCLE", "OF_SOLVER", "PHASES", "Test", "key_of"]
 
 CYCLE = "cycle"  # folder of the forces of rows by their steps, and in the end of those of PHASES
 PHASES = ("begin", "peak", "end")  # of a cycle of stress
+
+#: Of a test's ``series.csv``, {name: Column}: stresses are means over the row's steps.
+COLUMNS = declared(
+    STEP,
+    TIME,
+    Column("strain", "1", "axial strain 1 − H/H₀, compression positive"),
+    Column("volumetric_strain", "1", "A/A₀ − 1, positive in dilation"),
+    Column("sigma1_top_Pa", "Pa", "force on the upper platen over the sample's mean width (its area over its height)"),
+    Column("sigma1_bottom_Pa", "Pa", "the same of the lower platen"),
+    Column(
+        "sigma3_left_Pa",
+        "Pa",
+        "stress on the left side; with flexible sides the pressure as it was set, which is what a membrane bears",
+    ),
+    Column("sigma3_right_Pa", "Pa", "the same of the right side"),
+    Column("inertial_number", "1", "of the loading, the rate of the axial strain times √(m/σ₃)"),
+    *BONDS,
+    count("contacts", "contacts, bonded ones included"),
+    Column("speed_mean_m_per_s", "m/s", "mean speed of the disks"),
+    Column("iterations_mean", "1", "sweeps of the contact solver in a step; not with soft contacts"),
+    Column(
+        "residual_worst", "1", "largest residual of the contact solver at the end of a step; not with soft contacts"
+    ),
+    count("unconverged", "steps of the row that missed the tolerance; not with soft contacts"),
+    Column("overlap_worst_rel", "1", "largest overlap, in units of the mean diameter of the pair"),
+    Column(
+        "energy_kinetic_J", "J/m", "kinetic energy, mean over the row; not with soft contacts, nor in earlier files"
+    ),
+)
+#: Names of columns that only a test of rigid contacts has.
+OF_SOLVER = ("iterations_mean", "residual_worst", "unconverged", "energy_kinetic_J")
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from ... import packing, records
 from ...course import driver
 from ...errors import UserError
 from ...model import materials, section
+from ...records.columns import STEP, Column, declared
 from ...running import side_by_side
 from ...running.kept_runs import Progress
 from ...system import keys
@@ -31,7 +32,7 @@ __all__ = ["COLUMNS", "Slide", "SlideError", "Test", "run", "run_one", "slide", 
 BLOCK_STRENGTH = 1e9  # Pa, of the block's own bonds
 BLOCK_BONDS = 0.15  # ℓ; a disk that the block does not hold could roll between it and the wall
 SPEED = 0.1  # m/s
-STEP = 2e-3  # s
+TIME_STEP = 2e-3  # s
 PEAK_SLIP = 0.005  # m, slip until which the peak is looked for: a quarter of the smallest bond's ellipse
 PLATE_MASS = 0.2  # of the block's
 PRESSING = 150  # steps in which the pressure grows
@@ -39,7 +40,13 @@ LENGTH, HEIGHT = 50.0, 6.0  # mean diameters
 TOLERANCE = 1e-4  # a bonded beam converges slowly
 
 
-COLUMNS = ("step", "slip_m", "normal_Pa", "shear_Pa")
+#: Of a slide's ``series.csv``, a row for each step of the slip: {name: Column}.
+COLUMNS = declared(
+    STEP,
+    Column("slip_m", "m", "way of the wall since it was pulled"),
+    Column("normal_Pa", "Pa", "normal stress of the block on the wall, its force over its length"),
+    Column("shear_Pa", "Pa", "shear stress, positive against the wall's way"),
+)
 
 
 class SlideError(UserError, RuntimeError):
@@ -132,7 +139,7 @@ def slide(test, record=lambda row: None):
     O.engines = scene.engines(
         gravity=(0, 0, 0), reach=0.2, verlet=0.1 * test.d_min, tolerance=TOLERANCE, maxIterations=1000
     )
-    O.dt = STEP
+    O.dt = TIME_STEP
     mass = rock.density * float(np.sum(math.pi * made.r**2))
     load, state = pressure * width, O.bodies[plate].state
     state.mass, state.blockedDOFs = PLATE_MASS * mass, "xzXYZ"

@@ -29,17 +29,18 @@ from ...measure.fronts import front_of
 from ...model import scales
 from ...model.section import Section, data as section_data
 from ...records import checkpoints
+from ...records.columns import without
 from ...system import checks, keys
 from ...world import tables
 from ...world.stepping import advance
 from . import frames, results, slope, slope_packing
+from .columns import COLUMNS
 from .wall_series import WallSeries
 
 __all__ = ["ArgumentError", "EndError", "Experiment", "ExperimentError", "State", "COLUMNS", "begin", "resume"]
 
 FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each step with hard ones
 
-COLUMNS = tuple(records.COLUMNS)
 #: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
 OF_SOLVER = (
     "iterations",
@@ -98,8 +99,10 @@ class Experiment(driver.Course):
         self.runner = None  # see attach
         self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.unsaved = None if self.hard else "a slope of soft contacts"
-        self.columns = COLUMNS if self.hard else tuple(name for name in COLUMNS if name not in OF_SOLVER)
-        self.columns += records.own_columns(self.section.stacked)
+        own = records.own_columns(self.section.stacked)
+        self.columns = (COLUMNS if self.hard else without(COLUMNS, OF_SOLVER)) | {
+            name: COLUMNS[records.stem(name)]._replace(name=name) for name in own
+        }
         if state is None:
             checkpoints.forget(self.folder)  # before anything is written that it would not belong to
             results.forget(self.folder)

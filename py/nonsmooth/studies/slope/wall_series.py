@@ -17,6 +17,7 @@ from ...model import roles
 from ...world import tables
 from ...world.wall_forces import WallForces
 from . import slope
+from .columns import WALL_COLUMNS
 
 __all__ = ["Slip", "WallSeries"]
 
@@ -51,7 +52,7 @@ class WallSeries:
         self._interfaces = [(i, *section.numbers_of(i), slope.interface_law(built, i)) for i in section.interfaces]
         self._obstacles = [(layer.name, k) for k, layer in enumerate(section.layers) if layer.role == "obstacle"]
         self._layer_of = np.concatenate([np.full(built.first_disk, -1), layers])  # by body; -1: a wall
-        self.file = records.SeriesWriter(path, tuple(records.WALL_COLUMNS), resume_from=mark, overwrite=True)
+        self.file = records.SeriesWriter(path, WALL_COLUMNS, resume_from=mark, overwrite=True)
 
     def forget(self):
         """Begins anew."""
@@ -146,7 +147,7 @@ class WallSeries:
             if slip.counts
             else (None, None, None)
         )
-        return dict(zip(records.WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told, slid), strict=True))
+        return dict(zip(WALL_COLUMNS, (O.iter, O.time, name, normal, shear, peak, *told, slid), strict=True))
 
 
 def _slip(materials):

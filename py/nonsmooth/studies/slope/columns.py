@@ -1,0 +1,108 @@
+"""Columns of a slope's series.csv and walls.csv. Needs no YADE."""
+
+from ...records.columns import BONDS, STEP, TIME, Column, count, declared
+
+__all__ = ["COLUMNS", "WALL_COLUMNS"]
+
+#: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see :data:`.records.columns.OWN`.
+COLUMNS = declared(
+    STEP,
+    TIME,
+    count("stage", "stage of the run in the step: 0 settling, 1 dry rest, 2 water or avalanche"),
+    Column("water_m", "m", "height of the water table above its plane (DP), h_w"),
+    Column(
+        "dp_normal_total_N_per_m",
+        "N/m",
+        "total normal force on the lowest slip surfaces (DP), those with no other below, N_DP = N'_DP + U_DP, mean over the row",
+    ),
+    Column(
+        "dp_normal_effective_N_per_m",
+        "N/m",
+        "effective (contact) normal force on the lowest slip surfaces, N'_DP, mean over the row",
+    ),
+    Column("dp_water_N_per_m", "N/m", "force of the pore water on what these bear, normal to its plane, U_DP"),
+    Column(
+        "dp_shear_N_per_m",
+        "N/m",
+        "shear force on the lowest slip surfaces, T_DP, mean over the row; positive when the wall resists downslope motion",
+    ),
+    Column("fb_normal_N_per_m", "N/m", "normal force on the backstops (FB), N'_FB, mean over the row; 0 without one"),
+    Column("fb_shear_N_per_m", "N/m", "shear force on the backstops, mean over the row"),
+    Column("ss_normal_N_per_m", "N/m", "normal force on the walls that are ground (SS), mean over the row"),
+    Column("ss_shear_N_per_m", "N/m", "shear force on the walls that are ground, mean over the row"),
+    Column(
+        "dp_normal_peak_N_per_m",
+        "N/m",
+        "largest effective normal force on the lowest slip surfaces in a step of the row",
+    ),
+    Column("fb_normal_peak_N_per_m", "N/m", "largest normal force on the backstops in a step of the row"),
+    Column("ss_normal_peak_N_per_m", "N/m", "largest normal force on the walls that are ground in a step of the row"),
+    count("wet_disks", "disks that feel pore pressure"),
+    count("released_disks", "disks that were wet and whose pore pressure has been released for good"),
+    Column("speed_mean_m_per_s", "m/s", "mean speed of the disks"),
+    Column("speed_max_m_per_s", "m/s", "largest speed of a disk"),
+    Column("front_m", "m", "position x of the front, in the direction in which the slope falls"),
+    Column("centroid_x_m", "m", "centre of mass, x"),
+    Column("centroid_y_m", "m", "centre of mass, y"),
+    *BONDS,
+    count("contacts", "contacts, bonded ones included"),
+    Column(
+        "slip_mean_dp_m",
+        "m",
+        "mean cumulated slip of the disks that touch those of the lowest slip surfaces which weaken",
+    ),
+    count("weakened_disks", "disks whose slip on one of them has passed the critical slip D_c"),
+    count("iterations", "sweeps of the contact solver in the step"),
+    Column("residual", "1", "residual of the contact solver at the end of the step"),
+    Column("residual_N_per_m", "N/m", "the same as a force: rms over contacts of what the reactions miss of the law"),
+    Column("tolerance", "1", "residual that the step was to reach"),
+    Column("overlap_worst_rel", "1", "largest overlap, in units of the mean diameter of the pair"),
+    Column("overlap_mean_rel", "1", "mean overlap of the contacts, in the same units"),
+    Column("energy_kinetic_J", "J/m", "kinetic energy"),
+    Column("energy_potential_J", "J/m", "potential energy of gravity"),
+    Column("energy_water_J", "J/m", "work done by the pore water"),
+    Column("energy_walls_J", "J/m", "work done by walls whose motion is given"),
+    Column("energy_sliding_J", "J/m", "energy dissipated by sliding"),
+    Column("energy_rolling_J", "J/m", "energy dissipated by rolling"),
+    Column("energy_impact_J", "J/m", "energy dissipated by impacts"),
+    Column("energy_bonds_J", "J/m", "energy dissipated by pulling contacts apart against their adhesion"),
+    Column("energy_correction_J", "J/m", "energy added by the correction of overlaps"),
+    Column(
+        "energy_error_rel", "1", "what the energy balance leaves over, relative; 0 while settling, as it begins then"
+    ),
+)
+
+
+#: Of ``walls.csv``, a row for each wall and time: {name: Column}. Empty where a wall has no such number.
+WALL_COLUMNS = declared(
+    STEP,
+    TIME,
+    Column("wall", "-", "name of the wall, of the interface, or of the layer that is an obstacle", str),
+    Column(
+        "normal_N_per_m",
+        "N/m",
+        "normal force on the wall, into it positive, mean over the row; across an interface, pressing positive, or the horizontal push of the mass on an "
+        "obstacle of disks, downslope positive, in the last step",
+    ),
+    Column(
+        "shear_N_per_m",
+        "N/m",
+        "shear force on the wall, mean over the row, or across an interface in the last step; positive when it resists downslope motion; on an obstacle of disks "
+        "the downward force",
+    ),
+    Column("normal_peak_N_per_m", "N/m", "largest normal force in a step of the row; between disks that of the last"),
+    Column(
+        "slip_mean_m",
+        "m",
+        "mean cumulated slip of the disks that have touched a wall or an interface that weakens",
+        optional=True,
+    ),
+    count("weakened_disks", "disks whose slip on it has passed the critical slip D_c", optional=True),
+    Column("weakened_share", "1", "the same as a share of the disks that have touched it", optional=True),
+    Column(
+        "energy_sliding_J",
+        "J/m",
+        "energy dissipated by sliding on the wall since the balance began, after settling",
+        optional=True,
+    ),
+)
