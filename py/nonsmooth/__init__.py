@@ -32,7 +32,7 @@ FACE = {
     "soft": "world.soft",
     "wall_forces": "world.wall_forces",
     "experiment": "studies.slope.experiment",
-    "runs": "studies.slope.runs",
+    "runs": "studies.runs",
     "run_figures": "studies.slope.run_figures",
     "laboratory": "studies.laboratory",
     "laboratory.materials": "model.materials",

@@ -25,7 +25,6 @@ from yade.nonsmooth.studies.comparison import (
     summary,
 )
 from yade.nonsmooth.studies.comparison.outcomes import Cost, Outcome
-from yade.nonsmooth.system.whole_files import write_arrays
 
 
 @pytest.fixture
@@ -267,19 +266,9 @@ def test_without_an_envelope_there_is_no_figure_of_it(kept, tmp_path, monkeypatc
 
 def test_a_heap_draws_its_places_in_widths_with_its_gate(kept, tmp_path):
     x, y = (g.ravel() for g in np.meshgrid(0.5 + np.arange(4), 0.5 + np.arange(6)))
-    write_arrays(
-        tmp_path / "places.npz",
-        time=[0.0, 1.0],
-        x=[x, 1.25 * x],
-        y=[y, 0.8 * y],
-        r=np.full(24, 0.5),
-        x_end=1.5 * x,
-        y_end=0.7 * y,
-        connected=np.ones(24, bool),
-    )
-    with records.SeriesWriter(tmp_path / "series.csv", ("step", "time_s")) as file:
-        for step, time in ((1, 0.0), (2, 4.5)):
-            file.write({"step": step, "time_s": time})
+    for name, time, stretch, press in (("00000000", 0.0, 1, 1), ("00000100", 1.0, 1.25, 0.8), ("end", 4.5, 1.5, 0.7)):
+        path = tmp_path / "snapshots" / f"{name}.npz"
+        records.write_snapshot(path, time_s=time, step=100 * time, x=stretch * x, y=press * y, r=np.full(24, 0.5))
     heap = column.Column(disks=200, aspect=1.5)
     path = heap_report.draw_collapse(heap, {"width_m": 4.0, "fall_time_s": 0.8}, tmp_path, tmp_path / "collapse.png")
     fig = kept[path.name]

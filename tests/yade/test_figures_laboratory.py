@@ -11,7 +11,7 @@ import synthetic_slope as synthetic
 style, biaxial, wall_shear, creep_module, moving, cycle_figure = (
     synthetic.load(f"figures.{name}") for name in ("style", "biaxial", "wall_shear", "creep", "moving", "cycle")
 )
-cycles = synthetic.load("measure.cycles")
+cycles, records = synthetic.load("measure.cycles"), synthetic.load("records")
 BLUE, RED = "#1f5fa8", "#d62728"  # compression, tension
 PEAK, PLATEAU = (style.LINES[name].lower() for name in ("blue", "orange"))
 
@@ -141,7 +141,7 @@ def test_a_cycle_has_its_three_curves_its_phases_and_its_chains():
         wide.append(float(np.ptp(corners[:, 1])))
     assert wide[1] == pytest.approx(wide[0] / 4, rel=1e-6)
     assert left.get_xlim() == right.get_xlim() and left.get_ylim() == right.get_ylim()
-    with pytest.raises(synthetic.load("records").RecordsError, match="no column energy_kinetic_J"):
+    with pytest.raises(records.RecordsError, match="no column energy_kinetic_J"):
         cycle_figure.cycle({k: v for k, v in series.items() if k != "energy_kinetic_J"}, rows, before, after, "")
 
 
@@ -223,20 +223,22 @@ def test_a_film_of_a_test_has_the_colours_of_rotations_and_its_walls(monkeypatch
     monkeypatch.setattr(moving, "write", lambda frames, path, **how: told.update(frames=frames, **how) or path)
     for k in range(3):
         paths.append(tmp_path / f"{k:04d}.npz")
-        np.savez(
-            paths[-1], time_s=2.0 * k, strain=0.01 * k, bottom_top=[0.0, 10.0 - 0.1 * k], left_right=[-1.0, 6.0],
-            **{name: np.float32(v) for name, v in dict(x=[1, 3], y=[1, 2 - 0.1 * k], r=[1, 1], angle=[7.0, 7 + 0.1 * k]).items()},
-        )  # fmt: skip
+        disks = dict(x=[1, 3], y=[1, 2 - 0.1 * k], r=[1, 1], angle=[7.0, 7 + 0.1 * k])
+        walls = [(1, 0.0), (0, 6.0), (1, 10.0 - 0.1 * k), (0, -1.0)]
+        records.write_snapshot(paths[-1], compact=True, time_s=2.0 * k, step=k, walls=walls, **disks)
     assert biaxial.film(paths, "σ₃ = 6 MPa", tmp_path / "b.mp4") == tmp_path / "b.mp4"
     assert [t for t, _ in told["frames"]] == [0, 2, 4] and told["words"](4.0, None) == "ε₁ = 2.00 %,  σ₃ = 6 MPa"
     scale, name = told["bar"]
     assert name.startswith("rotation [rad]")
     for k, (_, s) in enumerate(told["frames"]):
-        assert s.axes == [(1, 0.0), (1, 10.0 - 0.1 * k), (0, -1.0), (0, 6.0)] and s.y[1] == pytest.approx(2 - 0.1 * k)
+        assert s.axes == [(1, 0.0), (0, 6.0), (1, 10.0 - 0.1 * k), (0, -1.0)] and s.y[1] == pytest.approx(2 - 0.1 * k)
         # what has turned since the begin; single precision
         assert s.colour == pytest.approx(scale.to_rgba([0.0, 0.1 * k])[:, :3], abs=1e-5)
-    with pytest.raises(synthetic.load("records").RecordsError, match="no frames"):
+    with pytest.raises(records.RecordsError, match="no frames"):
         biaxial.film([], "", tmp_path / "b.mp4")
+    records.write_snapshot(tmp_path / "no.npz", time_s=0.0, step=0, x=[1], y=[1], r=[1])
+    with pytest.raises(records.RecordsError, match="no.npz: has no angle or no walls; give frames of a biaxial test"):
+        biaxial.film([tmp_path / "no.npz"], "", tmp_path / "b.mp4")
 
 
 def test_rotations_are_told_by_colour_since_the_begin_of_shear():

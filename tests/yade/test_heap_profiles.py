@@ -1,5 +1,6 @@
 """Profiles of speed of made-up columns whose films are known, over seeds, and their figure. Needs no YADE."""
 
+import shutil
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,9 +9,8 @@ import pytest
 import drawn
 import synthetic_slope as synthetic
 
-profiles, grains, records, spreading, whole_files = (
-    synthetic.load(name)
-    for name in ("studies.heaps.profiles", "studies.heaps.grains", "records", "figures.spreading", "system.whole_files")
+profiles, grains, records, spreading = (
+    synthetic.load(name) for name in ("studies.heaps.profiles", "studies.heaps.grains", "records", "figures.spreading")
 )
 D, COLUMNS, ROWS = 0.5, 100, 20  # m, disks side by side and above each other
 WIDTH, HEIGHT, GRAVITY, PLACE = 50.0, 10.0, 10.0, -3.0  # m, m/s², m
@@ -32,10 +32,10 @@ def film(folder, factor=1.0):
     x, y = (i.ravel() + 0.5) * D, (j.ravel() + 0.5) * D
     u = WAY * speeds(x, y) * np.where(x < 0.75 * WIDTH, factor, 1.0)
     times = np.arange(FRAMES) / (FRAMES - 1)
-    whole_files.write_arrays(
-        folder / "film.npz", time=times, x=[PLACE + x + u * t for t in times], y=[y for _ in times]
-    )
-    whole_files.write_arrays(folder / "places.npz", r=np.full(len(x), 0.5 * D))
+    for k, t in enumerate(times):
+        records.write_snapshot(
+            folder / "frames" / f"{k:08d}.npz", time_s=t, step=k, x=PLACE + x + u * t, y=y, r=np.full(len(x), 0.5 * D)
+        )
     heap = SimpleNamespace(place=lambda: PLACE, gravity=GRAVITY, mean_diameter=lambda: D)
     told = {"runout_rel": WAY / WIDTH, "width_m": WIDTH, "height_m": HEIGHT, "fall_time_s": 0.25}
     return heap, told, folder
@@ -102,7 +102,7 @@ def test_a_mass_that_hardly_moves_is_at_rest(runs):
 
 
 def test_a_run_of_an_earlier_version_is_refused(runs):
-    (runs[1][2] / "film.npz").unlink()
+    shutil.rmtree(runs[1][2] / "frames")
     with pytest.raises(grains.HeapError, match="kept no places on its way"):
         profiles.over_runs(runs)
 

@@ -309,6 +309,21 @@ def test_contacts_may_be_left_out(tmp_path):
     assert len(records.read_snapshot(tmp_path / "a.npz").ci) == 0
 
 
+def test_what_a_study_has_not_is_left_out_and_asked_for_by_what_needs_it(tmp_path):
+    disks = dict(time_s=0.5, step=7, x=[0.1, 2.0], y=[0.3, 0.3], r=[0.5, 0.7], walls=[(1, 0.1), (0, 1 / 3)])
+    for compact in (False, True):
+        found = records.read_snapshot(records.write_snapshot(tmp_path / "a.npz", compact=compact, **disks))
+        assert (found.angle, found.vx, found.layer, found.wet, found.water_m, len(found.ci)) == (None,) * 5 + (0,)
+        assert np.array_equal(found.walls, disks["walls"]) and found.x.dtype == np.float64
+        # single precision is for what a picture shows
+        assert np.array_equal(found.x, np.float32(disks["x"]) if compact else disks["x"])
+    with pytest.raises(RecordsError, match=r"walls has shape \(2,\); give an axis"):
+        records.write_snapshot(tmp_path / "b.npz", **{**disks, "walls": [0.0, 1.0]})
+    rule, remedy = synthetic.load("records.given").snapshot("layer", "wet")
+    assert not rule(found) and "a Snapshot that has layer, wet" in remedy
+    assert rule(records.read_snapshot(records.write_snapshot(tmp_path / "c.npz", **disks, layer=[0, 1], wet=[1, 0])))
+
+
 def test_a_refused_snapshot_leaves_the_old_file(tmp_path, arrays):
     path = records.write_snapshot(tmp_path / "a.npz", **arrays)
     before = path.read_bytes()

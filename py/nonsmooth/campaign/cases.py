@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..running import side_by_side
-from ..studies.slope import runs
+from ..studies import runs
 from ..system import checks, output_folder
 
 __all__ = ["run"]

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ..errors import UserError
 from ..running import processes
-from ..studies.slope import runs
+from ..studies import runs
 from ..system import checks, output_folder
 from ..system.whole_files import whole
 

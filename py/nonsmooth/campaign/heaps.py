@@ -10,70 +10,24 @@
 
 from __future__ import annotations
 
-import json
-from functools import cached_property
-
-from .. import records
 from ..running import side_by_side
+from ..studies import runs
 from ..studies.heaps import column, pile, study
 from ..studies.heaps.grains import HeapError
-from ..studies.slope import runs
+from ..studies.runs import HeapRun
 from ..system import checks, output_folder
 from .cases import run as run_cases
 
 __all__ = ["HeapRun", "open_heap", "run_column", "run_heaps", "run_pile"]
 
 COMMAND = "column.py"  # which writes the same records
-RESULT = "result.json"
 CASES = "give a dictionary {name: (Column or Pile, {value of its world: number})}, of one or more"
-
-
-class HeapRun(runs.Opened):
-    """A run of a column or a pile."""
-
-    @cached_property
-    def _asked(self):
-        return json.loads(self._file("request.json").read_text())["arguments"]
-
-    @cached_property
-    def heap(self):
-        """The Column or Pile that was run."""
-        return study.KINDS[self._asked["kind"]](**self._asked["heap"])
-
-    @property
-    def world(self) -> dict:
-        """What the world was asked for with, see heaps.study.world_of."""
-        return self._asked["world"]
-
-    @cached_property
-    def summary(self) -> dict:
-        """Numbers of the run, see heaps.course.Result.summary. Raises RunError where it has not ended."""
-        return json.loads(self._file(RESULT).read_text())["found"]
-
-    @cached_property
-    def series(self) -> dict:
-        """Columns of ``series.csv``: {name: array (rows,)}, see heaps.course.Result."""
-        return records.read_series(self._file("series.csv"))
-
-    def places(self):
-        """Times [s] with the end last, a list of (x, y) of all disks for each, arrays (n,) [m], and radii (n,) [m]."""
-        self._file("places.npz")
-        return study.frames(self.folder)
-
-    def figure(self, name="collapse"):
-        """``collapse``: the disks at several times, as a matplotlib Figure that is not written. Raises RunError for another name."""
-        if name != "collapse":
-            raise runs.RunError(f"{self.folder}: no figure is called {name!r}; give collapse")
-        from ..studies.heaps import report  # brings matplotlib, which a reader of numbers need not wait for
-
-        self._file("places.npz")
-        return report.draw_collapse(self.heap, self.summary, self.folder)
 
 
 def open_heap(folder) -> HeapRun:
     """The HeapRun in a folder: that of run_column or run_pile, or one of ``runs`` below that of run_heaps or scripts/column.py. Raises RunError where it is none."""
     run = HeapRun(folder)
-    if not (run.folder / RESULT).is_file() or run._asked.get("kind") not in study.KINDS:
+    if not (run.folder / runs.RESULT).is_file() or run._asked.get("kind") not in study.KINDS:
         raise runs.RunError(
             f"{folder}: no run of a column or pile has ended here; give the folder that was given to it"
         )

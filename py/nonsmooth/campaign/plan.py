@@ -21,7 +21,7 @@ from pathlib import Path
 from ..errors import UserError
 from ..measure.statistics import over_seeds
 from ..running import kept_runs, side_by_side
-from ..studies.slope import runs
+from ..studies import runs
 from ..system import checks, installation, keys, output_folder
 from ..system.whole_files import write_atomically, write_json
 from . import cluster

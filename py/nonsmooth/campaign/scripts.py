@@ -21,7 +21,7 @@ from pathlib import Path
 
 from ..errors import UserError
 from ..running import side_by_side
-from ..studies.slope import runs
+from ..studies import runs
 from ..system import checks, keys, output_folder
 from .cases import run as run_cases
 

@@ -10,7 +10,8 @@ from ..model import section
 from ..model.section import checks as section_checks, data as section_data, values as section_values
 from ..records import checkpoints
 from ..running import processes
-from ..studies.slope import results, runs
+from ..studies import runs
+from ..studies.slope import results
 from ..system import checks, output_folder
 from .plan import Plan, PlanError, Planned
 

@@ -9,9 +9,9 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
 from ..measure import strength
-from ..records import RecordsError
+from ..records import RecordsError, read_snapshot
 from ..world.scene_arrays import Scene
-from . import forces, moving, style
+from . import forces, given, moving, style
 
 __all__ = ["MEGA", "chains", "draw_chains", "effects", "film", "mohr", "rotations", "stress", "stress_strain", "strong"]
 
@@ -151,27 +151,26 @@ def _frame(ax, *snapshots):
 def film(paths, words, path):
     """A video of a sample in the colours of :func:`rotations`: ``paths`` of its frames (:meth:`.laboratory.biaxial.Course.frame`), ``words`` beside the time. Returns the ``path``, .mp4 or .gif.
 
-    Raises RecordsError where there is no frame, and for a file that cannot be made.
+    Raises RecordsError where there is no frame, for one without angles or walls, and for a file that cannot be made.
     """
-    shots, none, ids = [], np.zeros(0), np.zeros(0, int)
-    for one in paths:
-        with np.load(one, allow_pickle=False) as data:
-            shots.append({name: data[name] for name in data})
+    shots, none, ids = [read_snapshot(one) for one in paths], np.zeros(0), np.zeros(0, int)
     if not shots:
         raise RecordsError("there are no frames to make a video of; let the test write some first")
-    turned = [s["angle"] - shots[0]["angle"] for s in shots]
-    scale, strains = _turns(turned), {}
+    for one, s in zip(paths, shots):
+        if s.angle is None or s.walls is None:
+            raise RecordsError(f"{one}: has no angle or no walls; give frames of a biaxial test")
+    turned = [s.angle - shots[0].angle for s in shots]
+    heights = [np.ptp(s.walls[s.walls[:, 0] == 1, 1]) for s in shots]
+    scale, strains = _turns(turned), {s.time_s: 1 - height / heights[0] for s, height in zip(shots, heights)}
     frames = []
     for s, angle in zip(shots, turned):
-        count = len(s["x"])
-        time = float(s["time_s"])
-        strains[time] = float(s["strain"])
+        count = len(s.x)
         frames.append(
             (
-                time,
+                s.time_s,
                 Scene(
-                    *(s[name].astype(float) for name in ("x", "y", "r")), np.zeros(count, int), np.zeros(count, bool), [],
-                    [(1, float(at)) for at in s["bottom_top"]] + [(0, float(at)) for at in s["left_right"]],
+                    s.x, s.y, s.r, np.zeros(count, int), np.zeros(count, bool), [],
+                    [(int(axis), float(at)) for axis, at in s.walls],
                     ids, ids, none, none, none, none > 0, scale.to_rgba(angle)[:, :3],
                 ),
             )
@@ -189,6 +188,7 @@ def _turns(turned):
 
 
 @style.styled
+@given.takes(begin=given.snapshot("angle"), panels=given.cases("(title, Snapshot)", None, given.snapshot("angle")))
 def rotations(begin, panels, path=None, pdf=False):
     """The sample coloured by the rotation of its disks since the begin of shear (the paper's Figure 9).
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from matplotlib.backend_bases import FigureCanvasBase
 
 from ..records import RecordsError
-from ..records.given import FILE, SNAPSHOT
+from ..records.given import FILE, SNAPSHOT, snapshot
 from ..system import checks
 
 __all__ = [
@@ -24,7 +24,9 @@ __all__ = [
     "SNAPSHOT",
     "SNAPSHOTS",
     "WALLS",
+    "WET",
     "cases",
+    "snapshot",
     "takes",
 ]
 
@@ -68,6 +70,7 @@ def cases(each, *parts):
 
 
 LABELLED = cases("(label, Snapshot)", None, SNAPSHOT)
+WET = cases("(label, Snapshot), of a slope", None, snapshot("layer", "wet", "released", "water_m"))
 SNAPSHOTS = cases("a Snapshot, as run.snapshot('end') returns one", SNAPSHOT)
 
 

@@ -45,22 +45,28 @@ def _write(path, points, cells, point_data=None, cell_data=None):
     return path
 
 
-@given.takes(snapshot=given.SNAPSHOT)
+@given.takes(snapshot=given.snapshot())
 def write_disks(snapshot, path):
-    """One point a disk, with ``radius`` [m], ``layer`` (0 lowest), ``velocity`` [m/s], ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``; and, where the snapshot has
-    them, ``ever_wet`` and ``weakened`` (on any wall or interface); see :class:`.records.Snapshot`."""
+    """One point a disk, with ``radius`` [m] and, where the snapshot has them, ``layer`` (0 lowest), ``velocity`` [m/s], ``speed`` [m/s], ``angle`` [rad], ``wet``, ``released``,
+    ``ever_wet`` and ``weakened`` (on any wall or interface); see :class:`.records.Snapshot`."""
     s = snapshot
-    data = {
-        "radius": s.r, "layer": s.layer.astype(np.int32), "velocity": np.column_stack([s.vx, s.vy, np.zeros(len(s.x))]),
-        "speed": np.hypot(s.vx, s.vy), "angle": s.angle, "wet": s.wet.astype(np.int8), "released": s.released.astype(np.int8)}  # fmt: skip
-    if s.ever_wet is not None:
-        data["ever_wet"] = s.ever_wet.astype(np.int8)
+    data = {"radius": s.r}
+    if s.layer is not None:
+        data["layer"] = s.layer.astype(np.int32)
+    if s.vx is not None:
+        data["velocity"] = np.column_stack([s.vx, s.vy, np.zeros(len(s.x))])
+        data["speed"] = np.hypot(s.vx, s.vy)
+    if s.angle is not None:
+        data["angle"] = s.angle
+    for name in ("wet", "released", "ever_wet"):
+        if getattr(s, name) is not None:
+            data[name] = getattr(s, name).astype(np.int8)
     if s.weakened is not None:
         data["weakened"] = s.weakened.any(axis=1).astype(np.int8)
     return _write(path, np.column_stack([s.x, s.y]), [("vertex", np.arange(len(s.x))[:, None])], point_data=data)
 
 
-@given.takes(snapshot=given.SNAPSHOT)
+@given.takes(snapshot=given.snapshot("ci"))
 def write_contacts(snapshot, path):
     """One line a contact, from centre to centre or from centre to wall, with ``normal`` and ``tangential`` force [N/m], compression
     positive, and ``bonded``."""

@@ -79,7 +79,7 @@ def _foot(ax, snapshot, ground, view, place, first):
         )
 
 
-@given.takes(cases=given.LABELLED, walls=given.WALLS)
+@given.takes(cases=given.WET, walls=given.WALLS)
 @style.styled
 def snapshots(cases, walls, path=None, pdf=False, close_up=True):
     """The slope at successive times, one below the other (the paper's Figure 13).

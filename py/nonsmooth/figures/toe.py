@@ -11,13 +11,12 @@ from . import given, style
 
 __all__ = ["toe", "toes"]
 
-BEFORE_AND_AFTER = given.cases(
-    "(title, Snapshot before, Snapshot after, Section)", None, given.SNAPSHOT, given.SNAPSHOT, given.SECTION
-)
+TURNED = given.snapshot("layer", "angle")
+BEFORE_AND_AFTER = given.cases("(title, Snapshot before, Snapshot after, Section)", None, TURNED, TURNED, given.SECTION)
 WIDTH, ACROSS = 8.0, 3  # inches of a toe alone; panels side by side
 
 
-@given.takes(before=given.SNAPSHOT, after=given.SNAPSHOT, section=given.SECTION)
+@given.takes(before=TURNED, after=TURNED, section=given.SECTION)
 @style.styled
 def toe(before, after, section, path=None, pdf=False, friction_deg=None):
     """The toe by the rotation of its disks between two snapshots, with the bands found in it.

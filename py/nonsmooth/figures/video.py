@@ -133,7 +133,15 @@ def _pixels(size):
 def _sample(paths):
     """The first, the last and some snapshots between: enough to choose the limits of the picture."""
     last = len(paths) - 1
-    return [read_snapshot(paths[k]) for k in sorted({0, last // 2, 3 * last // 4, last})]
+    return [_read(paths[k]) for k in sorted({0, last // 2, 3 * last // 4, last})]
+
+
+def _read(path):
+    found = read_snapshot(path)
+    lacking = [name for name in ("layer", "vx", "vy", "wet", "released", "water_m") if getattr(found, name) is None]
+    if lacking:
+        raise RecordsError(f"{path}: has no {', '.join(lacking)}; give snapshots of a slope")
+    return found
 
 
 @given.takes(snapshot_paths=SNAPSHOTS, walls=given.WALLS, path=FILE, series=SERIES)
@@ -164,7 +172,7 @@ def write_mp4(
 
         def pictures():
             for done, name in enumerate(paths, start=1):
-                snapshot = read_snapshot(name)
+                snapshot = _read(name)
                 if len(snapshot.x) != len(sample[0].x):
                     raise RecordsError(
                         f"{name}: {len(snapshot.x)} disks, but {paths[0]} has {len(sample[0].x)}; give snapshots of one run only"

@@ -18,16 +18,17 @@ __all__ = ["Snapshot", "checked", "read_snapshot", "write_snapshot"]
 
 @dataclass
 class Snapshot:
-    """The slope at one instant. N disks, C contacts.
+    """Disks of any study at one instant. N disks, C contacts. What a study has not is None.
 
     Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above its plane).
     Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest), and bool: ``wet`` (water acts on it now),
     ``released`` (was wet, and has moved so far downslope that water acts on it no longer), ``ever_wet``. And ``weakened``, bool of shape (N, W): the slip along each of
-    the W walls and interfaces that weaken has passed the critical slip D_c, in the order of :attr:`.section.Section.weakening`. ``ever_wet`` and ``weakened`` are None
-    where they are not known, as in files of earlier versions, whose ``released`` has disks that never were wet too.
+    the W walls and interfaces that weaken has passed the critical slip D_c, in the order of :attr:`.section.Section.weakening`. Files of earlier versions tell neither ``ever_wet`` nor
+    ``weakened``, and their ``released`` has disks that never were wet too.
     Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and
     tangential force [N/m], compression positive, ``cbonded`` (bool), ``cx``, ``cy`` contact point [m]. They may all
     be left out (C = 0), as for the frames of a video.
+    ``walls``, shape (W, 2): of walls along an axis that move, in the order of their numbers: 0 where x, 1 where y is constant, and its value [m].
     """
 
     time_s: float
@@ -35,28 +36,31 @@ class Snapshot:
     x: np.ndarray
     y: np.ndarray
     r: np.ndarray
-    angle: np.ndarray
-    vx: np.ndarray
-    vy: np.ndarray
-    layer: np.ndarray
-    wet: np.ndarray
-    released: np.ndarray
-    ci: np.ndarray
-    cj: np.ndarray
-    cn: np.ndarray
-    ct: np.ndarray
-    cbonded: np.ndarray
-    cx: np.ndarray
-    cy: np.ndarray
-    water_m: float
+    angle: Optional[np.ndarray] = None
+    vx: Optional[np.ndarray] = None
+    vy: Optional[np.ndarray] = None
+    layer: Optional[np.ndarray] = None
+    wet: Optional[np.ndarray] = None
+    released: Optional[np.ndarray] = None
+    ci: Optional[np.ndarray] = None
+    cj: Optional[np.ndarray] = None
+    cn: Optional[np.ndarray] = None
+    ct: Optional[np.ndarray] = None
+    cbonded: Optional[np.ndarray] = None
+    cx: Optional[np.ndarray] = None
+    cy: Optional[np.ndarray] = None
+    water_m: Optional[float] = None
     ever_wet: Optional[np.ndarray] = None
     weakened: Optional[np.ndarray] = None
+    walls: Optional[np.ndarray] = None
 
 
 _SCALARS = ("time_s", "step", "water_m")
 _CONTACTS = ("ci", "cj", "cn", "ct", "cbonded", "cx", "cy")
-_OPTIONAL = ("ever_wet", "weakened")
-_DISKS = tuple(f.name for f in fields(Snapshot) if f.name not in _SCALARS + _CONTACTS)
+_NEEDED = ("time_s", "step", "x", "y", "r")
+_NAMES = tuple(f.name for f in fields(Snapshot))
+_DISKS = tuple(name for name in _NAMES if name not in (*_SCALARS, *_CONTACTS, "walls"))
+_SINGLE = ("x", "y", "r", "angle", "vx", "vy")  # in single precision where a file is compact
 _KINDS = dict.fromkeys(("layer", "ci", "cj"), np.int64) | dict.fromkeys(
     ("wet", "released", "ever_wet", "weakened", "cbonded"), bool
 )
@@ -68,7 +72,7 @@ def checked(arrays, source):
     arrays = {name: value for name, value in arrays.items() if value is not None}
     if not any(name in arrays for name in _CONTACTS):
         arrays.update({name: np.zeros(0) for name in _CONTACTS})
-    names = {f.name for f in fields(Snapshot) if f.name in arrays or f.name not in _OPTIONAL}
+    names = {name for name in _NAMES if name in arrays or name in _NEEDED + _CONTACTS}
     missing, unknown = sorted(names - set(arrays)), sorted(set(arrays) - names)
     if missing or unknown:
         raise wrong(
@@ -109,6 +113,8 @@ def checked(arrays, source):
                     f"{name} has shape {found[name].shape} and {key} {found[key].shape}",
                     "these arrays must be flat (weakened: with a column for each wall) and equally long",
                 )
+    if "walls" in found and (found["walls"].ndim != 2 or found["walls"].shape[1] != 2):
+        raise wrong(f"walls has shape {found['walls'].shape}", "give an axis, 0 or 1, and a place [m] for each wall")
     count = len(found["x"])
     if (found["r"] <= 0).any():
         raise wrong(f"radius of disk {int(np.argmin(found['r']))} is {found['r'].min()}", "radii are positive")
@@ -124,17 +130,20 @@ def checked(arrays, source):
 
 
 @given.takes()
-def write_snapshot(path, **arrays):
+def write_snapshot(path, compact=False, **arrays):
     """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as ``.npz``; returns its path.
 
-    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN, a layer or step that is no whole number, a bad index or a contact of a
+    ``compact``: places, sizes, angles and speeds in single precision, and compressed, as for the frames of a video. Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN, a layer or step that is no whole number, a bad index or a contact of a
     disk with itself, and
     :class:`~yade.nonsmooth.system.whole_files.WriteError` for a file that cannot be written.
     """
     path = Path(path)
     snapshot = checked(arrays, path)
-    # not compressed: a fifth of the room is not worth most of the time, as coordinates hardly shrink
-    write_arrays(path, **{name: value for name, value in vars(snapshot).items() if value is not None})
+    told = {name: value for name, value in vars(snapshot).items() if value is not None}
+    if compact:
+        told |= {name: told[name].astype(np.float32) for name in _SINGLE if name in told}
+    # else not compressed: a fifth of the room is not worth most of the time, as coordinates hardly shrink
+    write_arrays(path, compressed=compact, **told)
     return path
 
 

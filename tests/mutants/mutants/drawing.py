@@ -139,7 +139,7 @@ MUTANTS = (
            "plain:test_figures_laboratory.py::test_creep_is_drawn_by_its_size_on_a_logarithm"),
     mutant("video-unit", "py/nonsmooth/figures/video.py", "force) / newtons", "force) / 1e3", "kilonewtons are drawn as meganewtons in the video",
            "plain:test_video.py::test_the_strip_of_forces_has_a_cursor_at_the_time_of_the_frame"),
-    mutant("paraview-wet", PARAVIEW, '"wet": s.wet.astype(np.int8)', '"wet": s.released.astype(np.int8)', "released disks are wet in ParaView",
+    mutant("paraview-wet", PARAVIEW, "data[name] = getattr(s, name).astype", "data[name] = s.released.astype", "released disks are wet in ParaView",
            "test_paraview.py::test_disks_are_the_snapshot_field_by_field"),
     mutant("paraview-force", PARAVIEW, '"tangential": s.ct', '"tangential": s.cn', "tangential forces are normal ones in ParaView",
            "test_paraview.py::test_contacts_are_the_snapshot_field_by_field"),

@@ -10,7 +10,7 @@ import numpy as np
 from ... import records
 from ...running import kept_runs, side_by_side
 from ...system import checks, keys
-from ...system.whole_files import write_arrays
+from ...system.whole_files import remove, whole
 from ...world import worlds
 from .column import Column
 from .grains import PATH_PER_STEP, HeapError, check_damping
@@ -22,6 +22,7 @@ KINDS = {"column": Column, "pile": Pile}
 TOLERANCE = 1e-4
 _SOFT = tuple(one.name for one in fields(worlds.Soft) if one.name != "diameter")
 DURATION = 15.0  # T, the longest course after the release
+SNAPSHOTS, FRAMES = "snapshots", "frames"  # folders of what is kept on the way, and of the video's
 
 
 def world_of(heap, name="hard", path=None, tolerance=None, damping_moving=None, **soft):
@@ -77,7 +78,7 @@ def key_of(heap, world, duration):
 def one(folder, kind, heap, world, duration):
     """Runs a heap in the running scene; ``kind``: of :data:`KINDS`, ``heap``: its parameters, ``world``: arguments of :func:`world_of`, a dictionary.
 
-    Writes ``series.csv``, ``places.npz`` and ``film.npz`` to ``folder``, its share done to ``progress``, and returns the :meth:`~course.Result.summary`.
+    Writes ``series.csv``, ``snapshots`` and ``frames`` to ``folder``, its share done to ``progress``, and returns the :meth:`~course.Result.summary`.
     """
     from . import course
 
@@ -92,46 +93,42 @@ def one(folder, kind, heap, world, duration):
     with records.SeriesWriter(folder / "series.csv", course.COLUMNS, overwrite=True) as series:
         for row in zip(*(result.series[name].tolist() for name in course.COLUMNS)):
             series.write(dict(zip(course.COLUMNS, row)))
-    times = sorted(result.frames)
-    write_arrays(
-        folder / "places.npz",
-        compressed=True,
-        time=times,
-        x=[result.frames[t][0] for t in times],
-        y=[result.frames[t][1] for t in times],
-        r=result.r,
-        x_end=result.x,
-        y_end=result.y,
-        connected=result.connected,
-    )
-    write_arrays(
-        folder / "film.npz",
-        compressed=True,
-        time=list(result.film),
-        x=[x for x, _ in result.film.values()],
-        y=[y for _, y in result.film.values()],
-    )
+    _write(folder, result)
     return result.summary()
 
 
+def _write(folder, result):
+    """The disks of a run as records.Snapshots: on the way and in the end, and compact ones for the video."""
+    kept, film = folder / SNAPSHOTS, folder / FRAMES
+    remove([*whole(kept, "*.npz"), *whole(film, "*.npz")], "left from an earlier run")
+    step = lambda time: round(time / result.time_step)  # noqa: E731
+    for time, (x, y) in result.frames.items():
+        records.write_snapshot(kept / f"{step(time):08d}.npz", time_s=time, step=step(time), x=x, y=y, r=result.r)
+    end = {name: result.series[name][-1] for name in ("time_s", "step")}
+    records.write_snapshot(kept / "end.npz", **end, x=result.x, y=result.y, r=result.r)
+    for time, (x, y) in result.film.items():
+        path = film / f"{step(time):08d}.npz"
+        records.write_snapshot(path, compact=True, time_s=time, step=step(time), x=x, y=y, r=result.r)
+
+
+def _places(folder):
+    shots = [records.read_snapshot(path) for path in whole(folder, "*.npz")]
+    return [s.time_s for s in shots], [(s.x, s.y) for s in shots], shots[-1].r if shots else np.zeros(0)
+
+
 def frames(folder):
-    """Places of a run below ``folder``: times [s] with the end last, a list of (x, y) for each, and radii [m]."""
-    with np.load(Path(folder) / "places.npz", allow_pickle=False) as data:
-        series = records.read_series(Path(folder) / "series.csv")
-        return (
-            [*data["time"].tolist(), float(series["time_s"][-1])],
-            [*zip(data["x"], data["y"]), (data["x_end"], data["y_end"])],
-            data["r"],
+    """Places of a run below ``folder``: times [s] with the end last, a list of (x, y) for each, and radii [m]. Raises HeapError where there are none."""
+    found = _places(Path(folder) / SNAPSHOTS)
+    if not found[0]:
+        raise HeapError(
+            f"{folder}: has no {SNAPSHOTS}, as runs that have not ended and those of earlier versions; run it again"
         )
+    return found
 
 
 def film(folder):
-    """Places for the video of a run below ``folder``: times [s] at equal distances, a list of (x, y) for each, and radii [m]; three empty ones where a run of an earlier version has kept none."""
-    path = Path(folder) / "film.npz"
-    if not path.exists():
-        return [], [], np.zeros(0)
-    with np.load(path, allow_pickle=False) as data, np.load(Path(folder) / "places.npz", allow_pickle=False) as places:
-        return data["time"].tolist(), [*zip(data["x"].astype(float), data["y"].astype(float))], places["r"]
+    """Places for the video of a run below ``folder``: times [s] at equal distances, a list of (x, y) for each, and radii [m]; three empty ones where it has kept none."""
+    return _places(Path(folder) / FRAMES)
 
 
 def planned(name, folder, heap, world, duration=DURATION) -> side_by_side.Run:

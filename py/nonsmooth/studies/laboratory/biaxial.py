@@ -27,7 +27,7 @@ from ...measure import cycles
 from ...records import checkpoints
 from ...records.columns import without
 from ...running.kept_runs import Progress
-from ...system.whole_files import remove, remove_parts, whole, write_arrays
+from ...system.whole_files import remove, remove_parts, whole
 from ...world import tables
 from ...world.stepping import advance
 from . import membrane, sample
@@ -257,39 +257,26 @@ class Course(driver.Course):
     def snapshot(self, name, folder="snapshots"):
         """Writes the present state with its forces as ``NAME.npz`` of a ``folder``, a records.Snapshot; walls are numbered as in Walls.ids."""
         body = self.sample
-        t = tables.bodies(body.engine)
-        folder = self.folder / folder
-        folder.mkdir(parents=True, exist_ok=True)
-        none = np.zeros(body.count, bool)
-        records.write_snapshot(
-            folder / f"{name}.npz",
-            time_s=O.time - self.state["begin_time"],
-            step=O.iter,
-            water_m=0.0,
-            layer=np.zeros(body.count, int),
-            wet=none,
-            released=none,
-            **{key: t[key] for key in ("x", "y", "r", "angle", "vx", "vy")},
-            **tables.loaded_contacts(
-                body.engine, body.first_disk, {i: k for k, i in enumerate(body.walls.ids.values())}
-            ),
-        )
+        numbers = {i: k for k, i in enumerate(body.walls.ids.values())}
+        loaded = tables.loaded_contacts(body.engine, body.first_disk, numbers)
+        self._keep(f"{folder}/{name}.npz", ("x", "y", "r", "angle", "vx", "vy"), **loaded)
 
     def frame(self, number):
-        """Keeps disks and walls for the video as ``frames/NUMBER.npz``, once for a ``number`` of :data:`FILM`, in single precision."""
+        """Keeps disks and walls for the video as ``frames/NUMBER.npz``, a compact records.Snapshot, once for a ``number`` of :data:`FILM`."""
         if number <= self.state.get("frame", -1):
             return
         self.state["frame"] = number
-        t, walls = tables.bodies(self.sample.engine), self.sample.walls
-        (self.folder / "frames").mkdir(parents=True, exist_ok=True)
-        write_arrays(
-            self.folder / "frames" / f"{number:04d}.npz",
-            compressed=True,
+        self._keep(f"frames/{number:04d}.npz", ("x", "y", "r", "angle"), compact=True)
+
+    def _keep(self, name, disks, **more):
+        t = tables.bodies(self.sample.engine)
+        records.write_snapshot(
+            self.folder / name,
             time_s=O.time - self.state["begin_time"],
-            strain=self.strain,
-            bottom_top=[walls.place(name)[1] for name in ("bottom", "top")],
-            left_right=[walls.place(name)[0] for name in ("left", "right") if name in walls.ids],
-            **{key: np.asarray(t[key], np.float32) for key in ("x", "y", "r", "angle")},
+            step=O.iter,
+            walls=self.sample.walls.lines(),
+            **{key: t[key] for key in disks},
+            **more,
         )
 
     def _save(self):

@@ -71,6 +71,10 @@ class Walls:
         """Centre of a wall [m], a Vector3."""
         return self.state(wall).pos
 
+    def lines(self):
+        """Of each wall 0 where x, 1 where y is constant, and its value [m]: a list of pairs in the order of ``ids``."""
+        return [(axis, self.place(wall)[axis]) for wall in self.ids for axis, _ in [OUTWARDS[wall]]]
+
     def height(self):
         """Distance of bottom and top [m]."""
         return self.place("top")[1] - self.place("bottom")[1]

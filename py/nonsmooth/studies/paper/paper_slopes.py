@@ -17,7 +17,7 @@ from ...measure.statistics import over_seeds, told
 from ...model import section
 from ...model.section import values as section_values
 from ...system import checks
-from ..slope.runs import open_run
+from ..runs import open_run
 
 __all__ = ["DISKS", "SECTION", "SEEDS", "SHIPPED", "VARIANTS", "Variant", "check", "rows", "run", "slope_of", "table"]
 

@@ -3,6 +3,6 @@
 * ``slope``, ``slope_packing``: the scene, and disks pressed for it;
 * ``experiment``, ``wall_series``: the run and its records;
 * ``frames``, ``verdict``, ``results``: frames at times of note, what happened, the summary;
-* ``runs``, ``run_figures``: a run opened from its folder, and its figures;
+* ``run_figures``: the figures of a run;
 * ``states``, ``soft_contacts``, ``measuring``: a slope at rest and on the move, on which steps are timed.
 """

@@ -1,14 +1,15 @@
-"""A finished (or interrupted) run of a slope, opened from its folder: its section, numbers, tables, figures and video. Needs no YADE.
+"""A finished (or interrupted) run of any study, opened from its folder: its numbers, tables, snapshots, figures and video. Needs no YADE.
 
 Like this::
 
     run = runs.open_run("out/hill")
+    run.kind                           # "slope", "biaxial test", "slide" or "heap"
     run.summary["water_at_failure_m"]
     run.series["front_m"]              # {column: array}; run.frame("series") is a pandas.DataFrame
     run.figure("forces")               # a matplotlib Figure, with axes to draw on
     run.video()                        # the video, in the page of a notebook
 
-Runs of other kinds (``campaign``) are opened by what runs them; they have in common what :class:`Opened` has.
+What has no series, as a script or a comparison (``campaign``), is opened by what runs it; all have in common what :class:`Opened` has.
 """
 
 from __future__ import annotations
@@ -17,26 +18,44 @@ import json
 from functools import cached_property
 from pathlib import Path
 
-from ... import records
-from ...errors import UserError
-from ...model import section
-from ...model.section import data as section_data
-from ...system import checks, requirements
-from ...system.whole_files import whole
-from . import frames, results
+from .. import records
+from ..errors import UserError
+from ..model import section
+from ..model.section import data as section_data
+from ..system import checks, requirements
+from ..system.whole_files import whole
+from .heaps import columns as heap_columns, study
+from .laboratory import biaxial_test, wall_shear
+from .slope import columns as slope_columns, frames, results
 
-__all__ = ["FIGURES", "Opened", "Run", "RunError", "open_run"]
+__all__ = [
+    "FIGURES",
+    "BiaxialRun",
+    "HeapRun",
+    "Opened",
+    "Run",
+    "RunError",
+    "RunFolderError",
+    "SlideRun",
+    "SlopeRun",
+    "StudyRun",
+    "open_run",
+]
 
 FIGURES = results.PICTURES
 VIDEOS = (".mp4", ".gif")  # as files of a run end
+RESULT = "result.json"  # of a run in a process of its own
 
 
 FOLDER = "give the path of a folder for the run"  # remedies that functions which make runs share
 THREADS = "give a whole number from 1, how many run at a time"
 
 
-class RunError(UserError, ValueError):
+class RunFolderError(UserError, ValueError):
     """A folder that is no run, or what a run has not; the message says which and what helps."""
+
+
+RunError = RunFolderError  # its name for scripts and notebooks
 
 
 class Opened:
@@ -101,9 +120,55 @@ class Opened:
         return path
 
 
-class Run(Opened):
+class StudyRun(Opened):
+    """The run of a study that writes a series."""
+
+    #: What was run, in words.
+    kind = None
+    #: The columns that a series of this kind may have: {name: Column}.
+    COLUMNS = {}
+
+    @cached_property
+    def series(self) -> dict:
+        """Columns of ``series.csv``: {name: array (rows,)}."""
+        return records.read_series(self._file("series.csv"))
+
+    @property
+    def columns(self) -> dict:
+        """What the columns of the series are: {name: records.Column}."""
+        return {name: self.COLUMNS[records.stem(name)]._replace(name=name) for name in self.series}
+
+    @cached_property
+    def breaks(self) -> dict:
+        """Broken bonds: {name: array}, see records.read_breaks. Raises RunError for a kind of run that keeps none."""
+        return records.read_breaks(self._file(results.BREAKS))
+
+    @cached_property
+    def summary(self) -> dict:
+        """Numbers of the run. Raises RunError where it has not ended."""
+        return json.loads(self._file(RESULT).read_text())["found"]
+
+    @property
+    def snapshots(self) -> dict:
+        """Files of the snapshots, by their names: {name: path}."""
+        return {path.stem: path for path in whole(self.folder / results.SNAPSHOTS, "*.npz")}
+
+    def snapshot(self, name) -> records.Snapshot:
+        """The Snapshot of this name, one of :attr:`snapshots`, or at a time [s], that of the nearest. Raises RunError for another name, and where there is none."""
+        found = self.snapshots
+        if isinstance(name, str) and name in found:
+            return records.read_snapshot(found[name])
+        remedy = f"give a time [s], or one of {', '.join(found) or 'none: the run has written no snapshot yet'}"
+        checks.number("snapshot", name, RunError, remedy)
+        if not found:
+            raise RunError(f"{self.folder}: the run has written no snapshot yet, or is of a kind that writes none")
+        return min(map(records.read_snapshot, found.values()), key=lambda s: abs(s.time_s - name))
+
+
+class SlopeRun(StudyRun):
     """A run of a slope."""
 
+    kind, COLUMNS = "slope", slope_columns.COLUMNS
     TABLES = ("series", "walls", "breaks")
 
     @cached_property
@@ -117,19 +182,15 @@ class Run(Opened):
         return json.loads(self._file(results.SUMMARY).read_text())
 
     @cached_property
-    def series(self) -> dict:
-        """Columns of ``series.csv``: {name: array (rows,)}."""
-        return records.read_series(self._file("series.csv"))
-
-    @cached_property
     def walls(self) -> dict:
         """Columns of ``walls.csv``: {name: array (rows,)}, a row for each wall and time."""
         return records.read_walls(self._file("walls.csv"))
 
-    @cached_property
-    def breaks(self) -> dict:
-        """Broken bonds: {name: array}, see records.read_breaks."""
-        return records.read_breaks(self._file(results.BREAKS))
+    @property
+    def snapshots(self) -> dict:
+        """Files of the snapshots, by their steps, and "t0" and "end" where the run has come so far: {name: path}."""
+        ends = {path.stem: path for path in (self.folder / results.BEGIN, self.folder / results.END) if path.exists()}
+        return {path.stem: path for _, path in frames.of_run(self.folder, self.series)} | ends
 
     def snapshot(self, name) -> records.Snapshot:
         """The disks at "t0" or "end", with their contacts, or at a time [s], that of the nearest snapshot."""
@@ -165,16 +226,71 @@ class Run(Opened):
 
     @cached_property
     def _drawing(self):
-        from . import run_figures  # brings matplotlib, which a reader of numbers need not wait for
+        from .slope import run_figures  # brings matplotlib, which a reader of numbers need not wait for
 
         return run_figures.Drawing(self.folder, self.section, self.summary)
 
 
-def open_run(folder) -> Run:
-    """The Run in a folder. Raises RunError where it is none."""
-    run = Run(folder)
-    if not (run.folder / section_data.FILE).is_file():
-        raise RunError(
-            f"{folder}: has no {section_data.FILE}, so no run of a slope of this version is here; give the folder that was given to --out"
-        )
-    return run
+Run = SlopeRun  # its name for scripts and notebooks
+
+
+class BiaxialRun(StudyRun):
+    """A biaxial test, see :mod:`.laboratory.biaxial`: its snapshots are "begin", "1", "2", "4" (per cent of strain) and "end"."""
+
+    kind, COLUMNS = "biaxial test", biaxial_test.COLUMNS
+
+
+class SlideRun(StudyRun):
+    """A block that slides on a wall, see :mod:`.laboratory.wall_shear`."""
+
+    kind, COLUMNS = "slide", wall_shear.COLUMNS
+
+
+class HeapRun(StudyRun):
+    """A run of a column or a pile."""
+
+    kind, COLUMNS = "heap", heap_columns.COLUMNS
+
+    @cached_property
+    def _asked(self):
+        return json.loads(self._file("request.json").read_text())["arguments"]
+
+    @cached_property
+    def heap(self):
+        """The Column or Pile that was run."""
+        return study.KINDS[self._asked["kind"]](**self._asked["heap"])
+
+    @property
+    def world(self) -> dict:
+        """What the world was asked for with, see heaps.study.world_of."""
+        return self._asked["world"]
+
+    def places(self):
+        """Times [s] with the end last, a list of (x, y) of all disks for each, arrays (n,) [m], and radii (n,) [m]. Raises HeapError where the run has kept none."""
+        return study.frames(self.folder)
+
+    def figure(self, name="collapse"):
+        """``collapse``: the disks at several times, as a matplotlib Figure that is not written. Raises RunError for another name."""
+        if name != "collapse":
+            raise RunError(f"{self.folder}: no figure is called {name!r}; give collapse")
+        from .heaps import report  # brings matplotlib, which a reader of numbers need not wait for
+
+        return report.draw_collapse(self.heap, self.summary, self.folder)
+
+
+def open_run(folder) -> StudyRun:
+    """The run in a folder, of the kind that its section or the columns of its series tell. Raises RunError where it is none."""
+    run = SlopeRun(folder)
+    if (run.folder / section_data.FILE).is_file():
+        return run
+    try:
+        with (run.folder / "series.csv").open() as file:
+            names = {records.stem(name) for name in file.readline().strip().split(",")}
+    except (OSError, ValueError):
+        names = {None}
+    for kind in (BiaxialRun, SlideRun, HeapRun):
+        if names <= set(kind.COLUMNS):
+            return kind(folder)
+    raise RunError(
+        f"{folder}: has no {section_data.FILE}, and no series.csv with the columns of another study, so no run of this version is here; give the folder that was given to --out"
+    )
