@@ -47,6 +47,11 @@ SAME = {
         '"material": tests[0].material.name,',
         '"material": tests[1].material.name,',
     ): "all are of one material, and a line needs two",
+    (
+        "py/nonsmooth/packing/__init__.py",
+        "h = sampler.random(int(1.1 * sum(counts) * box / section.area) + 100) + shift",
+        "h = sampler.random(int(2.2 * sum(counts) * box / section.area) + 100) + shift",
+    ): "more points of the same sequence, of which the first are taken",
     # ---- pkg/dem: what is only looked up, shown or asked once more
     (
         "pkg/dem/PlateLoadEngine.cpp",
