@@ -115,6 +115,15 @@ def test_the_pressure_on_a_bonded_sample_grows_and_stays(monkeypatch):
     assert len(told) > ramp and sorted(told) == told and set(told[ramp - 1 :]) == {8e6}
 
 
+def test_a_sample_that_rests_is_pressed_no_longer(tmp_path, monkeypatch, empty):
+    """With friction it is at rest as soon as anybody asks: after the ramp, as long again with light walls, and the steps over which stresses are averaged."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    told = pressing.make(tmp_path, **asdict(pressing.Shape(150, 1, friction=0.5)))
+    assert told["steps"] == 2 * pressing.RAMP + pressing.REST_STEPS + 1
+    made = pressing.load(pressing.Shape(150, 1, friction=0.5))
+    assert told["disks"] == len(made.r)
+
+
 def test_samples_that_other_engines_have_pressed_are_not_taken(monkeypatch):
     shape = pressing.Shape(300, 1)
     here = pressing.cache_path(shape)

@@ -52,6 +52,23 @@ def test_closing_bonds_close_in_the_rock_and_at_fb(distance):
     assert {(t.material.bond_creation_distance, t.material.bonds_close) for t in tests} == {(distance, True)}
 
 
+@pytest.mark.parametrize(
+    "name", [name for name in readings.READINGS if name.startswith(("ellipse-", "gap-", "packed-0"))]
+)
+def test_a_readings_name_has_its_number(name):
+    """Both half axes of the ellipse, or the largest gap that is bonded, in the slope and in the samples; the other of the two is the shipped one."""
+    kind, number = name.split("-")
+    slope, tests = all_of(readings.READINGS[name])
+    shipped = all_of(SHIPPED)[0]["materials"]["rock"]
+    ellipse, gap = shipped["bond_ellipse"], shipped["bond_creation_distance"]
+    wanted = ([float(number)] * 2, gap) if kind == "ellipse" else (ellipse, float(number))
+    rock = slope["materials"]["rock"]
+    assert (list(rock["bond_ellipse"]), rock["bond_creation_distance"]) == (list(wanted[0]), wanted[1])
+    assert {(t.material.bond_ellipse, t.material.bond_creation_distance) for t in tests} == {
+        (tuple(wanted[0]), wanted[1])
+    }
+
+
 def test_residual_strength_reaches_as_far_as_bonds_are_made():
     slope, tests = all_of(readings.READINGS["residual-0.025"])
     assert {t.adhesion_range for t in tests} == {t.material.bond_creation_distance for t in tests} == {0.025}
