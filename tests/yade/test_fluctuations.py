@@ -23,6 +23,19 @@ def test_a_sine_of_stress_fluctuates_by_its_amplitude_over_root_two():
     assert math.isnan(fluctuations.fluctuation(STRAIN[:50], stress[:50]))
 
 
+@pytest.mark.parametrize("end", [0, -1])
+def test_rows_count_up_to_the_middle_of_the_outermost_windows(end):
+    """Twenty rows of 0.3 % of strain, of which one has a tenth more: the first, or the last, that lies between the middles of two windows. A window holds three and a third of them, so that it
+    is off its mean by 0.07, and its neighbours by 0.03."""
+    strain = 3e-3 * np.arange(1, 21)
+    middle = strain[0] + 0.5 * fluctuations.WINDOW + 3e-3 * np.arange(16)  # while a window ends by the last row
+    inside = np.flatnonzero((strain > middle[0]) & (strain < middle[-1]))
+    stress = np.full(20, 10.0)
+    stress[inside[end]] = 11.0
+    assert fluctuations.fluctuation(strain, stress) > math.hypot(0.05, 0.02) / math.sqrt(len(inside))
+    assert fluctuations.fluctuation(strain, np.full(20, 10.0)) < 1e-12
+
+
 def test_contractions_are_falls_of_more_than_the_least():
     volume = np.array([0, 1, 2, 3, 1.5, 1.45, 2, 4, 3.95, 4.2, 5, 2.0, 2.05, 1.0])
     # from 3 to 1.45, not the dip by 0.05, and one with a ripple that goes on at the end
