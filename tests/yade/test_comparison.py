@@ -10,7 +10,7 @@ import drawn
 import numpy as np
 import pytest
 
-from yade.nonsmooth import worlds
+from yade.nonsmooth import section, worlds
 from yade.nonsmooth.figures import style
 from yade.nonsmooth.studies.comparison import (
     answers,
@@ -32,6 +32,20 @@ from yade.nonsmooth.studies.comparison import (
 )
 from yade.nonsmooth.studies.comparison.outcomes import Cost, Outcome
 from yade.nonsmooth.system import machine
+
+
+def test_walls_without_strength_hold_nothing():
+    """Neither before nor after they have slipped, and no bonds; other walls stay, and so does the distance after which these weaken."""
+    shipped = section.load("jiufengershan")
+    made = cost._without_strength(shipped, {"DP", "FB"})
+    for wall, before in zip(made.walls, shipped.walls):
+        m, was = made.materials[wall.material], shipped.materials[before.material]
+        if wall.name not in ("DP", "FB"):
+            assert m == was
+            continue
+        assert (m.friction, m.residual_friction, m.tensile_strength, m.residual_tensile_strength) == (0, 0, 0, 0)
+        assert m.bonded is False and m.slip_weakening == was.slip_weakening
+    assert shipped.materials["fb"].bonded and set(shipped.materials) < set(made.materials)
 
 
 # ---- deposits -------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 """Numbers of a comparison from made-up runs whose answers are known. Needs no YADE."""
 
+import json
 import math
 import sys
 from pathlib import Path
@@ -18,6 +19,12 @@ cases, deposits, outcomes, precision, slopes, summary = (
 )
 records = synthetic.load("records")
 SAME = 1e-9  # relative: rounding
+
+
+def test_a_summary_is_what_json_can_hold():
+    told = {1: (math.nan, np.float64(math.inf), np.float32(0.5)), "b": np.array([1, 2]), "c": np.bool_(True), "d": None}
+    assert summary.clean(told) == {"1": [None, None, 0.5], "b": [1, 2], "c": True, "d": None}
+    assert json.loads(json.dumps(summary.clean(told))) == summary.clean(told)
 
 
 # ---- a slope's run ----------------------------------------------------------------------------------

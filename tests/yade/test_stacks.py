@@ -5,6 +5,7 @@ import copy
 import numpy as np
 import pytest
 import yaml
+from shapely.geometry import box
 
 import drawn
 import known_slope
@@ -70,6 +71,16 @@ def test_a_surface_lies_above_those_below_it(lines, found):
     assert stacks.levels(lines) == found
     assert stacks.levels([one * (-1, 1) for one in lines]) == found  # in a mirror
     assert stacks.levels([one[::-1] for one in lines]) == found
+
+
+def test_the_part_of_a_polygon_beside_a_line():
+    """A box of 4 m that a line parts in the middle, one that lies below it and one above; the line ends between the sides of the first."""
+    boxes = [box(0, low, 10, low + 4) for low in (0, -5, 5)]
+    whole, half = line((0, 2), (10, 2)), line((5, 2), (0, 2))
+    assert stacks.part_beside(boxes, [whole]) == pytest.approx([0.5, 0, 1])
+    assert stacks.part_beside(boxes, [whole], above=False) == pytest.approx([0.5, 1, 0])
+    assert stacks.part_beside(boxes[:1], [half]) == pytest.approx([0.25])
+    assert stacks.part_beside(boxes[:1], [half], above=False) == pytest.approx([0.25])
 
 
 def test_each_surface_bears_the_layers_above_it():

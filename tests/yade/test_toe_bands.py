@@ -135,6 +135,9 @@ def test_rankines_bands():
 def test_the_toe_is_drawn_by_rotation_with_its_bands():
     before, after = snapshots()
     fig = figures_toe.toe(before, after, SHIPPED, friction_deg=40.0)
+    fig.draw_without_rendering()
+    toe, scale = (ax.get_position() for ax in fig.axes)
+    assert 0.5 < scale.height / toe.height < 0.9 and toe.x1 <= scale.x0  # beside it, and not as high
     ax = fig.axes[0]
     names = list(drawn.legend(ax))
     thrust, _ = toe_bands.find(before, after, SHIPPED)
