@@ -52,6 +52,11 @@ SAME = {
         "h = sampler.random(int(1.1 * sum(counts) * box / section.area) + 100) + shift",
         "h = sampler.random(int(2.2 * sum(counts) * box / section.area) + 100) + shift",
     ): "more points of the same sequence, of which the first are taken",
+    (
+        "py/nonsmooth/studies/laboratory/rock_table.py",
+        'seeds, fractions = found[0]["seeds"], [row["packing_fraction"] for row in found]',
+        'seeds, fractions = found[1]["seeds"], [row["packing_fraction"] for row in found]',
+    ): "all rocks have samples of the same seeds, and a table needs several",
     # ---- pkg/dem: what is only looked up, shown or asked once more
     (
         "pkg/dem/PlateLoadEngine.cpp",

@@ -18,6 +18,7 @@ from yade.nonsmooth.studies.comparison import (
     biaxials,
     cases,
     collapses,
+    common,
     cost,
     cost_report,
     course,
@@ -46,6 +47,21 @@ def test_walls_without_strength_hold_nothing():
         assert (m.friction, m.residual_friction, m.tensile_strength, m.residual_tensile_strength) == (0, 0, 0, 0)
         assert m.bonded is False and m.slip_weakening == was.slip_weakening
     assert shipped.materials["fb"].bonded and set(shipped.materials) < set(made.materials)
+
+
+def test_captions_name_the_packing_of_which_all_stiffnesses_are_shown(monkeypatch, tmp_path):
+    """That of the first pair."""
+    plan = SimpleNamespace(ensemble=[(SimpleNamespace(seed=k), SimpleNamespace(seed=k)) for k in (3, 4)])
+    monkeypatch.setattr(common.figures, "courses", lambda groups, *others: groups)
+    for name in ("by_seed", "by_stiffness"):
+        monkeypatch.setattr(common, name, lambda plan, outcomes, of, name=name: name)
+    assert common.motion_section(tmp_path, plan, [], "time [s]").plots == [
+        ("by_seed", "All seeds."),
+        ("by_stiffness", "All stiffnesses, seed 3."),
+    ]
+    for stiffness, plot in ((True, ("by_stiffness", "All stiffnesses, seed 3.")), (False, ("by_seed", "All seeds."))):
+        made = common.course_section("Water", tmp_path, plan, [], (), (), stiffness)
+        assert made.title == "Water" and made.plots == [plot]
 
 
 # ---- deposits -------------------------------------------------------------------------------------
