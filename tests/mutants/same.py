@@ -57,6 +57,9 @@ SAME = {
         'seeds, fractions = found[0]["seeds"], [row["packing_fraction"] for row in found]',
         'seeds, fractions = found[1]["seeds"], [row["packing_fraction"] for row in found]',
     ): "all rocks have samples of the same seeds, and a table needs several",
+    ("py/nonsmooth/studies/slope/wall_series.py", "if len(names) > 1", "if len(names) >= 1"): (
+        "the sum over one wall is that of the wall, and is not asked for"
+    ),
     # ---- pkg/dem: what is only looked up, shown or asked once more
     (
         "pkg/dem/PlateLoadEngine.cpp",

@@ -43,6 +43,27 @@ def test_a_triangle_as_thin_as_idle_vertices_lie_off_a_line_keeps_its_three():
     assert found.area == pytest.approx(thin.area, rel=0.5)
 
 
+def test_both_sides_of_a_line_with_a_dent_and_a_hump():
+    """From left to right it turns to the left, to the right, and to the left again. What lies above has less than 180° where it turns to the left, what lies below where it turns to the right;
+    ends go on straight."""
+    line = np.array([(0.0, 0.0), (3.0, 0.0), (6.0, 4.0), (9.0, 4.0), (9.0, 6.0)])
+    above, below = geometry.sides(line)
+    assert above.length == pytest.approx([3, 5, 3, 2]) and below.length == pytest.approx([2, 3, 5, 3])
+    assert above.direction[1] == pytest.approx((0.6, 0.8)) and below.direction[2] == pytest.approx((-0.6, -0.8))
+    assert above.convex_start.tolist() == [True, True, False, True] and above.convex_end.tolist() == [
+        True,
+        False,
+        True,
+        True,
+    ]
+    assert below.convex_start.tolist() == [True, False, True, False] and below.convex_end.tolist() == [
+        False,
+        True,
+        False,
+        True,
+    ]
+
+
 def test_an_edge_is_cut_where_its_wall_ends():
     """FB half as high as the layers holds the lower half of their face."""
     half = with_wall(SLOPE, "FB", ((0.0, 0.0), (11.647, 30.3415)))

@@ -316,7 +316,7 @@ BAD = {
     ),
     "overlap": (
         dict(layers__1__vertices=[[4.0, 10.0], [9.318, 24.273], [-1378.666, 547.215], [-1389.518, 542.384]]),
-        "overlaps layer L1",
+        "layers[L2].vertices: overlaps layer L1",
         "touch at most",
     ),
     "bow tie": (

@@ -90,6 +90,12 @@ def test_what_a_halted_run_wrote_stays_only_for_a_function_that_goes_on(tmp_path
     found = side_by_side.run(made(tmp_path, "a"), 1, resume=resume, go_on=go_on)
     assert found[0]["share"] == 0.0  # an earlier result or share is none of this run's
     assert (tmp_path / "a" / "checkpoint").exists() == left
+    if not go_on:  # nobody goes on who does not say so
+        kept_runs.begin(tmp_path / "a", "k")
+        (tmp_path / "a" / "checkpoint").write_text("{}")
+        (tmp_path / "a" / "result.json").unlink()
+        side_by_side.run(made(tmp_path, "a"), 1, resume=resume)
+        assert not (tmp_path / "a" / "checkpoint").exists()
 
 
 @pytest.mark.parametrize("part", ["engines_key", "statements"])

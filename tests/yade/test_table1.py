@@ -126,6 +126,18 @@ def test_each_figure_is_in_its_place_with_its_interval(told):
     assert json.loads(json.dumps(told[0]))["rows"] == told[0]["rows"]
 
 
+def test_the_papers_numbers_are_those_of_its_table_1():
+    """Effective cohesion [kPa] and friction [°], largest and residual; a dash of the table is a number that is not there. The second row of DP is the same with the table's cohesion."""
+    whole = ("cohesion_peak", "friction_peak", "cohesion_residual", "friction_residual")
+    assert table1.PAPER == {
+        "WWR": dict(zip(whole, (88, 38.5, 13, 26.2))),
+        "DP": dict(zip(whole[1:], (16.7, 0, 16.7))),
+        "DP, bonded": dict(zip(whole, (30, 16.7, 0, 16.7))),
+        "FB": dict(zip(whole, (70, 35, 0, 26.6))),
+        "SS": dict(zip(whole[2:], (0, 11.3))),
+    }
+
+
 def test_a_table_has_a_line_for_each_row(told):
     heads, rows = table1.table(told[0]["rows"])
     assert [row[0] for row in rows] == list(table1.PAPER) and all(len(row) == len(heads) == 5 for row in rows)
