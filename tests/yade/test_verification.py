@@ -8,21 +8,12 @@ import shell
 from matplotlib.figure import Figure
 from yade import O
 from yade.nonsmooth.judges import verification
-from yade.nonsmooth.judges.verification import (
-    Outcome,
-    at_least,
-    at_most,
-    between,
-    near,
-    paper,
-    registry,
-    report,
-    runner,
-)
+from yade.nonsmooth.judges.verification import Claims, Findings, paper, registry, report, runner
 from yade.nonsmooth.system import keys
 
 from contact_scenes import material
 
+near, between, at_most, at_least = (getattr(Claims(), kind) for kind in ("near", "between", "at_most", "at_least"))
 OURS = ("contacts", "bonds", "impacts", "impact_chains")
 
 
@@ -125,9 +116,19 @@ def test_claims_are_two_sided_and_say_why():
     assert at_most("x", 0, 1, why="w").passed and not at_most("x", -1e-9, 1, why="w").passed
     assert at_least("x", 1e300, 1, why="w").passed and not at_least("x", 0.5, 1, why="w").passed
     with pytest.raises(ValueError, match="does not say why"):
-        near("x", 1, 1)
+        near("x", 1, 1, "")
     with pytest.raises(ValueError, match="allows nothing"):
         between("x", 1, 3, 2, why="w")
+
+
+def test_a_claim_has_its_unit_from_the_brackets_behind_its_name():
+    claims = Claims(against="a table")
+    claims.near("speed [of light] at noon [m/s]", 1, 1, "w")
+    claims.at_most("speed [of light] at noon", 1, 1, "w", against="a clock")
+    assert [(c.what, c.unit, c.against) for c in claims] == [
+        ("speed [of light] at noon", "m/s", "a table"),
+        ("speed [of light] at noon", "", "a clock"),
+    ]
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
@@ -136,9 +137,9 @@ def test_what_is_not_a_number_never_passes(value):
 
 
 def test_an_outcome_without_claims_does_not_pass():
-    assert not Outcome().passed
+    assert not Findings().passed
     good, bad = near("x", 1, 1, why="w"), near("x", 2, 1, why="w")
-    assert Outcome([good]).passed and not Outcome([good, bad]).passed
+    assert Findings([good]).passed and not Findings([good, bad]).passed
 
 
 # ---- the statements of the paper's section 6 ------------------------------------------------------
@@ -188,7 +189,7 @@ def no_checks(monkeypatch):
 
 def test_a_check_has_a_docstring_and_a_name_of_its_own(no_checks):
     def undocumented(bench):
-        return Outcome()
+        return Findings()
 
     def one_check(bench):
         """Something."""
@@ -207,7 +208,7 @@ def test_an_error_is_kept_and_the_next_check_runs(tmp_path):
         raise RuntimeError("the disk is square")
 
     def empty_scene(bench):
-        return Outcome([near("materials in a fresh scene", len(O.materials), 0, why="a count")])
+        return Findings([near("materials in a fresh scene", len(O.materials), 0, why="a count")])
 
     first, second = runner.run_checks([made(stops, "stops"), made(empty_scene, "empty")], tmp_path)
     assert not first.passed and first.error == "RuntimeError: the disk is square"
@@ -222,7 +223,7 @@ def test_resume_takes_over_what_has_finished(tmp_path, monkeypatch):
         calls.append(bench.quick)
         figure = Figure()
         figure.add_subplot().plot([0, 1])
-        return Outcome(
+        return Findings(
             [near("x", 1, 1, why="w"), at_least("y", math.nan, 0, why="w")],
             plots=[(figure, "a line")],
             tables=[("t", ["a"], [["1"]])],
@@ -261,15 +262,15 @@ def test_report_shows_claims_plots_and_errors(tmp_path):
     def good(bench):
         figure = Figure()
         figure.add_subplot().plot([0, 1])
-        return Outcome(
-            [near("speed < light", 1, 1, unit="m/s", why="w")],
+        return Findings(
+            [near("speed < light [m/s]", 1, 1, why="w")],
             plots=[(figure, "a line")],
             tables=[("a table", ["head"], [["cell"]])],
             remarks=["a remark"],
         )
 
     def off(bench):
-        return Outcome([at_most("error", 2, 1, why="w")])
+        return Findings([at_most("error", 2, 1, why="w")])
 
     def stops(bench):
         raise RuntimeError("the disk is square")

@@ -8,7 +8,7 @@ import numpy as np
 
 from ... import figures, records
 from ...measure.energy import dissipated, turned_over
-from . import Outcome, at_most, check, near
+from . import Claims, Findings, check
 from .cases import folder_of, run_cases
 from .convergence import QUICK, STEP, TOLERANCE, TOLERANCE_MOVING, slope
 
@@ -108,57 +108,32 @@ def whole_avalanche(bench):
         for c in cases[: len(seeds)]
     ]
     worst = lambda key: max(f[key] for f in ours)  # noqa: E731
-    claims = [
-        at_most(
-            "largest error of the energy balance, of the energy turned over",
-            worst("energy_error_rel"),
-            0.01,
-            why="the project's limit; larger errors could hide a loss that is not accounted for",
-        ),
-        at_most(
-            "largest fall of a loss that should only grow, of the energy turned over",
-            max(map(_falls, series)),
-            5e-3 if bench.quick else 1e-3,
-            why="rounding and solves to the tolerance, a hundred times looser in a quick run, may return a little energy; a wrong sign would return all of it",
-        ),
-        at_most(
-            "energy given by taking back errors of position, of the energy turned over",
-            worst("energy_correction_rel"),
-            0.01 if bench.quick else 0.002,
-            why="it is spurious; with a bias on the velocity it was some per cent, which a runout shows",
-        ),
-        at_most(
-            "worst overlap, of ℓ",
-            worst("overlap_worst_rel"),
-            0.02,
-            why="the project's limit for the fastest impact of a run",
-        ),
-    ]
+    claims = Claims()
+    why = "the project's limit; larger errors could hide a loss that is not accounted for"
+    claims.at_most(
+        "largest error of the energy balance, of the energy turned over", worst("energy_error_rel"), 0.01, why
+    )
+    why = (
+        "rounding and solves to the tolerance, a hundred times looser in a quick run, may return a little energy; a "
+        "wrong sign would return all of it"
+    )
+    what = "largest fall of a loss that should only grow, of the energy turned over"
+    claims.at_most(what, max(map(_falls, series)), 5e-3 if bench.quick else 1e-3, why)
+    why = "it is spurious; with a bias on the velocity it was some per cent, which a runout shows"
+    what = "energy given by taking back errors of position, of the energy turned over"
+    claims.at_most(what, worst("energy_correction_rel"), 0.01 if bench.quick else 0.002, why)
+    why = "the project's limit for the fastest impact of a run"
+    claims.at_most("worst overlap, of ℓ", worst("overlap_worst_rel"), 0.02, why)
     for f, seed in zip(ours, seeds):
-        claims += [
-            near(
-                f"seed {seed}: 95th percentile of the step's independent residual over the tolerance asked for",
-                f["residual_p95_over_tolerance"],
-                0.75,
-                absolute=0.25,
-                against="definition",
-                why="a step ends below its tolerance, and at ten sweeps between two looks not far below",
-            ),
-            near(
-                f"seed {seed}: rows in the log of broken bonds",
-                f["breaks_logged"],
-                f["broken"],
-                against="the engine's counters",
-                why="each break is one row",
-            ),
-            near(
-                f"seed {seed}: bonds that hold at the end and broken ones",
-                f["bonds_alive"] + f["broken"],
-                f["bonds_initial"],
-                against="bonds made",
-                why="a bond holds or is broken",
-            ),
-        ]
+        why = "a step ends below its tolerance, and at ten sweeps between two looks not far below"
+        what = f"seed {seed}: 95th percentile of the step's independent residual over the tolerance asked for"
+        claims.near(what, f["residual_p95_over_tolerance"], 0.75, why, absolute=0.25, against="definition")
+        why = "each break is one row"
+        what = f"seed {seed}: rows in the log of broken bonds"
+        claims.near(what, f["breaks_logged"], f["broken"], why, against="the engine's counters")
+        why = "a bond holds or is broken"
+        what = f"seed {seed}: bonds that hold at the end and broken ones"
+        claims.near(what, f["bonds_alive"] + f["broken"], f["bonds_initial"], why, against="bonds made")
     figures.energy(series[0], bench.folder / "energy.png", times=ours[0]["times_s"], limit=0.01)
     figures.solver(series[0], bench.folder / "solver.png", times=ours[0]["times_s"])
     header = ["", "unit", "mean", "standard deviation", f"seeds {', '.join(map(str, seeds))}"]
@@ -169,18 +144,10 @@ def whole_avalanche(bench):
         (f"About {found[0]['disks']:,} disks, {kind}", header, [row(of_kind, *quantity) for quantity in QUANTITIES])
         for kind, of_kind in runs.items()
     ]
-    return Outcome(
-        claims,
-        plots=[
-            (bench.folder / "energy.png", f"Energies of the avalanche with seed {seeds[0]}."),
-            (
-                bench.folder / "solver.png",
-                "What the solver needed and left in the same run; the tolerance is looser while the slope moves.",
-            ),
-        ],
-        tables=[
-            *tables,
-            (f"Where the energy went, seed {seeds[0]}", ("", "J/m", "of the losses"), losses_of(series[0])),
-        ],
-        remarks=["With so few disks a slope fails earlier than with the paper's; the gallery shows the paper's size."],
-    )
+    plot_1 = bench.folder / "energy.png", f"Energies of the avalanche with seed {seeds[0]}."
+    caption = "What the solver needed and left in the same run; the tolerance is looser while the slope moves."
+    plot_2 = bench.folder / "solver.png", caption
+    heads = ("", "J/m", "of the losses")
+    table = f"Where the energy went, seed {seeds[0]}", heads, losses_of(series[0])
+    remark = "With so few disks a slope fails earlier than with the paper's; the gallery shows the paper's size."
+    return Findings(claims, plots=[plot_1, plot_2], tables=[*tables, table], remarks=[remark])

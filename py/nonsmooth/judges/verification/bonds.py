@@ -11,7 +11,7 @@ from matplotlib.patches import Ellipse
 from yade import O
 
 from ...world import tables
-from .claims import Outcome, at_most, between, near
+from .claims import Claims, Findings
 from .registry import check
 from .small_scenes import G, begin, contacts, disk, engine, material, run, set_gravity, weight
 
@@ -123,49 +123,29 @@ def bond_thresholds(bench):
     take long. Two cases need more load to break: tension straightens a bond that slips (by T d/ℓ, 3e-4 of the threshold at the
     ellipse's edge) or rolls (by some 7e-2), since the load keeps its direction.
     """
-    claims, rows = [], []
+    claims, rows = Claims(), []
     for angle in (0.0, 2.0):
         for name, (mode, overload, loads) in cases(F_A, FRICTION, ROLLING).items():
             bench.progress(name)
             found = Pair(angle).threshold(loads)
             where = f"{name}, at {angle:g} rad"
-            claims.append(near(where + ": threshold", found, 1, relative=1e-8, unit="of the derived one", why=DIGITS))
+            claims.near(where + ": threshold [of the derived one]", found, 1, DIGITS, relative=1e-8)
             pair = Pair(angle)
             pair.load(**loads(1 - JUST))
             run(300)
             moved = (pair.state.pos - pair.start).norm() if engine().bonds else math.inf
-            claims.append(
-                at_most(
-                    where + ": move in 6 s at 1 − 1e-6",
-                    moved,
-                    1e-9,
-                    unit="m",
-                    why="it rests, bonded; a yield of 1e-6 of the load would have moved it by 1e-3 m",
-                )
-            )
+            why = "it rests, bonded; a yield of 1e-6 of the load would have moved it by 1e-3 m"
+            claims.at_most(where + ": move in 6 s at 1 − 1e-6 [m]", moved, 1e-9, why)
             pair = Pair(angle)
             pair.load(**loads(1 + overload))
             ended = _breaks_as(pair)
             if mode:
-                claims.append(
-                    near(
-                        f"{where}: broke by {ended} at 1 + {overload:g}",
-                        ended == mode,
-                        1,
-                        why="it must be the mode that was loaded",
-                    )
-                )
+                why = "it must be the mode that was loaded"
+                claims.near(f"{where}: broke by {ended} at 1 + {overload:g}", ended == mode, 1, why)
             rows.append([name, f"{angle:g}", f"{found:.10f}", f"1 + {overload:g}", ended])
-    return Outcome(
-        claims,
-        tables=[
-            (
-                "Thresholds found, in units of the derived ones, and how the bond ended above them",
-                ["load", "angle", "threshold", "overload", "ended by"],
-                rows,
-            )
-        ],
-    )
+    heads = ["load", "angle", "threshold", "overload", "ended by"]
+    table = "Thresholds found, in units of the derived ones, and how the bond ended above them", heads, rows
+    return Findings(claims, tables=[table])
 
 
 @check("Residual strength of a contact without a bond", subject="Bonds", seconds=1)
@@ -174,13 +154,13 @@ def residual_thresholds(bench):
     their own (Taboada and Estrada 2009, section 2.2). The pair's bond is taken away by hand; thresholds are then found by bisection as
     for the bond.
     """
-    claims, found = [], {}
+    claims, found = Claims(), {}
     for name, (_, _, loads) in cases(0.25 * F_A, 0.2, 0.05).items():
         pair = Pair(angle=2.0, **RESIDUAL)
         engine().unbond()
         found[name] = pair.threshold(loads)
-        claims.append(near(name + ": threshold", found[name], 1, relative=1e-8, unit="of the derived one", why=DIGITS))
-    return Outcome(claims)
+        claims.near(name + ": threshold [of the derived one]", found[name], 1, DIGITS, relative=1e-8)
+    return Findings(claims)
 
 
 @check("A bond breaks where its mark leaves the ellipse", subject="Bonds", seconds=1)
@@ -202,7 +182,7 @@ def bond_ellipse(bench):
     ψ it moves along the normal by ℓ ψ²/2. The torque μ_r ℓ (F_a + P) works over the relative rotation 2 ψ; it needs T = 2 μ_r (F_a +
     P), which is below the shear threshold as 2 μ_r < μ_s.
     """
-    claims, zone, steps = [], (0.02, 0.05), 300 if bench.quick else 1000
+    claims, zone, steps = Claims(), (0.02, 0.05), 300 if bench.quick else 1000
     one_step = f"one step's move, 1/{steps} of the way"
     ends, worst = [], 0.0
     for degrees in (0, 30, 60, 90) if bench.quick else range(0, 91, 10):
@@ -217,28 +197,16 @@ def bond_ellipse(bench):
         ends.append((went * math.cos(phi), went * math.sin(phi)))
         worst = max(worst, abs(went / path - 1))
         if degrees == 0:
-            claims += [
-                near(
-                    "energy that a bond takes in tension",
-                    taken,
-                    F_A * zone[0] * LENGTH,
-                    relative=1.01 / steps,
-                    unit="J",
-                    why=one_step,
-                ),
-                near(
-                    "mode of the break along the normal (1 is tension)", contacts()[0].phys.brokenMode, 1, why="a name"
-                ),
-            ]
-    claims.insert(
-        0,
-        at_most(
-            f"straight: largest relative error of the path over {len(ends)} directions",
-            worst,
-            1.01 / steps,
-            why=one_step,
-        ),
-    )
+            claims.near(
+                "energy that a bond takes in tension [J]",
+                taken,
+                F_A * zone[0] * LENGTH,
+                one_step,
+                relative=1.01 / steps,
+            )
+            claims.near("mode of the break along the normal (1 is tension)", contacts()[0].phys.brokenMode, 1, "a name")
+    what = f"straight: largest relative error of the path over {len(ends)} directions"
+    claims.at_most(what, worst, 1.01 / steps, one_step)
 
     pair = Pair(zone=(0.05, 0.02), dt=1e-3)
     path = _root(
@@ -257,18 +225,10 @@ def bond_ellipse(bench):
     normal = (PUSH + FRICTION * F_A * np.sin(alpha)) / (np.cos(alpha) - FRICTION * np.sin(alpha))
     force = FRICTION * (F_A + normal)
     loss = LENGTH * np.sum(0.5 * (force[1:] + force[:-1]) * -np.diff(alpha))
-    claims += [
-        near("sliding: path", went, path, relative=1.01 / steps, unit="m", why=one_step),
-        near(
-            "sliding: energy",
-            taken,
-            loss,
-            relative=0.02 / steps,
-            unit="J",
-            why=f"the normal is that of a step's beginning: 1/{steps} of its turn, 0.02",
-        ),
-        near("mode of the break (2 is shear)", contacts()[0].phys.brokenMode, 2, why="a name"),
-    ]
+    claims.near("sliding: path [m]", went, path, one_step, relative=1.01 / steps)
+    why = f"the normal is that of a step's beginning: 1/{steps} of its turn, 0.02"
+    claims.near("sliding: energy [J]", taken, loss, why, relative=0.02 / steps)
+    claims.near("mode of the break (2 is shear)", contacts()[0].phys.brokenMode, 2, "a name")
 
     pair = Pair(zone=zone, dt=1e-2)
     angle = _root(lambda a: math.hypot(math.cos(a) / zone[0], math.sin(a) / zone[1]) * (1 - math.cos(a)) - 1, 0, 1)
@@ -280,26 +240,17 @@ def bond_ellipse(bench):
     pair.fixed.state.angVel = (0, 0, spin)
     began = O.iter
     went, taken = _until_broken(lambda: (spin * O.dt * (O.iter - began), engine().rollingLoss), 2 * steps)
-    claims += [
-        near("rolling: angle", went, angle, relative=1.01 / steps, unit="rad", why=one_step),
-        near(
-            "rolling: energy",
-            taken,
-            ROLLING * LENGTH * (F_A + PUSH) * 2 * angle,
-            relative=1.51 / steps,
-            unit="J",
-            why="one step's move, and half a step in which the disk begins to turn",
-        ),
-        near("mode of the break (3 is torque)", contacts()[0].phys.brokenMode, 3, why="a name"),
-    ]
+    claims.near("rolling: angle [rad]", went, angle, one_step, relative=1.01 / steps)
+    why = "one step's move, and half a step in which the disk begins to turn"
+    claims.near("rolling: energy [J]", taken, ROLLING * LENGTH * (F_A + PUSH) * 2 * angle, why, relative=1.51 / steps)
+    claims.near("mode of the break (3 is torque)", contacts()[0].phys.brokenMode, 3, "a name")
     figure = Figure(figsize=(5, 4))
     axes = figure.add_subplot()
     axes.add_patch(Ellipse((0, 0), 2 * zone[0], 2 * zone[1], fill=False, linewidth=1))
     axes.plot(*np.array(ends).T / LENGTH, "o", markersize=4)
     axes.set(xlabel="d_n [ℓ]", ylabel="d_t [ℓ]", xlim=(-0.03, 0.03), ylim=(-0.06, 0.06))
-    return Outcome(
-        claims, plots=[(figure, "Where the mark was when the bond broke, for straight paths; the ellipse is drawn.")]
-    )
+    plot = figure, "Where the mark was when the bond broke, for straight paths; the ellipse is drawn."
+    return Findings(claims, plots=[plot])
 
 
 def _until_broken(read, most):
@@ -366,7 +317,7 @@ def cantilever(bench):
     15, μ_s A = 4.5 (against √(2 μ_r A) = 5.5): four hold, five break by shear at the root. And with eight disks, F_a a part in 1e5
     above and below n² w/(2 μ_r): the row rests, or begins to turn about its root as one piece, driven by what the root does not bear.
     """
-    claims, rows = [], []
+    claims, rows = Claims(), []
     for name, strength, rolling, holds in (("torque", 7.5**2 / (2 * 0.1), 0.1, 7), ("shear", 15.0, 1.0, 4)):
         bench.progress(name)
         disks = row_of_disks(holds, strength, rolling=rolling)
@@ -390,45 +341,24 @@ def cantilever(bench):
                     f"{i.phys.torque / one / LENGTH:.6f} ({moment / one / LENGTH:g})",
                 ]
             )
-        claims += [
-            near(f"{name} governs: bonds of {holds} disks after 1 s", engine().bonds, holds, why="a count"),
-            at_most(
-                f"{holds} disks: farthest move",
-                max((b.state.pos - p).norm() for b, p in zip(disks, start)),
-                1e-8,
-                unit="m",
-                why="it rests; one step's fall is 2.5e-4 m, and 200 steps are solved to 1e-12 times a condition number of n⁴",
-            ),
-            at_most(
-                f"{holds} disks: largest relative error of a reaction",
-                worst,
-                1e-7,
-                why="residual 1e-12, condition number n⁴ or a few 1e3, and a margin",
-            ),
-        ]
+        claims.near(f"{name} governs: bonds of {holds} disks after 1 s", engine().bonds, holds, "a count")
+        why = "it rests; one step's fall is 2.5e-4 m, and 200 steps are solved to 1e-12 times a condition number of n⁴"
+        claims.at_most(
+            f"{holds} disks: farthest move [m]", max((b.state.pos - p).norm() for b, p in zip(disks, start)), 1e-8, why
+        )
+        why = "residual 1e-12, condition number n⁴ or a few 1e3, and a margin"
+        claims.at_most(f"{holds} disks: largest relative error of a reaction", worst, 1e-7, why)
         disks = row_of_disks(holds + 1, strength, rolling=rolling)
         pairs, modes = _first_breaks(2000)
-        claims.append(
-            near(
-                f"{holds + 1} disks: the first bond to break is the root's, by {name}",
-                (pairs, modes) == ([(0, 1)], [name]),
-                1,
-                why=f"it must be; what broke: {pairs}, {modes}",
-            )
-        )
+        why = f"it must be; what broke: {pairs}, {modes}"
+        what = f"{holds + 1} disks: the first bond to break is the root's, by {name}"
+        claims.near(what, (pairs, modes) == ([(0, 1)], [name]), 1, why)
     claims += _edge(
         "eight disks", lambda strength: row_of_disks(8, strength), 8**2 / (2 * ROLLING), moment=8**2 / 2, turning=8
     )
-    return Outcome(
-        claims,
-        tables=[
-            (
-                "Reactions in units of the weight w and w d; in brackets, from statics",
-                ["contact", "N/w", "T/w", "Γ/(w d)"],
-                rows,
-            )
-        ],
-    )
+    heads = ["contact", "N/w", "T/w", "Γ/(w d)"]
+    table = "Reactions in units of the weight w and w d; in brackets, from statics", heads, rows
+    return Findings(claims, tables=[table])
 
 
 def _edge(name, build, strength, moment, turning, margin=1e-5):
@@ -444,23 +374,14 @@ def _edge(name, build, strength, moment, turning, margin=1e-5):
     # of the piece about its end contact, in m d²: Σ 1/8 + (k − 1/2)²
     inertia = turning / 8 + turning**3 / 3 - turning / 12
     expected = margin * moment * G / inertia * 3 * O.dt * (turning - 0.5)
-    return [
-        at_most(
-            f"{name}, F_a 1e-5 above what statics asks for: fastest disk",
-            speeds[0],
-            1e-9,
-            unit="m/s",
-            why="it rests; a step's fall is 0.05 m/s, solved to 1e-12 times a condition number of n⁴",
-        ),
-        near(
-            f"{name}, F_a 1e-5 below: fastest disk after three steps",
-            speeds[1],
-            expected,
-            relative=1e-3,
-            unit="m/s",
-            why="1e-5 of the moment is known to the same error, 1e-9, four digits",
-        ),
-    ]
+    claims = Claims()
+    why = "it rests; a step's fall is 0.05 m/s, solved to 1e-12 times a condition number of n⁴"
+    claims.at_most(f"{name}, F_a 1e-5 above what statics asks for: fastest disk [m/s]", speeds[0], 1e-9, why)
+    why = "1e-5 of the moment is known to the same error, 1e-9, four digits"
+    claims.near(
+        f"{name}, F_a 1e-5 below: fastest disk after three steps [m/s]", speeds[1], expected, why, relative=1e-3
+    )
+    return claims
 
 
 @check("A bonded row held at both ends", subject="Bonds", seconds=1)
@@ -482,61 +403,37 @@ def bridge(bench):
     how fast: with F_a a part in 1e5 too small, the halves of a row of eight turn about their ends, each driven by that part of w d
     n²/8.
     """
-    claims, strength = [], 45.0
+    claims, strength = Claims(), 45.0
     bench.progress("holds")
     disks = row_of_disks(8, strength, both_ends=True)
     start = [b.state.pos for b in disks]
     run(200)
-    claims.append(near("eight disks: bonds after 1 s", engine().bonds, 9, why="a count"))
+    claims.near("eight disks: bonds after 1 s", engine().bonds, 9, "a count")
     if not claims[0].passed:
-        return Outcome(claims, remarks=["The row of eight did not hold; nothing else was looked at."])
+        return Findings(claims, remarks=["The row of eight did not hold; nothing else was looked at."])
     one, torques = weight(disks[0]), np.array([i.phys.torque for i in contacts()])
     limit = ROLLING * strength
-    claims += [
-        at_most(
-            "eight disks: farthest move",
-            max((b.state.pos - p).norm() for b, p in zip(disks, start)),
-            1e-8,
-            unit="m",
-            why="it rests; one step's fall is 2.5e-4 m",
-        ),
-        at_most(
-            "eight disks: largest moment, in M_p",
-            np.abs(torques).max() / (limit * one * LENGTH),
-            1 + 1e-9,
-            why="the threshold itself; rounding",
-        ),
-        near(
-            "eight disks: moment of an end less that of the middle, in w d",
-            abs(torques[0] - torques[4]) / one / LENGTH,
-            8,
-            relative=1e-6,
-            why="balance: w d n²/8, whatever the ends bear; residual 1e-12 times the condition number",
-        ),
-    ]
+    why = "it rests; one step's fall is 2.5e-4 m"
+    claims.at_most(
+        "eight disks: farthest move [m]", max((b.state.pos - p).norm() for b, p in zip(disks, start)), 1e-8, why
+    )
+    why = "the threshold itself; rounding"
+    claims.at_most("eight disks: largest moment, in M_p", np.abs(torques).max() / (limit * one * LENGTH), 1 + 1e-9, why)
+    why = "balance: w d n²/8, whatever the ends bear; residual 1e-12 times the condition number"
+    what = "eight disks: moment of an end less that of the middle, in w d"
+    claims.near(what, abs(torques[0] - torques[4]) / one / LENGTH, 8, why, relative=1e-6)
     disks = row_of_disks(9, strength, both_ends=True)
     run(1)
     spins = np.array([0.0, *(b.state.angVel[2] for b in disks), 0.0])
     turns = np.abs(np.diff(spins)) / np.abs(np.diff(spins)).max()
     hinges = np.flatnonzero(turns > 1e-6).tolist()
-    claims.append(
-        near(
-            "nine disks: they turn at contacts 1, 5, 6 and 10 of ten and nowhere else",
-            hinges == [0, 4, 5, 9],
-            1,
-            why=f"the collapse mechanism is unique; turning by more than 1e-6 of the most: {[h + 1 for h in hinges]}",
-        )
+    why = f"the collapse mechanism is unique; turning by more than 1e-6 of the most: {[h + 1 for h in hinges]}"
+    claims.near(
+        "nine disks: they turn at contacts 1, 5, 6 and 10 of ten and nowhere else", hinges == [0, 4, 5, 9], 1, why
     )
     pairs, modes = _first_breaks(1000)
-    claims.append(
-        between(
-            "nine disks: bonds that break in the first step in which any does",
-            len(pairs),
-            1,
-            10,
-            why="it must collapse",
-        )
-    )
+    why = "it must collapse"
+    claims.between("nine disks: bonds that break in the first step in which any does", len(pairs), 1, 10, why)
     bench.progress("threshold")
     claims += _edge(
         "eight disks",
@@ -561,8 +458,6 @@ def bridge(bench):
         axes.axhline(side * limit, color="#D55E00", linewidth=0.8, linestyle="--")
     axes.set(xlabel="disks to the left of the contact", ylabel="Γ / (w d)")
     axes.legend(frameon=False)
-    return Outcome(
-        claims,
-        plots=[(figure, "Moments in the row of eight that holds; dashed: ± M_p.")],
-        remarks=[f"Nine disks: first to break were the bonds {pairs}, by {', '.join(modes)}, at step {O.iter}."],
-    )
+    plot = figure, "Moments in the row of eight that holds; dashed: ± M_p."
+    remark = f"Nine disks: first to break were the bonds {pairs}, by {', '.join(modes)}, at step {O.iter}."
+    return Findings(claims, plots=[plot], remarks=[remark])

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field
 
-__all__ = ["Claim", "Outcome", "at_least", "at_most", "between", "near"]
+__all__ = ["Claim", "Claims", "Findings"]
+
+_UNIT = re.compile(r"(.*) \[([^\[\]]+)\]", re.DOTALL)  # a name, and its unit
 
 
 @dataclass(frozen=True)
@@ -33,29 +36,41 @@ class Claim:
         return bool(math.isfinite(self.measured) and self.low <= self.measured <= self.high)  # bounds may be NumPy's
 
 
-def near(what, measured, expected, *, absolute=0.0, relative=0.0, **more) -> Claim:
-    """``expected`` to within ``absolute`` plus ``relative`` times its size."""
-    margin = absolute + relative * abs(expected)
-    return Claim(what, float(measured), expected - margin, expected + margin, expected=float(expected), **more)
+class Claims(list):
+    """Claims of a check, in the report's order: each method adds one, and returns it.
 
+    ``what`` ends with the figure's unit in brackets where it has one, ``why`` says why just this tolerance. ``against``: whom all are compared with
+    where a claim does not say it itself.
+    """
 
-def between(what, measured, low, high, **more) -> Claim:
-    """A Claim that a number lies between two bounds; ``more``: its other fields."""
-    return Claim(what, float(measured), low, high, **more)
+    def __init__(self, claims=(), against="derivation"):
+        super().__init__(claims)
+        self.against = against
 
+    def between(self, what, measured, low, high, why, *, expected=None, against=None) -> Claim:
+        """A number lies between two bounds, both allowed. Raises ValueError for a claim without a reason, or one that allows nothing."""
+        named = _UNIT.fullmatch(what)
+        what, unit = (named[1], named[2]) if named else (what, "")
+        self.append(Claim(what, float(measured), low, high, expected, unit, against or self.against, why))
+        return self[-1]
 
-def at_most(what, measured, limit, **more) -> Claim:
-    """A distance or an error, which cannot be negative: from 0 to ``limit``."""
-    return Claim(what, float(measured), 0.0, limit, **more)
+    def near(self, what, measured, expected, why, *, absolute=0.0, relative=0.0, against=None) -> Claim:
+        """``expected`` to within ``absolute`` plus ``relative`` times its size."""
+        margin = absolute + relative * abs(expected)
+        low, high = expected - margin, expected + margin
+        return self.between(what, measured, low, high, why, expected=float(expected), against=against)
 
+    def at_most(self, what, measured, limit, why, *, against=None) -> Claim:
+        """A distance or an error, which cannot be negative: from 0 to ``limit``."""
+        return self.between(what, measured, 0.0, limit, why, against=against)
 
-def at_least(what, measured, limit, **more) -> Claim:
-    """A Claim that a number is not below a limit; ``more``: its other fields."""
-    return Claim(what, float(measured), limit, math.inf, **more)
+    def at_least(self, what, measured, limit, why, *, against=None) -> Claim:
+        """A number is not below a limit."""
+        return self.between(what, measured, limit, math.inf, why, against=against)
 
 
 @dataclass
-class Outcome:
+class Findings:
     """What a check found. ``plots``: (matplotlib Figure or path of a PNG in the bench's folder, caption); ``tables``: (caption, heads, rows of text); ``remarks``: sentences;
     ``numbers``: what documentation shows besides, plain data by name."""
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from yade import O
 from yade.minieigenHP import Vector3
 
-from .claims import Outcome, at_most, near
+from .claims import Claims, Findings
 from .registry import check
 from .small_scenes import G, begin, contacts, disk, engine, material, run, set_gravity, wall, weight
 
@@ -59,7 +59,7 @@ def slider_on_a_plane(bench):
     comes out early by half a step. The plane is cut into pieces of half a radius: a joint between two of them must give neither a bump
     nor a second contact that carries force.
     """
-    claims, figure = [], Figure(figsize=(6.4, 3.4))
+    claims, figure = Claims(), Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
     tangent, dip = math.tan(math.radians(21)), math.radians(21)
     for friction, tabulated in ((0.3, 0.768), (0.0, 3.516)):
@@ -75,38 +75,19 @@ def slider_on_a_plane(bench):
             speeds.append(slope.speed)
         arrival = O.time - O.dt * (slope.path - 5) / (slope.path - before)
         name = f"μ = {friction:g}: "
-        claims += [
-            near(name + "acceleration", slope.speed / O.time, expected, relative=1e-9, unit="m/s²", why=EXACT),
-            near(
-                name + "acceleration as tabulated",
-                slope.speed / O.time,
-                tabulated,
-                absolute=5e-4,
-                unit="m/s²",
-                why="the tabulated figure has three decimals",
-            ),
-            near(
-                name + "time for 5 m",
-                arrival,
-                math.sqrt(10 / expected),
-                absolute=O.dt,
-                unit="s",
-                why="one step; half of one is the scheme's own",
-            ),
-            at_most(
-                name + "largest speed off the plane",
-                bump,
-                1e-9,
-                unit="m/s",
-                why="joints are straight to rounding, 1e-16 m a step of 1e-3 s",
-            ),
-            at_most(name + "contacts that carry force at a time", most, 1, why="one plane, one contact"),
-        ]
+        claims.near(name + "acceleration [m/s²]", slope.speed / O.time, expected, EXACT, relative=1e-9)
+        why = "the tabulated figure has three decimals"
+        claims.near(name + "acceleration as tabulated [m/s²]", slope.speed / O.time, tabulated, why, absolute=5e-4)
+        why = "one step; half of one is the scheme's own"
+        claims.near(name + "time for 5 m [s]", arrival, math.sqrt(10 / expected), why, absolute=O.dt)
+        why = "joints are straight to rounding, 1e-16 m a step of 1e-3 s"
+        claims.at_most(name + "largest speed off the plane [m/s]", bump, 1e-9, why)
+        claims.at_most(name + "contacts that carry force at a time", most, 1, "one plane, one contact")
         axes.plot(times, speeds, label=f"μ = {friction:g}")
         axes.plot(times[::200], expected * np.array(times[::200]), "k.", markersize=3)
     axes.set(xlabel="time [s]", ylabel="speed along the plane [m/s]")
     axes.legend(frameon=False)
-    return Outcome(claims, plots=[(figure, "Lines: computed. Dots: derivation.")])
+    return Findings(claims, plots=[(figure, "Lines: computed. Dots: derivation.")])
 
 
 def incline_accelerations(tangent, friction, rolling):
@@ -136,7 +117,7 @@ def disk_on_an_incline(bench):
     looked at from a relative distance of 1e-6.
     """
     figure = Figure(figsize=(7.4, 3.4))
-    panels, claims = figure.subplots(1, 2, sharey=True), []
+    panels, claims = figure.subplots(1, 2, sharey=True), Claims()
     for axes, (friction, rolling) in zip(panels, ((0.3, 0.1), (0.3, 0.2))):
         tangents = np.linspace(0.02, 0.8, 10 if bench.quick else 40)
         found = []
@@ -146,15 +127,8 @@ def disk_on_an_incline(bench):
             found.append((slope.speed / O.time, slope.surface_speed / O.time))
         expected = [incline_accelerations(t, friction, rolling) for t in tangents]
         worst = np.abs(np.array(found) - expected).max() / G
-        claims.append(
-            at_most(
-                f"μ_s = {friction:g}, μ_r = {rolling:g}: largest error of a or r α over {len(tangents)} slopes",
-                worst,
-                1e-9,
-                unit="g",
-                why=EXACT,
-            )
-        )
+        what = f"μ_s = {friction:g}, μ_r = {rolling:g}: largest error of a or r α over {len(tangents)} slopes [g]"
+        claims.at_most(what, worst, 1e-9, EXACT)
         fine = np.linspace(0.02, 0.8, 400)
         curves = np.array([incline_accelerations(t, friction, rolling) for t in fine])
         for column, name, colour in ((0, "a", "#0072B2"), (1, "r α", "#D55E00")):
@@ -170,57 +144,30 @@ def disk_on_an_incline(bench):
     start, slip = 2 * rolling, 3 * friction - 4 * rolling
     slope = Incline(start * (1 - EDGE), friction, rolling)
     run(200)
-    claims.append(
-        at_most(
-            "just below tan θ = 2 μ_r: speed after 0.2 s",
-            abs(slope.speed) + abs(slope.surface_speed),
-            1e-10,
-            unit="m/s",
-            why=AT_REST,
-        )
+    claims.at_most(
+        "just below tan θ = 2 μ_r: speed after 0.2 s [m/s]", abs(slope.speed) + abs(slope.surface_speed), 1e-10, AT_REST
     )
     slope = Incline(start * (1 + EDGE), friction, rolling)
     run(200)
     ramp = "1e-6 beyond the threshold the driving force is the difference of two that are solved to 1e-12: six digits"
     excess = 2 / 3 * G / math.hypot(1, start) * start * EDGE
-    claims.append(
-        near(
-            "just above tan θ = 2 μ_r: acceleration", slope.speed / O.time, excess, relative=1e-4, unit="m/s²", why=ramp
-        )
-    )
+    claims.near("just above tan θ = 2 μ_r: acceleration [m/s²]", slope.speed / O.time, excess, ramp, relative=1e-4)
     slope = Incline(slip * (1 - EDGE), friction, rolling)
     run(200)
-    claims.append(
-        at_most(
-            "just below tan θ = 3 μ_s − 4 μ_r: speed of slip",
-            abs(slope.speed - slope.surface_speed),
-            1e-10,
-            unit="m/s",
-            why=AT_REST,
-        )
+    claims.at_most(
+        "just below tan θ = 3 μ_s − 4 μ_r: speed of slip [m/s]", abs(slope.speed - slope.surface_speed), 1e-10, AT_REST
     )
     slope = Incline(slip * (1 + EDGE), friction, rolling)
     run(200)
-    claims.append(
-        near(
-            "just above tan θ = 3 μ_s − 4 μ_r: growth of slip",
-            (slope.speed - slope.surface_speed) / O.time,
-            G / math.hypot(1, slip) * slip * EDGE,
-            relative=1e-4,
-            unit="m/s²",
-            why=ramp,
-        )
+    what = "just above tan θ = 3 μ_s − 4 μ_r: growth of slip [m/s²]"
+    value = (slope.speed - slope.surface_speed) / O.time
+    claims.near(what, value, G / math.hypot(1, slip) * slip * EDGE, ramp, relative=1e-4)
+    caption = (
+        "Acceleration of the centre and of the rim over the slope, from rest. Left: rests, rolls, slips. Right: with "
+        "2 μ_r > μ_s it never turns."
     )
-    return Outcome(
-        claims,
-        plots=[
-            (
-                figure,
-                "Acceleration of the centre and of the rim over the slope, from rest. Left: rests, rolls, slips. "
-                "Right: with 2 μ_r > μ_s it never turns.",
-            )
-        ],
-    )
+    plot = figure, caption
+    return Findings(claims, plots=[plot])
 
 
 @check("A spinning disk set down on a floor", subject="Sliding and rolling", seconds=1)
@@ -236,7 +183,7 @@ def spinning_disk(bench):
 
     Losses are sums of P · (U before + U after)/2, exact for constant mass. Only the step in which slip ends does not end with it.
     """
-    friction, spin, claims = 0.3, 10.0, []
+    friction, spin, claims = 0.3, 10.0, Claims()
     figure = Figure(figsize=(7.4, 3.4))
     for axes, rolling in zip(figure.subplots(1, 2, sharey=True), (0.0, 0.05)):
         O.reset()
@@ -259,72 +206,33 @@ def spinning_disk(bench):
                 stops_at = min(stops_at, O.time)
         name = f"μ_r = {rolling:g}: "
         late = "it rolls at the end of the step in which slip ends, up to one later"
-        claims.append(
-            near(name + "time at which slip ends", rolls_at, slip_ends, absolute=1.01 * O.dt, unit="s", why=late)
-        )
+        claims.near(name + "time at which slip ends [s]", rolls_at, slip_ends, late, absolute=1.01 * O.dt)
         at_half = np.searchsorted(times, slip_ends / 2)
-        claims.append(
-            near(
-                name + "r ω half-way",
-                rims[at_half],
-                rim - 2 * (friction + 2 * rolling) * G * times[at_half],
-                relative=1e-9,
-                unit="m/s",
-                why=EXACT,
-            )
-        )
+        half_way = rim - 2 * (friction + 2 * rolling) * G * times[at_half]
+        claims.near(name + "r ω half-way [m/s]", rims[at_half], half_way, EXACT, relative=1e-9)
         if rolling:
-            claims += [
-                near(
-                    name + "time at which it stops",
-                    stops_at,
-                    slip_ends + 3 * speed / (4 * rolling * G),
-                    absolute=2.01 * O.dt,
-                    unit="s",
-                    why="the two changes of regime take up to one step each",
-                ),
-                near(
-                    name + "sliding loss",
-                    e.slidingLoss,
-                    friction * s.mass * G * rim * slip_ends / 2,
-                    relative=1e-5,
-                    unit="J",
-                    why="the step in which slip ends errs by its share of slip, (h/t₁)² = 5e-6",
-                ),
-                near(
-                    name + "sliding and rolling loss",
-                    e.slidingLoss + e.rollingLoss,
-                    energy,
-                    relative=1e-9,
-                    unit="J",
-                    why=EXACT,
-                ),
-            ]
+            why = "the two changes of regime take up to one step each"
+            stop = slip_ends + 3 * speed / (4 * rolling * G)
+            claims.near(name + "time at which it stops [s]", stops_at, stop, why, absolute=2.01 * O.dt)
+            why = "the step in which slip ends errs by its share of slip, (h/t₁)² = 5e-6"
+            slid, lost = friction * s.mass * G * rim * slip_ends / 2, e.slidingLoss + e.rollingLoss
+            claims.near(name + "sliding loss [J]", e.slidingLoss, slid, why, relative=1e-5)
+            claims.near(name + "sliding and rolling loss [J]", lost, energy, EXACT, relative=1e-9)
         else:
-            claims += [
-                near(name + "final speed", speeds[-1], rim / 3, relative=1e-9, unit="m/s", why=EXACT),
-                near(name + "final r ω", rims[-1], rim / 3, relative=1e-9, unit="m/s", why=EXACT),
-                near(name + "sliding loss", e.slidingLoss, 2 / 3 * energy, relative=1e-9, unit="J", why=EXACT),
-                at_most(
-                    name + "rolling loss",
-                    abs(e.rollingLoss),
-                    1e-9 * energy,
-                    unit="J",
-                    why="there is no torque to dissipate; rounding",
-                ),
-            ]
-        claims.append(
-            at_most(name + "error of the energy balance", abs(e.energyError), 1e-9 * energy, unit="J", why=EXACT)
-        )
+            claims.near(name + "final speed [m/s]", speeds[-1], rim / 3, EXACT, relative=1e-9)
+            claims.near(name + "final r ω [m/s]", rims[-1], rim / 3, EXACT, relative=1e-9)
+            claims.near(name + "sliding loss [J]", e.slidingLoss, 2 / 3 * energy, EXACT, relative=1e-9)
+            why = "there is no torque to dissipate; rounding"
+            claims.at_most(name + "rolling loss [J]", abs(e.rollingLoss), 1e-9 * energy, why)
+        claims.at_most(name + "error of the energy balance [J]", abs(e.energyError), 1e-9 * energy, EXACT)
         axes.plot(times, speeds, label="v")
         axes.plot(times, rims, label="r ω")
         axes.axvline(slip_ends, color="#777777", linewidth=0.7, linestyle="--")
         axes.set(xlabel="time [s]", title=f"μ_r = {rolling:g}")
         axes.legend(frameon=False)
     figure.axes[0].set(ylabel="speed [m/s]")
-    return Outcome(
-        claims, plots=[(figure, "Speed of the centre and of the rim; the dashed line is the derived end of slip.")]
-    )
+    plot = figure, "Speed of the centre and of the rim; the dashed line is the derived end of slip."
+    return Findings(claims, plots=[plot])
 
 
 class Squeeze:
@@ -373,7 +281,7 @@ def disk_between_driven_walls(bench):
 
     The roof is free along one axis only, so its contacts take the solver's general path and not that of the blocks.
     """
-    load, above, below, friction, claims = 2e4, 1.0, -0.4, 0.3, []
+    load, above, below, friction, claims = 2e4, 1.0, -0.4, 0.3, Claims()
     squeeze = Squeeze(load, above, below)
     s, e = squeeze.disk.state, engine()
     t1 = s.mass * -below / (4 * friction * load)
@@ -387,87 +295,43 @@ def disk_between_driven_walls(bench):
     work = friction * load * (above * t2 - below * t1 + below * (t2 - t1) / 3)
     early = np.searchsorted(times, t1 / 2)
     late = np.searchsorted(times, t2 - O.dt)
-    claims += [
-        near(
-            "both slip: r ω after t₁/2",
-            rims[early],
-            -4 * friction * load / s.mass * times[early],
-            relative=1e-9,
-            unit="m/s",
-            why=EXACT,
-        ),
-        near(
-            "the floor sticks: v just before t₂",
-            speeds[late],
-            4 / 3 * friction * load / s.mass * (times[late] - t1),
-            absolute=4 / 3 * friction * load / s.mass * O.dt,
-            unit="m/s",
-            why="t₁ falls into a step: one step's gain",
-        ),
-        near("steady speed (u₁ + u₂)/2", speeds[-1], (above + below) / 2, relative=1e-9, unit="m/s", why=EXACT),
-        near("steady r ω = (u₂ − u₁)/2", rims[-1], (below - above) / 2, relative=1e-9, unit="m/s", why=EXACT),
-        near(
-            "work of the walls",
-            e.wallWork,
-            work,
-            absolute=2 * friction * load * (above - below) * O.dt,
-            unit="J",
-            why="t₁ and t₂ fall into steps: two steps' work",
-        ),
-        near(
-            "work of the walls less sliding loss",
-            e.wallWork - e.slidingLoss,
-            squeeze.kinetic,
-            relative=1e-9,
-            unit="J",
-            why=EXACT,
-        ),
-        at_most(
-            "other losses",
-            abs(e.rollingLoss) + abs(e.impactLoss) + abs(e.debondingLoss),
-            1e-9 * work,
-            unit="J",
-            why="there are none; rounding",
-        ),
-    ]
+    claims.near(
+        "both slip: r ω after t₁/2 [m/s]",
+        rims[early],
+        -4 * friction * load / s.mass * times[early],
+        EXACT,
+        relative=1e-9,
+    )
+    why = "t₁ falls into a step: one step's gain"
+    claims.near(
+        "the floor sticks: v just before t₂ [m/s]",
+        speeds[late],
+        4 / 3 * friction * load / s.mass * (times[late] - t1),
+        why,
+        absolute=4 / 3 * friction * load / s.mass * O.dt,
+    )
+    claims.near("steady speed (u₁ + u₂)/2 [m/s]", speeds[-1], (above + below) / 2, EXACT, relative=1e-9)
+    claims.near("steady r ω = (u₂ − u₁)/2 [m/s]", rims[-1], (below - above) / 2, EXACT, relative=1e-9)
+    why = "t₁ and t₂ fall into steps: two steps' work"
+    claims.near("work of the walls [J]", e.wallWork, work, why, absolute=2 * friction * load * (above - below) * O.dt)
+    claims.near(
+        "work of the walls less sliding loss [J]", e.wallWork - e.slidingLoss, squeeze.kinetic, EXACT, relative=1e-9
+    )
+    why = "there are none; rounding"
+    claims.at_most("other losses [J]", abs(e.rollingLoss) + abs(e.impactLoss) + abs(e.debondingLoss), 1e-9 * work, why)
 
     rolling, spin = 0.05, (below - above) / (2 * RADIUS)
     squeeze = Squeeze(load, above, below, rolling=rolling, rolls=True)
     e, steps = engine(), 500
     run(steps)
-    claims += [
-        near(
-            "rolling friction: shear force 2 μ_r N of the roof",
-            -squeeze.force(squeeze.roof),
-            2 * rolling * load,
-            relative=1e-8,
-            unit="N",
-            why=EXACT,
-        ),
-        near(
-            "rolling friction: work of the walls",
-            e.wallWork,
-            2 * rolling * load * (above - below) * O.time,
-            relative=1e-8,
-            unit="J",
-            why=EXACT,
-        ),
-        near(
-            "rolling friction: loss",
-            e.rollingLoss,
-            2 * 2 * rolling * RADIUS * load * abs(spin) * O.time,
-            relative=1e-8,
-            unit="J",
-            why=EXACT,
-        ),
-        at_most(
-            "rolling friction: sliding loss",
-            abs(e.slidingLoss),
-            1e-8 * abs(e.rollingLoss),
-            unit="J",
-            why="nothing slips; the solve's 1e-12 and rounding",
-        ),
-    ]
+    for what, value, wanted in (
+        ("shear force 2 μ_r N of the roof [N]", -squeeze.force(squeeze.roof), 2 * rolling * load),
+        ("work of the walls [J]", e.wallWork, 2 * rolling * load * (above - below) * O.time),
+        ("loss [J]", e.rollingLoss, 2 * 2 * rolling * RADIUS * load * abs(spin) * O.time),
+    ):
+        claims.near(f"rolling friction: {what}", value, wanted, EXACT, relative=1e-8)
+    why = "nothing slips; the solve's 1e-12 and rounding"
+    claims.at_most("rolling friction: sliding loss [J]", abs(e.slidingLoss), 1e-8 * abs(e.rollingLoss), why)
 
     torque = 2000.0
     enough, changes = torque / (2 * RADIUS * (friction - 2 * rolling)), []
@@ -476,23 +340,16 @@ def disk_between_driven_walls(bench):
         O.forces.setPermT(squeeze.disk.id, (0, 0, torque))  # against the spin, which is clockwise
         run(200)
         changes.append((squeeze.disk.state.angVel[2] - spin) / O.time)
-    claims += [
-        at_most(
-            "squeeze just above N*: change of spin",
-            abs(changes[0]),
-            1e-9,
-            unit="rad/s²",
-            why="the torque alone would give 8 rad/s²; the solve, 1e-12 of it, may drift over 200 steps",
-        ),
-        near(
-            "squeeze just below N*: change of spin",
-            changes[1],
-            torque * EDGE / squeeze.disk.state.inertia[2],
-            relative=1e-3,
-            unit="rad/s²",
-            why="1e-6 of the torque, known to the solve's 1e-12 and to the change of N while the roof begins to carry",
-        ),
-    ]
+    why = "the torque alone would give 8 rad/s²; the solve, 1e-12 of it, may drift over 200 steps"
+    claims.at_most("squeeze just above N*: change of spin [rad/s²]", abs(changes[0]), 1e-9, why)
+    why = "1e-6 of the torque, known to the solve's 1e-12 and to the change of N while the roof begins to carry"
+    claims.near(
+        "squeeze just below N*: change of spin [rad/s²]",
+        changes[1],
+        torque * EDGE / squeeze.disk.state.inertia[2],
+        why,
+        relative=1e-3,
+    )
     figure = Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
     axes.plot(times, speeds, label="v")
@@ -501,7 +358,9 @@ def disk_between_driven_walls(bench):
         axes.axvline(t, color="#777777", linewidth=0.7, linestyle="--")
     axes.set(xlabel="time [s]", ylabel="speed [m/s]")
     axes.legend(frameon=False)
-    return Outcome(claims, plots=[(figure, "From rest; dashed: t₁ (the floor stops slipping) and t₂ (the roof does).")])
+    return Findings(
+        claims, plots=[(figure, "From rest; dashed: t₁ (the floor stops slipping) and t₂ (the roof does).")]
+    )
 
 
 def _stack(count, stuff):
@@ -522,21 +381,14 @@ def stack_of_disks(bench):
     found, one = [i.phys.normal for i in contacts()], weight(disks[0])
     worst = max(abs(n / (one * (50 - k)) - 1) for k, n in enumerate(found))
     digits = "residual 1e-12 times the chain's condition number, 4e3, and ten times more for the top contact, which carries one part in 50"
-    return Outcome(
-        [
-            near("contacts", len(found), 50, why="a count"),
-            near("force on the floor", -O.forces.f(floor.id)[1], 50 * one, relative=1e-7, unit="N", why=digits),
-            at_most("largest relative error of a contact's force", worst, 1e-6, why=digits),
-            at_most(
-                "fastest disk",
-                e.maxSpeed,
-                1e-7,
-                unit="m/s",
-                why="1e-6 of a step's fall, 0.05 m/s, from the same error of force",
-            ),
-            at_most("largest overlap", e.overlapWorst, 1e-9, unit="ℓ", why="that speed times a step of 5e-3 s"),
-        ]
-    )
+    claims = Claims()
+    claims.near("contacts", len(found), 50, "a count")
+    claims.near("force on the floor [N]", -O.forces.f(floor.id)[1], 50 * one, digits, relative=1e-7)
+    claims.at_most("largest relative error of a contact's force", worst, 1e-6, digits)
+    why = "1e-6 of a step's fall, 0.05 m/s, from the same error of force"
+    claims.at_most("fastest disk [m/s]", e.maxSpeed, 1e-7, why)
+    claims.at_most("largest overlap [ℓ]", e.overlapWorst, 1e-9, "that speed times a step of 5e-3 s")
+    return Findings(claims)
 
 
 def _reactions():
@@ -555,7 +407,7 @@ def changed_time_step(bench):
     (shear forces and torques; no normal force at all). Both must keep all reactions while h jumps by factors between 1/10 and 4,
     without a single sweep.
     """
-    claims, rows = [], []
+    claims, rows = Claims(), []
     steps = (5e-3, 2.5e-3, 1e-2, 1e-3, 4e-3)
     for name in ("stack", "bonded row"):
         O.reset()
@@ -585,35 +437,17 @@ def changed_time_step(bench):
                 fastest = max(fastest, e.maxSpeed / (G * h))
             rows.append([name, f"{h:g}", f"{e.residual:.1e}", f"{changed:.1e}"])
         moved = max((b.state.pos - p).norm() for b, p in zip(disks, places))
-        claims += [
-            near(
-                f"{name}: sweeps after the changes",
-                e.totalIterations - sweeps,
-                0,
-                why="a count: the start is the solution",
-            ),
-            near(f"{name}: steps above the tolerance", e.unconverged - unconverged, 0, why="a count"),
-            at_most(
-                f"{name}: largest change of a reaction",
-                changed,
-                1e-7,
-                why="forces are kept, not computed anew: rounding and the first solve's 1e-12 times a condition number up to 1e3",
-            ),
-            at_most(
-                f"{name}: fastest disk, in g h",
-                fastest,
-                1e-6,
-                why="the first solve's error of force, in parts of a disk's weight",
-            ),
-            at_most(f"{name}: farthest move", moved, 1e-8, unit="m", why="20 steps with that speed"),
-        ]
-    return Outcome(
-        claims,
-        tables=[
-            (
-                "Residuals before any sweep, and the largest relative change of a reaction so far",
-                ["structure", "h [s]", "residual", "change"],
-                rows,
-            )
-        ],
-    )
+        why = "a count: the start is the solution"
+        claims.near(f"{name}: sweeps after the changes", e.totalIterations - sweeps, 0, why)
+        claims.near(f"{name}: steps above the tolerance", e.unconverged - unconverged, 0, "a count")
+        why = (
+            "forces are kept, not computed anew: rounding and the first solve's 1e-12 times a condition number up to "
+            "1e3"
+        )
+        claims.at_most(f"{name}: largest change of a reaction", changed, 1e-7, why)
+        why = "the first solve's error of force, in parts of a disk's weight"
+        claims.at_most(f"{name}: fastest disk, in g h", fastest, 1e-6, why)
+        claims.at_most(f"{name}: farthest move [m]", moved, 1e-8, "20 steps with that speed")
+    heads = ["structure", "h [s]", "residual", "change"]
+    table = "Residuals before any sweep, and the largest relative change of a reaction so far", heads, rows
+    return Findings(claims, tables=[table])

@@ -13,7 +13,7 @@ from ...figures import style
 from ...measure.statistics import standard_error
 from ...system.whole_files import write_arrays
 from .cases import run_cases
-from .claims import Outcome, near
+from .claims import Claims, Findings
 from .registry import check
 
 SUBJECT = "Convergence"
@@ -351,7 +351,7 @@ def strength_convergence(bench):
         panels,
         relative=True,
     )
-    return Outcome(claims, plots=[(drawn, text)], tables=tables)
+    return Findings(claims, plots=[(drawn, text)], tables=tables)
 
 
 def _strength_claims(name, sweep, precision):
@@ -360,31 +360,19 @@ def _strength_claims(name, sweep, precision):
         if len(sweep.values[sweep.default]) > 1
         else "one sample only"
     )
-    claims = []
+    claims = Claims()
     if sweep.finest < sweep.default:
         mean, error = sweep.change(sweep.default, sweep.finest)
-        claims.append(
-            near(
-                f"strength in {name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error),
-                1 + mean,
-                1,
-                absolute=precision[0],
-                against="the finest",
-                why=precision[2] + "; " + scatter,
-            )
-        )
+        why = precision[2] + "; " + scatter
+        what = f"strength in {name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error)
+        claims.near(what, 1 + mean, 1, why, absolute=precision[0], against="the finest")
     step, error = sweep.largest_step()
-    claims.append(
-        near(
-            f"strength in {name}, largest change from one value of the {sweep.varied} to the next" + _plus_minus(error),
-            1 + step,
-            1,
-            absolute=precision[1],
-            against="the next finer",
-            why="the coarse values are meant to show where a trend begins; none is coarser than ten times the default; "
-            + scatter,
-        )
+    why = (
+        "the coarse values are meant to show where a trend begins; none is coarser than ten times the default; "
+        + scatter
     )
+    what = f"strength in {name}, largest change from one value of the {sweep.varied} to the next" + _plus_minus(error)
+    claims.near(what, 1 + step, 1, why, absolute=precision[1], against="the next finer")
     return claims
 
 
@@ -496,7 +484,7 @@ def slope_convergence(bench):
         ("tolerance", k.tolerance, {"time_step": k.step, "tolerance_moving": k.moving}),
         ("tolerance_moving", k.moving, {"time_step": k.step, "tolerance": k.tolerance}),
     )
-    claims, tables, failure, runout = [], [], [], []
+    claims, tables, failure, runout = Claims(), [], [], []
     for quantity, name, panels, limit, why in (
         (
             "water_hold_m",
@@ -531,16 +519,9 @@ def slope_convergence(bench):
                 )
             )
             mean, error = sweep.change(sweep.default, sweep.finest)
-            claims.append(
-                near(
-                    f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error),
-                    1 + mean,
-                    1,
-                    absolute=limit,
-                    against="the finest",
-                    why=f"{why}; between packings it scatters by {100 * sweep.scatter():.0f} %",
-                )
-            )
+            scatter = f"between packings it scatters by {100 * sweep.scatter():.0f} %"
+            what = f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error)
+            claims.near(what, 1 + mean, 1, f"{why}; {scatter}", absolute=limit, against="the finest")
     keys = (
         "disks",
         "steps",
@@ -566,23 +547,21 @@ def slope_convergence(bench):
         )
     )
     thin = "thin: single packings, thick: mean, dashed: the shipped section's value"
-    return Outcome(
-        claims,
-        plots=[
-            (
-                sheet(bench, "convergence_failure.png", f"Failure of the slope, {found[0]['disks']:,} disks", failure),
-                f"Height of the water table when the slope begins to move (mean speed 0.2 m/s); {thin}",
-            ),
-            (
-                sheet(bench, "convergence_runout.png", f"Runout of the avalanche, {found[0]['disks']:,} disks", runout),
-                f"Distance that the front has gone when the avalanche rests; {thin}",
-            ),
-        ],
-        tables=tables,
-        remarks=[f"Left out, as they did not stand dry: packings of seed {', '.join(map(str, fallen))}."]
-        if fallen
-        else [],
+    shown = (
+        (
+            "failure",
+            "Failure of the slope",
+            failure,
+            "Height of the water table when the slope begins to move (mean speed 0.2 m/s)",
+        ),
+        ("runout", "Runout of the avalanche", runout, "Distance that the front has gone when the avalanche rests"),
     )
+    plots = [
+        (sheet(bench, f"convergence_{name}.png", f"{title}, {found[0]['disks']:,} disks", panels), f"{says}; {thin}")
+        for name, title, panels, says in shown
+    ]
+    left = f"Left out, as they did not stand dry: packings of seed {', '.join(map(str, fallen))}."
+    return Findings(claims, plots=plots, tables=tables, remarks=[left] if fallen else [])
 
 
 def _standing(bench, kind, case):

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from yade import O
 
-from .claims import Outcome, at_most, near
+from .claims import Claims, Findings
 from .registry import check
 from .small_scenes import begin, disk, material, run, wall
 
@@ -83,7 +83,7 @@ def following_impacts(bench):
 
     In a gas of 50 elastic disks that fill half of a box, a part of the impacts is of this kind: energy is kept if these are followed, and lost if they are not.
     """
-    claims, figure = [], Figure(figsize=(10, 3.4), constrained_layout=True)
+    claims, figure = Claims(), Figure(figsize=(10, 3.4), constrained_layout=True)
     kept, course, box = figure.subplots(1, 3)
 
     gaps = np.linspace(0, 0.02, 9 if bench.quick else 21)
@@ -109,21 +109,12 @@ def following_impacts(bench):
             )
             if most:
                 found["energy"] = np.abs(np.array(energies) - 1).max()
-        claims += [
-            at_most(
-                f"{count} elastic disks, gaps to 2 %: largest change of energy",
-                found["energy"],
-                1e-6,
-                why="without gaps the solve's tolerance, 1e-8, times the square of the length; else rounding",
-            ),
-            at_most(
-                f"{count} elastic disks, gaps above 0: largest error of a speed",
-                found["speed"],
-                1e-9,
-                unit="m/s",
-                why="rounding of 20 impacts at 10 m/s",
-            ),
-        ]
+        why = "without gaps the solve's tolerance, 1e-8, times the square of the length; else rounding"
+        claims.at_most(f"{count} elastic disks, gaps to 2 %: largest change of energy", found["energy"], 1e-6, why)
+        why = "rounding of 20 impacts at 10 m/s"
+        claims.at_most(
+            f"{count} elastic disks, gaps above 0: largest error of a speed [m/s]", found["speed"], 1e-9, why
+        )
     kept.set(xlabel="gap [% of a diameter]", ylabel="energy after / before", ylim=(-0.02, 1.05))
     kept.legend(frameon=False, fontsize=6)
 
@@ -137,31 +128,15 @@ def following_impacts(bench):
                 ours.append(([b.state.pos[0] for b in disks], speeds(disks)))
             known = in_order_of_time(5, gap, e, times)
             way = np.array([[np.array(x) - (1 + gap) * np.arange(5) for x, _ in series] for series in (ours, known)])
-            claims += [
-                at_most(
-                    f"e = {e:g}, gaps of {100 * gap:g} %: largest error of a place in 80 ms",
-                    np.abs(way[0] - way[1]).max(),
-                    1e-9,
-                    unit="m",
-                    against="impacts in the order of time",
-                    why="each impact is at its time; rounding",
-                ),
-                at_most(
-                    f"e = {e:g}, gaps of {100 * gap:g} %: largest error of a speed at its end",
-                    np.abs(ours[-1][1] - known[-1][1]).max(),
-                    1e-9,
-                    unit="m/s",
-                    against="impacts in the order of time",
-                    why="each impact is at its time; rounding",
-                ),
-                at_most(
-                    f"e = {e:g}, gaps of {100 * gap:g} %: error of the energy balance",
-                    abs(engine.energyError),
-                    1e-9 * 50 * disks[0].state.mass,
-                    unit="J",
-                    why="rounding",
-                ),
-            ]
+            why = "each impact is at its time; rounding"
+            what = f"e = {e:g}, gaps of {100 * gap:g} %: largest error of a place in 80 ms [m]"
+            claims.at_most(what, np.abs(way[0] - way[1]).max(), 1e-9, why, against="impacts in the order of time")
+            what = f"e = {e:g}, gaps of {100 * gap:g} %: largest error of a speed at its end [m/s]"
+            value = np.abs(ours[-1][1] - known[-1][1]).max()
+            claims.at_most(what, value, 1e-9, why, against="impacts in the order of time")
+            why = "rounding"
+            what = f"e = {e:g}, gaps of {100 * gap:g} %: error of the energy balance [J]"
+            claims.at_most(what, abs(engine.energyError), 1e-9 * 50 * disks[0].state.mass, why)
             if gap == 0.003:
                 for k in range(5):
                     course.plot(
@@ -187,43 +162,24 @@ def following_impacts(bench):
         box.plot(np.linspace(0, seconds, 51), series, color=colour, linewidth=1, label=name)
         lost = 1 - series[-1]
         if most:
-            claims += [
-                at_most(
-                    "elastic gas: largest change of energy",
-                    np.abs(np.array(series) - 1).max(),
-                    1e-5,
-                    why="impacts on walls that stay alone are the solve's, whose tolerance is 1e-4 of their impulses, up and down",
-                ),
-                at_most(
-                    "elastic gas: error of the energy balance", abs(engine.energyError) / first, 1e-9, why="rounding"
-                ),
-                at_most(
-                    "elastic gas: largest overlap",
-                    engine.overlapWorstEver,
-                    1e-3,
-                    unit="ℓ",
-                    why="at a wall a disk bounces one step early; others pass it meanwhile by (h v)²/2 ℓ",
-                ),
-            ]
-        else:
-            claims.append(
-                near(
-                    "elastic gas, not followed: what is told to be missed",
-                    engine.missedRestitution / first,
-                    lost,
-                    relative=0.01,
-                    why="e = 1: all that is lost is missed; rounding",
-                )
+            why = (
+                "impacts on walls that stay alone are the solve's, whose tolerance is 1e-4 of their impulses, up and "
+                "down"
             )
+            claims.at_most("elastic gas: largest change of energy", np.abs(np.array(series) - 1).max(), 1e-5, why)
+            why = "rounding"
+            claims.at_most("elastic gas: error of the energy balance", abs(engine.energyError) / first, 1e-9, why)
+            why = "at a wall a disk bounces one step early; others pass it meanwhile by (h v)²/2 ℓ"
+            claims.at_most("elastic gas: largest overlap [ℓ]", engine.overlapWorstEver, 1e-3, why)
+        else:
+            why = "e = 1: all that is lost is missed; rounding"
+            what = "elastic gas, not followed: what is told to be missed"
+            claims.near(what, engine.missedRestitution / first, lost, why, relative=0.01)
     box.set(xlabel="time [s]", ylabel="energy of the gas / at the beginning")
     box.legend(frameon=False)
-    return Outcome(
-        claims,
-        plots=[
-            (
-                figure,
-                "Left: energy that a chain of elastic disks keeps, by its gaps. Middle: ways of five disks with gaps of 3 mm; lines: impacts in the order of time, dots: computed. "
-                "Right: energy of a gas of 50 elastic disks.",
-            )
-        ],
+    caption = (
+        "Left: energy that a chain of elastic disks keeps, by its gaps. Middle: ways of five disks with gaps of 3 mm; "
+        "lines: impacts in the order of time, dots: computed. Right: energy of a gas of 50 elastic disks."
     )
+    plot = figure, caption
+    return Findings(claims, plots=[plot])

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from yade import O
 
-from .claims import Outcome, at_most, near
+from .claims import Claims, Findings
 from .registry import check
 from .small_scenes import G, begin, contacts, disk, material, run, wall, weight
 
@@ -28,7 +28,7 @@ def restitution_head_on(bench):
     With e = 0 a gap that closes within a step is first closed exactly and the rest of the speed lost in the next step; with e > 0 the
     bodies part in the step in which they would meet.
     """
-    claims = []
+    claims = Claims()
     for e in (0.0, 0.5, 1.0):
         O.reset()
         springy, other = material(0.3, restitution=e), material(0.3)
@@ -37,35 +37,20 @@ def restitution_head_on(bench):
         run(600)
         approach = 0.25 * left.state.mass * 9
         name = f"e = {e:g}: "
-        claims += [
-            near(name + "first disk", left.state.vel[0], -0.5 - 1.5 * e, absolute=1e-9, unit="m/s", why=EXACT),
-            near(name + "second disk", right.state.vel[0], -0.5 + 1.5 * e, absolute=1e-9, unit="m/s", why=EXACT),
-            near(
-                name + "loss",
-                bench_engine.impactLoss,
-                (1 - e**2) * approach,
-                absolute=1e-9 * approach,
-                unit="J",
-                why=EXACT,
-            ),
-            at_most(
-                name + "error of the energy balance",
-                abs(bench_engine.energyError),
-                1e-9 * approach,
-                unit="J",
-                why=EXACT,
-            ),
-        ]
+        claims.near(name + "first disk [m/s]", left.state.vel[0], -0.5 - 1.5 * e, EXACT, absolute=1e-9)
+        claims.near(name + "second disk [m/s]", right.state.vel[0], -0.5 + 1.5 * e, EXACT, absolute=1e-9)
+        claims.near(
+            name + "loss [J]", bench_engine.impactLoss, (1 - e**2) * approach, EXACT, absolute=1e-9 * approach
+        )
+        claims.at_most(name + "error of the energy balance [J]", abs(bench_engine.energyError), 1e-9 * approach, EXACT)
         O.reset()
         springy, other = material(0.3, restitution=e), material(0.3)
         wall([(0, -5), (0, 5)], other)
         flying = disk(1, 0, springy, velocity=(-2, 0))
         begin()
         run(600)
-        claims.append(
-            near(name + "speed after a wall", flying.state.vel[0], 2 * e, absolute=1e-9, unit="m/s", why=EXACT)
-        )
-    return Outcome(claims)
+        claims.near(name + "speed after a wall [m/s]", flying.state.vel[0], 2 * e, EXACT, absolute=1e-9)
+    return Findings(claims)
 
 
 @check("A disk that falls lands on the floor", subject="Impacts", seconds=1)
@@ -90,30 +75,16 @@ def landing(bench):
         elif not math.isfinite(landed):
             landed = O.time
     fall = math.ceil(-0.5 + math.sqrt(0.25 + 2 * height / (G * O.dt**2)))
-    return Outcome(
-        [
-            near("step in which it lands", landed / O.dt, fall, absolute=1e-6, why="a count; time is a sum of steps"),
-            at_most(
-                "force before it touches",
-                early,
-                1e-9 * weight(body),
-                unit="N",
-                why="none acts across a gap that stays open; rounding",
-            ),
-            at_most(
-                "gap at rest",
-                abs(s.pos[1] - RADIUS),
-                1e-12,
-                unit="m",
-                why="rounding of positions, 1e-16 m, over 300 steps",
-            ),
-            at_most(
-                "largest overlap", e.overlapWorstEver, 1e-12, unit="ℓ", why="the gap is closed exactly, never passed"
-            ),
-            near("loss", e.impactLoss, weight(body) * height, relative=1e-9, unit="J", why=EXACT),
-            near("force on the floor", contacts()[0].phys.normal, weight(body), relative=1e-9, unit="N", why=EXACT),
-        ]
-    )
+    claims = Claims()
+    claims.near("step in which it lands", landed / O.dt, fall, "a count; time is a sum of steps", absolute=1e-6)
+    why = "none acts across a gap that stays open; rounding"
+    claims.at_most("force before it touches [N]", early, 1e-9 * weight(body), why)
+    why = "rounding of positions, 1e-16 m, over 300 steps"
+    claims.at_most("gap at rest [m]", abs(s.pos[1] - RADIUS), 1e-12, why)
+    claims.at_most("largest overlap [ℓ]", e.overlapWorstEver, 1e-12, "the gap is closed exactly, never passed")
+    claims.near("loss [J]", e.impactLoss, weight(body) * height, EXACT, relative=1e-9)
+    claims.near("force on the floor [N]", contacts()[0].phys.normal, weight(body), EXACT, relative=1e-9)
+    return Findings(claims)
 
 
 def _glance(ratio, e, friction, spin, pair, speed=1.0):
@@ -150,7 +121,7 @@ def oblique_impact(bench):
     the computation the graphs are asked at the end of the step, so friction sees the whole impulse P_n, restitution included, and does
     not return slip.
     """
-    friction, claims = 0.2, []
+    friction, claims = 0.2, Claims()
     ratios = np.linspace(0, 2, 9 if bench.quick else 21)
     figure = Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
@@ -177,23 +148,20 @@ def oblique_impact(bench):
             if not pair:
                 axes.plot(ratios, np.maximum(0, ratios - limit), color="#777777", linewidth=0.8)
         for name, value in zip(("slip after", "normal speed after", "spin after (r ω)"), worst):
-            claims.append(at_most(f"{what}: largest error of the {name}", value, 1e-9, unit="U_n", why=EXACT))
+            claims.at_most(f"{what}: largest error of the {name} [U_n]", value, 1e-9, EXACT)
         for side in (-1, 1):
             slip, _, _ = _glance(3 * friction * 1.5 * (1 + side * 1e-6), 0.5, friction, 0.0, pair)
             beyond = 3 * friction * 1.5 * 1e-6 if side > 0 else 0.0
-            claims.append(
-                near(
-                    f"{what}, e = 0.5: slip after, {'1e-6 beyond' if side > 0 else '1e-6 below'} the limit of sticking",
-                    slip,
-                    beyond,
-                    absolute=1e-10,
-                    unit="U_n",
-                    why=EXACT,
-                )
+            claims.near(
+                f"{what}, e = 0.5: slip after, {'1e-6 beyond' if side > 0 else '1e-6 below'} the limit of sticking [U_n]",
+                slip,
+                beyond,
+                EXACT,
+                absolute=1e-10,
             )
     axes.set(xlabel="slip before, U_t/U_n", ylabel="slip after")
     axes.legend(frameon=False, ncol=2)
-    return Outcome(claims, plots=[(figure, "Slip after an impact with μ = 0.2; lines: derivation.")])
+    return Findings(claims, plots=[(figure, "Slip after an impact with μ = 0.2; lines: derivation.")])
 
 
 @check("Newton's cradle, with and without gaps", subject="Impacts", seconds=1)
@@ -207,7 +175,7 @@ def cradle(bench):
     − 4 e)/5 for the first disk: it comes back with 0.6 and the four leave with 0.4. Momentum and energy are kept just as well. This is
     a property of Newton's law for several impacts at once, shared by every Moreau-type scheme; it is no error, but no cradle either.
     """
-    claims = []
+    claims = Claims()
     for gap, expected in ((2e-3, (0, 0, 0, 0, 1)), (0.0, (-0.6, 0.4, 0.4, 0.4, 0.4))):
         O.reset()
         stuff = material(0.0, restitution=1)
@@ -218,16 +186,11 @@ def cradle(bench):
         run(200)
         speeds = [b.state.vel[0] for b in disks]
         where = f"gaps of {gap * 1e3:g} mm: "
-        claims += [
-            near(f"{where}disk {k + 1}", v, x, absolute=1e-9, unit="m/s", why=EXACT)
-            for k, (v, x) in enumerate(zip(speeds, expected))
-        ]
-        claims.append(
-            near(where + "energy", sum(v**2 for v in speeds), 1, relative=1e-9, unit="of before", why=EXACT)
-        )
-    return Outcome(
-        claims, remarks=["Where the order of impacts matters, leave gaps and take a step that resolves them."]
-    )
+        for k, (v, x) in enumerate(zip(speeds, expected)):
+            claims.near(f"{where}disk {k + 1} [m/s]", v, x, EXACT, absolute=1e-9)
+        claims.near(where + "energy [of before]", sum(v**2 for v in speeds), 1, EXACT, relative=1e-9)
+    remark = "Where the order of impacts matters, leave gaps and take a step that resolves them."
+    return Findings(claims, remarks=[remark])
 
 
 # ---- a chain that is not solved -------------------------------------------------------------------
@@ -337,7 +300,7 @@ def elastic_chain(bench):
     *The solved chain.* With the accelerated method and a tolerance of 1e-10 there is no wave: a force put on the end of a chain without
     forces is at the wall in the same step, and nothing moves. After 40 plain sweeps the wall feels nothing of it yet.
     """
-    figure, claims, rows = Figure(figsize=(7.4, 3.4)), [], []
+    figure, claims, rows = Figure(figsize=(7.4, 3.4)), Claims(), []
     wave, law = figure.subplots(1, 2)
     exact = "the recurrence is exact for the linear chain; left is the start, a mode of Jacobi's method, which loses 5e-4 in the first sweep"
     for sweeps in (20, 40) if bench.quick else (5, 10, 20, 40, 80):
@@ -356,22 +319,13 @@ def elastic_chain(bench):
                 f"{speed:.4f} ({math.sqrt(sweeps):.4f})",
             ]
         )
-        claims += [
-            near(f"{sweeps} sweeps: period", period, wanted[0], relative=1e-5, unit="h", why=exact),
-            near(f"{sweeps} sweeps: decay time", decay, wanted[1], relative=1e-5, unit="h", why=exact),
-        ]
+        claims.near(f"{sweeps} sweeps: period [h]", period, wanted[0], exact, relative=1e-5)
+        claims.near(f"{sweeps} sweeps: decay time [h]", decay, wanted[1], exact, relative=1e-5)
         law.plot(sweeps, speed, "o", color="#0072B2", markersize=4)
         if sweeps == 40:
             q = (speed**2) / sweeps
-            claims.append(
-                near(
-                    "q of our sweep, from (c h/d)²/N",
-                    q,
-                    1,
-                    relative=0.03,
-                    why="long waves: N κ² = 0.04 is the next term",
-                )
-            )
+            why = "long waves: N κ² = 0.04 is the next term"
+            claims.near("q of our sweep, from (c h/d)²/N", q, 1, why, relative=0.03)
             wave.plot(amplitudes / amplitudes[0], linewidth=1, label="40 sweeps, two colours")
             turn, fade = 2 * math.pi / wanted[0], wanted[1]
             k = np.arange(0, 201, 2)
@@ -389,34 +343,12 @@ def elastic_chain(bench):
     random_order = 2 * math.sqrt(math.e) - 2.5
     amplitudes = random_chain(50, 40, 150)
     period, decay = oscillation(amplitudes)
-    claims += [
-        near(
-            "q of random sweeps, 2 √e − 5/2",
-            random_order,
-            0.797,
-            absolute=5e-4,
-            against="Unger et al. 2002",
-            why="their figure has three decimals",
-        ),
-        near(
-            "random sweeps (Python): period",
-            period,
-            35.6,
-            relative=0.02,
-            unit="h",
-            against="Unger et al. 2002",
-            why="one series of orders; and their formula is that of long waves, ours gives 35.5",
-        ),
-        near(
-            "random sweeps (Python): decay time",
-            decay,
-            63.5,
-            relative=0.05,
-            unit="h",
-            against="Unger et al. 2002",
-            why="one series of orders: chance moves it by some per cent",
-        ),
-    ]
+    why = "their figure has three decimals"
+    claims.near("q of random sweeps, 2 √e − 5/2", random_order, 0.797, why, absolute=5e-4, against="Unger et al. 2002")
+    why = "one series of orders; and their formula is that of long waves, ours gives 35.5"
+    claims.near("random sweeps (Python): period [h]", period, 35.6, why, relative=0.02, against="Unger et al. 2002")
+    why = "one series of orders: chance moves it by some per cent"
+    claims.near("random sweeps (Python): decay time [h]", decay, 63.5, why, relative=0.05, against="Unger et al. 2002")
     wave.plot(amplitudes, linewidth=1, label="40 sweeps, random order")
     wave.set(xlabel="step", ylabel="velocity of the gravest mode")
     wave.legend(frameon=False)
@@ -433,38 +365,14 @@ def elastic_chain(bench):
     solved = Chain(at_rest=False, tolerance=1e-10)
     run(1)
     free = solved.force * O.dt / solved.disks[-1].state.mass
-    claims += [
-        at_most(
-            "40 plain sweeps: force at the wall in the first step",
-            felt,
-            1e-3,
-            unit="F",
-            why="news has diffused over √(2 N) = 9 of 50 disks: exp(−50²/(4 N)) = 2e-7, with a wide margin",
-        ),
-        near(
-            "accelerated, 1e-10: force at the wall in the first step",
-            contacts()[0].phys.normal / solved.force,
-            1,
-            absolute=1e-6,
-            unit="F",
-            why="tolerance 1e-10 times the chain's condition number, 4e3, and a margin",
-        ),
-        at_most(
-            "accelerated, 1e-10: fastest disk",
-            solved.engine.maxSpeed / free,
-            1e-6,
-            unit="F h/m",
-            why="the same error, against the speed that the last disk would get alone",
-        ),
-    ]
-    return Outcome(
-        claims,
-        plots=[(figure, "Left: velocity after a start in the gravest mode. Right: speed of sound; dots: computed.")],
-        tables=[
-            (
-                "Gravest mode of 50 disks; in brackets, derived (speed: in long waves)",
-                ["sweeps", "period [h]", "decay time [h]", "speed of sound [d/h]"],
-                rows,
-            )
-        ],
-    )
+    why = "news has diffused over √(2 N) = 9 of 50 disks: exp(−50²/(4 N)) = 2e-7, with a wide margin"
+    claims.at_most("40 plain sweeps: force at the wall in the first step [F]", felt, 1e-3, why)
+    why = "tolerance 1e-10 times the chain's condition number, 4e3, and a margin"
+    what = "accelerated, 1e-10: force at the wall in the first step [F]"
+    claims.near(what, contacts()[0].phys.normal / solved.force, 1, why, absolute=1e-6)
+    why = "the same error, against the speed that the last disk would get alone"
+    claims.at_most("accelerated, 1e-10: fastest disk [F h/m]", solved.engine.maxSpeed / free, 1e-6, why)
+    plot = figure, "Left: velocity after a start in the gravest mode. Right: speed of sound; dots: computed."
+    heads = ["sweeps", "period [h]", "decay time [h]", "speed of sound [d/h]"]
+    table = "Gravest mode of 50 disks; in brackets, derived (speed: in long waves)", heads, rows
+    return Findings(claims, plots=[plot], tables=[table])

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from ... import contact
 from . import disk_problems, lmgc90_packing as lp, sweep_methods
-from .claims import Outcome, at_least, at_most, between, near
+from .claims import Claims, Findings
 from .registry import check
 
 SUBJECT = "The solver"
@@ -51,7 +51,7 @@ def ways_to_solve(bench):
     says. Sweeps are compared at 1e-3: later, restarts decide, and a different order of contacts has them elsewhere."""
     most = 600 if bench.quick else 3000
     tolerance = 1e-4 if bench.quick else 1e-5
-    curves, claims, rows = {}, [], []
+    curves, claims, rows = {}, Claims(), []
     for name, problem, start in _cases(bench):
         for method in sweep_methods.METHODS:
             bench.progress(f"{name}, {method}")
@@ -60,16 +60,10 @@ def ways_to_solve(bench):
             works = [_work(curve, t) for t in TOLERANCES]
             rows.append([name, method, *(f"{w:,.0f}" if np.isfinite(w) else "-" for w in works), f"{curve[-1, 1]:.1e}"])
             if method == SHIPPED:
-                claims.append(
-                    near(
-                        f"{name}: residual of the prototype's impulses by the solver's measure",
-                        contact.residual(problem, impulse).relative,
-                        curve[-1, 1],
-                        relative=1e-3,
-                        against="the solver in C++",
-                        why="rounding gathered over hundreds of sweeps",
-                    )
-                )
+                why = "rounding gathered over hundreds of sweeps"
+                what = f"{name}: residual of the prototype's impulses by the solver's measure"
+                value = contact.residual(problem, impulse).relative
+                claims.near(what, value, curve[-1, 1], why, relative=1e-3, against="the solver in C++")
         for method, way in ((SHIPPED, "accelerated"), (PLAIN, "gaussSeidel")):
             own = [contact.solve(problem, way, start=start, tolerance=t, max_iterations=most) for t in TOLERANCES]
             rows.append(
@@ -80,43 +74,33 @@ def ways_to_solve(bench):
                     f"{own[-1].relative:.1e}",
                 ]
             )
-            claims.append(
-                near(
-                    f"{name}: sweeps of {method} to 1e-3",
-                    _work(curves[name, method], 1e-3),
-                    # looks too seldom for strips to rest, which the prototype does not know
-                    _sweeps_until(
-                        lambda s: s.relative <= 1e-3,
-                        problem,
-                        way,
-                        start,
-                        sweep_methods.LOOK,
-                        most,
-                        look=2 * sweep_methods.LOOK,
-                    ),
-                    absolute=10,
-                    relative=0.02,
-                    against="the solver in C++",
-                    why="one look, while no strip rests; it visits strip by strip, the prototype the whole. No restart has decided by then",
-                )
+            why = (
+                "one look, while no strip rests; it visits strip by strip, the prototype the whole. No restart has "
+                "decided by then"
+            )
+            claims.near(
+                f"{name}: sweeps of {method} to 1e-3",
+                _work(curves[name, method], 1e-3),
+                _sweeps_until(
+                    lambda s: s.relative <= 1e-3,
+                    problem,
+                    way,
+                    start,
+                    sweep_methods.LOOK,
+                    most,
+                    look=2 * sweep_methods.LOOK,
+                ),
+                why,
+                absolute=10,
+                relative=0.02,
+                against="the solver in C++",
             )
         gain = min(_work(curves[name, PLAIN], 1e-4), most) / _work(curves[name, SHIPPED], 1e-4)
-        claims.append(
-            at_least(
-                f"{name}: work of Gauss-Seidel over that of the shipped method, to 1e-4",
-                gain,
-                3,
-                why="no theory for a problem with friction; extrapolation was worth 7 to 14 on LMGC90's packing",
-            )
-        )
+        why = "no theory for a problem with friction; extrapolation was worth 7 to 14 on LMGC90's packing"
+        claims.at_least(f"{name}: work of Gauss-Seidel over that of the shipped method, to 1e-4", gain, 3, why)
     heads = ["problem", "method", *(f"to {t:.0e}" for t in TOLERANCES), "residual at the end"]
-    return Outcome(
-        claims=claims,
-        tables=[
-            (f"Work in sweeps until a residual is reached; -: not within {most:,}, or not asked for.", heads, rows)
-        ],
-        plots=[_side_by_side(curves)],
-    )
+    table = f"Work in sweeps until a residual is reached; -: not within {most:,}, or not asked for.", heads, rows
+    return Findings(claims, tables=[table], plots=[_side_by_side(curves)])
 
 
 def _sweeps_until(done, problem, method, start, step, most, look=None):
@@ -204,35 +188,15 @@ def sweeps_by_thickness(bench):
         )
     layers, (fast, plain) = np.array(list(found)), np.array(list(found.values()), float).T
     slope = lambda counts: float(np.polyfit(np.log(layers), np.log(counts), 1)[0])  # noqa: E731
-    claims = [
-        near(
-            "accelerated: power of the thickness with which sweeps grow",
-            slope(fast),
-            1,
-            absolute=0.3,
-            why="looked at every 5 of 15 sweeps in the thinnest",
-        ),
-        near(
-            "Gauss-Seidel: the same",
-            slope(plain),
-            2,
-            absolute=0.4,
-            why="looked at every 50 of 100 sweeps in the thinnest",
-        ),
-        between(
-            "accelerated: sweeps for each layer, thickest packing",
-            fast[-1] / layers[-1],
-            2,
-            6,
-            why="a guard: 4 when this check was written; a wave that crosses less than a layer in six sweeps is none",
-        ),
-        at_most(
-            "accelerated sweeps over plain ones, thickest packing",
-            fast[-1] / plain[-1],
-            0.1,
-            why="thickness over its square",
-        ),
-    ]
+    claims = Claims()
+    why = "looked at every 5 of 15 sweeps in the thinnest"
+    claims.near("accelerated: power of the thickness with which sweeps grow", slope(fast), 1, why, absolute=0.3)
+    why = "looked at every 50 of 100 sweeps in the thinnest"
+    claims.near("Gauss-Seidel: the same", slope(plain), 2, why, absolute=0.4)
+    why = "a guard: 4 when this check was written; a wave that crosses less than a layer in six sweeps is none"
+    claims.between("accelerated: sweeps for each layer, thickest packing", fast[-1] / layers[-1], 2, 6, why)
+    why = "thickness over its square"
+    claims.at_most("accelerated sweeps over plain ones, thickest packing", fast[-1] / plain[-1], 0.1, why)
     heads = [
         "diameters deep",
         "contacts",
@@ -241,13 +205,8 @@ def sweeps_by_thickness(bench):
         "accelerated, for each layer",
         "accelerated, to a residual of 1e-4",
     ]
-    return Outcome(
-        claims=claims,
-        tables=[
-            ("Sweeps from a cold start until floor and sides bear 99 % of what they bear in the end.", heads, rows)
-        ],
-        plots=[_by_thickness(layers, fast, plain)],
-    )
+    table = "Sweeps from a cold start until floor and sides bear 99 % of what they bear in the end.", heads, rows
+    return Findings(claims, tables=[table], plots=[_by_thickness(layers, fast, plain)])
 
 
 def _by_thickness(layers, fast, plain):

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ...measure.statistics import standard_error
 from .cases import run_cases
-from .claims import Outcome, at_most, between, near
+from .claims import Claims, Findings
 from .registry import check
 
 SUBJECT = "Packings"
@@ -181,28 +181,15 @@ def frictionless_packing(bench):
             ]
         )
     inertia, _, angle, error = curve[0]
-    claims = [
-        between(
-            f"angle of friction at I = {inertia:g}, ± {error:.2f}°",
-            angle,
-            4,
-            7,
-            unit="°",
-            against="Taboada and Estrada 2009",
-            why="the paper's range; no tolerance is added, the standard error over blocks of strain and seeds is stated",
-        ),
-        at_most(
-            "σ on the top wall against the bottom wall, relative, slowest rate",
-            max(
-                abs(np.mean(f["stresses"], axis=0)[0] / np.mean(f["stresses"], axis=0)[1] - 1)
-                for c, f in zip(cases, found)
-                if c["inertia"] == inertia
-            ),
-            0.01,
-            against="momentum balance",
-            why="the two differ by the sample's acceleration, which averages out of a slow test, and the solver's error",
-        ),
-    ]
+    claims = Claims()
+    why = "the paper's range; no tolerance is added, the standard error over blocks of strain and seeds is stated"
+    what = f"angle of friction at I = {inertia:g}, ± {error:.2f}° [°]"
+    claims.between(what, angle, 4, 7, why, against="Taboada and Estrada 2009")
+    why = "the two differ by the sample's acceleration, which averages out of a slow test, and the solver's error"
+    what = "σ on the top wall against the bottom wall, relative, slowest rate"
+    sides = [np.mean(f["stresses"], axis=0) for c, f in zip(cases, found) if c["inertia"] == inertia]
+    off = max(abs(top / bottom - 1) for top, bottom, *_ in sides)
+    claims.at_most(what, off, 0.01, why, against="momentum balance")
     figure = Figure(figsize=(6.4, 4), layout="constrained")
     ax = figure.subplots()
     ax.axhspan(4, 7, color="#dcebf7", label="paper")
@@ -219,50 +206,34 @@ def frictionless_packing(bench):
     fine = [row for row in curve if row[1] < 0.1]
     if fine:
         same = next(r for r in main if r[0] == fine[0][0])
-        claims.append(
-            near(
-                "angle at a quarter of the time step, I = 0.003",
-                fine[0][2],
-                same[2],
-                absolute=3 * math.hypot(fine[0][3], same[3]),
-                unit="°",
-                against="the longer step",
-                why="three standard errors of the difference: no trend beyond the scatter of rearrangements",
-            )
+        why = "three standard errors of the difference: no trend beyond the scatter of rearrangements"
+        claims.near(
+            "angle at a quarter of the time step, I = 0.003 [°]",
+            fine[0][2],
+            same[2],
+            why,
+            absolute=3 * math.hypot(fine[0][3], same[3]),
+            against="the longer step",
         )
         ax.errorbar(
             *([r[k]] for r in fine for k in (0, 2, 3)), fmt="s", color="#D55E00", capsize=3, label="a quarter of it"
         )
     ax.set(xscale="log", xlabel="inertial number [-]", ylabel="angle of friction [°]", ylim=(0, 12))
     ax.legend(frameon=False)
-    return Outcome(
-        claims,
-        plots=[
-            (
-                figure,
-                f"Angle of friction of {count} frictionless disks against the rate of strain; bars: standard error over blocks of strain and seeds",
-            )
-        ],
-        tables=[
-            (
-                f"{count} disks, γ to {strain:g}, mean beyond a fifth of it",
-                [
-                    "I",
-                    "Δt/√(m/P)",
-                    "φ of the seeds [°]",
-                    "φ [°]",
-                    "sweeps a step",
-                    "steps above 1e-5",
-                    "worst overlap [ℓ]",
-                ],
-                rows,
-            )
-        ],
-        remarks=[
-            "A sample of this size fluctuates by a degree or more from one rearrangement to the next, which the error states. Flat "
-            "frictionless walls order the disks beside them; what that does to the angle is not measured."
-        ],
+    caption = (
+        f"Angle of friction of {count} frictionless disks against the rate of strain; bars: standard error over blocks "
+        "of strain and seeds"
     )
+    plot = figure, caption
+    heads = ("I | Δt/√(m/P) | φ of the seeds [°] | φ [°] | sweeps a step | steps above 1e-5 | worst overlap [ℓ]").split(
+        " | "
+    )
+    table = f"{count} disks, γ to {strain:g}, mean beyond a fifth of it", heads, rows
+    remark = (
+        "A sample of this size fluctuates by a degree or more from one rearrangement to the next, which the error "
+        "states. Flat frictionless walls order the disks beside them; what that does to the angle is not measured."
+    )
+    return Findings(claims, plots=[plot], tables=[table], remarks=[remark])
 
 
 # ---- statistics of forces -------------------------------------------------------------------------
@@ -388,71 +359,43 @@ def force_network(bench):
                 f"{100 * mean('loose'):.0f}",
             ]
         )
-    claims = []
+    claims = Claims()
     for name in ("1 to 2, at rest", "1 to 4, at rest"):
         (alpha, da), (beta, db), (weak, dw) = (results[name][k] for k in ("alpha", "beta", "weak"))
-        claims += [
-            near(
-                f"{name}: exponent α below the mean, ± {da:.2f}",
-                alpha,
-                0,
-                absolute=0.3,
-                against="Mueth 1998, Radjai 1996",
-                why="published exponents lie from 0 (uniform) to 0.3; a sample of our size cannot tell a sign, so the other side is as wide",
-            ),
-            between(
-                f"{name}: rate β above the mean, ± {db:.2f}",
-                beta,
-                1.09 - 3 * db,
-                1.8 + 3 * db,
-                against="Radjai 1996, Løvoll 1999",
-                why="from what a continuous density with α = 0.3 has to the experiment's value, and three standard errors; 1.4 lies between",
-            ),
-            between(
-                f"{name}: contacts below the mean, ± {100 * dw:.1f} %",
-                100 * weak,
-                55 - 300 * dw,
-                65 + 300 * dw,
-                unit="%",
-                against="Radjai 1996",
-                why="5 % around the published 60 %: continuous densities with α from 0 to 0.3 have 58.5 to 61 %, sizes shift it by as much; three standard errors",
-            ),
-        ]
-    claims.append(
-        at_most(
-            "largest residual of a look",
-            max(max(f["residual"]) for f in found),
-            1e-5,
-            against="the forces that are read",
-            why="a thousandth of the smallest force that α is fitted to",
+        why = (
+            "published exponents lie from 0 (uniform) to 0.3; a sample of our size cannot tell a sign, so the other "
+            "side is as wide"
         )
+        what = f"{name}: exponent α below the mean, ± {da:.2f}"
+        claims.near(what, alpha, 0, why, absolute=0.3, against="Mueth 1998, Radjai 1996")
+        why = (
+            "from what a continuous density with α = 0.3 has to the experiment's value, and three standard errors; "
+            "1.4 lies between"
+        )
+        what = f"{name}: rate β above the mean, ± {db:.2f}"
+        claims.between(what, beta, 1.09 - 3 * db, 1.8 + 3 * db, why, against="Radjai 1996, Løvoll 1999")
+        why = (
+            "5 % around the published 60 %: continuous densities with α from 0 to 0.3 have 58.5 to 61 %, sizes shift "
+            "it by as much; three standard errors"
+        )
+        what = f"{name}: contacts below the mean, ± {100 * dw:.1f} % [%]"
+        claims.between(what, 100 * weak, 55 - 300 * dw, 65 + 300 * dw, why, against="Radjai 1996")
+    why = "a thousandth of the smallest force that α is fitted to"
+    what = "largest residual of a look"
+    claims.at_most(what, max(max(f["residual"]) for f in found), 1e-5, why, against="the forces that are read")
+    plot = _distribution(results), "Density of normal forces; lines: the published slopes, set at the mean"
+    heads = (
+        "diameters | contacts | α on 0.01 to 1 | α on 10⁻⁴ to 1 | β | below the mean [%] | packing fraction | "
+        "contacts of a loaded disk | disks without load [%]"
+    ).split(" | ")
+    table = f"Packings of {count} disks, μ = 0.3", heads, rows
+    remark = (
+        "With diameters of 1 to 2 fewer contacts than the published 60 % lie below the mean; with 1 to 4 the share is "
+        "reached and β falls: wider sizes spread the forces more. The smallest forces, below a hundredth of the mean, "
+        "are more frequent than a uniform density has them, more so under shear: a slope that is read over four "
+        "decades is steeper than one over two."
     )
-    return Outcome(
-        claims,
-        plots=[(_distribution(results), "Density of normal forces; lines: the published slopes, set at the mean")],
-        tables=[
-            (
-                f"Packings of {count} disks, μ = 0.3",
-                [
-                    "diameters",
-                    "contacts",
-                    "α on 0.01 to 1",
-                    "α on 10⁻⁴ to 1",
-                    "β",
-                    "below the mean [%]",
-                    "packing fraction",
-                    "contacts of a loaded disk",
-                    "disks without load [%]",
-                ],
-                rows,
-            )
-        ],
-        remarks=[
-            "With diameters of 1 to 2 fewer contacts than the published 60 % lie below the mean; with 1 to 4 the share is reached and β falls: "
-            "wider sizes spread the forces more. The smallest forces, below a hundredth of the mean, are more frequent than a uniform density has them, "
-            "more so under shear: a slope that is read over four decades is steeper than one over two."
-        ],
-    )
+    return Findings(claims, plots=[plot], tables=[table], remarks=[remark])
 
 
 def _fits(shares):

@@ -12,7 +12,7 @@ from ...measure.statistics import Estimate, over_seeds
 from ...measure.weakening import foot_length, weakened_share
 from ...model import scales, section
 from ...studies.slope import results
-from . import Outcome, between, check
+from . import Claims, Findings, check
 from .cases import folder_of, run_cases
 
 SUBJECT = "The paper's section 6"
@@ -153,36 +153,29 @@ def paper(bench):
     figures.forces_against_time(
         series, found[0]["times_s"], bench.folder / "forces.png", window=scales.of(chosen).mean_seconds, walls=chosen
     )
-    return Outcome(
+    plot = bench.folder / "forces.png", f"Forces on the walls against time, seed {seeds[0]} (the paper's Figure 12)."
+    heads = ("", "the paper", "ours, mean", "95 % interval", "each")
+    table = f"Section 6, {len(seeds)} slopes of about {found[0]['disks']:,} disks", heads, rows
+    return Findings(
         claims_of(stages) + [wedge_claim(others["wedge_m"])],
-        plots=[
-            (bench.folder / "forces.png", f"Forces on the walls against time, seed {seeds[0]} (the paper's Figure 12).")
-        ],
-        tables=[
-            (
-                f"Section 6, {len(seeds)} slopes of about {found[0]['disks']:,} disks",
-                ("", "the paper", "ours, mean", "95 % interval", "each"),
-                rows,
-            )
-        ],
+        plots=[plot],
+        tables=[table],
         numbers={name: over_seeds(values) for name, values in (stages | others).items()},
     )
 
 
 def claims_of(stages):
     """A claim for each of :data:`STATEMENTS`, of its mean over packings; ``stages``: {name: its values, one a packing}."""
-    return [
-        between(said.what, _mean(stages[name]).mean, said.low, said.high, against="the paper", why=said.why)
-        for name, said in STATEMENTS.items()
-    ]
+    claims = Claims(against="the paper")
+    for name, said in STATEMENTS.items():
+        claims.between(said.what, _mean(stages[name]).mean, said.low, said.high, said.why)
+    return claims
 
 
 def wedge_claim(lengths):
     """A claim of the mean :func:`wedge` of several packings, ``lengths`` [m]."""
-    return between(
-        NUMBERS["wedge_m"][0], _mean(lengths).mean, *WEDGE, unit="m", against="the paper",
-        why="the foot of DP lies below the slip surface and keeps its friction [119]; with a tenth of DP it would hold the slope",
-    )  # fmt: skip
+    why = "the foot of DP lies below the slip surface and keeps its friction [119]; with a tenth of DP it would hold the slope"
+    return Claims(against="the paper").between(NUMBERS["wedge_m"][0], _mean(lengths).mean, *WEDGE, why)
 
 
 def _mean(values):

@@ -37,7 +37,7 @@ _checks: dict[str, Check] = {}
 
 
 def check(title, *, subject, seconds=1.0, quick=True):
-    """Marks a function ``f(bench) -> Outcome`` as a check; its docstring is printed in the report as the derivation.
+    """Marks a function ``f(bench) -> Findings`` as a check; its docstring is printed in the report as the derivation.
 
     ``seconds``: roughly what it takes; ``quick``: seconds in a quick run, True for the same, None to leave it out there.
     Raises ValueError for a second check of the same name, or one without a docstring.

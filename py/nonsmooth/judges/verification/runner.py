@@ -12,35 +12,30 @@ from pathlib import Path
 
 from ...system import keys
 from ...system.whole_files import write_json
-from .claims import Claim, Outcome
+from .claims import Claim, Findings
 from .registry import Bench, Check
 
-__all__ = ["Result", "run_checks"]
+__all__ = ["CheckResult", "run_checks"]
 
 
 @dataclass
-class Result:
+class CheckResult(Findings):
     """A finished check as the report shows it; ``plots``: (path of a PNG below the report's folder, caption)."""
 
-    check: Check
-    claims: list[Claim]
-    plots: list[tuple[str, str]]
-    tables: list
-    remarks: list[str]
-    wall_s: float
-    numbers: dict
+    check: Check | None = None
+    wall_s: float = 0.0
     error: str = ""  # why it did not finish
 
     @property
     def passed(self) -> bool:
         """Whether the check came to its end and all its claims hold."""
-        return not self.error and bool(self.claims) and all(claim.passed for claim in self.claims)
+        return not self.error and super().passed
 
 
 def run_checks(
     checks, out, *, quick=False, threads=1, resume=False, progress=lambda check, text: None, done=lambda result: None
 ):
-    """Runs the checks and yields a :class:`Result` for each, in their order; each is on disk before the next begins.
+    """Runs the checks and yields a :class:`CheckResult` for each, in their order; each is on disk before the next begins.
 
     ``resume``: take over what an earlier run with the same ``quick``, engines and code wrote in ``out`` and finished without an error.
     """
@@ -64,25 +59,23 @@ def run_checks(
 
 def _run(check, bench):
     began = time.monotonic()
-    outcome, error = Outcome(), ""
+    found, error = Findings(), ""
     try:
         _clear_scene()
-        outcome = check.run(bench)
+        found = check.run(bench)
     except Exception as problem:  # a check that stops must not take the others along
         error = f"{type(problem).__name__}: {problem}"
         (bench.folder / "error.txt").write_text(traceback.format_exc())
     finally:
         _clear_scene()
     plots = []
-    for number, (figure, caption) in enumerate(outcome.plots):
+    for number, (figure, caption) in enumerate(found.plots):
         path = figure
         if not isinstance(figure, Path):
             path = bench.folder / f"plot-{number}.png"
             figure.savefig(path, dpi=130, bbox_inches="tight")
         plots.append((str(path.relative_to(bench.folder.parent.parent)), caption))
-    return Result(
-        check, outcome.claims, plots, outcome.tables, outcome.remarks, time.monotonic() - began, outcome.numbers, error
-    )
+    return CheckResult(**{**vars(found), "plots": plots}, check=check, wall_s=time.monotonic() - began, error=error)
 
 
 def _clear_scene():
@@ -95,16 +88,8 @@ def _clear_scene():
 
 
 def _write(result, folder, quick):
-    plain = {
-        "key": _key(result.check, quick),
-        "wall_s": result.wall_s,
-        "error": result.error,
-        "claims": [_plain(c) for c in result.claims],
-        "plots": result.plots,
-        "tables": result.tables,
-        "remarks": result.remarks,
-        "numbers": result.numbers,
-    }
+    plain = {**vars(result), "claims": [_plain(c) for c in result.claims], "key": _key(result.check, quick)}
+    del plain["check"]  # a function
     write_json(folder / "result.json", plain)
 
 
@@ -123,21 +108,12 @@ def _plain(claim):
 def _read(check, folder, quick):
     try:
         plain = json.loads((folder / "result.json").read_text())
-        if plain["key"] != _key(check, quick) or plain["error"]:
+        if plain.pop("key") != _key(check, quick) or plain["error"]:
             return None
-        claims = []
+        missing, claims = {"measured": math.nan, "low": -math.inf, "high": math.inf}, []
         for fields in plain["claims"]:
-            fields.pop("passed")
-            missing = {"measured": math.nan, "low": -math.inf, "high": math.inf}
+            del fields["passed"]
             claims.append(Claim(**{k: missing[k] if v is None and k in missing else v for k, v in fields.items()}))
-        return Result(
-            check,
-            claims,
-            [tuple(p) for p in plain["plots"]],
-            plain["tables"],
-            plain["remarks"],
-            plain["wall_s"],
-            plain["numbers"],
-        )
+        return CheckResult(**{**plain, "claims": claims, "plots": [tuple(p) for p in plain["plots"]]}, check=check)
     except (OSError, ValueError, KeyError, TypeError):
         return None

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from ... import contact
 from . import disk_problems
-from .claims import Outcome, at_least, at_most
+from .claims import Claims, Findings
 from .registry import check
 from .siconos_solve import ROOT, OracleError, error_by_siconos, solve_with_ours, solve_with_siconos
 
@@ -70,44 +70,20 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
         rows.append(
             [str(seed), str(len(problem.length)), *figures[0], *figures[1], f"{speeds[-1]:.1e}", f"{forces:.1e}"]
         )
-    claims = [
-        at_most(
-            "largest difference of a disk's velocity (turning: times the radius)",
-            max(speeds),
-            1e3 * tolerance,
-            unit="m/s",
-            against="Siconos",
-            why="1e-10 of what stops disks of 1 m/s, times 1000: the condition of W for chains of up to 20 disks",
-        ),
-        at_most(
-            "Siconos's largest residual in our measure, times |p|/|q|",
-            max(theirs_left),
-            METRIC * tolerance,
-            against="Siconos",
-            why=METRIC_WHY,
-        ),
-        at_most(
-            "Siconos's error of our impulses by its own function, times |q|/|p|, largest",
-            max(by_siconos),
-            METRIC * tolerance,
-            against="Siconos",
-            why=METRIC_WHY,
-        ),
-        at_most(
-            "our largest relative residual at the same number",
-            max(ours_left),
-            tolerance * (1 + 1e-6),
-            against="Siconos",
-            why=SAME_WHY,
-        ),
-        at_most(
-            "our residual over Siconos's, ours asked for what Siconos reached, largest of all problems",
-            max(ratios),
-            1.0,
-            against="Siconos",
-            why=f"at or below on every problem is what is asked for; below {ROUNDING:g} both count as exact",
-        ),
-    ]
+    claims = Claims(against="Siconos")
+    why = "1e-10 of what stops disks of 1 m/s, times 1000: the condition of W for chains of up to 20 disks"
+    claims.at_most(
+        "largest difference of a disk's velocity (turning: times the radius) [m/s]", max(speeds), 1e3 * tolerance, why
+    )
+    claims.at_most(
+        "Siconos's largest residual in our measure, times |p|/|q|", max(theirs_left), METRIC * tolerance, METRIC_WHY
+    )
+    what = "Siconos's error of our impulses by its own function, times |q|/|p|, largest"
+    claims.at_most(what, max(by_siconos), METRIC * tolerance, METRIC_WHY)
+    claims.at_most("our largest relative residual at the same number", max(ours_left), tolerance * (1 + 1e-6), SAME_WHY)
+    why = f"at or below on every problem is what is asked for; below {ROUNDING:g} both count as exact"
+    what = "our residual over Siconos's, ours asked for what Siconos reached, largest of all problems"
+    claims.at_most(what, max(ratios), 1.0, why)
     remarks = [
         f"With the same number as tolerance our residual is above Siconos's on {above} of {count} problems, though never above the tolerance: each "
         "stops at the first sweep that passes its own test. Ours is relative to the rms impulse; Siconos's is relative to |q|, and fc2d first wants "
@@ -128,7 +104,7 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
         "impulses by [of the largest]",
     ]
     caption = f"Tolerance {tolerance:g} for both; N and m/s: rms natural-map residual of either in our measure, as a force and as a velocity"
-    return Outcome(claims=claims, tables=[(caption, heads, rows)], remarks=remarks)
+    return Findings(claims=claims, tables=[(caption, heads, rows)], remarks=remarks)
 
 
 # ---- steps of packings ---------------------------------------------------------------------------
@@ -185,65 +161,27 @@ def _one_step(bench, problem, tolerance, sweeps):
     other = differences > 0.1 * FALL
     forces = further.residual.force_rms / theirs.residual.force_rms
     velocities = further.residual.speed_rms / theirs.residual.speed_rms
-    claims = [
-        at_most(
-            "our relative residual at the same number",
-            ours.residual.relative,
-            tolerance * (1 + 1e-6),
-            against="Siconos",
-            why=SAME_WHY,
-        ),
-        at_most(
-            "Siconos's residual in our measure, times |p|/|q|",
-            theirs.residual.relative / q_over_p,
-            METRIC * tolerance,
-            against="Siconos",
-            why=METRIC_WHY,
-        ),
-        at_most(
-            "Siconos's error of our impulses by its own function, times |q|/|p|",
-            error * q_over_p,
-            METRIC * tolerance,
-            against="Siconos",
-            why=METRIC_WHY,
-        ),
-        at_most(
-            "our residual over Siconos's as a force, ours asked for what Siconos reached",
-            forces,
-            1.0,
-            against="Siconos",
-            why="at or below is what is asked for",
-        ),
-        at_most(
-            "our residual over Siconos's as a velocity, ours asked for what Siconos reached",
-            velocities,
-            1.0,
-            against="Siconos",
-            why="the same in the other unit, though tolerances are on forces",
-        ),
-        at_most(
-            "median difference of the disks' velocities",
-            np.median(differences),
-            0.01 * FALL,
-            unit="m/s",
-            against="Siconos",
-            why="1 % of what a free disk gains in the step",
-        ),
-        at_most(
-            "the same, over that at ten times the tolerance",
-            np.median(differences) / np.median(differences_before),
-            0.5,
-            against="Siconos",
-            why="two solvers of one law approach each other; a tenth would be linear, slow modes leave more",
-        ),
-        at_least(
-            "share of disks that both move the same, to a tenth of a step's free fall",
-            1 - other.mean(),
-            0.98,
-            against="Siconos",
-            why="the rest wedges or falls, as friction leaves open; a few in a hundred disks of a packing are that loose",
-        ),
-    ]
+    claims = Claims(against="Siconos")
+    claims.at_most("our relative residual at the same number", ours.residual.relative, tolerance * (1 + 1e-6), SAME_WHY)
+    what = "Siconos's residual in our measure, times |p|/|q|"
+    claims.at_most(what, theirs.residual.relative / q_over_p, METRIC * tolerance, METRIC_WHY)
+    what = "Siconos's error of our impulses by its own function, times |q|/|p|"
+    claims.at_most(what, error * q_over_p, METRIC * tolerance, METRIC_WHY)
+    why = "at or below is what is asked for"
+    claims.at_most("our residual over Siconos's as a force, ours asked for what Siconos reached", forces, 1.0, why)
+    why = "the same in the other unit, though tolerances are on forces"
+    claims.at_most(
+        "our residual over Siconos's as a velocity, ours asked for what Siconos reached", velocities, 1.0, why
+    )
+    why = "1 % of what a free disk gains in the step"
+    claims.at_most("median difference of the disks' velocities [m/s]", np.median(differences), 0.01 * FALL, why)
+    why = "two solvers of one law approach each other; a tenth would be linear, slow modes leave more"
+    what = "the same, over that at ten times the tolerance"
+    claims.at_most(what, np.median(differences) / np.median(differences_before), 0.5, why)
+    why = "the rest wedges or falls, as friction leaves open; a few in a hundred disks of a packing are that loose"
+    claims.at_least(
+        "share of disks that both move the same, to a tenth of a step's free fall", 1 - other.mean(), 0.98, why
+    )
     caption = f"From a cold start; tolerance {tolerance:g}; residuals in our measure, one thread each; each row of ours names its tolerance"
     named = (
         (theirs, theirs.solver),
@@ -265,12 +203,9 @@ def _one_step(bench, problem, tolerance, sweeps):
         "Residual in our measure against sweeps, from a cold start. Plain Gauss-Seidel is the method of both; ours runs it inside Nesterov's "
         "extrapolation."
     )
-    return Outcome(
-        claims=claims,
-        tables=[(caption, heads, [_row(a, name) for a, name in named])],
-        plots=[(_curves(bench, problem, theirs), curves)],
-        remarks=remarks,
-    )
+    table = caption, heads, [_row(a, name) for a, name in named]
+    plot = _curves(bench, problem, theirs), curves
+    return Findings(claims, tables=[table], plots=[plot], remarks=remarks)
 
 
 def _row(answer, name):

@@ -9,7 +9,7 @@ from yade import O
 
 from ... import contact
 from . import lmgc90_packing as lp
-from .claims import Outcome, at_least, at_most, between, near
+from .claims import Claims, Findings
 from .registry import check
 
 SUBJECT = "The solver"
@@ -84,83 +84,44 @@ def sweeps_to_a_residual(bench):
         ]
     )
     fast = np.median(orders)
-    claims = [
-        between(
-            f"cold, accelerated: sweeps to 1e-4, median of {ORDERS} orders of contacts",
-            fast,
-            70,
-            150,
-            against="100 in earlier computations",
-            why="about 100 at this thickness, whatever the size; a factor of 1.5",
-        ),
-        between(
-            "cold, accelerated: sweeps until 0.99 of the weight is carried",
-            lifted,
-            70,
-            150,
-            against="100 on 16,901 disks",
-            why="a factor of 1.5 for another packing; looked at every 10",
-        ),
-        between(
-            "cold, plain: share of the weight carried after 100 sweeps",
-            plain[100][2],
-            0.15,
-            0.45,
-            against="0.29 on 16,901 disks",
-            why="a diffusion across the same thickness; half of it either way",
-        ),
-        between(
-            "cold, plain: the same after 1,000 sweeps",
-            plain[1000][2],
-            0.7,
-            0.95,
-            against="0.84 on 16,901 disks",
-            why="the same",
-        ),
-        between(
-            "cold, plain: residual after 1,000 sweeps",
-            plain[1000][1],
-            1e-4,
-            5e-4,
-            against="2.3e-4 on 16,901 disks",
-            why="a factor of 2",
-        ),
-        at_least(
-            "cold: plain sweeps over accelerated ones to 1e-4",
-            found["cold", "plain Gauss-Seidel", 1e-4][0].iterations / fast,
-            8,
-            why="acceleration was worth a factor of 20 to 50 in reaching a share of the weight; in residual less, since plain sweeps smooth first",
-        ),
-        near(
-            "cold, accelerated: share carried at 1e-5",
-            found["cold", "accelerated", 1e-5][1].carried,
-            1,
-            absolute=0.02,
-            why="gaps of up to g h² = 0.25 mm may still close within the step",
-        ),
-        at_most(
-            "cold, accelerated, looked at every 50: sweeps to 1e-6",
-            found["cold", "accelerated, looked at every 50", 1e-6][0].iterations,
-            3300,
-            why="no theory: a guard at three times what was found when this check was written, 1,100",
-        ),
-        *(
-            near(
-                f"from LMGC90's forces, {way}: sweeps to 1e-5",
-                found["LMGC90's forces", way, 1e-5][0].iterations,
-                0,
-                absolute=0,
-                why="its residual is below 1e-5: a solution must be recognised as one",
-            )
-            for way, _, _ in WAYS
-        ),
-        at_most(
-            "from LMGC90's forces, accelerated: sweeps to 1e-6",
-            found["LMGC90's forces", "accelerated", 1e-6][0].iterations,
-            100,
-            why="what is missed are our levers, a matter of neighbours",
-        ),
-    ]
+    claims = Claims()
+    why = "about 100 at this thickness, whatever the size; a factor of 1.5"
+    what = f"cold, accelerated: sweeps to 1e-4, median of {ORDERS} orders of contacts"
+    claims.between(what, fast, 70, 150, why, against="100 in earlier computations")
+    why = "a factor of 1.5 for another packing; looked at every 10"
+    what = "cold, accelerated: sweeps until 0.99 of the weight is carried"
+    claims.between(what, lifted, 70, 150, why, against="100 on 16,901 disks")
+    why = "a diffusion across the same thickness; half of it either way"
+    what = "cold, plain: share of the weight carried after 100 sweeps"
+    claims.between(what, plain[100][2], 0.15, 0.45, why, against="0.29 on 16,901 disks")
+    why = "the same"
+    claims.between(
+        "cold, plain: the same after 1,000 sweeps", plain[1000][2], 0.7, 0.95, why, against="0.84 on 16,901 disks"
+    )
+    why = "a factor of 2"
+    claims.between(
+        "cold, plain: residual after 1,000 sweeps", plain[1000][1], 1e-4, 5e-4, why, against="2.3e-4 on 16,901 disks"
+    )
+    why = (
+        "acceleration was worth a factor of 20 to 50 in reaching a share of the weight; in residual less, since "
+        "plain sweeps smooth first"
+    )
+    what = "cold: plain sweeps over accelerated ones to 1e-4"
+    claims.at_least(what, found["cold", "plain Gauss-Seidel", 1e-4][0].iterations / fast, 8, why)
+    why = "gaps of up to g h² = 0.25 mm may still close within the step"
+    claims.near(
+        "cold, accelerated: share carried at 1e-5", found["cold", "accelerated", 1e-5][1].carried, 1, why, absolute=0.02
+    )
+    why = "no theory: a guard at three times what was found when this check was written, 1,100"
+    what = "cold, accelerated, looked at every 50: sweeps to 1e-6"
+    claims.at_most(what, found["cold", "accelerated, looked at every 50", 1e-6][0].iterations, 3300, why)
+    for way, _, _ in WAYS:
+        why = "its residual is below 1e-5: a solution must be recognised as one"
+        what = f"from LMGC90's forces, {way}: sweeps to 1e-5"
+        claims.near(what, found["LMGC90's forces", way, 1e-5][0].iterations, 0, why, absolute=0)
+    why = "what is missed are our levers, a matter of neighbours"
+    what = "from LMGC90's forces, accelerated: sweeps to 1e-6"
+    claims.at_most(what, found["LMGC90's forces", "accelerated", 1e-6][0].iterations, 100, why)
     heads = ["start", "method", "residual wanted", "sweeps", "restarts", "residual", "carried", "floor"]
     _, left, carried = climb[9]
     remark = (
@@ -169,14 +130,8 @@ def sweeps_to_a_residual(bench):
         f"it needs {lifted:g} to 0.99. To 1e-4 it takes {found['cold', 'accelerated', 1e-4][0].iterations} sweeps in the order of the file, and "
         f"{orders.min()} to {orders.max()}, half of them {np.quantile(orders, 0.25):g} to {np.quantile(orders, 0.75):g}, in random ones."
     )
-    return Outcome(
-        claims=claims,
-        tables=[
-            ("Sweeps until the independent residual is reached, and the share of the weight carried then.", heads, rows)
-        ],
-        plots=[_convergence(curves)],
-        remarks=[remark],
-    )
+    table = "Sweeps until the independent residual is reached, and the share of the weight carried then.", heads, rows
+    return Findings(claims, tables=[table], plots=[_convergence(curves)], remarks=[remark])
 
 
 def _reordered(problem, seed):
@@ -251,45 +206,26 @@ def sweeps_in_a_running_scene(bench):
                     f"{np.ptp(carried):.1e}",
                 ]
             )
-    claims = [
-        at_most(
-            "accelerated, 1e-4: sweeps a step, mean",
-            mean["accelerated", 1e-4][0],
-            13,
-            against="130 from a cold start",
-            why="a tenth",
-        ),
-        at_most(
-            "accelerated, 1e-5: sweeps a step, mean",
-            mean["accelerated", 1e-5][0],
-            60,
-            against="600 from a cold start",
-            why="a tenth",
-        ),
-        *(
-            near(
-                f"accelerated, {t:.0e}: mean share of the weight carried",
-                mean["accelerated", t][1].mean(),
-                1,
-                absolute=2e-3,
-                why="what thirty steps leave out is momentum: 2e-3 of it is 3 mm/s, ten times what LMGC90's packing has",
-            )
-            for t in tolerances
-            if t < 1e-3
-        ),
-        near(
-            "plain, 1e-4: mean share of the weight carried",
-            mean["gaussSeidel", 1e-4][1].mean(),
-            1,
-            absolute=2e-3,
-            why="the same",
-        ),
-    ]
-    heads = ["method", "tolerance", "sweeps a step, mean", "most", "steps at 5,000", "carried, mean", "carried, range"]
-    return Outcome(
-        claims=claims,
-        tables=[(f"{steps} steps of 5 ms from LMGC90's state, each from the forces of the one before.", heads, rows)],
+    claims = Claims()
+    why = "a tenth"
+    claims.at_most(
+        "accelerated, 1e-4: sweeps a step, mean", mean["accelerated", 1e-4][0], 13, why, against="130 from a cold start"
     )
+    claims.at_most(
+        "accelerated, 1e-5: sweeps a step, mean", mean["accelerated", 1e-5][0], 60, why, against="600 from a cold start"
+    )
+    for t in tolerances:
+        if t < 1e-3:
+            why = "what thirty steps leave out is momentum: 2e-3 of it is 3 mm/s, ten times what LMGC90's packing has"
+            what = f"accelerated, {t:.0e}: mean share of the weight carried"
+            claims.near(what, mean["accelerated", t][1].mean(), 1, why, absolute=2e-3)
+    why = "the same"
+    claims.near(
+        "plain, 1e-4: mean share of the weight carried", mean["gaussSeidel", 1e-4][1].mean(), 1, why, absolute=2e-3
+    )
+    heads = ["method", "tolerance", "sweeps a step, mean", "most", "steps at 5,000", "carried, mean", "carried, range"]
+    table = f"{steps} steps of 5 ms from LMGC90's state, each from the forces of the one before.", heads, rows
+    return Findings(claims, tables=[table])
 
 
 @check("Stopping tests by name: where they stop, and what they leave", subject=SUBJECT, seconds=20, quick=6)
@@ -305,7 +241,7 @@ def stopping_tests_by_name(bench):
     """
     tolerance, cap = 1e-4, 20000
     dump, problem, _ = lp.step_problem(bench.folder)
-    rows, claims, sweeps, left = [], [], {}, {}
+    rows, claims, sweeps, left = [], Claims(), {}, {}
     methods = METHODS[:1] if bench.quick else METHODS
     for method, method_name in methods:
         for test in ("Quad", "QM/16", "Maxm", "naturalMap"):
@@ -325,21 +261,12 @@ def stopping_tests_by_name(bench):
             b = lp.balance(dump, problem, s.impulse)
             sweeps[method, test], left[method, test] = s.iterations, s.relative
             if s.converged:
-                claims += [
-                    between(
-                        f"{method_name}: figure of {test} at its stop",
-                        figures[0][test],
-                        0,
-                        tolerance * (1 + 1e-6),
-                        why="the tolerance; 1e-6 of it for velocities computed anew",
-                    ),
-                    at_least(
-                        f"{method_name}: figure of {test} ten sweeps earlier",
-                        figures[1][test],
-                        tolerance,
-                        why="else it would have stopped there",
-                    ),
-                ]
+                why = "the tolerance; 1e-6 of it for velocities computed anew"
+                claims.between(
+                    f"{method_name}: figure of {test} at its stop", figures[0][test], 0, tolerance * (1 + 1e-6), why
+                )
+                why = "else it would have stopped there"
+                claims.at_least(f"{method_name}: figure of {test} ten sweeps earlier", figures[1][test], tolerance, why)
             rows.append(
                 [
                     method_name,
@@ -350,56 +277,29 @@ def stopping_tests_by_name(bench):
                     f"{b.carried:.4f}",
                 ]
             )
-        claims += [
-            at_least(
-                f"{method_name}: sweeps of QM/16 over those of Quad",
-                sweeps[method, "QM/16"] / sweeps[method, "Quad"],
-                1,
-                why="it asks all that Quad asks, and more",
-            ),
-            at_least(
-                f"{method_name}: sweeps of Maxm over those of QM/16",
-                sweeps[method, "Maxm"] / sweeps[method, "QM/16"],
-                1,
-                why="its figures are at least Quad's, and 16.666 times stricter than QM/16's maxima",
-            ),
-            between(
-                f"{method_name}: residual that Quad leaves at 1e-4",
-                left[method, "Quad"],
-                1e-4 / 5,
-                5e-4,
-                why="relatives: a factor of 5 either way",
-            ),
-            between(
-                f"{method_name}: residual that QM/16 leaves at 1e-4",
-                left[method, "QM/16"],
-                1e-4 / 25,
-                2e-4,
-                why="at most what Quad leaves",
-            ),
-        ]
+        why = "it asks all that Quad asks, and more"
+        what = f"{method_name}: sweeps of QM/16 over those of Quad"
+        claims.at_least(what, sweeps[method, "QM/16"] / sweeps[method, "Quad"], 1, why)
+        why = "its figures are at least Quad's, and 16.666 times stricter than QM/16's maxima"
+        what = f"{method_name}: sweeps of Maxm over those of QM/16"
+        claims.at_least(what, sweeps[method, "Maxm"] / sweeps[method, "QM/16"], 1, why)
+        why = "relatives: a factor of 5 either way"
+        claims.between(f"{method_name}: residual that Quad leaves at 1e-4", left[method, "Quad"], 1e-4 / 5, 5e-4, why)
+        why = "at most what Quad leaves"
+        claims.between(
+            f"{method_name}: residual that QM/16 leaves at 1e-4", left[method, "QM/16"], 1e-4 / 25, 2e-4, why
+        )
         if method == "accelerated":
             ratio = left[method, "Maxm"] / left[method, "Quad"]
-            claims.append(
-                between(
-                    f"{method_name}: residual that Maxm leaves, over that of Quad",
-                    ratio,
-                    1 / 60,
-                    1 / 8,
-                    why="16 to 30 times less, to a factor of 2",
-                )
-            )
+            why = "16 to 30 times less, to a factor of 2"
+            claims.between(f"{method_name}: residual that Maxm leaves, over that of Quad", ratio, 1 / 60, 1 / 8, why)
     heads = ["method", "test at 1e-4", "sweeps", "residual left", "Quad", "QM/16", "Maxm", "carried"]
-    return Outcome(
-        claims=claims,
-        tables=[
-            (
-                "A cold start, stopped by each test: sweeps, the independent residual, each test's figure, and the share of the weight carried.",
-                heads,
-                rows,
-            )
-        ],
+    title = (
+        "A cold start, stopped by each test: sweeps, the independent residual, each test's figure, and the share of "
+        "the weight carried."
     )
+    table = title, heads, rows
+    return Findings(claims, tables=[table])
 
 
 def _figures(problem, impulse):

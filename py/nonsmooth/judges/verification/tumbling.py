@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from yade import O
 
 from ...world import tables
-from .claims import Outcome, at_most, near
+from .claims import Claims, Findings
 from .registry import check
 from .small_scenes import DENSITY, G, begin, disk, engine, material, set_gravity, wall
 
@@ -111,44 +111,22 @@ def tumbling(bench):
         (1, 1, 1e-2, 5),
         (11, 10, 5e-3, 2 if bench.quick else 10),
     ]
-    claims, figure = [], Figure(figsize=(10, 3.6), layout="constrained")
+    claims, figure = Claims(), Figure(figsize=(10, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2, gridspec_kw={"wspace": 0.08})
     for rings, omega, dt, turns in cases:
         name = f"{len(boulder(rings))} disks, {omega:g} rad/s, steps of {dt * 1e3:g} ms, {turns} turns"
         bench.progress(name)
         rows, lost, debonding, gone, correction = turn_freely(rings, omega, dt, turns)
-        claims += [
-            at_most(name + ": bonds lost", lost, 0, why="none bears more than it can"),
-            at_most(
-                name + ": spin and orbit apart",
-                rows[:, 1].max(),
-                2 * SLACK,
-                unit="rad",
-                why="the slack of corrections, half a diameter from the contact",
-            ),
-            at_most(name + ": stretch", rows[:, 2].max(), 2 * SLACK, why="the slack of corrections, either way"),
-            at_most(
-                name + ": angular momentum", rows[:, 3].max(), 1e-9, unit="of the first", why="rounding of the steps"
-            ),
-            at_most(
-                name + ": energy",
-                rows[:, 4].max(),
-                1e-4,
-                unit="of the first",
-                why="the solve's tolerance, 1e-8, step by step",
-            ),
-            at_most(name + ": debonding loss", abs(debonding), 0, unit="J", why="nothing yields"),
-            at_most(
-                name + ": sliding, rolling and impact losses",
-                gone,
-                1e-5,
-                unit="of the energy",
-                why="the solve's tolerance, 1e-8, step by step",
-            ),
-            at_most(
-                name + ": energy of corrections", correction, 1e-4, unit="of the whole", why="as the energy itself"
-            ),
-        ]
+        claims.at_most(name + ": bonds lost", lost, 0, "none bears more than it can")
+        why = "the slack of corrections, half a diameter from the contact"
+        claims.at_most(name + ": spin and orbit apart [rad]", rows[:, 1].max(), 2 * SLACK, why)
+        claims.at_most(name + ": stretch", rows[:, 2].max(), 2 * SLACK, "the slack of corrections, either way")
+        claims.at_most(name + ": angular momentum [of the first]", rows[:, 3].max(), 1e-9, "rounding of the steps")
+        why = "the solve's tolerance, 1e-8, step by step"
+        claims.at_most(name + ": energy [of the first]", rows[:, 4].max(), 1e-4, why)
+        claims.at_most(name + ": debonding loss [J]", abs(debonding), 0, "nothing yields")
+        claims.at_most(name + ": sliding, rolling and impact losses [of the energy]", gone, 1e-5, why)
+        claims.at_most(name + ": energy of corrections [of the whole]", correction, 1e-4, "as the energy itself")
         label = f"{len(boulder(rings))} disks, {omega:g} rad/s, {dt * 1e3:g} ms"
         left.loglog(rows[:, 0], np.maximum(rows[:, 1], 1e-16), ".-", lw=1, ms=3, label=label)
         right.loglog(rows[:, 0], np.maximum(rows[:, 4], 1e-17), ".-", lw=1, ms=3)
@@ -162,15 +140,12 @@ def tumbling(bench):
     right.legend(
         *left.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(1, 0.5), fontsize=7, frameon=False
     )
-    return Outcome(
-        claims,
-        plots=[
-            (
-                figure,
-                "Left: how far the spin of any disk is from the orbit of the whole (grey: what corrections leave; dotted: without turning bodies as one). Right: the energy.",
-            )
-        ],
+    caption = (
+        "Left: how far the spin of any disk is from the orbit of the whole (grey: what corrections leave; dotted: "
+        "without turning bodies as one). Right: the energy."
     )
+    plot = figure, caption
+    return Findings(claims, plots=[plot])
 
 
 def let_down(rings, dt, seconds, tolerance):
@@ -195,7 +170,7 @@ def boulder_on_a_slope(bench):
     """A boulder of bonded disks falls onto a slope of 40°, jumps and rolls over a step in it to the valley. Impacts are inelastic and no bond bears as much as it can, so the boulder must
     arrive in one piece, of the shape that it had, every disk turned as the whole. What the solver's tolerance lets bonds slip in an impact is taken back in the steps after it.
     """
-    claims, figure = [], Figure(figsize=(8, 4), layout="constrained")
+    claims, figure = Claims(), Figure(figsize=(8, 4), layout="constrained")
     axes = figure.subplots()
     cases = (
         [(1, 1e-3, 1e-4), (3, 2e-3, 1e-4)]
@@ -208,17 +183,10 @@ def boulder_on_a_slope(bench):
         bench.progress(name)
         it, outlines = let_down(rings, dt, 9 if dt > 2e-4 else 4, tolerance)
         apart, stretch, _, _ = it.look()
-        claims += [
-            near(name + ": bonds at the end", engine().bonds, it.bonds, why="none bears more than it can"),
-            at_most(
-                name + ": spins apart from the whole",
-                apart,
-                20 * SLACK,
-                unit="rad",
-                why="the slack, and what the last impacts have left",
-            ),
-            at_most(name + ": stretch", stretch, 10 * SLACK, why="the same"),
-        ]
+        claims.near(name + ": bonds at the end", engine().bonds, it.bonds, "none bears more than it can")
+        why = "the slack, and what the last impacts have left"
+        claims.at_most(name + ": spins apart from the whole [rad]", apart, 20 * SLACK, why)
+        claims.at_most(name + ": stretch", stretch, 10 * SLACK, "the same")
         if count == 37 and dt == 2e-3:
             for _, x, y in outlines:
                 size = np.ones_like(x)  # diameters [m]
@@ -227,4 +195,4 @@ def boulder_on_a_slope(bench):
                 axes.add_collection(disks)
     axes.plot([-60, -30, -28, 0, 40, 60], [50.35, 25.17, 20, -3.5, -3.5, 16.5], color="0.4")
     axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
-    return Outcome(claims, plots=[(figure, "37 bonded disks every 0.75 s on their way down.")])
+    return Findings(claims, plots=[(figure, "37 bonded disks every 0.75 s on their way down.")])

@@ -10,7 +10,7 @@ from yade import O
 from yade.wrapper import NscdMat
 
 from ...world import scene
-from .claims import Outcome, at_most, near
+from .claims import Claims, Findings
 from .registry import check
 from .small_scenes import G, engine, run, wall
 
@@ -73,7 +73,7 @@ def heavy_on_light(bench):
     every step from the first on, since nothing moves. The residual of impulses alone does not see the light disks: it called solved, at R = 1e4, what bore 1.35 times the weight, and
     at 1e6 the light disk was gone.
     """
-    claims, figure = [], Figure(figsize=(6.4, 3.4))
+    claims, figure = Claims(), Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
     for light, marker in ((1, "o"), (10, "s")):
         ratios, errors = (1e1, 1e2, 1e3, 1e4, 1e5, 1e6), []
@@ -81,39 +81,30 @@ def heavy_on_light(bench):
             shares, e, sunk = _column(light, ratio, 50)
             errors.append(max(abs(s - 1) for s in shares))
             name = f"{ratio:g} on {light}: "
-            claims += [
-                at_most(name + "error of the floor's force in any step", errors[-1], 1e-3, why=WEIGHT),
-                at_most(
-                    name + "sunk or lifted",
-                    abs(sunk),
-                    3e-4 * (light + 1),
-                    unit="d",
-                    why="overlaps of 1e-4 are left at each contact",
-                ),
-                near(name + "steps above the tolerance", e.unconverged, 0, why="a count"),
-            ]
+            claims.at_most(name + "error of the floor's force in any step", errors[-1], 1e-3, WEIGHT)
+            why = "overlaps of 1e-4 are left at each contact"
+            claims.at_most(name + "sunk or lifted [d]", abs(sunk), 3e-4 * (light + 1), why)
+            claims.near(name + "steps above the tolerance", e.unconverged, 0, "a count")
         axes.loglog(ratios, [max(x, 1e-9) for x in errors], marker=marker, label=f"on {light}")
     axes.axhline(1e-3, color="#777777", linewidth=0.7, linestyle="--")
     axes.set(xlabel="ratio of masses", ylabel="worst error of the floor's force")
     axes.legend(frameon=False)
-    return Outcome(claims, plots=[(figure, "Worst step of fifty; dashed: what is asked.")])
+    return Findings(claims, plots=[(figure, "Worst step of fifty; dashed: what is asked.")])
 
 
 @check("A boulder on pebbles", subject="Statics", seconds=20)
 def boulder_on_pebbles(bench):
     """A boulder of 1 m on rows of pebbles between two walls. At rest floor and walls bear the weight of all in every step. Masses are as the square of the sizes: 2,500 and 40,000."""
-    claims, figure = [], Figure(figsize=(6.4, 3.4))
+    claims, figure = Claims(), Figure(figsize=(6.4, 3.4))
     axes = figure.add_subplot()
     for sizes, rows in ((50, 2), (200, 1)):
         shares, e = _boulder(sizes, rows, 60)
         rests = shares[30:]
         axes.plot(shares, label=f"1 : {sizes}, {rows} row{'s' if rows > 1 else ''}")
-        claims += [
-            at_most(
-                f"1 : {sizes}: error of the force from step to step", max(abs(s - 1) for s in rests), 1e-3, why=WEIGHT
-            ),
-            near(f"1 : {sizes}: warnings", e.unsolved, 0, why="a count"),
-        ]
+        claims.at_most(
+            f"1 : {sizes}: error of the force from step to step", max(abs(s - 1) for s in rests), 1e-3, WEIGHT
+        )
+        claims.near(f"1 : {sizes}: warnings", e.unsolved, 0, "a count")
     axes.set(xlabel="step", ylabel="force on floor and walls over weight")
     axes.legend(frameon=False)
-    return Outcome(claims, plots=[(figure, "From the first step on.")])
+    return Findings(claims, plots=[(figure, "From the first step on.")])
