@@ -24,6 +24,14 @@ def lid(angle, **load):
 
 
 @pytest.mark.parametrize("angle", ANGLES)
+def test_a_plate_without_a_mass_is_a_tenth_as_thick_as_long(angle):
+    """Of disks' 2500 kg/m³ and 2 m: 0.1 times 2500 times 4, and a rod's inertia about its middle."""
+    begin(gravity=(0, -G, 0), dt=1e-3)
+    state = O.bodies[lid(angle, force=1.0).id].state
+    assert state.mass == pytest.approx(1000.0) and tuple(state.inertia) == pytest.approx((1000 * 4 / 12,) * 3)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
 @pytest.mark.parametrize("load, force", [(dict(force=300.0), 300.0), (dict(stress=200.0), 400.0)])
 def test_a_free_plate_has_the_acceleration_force_by_mass(angle, load, force):
     begin(gravity=(0, -G, 0), dt=1e-3)

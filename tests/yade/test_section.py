@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "py"))
 from nonsmooth.errors import OldNameWarning  # noqa: E402
 from nonsmooth.model import geometry  # noqa: E402
 from nonsmooth.model.section import data as section_data  # noqa: E402
-from nonsmooth.section import FOLDER, Disks, SectionError, block, load, shipped  # noqa: E402
+from nonsmooth.section import FOLDER, Disks, SectionError, block, load, of, shipped  # noqa: E402
 
 TEXT = (FOLDER / "jiufengershan.yaml").read_text(encoding="utf-8")
 
@@ -420,6 +420,25 @@ def test_bad_values(case, refused):
     message = refused(changed(**keys).replace("'@", "").replace("9'", "9"))
     assert what in message and remedy in message
     assert ": line " in message or any(words in message for words in ("no room", "disks would fill", "no valid YAML"))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("first", [False, True])
+def test_a_wall_may_begin_within_another(first, turned):
+    """At one of its inner vertices, whichever of the two stands first and from whichever end; a step away from there it leaves a hole."""
+    data = section_data.plain(load("jiufengershan"))
+    top, foot = data["walls"][0]["vertices"]
+    middle = [top[0] / 2, top[1] / 2]
+    data["walls"][0]["vertices"] = [top, middle, foot]
+    for away in (0.0, 0.5):
+        post = [[middle[0], middle[1] - away], [middle[0] - 50, middle[1] - 200]]
+        wall = {"name": "post", "role": "ground", "material": "ss", "vertices": post[::-1] if turned else post}
+        made = data | {"walls": [wall, *data["walls"]] if first else [*data["walls"], wall]}
+        if away:
+            with pytest.raises(SectionError, match="a hole of [0-9.]+ m"):
+                of(made)
+        else:
+            assert [w.name for w in of(made).walls].count("post") == 1
 
 
 def test_line_of_a_number_that_replaces_a_borrowed_one(refused):
