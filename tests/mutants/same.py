@@ -60,6 +60,11 @@ SAME = {
     ("py/nonsmooth/studies/slope/wall_series.py", "if len(names) > 1", "if len(names) >= 1"): (
         "the sum over one wall is that of the wall, and is not asked for"
     ),
+    (
+        "py/nonsmooth/studies/laboratory/membrane.py",
+        "if len(chain) > len(edges):",
+        "if len(chain) >= len(edges):",
+    ): "an outline that closes has fewer places than the triangles have sides; one that does not ends a step sooner",
     # ---- pkg/dem: what is only looked up, shown or asked once more
     (
         "pkg/dem/PlateLoadEngine.cpp",
