@@ -1,6 +1,7 @@
 """Hard against soft: the mathematics of errors, work and rates on made-up data; plans, options and what reports say."""
 
 import base64
+import dataclasses
 import json
 import math
 from pathlib import Path
@@ -33,6 +34,19 @@ from yade.nonsmooth.studies.comparison import (
 )
 from yade.nonsmooth.studies.comparison.outcomes import Cost, Outcome
 from yade.nonsmooth.system import machine
+
+
+@pytest.mark.parametrize("step, tolerance", [(2.0, 10.0), (0.5, 1.0)])
+def test_numerics_of_a_hard_run_are_multiples_of_the_sections(step, tolerance):
+    """Its step and the path of a step alike, so that both rule as often; those of soft runs stay."""
+    usual = section.load("jiufengershan").numerics
+    case = cases.Case("hard", "jiufengershan", 600, 3, step=step, tolerance=tolerance)
+    made = slopes.section_of(case)
+    n = made.numerics
+    assert (n.time_step, n.path) == (step * usual.time_step, usual.path and step * usual.path) and made.seed == 3
+    assert (n.tolerance, n.tolerance_moving) == (tolerance * usual.tolerance, tolerance * usual.tolerance_moving)
+    assert usual.path, "a section whose steps have no path tells nothing of it"
+    assert slopes.section_of(dataclasses.replace(case, world="soft")).numerics == usual
 
 
 def test_walls_without_strength_hold_nothing():

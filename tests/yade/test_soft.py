@@ -431,6 +431,9 @@ def test_the_description_has_every_attribute_that_the_material_sets(model):
     kind, usual = type(made).__name__, type(made)().dict()
     rows = soft.describe(e).rows
     told = {name: value for _, name, value, _ in rows}
+    # between two equal disks of the mean diameter, and from the same formulae as contacts have it
+    stiffness = next(value for what, name, value, _ in rows if name == "kn")
+    assert float(stiffness.split()[0]) == pytest.approx(e.stiffnesses(0.5 * e.length, 0.5 * e.length)[0], rel=1e-5)
     # JCFpm's own friction angle is that of its bonds, and nothing else is called so
     of_bonds = [name for what, name, _, law in rows if (what, law) == ("friction angle of a bond", "atan μ_s")]
     assert of_bonds == (["JCFpmMat.frictionAngle"] if model == "jcfpm" else [])

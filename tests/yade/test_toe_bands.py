@@ -138,6 +138,9 @@ def test_the_toe_is_drawn_by_rotation_with_its_bands():
     fig.draw_without_rendering()
     toe, scale = (ax.get_position() for ax in fig.axes)
     assert 0.5 < scale.height / toe.height < 0.9 and toe.x1 <= scale.x0  # beside it, and not as high
+    # the figure is as high by its width as what is shown, but for the scale beside it and the legend above
+    shown = np.ptp(fig.axes[0].get_ylim()) / np.ptp(fig.axes[0].get_xlim())
+    assert fig.get_figheight() == pytest.approx(0.86 * shown * fig.get_figwidth() + 0.7, rel=1e-6)
     ax = fig.axes[0]
     names = list(drawn.legend(ax))
     thrust, _ = toe_bands.find(before, after, SHIPPED)

@@ -2,6 +2,7 @@
 
 import dataclasses
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -199,3 +200,19 @@ def test_an_error_of_energy_is_told_of_a_slope_that_moved(kind, t4, told):
         "energy_error_rel", {"energy_error_rel": 54.2, "verdict": kind, "times_s": {"t4": t4}}
     )
     assert line.split()[1] == ("54.2" if told else "-")
+
+
+@pytest.mark.parametrize("terminal, told", [(False, [1.0, 4.0]), (True, [1.0, 2.0, 3.0, 4.0])])
+def test_progress_is_a_line_each_five_seconds_in_a_file_and_moves_on_a_terminal(monkeypatch, terminal, told):
+    """Four calls, 2 s of the clock from one to the next; a run that goes on for longer than foreseen has no more than all behind it."""
+    from yade.nonsmooth.studies.slope import slope_command
+
+    bar, seen, now = slope_command.Bar(), [], [100.0]
+    monkeypatch.setattr(bar.bar, "refresh", lambda: seen.append(bar.bar.n))
+    monkeypatch.setattr(slope_command.sys, "stderr", SimpleNamespace(isatty=lambda: terminal))
+    monkeypatch.setattr(slope_command.time, "monotonic", lambda: now[0])
+    for k in range(1, 5):
+        bar("settle", float(k), 3.5)
+        assert bar.bar.total == max(3.5, k) and bar.bar.desc == "settle  "
+        now[0] += 2.0
+    assert seen == told

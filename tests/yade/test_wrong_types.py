@@ -66,6 +66,8 @@ def test_what_is_no_count():
 def test_a_value_is_shown_on_one_line_and_cut():
     assert checks.shown("a\nb") == r"'a\nb'" and len(checks.shown(list(range(1000)))) == checks.LONGEST + 1
     assert checks.shown("/a" * 100 + "/figure.xyz").endswith("/figure.xyz'")
+    # sixty characters, quotes and all, are shown as they are; of more 36 and 24
+    assert checks.shown("x" * 58) == repr("x" * 58) and checks.shown("x" * 59) == f"'{35 * 'x'}…{23 * 'x'}'"
     assert "\n" not in checks.shown(CIRCLE)
 
 
