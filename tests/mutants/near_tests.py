@@ -56,10 +56,10 @@ class NearTests:
     # ---- Python
     def _of_python(self, file, names):
         """Tests that import the module, or call a script that does; where none does those that import a module which does, and so on. Of those further on also the ones
-        that have a word of the module's name in their own, as test_section of section_checks, and those that say one of the ``names``, where it is no word like any other.
+        that have a word of the module's name, or its folder's, in their own, as test_section of section.checks, and those that say one of the ``names``, where it is no word like any other.
         """
         modules, seen, found = {_dotted(Path(file).relative_to(PACKAGE))}, set(), []
-        words = Path(file).stem.split("_")
+        words = [*Path(file).stem.split("_"), *Path(file).parent.relative_to(PACKAGE).parts[-1:]]
         said = {name for name in names if "_" in name}
         while modules:
             scripts = {name for name, used in self.used_by_scripts.items() if used & modules}

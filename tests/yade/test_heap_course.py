@@ -161,7 +161,9 @@ def test_rest_is_slow_for_half_a_fall(few, monkeypatch):
     found = column.run(few, hard(few), duration=9, frames=())
     unit, row = math.sqrt(found.height / few.gravity), found.series["time_s"][1]
     assert found.rested and found.frames == {}
-    # the first slow row is the first after T, and n of them cover n rows' time
+    # the first slow row is the first after T, none before counts, and n of them cover n rows' time
+    first = int(np.argmax(found.series["time_s"] > unit))
+    assert len(found.series["time_s"]) - first == math.ceil(course.REST_TIME * unit / row - 1e-9)
     assert 1.5 * unit - row < found.series["time_s"][-1] <= 1.5 * unit + 2 * row
     assert found.width == pytest.approx(few.box()[0]) and found.world == "hard"
 

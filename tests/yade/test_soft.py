@@ -431,6 +431,17 @@ def test_the_description_has_every_attribute_that_the_material_sets(model):
     kind, usual = type(made).__name__, type(made)().dict()
     rows = soft.describe(e).rows
     told = {name: value for _, name, value, _ in rows}
+    thresholds = {what.partition(" ")[0]: name for what, name, *_ in rows if what.split()[1:2] == ["threshold"]}
+    assert thresholds == dict(
+        zip(
+            ("tension", "shear", "torque"),
+            {
+                "cohesion_moment": ("normalAdhesion", "shearAdhesion", "rollingAdhesion"),
+                "jcfpm": ("FnMax", "FsMax", "-"),
+                "friction": ("-", "-", "-"),
+            }[model],
+        )
+    )
     # between two equal disks of the mean diameter, and from the same formulae as contacts have it
     stiffness = next(value for what, name, value, _ in rows if name == "kn")
     assert float(stiffness.split()[0]) == pytest.approx(e.stiffnesses(0.5 * e.length, 0.5 * e.length)[0], rel=1e-5)
