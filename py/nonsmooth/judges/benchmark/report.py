@@ -128,12 +128,9 @@ def table(summary) -> str:
         for name, c in summary["cold_start"].items()
     ]
     heads = (
-        "cold start",
-        "contacts",
-        "sweeps to 1e-4",
-        "load on the ground, relative to a tight solve",
-        "sweeps of that (residual)",
-    )
+        "cold start | contacts | sweeps to 1e-4 | load on the ground, relative to a tight solve | "
+        "sweeps of that (residual)"
+    ).split(" | ")
     parts.append(tabulate(rows, heads, disable_numparse=True))
     m = summary["machine"]
     parts.append(

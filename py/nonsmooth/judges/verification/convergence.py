@@ -95,28 +95,11 @@ def strength(folder, seed, pull, time_step, tolerance, speed, strain):
 # ---- the slope ------------------------------------------------------------------------------------
 
 KEEP = (
-    "water_at_failure_m",
-    "front_travel_m",
-    "centroid_travel_m",
-    "deposit_thickness_max_m",
-    "fb_force_at_failure_N_per_m",
-    "speed_mean_max_m_per_s",
-    "motion_s",
-    "triggering_s",
-    "weakening_s",
-    "bulking_factor",
-    "energy_error_rel",
-    "energy_correction_rel",
-    "overlap_worst_rel",
-    "iterations_mean",
-    "residual_p95_over_tolerance",
-    "times_s",
-    "finished",
-    "disks",
-    "steps",
-    "packing_fraction",
-    "bonds_initial",
-)
+    "water_at_failure_m front_travel_m centroid_travel_m deposit_thickness_max_m fb_force_at_failure_N_per_m "
+    "speed_mean_max_m_per_s motion_s triggering_s weakening_s bulking_factor energy_error_rel "
+    "energy_correction_rel overlap_worst_rel iterations_mean residual_p95_over_tolerance times_s finished "
+    "disks steps packing_fraction bonds_initial"
+).split()
 
 
 def slope(folder, disks, seed, time_step, tolerance, tolerance_moving, slack=None, bond=None):
@@ -523,15 +506,9 @@ def slope_convergence(bench):
             what = f"{name}, {sweep.varied} {sweep.default:g} over {sweep.finest:g}" + _plus_minus(error)
             claims.near(what, 1 + mean, 1, f"{why}; {scatter}", absolute=limit, against="the finest")
     keys = (
-        "disks",
-        "steps",
-        "iterations_mean",
-        "residual_p95_over_tolerance",
-        "unconverged",
-        "energy_error_rel",
-        "energy_correction_rel",
-        "overlap_worst_rel",
-    )
+        "disks steps iterations_mean residual_p95_over_tolerance unconverged energy_error_rel "
+        "energy_correction_rel overlap_worst_rel"
+    ).split()
     tables.append(
         (
             "All runs",

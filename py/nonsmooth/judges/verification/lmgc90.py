@@ -397,19 +397,10 @@ def lmgc90_packing_stays_at_rest(bench):
         ]
         for name, run in found.items()
     ]
-    heads = [
-        "tolerance",
-        "sweeps, mean",
-        "most",
-        "carried",
-        "floor",
-        "energy [J], largest",
-        "last ten steps",
-        "all others' [J]",
-        "moved [m], median",
-        "largest",
-        "worst overlap [ℓ]",
-    ]
+    heads = (
+        "tolerance | sweeps, mean | most | carried | floor | energy [J], largest | last ten steps | "
+        "all others' [J] | moved [m], median | largest | worst overlap [ℓ]"
+    ).split(" | ")
     title = (
         "A hundred steps from LMGC90's velocities and forces; energy: 99 % of the carrying disks, without the "
         "fastest."

@@ -22,31 +22,6 @@ from ... import contact
 from ...world import scene
 from ...world.scene import contact_dynamics as engine
 
-__all__ = [
-    "DISKS",
-    "FLOOR",
-    "G",
-    "H",
-    "LEFT",
-    "MU",
-    "RIGHT",
-    "Balance",
-    "Dump",
-    "balance",
-    "build",
-    "carried",
-    "dump_step",
-    "engine",
-    "impulses_of",
-    "load",
-    "pair_keys",
-    "relative_velocities",
-    "step_problem",
-    "velocities_of",
-    "warm_start",
-    "with_radius_levers",
-]
-
 # number of disks; ids of the walls, in our scene and, less one, in LMGC90
 DISKS, FLOOR, LEFT, RIGHT = (5000, 5000, 5001, 5002)
 WIDTH, HEIGHT = 409.59035, 91.2221  # of the box [m]

@@ -91,18 +91,10 @@ def _random_problems(bench, kind, tolerance=1e-10, sweeps=200000, count=20):
         f"On {indeterminate} of {count} problems an impulse differs by more than 1e-6 of the largest one while velocities agree: closed loops of "
         "contacts leave them undetermined.",
     ]
-    heads = [
-        "seed",
-        "contacts",
-        "Siconos: sweeps",
-        "N",
-        "m/s",
-        "ours: sweeps",
-        "N",
-        "m/s",
-        "velocities differ by [m/s]",
-        "impulses by [of the largest]",
-    ]
+    heads = (
+        "seed | contacts | Siconos: sweeps | N | m/s | ours: sweeps | N | m/s | velocities differ by [m/s] | "
+        "impulses by [of the largest]"
+    ).split(" | ")
     caption = f"Tolerance {tolerance:g} for both; N and m/s: rms natural-map residual of either in our measure, as a force and as a velocity"
     return Findings(claims=claims, tables=[(caption, heads, rows)], remarks=remarks)
 

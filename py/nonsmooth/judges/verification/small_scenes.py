@@ -11,21 +11,6 @@ from ...world import scene
 from ...world.scene import contact_dynamics as engine
 from ...world.stepping import advance
 
-__all__ = [
-    "DENSITY",
-    "G",
-    "TIGHT",
-    "begin",
-    "contacts",
-    "disk",
-    "engine",
-    "material",
-    "run",
-    "set_gravity",
-    "wall",
-    "weight",
-]
-
 G = 9.81  # m/s²
 DENSITY = 2500  # kg/m³
 #: Settings for checks of the law itself: what is then left of the solver's error does not show.

@@ -45,17 +45,9 @@ def write(out, told):
         for label, one in [("hard", s["hard"]), *((f"soft, {modulus_label(x['stiffness_Pa'])}", x) for x in s["soft"])]
     ]
     heads = (
-        "state",
-        "contacts",
-        "time step",
-        "wall time a step",
-        "wall time a simulated second",
-        "mean overlap",
-        "largest overlap",
-        "over hard",
-        "contacts that touch or carry force",
-        "mean speed",
-    )
+        "state | contacts | time step | wall time a step | wall time a simulated second | mean overlap | "
+        "largest overlap | over hard | contacts that touch or carry force | mean speed"
+    ).split(" | ")
     section = report.Section(
         "Cost and overlap",
         [
