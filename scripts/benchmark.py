@@ -25,22 +25,12 @@ from yade.nonsmooth.system.whole_files import write_json
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="benchmark.py", description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--out", default="out/benchmark", metavar="DIR", help="folder for the results (default: %(default)s)"
-    )
+    arguments.add_out(parser, "out/benchmark")
     parser.add_argument(
         "--quick", action="store_true", help="fewer steps and repetitions: minutes, quartiles a little wider"
     )
-    parser.add_argument(
-        "--threads",
-        type=int,
-        default=os.cpu_count(),
-        metavar="T",
-        help="threads of the steps, besides one (default: all cores)",
-    )
-    parser.add_argument(
-        "--disks", type=int, default=20000, metavar="N", help="disks of the slope (default: %(default)s)"
-    )
+    arguments.add_threads(parser, "threads of the steps, besides one")
+    arguments.add_disks(parser, 20000, "disks of the slope")
     parser.add_argument(
         "--section",
         default="jiufengershan",

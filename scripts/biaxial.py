@@ -41,9 +41,7 @@ def read_arguments():
         metavar="MPA,…",
         help="confining pressures [MPa] (default: 0.25 to 16)",
     )
-    parser.add_argument(
-        "--disks", type=int, default=5000, metavar="N", help="disks of the sample (default: %(default)s)"
-    )
+    arguments.add_disks(parser, 5000, "disks of the sample")
     parser.add_argument(
         "--diameter",
         type=arguments.positive,
@@ -61,15 +59,7 @@ def read_arguments():
     parser.add_argument(
         "--aspect", type=arguments.positive, default=2.0, help="height over width (default: %(default)s)"
     )
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        action=arguments.EachOnce,
-        default=[1],
-        metavar="S",
-        help="seeds of the packings; several give confidence intervals",
-    )
+    arguments.add_seeds(parser, [1], "seeds of the packings; several give confidence intervals")
     parser.add_argument(
         "--platens",
         choices=("smooth", "rough", "glued"),

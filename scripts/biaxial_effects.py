@@ -25,9 +25,7 @@ from yade.nonsmooth.system.whole_files import write_json
 def read_arguments():
     parser = argparse.ArgumentParser(prog="biaxial_effects.py", description=__doc__.splitlines()[0])
     parser.add_argument("--material", default="wwr", metavar="NAME|FILE", help="wwr (default), or a material file")
-    parser.add_argument(
-        "--disks", type=int, default=effects.COUNT, metavar="N", help="disks of the usual sample (default: %(default)s)"
-    )
+    arguments.add_disks(parser, effects.COUNT, "disks of the usual sample")
     parser.add_argument(
         "--confining",
         type=arguments.positive,
@@ -35,15 +33,7 @@ def read_arguments():
         metavar="MPA",
         help="confining pressure [MPa] (default: %(default)g)",
     )
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        action=arguments.EachOnce,
-        default=[1, 2, 3, 4],
-        metavar="S",
-        help="seeds of the samples (default: 1 2 3 4)",
-    )
+    arguments.add_seeds(parser, [1, 2, 3, 4], "seeds of the samples (default: 1 2 3 4)")
     parser.add_argument(
         "--only", nargs="+", choices=("disks", "diameter", "inertia", "step"), help="only these effects"
     )

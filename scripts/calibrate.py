@@ -51,13 +51,8 @@ def read_arguments():
         help=f"disks of the coarse samples (default: 1500, with --quick {calibration.QUICK})",
     )
     parser.add_argument("--fine", type=int, metavar="N", help="disks of the fine samples (default: 5000)")
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        action=arguments.EachOnce,
-        metavar="S",
-        help="seeds of the samples (default: 11 12, with --quick 11 to 14: smaller samples scatter more)",
+    arguments.add_seeds(
+        parser, None, "seeds of the samples (default: 11 12, with --quick 11 to 14: smaller samples scatter more)"
     )
     parser.add_argument(
         "--out",
@@ -65,9 +60,7 @@ def read_arguments():
         metavar="FILE",
         help="the material; a report stands beside it (default: %(default)s)",
     )
-    parser.add_argument(
-        "--threads", type=int, default=os.cpu_count(), metavar="T", help="tests at a time (default: all cores)"
-    )
+    arguments.add_threads(parser, "tests at a time")
     parser.add_argument("--resume", action="store_true", help="keep the trials of an interrupted search")
     args = parser.parse_args()
     if args.quick and args.fine is not None:

@@ -47,22 +47,10 @@ def read_arguments():
         metavar="A,…",
         help=f"height over width of columns; of piles, over half of the width (default: {ASPECTS})",
     )
-    parser.add_argument(
-        "--disks",
-        type=int,
-        default=usual.disks,
-        metavar="N",
-        help="disks of each; boxes of some hundred or fewer may miss it by some per cent, see the table (default: %(default)s)",
+    arguments.add_disks(
+        parser, usual.disks, "disks of each; boxes of some hundred or fewer may miss it by some per cent, see the table"
     )
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        action=arguments.EachOnce,
-        default=[1],
-        metavar="S",
-        help="seeds of the packings (default: 1)",
-    )
+    arguments.add_seeds(parser, [1], "seeds of the packings (default: 1)")
     parser.add_argument(
         "--diameter", type=float, default=usual.diameter, metavar="M", help="mean diameter [m] (default: %(default)g)"
     )

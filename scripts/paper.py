@@ -34,13 +34,7 @@ def read_arguments():
         metavar="NAME",
         help=f"only these slopes: {', '.join(paper_slopes.VARIANTS)}",
     )
-    parser.add_argument(
-        "--disks",
-        type=int,
-        default=paper_slopes.DISKS,
-        metavar="N",
-        help="about how many disks of a slope (default: %(default)s)",
-    )
+    arguments.add_disks(parser, paper_slopes.DISKS, "about how many disks of a slope")
     parser.add_argument(
         "--seeds",
         type=int,

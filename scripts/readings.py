@@ -43,21 +43,11 @@ def read_arguments():
         metavar="KIND",
         help="between which samples are tested, where a reading does not say so itself: smooth, rough or both (default: both)",
     )
-    parser.add_argument(
-        "--disks", type=int, default=3000, metavar="N", help="about how many disks of a slope (default: %(default)s)"
-    )
+    arguments.add_disks(parser, 3000, "about how many disks of a slope")
     parser.add_argument(
         "--samples", type=int, default=2000, metavar="N", help="disks of a sample (default: %(default)s)"
     )
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        action=arguments.EachOnce,
-        default=[1, 2, 3, 4, 5],
-        metavar="S",
-        help="of slopes and samples (default: 1 to 5)",
-    )
+    arguments.add_seeds(parser, [1, 2, 3, 4, 5], "of slopes and samples (default: 1 to 5)")
     parser.add_argument(
         "--confining",
         type=arguments.pressures(),

@@ -33,9 +33,7 @@ def read_arguments():
     parser.add_argument(
         "--check", action="store_true", help="measure rocks that the shipped table was asked for, on samples of its own"
     )
-    parser.add_argument(
-        "--disks", type=int, default=rock_table.COUNT, metavar="N", help="disks of a sample (default: %(default)s)"
-    )
+    arguments.add_disks(parser, rock_table.COUNT, "disks of a sample")
     parser.add_argument(
         "--frictions",
         type=arguments.positive,

@@ -28,7 +28,7 @@ def read_arguments():
         metavar="N",
         help="time steps of 5 ms (default: %(default)s, half an hour)",
     )
-    parser.add_argument("--disks", type=int, default=500, metavar="N", help="disks in the drum (default: %(default)s)")
+    arguments.add_disks(parser, 500, "disks in the drum")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of their sizes (default: %(default)s)")
     parser.add_argument(
         "--way",
@@ -40,13 +40,7 @@ def read_arguments():
     parser.add_argument(
         "--out", default="out/soak.json", metavar="FILE", help="file for the result (default: %(default)s)"
     )
-    parser.add_argument(
-        "--threads",
-        type=int,
-        default=os.cpu_count(),
-        metavar="T",
-        help="threads; one is enough for some hundred disks (default: all cores)",
-    )
+    arguments.add_threads(parser, "threads; one is enough for some hundred disks")
     args = parser.parse_args()
     if args.steps < 10 * soak.ROWS:
         parser.error(

@@ -7,7 +7,6 @@
 """
 import argparse
 import difflib
-import os
 import sys
 from pathlib import Path
 
@@ -49,13 +48,7 @@ def read_arguments():
     parser.add_argument(
         "--out", default="out/sweep", metavar="DIR", help="folder of the plan and its runs (default: %(default)s)"
     )
-    parser.add_argument(
-        "--threads",
-        type=section_arguments.threads,
-        default=os.cpu_count(),
-        metavar="T",
-        help="runs at a time (default: all cores)",
-    )
+    arguments.add_threads(parser, "runs at a time", section_arguments.threads)
     parser.add_argument(
         "--resume", action="store_true", help="keep what has ended in DIR, and go on with what was halted"
     )

@@ -32,7 +32,7 @@ def read_arguments():
         metavar="NAME|FILE",
         help="of the rock: wwr, the paper's weakly weathered rock (default), or a material file",
     )
-    parser.add_argument("--disks", type=int, default=5000, metavar="N", help="disks of a sample (default: %(default)s)")
+    arguments.add_disks(parser, 5000, "disks of a sample")
     parser.add_argument(
         "--confining",
         type=arguments.pressures(2),
@@ -46,15 +46,7 @@ def read_arguments():
         default=biaxial_test.Test.strain,
         help="axial strain at the end (default: %(default)s)",
     )
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        action=arguments.EachOnce,
-        default=[1, 2, 3, 4, 5],
-        metavar="S",
-        help="seeds of the samples (default: 1 to 5)",
-    )
+    arguments.add_seeds(parser, [1, 2, 3, 4, 5], "seeds of the samples (default: 1 to 5)")
     parser.add_argument(
         "--slide-seeds",
         type=int,

@@ -16,6 +16,7 @@ from pathlib import Path
 from tqdm import tqdm
 from yade import config
 from yade.nonsmooth import commands
+from yade.nonsmooth.commands import arguments as options
 from yade.nonsmooth.judges import verification
 from yade.nonsmooth.judges.verification import report, runner, siconos_solve
 from yade.nonsmooth.system import output_folder
@@ -23,9 +24,7 @@ from yade.nonsmooth.system import output_folder
 
 def arguments():
     parser = argparse.ArgumentParser(prog="verify.py", description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--out", default="out/verify", metavar="DIR", help="folder for the report (default: %(default)s)"
-    )
+    options.add_out(parser, "out/verify", "the report")
     parser.add_argument(
         "--quick", action="store_true", help="the subset that takes minutes: smaller samples, fewer points"
     )

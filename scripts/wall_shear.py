@@ -45,15 +45,7 @@ def read_arguments():
         metavar="MPA,…",
         help="normal stresses [MPa] (default: 0.25,0.5,1,2)",
     )
-    parser.add_argument(
-        "--seeds",
-        type=int,
-        nargs="+",
-        action=arguments.EachOnce,
-        default=[1, 2],
-        metavar="S",
-        help="seeds of the packings (default: 1 2)",
-    )
+    arguments.add_seeds(parser, [1, 2], "seeds of the packings (default: 1 2)")
     arguments.add_runs(parser, "out/wall_shear", "slides")
     return parser.parse_args()
 

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 from yade.nonsmooth import commands, errors
+from yade.nonsmooth.commands import arguments
 from yade.nonsmooth.figures.creep import creep
 from yade.nonsmooth.figures.style import LINES
 from yade.nonsmooth.measure.creep import rate
@@ -46,9 +47,7 @@ def read_arguments():
     parser.add_argument(
         "--seconds", type=float, default=60, metavar="S", help="simulated time [s] (default: %(default)g)"
     )
-    parser.add_argument(
-        "--out", default="out/wedge", metavar="DIR", help="folder for the results (default: %(default)s)"
-    )
+    arguments.add_out(parser, "out/wedge")
     parser.add_argument("--resume", action="store_true", help="keep the runs that DIR has already")
     args = parser.parse_args()
     if not 1 <= args.seconds < float("inf"):

@@ -7,7 +7,7 @@ import contextlib
 import os
 import sys
 
-__all__ = ["EachOnce", "add_runs", "bar", "positive", "pressures"]
+__all__ = ["EachOnce", "add_disks", "add_out", "add_runs", "add_seeds", "add_threads", "bar", "positive", "pressures"]
 
 
 def pressures(least=1):
@@ -47,12 +47,32 @@ def positive(text):
     return value
 
 
+def add_out(parser, out, what="the results"):
+    """Adds --out, the folder for ``what``, in words; ``out``: the usual one."""
+    parser.add_argument("--out", default=out, metavar="DIR", help=f"folder for {what} (default: %(default)s)")
+
+
+def add_threads(parser, what, type=int):
+    """Adds --threads; ``what``: of which there are so many, in words."""
+    parser.add_argument(
+        "--threads", type=type, default=os.cpu_count(), metavar="T", help=f"{what} (default: all cores)"
+    )
+
+
+def add_disks(parser, usual, what):
+    """Adds --disks, ``what`` in words; ``usual``: their number where none is given."""
+    parser.add_argument("--disks", type=int, default=usual, metavar="N", help=f"{what} (default: %(default)s)")
+
+
+def add_seeds(parser, usual, what):
+    """Adds --seeds, each once; ``what``: the help in words; ``usual``: a list, None where the command chooses them."""
+    parser.add_argument("--seeds", type=int, nargs="+", action=EachOnce, default=usual, metavar="S", help=what)
+
+
 def add_runs(parser, out, what):
     """Adds what commands that run many things side by side share: ``out``: their usual folder; ``what``: the things, as "tests"."""
-    parser.add_argument("--out", default=out, metavar="DIR", help="folder for the results (default: %(default)s)")
-    parser.add_argument(
-        "--threads", type=int, default=os.cpu_count(), metavar="T", help=f"{what} at a time (default: all cores)"
-    )
+    add_out(parser, out)
+    add_threads(parser, f"{what} at a time")
     parser.add_argument(
         "--resume", action="store_true", help=f"keep {what} in DIR that have ended, and go on with others"
     )
