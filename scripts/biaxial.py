@@ -63,35 +63,38 @@ def read_arguments():
     parser.add_argument(
         "--platens",
         choices=("smooth", "rough", "glued"),
-        default=biaxial.Test.platens,
+        default=biaxial.BiaxialTest.platens,
         help="friction of the platens (default: %(default)s)",
     )
     parser.add_argument(
         "--sides",
         choices=("rigid", "flexible"),
-        default=biaxial.Test.sides,
+        default=biaxial.BiaxialTest.sides,
         help="lateral boundaries (default: %(default)s)",
     )
     parser.add_argument(
         "--strain",
         type=arguments.positive,
-        default=biaxial.Test.strain,
+        default=biaxial.BiaxialTest.strain,
         help="axial strain at the end (default: %(default)s)",
     )
     parser.add_argument(
         "--inertia",
         type=arguments.positive,
-        default=biaxial.Test.inertia,
+        default=biaxial.BiaxialTest.inertia,
         metavar="I",
         help="inertial number of the loading (default: %(default)g)",
     )
     parser.add_argument(
-        "--step", type=arguments.positive, default=biaxial.Test.step, help="time step in √(m/σ₃) (default: %(default)s)"
+        "--step",
+        type=arguments.positive,
+        default=biaxial.BiaxialTest.step,
+        help="time step in √(m/σ₃) (default: %(default)s)",
     )
     parser.add_argument(
         "--tolerance",
         type=arguments.positive,
-        default=biaxial.Test.tolerance,
+        default=biaxial.BiaxialTest.tolerance,
         help="of the solver's residual (default: %(default)g)",
     )
     parser.add_argument(
@@ -146,7 +149,7 @@ def main():
         material = dataclasses.replace(material, bonds_close=True)
     friction = None if args.sample == "packed" else args.pressing_friction or 0.0
     tests = [
-        biaxial.Test(
+        biaxial.BiaxialTest(
             material,
             1e6 * p,
             pressing.Shape(args.disks, seed, *args.diameter, args.fraction, args.aspect, friction),

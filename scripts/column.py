@@ -105,7 +105,7 @@ def read_arguments():
         "--tolerance",
         type=arguments.positive,
         metavar="R",
-        help=f"hard: residual of a step (default: {study.TOLERANCE:g})",
+        help=f"hard: residual of a step (default: {grains.TOLERANCE:g})",
     )
     parser.add_argument("--stiffness", type=arguments.positive, metavar="PA", help="soft: Young's modulus [Pa]")
     parser.add_argument(

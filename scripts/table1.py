@@ -43,7 +43,7 @@ def read_arguments():
     parser.add_argument(
         "--strain",
         type=arguments.positive,
-        default=biaxial_test.Test.strain,
+        default=biaxial_test.BiaxialTest.strain,
         help="axial strain at the end (default: %(default)s)",
     )
     arguments.add_seeds(parser, [1, 2, 3, 4, 5], "seeds of the samples (default: 1 to 5)")

@@ -66,7 +66,7 @@ def main():
             )
         chosen.append(m)
     output_folder.claim(out, "wall_shear.py", args.resume)
-    groups = [[wall_shear.Test(m, 1e6 * p, seed) for p in args.pressures] for m in chosen for seed in args.seeds]
+    groups = [[wall_shear.SlideTest(m, 1e6 * p, seed) for p in args.pressures] for m in chosen for seed in args.seeds]
     with arguments.bar() as progress:
         slides = wall_shear.run([t for group in groups for t in group], out, args.threads, args.resume, progress)
     n = len(args.pressures)

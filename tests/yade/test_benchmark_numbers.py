@@ -195,7 +195,7 @@ def test_a_course_of_measurements_makes_its_folders(tmp_path, monkeypatch):
 def test_a_course_of_measurements_says_how_far_it_is(tmp_path, noted, share):
     """Of 100 s foreseen 20 s are gone, and one of 40 s has noted its share; what takes longer than foreseen does not go beyond the whole."""
     told, turns = [], iter([False, True])
-    made = course.Course(tmp_path, 100.0, lambda *arguments: told.append(arguments))
+    made = course.MeasuringCourse(tmp_path, 100.0, lambda *arguments: told.append(arguments))
     made.gone = 20.0
     (tmp_path / "sweeps").mkdir()
     if noted is not None:

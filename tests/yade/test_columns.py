@@ -58,7 +58,7 @@ def test_a_row_measures_the_disks_that_are_there(monkeypatch):
         "omega": np.array([2.0, 0.0, 3.0, 0.0]),
     }
     monkeypatch.setattr(preparation, "disk_table", lambda stand: table)
-    scene = course.Scene(made_heap(("right",)), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
+    scene = course.HeapScene(made_heap(("right",)), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[]))
     row, joined = scene.measure()
     assert joined.tolist() == [True, True, True, False]
     small, large = 2000 * math.pi * 0.25, 2000 * math.pi
@@ -73,13 +73,13 @@ def test_a_row_measures_the_disks_that_are_there(monkeypatch):
         (-3.02, x + 1, 7.5, 3), rel=1e-12
     )
     assert row["overlap_worst_rel"] == pytest.approx(0.02, rel=1e-9)  # of the disk's diameter, 1 m
-    two_gates = course.Scene(
+    two_gates = course.HeapScene(
         made_heap(("left", "right"), "rough"), None, SimpleNamespace(width=10.0), SimpleNamespace(base=[])
     )
     assert two_gates.measure()[0]["overlap_worst_rel"] < 1e-9  # the wall is gone, and so is the floor
-    assert course.Scene(made_heap(("left",)), None, SimpleNamespace(width=10.3), SimpleNamespace(base=[])).measure()[0][
-        "overlap_worst_rel"
-    ] == pytest.approx(0.2, rel=1e-9)
+    assert course.HeapScene(
+        made_heap(("left",)), None, SimpleNamespace(width=10.3), SimpleNamespace(base=[])
+    ).measure()[0]["overlap_worst_rel"] == pytest.approx(0.2, rel=1e-9)
 
 
 def test_a_result_is_in_units_of_its_box():
@@ -95,7 +95,9 @@ def test_a_result_is_in_units_of_its_box():
         "wall_s": np.array([0.0, 2.5]),
     }
     found = {
-        gates: course.Result(made_heap(gates), "hard", {}, 4.0, 10.0, series, x, r, r, np.ones(16, bool), True, 1e-3)
+        gates: course.HeapResult(
+            made_heap(gates), "hard", {}, 4.0, 10.0, series, x, r, r, np.ones(16, bool), True, 1e-3
+        )
         for gates in (("right",), ("left", "right"))
     }
     column_, pile_ = (found[gates].summary() for gates in found)

@@ -34,7 +34,7 @@ def scene_of(monkeypatch, table, gates=("right",), base="smooth", glued=()):
         density=2000.0, gravity=10.0, base=base, gates=lambda: gates, place=lambda: -3.0, mean_diameter=lambda: 2.5
     )
     monkeypatch.setattr(preparation, "disk_table", lambda stand: table)
-    return course.Scene(heap, None, SimpleNamespace(width=10.0), SimpleNamespace(base=list(glued)))
+    return course.HeapScene(heap, None, SimpleNamespace(width=10.0), SimpleNamespace(base=list(glued)))
 
 
 # ---- a scene ----------------------------------------------------------------------------------------
@@ -122,8 +122,14 @@ def test_disks_that_do_not_rest_in_their_box_are_refused(few, monkeypatch):
     assert 10 * unit <= O.time <= 10.1 * unit
 
 
+def test_without_a_world_it_is_of_rigid_disks(few):
+    made = column.build(few)
+    assert made.world == grains.hard(few) == worlds.Hard(time_step=few.time_step(), tolerance=1e-4)
+    assert grains.hard(few, path=0.2, tolerance=1e-3) == hard(few)
+
+
 def test_damping_while_it_moves_is_of_soft_contacts(few):
-    with pytest.raises(grains.HeapError, match="damping_moving 0.1: hard"):
+    with pytest.raises(worlds.WorldError, match="damping_moving 0.1: hard"):
         column.run(few, hard(few), damping_moving=0.1)
 
 
@@ -175,7 +181,7 @@ def test_a_result_says_none_where_there_is_no_slope():
     )
     series = {name: np.array([0.0, 1.0]) for name in course.COLUMNS}
     x, ones = np.array([0.5, 1.5, 2.5]), np.ones(3)
-    found = course.Result(
+    found = course.HeapResult(
         heap, "soft", {"a": 1}, 2.0, 5.0, series, x, 0.5 * ones, 0.5 * ones, np.array([True, True, False]), False, 1e-3
     )
     told = found.summary()

@@ -12,7 +12,7 @@ import shell
 
 import drawn
 from yade import O
-from yade.nonsmooth import errors, records, section
+from yade.nonsmooth import errors, records, section, worlds
 from yade.nonsmooth.course import driver
 from yade.nonsmooth.figures import film, wall_shear as wall_shear_figure
 from yade.nonsmooth.laboratory import (
@@ -95,7 +95,9 @@ def test_a_bad_material_is_one_message(tmp_path, text, message):
 
 def test_samples_are_of_the_slopes_rock_and_made_as_the_slope_is():
     """Table 1 and the water at failure are of one reading: the same contacts, the same packing fraction, pressed without friction, loaded and bonded then."""
-    shipped, test = section.load("jiufengershan"), biaxial.Test(materials.load("wwr"), 1e6, pressing.Shape(300, 1))
+    shipped, test = section.load("jiufengershan"), biaxial.BiaxialTest(
+        materials.load("wwr"), 1e6, pressing.Shape(300, 1)
+    )
     assert dataclasses.replace(test.material, name="rock") == materials.bare(shipped.materials["rock"])
     assert {layer.material for layer in shipped.layers} == {"rock"}
     assert (shipped.pressed, shipped.stages.settle.bond) == (True, "after") and test.shape.friction == 0.0
@@ -160,7 +162,7 @@ def test_a_damaged_sample_is_pressed_anew(tmp_path, monkeypatch):
 @pytest.mark.parametrize("name, peak, residual", [("fb", 0.7, 0.5), ("ss", 0.2, 0.2)])
 def test_a_wall_has_the_strength_of_its_contacts(name, peak, residual):
     m = materials.load(name)
-    tests = [wall_shear.Test(m, p) for p in (0.5e6, 2e6)]
+    tests = [wall_shear.SlideTest(m, p) for p in (0.5e6, 2e6)]
     found = wall_shear.strength_of(tests, [wall_shear.slide(t) for t in tests])
     # all contacts slip at once, so the sum obeys eq. 4 to the solver's tolerance of 1e-4
     assert found["friction_peak"] == pytest.approx(peak, rel=1e-3) and found["friction_residual"] == pytest.approx(
@@ -195,7 +197,7 @@ def test_a_block_is_pressed_by_a_load_that_grows_to_the_whole_of_it(monkeypatch)
 
 def test_slides_run_side_by_side_and_are_kept(tmp_path):
     """Processes of their own give what the scene here gives, to the bit; a resume keeps them; the figure takes their series."""
-    tests = [wall_shear.Test(materials.load("dp"), p) for p in (0.5e6, 2e6)]
+    tests = [wall_shear.SlideTest(materials.load("dp"), p) for p in (0.5e6, 2e6)]
     found = wall_shear.run(tests, tmp_path, threads=2)
     assert found[0] == wall_shear.slide(tests[0])
     before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*") if path.is_file()}
@@ -430,7 +432,7 @@ def test_a_resumed_search_for_other_strengths_computes_its_own_trials(tmp_path):
 
 # ---- a small test, whole --------------------------------------------------------------------------
 
-SMALL = biaxial.Test(
+SMALL = biaxial.BiaxialTest(
     materials.load("wwr"),
     1e6,
     pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82, friction=0.0),
@@ -477,12 +479,18 @@ def test_a_rock_without_bonds_is_tested_without_bonds(tmp_path):
     assert course.bonds == 0 and course.engine.bonds == 0 and course.engine.contacts > 100
 
 
+def test_rigid_contacts_take_their_step_from_the_test(tmp_path):
+    with pytest.raises(worlds.WorldError, match=r"world Hard\(.*: give worlds.Soft\(...\), or None for rigid contacts"):
+        biaxial.BiaxialCourse.begin(SMALL, tmp_path, worlds.Hard(time_step=1e-3))
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("reach", [1e-3, 0.025])
 def test_residual_strength_acts_as_far_as_a_test_says(tmp_path, reach):
     """1e-3 ℓ where it does not say so, which is the law's own."""
-    assert biaxial.Test.adhesion_range == Law2_ScGeom_NscdPhys_SignoriniCoulomb().adhesionRange == 1e-3
+    assert biaxial.BiaxialTest.adhesion_range == Law2_ScGeom_NscdPhys_SignoriniCoulomb().adhesionRange == 1e-3
     pressing.prepare(SMALL.shape, tmp_path / "pressing")
-    course = biaxial.Course.begin(dataclasses.replace(SMALL, adhesion_range=reach), tmp_path)
+    course = biaxial.BiaxialCourse.begin(dataclasses.replace(SMALL, adhesion_range=reach), tmp_path)
     course.series.close()
     (loop,) = (e for e in O.engines if isinstance(e, NscdInteractionLoop))
     assert [law.adhesionRange for law in loop.lawDispatcher.functors] == [reach]
@@ -727,7 +735,7 @@ def test_a_row_of_a_test_by_hand(sides):
         state={"begin_time": O.time - 7, "strain": 0.02, "area": 10.0, "rate": 3.0, "unit_s": 0.5},
     )
     solved = {"iterations_mean": 25.0, "residual_worst": 1e-3, "unconverged": 6, "energy_kinetic_J": 70.0}
-    biaxial.Course._row(course, 12.0, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, solved)
+    biaxial.BiaxialCourse._row(course, 12.0, {"top": 60.0, "bottom": 66.0, "left": 8.0, "right": 10.0}, solved)
     # a membrane's pressure is given
     left, right = (2.0, 2.5) if sides == "rigid" else (SMALL.confining, SMALL.confining)
     known = {
@@ -756,7 +764,7 @@ def test_a_row_of_a_test_by_hand(sides):
     assert rows == [pytest.approx(known, rel=1e-12)]  # division and subtraction round
 
 
-class MadeUpTest(biaxial.Course):
+class MadeUpTest(biaxial.BiaxialCourse):
     """A sample of 1 m that is pressed by ``path`` [m] in each row, to a strain of 0.05; notes the strain at which each snapshot was written."""
 
     hard = True
@@ -836,7 +844,7 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
     class Stopped(Exception):
         pass
 
-    course = biaxial.Course.begin(test, broken)
+    course = biaxial.BiaxialCourse.begin(test, broken)
 
     def stop(share):
         if share > 0.4:
@@ -863,7 +871,7 @@ def test_a_biaxial_test_keeps_its_pressure_and_goes_on_from_a_checkpoint(tmp_pat
     for name in ("begin", "peak", "end"):
         assert (broken / "cycle" / f"{name}.npz").read_bytes() == (whole / "cycle" / f"{name}.npz").read_bytes()
     with pytest.raises(biaxial.TestError, match="other settings"):
-        biaxial.Course.resume(dataclasses.replace(test, inertia=2e-4), broken)
+        biaxial.BiaxialCourse.resume(dataclasses.replace(test, inertia=2e-4), broken)
 
 
 def test_the_script_writes_a_summary_and_figures(tmp_path):

@@ -124,7 +124,7 @@ def test_a_lessons_video_stands_beside_what_it_printed(tmp_path):
     names, before = vars(sys.modules["__main__"]), dict(vars(sys.modules["__main__"]))
     O.reset()
     try:
-        found = lessons.one(tmp_path, "hard_incline.py", dict(seconds=0.2), seconds=1.0)
+        found = lessons.one(tmp_path, "incline", "hard", dict(seconds=0.2), seconds=1.0)
     finally:
         names.clear()
         names.update(before)

@@ -42,7 +42,7 @@ def slope_series(folder):
 
 def biaxial_series(folder):
     shape = pressing.Shape(count=150, seed=3, d_min=1.0, d_max=2.0, fraction=0.82, friction=0.0)
-    test = biaxial.Test(
+    test = biaxial.BiaxialTest(
         materials.load("wwr"),
         1e6,
         shape,

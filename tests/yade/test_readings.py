@@ -18,7 +18,7 @@ from made_up_readings import made_up
 SHIPPED = readings.READINGS[reading_numbers.SHIPPED]
 
 
-def all_of(reading, platens=biaxial_test.Test.platens):
+def all_of(reading, platens=biaxial_test.BiaxialTest.platens):
     return section_data.plain(readings.slope_of(reading, 3000, 1)), readings.tests_of(reading, 400, [1], platens)
 
 
@@ -27,7 +27,7 @@ def test_the_default_is_the_shipped_section_and_its_rock():
     assert slope == section_data.plain(section.load("jiufengershan").with_disks(3000))
     assert {t.material.bond_creation_distance for t in tests} == {slope["materials"]["rock"]["bond_creation_distance"]}
     assert [t.confining for t in tests] == list(reading_numbers.PRESSURES)
-    assert {t.platens for t in tests} == {biaxial_test.Test.platens}
+    assert {t.platens for t in tests} == {biaxial_test.BiaxialTest.platens}
 
 
 def test_each_reading_is_another_one():

@@ -437,7 +437,7 @@ def test_a_sample_of_a_rock_that_was_asked_for_has_its_strengths(tmp_path):
     rock, known = materials.load(path), rocks.contacts(60e3, 34.0)
     shape = pressing.Shape(rocks.table()["samples"]["disks"], 11)
     tests = [
-        biaxial_test.Test(rock, p * rock.tensile_strength, shape, strength.SHORTEST)
+        biaxial_test.BiaxialTest(rock, p * rock.tensile_strength, shape, strength.SHORTEST)
         for p in (rock_table.PRESSURES[0], rock_table.PRESSURES[-1])
     ]
     found = campaign.summarise(rock, campaign.run(tests, tmp_path / "tests", 2))

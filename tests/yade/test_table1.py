@@ -83,7 +83,7 @@ def test_tests_are_those_that_were_asked_for(told):
     ]
     assert (
         (where, threads, resume) == (out / "rock", 5, True)
-        and isinstance(tests[0], biaxial_test.Test)
+        and isinstance(tests[0], biaxial_test.BiaxialTest)
         and tests[0].material.name == "wwr"
     )
     slides, where, threads, resume = asked["slides"]

@@ -4,7 +4,9 @@ import math
 
 import pytest
 from yade import O, wrapper
-from yade.nonsmooth import scene, section, worlds
+from yade.nonsmooth import experiment, scene, section, worlds
+from yade.nonsmooth.studies.slope import slope
+from yade.wrapper import ContactDynamicsEngine
 
 ROCK = section.Material(
     "rock",
@@ -85,3 +87,28 @@ def test_the_soft_step_is_a_share_of_the_smallest_limit():
         [ROCK, light]
     ) == world.step_for([light, ROCK]) == pytest.approx(0.15 * limit, rel=1e-9)
     assert WORLDS[0].step_for([ROCK, light]) == 2e-3
+
+
+@pytest.mark.parametrize("given", [None, "hard", 3, worlds.Soft])
+def test_what_is_no_world_is_refused(given):
+    with pytest.raises(worlds.WorldError, match=r"world .*: give worlds.Hard\(...\) or worlds.Soft\(...\), or None"):
+        worlds.check(given)
+
+
+def test_a_damping_on_the_move_is_of_springs_alone():
+    soft = worlds.Soft(stiffness=1e8, diameter=(1.0, 2.0))
+    for given in (None, 0.0, 0.9):
+        worlds.check_damping(soft, given)
+    worlds.check_damping("hard", None)
+    for world in ("hard", worlds.Hard(time_step=1e-3)):
+        with pytest.raises(worlds.WorldError, match="damping_moving 0.1: hard contacts have no damping; leave it out"):
+            worlds.check_damping(world, 0.1)
+    with pytest.raises(worlds.WorldError, match="damping_moving 1: give a number from 0 to less than 1"):
+        worlds.check_damping(soft, 1)
+
+
+def test_a_slope_of_rigid_disks_refuses_a_damping_before_it_removes_anything(tmp_path):
+    built = slope.Slope(section.load("circle"), {}, 0, 0, ContactDynamicsEngine(), None)
+    with pytest.raises(worlds.WorldError, match="damping_moving 0.1: hard"):
+        experiment.Experiment(built, tmp_path / "out", damping_moving=0.1)
+    assert not (tmp_path / "out").exists()

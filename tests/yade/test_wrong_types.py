@@ -217,10 +217,10 @@ CALLS = [
     ("key", lambda v: figures.means(ROWS, v, ["front_m"]), (None, 3, "friction"), "the rows have no such values; give one of seed"),
     ("names", lambda v: figures.means(ROWS, "seed", v), (["front"], ["front_m", "t9"], []), "the rows have no such numbers; give some of front_m|nothing to draw"),
     ("heap", lambda v: column.run(v, worlds.Hard(1e-3)), (None, "x", [1]), "give a Column or a Pile"),
-    ("world", lambda v: column.build(column.Column(), v), (None, "hard", [1]), r"give worlds.Hard\(...\)"),
+    ("world", lambda v: column.build(column.Column(), v), (3, "hard", [1]), r"give worlds.Hard\(...\)"),
     ("material", lambda v: materials.load(v), (None, 3, [1]), "give one of wwr, dp"),
-    ("material", lambda v: biaxial_test.Test(v, 1e6, None), (None, "wwr", 3), "give a section.Material"),
-    ("tests", lambda v: tests_of_rock.run(v, "out", 1), (None, "x", [1], 3, []), "give a list of biaxial_test.Test|give one biaxial_test.Test or more"),
+    ("material", lambda v: biaxial_test.BiaxialTest(v, 1e6, None), (None, "wwr", 3), "give a section.Material"),
+    ("tests", lambda v: tests_of_rock.run(v, "out", 1), (None, "x", [1], 3, []), "give a list of biaxial_test.BiaxialTest|give one biaxial_test.BiaxialTest or more"),
     ("out", lambda v: tests_of_rock.run([], v, 1), (None, 3), "give the path of a folder"),
     ("threads", lambda v: tests_of_rock.run([], "out", v), (None, "2", 0), "give a whole number from 1"),
 ]  # fmt: skip

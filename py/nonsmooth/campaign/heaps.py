@@ -4,8 +4,8 @@
     from nonsmooth.heaps import column
 
     c = column.Column(disks=300, aspect=1.5)
-    runs = campaign.run_heaps({"hard": (c, {}), "soft": (c, dict(name="soft", stiffness=1e8))}, "out/columns", threads=2)
-    runs["hard"].summary["runout_rel"], runs["soft"].figure()
+    runs = campaign.run_heaps({"hard": (c, {}), "soft": (c, dict(name="soft", stiffness=1e8))}, "out/columns",
+    threads=2) runs["hard"].summary["runout_rel"], runs["soft"].figure()
 """
 
 from __future__ import annotations
@@ -25,7 +25,9 @@ CASES = "give a dictionary {name: (Column or Pile, {value of its world: number})
 
 
 def open_heap(folder) -> HeapRun:
-    """The HeapRun in a folder: that of run_column or run_pile, or one of ``runs`` below that of run_heaps or scripts/column.py. Raises RunError where it is none."""
+    """The HeapRun in a folder: that of run_column or run_pile, or one of ``runs`` below that of run_heaps or
+    scripts/column.py. Raises RunError where it is none.
+    """
     run = HeapRun(folder)
     if not (run.folder / runs.RESULT).is_file() or run._asked.get("kind") not in study.KINDS:
         raise runs.RunError(
@@ -35,10 +37,12 @@ def open_heap(folder) -> HeapRun:
 
 
 def run_heaps(cases, out, threads=1, resume=False, duration=study.DURATION) -> dict:
-    """Runs ``cases``, {name: (Column or Pile, world)}, as many at a time as ``threads``, in ``out/runs/NAME``; returns {name: HeapRun}.
+    """Runs ``cases``, {name: (Column or Pile, world)}, as many at a time as ``threads``, in ``out/runs/NAME``; returns
+    {name: HeapRun}.
 
-    ``world``: a dictionary, arguments of heaps.study.world_of: {} is rigid disks, ``dict(name="soft", stiffness=1e8)`` springs, from the same places. ``resume``: keep runs of
-    these parameters that have ended; ``duration``: see heaps.course.run. Raises HeapError or SoftError for values that cannot be used, before anything runs, HeapError
+    ``world``: a dictionary, arguments of heaps.study.world_of: {} is rigid disks, ``dict(name="soft", stiffness=1e8)``
+    springs, from the same places. ``resume``: keep runs of these parameters that have ended; ``duration``: see
+    heaps.course.run. Raises HeapError or SoftError for values that cannot be used, before anything runs, HeapError
     where a run fails, after the others have ended, and FolderError where another process works in the folder.
     """
     made = run_cases(
@@ -57,8 +61,8 @@ def run_heaps(cases, out, threads=1, resume=False, duration=study.DURATION) -> d
 def run_column(made, out, world="hard", duration=study.DURATION, resume=False, **numerics) -> HeapRun:
     """Runs one Column in the folder ``out``, in a process of its own, and opens the run.
 
-    ``world``: "hard", or "soft" with its ``stiffness`` [Pa]; ``numerics``: other arguments of heaps.study.world_of, as ``tolerance``, ``damping`` or ``model``. The rest as for
-    :func:`run_heaps`, which does several side by side.
+    ``world``: "hard", or "soft" with its ``stiffness`` [Pa]; ``numerics``: other arguments of heaps.study.world_of, as
+    ``tolerance``, ``damping`` or ``model``. The rest as for :func:`run_heaps`, which does several side by side.
     """
     return _alone(made, column.Column, out, world, duration, resume, numerics)
 
@@ -70,9 +74,7 @@ def run_pile(made, out, world="hard", duration=study.DURATION, resume=False, **n
 
 def _alone(made, kind, out, world, duration, resume, numerics):
     if type(made) is not kind:
-        raise HeapError(
-            f"{checks.shown(made)}: is no {kind.__name__}; give a heaps.{kind.__name__.lower()}.{kind.__name__}"
-        )
+        raise HeapError(f"{checks.shown(made)}: is no {kind.KIND}; give a heaps.{kind.KIND.lower()}.{kind.KIND}")
     checks.path("out", out, HeapError, runs.FOLDER)
     one = study.planned(str(out), out, made, {"name": world, **numerics}, duration)
     with output_folder.claimed(out, COMMAND, resume):

@@ -1,7 +1,8 @@
-"""The driver of every course: it makes the steps up to a row, lets the study look at them, keeps checkpoints, and hears Ctrl-C where the records are whole.
+"""The driver of every course: it makes the steps up to a row, lets the study look at them, keeps checkpoints, and hears
+Ctrl-C where the records are whole.
 
-A study is a :class:`Course`: it says how the steps of a row are made, what a row sees and writes, and when the course is over. Nothing here depends on wall time but when checkpoints are
-written, which no result shows.
+A study is a :class:`Course`: it says how the steps of a row are made, what a row sees and writes, and when the course
+is over. Nothing here depends on wall time but when checkpoints are written, which no result shows.
 """
 
 from __future__ import annotations
@@ -17,10 +18,12 @@ CHECKPOINT_SHARE = 0.02  # ... and so many that they take this part of it at mos
 
 
 class Course:
-    """What a study gives the driver. ``files``: the SeriesWriters that a row goes into; ``spent``: a mapping whose ``wall_s`` and ``wall_steps_s`` [s] grow, of all that is done and of the steps alone.
+    """What a study gives the driver. ``files``: the SeriesWriters that a row goes into; ``spent``: a mapping whose
+    ``wall_s`` and ``wall_steps_s`` [s] grow, of all that is done and of the steps alone.
 
-    A study defines ``_over``, ``_steps`` and ``_look``, and where it has checkpoints ``_save`` and ``_where``. Steps leave O.bodies and O.interactions behind
-    (``advance(..., view=False)``); both are up to date when :func:`drive` ends, by an error too.
+    A study defines ``_over``, ``_steps`` and ``_look``, and where it has checkpoints ``_save`` and ``_where``. Steps
+    leave O.bodies and O.interactions behind (``advance(..., view=False)``); both are up to date when :func:`drive`
+    ends, by an error too.
     """
 
     #: What has no checkpoints, in words, as "a slope of soft contacts"; None where there are some.
@@ -110,7 +113,9 @@ class Course:
 
 
 def drive(course):
-    """Goes through a Course to its end. Ctrl-C ends it after the next row, with a checkpoint where it has some, by raising interrupts.Interrupted; it can then go on, as after an error."""
+    """Goes through a Course to its end. Ctrl-C ends it after the next row, with a checkpoint where it has some, by
+    raising interrupts.Interrupted; it can then go on, as after an error.
+    """
     from yade import O
     from yade.wrapper import ContactDynamicsEngine
 

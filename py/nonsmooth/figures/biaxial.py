@@ -149,7 +149,7 @@ def _frame(ax, *snapshots):
 
 
 def film(paths, words, path):
-    """A video of a sample in the colours of :func:`rotations`: ``paths`` of its frames (:meth:`.laboratory.biaxial.Course.frame`), ``words`` beside the time. Returns the ``path``, .mp4 or .gif.
+    """A video of a sample in the colours of :func:`rotations`: ``paths`` of its frames (:meth:`.laboratory.biaxial.BiaxialCourse.frame`), ``words`` beside the time. Returns the ``path``, .mp4 or .gif.
 
     Raises RecordsError where there is no frame, for one without angles or walls, and for a file that cannot be made.
     """

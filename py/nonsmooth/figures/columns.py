@@ -94,7 +94,7 @@ def collapse(times, places, r, unit, path=None, width=None, gate=None, pdf=False
 def beside(runs, path=None, pdf=False):
     """Several runs of one heap: the deposit of each, one below the other and to one scale, and beside them the fall of the centres of mass.
 
-    ``runs``: {label: run}, each with ``summary`` and ``series`` of heaps.course.Result, ``places()`` as heaps.study.frames and its ``heap``, as a campaign.HeapRun. Lengths are
+    ``runs``: {label: run}, each with ``summary`` and ``series`` of heaps.course.HeapResult, ``places()`` as heaps.study.frames and its ``heap``, as a campaign.HeapRun. Lengths are
     in units of L₀, times in T = √(H₀/g) of each.
     """
     if not runs:

@@ -1,8 +1,9 @@
-"""Records of a run: the time series (``series.csv``, ``walls.csv``), the bonds that broke (``breaks.csv``) and the snapshots (``.npz``).
+"""Records of a run: the time series (``series.csv``, ``walls.csv``), the bonds that broke (``breaks.csv``) and the
+snapshots (``.npz``).
 
 All can be read and written without YADE. All quantities are in SI units, forces and energies per metre of
-thickness (the model is two-dimensional). ``COLUMNS`` and ``WALL_COLUMNS`` are those of a slope. Every failure is a :class:`RecordsError` that names the file, what is
-wrong with it and what to do.
+thickness (the model is two-dimensional). ``COLUMNS`` and ``WALL_COLUMNS`` are those of a slope. Every failure is a
+:class:`RecordsError` that names the file, what is wrong with it and what to do.
 """
 
 from .breaks import BREAK_COLUMNS, read_breaks, write_breaks

@@ -23,7 +23,8 @@ BREAK_COLUMNS = ("step", "time_s", "disk1", "disk2", "mode", "x_m", "y_m")
 def write_breaks(path, breaks, first_disk=0):
     """Write broken bonds, as :func:`yade.nonsmooth.tables.breaks` gives them, as CSV with the columns BREAK_COLUMNS.
 
-    ``disk1`` is empty where the bond was one to a wall; ``mode`` is tension, shear, torque or mixed. The file is written beside and renamed.
+    ``disk1`` is empty where the bond was one to a wall; ``mode`` is tension, shear, torque or mixed. The file is
+    written beside and renamed.
     """
     checks.count("first_disk", first_disk, RecordsError, "give the id of disk 0, a whole number from 0", least=0)
     _check(breaks, first_disk)

@@ -1,6 +1,7 @@
 """Checkpoints: the scene beside a small JSON file that names it; the earlier one stays until the new one is whole.
 
-What a resume reads has a checksum, and is compared with it before anything is loaded: YADE ends its process over some damaged scenes, and takes others.
+What a resume reads has a checksum, and is compared with it before anything is loaded: YADE ends its process over some
+damaged scenes, and takes others.
 """
 
 from __future__ import annotations
@@ -29,7 +30,9 @@ def exists(folder):
 
 
 def forget(folder):
-    """Removes the checkpoint in ``folder``, if there is one: for a run that begins anew, before it writes anything. Raises WriteError."""
+    """Removes the checkpoint in ``folder``, if there is one: for a run that begins anew, before it writes anything.
+    Raises WriteError.
+    """
     path = _named(folder)
     try:
         if path.parent.is_dir():
@@ -73,7 +76,8 @@ def write(folder, key, content):
 def read(folder, key, error, again="run without --resume"):
     """Loads the scene of the checkpoint below ``folder`` and returns the content that :func:`write` was given.
 
-    Raises ``error`` (an exception class) where there is none, where it is damaged, or where its key is another than ``key``; the scene is then as it was.
+    Raises ``error`` (an exception class) where there is none, where it is damaged, or where its key is another than
+    ``key``; the scene is then as it was.
     ``again``: how a run is begun anew, for its message.
     """
     from yade import O
@@ -131,7 +135,9 @@ def _named(folder):
 
 @functools.cache
 def _engines():
-    """What must not change between saving and loading a scene: a class with another attribute would read the rest of the file as something else."""
+    """What must not change between saving and loading a scene: a class with another attribute would read the rest of
+    the file as something else.
+    """
     from yade import config
 
     return key_of([config.version, engines_key()])
@@ -139,7 +145,9 @@ def _engines():
 
 @contextlib.contextmanager
 def _saved(folder):
-    """The scene as YADE saves it, a buffer. It goes to memory first, as YADE does not notice where a disk ends before the file does."""
+    """The scene as YADE saves it, a buffer. It goes to memory first, as YADE does not notice where a disk ends before
+    the file does.
+    """
     from yade import O
 
     with os.fdopen(os.memfd_create("scene"), "r+b", buffering=0) as file:

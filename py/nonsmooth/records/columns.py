@@ -1,4 +1,6 @@
-"""Columns of a series: a study declares those that it writes, with unit and meaning, where it writes them. Here stands how, and what several studies have."""
+"""Columns of a series: a study declares those that it writes, with unit and meaning, where it writes them. Here stands
+how, and what several studies have.
+"""
 
 import importlib
 import re
@@ -23,9 +25,11 @@ __all__ = [
 
 
 class Column(NamedTuple):
-    """A column of a series: its ``name``, which ends in its ``unit`` ("1": a number without, "-": no number), and its ``meaning``.
+    """A column of a series: its ``name``, which ends in its ``unit`` ("1": a number without, "-": no number), and its
+    ``meaning``.
 
-    ``kind``: int for counts, float, str for words; None where nothing is known but the name, and a number is written as what it is. ``optional``: a cell may be empty.
+    ``kind``: int for counts, float, str for words; None where nothing is known but the name, and a number is written as
+    what it is. ``optional``: a cell may be empty.
     """
 
     name: str
@@ -72,7 +76,8 @@ BONDS = (
 #: The four ways in which contacts dissipate energy.
 LOSSES = ("energy_sliding_J", "energy_rolling_J", "energy_impact_J", "energy_bonds_J")
 
-#: Columns of the series that each slip surface has for itself where some lie one above another, see :mod:`.model.stacks`.
+#: Columns of the series that each slip surface has for itself where some lie one above another, see
+#: :mod:`.model.stacks`.
 OWN = (
     "dp_normal_total_N_per_m",
     "dp_normal_effective_N_per_m",
@@ -85,7 +90,9 @@ OWN = (
 
 
 def column(name, surface):
-    """Name of a column, one of :data:`OWN`, for one slip surface: ``dp_shear_N_per_m:joint``. What a table of numbers would stumble over is left out of the surface's name."""
+    """Name of a column, one of :data:`OWN`, for one slip surface: ``dp_shear_N_per_m:joint``. What a table of numbers
+    would stumble over is left out of the surface's name.
+    """
     plain = re.sub(r'[\s,"]+', " ", surface).strip()
     return f"{name}:{plain}"
 
@@ -101,7 +108,9 @@ def own_columns(surfaces):
 
 
 def __getattr__(name):
-    """``COLUMNS`` and ``WALL_COLUMNS`` of a slope, which scripts and notebooks ask for here; they are declared in its own room."""
+    """``COLUMNS`` and ``WALL_COLUMNS`` of a slope, which scripts and notebooks ask for here; they are declared in its
+    own room.
+    """
     if name in ("COLUMNS", "WALL_COLUMNS"):
         return getattr(importlib.import_module("...studies.slope.columns", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,4 +1,5 @@
-"""What functions that write files of a run ask of their arguments before they write: rules of :func:`..checks.takes`."""
+"""What functions that write files of a run ask of their arguments before they write: rules of :func:`..checks.takes`.
+"""
 
 import os
 

@@ -61,10 +61,11 @@ def kept(path, mark):
 class SeriesWriter:
     """Appends rows to a series file, each row in one unbuffered write.
 
-    ``path``: the CSV file. ``columns``: {name: Column} in order, beginning with ``step``, as :func:`.columns.declared` returns them; or names alone, of columns that then hold whole numbers
-    and others as they come. ``resume_from``: a :meth:`mark` that a
-    checkpoint kept: what the file held then is kept byte for byte, and must still be the same; later rows and a
-    half-written last line are removed. Without it a file that already holds rows is refused unless ``overwrite`` is true.
+    ``path``: the CSV file. ``columns``: {name: Column} in order, beginning with ``step``, as :func:`.columns.declared`
+    returns them; or names alone, of columns that then hold whole numbers and others as they come. ``resume_from``: a
+    :meth:`mark` that a checkpoint kept: what the file held then is kept byte for byte, and must still be the same;
+    later rows and a half-written last line are removed. Without it a file that already holds rows is refused unless
+    ``overwrite`` is true.
 
     A killed process loses no written row; call :meth:`sync` at checkpoints to be safe from a power failure too.
     Numbers are written so that reading them returns the same bits; equal runs give equal files.
@@ -113,7 +114,9 @@ class SeriesWriter:
         return self._file is None
 
     def reopen(self):
-        """Takes rows again after :meth:`close`; nothing happens to one that is open. Raises RecordsError where the file is no longer what it was then."""
+        """Takes rows again after :meth:`close`; nothing happens to one that is open. Raises RecordsError where the file
+        is no longer what it was then.
+        """
         if self._file is not None:
             return
         self._kept(self.mark())
@@ -166,8 +169,8 @@ class SeriesWriter:
         self._sum.update(data)
 
     def write(self, *rows):
-        """Append a row, or the rows of one step: mappings from column name to number, with exactly the columns of this series. What is optional may be
-        None, where it has no meaning.
+        """Append a row, or the rows of one step: mappings from column name to number, with exactly the columns of this
+        series. What is optional may be None, where it has no meaning.
 
         Raises :class:`RecordsError` for a missing or unknown column, a NaN or infinite number, a fractional count,
         or a step that does not increase; the file is then unchanged.
@@ -214,7 +217,9 @@ class SeriesWriter:
         return ",".join(texts) + "\n"
 
     def mark(self):
-        """What a checkpoint keeps of the file as it is now: size [bytes], checksum, and last step (None where there is no row)."""
+        """What a checkpoint keeps of the file as it is now: size [bytes], checksum, and last step (None where there is
+        no row).
+        """
         return {"bytes": self._size, "sha256": self._sum.hexdigest(), "last_step": self.last_step}
 
     def sync(self):
@@ -249,7 +254,8 @@ def _parse_row(path, number, line, columns):
 
 
 def read_series(path):
-    """Read a series of any study: dict from column name to an array of shape (rows,), int64 for what holds whole numbers alone (counts, as a writer writes them), float64 otherwise.
+    """Read a series of any study: dict from column name to an array of shape (rows,), int64 for what holds whole
+    numbers alone (counts, as a writer writes them), float64 otherwise.
 
     A half-written last line (a run that still goes on, or was killed) is left out. Raises :class:`RecordsError` if
     the file is missing, has no header, or a row is damaged.
@@ -272,7 +278,8 @@ def read_series(path):
 
 
 def read_walls(path):
-    """Read ``walls.csv``: dict from column name to an array of shape (rows,): words for ``wall``, float64 for the others, NaN where a wall has no such number.
+    """Read ``walls.csv``: dict from column name to an array of shape (rows,): words for ``wall``, float64 for the
+    others, NaN where a wall has no such number.
 
     A half-written last line is left out. Raises :class:`RecordsError` if the file is missing or damaged.
     """

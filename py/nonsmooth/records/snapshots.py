@@ -21,14 +21,18 @@ class Snapshot:
     """Disks of any study at one instant. N disks, C contacts. What a study has not is None.
 
     Scalars: ``time_s`` [s], ``step``, ``water_m`` [m] (height of the water table above its plane).
-    Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest), and bool: ``wet`` (water acts on it now),
-    ``released`` (was wet, and has moved so far downslope that water acts on it no longer), ``ever_wet``. And ``weakened``, bool of shape (N, W): the slip along each of
-    the W walls and interfaces that weaken has passed the critical slip D_c, in the order of :attr:`.section.Section.weakening`. Files of earlier versions tell neither ``ever_wet`` nor
+    Disks, shape (N,): ``x``, ``y``, ``r`` [m], ``angle`` [rad], ``vx``, ``vy`` [m/s], ``layer`` (int, 0 lowest), and
+    bool: ``wet`` (water acts on it now),
+    ``released`` (was wet, and has moved so far downslope that water acts on it no longer), ``ever_wet``. And
+    ``weakened``, bool of shape (N, W): the slip along each of the W walls and interfaces that weaken has passed the
+    critical slip D_c, in the order of :attr:`.section.Section.weakening`. Files of earlier versions tell neither
+    ``ever_wet`` nor
     ``weakened``, and their ``released`` has disks that never were wet too.
     Contacts, shape (C,): ``ci``, ``cj`` disk indices (``cj = -1 - k`` for wall number k), ``cn``, ``ct`` normal and
     tangential force [N/m], compression positive, ``cbonded`` (bool), ``cx``, ``cy`` contact point [m]. They may all
     be left out (C = 0), as for the frames of a video.
-    ``walls``, shape (W, 2): of walls along an axis that move, in the order of their numbers: 0 where x, 1 where y is constant, and its value [m].
+    ``walls``, shape (W, 2): of walls along an axis that move, in the order of their numbers: 0 where x, 1 where y is
+    constant, and its value [m].
     """
 
     time_s: float
@@ -133,8 +137,9 @@ def checked(arrays, source):
 def write_snapshot(path, compact=False, **arrays):
     """Write a snapshot (keywords: the attributes of :class:`Snapshot`) as ``.npz``; returns its path.
 
-    ``compact``: places, sizes, angles and speeds in single precision, and compressed, as for the frames of a video. Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN, a layer or step that is no whole number, a bad index or a contact of a
-    disk with itself, and
+    ``compact``: places, sizes, angles and speeds in single precision, and compressed, as for the frames of a video.
+    Equal arrays give equal bytes. Raises :class:`RecordsError` for missing or unknown arrays, unequal lengths, a NaN, a
+    layer or step that is no whole number, a bad index or a contact of a disk with itself, and
     :class:`~yade.nonsmooth.system.whole_files.WriteError` for a file that cannot be written.
     """
     path = Path(path)

@@ -1,4 +1,6 @@
-"""Lessons: the pairs of scripts in scripts/examples, each run in a process of its own with parameters as yade-batch gives them, and the numbers that it prints."""
+"""Lessons: the pairs of scripts in scripts/examples, each run in a process of its own with parameters as yade-batch
+gives them, and the numbers that it prints.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ from ..running import side_by_side
 from ..system import keys
 from ..system.whole_files import write_atomically
 
-__all__ = ["CASES", "Case", "LessonError", "collect", "merged", "numbers", "one", "run", "under"]
+__all__ = ["CASES", "LessonCase", "LessonError", "collect", "merged", "numbers", "one", "run", "under"]
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "scripts" / "examples"
 FILM_SECONDS = 8  # of a lesson's video
@@ -30,33 +32,34 @@ class LessonError(UserError):
 
 
 @dataclass(frozen=True)
-class Case:
-    """One run: ``script`` of :data:`EXAMPLES`, ``parameters`` that differ from those in it, ``seeds``: of several runs, whose numbers become means; ``film``: whether a video is kept."""
+class LessonCase:
+    """One run of a ``lesson`` in a ``world``, "hard" or "soft": ``parameters`` that differ from those in its script,
+    ``seeds``: of several runs, whose numbers become means; ``film``: whether a video is kept."""
 
-    script: str
+    lesson: str
+    world: str = "hard"
     parameters: dict = field(default_factory=dict)
     seeds: tuple = ()
     film: bool = False
 
 
-def _pair(name, **shared):
-    """Both scripts of a lesson as they are, with their videos."""
-    return {world: Case(f"{world}_{name}.py", film=True, **shared) for world in ("hard", "soft")}
+def _pair(lesson, **shared):
+    """A lesson as it is in both worlds, with their videos."""
+    return {world: LessonCase(lesson, world, film=True, **shared) for world in ("hard", "soft")}
 
 
-#: lesson: {name of the case: Case}; what doc/lessons.rst says of them comes from these.
+#: lesson: {name of the case: LessonCase}; what doc/lessons.rst says of them comes from these.
 CASES = {
-    "incline": _pair("incline") | {"soft_undamped": Case("soft_incline.py", dict(damping=0))},
+    "incline": _pair("incline") | {"soft_undamped": LessonCase("incline", "soft", dict(damping=0))},
     "pile": _pair("pile"),
     "column": _pair("column", seeds=(1, 2, 3, 4, 5))
     | {
-        "elastic_damped": Case("soft_column.py", dict(restitution=1, damping=0.2)),
-        "elastic": Case("soft_column.py", dict(restitution=1)),
+        "elastic_damped": LessonCase("column", "soft", dict(restitution=1, damping=0.2)),
+        "elastic": LessonCase("column", "soft", dict(restitution=1)),
     },
-    "wedge": {"soft_rough": Case("soft_wedge.py", dict(friction=0.7))}
-    | {k: Case(f"{k}_wedge.py", film=True) for k in ("hard", "soft")},
-    "beam": _pair("beam") | {f"{world}_held": Case(f"{world}_beam.py", dict(load=0.97)) for world in ("hard", "soft")},
-    "slope": _pair("slope") | {"soft_loose": Case("soft_slope.py", dict(young=1e8, dt=1e-3, damping=0.05))},
+    "wedge": {"soft_rough": LessonCase("wedge", "soft", dict(friction=0.7))} | _pair("wedge"),
+    "beam": _pair("beam") | {f"{world}_held": LessonCase("beam", world, dict(load=0.97)) for world in ("hard", "soft")},
+    "slope": _pair("slope") | {"soft_loose": LessonCase("slope", "soft", dict(young=1e8, dt=1e-3, damping=0.05))},
     "press": _pair("press"),
     "shear": _pair("shear"),
     "drum": _pair("drum"),
@@ -78,8 +81,10 @@ def under(chosen):
 def numbers(text):
     """The numbers that a lesson prints, by names that are words with underscores: a dictionary.
 
-    Lines of words and a number, as ``steps 1250`` or ``pile height [m] 1.2``, give ``steps`` and ``pile_height_m``, also several of them in a line, behind commas or two blanks; the last one
-    of a name counts. Lines that begin with a number, and those in which two or more numbers stand by themselves, rows of a table or of a progress, give ``rows``: lists of the numbers in them.
+    Lines of words and a number, as ``steps 1250`` or ``pile height [m] 1.2``, give ``steps`` and ``pile_height_m``,
+    also several of them in a line, behind commas or two blanks; the last one of a name counts. Lines that begin with a
+    number, and those in which two or more numbers stand by themselves, rows of a table or of a progress, give ``rows``:
+    lists of the numbers in them.
     """
     found, rows = {}, []
     for line in text.splitlines():
@@ -95,8 +100,13 @@ def numbers(text):
     return found | ({"rows": rows} if rows else {})
 
 
-def one(folder, script, parameters, seconds=None):
-    """Runs a lesson in the running scene, with a video ``film.mp4`` in the folder where ``seconds`` [s], that of the video, are given; returns its :func:`numbers`.
+def _script(lesson, world):
+    return EXAMPLES / f"{world}_{lesson}.py"
+
+
+def one(folder, lesson, world, parameters, seconds=None):
+    """Runs a lesson in a world, as a :class:`LessonCase` has them, in the running scene, with a video ``film.mp4`` in
+    the folder where ``seconds`` [s], that of the video, are given; returns its :func:`numbers`.
 
     What it prints stands in ``output.txt``. Raises LessonError where the script ends otherwise than at its end.
     """
@@ -105,7 +115,7 @@ def one(folder, script, parameters, seconds=None):
     from ..figures import film, recording
     from ..figures.moving import FPS
 
-    folder, path = Path(folder), EXAMPLES / script
+    folder, path = Path(folder), _script(lesson, world)
     table = folder / "one.table"
     table.write_text(
         "{}\n{}\n".format(" ".join(["description", *parameters]), " ".join(["one", *map(repr, parameters.values())]))
@@ -123,14 +133,16 @@ def one(folder, script, parameters, seconds=None):
         made.write(folder / "film.mp4")
     found = numbers(said.getvalue())
     if "steps" not in found:
-        raise LessonError(f"{script} with {parameters}: did not come to its end; see {folder}/output.txt")
+        raise LessonError(f"{path.name} with {parameters}: did not come to its end; see {folder}/output.txt")
     return found
 
 
 def run(chosen, out, threads=1, resume=False, progress=lambda share, ended: None, films=True, changes=None):
-    """Runs lessons, ``{name: {case: Case}}`` as of :func:`under`, as many at a time as ``threads``, each in a folder of its own below ``out``/runs; returns {name: {case: numbers}}.
+    """Runs lessons, ``{name: {case: LessonCase}}`` as of :func:`under`, as many at a time as ``threads``, each in a
+    folder of its own below ``out``/runs; returns {name: {case: numbers}}.
 
-    ``changes``: parameters on top of those of the cases. ``films``: whether videos are made. Raises LessonError with the first failure after the others have ended.
+    ``changes``: parameters on top of those of the cases. ``films``: whether videos are made. Raises LessonError with
+    the first failure after the others have ended.
     """
     runs, order = [], []
     for name, cases in chosen.items():
@@ -138,9 +150,9 @@ def run(chosen, out, threads=1, resume=False, progress=lambda share, ended: None
             for seed in case.seeds or (None,):
                 parameters = {**case.parameters, **({} if seed is None else dict(seed=seed)), **(changes or {})}
                 seconds = FILM_SECONDS if films and case.film and seed in (None, 1) else None
-                arguments = dict(script=case.script, parameters=parameters, seconds=seconds)
+                arguments = dict(lesson=case.lesson, world=case.world, parameters=parameters, seconds=seconds)
                 mark = f"{name}-{key}" + ("" if seed is None else f"-{seed}")
-                made_of = keys.key_of([arguments, (EXAMPLES / case.script).read_text()])
+                made_of = keys.key_of([arguments, _script(case.lesson, case.world).read_text()])
                 runs.append(side_by_side.Run(mark, Path(out) / "runs" / mark, one, arguments, made_of))
                 order.append((name, key, seed))
     results = side_by_side.run(runs, threads, resume, LessonError, progress=progress)
@@ -151,8 +163,8 @@ def run(chosen, out, threads=1, resume=False, progress=lambda share, ended: None
 
 
 def merged(found, path):
-    """The lessons of ``found``, as :func:`run` returns them, with the others that the file ``path`` has, if it is there: {name: {case: numbers}} in the order of :data:`CASES`. Raises LessonError for a
-    file that cannot be read."""
+    """The lessons of ``found``, as :func:`run` returns them, with the others that the file ``path`` has, if it is
+    there: {name: {case: numbers}} in the order of :data:`CASES`. Raises LessonError for a file that cannot be read."""
     try:
         kept = json.loads(Path(path).read_text(encoding="utf-8"))
         kept = {name: dict(cases) for name, cases in kept.items()} | found

@@ -1,4 +1,5 @@
-"""A finished (or interrupted) run of any study, opened from its folder: its numbers, tables, snapshots, figures and video. Needs no YADE.
+"""A finished (or interrupted) run of any study, opened from its folder: its numbers, tables, snapshots, figures and
+video. Needs no YADE.
 
 Like this::
 
@@ -9,7 +10,8 @@ Like this::
     run.figure("forces")               # a matplotlib Figure, with axes to draw on
     run.video()                        # the video, in the page of a notebook
 
-What has no series, as a script or a comparison (``campaign``), is opened by what runs it; all have in common what :class:`Opened` has.
+What has no series, as a script or a comparison (``campaign``), is opened by what runs it; all have in common what
+:class:`Opened` has.
 """
 
 from __future__ import annotations
@@ -70,7 +72,9 @@ class Opened:
         self.folder = Path(checks.path("folder", folder, RunError, "give the path of the folder of a run"))
 
     def frame(self, name="series"):
-        """One of :attr:`TABLES` as a pandas.DataFrame. Raises RunError for another name, and where pandas is not installed."""
+        """One of :attr:`TABLES` as a pandas.DataFrame. Raises RunError for another name, and where pandas is not
+        installed.
+        """
         if not self.TABLES:
             raise RunError(f"{self.folder}: a run of this kind has no table; {self.NUMBERS}")
         if name not in self.TABLES:
@@ -90,9 +94,11 @@ class Opened:
         return pandas.DataFrame(columns)
 
     def video(self, name=None, width=720):
-        """The video that lies in the run's folder, with its bytes in it: what a notebook shows in its page (an object of IPython.display).
+        """The video that lies in the run's folder, with its bytes in it: what a notebook shows in its page (an object
+        of IPython.display).
 
-        ``name``: of the file, where there are several; ``width``: of the page [pixels]. Raises RunError where there is no video, MissingPackage without IPython.
+        ``name``: of the file, where there are several; ``width``: of the page [pixels]. Raises RunError where there is
+        no video, MissingPackage without IPython.
         """
         if name is not None:
             checks.text("name", name, RunError, "give the name of a video in the folder of the run, or None")
@@ -154,7 +160,9 @@ class StudyRun(Opened):
         return {path.stem: path for path in whole(self.folder / results.SNAPSHOTS, "*.npz")}
 
     def snapshot(self, name) -> records.Snapshot:
-        """The Snapshot of this name, one of :attr:`snapshots`, or at a time [s], that of the nearest. Raises RunError for another name, and where there is none."""
+        """The Snapshot of this name, one of :attr:`snapshots`, or at a time [s], that of the nearest. Raises RunError
+        for another name, and where there is none.
+        """
         found = self.snapshots
         if isinstance(name, str) and name in found:
             return records.read_snapshot(found[name])
@@ -203,7 +211,9 @@ class SlopeRun(StudyRun):
         return records.read_snapshot(frames.nearest(shots, name))
 
     def figure(self, name):
-        """One of FIGURES as a matplotlib Figure that is not written. Raises RunError for another name, and where the run has not come to what it shows."""
+        """One of FIGURES as a matplotlib Figure that is not written. Raises RunError for another name, and where the
+        run has not come to what it shows.
+        """
         if name not in FIGURES:
             raise RunError(f"{self.folder}: no figure is called {name!r}; give one of {', '.join(FIGURES)}")
         found = self._drawing.figure(name)
@@ -214,7 +224,9 @@ class SlopeRun(StudyRun):
         return found
 
     def video(self, name=None, width=720):
-        """As :meth:`Opened.video`; where the run has left no video, it is drawn from its snapshots first, which takes a while. Raises RunError where there are none, or no ffmpeg."""
+        """As :meth:`Opened.video`; where the run has left no video, it is drawn from its snapshots first, which takes a
+        while. Raises RunError where there are none, or no ffmpeg.
+        """
         if name is None and not whole(self.folder, "*.mp4"):
             made = self._drawing.video()
             if made is not None and made[0] is None:
@@ -235,7 +247,9 @@ Run = SlopeRun  # its name for scripts and notebooks
 
 
 class BiaxialRun(StudyRun):
-    """A biaxial test, see :mod:`.laboratory.biaxial`: its snapshots are "begin", "1", "2", "4" (per cent of strain) and "end"."""
+    """A biaxial test, see :mod:`.laboratory.biaxial`: its snapshots are "begin", "1", "2", "4" (per cent of strain) and
+    "end".
+    """
 
     kind, COLUMNS = "biaxial test", biaxial_test.COLUMNS
 
@@ -266,11 +280,15 @@ class HeapRun(StudyRun):
         return self._asked["world"]
 
     def places(self):
-        """Times [s] with the end last, a list of (x, y) of all disks for each, arrays (n,) [m], and radii (n,) [m]. Raises HeapError where the run has kept none."""
+        """Times [s] with the end last, a list of (x, y) of all disks for each, arrays (n,) [m], and radii (n,) [m].
+        Raises HeapError where the run has kept none.
+        """
         return study.frames(self.folder)
 
     def figure(self, name="collapse"):
-        """``collapse``: the disks at several times, as a matplotlib Figure that is not written. Raises RunError for another name."""
+        """``collapse``: the disks at several times, as a matplotlib Figure that is not written. Raises RunError for
+        another name.
+        """
         if name != "collapse":
             raise RunError(f"{self.folder}: no figure is called {name!r}; give collapse")
         from .heaps import report  # brings matplotlib, which a reader of numbers need not wait for
@@ -279,7 +297,9 @@ class HeapRun(StudyRun):
 
 
 def open_run(folder) -> StudyRun:
-    """The run in a folder, of the kind that its section or the columns of its series tell. Raises RunError where it is none."""
+    """The run in a folder, of the kind that its section or the columns of its series tell. Raises RunError where it is
+    none.
+    """
     run = SlopeRun(folder)
     if (run.folder / section_data.FILE).is_file():
         return run

@@ -1,4 +1,5 @@
-"""One scene, two worlds: what a scene of disks and walls takes from the contact model, the same calls for hard and for soft contacts::
+"""One scene, two worlds: what a scene of disks and walls takes from the contact model, the same calls for hard and for
+soft contacts::
 
     world = worlds.Hard(time_step=2e-3)                          # Contact Dynamics
     world = worlds.Soft(stiffness=1e8, diameter=(0.01, 0.02))    # springs, YADE's own laws, see yade.nonsmooth.soft
@@ -9,8 +10,8 @@
     O.engines, O.dt = world.engines(), world.step_for([m])
     world.bond([(m, ids)])
 
-A world has a ``name``, "hard" or "soft", and nothing else that a scene needs to ask. Its values can be set and checked in any Python; what makes materials, engines
-and bonds is asked for within YADE.
+A world has a ``name``, "hard" or "soft", and nothing else that a scene needs to ask. Its values can be set and checked
+in any Python; what makes materials, engines and bonds is asked for within YADE.
 """
 
 from __future__ import annotations
@@ -18,9 +19,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ..errors import UserError
+from ..system import checks
 from . import soft
 
-__all__ = ["Hard", "Soft", "WorldError"]
+__all__ = ["Hard", "Soft", "WorldError", "check", "check_damping"]
 
 
 class WorldError(UserError, ValueError):
@@ -31,9 +33,9 @@ class WorldError(UserError, ValueError):
 class Hard:
     """Contact Dynamics.
 
-    ``time_step`` [s]; ``tolerance``: of the solver's residual, relative; ``reach``: gap up to which contacts are known beforehand, in
-    mean diameters; ``far``: the same for disks that are fast enough, None: not more; ``verlet``: the collider's margin [m], negative: in
-    smallest radii; ``options``: further attributes of ContactDynamicsEngine.
+    ``time_step`` [s]; ``tolerance``: of the solver's residual, relative; ``reach``: gap up to which contacts are known
+    beforehand, in mean diameters; ``far``: the same for disks that are fast enough, None: not more; ``verlet``: the
+    collider's margin [m], negative: in smallest radii; ``options``: further attributes of ContactDynamicsEngine.
     """
 
     time_step: float
@@ -45,7 +47,9 @@ class Hard:
     name = "hard"
 
     def material(self, m, layer=0, **others):
-        """The material of disks for the section.Material ``m``, not yet in the scene. Disks of different ``layer`` are never bonded."""
+        """The material of disks for the section.Material ``m``, not yet in the scene. Disks of different ``layer`` are
+        never bonded.
+        """
         from . import scene
 
         return scene.material(m, layer=layer if m.bonded else -2 - layer, **others)
@@ -57,7 +61,9 @@ class Hard:
         return scene.wall_material(m, **others)
 
     def interface(self, lower, upper, m):
-        """Gives contacts between disks of two materials of the scene, of different layers, the law of the section.Material ``m``."""
+        """Gives contacts between disks of two materials of the scene, of different layers, the law of the
+        section.Material ``m``.
+        """
         from . import scene
 
         lower.interfaceLayers, lower.interfaceLaws = [*lower.interfaceLayers, upper.layer], [
@@ -85,14 +91,16 @@ class Hard:
         )
 
     def measures(self, groups=()):
-        """What tells of the contacts, speeds and energies of the scene, and makes bonds: its ContactDynamicsEngine. ``groups``: see :meth:`Soft.measures`."""
+        """What tells of the contacts, speeds and energies of the scene, and makes bonds: its ContactDynamicsEngine.
+        ``groups``: see :meth:`Soft.measures`.
+        """
         from . import scene
 
         return scene.contact_dynamics()
 
     def bond(self, groups=()):
-        """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step without gravity, which finds the contacts: call it
-        in a scene at rest. ``groups``: not needed here, see :meth:`Soft.bond`.
+        """Bonds close neighbours as their materials' layers allow; returns how many. Takes one step without gravity,
+        which finds the contacts: call it in a scene at rest. ``groups``: not needed here, see :meth:`Soft.bond`.
         """
         from yade import O
         from yade.wrapper import NewtonIntegrator
@@ -111,10 +119,12 @@ class Hard:
 class Soft:
     """Springs at contacts, by one of YADE's own models.
 
-    ``stiffness``: Young's modulus [Pa]; ``diameter``: smallest and largest of the disks [m]; ``model``, ``damping``, ``shear_ratio``,
-    ``rolling_ratio``: see :func:`yade.nonsmooth.soft.equivalent`; ``step_share``: time step in units of its stability limit;
-    ``fragile``: bonds break where they reach a threshold (YADE's own way, and JCFpm's only one); otherwise they yield there as in the hard law, and
-    break when they leave their ellipse; ``verlet`` as in :class:`Hard`.
+    ``stiffness``: Young's modulus [Pa]; ``diameter``: smallest and largest of the disks [m]; ``model``, ``damping``,
+    ``shear_ratio``,
+    ``rolling_ratio``: see :func:`yade.nonsmooth.soft.equivalent`; ``step_share``: time step in units of its stability
+    limit;
+    ``fragile``: bonds break where they reach a threshold (YADE's own way, and JCFpm's only one); otherwise they yield
+    there as in the hard law, and break when they leave their ellipse; ``verlet`` as in :class:`Hard`.
     """
 
     stiffness: float
@@ -179,14 +189,17 @@ class Soft:
         )
 
     def measures(self, groups=()):
-        """As :meth:`Hard.measures`, under the same names: :class:`yade.nonsmooth.soft.measures.Measures`. ``groups``: as of :meth:`bond`. Call it once O.engines are set."""
+        """As :meth:`Hard.measures`, under the same names: :class:`yade.nonsmooth.soft.measures.Measures`. ``groups``:
+        as of :meth:`bond`. Call it once O.engines are set.
+        """
         from .soft.measures import Measures
 
         return Measures(self, groups)
 
     def bond(self, groups=()):
-        """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), and disks to walls that are bonded; returns
-        how many. See :func:`yade.nonsmooth.soft.bond` and :func:`yade.nonsmooth.soft.bond_walls`.
+        """Bonds close neighbours within each group, a pair (section.Material, ids of its disks), and disks to walls
+        that are bonded; returns how many. See :func:`yade.nonsmooth.soft.bond` and
+        :func:`yade.nonsmooth.soft.bond_walls`.
         """
         made = sum(
             soft.bond(self.equivalent(m), ids, fragile=not self.ductile)
@@ -194,3 +207,25 @@ class Soft:
             if m.bonded and self.model != "friction"
         )
         return made + soft.bond_walls([i for _, ids in groups for i in ids], fragile=not self.ductile)
+
+
+def check(world, kinds=(Hard, Soft)):
+    """The ``world``, of one of these ``kinds``; raises WorldError for anything else."""
+    if not isinstance(world, kinds):
+        given = " or ".join(f"worlds.{kind.__name__}(...)" for kind in kinds)
+        raise WorldError(f"world {checks.shown(world)}: give {given}, or None for rigid contacts")
+    return world
+
+
+def check_damping(world, moving):
+    """Raises WorldError for a ``damping_moving``, the integrator's while disks move, that cannot be used in a
+    ``world``, or by its name; None is none of its own.
+    """
+    if moving is None:
+        return
+    name = getattr(world, "name", world)
+    if name != "soft":
+        raise WorldError(
+            f"damping_moving {moving!r}: {name} contacts have no damping; leave it out, or take the soft world"
+        )
+    checks.number("damping_moving", moving, WorldError, "give a number from 0 to less than 1", least=0, below=1)

@@ -18,7 +18,7 @@ from ... import contact, packing
 from ...measure.statistics import spread
 from ...packing import files as packing_files
 from ...studies.slope import slope, states
-from ...studies.slope.measuring import Course
+from ...studies.slope.measuring import MeasuringCourse
 from ...system import machine
 from ...world import worlds
 from ...world.stepping import advance
@@ -134,7 +134,7 @@ def run(out, source, sizes, threads, progress=lambda share, doing: None):
         size: 5 + 3e-4 * size for size in sizes if size <= SOFT_DISKS
     }
     of_sweeps = 5 + 1e-4 * sum(sizes)
-    course = Course(out, sum(seconds.values()) + sum(of_soft.values()) + of_sweeps, progress)
+    course = MeasuringCourse(out, sum(seconds.values()) + sum(of_soft.values()) + of_sweeps, progress)
     found, problems = [], []
     for size in sizes:
         home, asked = course.home / f"scale-{size}", {"source": source, "disks": size}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...studies.slope import states
-from ...studies.slope.measuring import Course
+from ...studies.slope.measuring import MeasuringCourse
 from ...system import machine
 from . import cold_start, steps, sweeps
 
@@ -39,7 +39,7 @@ def run(out, source, disks, threads, effort, progress=lambda share, doing: None)
         "cold": 5 + 0.5 * per_thousand,
     }
     counts = sorted({1, threads})
-    course = Course(
+    course = MeasuringCourse(
         out, seconds["states"] + 3 * len(counts) * seconds["steps"] + seconds["sweeps"] + 2 * seconds["cold"], progress
     )
     found = {

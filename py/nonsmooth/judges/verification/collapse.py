@@ -38,7 +38,7 @@ def collapse(folder, disks, seed, path, overlap, rate):
     ready = preparation.prepared(heap)
     x, y = rounded(ready.x, ready.y, ready.r, overlap)
     world = worlds.Hard(time_step=heap.time_step(path), tolerance=TOLERANCE, options={"relaxationRate": rate})
-    scene = course.Scene(heap, world, ready, preparation.put(heap, world, x, y, ready.r))
+    scene = course.HeapScene(heap, world, ready, preparation.put(heap, world, x, y, ready.r))
     before = measures.surface(x, y, ready.r, np.ones(len(x), bool))
     scene.release()
     unit = math.sqrt(ready.height / heap.gravity)

@@ -47,12 +47,12 @@ QUANTITIES = (
 )
 
 
-def test_of(case: Case) -> biaxial.Test:
+def test_of(case: Case) -> biaxial.BiaxialTest:
     """The laboratory's test of a case; for a hard run with its step and tolerance.
 
     Raises ComparisonError for a strain that gives no strengths, SectionError for a material that cannot be used.
     """
-    o, standard = case.options, {f.name: f.default for f in dataclasses.fields(biaxial.Test)}
+    o, standard = case.options, {f.name: f.default for f in dataclasses.fields(biaxial.BiaxialTest)}
     strain = o.get("strain", STRAIN)
     if not strength.SHORTEST <= strain < 1:
         raise ComparisonError(
@@ -66,7 +66,7 @@ def test_of(case: Case) -> biaxial.Test:
         else {}
     )
     platens = o.get("platens", standard["platens"])
-    return biaxial.Test(
+    return biaxial.BiaxialTest(
         materials.load(case.source),
         o.get("confining", CONFINING),
         shape,

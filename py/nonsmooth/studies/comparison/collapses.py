@@ -115,7 +115,7 @@ def _heap(kind, case):
 
 
 def run_column(folder, **plain):
-    """Runs a column in the (empty) scene; ``plain``: a Case. Returns the summary of its heaps.course.Result."""
+    """Runs a column in the (empty) scene; ``plain``: a Case. Returns the summary of its heaps.course.HeapResult."""
     return _run("column", folder, Case(**plain))
 
 

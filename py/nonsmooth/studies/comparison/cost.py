@@ -21,7 +21,7 @@ import numpy as np
 
 from ...running.kept_runs import Progress, keep, kept
 from ...system import keys, machine
-from ..slope.measuring import Course
+from ..slope.measuring import MeasuringCourse
 from . import losses, precision, slopes
 from .cases import Case, ComparisonError, check_soft, moduli_of
 from .summary import ROCK_STIFFNESS, clean
@@ -223,7 +223,7 @@ def run(
         e: 5 + 0.2 * per_thousand + (0.0012 * per_thousand) * (steps + RELAX_SECONDS * (e / 1e10) ** 0.5 * 5500)
         for e in stiffnesses
     }
-    measuring = Course(
+    measuring = MeasuringCourse(
         out, (10 * per_thousand if made else 0) + len(STATES) * (hard_s + sum(soft_s.values())), progress
     )
     if made:

@@ -11,7 +11,7 @@ import os
 
 from ...commands import arguments
 from ...world.soft import MODELS
-from ..laboratory.biaxial_test import Test
+from ..laboratory.biaxial_test import BiaxialTest
 from . import cost, course
 from .cases import ComparisonError
 
@@ -132,8 +132,12 @@ def _parser(about):
     add("--end", type=arguments.positive, metavar="SECONDS", help="slope: simulated time after settling, at most")
     add("--confining", type=arguments.positive, metavar="MPA", help="biaxial: confining pressure [MPa] (default: 1)")
     add("--strain", type=arguments.positive, help="biaxial: axial strain at the end (default: 0.06)")
-    add("--sides", choices=("rigid", "flexible"), help=f"biaxial: lateral boundaries (default: {Test.sides})")
-    add("--platens", choices=("smooth", "rough"), help=f"biaxial: friction of the platens (default: {Test.platens})")
+    add("--sides", choices=("rigid", "flexible"), help=f"biaxial: lateral boundaries (default: {BiaxialTest.sides})")
+    add(
+        "--platens",
+        choices=("smooth", "rough"),
+        help=f"biaxial: friction of the platens (default: {BiaxialTest.platens})",
+    )
     add("--aspect", type=arguments.positive, help="column, pile: height over width (pile: over half of it)")
     add("--friction", type=float, metavar="MU", help="column, pile: friction of contacts")
     add("--base", choices=("smooth", "rough"), help="column, pile: the floor")

@@ -1,44 +1,31 @@
-"""Collapse of a column of grains on a plane (Lube et al. 2005; Staron and Hinch 2005; Balmforth and Kerswell 2005), in two dimensions.
+"""Collapse of a column of grains on a plane (Lube et al. 2005; Staron and Hinch 2005; Balmforth and Kerswell 2005), in
+two dimensions.
 
-Disks rest between a wall at x = 0, which stays, and a gate at x = L₀, which is taken away at once. The column of height H₀ = a L₀ falls and
-spreads to the front L_f. The wall has no friction unless asked for, so it may also be read as the plane of symmetry of a column that is 2 L₀ wide
-and falls to both sides.
+Disks rest between a wall at x = 0, which stays, and a gate at x = L₀, which is taken away at once. The column of height
+H₀ = a L₀ falls and spreads to the front L_f. The wall has no friction unless asked for, so it may also be read as the
+plane of symmetry of a column that is 2 L₀ wide and falls to both sides.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...system import checks
-from .grains import Heap, HeapError
+from .grains import Heap, __getattr__  # noqa: F401
 
-__all__ = ["Column", "build", "run"]
+__all__ = ["Column", "GranularColumn", "build", "run"]
 
 
 @dataclass(frozen=True)
-class Column(Heap):
+class GranularColumn(Heap):
     """A column before its collapse.
 
-    ``aspect``: a = H₀/L₀ of the box that is filled; the column settles by some per cent, and its own aspect ratio is measured then.
-    The other parameters are those of :class:`~yade.nonsmooth.heaps.grains.Heap`.
+    ``aspect``: a = H₀/L₀ of the box that is filled; the column settles by some per cent, and its own aspect ratio is
+    measured then. The other parameters are those of :class:`~yade.nonsmooth.heaps.grains.Heap`.
     """
 
     aspect: float = 2.0
 
-    def __post_init__(self):
-        super().__post_init__()
-        checks.number(
-            "aspect",
-            self.aspect,
-            HeapError,
-            "give height over width of the column, from 0.05 to 100",
-            least=0.05,
-            most=100,
-        )
-
-    def box_aspect(self):
-        """Height over width of the box."""
-        return self.aspect
+    KIND, ASPECT = "Column", "height over width of the column"
 
     def place(self):
         """The wall stands at x = 0."""
@@ -49,10 +36,4 @@ class Column(Heap):
         return ("right",)
 
 
-def __getattr__(name):
-    """``build`` and ``run`` of :mod:`.course` need YADE, and are imported when they are asked for."""
-    if name in ("build", "run"):
-        from . import course
-
-        return getattr(course, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+Column = GranularColumn  # its name for scripts and notebooks

@@ -14,12 +14,13 @@ from ... import course as stages
 from ...course import driver
 from ...measure import heap as measures
 from ...system import checks
+from ...world import worlds
 from ...world.stepping import advance, until
 from . import preparation
 from .columns import COLUMNS
-from .grains import Heap, HeapError, check_damping
+from .grains import Heap, HeapError, hard
 
-__all__ = ["COLUMNS", "Result", "Scene", "build", "run"]
+__all__ = ["COLUMNS", "HeapResult", "HeapScene", "build", "run"]
 
 RECORDS = 20  # to T = √(H/g)
 REST_SPEED = 0.02  # √(g d), rms speed of the connected disks at rest ...
@@ -33,7 +34,7 @@ FILM = 0.1  # T, between two frames of a video
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class HeapScene:
     """A heap in the running scene: its parameters, its world, the disks as they were prepared, and the bodies' ids."""
 
     heap: Heap
@@ -48,7 +49,9 @@ class Scene:
         self.stand.gates.clear()
 
     def measure(self):
-        """What a row of the series holds, from the scene as it is, but for ``step``, ``time_s`` and ``wall_s``; and which disks are connected, bool (n,)."""
+        """What a row of the series holds, from the scene as it is, but for ``step``, ``time_s`` and ``wall_s``; and
+        which disks are connected, bool (n,).
+        """
         t = preparation.disk_table(self.stand)
         x, y, r = t["x"], t["y"], t["r"]
         mass = self.heap.density * math.pi * r**2
@@ -97,15 +100,19 @@ class Scene:
 
 
 @dataclass(frozen=True, eq=False)
-class Result:
-    """A run. ``heap``: its parameters; ``world``: name; ``settings``: of the world, a dictionary, with ``damping_moving`` if that was given.
+class HeapResult:
+    """A run. ``heap``: its parameters; ``world``: name; ``settings``: of the world, a dictionary, with
+    ``damping_moving`` if that was given.
 
     ``width``, ``height``: L₀ and H₀ [m] at rest in the box; for a pile L₀ is half of the box.
-    ``series``: {name: array (rows,)} by :data:`COLUMNS`: step and time since the release; ``front_m``, ``front_left_m``: right and left edge of
-    the connected disks (:func:`measures.connected`), ``farthest_m``: of any disk; ``height_m``: highest point of their surface; centre of mass; energies
-    of all disks; overlaps by :func:`measures.overlap`; wall time of the steps.
-    ``x``, ``y``, ``r``: disks in the end [m], (n,); ``connected``: bool (n,). ``frames``: {time [s]: (x, y)} on the way; ``film``: the same at equal distances of :data:`FILM`, in single precision.
-    ``rested``: it came to rest within the time given. ``way_worst``: longest way of a disk in a step [its radius], None of soft ones. ``steps``, ``time_step`` [s], ``wall_s``: of the course after the release.
+    ``series``: {name: array (rows,)} by :data:`COLUMNS`: step and time since the release; ``front_m``,
+    ``front_left_m``: right and left edge of the connected disks (:func:`measures.connected`), ``farthest_m``: of any
+    disk; ``height_m``: highest point of their surface; centre of mass; energies of all disks; overlaps by
+    :func:`measures.overlap`; wall time of the steps.
+    ``x``, ``y``, ``r``: disks in the end [m], (n,); ``connected``: bool (n,). ``frames``: {time [s]: (x, y)} on the
+    way; ``film``: the same at equal distances of :data:`FILM`, in single precision.
+    ``rested``: it came to rest within the time given. ``way_worst``: longest way of a disk in a step [its radius], None
+    of soft ones. ``steps``, ``time_step`` [s], ``wall_s``: of the course after the release.
     """
 
     heap: Heap
@@ -191,20 +198,19 @@ class Result:
         }
 
 
-_made_of = checks.takes(
-    HeapError,
-    heap=checks.kind(Heap, "give a Column or a Pile"),
-    world=checks.has("name engines", "give worlds.Hard(...) or worlds.Soft(...)"),
-)
+_made_of = checks.takes(HeapError, heap=checks.kind(Heap, "give a Column or a Pile"))
 
 
 @_made_of
-def build(heap, world):
-    """Fills the scene anew with a heap at rest in its box, in a world of :mod:`yade.nonsmooth.worlds`; returns the :class:`Scene`.
+def build(heap, world=None):
+    """Fills the scene anew with a heap at rest in its box; returns the :class:`HeapScene`. ``world``: one of
+    :mod:`yade.nonsmooth.worlds`, :func:`.grains.hard` unless given.
 
-    The places are the same in both worlds. Raises PackingError, SampleError or HeapError where the disks cannot be prepared, and HeapError for springs
-    that the heap's own weight would crush and for grains with what the springs have not, see :meth:`Heap.check_world`.
+    The places are the same in both worlds. Raises PackingError, SampleError or HeapError where the disks cannot be
+    prepared, HeapError for springs that the heap's own weight would crush and for grains with what the springs have
+    not, see :meth:`Heap.check_world`, and WorldError for what is no world.
     """
+    world = hard(heap) if world is None else worlds.check(world)
     heap.check_world(world)
     ready = preparation.prepared(heap)
     stiffness = getattr(world, "stiffness", math.inf)
@@ -215,11 +221,13 @@ def build(heap, world):
             f"stiffness {stiffness:g} Pa: disks at the bottom would overlap by {100 * weight / stiffness:.2g} % of a diameter under the weight above; "
             f"give {1.05 * weight / WEIGHT_OVERLAP:.2g} or more"  # so much more that two digits are not less
         )
-    return Scene(heap, world, ready, preparation.put(heap, world, ready.x, ready.y, ready.r))
+    return HeapScene(heap, world, ready, preparation.put(heap, world, ready.x, ready.y, ready.r))
 
 
 class _Damping:
-    """The integrator's damping by the disks' speed: the value at rest, and another on the move. Call it now and then after the release."""
+    """The integrator's damping by the disks' speed: the value at rest, and another on the move. Call it now and then
+    after the release.
+    """
 
     def __init__(self, scene, moving):
         self._scene, self._rest, self._moving, self._fastest = scene, scene.world.damping, moving, 0.0
@@ -238,7 +246,7 @@ class _Course(driver.Course):
 
     def __init__(self, scene, duration, frames, progress, damping_moving):
         super().__init__()
-        self.unsaved = f"a {type(scene.heap).__name__.lower()}"
+        self.unsaved = f"a {scene.heap.KIND.lower()}"
         self.scene, self.progress, self.waiting = scene, progress, sorted(frames)
         self.unit = math.sqrt(scene.prepared.height / scene.heap.gravity)
         self.limit, self.every = duration * self.unit, max(1, round(self.unit / RECORDS / O.dt))
@@ -285,21 +293,24 @@ class _Course(driver.Course):
 
 
 @_made_of
-def run(heap, world, duration=DURATION, frames=FRAMES, progress=lambda share: None, damping_moving=None):
-    """Builds a heap in a world, lets it rest in its box, releases it, and follows it until it rests; returns the :class:`Result`.
+def run(heap, world=None, duration=DURATION, frames=FRAMES, progress=lambda share: None, damping_moving=None):
+    """Builds a heap in a ``world`` as :func:`build` does, lets it rest in its box, releases it, and follows it until it
+    rests; returns the :class:`HeapResult`.
 
-    ``duration``: longest course after the release, and ``frames``: times at which places are kept, both in units of T = √(H₀/g). At rest the rms speed of
-    the connected disks has been below 0.02 √(g d) for 0.5 T. ``progress``: called now and then with the largest share of the duration that is done.
-    ``damping_moving``: of soft contacts, the integrator's damping while the disks move, in place of the world's own, to which it returns in proportion
-    below a tenth of their largest speed; None: the world's own throughout. Raises what :func:`build` raises, and HeapError for a damping_moving that
-    cannot be used and for disks that do not come to rest in their box.
+    ``duration``: longest course after the release, and ``frames``: times at which places are kept, both in units of T =
+    √(H₀/g). At rest the rms speed of the connected disks has been below 0.02 √(g d) for 0.5 T. ``progress``: called now
+    and then with the largest share of the duration that is done.
+    ``damping_moving``: of soft contacts, the integrator's damping while the disks move, in place of the world's own, to
+    which it returns in proportion below a tenth of their largest speed; None: the world's own throughout. Raises what
+    :func:`build` raises, WorldError for a damping_moving that cannot be used, and HeapError for disks that do not come
+    to rest in their box.
     """
     checks.number("duration", duration, HeapError, "give a number above 0, in units of T = √(H/g)", above=0)
-    check_damping(world, damping_moving)
+    worlds.check_damping(world or "hard", damping_moving)
     course = _Course(build(heap, world), duration, frames, progress, damping_moving)
     driver.drive(course)
-    prepared, t = course.scene.prepared, preparation.disk_table(course.scene.stand)
-    return Result(
+    prepared, world, t = course.scene.prepared, course.scene.world, preparation.disk_table(course.scene.stand)
+    return HeapResult(
         heap,
         world.name,
         asdict(world) | ({"damping_moving": damping_moving} if damping_moving is not None else {}),

@@ -12,13 +12,15 @@ from ...errors import UserError
 from ...model.section import Material, units
 from ...packing import files as packing_files
 from ...system import checks
+from ...world import worlds
 from ...world.soft.parameters import ROLLING_MODELS
 
-__all__ = ["BASES", "FRACTION", "Heap", "HeapError", "check_damping"]
+__all__ = ["BASES", "FRACTION", "TOLERANCE", "Heap", "HeapError", "hard"]
 
 BASES = ("smooth", "rough")
 FRACTION = 0.82  # of the disks as they are packed, before they settle: loose enough for disks of one size
 PATH_PER_STEP = 0.1  # mean diameters, at the speed of a free fall from the top
+TOLERANCE = 1e-4  # of the solver's residual, relative
 
 
 class HeapError(UserError, ValueError):
@@ -29,15 +31,17 @@ class HeapError(UserError, ValueError):
 class Heap:
     """Grains, floor and box of a heap.
 
-    ``disks``: number of disks; boxes of some hundred disks or fewer may miss it by some per cent, and a run says how many it has. ``diameter``: mean by
-    number [m]; ``size_spread``: largest over smallest diameter, sizes being uniform by volume in between; ``density`` [kg/m³].
+    ``disks``: number of disks; boxes of some hundred disks or fewer may miss it by some per cent, and a run says how
+    many it has. ``diameter``: mean by number [m]; ``size_spread``: largest over smallest diameter, sizes being uniform
+    by volume in between; ``density`` [kg/m³].
     ``friction``, ``rolling_friction`` (in units of ℓ), ``restitution``: of contacts between disks, and with the floor.
     ``base``: "smooth", a line, or "rough", disks of the same sizes glued side by side along it, their tops at y = 0.
     ``base_friction``: of the floor, not above ``friction``; None: the same.
     ``wall_friction``: of sides of the box that stay.
-    ``seed``: of sizes and places. ``packing``: text file of ``x y r`` [m] to use instead; then ``disks``, ``diameter``, ``size_spread``, the shape of the
-    box and ``seed`` come from the file, except that the seed also draws the sizes of a rough base.
-    ``gravity`` [m/s²].
+    ``seed``: of sizes and places. ``packing``: text file of ``x y r`` [m] to use instead; then ``disks``, ``diameter``,
+    ``size_spread``, the shape of the box and ``seed`` come from the file, except that the seed also draws the sizes of
+    a rough base.
+    ``gravity`` [m/s²]. ``aspect``: of what is in the box, see the kinds of heaps.
     """
 
     disks: int = 2000
@@ -53,6 +57,10 @@ class Heap:
     seed: int = 1
     packing: str | None = None
     gravity: float = 9.81
+    aspect: float = 1.0
+
+    #: What it is, in its records, and what its aspect ratio is.
+    KIND, ASPECT = "Heap", "height over width of the box"
 
     def __post_init__(self):
         for key, least in (("disks", 1), ("seed", 0)):
@@ -69,6 +77,7 @@ class Heap:
             if wrong:
                 raise HeapError(f"{key} {getattr(self, key):g}: {wrong}")
         number("size_spread", "give largest over smallest diameter, from 1 to 8", least=1, most=8)
+        number("aspect", f"give {self.ASPECT}, from 0.05 to 100", least=0.05, most=100)
         number("restitution", "give a number from 0 to less than 1", least=0, below=1)
         if self.base not in BASES:
             raise HeapError(f"base {checks.shown(self.base)}: give one of {', '.join(BASES)}")
@@ -96,7 +105,7 @@ class Heap:
 
     def box_aspect(self):
         """Height over width of the box that the disks fill."""
-        raise NotImplementedError
+        return self.aspect
 
     def shape(self):
         """What the disks are packed as, a :class:`~yade.nonsmooth.laboratory.pressing.Shape`."""
@@ -106,7 +115,9 @@ class Heap:
         return Shape(int(self.disks), int(self.seed), smallest, largest, FRACTION, self.box_aspect(), None)
 
     def box(self):
-        """Width and height [m] of the box that the disks fill, before they settle. Raises SampleError if it is less than four disks wide."""
+        """Width and height [m] of the box that the disks fill, before they settle. Raises SampleError if it is less
+        than four disks wide.
+        """
         if self.packing:
             p = self.read()
             return float(np.max(p.x + p.r) - np.min(p.x - p.r)), float(np.max(p.y + p.r) - np.min(p.y - p.r))
@@ -131,7 +142,9 @@ class Heap:
         return math.sqrt(self.box()[1] / self.gravity)
 
     def time_step(self, path=PATH_PER_STEP):
-        """Step [s] for hard contacts: the speed √(2 g H) of a fall from the top takes a disk over ``path`` mean diameters."""
+        """Step [s] for hard contacts: the speed √(2 g H) of a fall from the top takes a disk over ``path`` mean
+        diameters.
+        """
         return path * self.mean_diameter() / math.sqrt(2 * self.gravity * self.box()[1])
 
     # ---- materials ------------------------------------------------------------------------------------
@@ -155,7 +168,9 @@ class Heap:
         return replace(self.material(), name="floor", friction=friction, residual_friction=friction)
 
     def check_world(self, world):
-        """Raises HeapError for grains with what soft contacts of this ``world`` have not, which would be dropped in silence: rolling resistance of a model without, and a restitution."""
+        """Raises HeapError for grains with what soft contacts of this ``world`` have not, which would be dropped in
+        silence: rolling resistance of a model without, and a restitution.
+        """
         if world.name != "soft":
             return
         if self.rolling_friction > 0 and world.model not in ROLLING_MODELS:
@@ -171,22 +186,17 @@ class Heap:
 
     def plain(self):
         """All parameters as JSON holds them, and for a packing file its content's checksum in place of its path."""
-        return {"kind": type(self).__name__, **asdict(self), "packing": self.read().checksum if self.packing else None}
+        return {"kind": self.KIND, **asdict(self), "packing": self.read().checksum if self.packing else None}
 
 
-def check_damping(world, moving):
-    """Raises HeapError for a damping on the move that cannot be used in a world; None is none of its own."""
-    if moving is None:
-        return
-    if world.name != "soft":
-        raise HeapError(
-            f"damping_moving {moving!r}: {world.name} contacts have no damping; leave it out, or take the soft world"
-        )
-    checks.number("damping_moving", moving, HeapError, "give a number from 0 to less than 1", least=0, below=1)
+def hard(heap, path=PATH_PER_STEP, tolerance=TOLERANCE):
+    """The world of rigid disks for a heap: the step of :meth:`Heap.time_step` for ``path``, solved to ``tolerance``."""
+    return worlds.Hard(time_step=heap.time_step(path), tolerance=tolerance)
 
 
 def sizes_along(heap, length, side):
-    """Radii [m] of disks side by side that cover ``length`` [m], drawn as the heap's are; the same from the origin on for every length.
+    """Radii [m] of disks side by side that cover ``length`` [m], drawn as the heap's are; the same from the origin on
+    for every length.
 
     ``side``: "left" or "right" of the origin, which differ in their draw.
     """
@@ -198,3 +208,14 @@ def sizes_along(heap, length, side):
         found.append(d / 2)
         reached += d
     return np.array(found)
+
+
+def __getattr__(name):
+    """``build`` and ``run`` of :mod:`.course` for the kinds of heaps: they need YADE, and are imported when they are
+    asked for.
+    """
+    if name in ("build", "run"):
+        from . import course
+
+        return getattr(course, name)
+    raise AttributeError(f"the modules of heaps have no attribute {name!r}")

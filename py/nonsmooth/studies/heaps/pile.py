@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...system import checks
-from .grains import Heap, HeapError
+from .grains import Heap, __getattr__  # noqa: F401
 
 __all__ = ["Pile", "build", "run"]
 
@@ -17,17 +16,14 @@ __all__ = ["Pile", "build", "run"]
 class Pile(Heap):
     """A pile before its sides are taken away.
 
-    ``aspect``: height over half of the width of the box; above some 0.7 all of the top is lost, so that the flanks meet.
-    The other parameters are those of :class:`~yade.nonsmooth.heaps.grains.Heap`.
+    ``aspect``: height over half of the width of the box; above some 0.7 all of the top is lost, so that the flanks
+    meet. The other parameters are those of :class:`~yade.nonsmooth.heaps.grains.Heap`.
     """
 
     disks: int = 500
     aspect: float = 1.0
 
-    def __post_init__(self):
-        super().__post_init__()
-        remedy = "give height over half of the width of the box, from 0.05 to 100"
-        checks.number("aspect", self.aspect, HeapError, remedy, least=0.05, most=100)
+    KIND, ASPECT = "Pile", "height over half of the width of the box"
 
     def box_aspect(self):
         """Height over width of the box."""
@@ -40,12 +36,3 @@ class Pile(Heap):
     def gates(self):
         """Both sides are taken away."""
         return ("left", "right")
-
-
-def __getattr__(name):
-    """``build`` and ``run`` of :mod:`.course` need YADE, and are imported when they are asked for."""
-    if name in ("build", "run"):
-        from . import course
-
-        return getattr(course, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,7 +1,10 @@
-"""Profiles of speed behind the tip of a column that collapses, over seeds: what the paper's Figure 7 sketches (Taboada and Estrada 2009, section 4.2.4). Needs no YADE.
+"""Profiles of speed behind the tip of a column that collapses, over seeds: what the paper's Figure 7 sketches (Taboada
+and Estrada 2009, section 4.2.4). Needs no YADE.
 
-Speeds are differences of the places that a run keeps for its video, a tenth of T = √(H₀/g) apart, so each is a mean over that time. They are taken while the front is at :data:`AT` of its
-run-out, in :data:`LOOKS` such spans one after the other, each with places measured from its own tip. So one description holds for all aspect ratios, and for rigid and soft disks alike.
+Speeds are differences of the places that a run keeps for its video, a tenth of T = √(H₀/g) apart, so each is a mean
+over that time. They are taken while the front is at :data:`AT` of its run-out, in :data:`LOOKS` such spans one after
+the other, each with places measured from its own tip. So one description holds for all aspect ratios, and for rigid and
+soft disks alike.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ from ...measure.statistics import over_seeds
 from . import study
 from .grains import HeapError
 
-__all__ = ["AT", "BEHIND", "Look", "looks", "of_run", "over_runs"]
+__all__ = ["AT", "BEHIND", "SpeedSpan", "looks", "of_run", "over_runs"]
 
 AT = (0.25, 0.5, 0.8)  # of the run-out: where the front is at the three times
 BEHIND = (0.1, 0.4, 0.75)  # of the way from the tip to the wall: where profiles are taken
@@ -27,8 +30,10 @@ LEAST = 0.05  # √(g d), d the mean diameter: what is slower everywhere in a pr
 
 
 @dataclass(frozen=True)
-class Look:
-    """Disks in the middle of a span: ``time`` [s]; ``x`` from the wall, ``y`` [m]; ``u``, ``v`` [m/s], (n,); ``tip`` [m]: front of the connected mass."""
+class SpeedSpan:
+    """Disks in the middle of a span: ``time`` [s]; ``x`` from the wall, ``y`` [m]; ``u``, ``v`` [m/s], (n,); ``tip``
+    [m]: front of the connected mass.
+    """
 
     time: float
     x: np.ndarray
@@ -39,9 +44,11 @@ class Look:
 
 
 def looks(film, place, runout, width, at):
-    """:class:`Look` in the :data:`LOOKS` spans around the time at which the front has come ``at`` of its way; an empty list for a run of an earlier version, which kept no places.
+    """:class:`SpeedSpan` in the :data:`LOOKS` spans around the time at which the front has come ``at`` of its way; an
+    empty list for a run of an earlier version, which kept no places.
 
-    ``film``: times [s], places and radii as of study.film; ``place``: x of the wall [m]; ``runout``: of the run, in units of its ``width`` [m].
+    ``film``: times [s], places and radii as of study.film; ``place``: x of the wall [m]; ``runout``: of the run, in
+    units of its ``width`` [m].
     """
     times, places, r = film
     if len(times) < 2:
@@ -53,12 +60,13 @@ def looks(film, place, runout, width, at):
     found = []
     for k in range(begin, min(begin + LOOKS, len(middle))):
         x, y, u, v = velocity_profiles.midway((times[k], *places[k]), (times[k + 1], *places[k + 1]))
-        found.append(Look(0.5 * (times[k] + times[k + 1]), x - place, y, u, v, float(middle[k])))
+        found.append(SpeedSpan(0.5 * (times[k] + times[k + 1]), x - place, y, u, v, float(middle[k])))
     return found
 
 
 def of_run(seen, r, gravity):
-    """Profiles at the places :data:`BEHIND` of one run's ``seen``, a list of :class:`Look`: a velocity_profiles.Profile each, None where no disks are.
+    """Profiles at the places :data:`BEHIND` of one run's ``seen``, a list of :class:`SpeedSpan`: a
+    velocity_profiles.Profile each, None where no disks are.
 
     ``r`` [m]; ``gravity`` [m/s²]. Layers are a mean diameter thick.
     """
@@ -86,11 +94,15 @@ def _behind(look):
 
 
 def over_runs(runs):
-    """What columns of one aspect ratio have in common, a list of dictionaries that JSON can hold, one for each of :data:`AT`.
+    """What columns of one aspect ratio have in common, a list of dictionaries that JSON can hold, one for each of
+    :data:`AT`.
 
-    ``runs``: list of (heap, summary, folder), one a seed. Each has ``at``; ``time_rel``: in units of T; ``length_rel``: from the wall to the tip, in units of L₀; and ``places``, one for each
-    of :data:`BEHIND`: ``behind``; ``z_d``, in mean diameters, and ``speed_rel``, in units of √(g H₀), of the layers that all runs have; ``height_d`` and ``border_rel``, of the height;
-    ``fullness``; ``regimes``: {name: number of runs}. Numbers are those of statistics.over_seeds. Raises HeapError where a run kept no places.
+    ``runs``: list of (heap, summary, folder), one a seed. Each has ``at``; ``time_rel``: in units of T; ``length_rel``:
+    from the wall to the tip, in units of L₀; and ``places``, one for each of :data:`BEHIND`: ``behind``; ``z_d``, in
+    mean diameters, and ``speed_rel``, in units of √(g H₀), of the layers that all runs have; ``height_d`` and
+    ``border_rel``, of the height;
+    ``fullness``; ``regimes``: {name: number of runs}. Numbers are those of statistics.over_seeds. Raises HeapError
+    where a run kept no places.
     """
     found = []
     for at in AT:

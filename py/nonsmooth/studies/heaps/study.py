@@ -12,59 +12,53 @@ from ...running import kept_runs, side_by_side
 from ...system import checks, keys
 from ...system.whole_files import remove, whole
 from ...world import worlds
-from .column import Column
-from .grains import PATH_PER_STEP, HeapError, check_damping
+from .column import GranularColumn
+from .grains import HeapError, hard
 from .pile import Pile
 
 __all__ = ["KINDS", "DURATION", "film", "frames", "key_of", "one", "planned", "run", "world_of"]
 
-KINDS = {"column": Column, "pile": Pile}
-TOLERANCE = 1e-4
+KINDS = {"column": GranularColumn, "pile": Pile}
 _SOFT = tuple(one.name for one in fields(worlds.Soft) if one.name != "diameter")
 DURATION = 15.0  # T, the longest course after the release
 SNAPSHOTS, FRAMES = "snapshots", "frames"  # folders of what is kept on the way, and of the video's
 
 
 def world_of(heap, name="hard", path=None, tolerance=None, damping_moving=None, **soft):
-    """A world for a heap. ``name``: "hard" with the step that :meth:`Heap.time_step` gives for ``path``, and ``tolerance`` (None: 0.1 and 1e-4); or "soft" with the fields of
-    :class:`yade.nonsmooth.worlds.Soft` but its diameters. ``damping_moving``: no part of the world, but checked here; see :func:`course.run`.
+    """A world for a heap. ``name``: "hard" with the step that :meth:`Heap.time_step` gives for ``path``, and
+    ``tolerance`` (None: 0.1 and 1e-4); or "soft" with the fields of :class:`yade.nonsmooth.worlds.Soft` but its
+    diameters. ``damping_moving``: no part of the world, but checked here; see :func:`course.run`.
 
-    Raises HeapError or SoftError for values that cannot be used, for those of the other world, and HeapError for grains with what the springs have not: see :meth:`Heap.check_world`.
+    Raises HeapError, SoftError or WorldError for values that cannot be used, for those of the other world, and
+    HeapError for grains with what the springs have not: see :meth:`Heap.check_world`.
     """
-    hard = {key: value for key, value in (("path", path), ("tolerance", tolerance)) if value is not None}
-    for key, value in hard.items():
+    rigid = {key: value for key, value in (("path", path), ("tolerance", tolerance)) if value is not None}
+    for key, value in rigid.items():
         checks.number(key, value, HeapError, "give a number above 0", above=0)
-    if name == "hard" and soft:
-        raise HeapError(
-            f"{', '.join(f'{key} {value!r}' for key, value in soft.items())} with world 'hard': rigid disks have no such value; leave it out, or take world 'soft'"
-        )
-    if name == "soft" and hard:
-        raise HeapError(
-            f"{', '.join(f'{key} {value!r}' for key, value in hard.items())} with world 'soft': springs have no such value, their step is step_share of its limit; leave it out, or take world 'hard'"
-        )
+    if name not in ("hard", "soft"):
+        raise HeapError(f"world {name!r}: give hard or soft")
+    why, foreign, other = (
+        ("rigid disks have no such value", soft, "soft")
+        if name == "hard"
+        else ("springs have no such value, their step is step_share of its limit", rigid, "hard")
+    )
+    if foreign:
+        told = ", ".join(f"{key} {value!r}" for key, value in foreign.items())
+        raise HeapError(f"{told} with world {name!r}: {why}; leave it out, or take world {other!r}")
     unknown = [key for key in soft if key not in _SOFT]
     if unknown:
         raise HeapError(f"{', '.join(unknown)}: no value of the soft world; give some of {', '.join(_SOFT)}")
     if name == "hard":
-        made = worlds.Hard(
-            time_step=heap.time_step(hard.get("path", PATH_PER_STEP)), tolerance=hard.get("tolerance", TOLERANCE)
-        )
-    elif name == "soft":
-        checks.number(
-            "stiffness",
-            soft.get("stiffness"),
-            HeapError,
-            "the soft world needs Young's modulus in Pa, above 0",
-            above=0,
-        )
+        made = hard(heap, **rigid)
+    else:
+        remedy = "the soft world needs Young's modulus in Pa, above 0"
+        checks.number("stiffness", soft.get("stiffness"), HeapError, remedy, above=0)
         made = worlds.Soft(diameter=heap.diameters(), **soft)
         remedy = "the time step in units of its stability limit; give a number above 0, to 1 at most"
         checks.number("step_share", made.step_share, HeapError, remedy, above=0, most=1)
         made.equivalent(heap.material())  # refuses values that no soft contact has
         heap.check_world(made)
-    else:
-        raise HeapError(f"world {name!r}: give hard or soft")
-    check_damping(made, damping_moving)
+    worlds.check_damping(made, damping_moving)
     return made
 
 
@@ -76,9 +70,11 @@ def key_of(heap, world, duration):
 
 
 def one(folder, kind, heap, world, duration):
-    """Runs a heap in the running scene; ``kind``: of :data:`KINDS`, ``heap``: its parameters, ``world``: arguments of :func:`world_of`, a dictionary.
+    """Runs a heap in the running scene; ``kind``: of :data:`KINDS`, ``heap``: its parameters, ``world``: arguments of
+    :func:`world_of`, a dictionary.
 
-    Writes ``series.csv``, ``snapshots`` and ``frames`` to ``folder``, its share done to ``progress``, and returns the :meth:`~course.Result.summary`.
+    Writes ``series.csv``, ``snapshots`` and ``frames`` to ``folder``, its share done to ``progress``, and returns the
+    :meth:`~course.HeapResult.summary`.
     """
     from . import course
 
@@ -117,7 +113,9 @@ def _places(folder):
 
 
 def frames(folder):
-    """Places of a run below ``folder``: times [s] with the end last, a list of (x, y) for each, and radii [m]. Raises HeapError where there are none."""
+    """Places of a run below ``folder``: times [s] with the end last, a list of (x, y) for each, and radii [m]. Raises
+    HeapError where there are none.
+    """
     found = _places(Path(folder) / SNAPSHOTS)
     if not found[0]:
         raise HeapError(
@@ -127,12 +125,15 @@ def frames(folder):
 
 
 def film(folder):
-    """Places for the video of a run below ``folder``: times [s] at equal distances, a list of (x, y) for each, and radii [m]; three empty ones where it has kept none."""
+    """Places for the video of a run below ``folder``: times [s] at equal distances, a list of (x, y) for each, and
+    radii [m]; three empty ones where it has kept none.
+    """
     return _places(Path(folder) / FRAMES)
 
 
 def planned(name, folder, heap, world, duration=DURATION) -> side_by_side.Run:
-    """A run as side_by_side.run takes it, checked: ``name``: for messages; ``world``: arguments of :func:`world_of`, a dictionary; ``duration``: see course.run.
+    """A run as side_by_side.run takes it, checked: ``name``: for messages; ``world``: arguments of :func:`world_of`, a
+    dictionary; ``duration``: see course.run.
 
     Raises what :func:`world_of` raises, and HeapError for what is no heap and for a duration that is no number above 0.
     """
@@ -151,10 +152,12 @@ def planned(name, folder, heap, world, duration=DURATION) -> side_by_side.Run:
 
 
 def run(cases, out, threads=1, resume=False, duration=DURATION, progress=lambda share: None):
-    """Runs ``cases``, {name: (heap, arguments of world_of)}, as many at a time as ``threads``, in ``out/runs/NAME``; returns {name: summary}.
+    """Runs ``cases``, {name: (heap, arguments of world_of)}, as many at a time as ``threads``, in ``out/runs/NAME``;
+    returns {name: summary}.
 
-    ``resume``: keep runs of these parameters that have ended. ``progress``: called with the share done, now and then; runs count by disks and fall height.
-    Raises what :func:`planned` raises, before anything runs, and HeapError with the first failure after the others have ended.
+    ``resume``: keep runs of these parameters that have ended. ``progress``: called with the share done, now and then;
+    runs count by disks and fall height. Raises what :func:`planned` raises, before anything runs, and HeapError with
+    the first failure after the others have ended.
     """
     made = [
         planned(name, side_by_side.folder_of(out, name, HeapError), heap, world, duration)

@@ -1,12 +1,14 @@
-"""One biaxial test: compression by the platens at constant lateral pressure (Taboada and Estrada 2009, section 5.2, Figures 9 and 10).
+"""One biaxial test: compression by the platens at constant lateral pressure (Taboada and Estrada 2009, section 5.2,
+Figures 9 and 10).
 
     ε₁ = 1 − H/H₀   axial strain, at the rate ε̇ = I/t_i with t_i = √(m/σ₃), I the inertial number,
     σ₁ = F/W        mean over both platens,            σ₃ on the sides, held,
     ε_v = A/A₀ − 1  volumetric strain, positive in dilation.
 
-The platens reach their rate over the strain :data:`RAMP`: with v = ε̇ H₀ the sample's inertia takes ρ H v̇ ≈ σ₃ I² (H/d)²/RAMP, half a per cent of σ₃ for
-the default I = 1e-4 and a sample 100 disks high. What remains of it, and of waves, shows as the difference between the two platens, which each
-row has. A step is :attr:`Test.step` t_i, so that a test takes the same number of steps under any pressure.
+The platens reach their rate over the strain :data:`RAMP`: with v = ε̇ H₀ the sample's inertia takes ρ H v̇ ≈ σ₃ I²
+(H/d)²/RAMP, half a per cent of σ₃ for the default I = 1e-4 and a sample 100 disks high. What remains of it, and of
+waves, shows as the difference between the two platens, which each row has. A step is :attr:`BiaxialTest.step` t_i, so
+that a test takes the same number of steps under any pressure.
 """
 
 from __future__ import annotations
@@ -31,10 +33,10 @@ from ...system.whole_files import remove, remove_parts, whole
 from ...world import tables
 from ...world.stepping import advance
 from . import membrane, sample
-from .biaxial_test import COLUMNS, CYCLE, OF_SOLVER, PHASES, Test, key_of
+from .biaxial_test import COLUMNS, CYCLE, OF_SOLVER, PHASES, BiaxialTest, key_of
 from .walls import Walls
 
-__all__ = ["COLUMNS", "OF_SOLVER", "ROW_STRAIN", "Course", "TestError", "keep_cycle", "run"]
+__all__ = ["COLUMNS", "OF_SOLVER", "ROW_STRAIN", "BiaxialCourse", "TestError", "keep_cycle", "run"]
 
 RAMP = 0.002  # strain in which the platens reach their speed
 ROW_STRAIN = 1e-4  # between two rows of series.csv
@@ -50,7 +52,7 @@ class TestError(UserError, RuntimeError):
     __test__ = False  # no test of pytest's
 
 
-class Course(driver.Course):
+class BiaxialCourse(driver.Course):
     """Runs a test and writes its records into ``folder``."""
 
     def __init__(self, test, folder, body, state):
@@ -69,7 +71,9 @@ class Course(driver.Course):
     # ---- begin ----------------------------------------------------------------------------------
     @classmethod
     def begin(cls, test, folder, world=None):
-        """Puts the sample into the scene, bonded and under its pressure; ``world``: a :class:`.worlds.Soft`, rigid contacts unless given."""
+        """Puts the sample into the scene, bonded and under its pressure; ``world``: a :class:`.worlds.Soft`, rigid
+        contacts unless given.
+        """
         began = time.monotonic()
         body = sample.Sample.build(
             test.shape,
@@ -124,8 +128,8 @@ class Course(driver.Course):
     def _settle(self, unit):
         """Bonds soft contacts, at rest in the membrane where there is one.
 
-        A membrane presses on other disks than a wall did: soft contacts feel a blow that would break bonds, so they are made when it has died away. In the hard world bonds come before the membrane,
-        where they do not feel the change.
+        A membrane presses on other disks than a wall did: soft contacts feel a blow that would break bonds, so they are
+        made when it has died away. In the hard world bonds come before the membrane, where they do not feel the change.
         """
         if self.test.sides == "flexible":
             for _ in range(SWITCHES):
@@ -151,7 +155,9 @@ class Course(driver.Course):
         return 1 - self.sample.walls.height() / self.state["height"]
 
     def run(self, progress=None):
-        """Shears the sample to the end; ``progress``: called with the share done. Ctrl-C ends it after the next row, with a checkpoint where it has some."""
+        """Shears the sample to the end; ``progress``: called with the share done. Ctrl-C ends it after the next row,
+        with a checkpoint where it has some.
+        """
         self.progress = progress
         self.frame(0)
         driver.drive(self)
@@ -255,14 +261,18 @@ class Course(driver.Course):
 
     # ---- records --------------------------------------------------------------------------------
     def snapshot(self, name, folder="snapshots"):
-        """Writes the present state with its forces as ``NAME.npz`` of a ``folder``, a records.Snapshot; walls are numbered as in Walls.ids."""
+        """Writes the present state with its forces as ``NAME.npz`` of a ``folder``, a records.Snapshot; walls are
+        numbered as in Walls.ids.
+        """
         body = self.sample
         numbers = {i: k for k, i in enumerate(body.walls.ids.values())}
         loaded = tables.loaded_contacts(body.engine, body.first_disk, numbers)
         self._keep(f"{folder}/{name}.npz", ("x", "y", "r", "angle", "vx", "vy"), **loaded)
 
     def frame(self, number):
-        """Keeps disks and walls for the video as ``frames/NUMBER.npz``, a compact records.Snapshot, once for a ``number`` of :data:`FILM`."""
+        """Keeps disks and walls for the video as ``frames/NUMBER.npz``, a compact records.Snapshot, once for a
+        ``number`` of :data:`FILM`.
+        """
         if number <= self.state.get("frame", -1):
             return
         self.state["frame"] = number
@@ -294,8 +304,9 @@ class Course(driver.Course):
 
 
 def keep_cycle(folder, begin, end):
-    """Of the forces of rows in a test's folder, keeps those of the cycle with the deepest drop between two strains, by the names ``begin``, ``peak`` and ``end``, and removes the others; all
-    where there is no cycle. Returns the cycles.Cycle, or None."""
+    """Of the forces of rows in a test's folder, keeps those of the cycle with the deepest drop between two strains, by
+    the names ``begin``, ``peak`` and ``end``, and removes the others; all where there is no cycle. Returns the
+    cycles.Cycle, or None."""
     folder = Path(folder)
     series = records.read_series(folder / "series.csv")
     chosen = cycles.deepest(series, begin, end)
@@ -308,15 +319,17 @@ def keep_cycle(folder, begin, end):
 
 
 def run(folder, world=None, **plain):
-    """Runs the test given as plain data (see :meth:`Test.of`) in the folder, from its checkpoint if it has one; returns numbers of the course.
+    """Runs the test given as plain data (see :meth:`BiaxialTest.of`) in the folder, from its checkpoint if it has one;
+    returns numbers of the course.
 
-    ``world``: a :class:`.worlds.Soft`, which has no checkpoints; rigid contacts unless given. ``wall_s`` counts all but making the sample, ``wall_steps_s`` the steps alone, without records and
-    checkpoints [s]. The share done is kept in the file ``progress``.
+    ``world``: a :class:`.worlds.Soft`, which has no checkpoints; rigid contacts unless given. ``wall_s`` counts all but
+    making the sample, ``wall_steps_s`` the steps alone, without records and checkpoints [s]. The share done is kept in
+    the file ``progress``.
     """
-    test, folder = Test.of(plain), Path(folder)
+    test, folder = BiaxialTest.of(plain), Path(folder)
     remove_parts(folder, folder / "snapshots", folder / "frames", folder / CYCLE, folder / "checkpoint")
     resumes = world is None and checkpoints.exists(folder)
-    course = Course.resume(test, folder) if resumes else Course.begin(test, folder, world)
+    course = BiaxialCourse.resume(test, folder) if resumes else BiaxialCourse.begin(test, folder, world)
     course.run(Progress(folder))
     if test.forces_from is not None:
         keep_cycle(folder, test.forces_from, test.strain)

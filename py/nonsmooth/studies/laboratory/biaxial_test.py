@@ -9,7 +9,7 @@ from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 from ...system import keys
 from . import pressing
 
-__all__ = ["COLUMNS", "CYCLE", "OF_SOLVER", "PHASES", "Test", "key_of"]
+__all__ = ["COLUMNS", "CYCLE", "OF_SOLVER", "PHASES", "BiaxialTest", "Test", "key_of"]
 
 CYCLE = "cycle"  # folder of the forces of rows by their steps, and in the end of those of PHASES
 PHASES = ("begin", "peak", "end")  # of a cycle of stress
@@ -47,16 +47,15 @@ OF_SOLVER = ("iterations_mean", "residual_worst", "unconverged", "energy_kinetic
 
 
 @dataclass(frozen=True)
-class Test:
+class BiaxialTest:
     """What determines a test. ``confining``: σ₃ [Pa]; ``strain``: at the end.
 
-    ``platens``: "smooth", "rough" (friction and rolling friction of the rock, no bonds) or "glued" (bonded as the rock is); ``sides``: "rigid" or
-    "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i; ``adhesion_range``: largest gap over which the
-    residual tensile strength acts, in ℓ; ``forces_from``: strain from which on the forces of each row are kept for the pictures of a cycle of
-    stress (:mod:`.cycles`), of which three stay in the end; None: none.
+    ``platens``: "smooth", "rough" (friction and rolling friction of the rock, no bonds) or "glued" (bonded as the rock
+    is); ``sides``: "rigid" or "flexible"; ``inertia``: inertial number I of the loading; ``step``: time step in t_i;
+    ``adhesion_range``: largest gap over which the residual tensile strength acts, in ℓ; ``forces_from``: strain from
+    which on the forces of each row are kept for the pictures of a cycle of stress (:mod:`.cycles`), of which three stay
+    in the end; None: none.
     """
-
-    __test__ = False  # no test of pytest's
 
     material: section.Material
     confining: float
@@ -87,6 +86,9 @@ class Test:
             return replace(self.material, name="platen", bonded=True)
         m = replace(self.material, name="platen", bonded=False, tensile_strength=0.0, residual_tensile_strength=0.0)
         return materials.smooth(m) if self.platens == "smooth" else m
+
+
+Test = BiaxialTest  # its name for scripts and notebooks
 
 
 def key_of(test):

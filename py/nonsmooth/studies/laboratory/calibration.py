@@ -210,11 +210,11 @@ class Calibration:
 
     @property
     def _strain(self):
-        return biaxial_test.Test.strain if self.wanted.with_residual else PEAK_STRAIN
+        return biaxial_test.BiaxialTest.strain if self.wanted.with_residual else PEAK_STRAIN
 
     def _tests(self, material, disks, seeds):
         return [
-            biaxial_test.Test(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), self._strain)
+            biaxial_test.BiaxialTest(material, p * self.wanted.cohesion, pressing.Shape(disks, seed), self._strain)
             for seed in seeds
             for p in PRESSURES
         ]
@@ -246,7 +246,7 @@ class Calibration:
         highest pressure, as many at a time as there are threads. Raises as :meth:`measure` does."""
         disks, strain = TIMED
         tests = [
-            biaxial_test.Test(self.material(self.x0), p * self.wanted.cohesion, pressing.Shape(disks, 1), strain)
+            biaxial_test.BiaxialTest(self.material(self.x0), p * self.wanted.cohesion, pressing.Shape(disks, 1), strain)
             for p in (PRESSURES[0], PRESSURES[-1])
         ]
         folder = self.out / "timed"
@@ -261,7 +261,7 @@ class Calibration:
     def seconds(self, kinds, timed):
         """Seconds that trials take: ``kinds``, a list of (number of trials, disks, seeds); ``timed``: as :meth:`timed` returns it."""
         each, start = timed
-        steps = self._strain / (biaxial_test.Test.inertia * biaxial_test.Test.step)
+        steps = self._strain / (biaxial_test.BiaxialTest.inertia * biaxial_test.BiaxialTest.step)
         found = 0.0
         for number, disks, seeds in kinds:
             tests = len(PRESSURES) * len(seeds)

@@ -35,6 +35,11 @@ __all__ = [
 
 # snapshots (strain in per cent) in which bands are measured: as in the paper's Figure 9, and where its tests are on their plateau
 BANDS_AT = {"bands": "1", "bands_late": "4"}
+#: Numbers of a test's course, as biaxial.run returns them.
+OF_COURSE = (
+    "inertial_number rate_per_s time_step_s steps simulated_s height_m width_m wall_making_s wall_s wall_steps_s "
+    "sweeps_mean unconverged overlap_worst_rel"
+).split()
 
 
 class CampaignError(UserError, RuntimeError):
@@ -61,13 +66,13 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
     checks.path("out", out, CampaignError, "give the path of a folder for the tests")
     threads = checks.count("threads", threads, CampaignError, "give a whole number from 1, how many run at a time")
     if not isinstance(tests, Iterable) or isinstance(tests, str):
-        raise CampaignError(f"tests {checks.shown(tests)}: give a list of biaxial_test.Test")
+        raise CampaignError(f"tests {checks.shown(tests)}: give a list of biaxial_test.BiaxialTest")
     home, tests = Path(out) / "tests", list(tests)
     if not tests:
-        raise CampaignError("tests []: there is nothing to run; give one biaxial_test.Test or more")
+        raise CampaignError("tests []: there is nothing to run; give one biaxial_test.BiaxialTest or more")
     for test in tests:
-        if not isinstance(test, biaxial_test.Test):
-            raise CampaignError(f"tests, {checks.shown(test)}: give a list of biaxial_test.Test")
+        if not isinstance(test, biaxial_test.BiaxialTest):
+            raise CampaignError(f"tests, {checks.shown(test)}: give a list of biaxial_test.BiaxialTest")
     for test in tests:
         if test.forces_from is not None:
             remedy = f"give a strain from 0 to less than {test.strain:g}, where the test ends, or None"
@@ -139,24 +144,7 @@ def measure(test, folder):
         **fluctuations.measure(series, plateau, found["height_m"] * found["width_m"], _disk_area(folder)),
         **cycles.measure(series, plateau),
         **{key: bands_of(folder, snapshot) for key, snapshot in BANDS_AT.items()},
-        **{
-            key: found[key]
-            for key in (
-                "inertial_number",
-                "rate_per_s",
-                "time_step_s",
-                "steps",
-                "simulated_s",
-                "height_m",
-                "width_m",
-                "wall_making_s",
-                "wall_s",
-                "wall_steps_s",
-                "sweeps_mean",
-                "unconverged",
-                "overlap_worst_rel",
-            )
-        },
+        **{key: found[key] for key in OF_COURSE},
     }
 
 
@@ -186,14 +174,8 @@ def bands_of(folder, snapshot):
 
 #: Numbers of a test that :func:`by_pressure` has means of, besides those of its bands and breaks.
 OF_TEST = (
-    "strain_peak",
-    "later_share",
-    "dilatancy_deg",
-    "volumetric_strain_end",
-    "stress_fluctuation_rel",
-    "contractions_per_percent",
-    "contraction_with_drop",
-    *cycles.NUMBERS,
+    *"strain_peak later_share dilatancy_deg volumetric_strain_end stress_fluctuation_rel".split(),
+    *("contractions_per_percent", "contraction_with_drop", *cycles.NUMBERS),
 )
 
 
@@ -265,12 +247,9 @@ def summarise(material, measured, wall_s=None, threads=None):
     for kind in ("peak", "residual"):
         if kind == "residual" and min(m["residual_between_strains"][0] for m in measured) < strength.SOFTENED - 1e-9:
             names = (
-                "cohesion_residual_kPa",
-                "cohesion_residual_95_kPa",
-                "friction_residual_deg",
-                "friction_residual_95_deg",
-                "misses_residual_rel",
-            )
+                "cohesion_residual_kPa cohesion_residual_95_kPa friction_residual_deg friction_residual_95_deg "
+                "misses_residual_rel"
+            ).split()
             return {
                 **whole,
                 **dict.fromkeys(names),

@@ -32,8 +32,8 @@ class Effect:
 
 
 def effects(material, seeds, count=COUNT, pressure=PRESSURE, **options):
-    """The Effects that are looked at, each value with one Test for each seed. ``options``: fields of Test for all."""
-    usual = biaxial_test.Test(material, pressure, Shape(count, 0), **options)
+    """The Effects that are looked at, each value with one BiaxialTest for each seed. ``options``: fields of BiaxialTest for all."""
+    usual = biaxial_test.BiaxialTest(material, pressure, Shape(count, 0), **options)
 
     def tests(values, change):
         return {

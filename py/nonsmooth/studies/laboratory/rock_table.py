@@ -74,7 +74,9 @@ class Entry:
     def tests(self, seeds, pressures=PRESSURES):
         """Its biaxial Tests, a list; ``seeds`` of the samples."""
         return [
-            biaxial_test.Test(self.material, p * self.material.tensile_strength, Shape(self.count, seed), strain=STRAIN)
+            biaxial_test.BiaxialTest(
+                self.material, p * self.material.tensile_strength, Shape(self.count, seed), strain=STRAIN
+            )
             for seed in seeds[: self.most]
             for p in pressures
         ]

@@ -21,7 +21,8 @@ RELAX_UNITS, REST_UNITS = 40.0, 20.0  # t_i in which the pressure grows on soft 
 
 
 class Sample:
-    """Handles of a sample that is in the scene: its ``walls``, id of its first disk, number of disks, and what tells of its contacts (``engine``, see :meth:`.worlds.Hard.measures`).
+    """Handles of a sample that is in the scene: its ``walls``, id of its first disk, number of disks, and what tells of
+    its contacts (``engine``, see :meth:`.worlds.Hard.measures`).
 
     ``bonds``: number of those made; ``mass``: mean mass of a disk [kg/m]; both None after a resume.
     """
@@ -35,11 +36,17 @@ class Sample:
     def build(cls, shape, rock, platen, pressure, world=None, tolerance=1e-5, **options):
         """Fills the (empty) scene; the sample rests under ``pressure`` [Pa], and is bonded where contacts are rigid.
 
-        A pressed sample takes up the pressure and is then bonded. One that was not pressed is bonded first, and the pressure then grows.
+        A pressed sample takes up the pressure and is then bonded. One that was not pressed is bonded first, and the
+        pressure then grows.
 
-        ``shape``: of a sample that `pressing.prepare` made; ``rock``, ``platen``: section.Material of disks and of platens, sides have no friction;
-        ``world``: a :class:`.worlds.Soft`; None: rigid contacts, solved to ``tolerance``, with ``options`` of scene.engines, such as attributes of ContactDynamicsEngine.
+        ``shape``: of a sample that `pressing.prepare` made; ``rock``, ``platen``: section.Material of disks and of
+        platens, sides have no friction;
+        ``world``: a :class:`.worlds.Soft`; None: rigid contacts, solved to ``tolerance``, with ``options`` of
+        scene.engines, such as attributes of ContactDynamicsEngine. Raises WorldError for another: rigid contacts take
+        their step from the test.
         """
+        if world is not None:
+            worlds.check(world, (worlds.Soft,))
         pressed = pressing.load(shape)
         O.reset()
         hard = world is None

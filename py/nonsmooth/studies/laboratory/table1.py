@@ -50,7 +50,7 @@ def run(
     pressures,
     slide_seeds,
     slide_pressures,
-    strain=biaxial_test.Test.strain,
+    strain=biaxial_test.BiaxialTest.strain,
     material="wwr",
     threads=1,
     resume=False,
@@ -64,11 +64,13 @@ def run(
     """
     out, rock = Path(out), materials.load(material)
     tests = [
-        biaxial_test.Test(rock, p, pressing.Shape(disks, seed), strain) for seed in seeds for p in sorted(pressures)
+        biaxial_test.BiaxialTest(rock, p, pressing.Shape(disks, seed), strain)
+        for seed in seeds
+        for p in sorted(pressures)
     ]
     measured = campaign.run(tests, out / "rock", threads, resume, lambda share, doing: progress(0.9 * share, doing))
     groups = {
-        row: [[wall_shear.Test(m, p, seed) for p in slide_pressures] for seed in slide_seeds]
+        row: [[wall_shear.SlideTest(m, p, seed) for p in slide_pressures] for seed in slide_seeds]
         for row, m in walls().items()
     }
     flat = [test for one in groups.values() for group in one for test in group]

@@ -1,13 +1,15 @@
-"""Sliding test of a packing on a wall: strength of the line that bounds a slope (Taboada and Estrada 2009, section 3.3, Table 1).
+"""Sliding test of a packing on a wall: strength of the line that bounds a slope (Taboada and Estrada 2009, section 3.3,
+Table 1).
 
-A flat block of disks, bonded so strongly that it stays rigid, lies on a Segment wall of the material to be tested. A plate that is glued on, and
-can only rise and sink, presses it down with the force σ L. The wall is then pulled along at a slow constant speed v. With N and T the force of the
-block on the wall,
+A flat block of disks, bonded so strongly that it stays rigid, lies on a Segment wall of the material to be tested. A
+plate that is glued on, and can only rise and sink, presses it down with the force σ L. The wall is then pulled along at
+a slow constant speed v. With N and T the force of the block on the wall,
 
     σ = N/L,  τ = T/L,      τ = c + μ σ  (least squares over the pressures).
 
-Expected, as all contacts slip at once: μ = μ_s, c = μ_s Σ F_a / L = μ_s σ_ext Σ ℓ / L over the disks that are bonded to the wall; Σ ℓ / L, the
-share of the line that disks cover, is what makes the two adhesions "approximately equal" in a dense packing.
+Expected, as all contacts slip at once: μ = μ_s, c = μ_s Σ F_a / L = μ_s σ_ext Σ ℓ / L over the disks that are bonded to
+the wall; Σ ℓ / L, the share of the line that disks cover, is what makes the two adhesions "approximately equal" in a
+dense packing.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ from ...running import side_by_side
 from ...running.kept_runs import Progress
 from ...system import keys
 
-__all__ = ["COLUMNS", "Slide", "SlideError", "Test", "run", "run_one", "slide", "strength_of"]
+__all__ = ["COLUMNS", "Slide", "SlideError", "SlideTest", "run", "run_one", "slide", "strength_of"]
 
 BLOCK_STRENGTH = 1e9  # Pa, of the block's own bonds
 BLOCK_BONDS = 0.15  # ℓ; a disk that the block does not hold could roll between it and the wall
@@ -54,11 +56,10 @@ class SlideError(UserError, RuntimeError):
 
 
 @dataclass(frozen=True)
-class Test:
-    """What determines a slide: the wall's ``material``, the normal stress ``pressure`` [Pa], and the ``seed`` of the block, with disks of ``d_min`` to
+class SlideTest:
+    """What determines a slide: the wall's ``material``, the normal stress ``pressure`` [Pa], and the ``seed`` of the
+    block, with disks of ``d_min`` to
     ``d_max`` [m]."""
-
-    __test__ = False  # no test of pytest's
 
     material: section.Material
     pressure: float
@@ -82,7 +83,9 @@ class Test:
 
     @property
     def way(self):
-        """Slip at the end [m]; over its second half, beyond twice the ellipse of the largest bond (0.02 d_max), the residual is taken."""
+        """Slip at the end [m]; over its second half, beyond twice the ellipse of the largest bond (0.02 d_max), the
+        residual is taken.
+        """
         return 0.08 * self.d_max
 
     def block(self):
@@ -105,7 +108,9 @@ class Slide:
 
 
 def slide(test, record=lambda row: None):
-    """Does a Test; fills the scene anew. ``record``: called with a row of :data:`COLUMNS`, a dictionary, for each step of the slip. Returns a Slide."""
+    """Does a SlideTest; fills the scene anew. ``record``: called with a row of :data:`COLUMNS`, a dictionary, for each
+    step of the slip. Returns a Slide.
+    """
     from yade import O
 
     from ...world import scene
@@ -169,7 +174,9 @@ def slide(test, record=lambda row: None):
 
 
 class _Pull(driver.Course):
-    """The slip of a block that is pressed, along a ``way`` on a ``width`` [m]. ``pull``: makes a step at a speed [m/s], and returns its number, its way, normal and shear force."""
+    """The slip of a block that is pressed, along a ``way`` on a ``width`` [m]. ``pull``: makes a step at a speed [m/s],
+    and returns its number, its way, normal and shear force.
+    """
 
     unsaved = "a slide"
 
@@ -200,8 +207,14 @@ def _radius(O, interaction, wall):
 
 
 def run_one(folder, **plain):
-    """Does the Test given as plain data, writes its ``series.csv`` into the folder, and returns its Slide as a dictionary."""
-    test, note, folder = Test(**{**plain, "material": materials.of(plain["material"])}), Progress(folder), Path(folder)
+    """Does the SlideTest given as plain data, writes its ``series.csv`` into the folder, and returns its Slide as a
+    dictionary.
+    """
+    test, note, folder = (
+        SlideTest(**{**plain, "material": materials.of(plain["material"])}),
+        Progress(folder),
+        Path(folder),
+    )
     with records.SeriesWriter(folder / "series.csv", COLUMNS, overwrite=True) as series:
 
         def record(row):
@@ -212,10 +225,11 @@ def run_one(folder, **plain):
 
 
 def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
-    """Does Tests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns their Slides. ``resume``: keep those that have ended.
+    """Does SlideTests, as many at a time as ``threads``, each in ``out/tests/NAME``; returns their Slides. ``resume``:
+    keep those that have ended.
 
-    ``progress``: called with the share done and what is being done. Raises SlideError before anything runs where two have one name, and with the first
-    failure after the others have ended.
+    ``progress``: called with the share done and what is being done. Raises SlideError before anything runs where two
+    have one name, and with the first failure after the others have ended.
     """
     tests = list(tests)
     made = [
@@ -238,7 +252,9 @@ def run(tests, out, threads, resume=False, progress=lambda share, doing: None):
 
 
 def strength_of(tests, slides):
-    """Friction and cohesion of a wall from the Slides of Tests of one material and one block: a dictionary for ``summary.json``."""
+    """Friction and cohesion of a wall from the Slides of SlideTests of one material and one block: a dictionary for
+    ``summary.json``.
+    """
     found = {
         "material": tests[0].material.name,
         "seed": tests[0].seed,

@@ -23,7 +23,9 @@ class Walls:
 
     @classmethod
     def around(cls, width, height, platen, side):
-        """Adds the walls of a box with its corner at the origin; ``platen``: material of bottom and top, ``side``: of left and right, both in the scene."""
+        """Adds the walls of a box with its corner at the origin; ``platen``: material of bottom and top, ``side``: of
+        left and right, both in the scene.
+        """
         far = 3 * (width + height)
         # each with the disks on its left
         lines = {
@@ -84,7 +86,9 @@ class Walls:
         return self.place("right")[0] - self.place("left")[0]
 
     def step(self):
-        """One step of the scene, with the pressure on the walls that are free. Of the bodies the walls alone are up to date after it, until the engine's ``view()``."""
+        """One step of the scene, with the pressure on the walls that are free. Of the bodies the walls alone are up to
+        date after it, until the engine's ``view()``.
+        """
         for wall in FREE_STATES:
             if self.is_free(wall):
                 axis, sign = OUTWARDS[wall]
@@ -101,6 +105,8 @@ class Walls:
         return found
 
     def stresses(self):
-        """Pressure of the disks on each of the four walls in the last step [Pa]; the lengths are those of the step's end."""
+        """Pressure of the disks on each of the four walls in the last step [Pa]; the lengths are those of the step's
+        end.
+        """
         width, height = self.width(), self.height()
         return {wall: force / (width if OUTWARDS[wall][0] == 1 else height) for wall, force in self.forces().items()}

@@ -152,14 +152,14 @@ def slope_of(reading, disks, seed):
     return dataclasses.replace(section_of(reading), seed=seed).with_disks(disks)
 
 
-def tests_of(reading, disks, seeds, platens, strain=biaxial_test.Test.strain, pressures=PRESSURES):
-    """The biaxial Tests of a Reading between ``platens`` (see biaxial_test.Test): of its rock, one for each seed and for each of the ``pressures`` [Pa]."""
+def tests_of(reading, disks, seeds, platens, strain=biaxial_test.BiaxialTest.strain, pressures=PRESSURES):
+    """The biaxial Tests of a Reading between ``platens`` (see biaxial_test.BiaxialTest): of its rock, one for each seed and for each of the ``pressures`` [Pa]."""
     fields = dict(reading.test)
     count = round(disks * fields.pop("count", 1.0))
     shape = {key: fields.pop(key) for key in ("friction", "aspect") if key in fields}
     rock = section_of(reading).materials[LAYERS_ROCK]
     return [
-        biaxial_test.Test(rock, p, pressing.Shape(count, seed, **shape), strain, platens, **fields)
+        biaxial_test.BiaxialTest(rock, p, pressing.Shape(count, seed, **shape), strain, platens, **fields)
         for seed in seeds
         for p in pressures
     ]
@@ -172,7 +172,7 @@ def run(
     sample_disks,
     seeds,
     platens=PLATENS,
-    strain=biaxial_test.Test.strain,
+    strain=biaxial_test.BiaxialTest.strain,
     pressures=PRESSURES,
     slopes=True,
     threads=1,

@@ -4,7 +4,8 @@ from ...records.columns import BONDS, STEP, TIME, Column, count, declared
 
 __all__ = ["COLUMNS", "WALL_COLUMNS"]
 
-#: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see :data:`.records.columns.OWN`.
+#: Of ``series.csv``: {name: Column}. Where slip surfaces lie one above another, each has some of them for itself, see
+#: :data:`.records.columns.OWN`.
 COLUMNS = declared(
     STEP,
     TIME,

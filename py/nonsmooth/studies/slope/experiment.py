@@ -31,7 +31,7 @@ from ...model.section import Section, data as section_data
 from ...records import checkpoints
 from ...records.columns import without
 from ...system import checks, keys
-from ...world import tables
+from ...world import tables, worlds
 from ...world.stepping import advance
 from . import frames, results, slope, slope_packing
 from .columns import COLUMNS
@@ -43,18 +43,8 @@ FORCE_SAMPLES = 100  # of the forces on walls in a row, with soft contacts; each
 
 #: Columns that only a run of rigid disks has: of the contact solver, and of the energies that it sums up.
 OF_SOLVER = (
-    "iterations",
-    "residual",
-    "residual_N_per_m",
-    "tolerance",
-    "energy_water_J",
-    "energy_walls_J",
-    "energy_sliding_J",
-    "energy_rolling_J",
-    "energy_impact_J",
-    "energy_bonds_J",
-    "energy_correction_J",
-    "energy_error_rel",
+    *("iterations", "residual", "residual_N_per_m", "tolerance", "energy_water_J", "energy_walls_J", *records.LOSSES),
+    *("energy_correction_J", "energy_error_rel"),
 )
 
 
@@ -84,6 +74,8 @@ class Experiment(driver.Course):
         folder = checks.path("folder", folder, UserError, "give the path of a folder")
         if state is None:
             results.check_folder(folder)
+        self.hard = isinstance(built.solver, ContactDynamicsEngine)
+        worlds.check_damping("hard" if self.hard else "soft", damping_moving)
         self.slope, self.section, self.folder = built, built.section, Path(folder)
         self.state = state or State()
         self.layers = slope.layers_of(built) if layers is None else layers
@@ -97,7 +89,6 @@ class Experiment(driver.Course):
         self.borne_by = {name: self.section.borne_by(name)[self.layers] for name in self.section.stacked}
         self.stands = False  # see run
         self.runner = None  # see attach
-        self.hard = isinstance(built.solver, ContactDynamicsEngine)
         self.unsaved = None if self.hard else "a slope of soft contacts"
         own = records.own_columns(self.section.stacked)
         self.columns = (COLUMNS if self.hard else without(COLUMNS, OF_SOLVER)) | {

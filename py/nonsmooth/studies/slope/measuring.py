@@ -8,10 +8,10 @@ from pathlib import Path
 from ...running import processes
 from .states import BenchmarkError
 
-__all__ = ["Course"]
+__all__ = ["MeasuringCourse"]
 
 
-class Course:
+class MeasuringCourse:
     """Calls functions in YADE processes of their own, each in a folder below ``out/runs`` that keeps its log.
 
     ``total``: seconds foreseen for all of them; ``progress``: called with the share done and the name of what is being done, every second.

@@ -45,27 +45,11 @@ SERIES, WALLS, SECTION = "series.csv", "walls.csv", section_data.FILE
 HEAD = b"step,time_s,"  # begins the series of every run
 
 # what a run leaves besides its series and its checkpoint
-SUMMARY, BREAKS, BEGIN, END, SNAPSHOTS, PARAVIEW = (
-    "summary.json",
-    "breaks.csv",
-    "t0.npz",
-    "end.npz",
-    frames.FOLDER,
-    "vtk",
-)
-FIGURES = (
-    "force_chains.png",
-    "forces.png",
-    "snapshots.png",
-    "weakening.png",
-    "toe.png",
-    "deposit.png",
-    "energy.png",
-    "solver.png",
-    "avalanche.mp4",
-)
+SUMMARY, BREAKS, BEGIN, END = "summary.json", "breaks.csv", "t0.npz", "end.npz"
+SNAPSHOTS, PARAVIEW = frames.FOLDER, "vtk"
 #: Names of the figures in the order in which they are drawn; of their files with ".png".
-PICTURES = tuple(name.removesuffix(".png") for name in FIGURES if name.endswith(".png"))
+PICTURES = tuple("force_chains forces snapshots weakening toe deposit energy solver".split())
+FIGURES = (*(f"{name}.png" for name in PICTURES), "avalanche.mp4")
 
 
 def forget(folder):
@@ -141,12 +125,9 @@ NUMBERS = (
     "energy_dissipated_J_per_m energy_correction_rel energy_error_rel"
 ).split()
 PASSIVE = (
-    "water_passive_m",
-    "water_at_failure_over_passive",
-    "passive_resistance_dry_N_per_m",
-    "passive_force_N_per_m",
-    "fb_force_at_failure_over_passive",
-)
+    "water_passive_m water_at_failure_over_passive passive_resistance_dry_N_per_m passive_force_N_per_m "
+    "fb_force_at_failure_over_passive"
+).split()
 BED = ("entrained_kg_per_m", "bed_kg_per_m", "deposited_kg_per_m", "mass_kg_per_m")
 #: Between which times bands of the toe are looked for: until the slip surface is weak, and as the paper's Figure 13 has it, until the slope accelerates.
 TOE_BANDS = {"toe_bands": ("t1", "t3"), "toe_bands_triggering": ("t0", "t2")}
@@ -173,12 +154,8 @@ def numbers_of(section) -> list[str]:
 
 
 def _has_passive(section):
-    return not (
-        section.envelope is None
-        or section.water is None
-        or section.water.wall is None
-        or not section.of_role("backstop")
-    )
+    known = section.envelope is not None and section.water is not None and section.water.wall is not None
+    return known and bool(section.of_role("backstop"))
 
 
 def _difference(a, b):

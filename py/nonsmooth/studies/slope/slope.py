@@ -88,8 +88,9 @@ def build(section, packing, world=None) -> Slope:
     """Fills the (empty) scene with walls, disks and engines; the disks are at rest and nothing is bonded yet.
 
     ``section``: a checked Section; ``packing``: a Packing whose layers are the section's; ``world``: one of :mod:`worlds`, :func:`hard` unless given.
+    Raises WorldError for what is no world, and for interfaces in one that has none.
     """
-    world = world or hard(section)
+    world = hard(section) if world is None else worlds.check(world)
     O.reset()
     walls = _walls(section, world)
     rocks = [section.materials[layer.material] for layer in section.layers]
