@@ -79,9 +79,10 @@ class SeriesWriter:
             raise RecordsError(
                 f"columns {checks.shown(columns)}: give the names of the columns, a list that begins with 'step'"
             )
-        known = columns if isinstance(columns, Mapping) else {}
+        told = columns.items() if isinstance(columns, Mapping) else ()
+        known = {"step": STEP} | {name: column for name, column in told if isinstance(column, Column)}
         self.columns = tuple(columns)
-        self._declared = [known.get(name, STEP if name == "step" else Column(name, kind=None)) for name in self.columns]
+        self._declared = [known.get(name, Column(name, kind=None)) for name in self.columns]
         self.last_step = None
         self._file, self._sum = None, hashlib.sha256()
         if not self.columns or self.columns[0] != "step" or len(set(self.columns)) != len(self.columns):

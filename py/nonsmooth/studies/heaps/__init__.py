@@ -6,7 +6,7 @@
     from yade.nonsmooth.heaps import column
 
     c = column.Column(disks=500, aspect=2.0)
-    hard = column.run(c, worlds.Hard(time_step=c.time_step()))
+    hard = column.run(c)
     soft = column.run(c, worlds.Soft(stiffness=1e9, diameter=c.diameters()))
     print(hard.runout, soft.runout)
 

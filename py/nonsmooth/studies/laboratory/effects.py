@@ -1,7 +1,9 @@
-"""What a biaxial test depends on besides the material: size of the sample, size of the disks, rate of loading and time step.
+"""What a biaxial test depends on besides the material: size of the sample, size of the disks, rate of loading and time
+step.
 
-The strength is the apparent angle of friction, sin φ = (σ₁ − σ₃)/(σ₁ + σ₃), of the peak and of the plateau under one pressure. Of homothetic samples of one
-material Taboada and Estrada (2009, section 3.2.2) expect similar results; what the rate and the step change is numerics.
+The strength is the apparent angle of friction, sin φ = (σ₁ − σ₃)/(σ₁ + σ₃), of the peak and of the plateau under one
+pressure. Of homothetic samples of one material Taboada and Estrada (2009, section 3.2.2) expect similar results; what
+the rate and the step change is numerics.
 """
 
 from __future__ import annotations
@@ -23,7 +25,9 @@ COUNT = 2000  # disks, where the size of the sample is not what varies
 
 @dataclass(frozen=True)
 class Effect:
-    """A number that is varied: its ``name`` for folders, what it is in words, its values with their tests (dictionary), and the usual value."""
+    """A number that is varied: its ``name`` for folders, what it is in words, its values with their tests (dictionary),
+    and the usual value.
+    """
 
     name: str
     label: str
@@ -32,7 +36,9 @@ class Effect:
 
 
 def effects(material, seeds, count=COUNT, pressure=PRESSURE, **options):
-    """The Effects that are looked at, each value with one BiaxialTest for each seed. ``options``: fields of BiaxialTest for all."""
+    """The Effects that are looked at, each value with one BiaxialTest for each seed. ``options``: fields of BiaxialTest
+    for all.
+    """
     usual = biaxial_test.BiaxialTest(material, pressure, Shape(count, 0), **options)
 
     def tests(values, change):
@@ -76,11 +82,15 @@ def effects(material, seeds, count=COUNT, pressure=PRESSURE, **options):
 
 
 def run(chosen, out, threads, resume=False, progress=lambda share, doing: None):
-    """Runs the tests of Effects below ``out``; those that several effects share are run once. Returns rows, a list of dictionaries.
+    """Runs the tests of Effects below ``out``; those that several effects share are run once. Returns rows, a list of
+    dictionaries.
 
-    A row has ``effect``, ``label``, ``value``, ``usual`` (bool), and for "peak" and "residual" ``…_deg`` (a list, one a seed), its ``…_mean_deg`` with
-    ``…_95_deg`` (half of the 95 % interval over seeds, None for one seed), and ``…_change_rel``: mean relative change of σ₁ from the usual value, seed by
-    seed, with half of its 95 % interval, ``…_change_95_rel``. ``fluctuation_rel``, ``fluctuation_95_rel`` and ``fluctuation_each_rel``: of the stress on the plateau (:mod:`fluctuations`), None where it is too short.
+    A row has ``effect``, ``label``, ``value``, ``usual`` (bool), and for "peak" and "residual" ``…_deg`` (a list, one a
+    seed), its ``…_mean_deg`` with
+    ``…_95_deg`` (half of the 95 % interval over seeds, None for one seed), and ``…_change_rel``: mean relative change
+    of σ₁ from the usual value, seed by seed, with half of its 95 % interval, ``…_change_95_rel``. ``fluctuation_rel``,
+    ``fluctuation_95_rel`` and ``fluctuation_each_rel``: of the stress on the plateau (:mod:`fluctuations`), None where
+    it is too short.
     """
     wanted = [(effect, value, group) for effect in chosen for value, group in effect.tests.items()]
     whole, done, known, rows = sum(_work(g) for _, _, g in wanted), 0.0, {}, []
