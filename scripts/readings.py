@@ -58,7 +58,7 @@ def read_arguments():
     parser.add_argument(
         "--strain",
         type=arguments.positive,
-        default=biaxial_test.Test.strain,
+        default=biaxial_test.BiaxialTest.strain,
         help="axial strain at the end of a test (default: %(default)s)",
     )
     parser.add_argument("--no-slopes", action="store_true", help="samples alone, no slopes under rising water")

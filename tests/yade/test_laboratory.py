@@ -186,7 +186,7 @@ def test_a_block_is_pressed_by_a_load_that_grows_to_the_whole_of_it(monkeypatch)
         return step(steps, **told)
 
     monkeypatch.setattr(stepping, "advance", listening)
-    test = wall_shear.Test(materials.load("ss"), 0.5e6)
+    test = wall_shear.SlideTest(materials.load("ss"), 0.5e6)
     wall_shear.slide(test)
     grows, whole = loads[: wall_shear.PRESSING], loads[-1]
     assert grows == pytest.approx(whole * np.arange(1, wall_shear.PRESSING + 1) / wall_shear.PRESSING, rel=1e-12)
