@@ -36,7 +36,6 @@ SAME = {
         'bar = fig.colorbar(scale, ax=panels.tolist(), location="bottom", shrink=0.4, aspect=40, label=told, extend="both")',
         'bar = fig.colorbar(scale, ax=panels.tolist(), location="bottom", shrink=0.4, aspect=41, label=told, extend="both")',
     ): "a bar of colours that is thinner by a fortieth shows the same colours at the same places",
-    ("py/nonsmooth/figures/sweep.py", "if handles:", "if True:"): "a legend without entries and frame shows nothing",
     (
         "py/nonsmooth/measure/strength.py",
         "if strain[-1] < plateau[0] + PEAK_WINDOW - 1e-8:",
