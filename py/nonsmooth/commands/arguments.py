@@ -70,7 +70,10 @@ def add_seeds(parser, usual, what):
 
 
 def add_runs(parser, out, what):
-    """Adds what commands that run many things side by side share: ``out``: their usual folder; ``what``: the things, as "tests"."""
+    """Adds what commands that run many things side by side share.
+
+    ``out``: their usual folder; ``what``: the things, as "tests".
+    """
     add_out(parser, out)
     add_threads(parser, f"{what} at a time")
     parser.add_argument(

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
+from scipy.optimize import brentq
 
 from yade import O
 
@@ -209,7 +210,7 @@ def bond_ellipse(bench):
     claims.at_most(what, worst, 1.01 / steps, one_step)
 
     pair = Pair(zone=(0.05, 0.02), dt=1e-3)
-    path = _root(
+    path = brentq(
         lambda y: (y / (0.02 * LENGTH)) ** 2 + ((LENGTH - math.sqrt(LENGTH**2 - y**2)) / (0.05 * LENGTH)) ** 2 - 1,
         0,
         0.02 * LENGTH,
@@ -231,7 +232,7 @@ def bond_ellipse(bench):
     claims.near("mode of the break (2 is shear)", contacts()[0].phys.brokenMode, 2, "a name")
 
     pair = Pair(zone=zone, dt=1e-2)
-    angle = _root(lambda a: math.hypot(math.cos(a) / zone[0], math.sin(a) / zone[1]) * (1 - math.cos(a)) - 1, 0, 1)
+    angle = brentq(lambda a: math.hypot(math.cos(a) / zone[0], math.sin(a) / zone[1]) * (1 - math.cos(a)) - 1, 0, 1)
     pair.state.blockedDOFs = "yzXY"
     pair.load(normal=PUSH)
     run(1)
@@ -261,14 +262,6 @@ def _until_broken(read, most):
         if engine().bonds == 0:
             return then
     return math.nan, math.nan
-
-
-def _root(f, low, high):
-    """Zero of a function that is negative at ``low``, by bisection to rounding."""
-    for _ in range(100):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if f(middle) < 0 else (low, middle)
-    return middle
 
 
 def row_of_disks(count, strength, both_ends=False, rolling=ROLLING, friction=FRICTION, zone=0.02):

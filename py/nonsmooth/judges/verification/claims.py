@@ -39,8 +39,8 @@ class Claim:
 class Claims(list):
     """Claims of a check, in the report's order: each method adds one, and returns it.
 
-    ``what`` ends with the figure's unit in brackets where it has one, ``why`` says why just this tolerance. ``against``: whom all are compared with
-    where a claim does not say it itself.
+    ``what`` ends with the figure's unit in brackets where it has one, ``why`` says why just this tolerance.
+    ``against``: whom all are compared with where a claim does not say it itself.
     """
 
     def __init__(self, claims=(), against="derivation"):
@@ -48,7 +48,10 @@ class Claims(list):
         self.against = against
 
     def between(self, what, measured, low, high, why, *, expected=None, against=None) -> Claim:
-        """A number lies between two bounds, both allowed. Raises ValueError for a claim without a reason, or one that allows nothing."""
+        """A number lies between two bounds, both allowed.
+
+        Raises ValueError for a claim without a reason, or one that allows nothing.
+        """
         named = _UNIT.fullmatch(what)
         what, unit = (named[1], named[2]) if named else (what, "")
         self.append(Claim(what, float(measured), low, high, expected, unit, against or self.against, why))

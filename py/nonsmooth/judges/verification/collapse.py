@@ -116,8 +116,8 @@ def collapse_of_rounded_places(bench):
         rows.append([f"{a} against {b}", *(f"{100 * v:.2f}" for v in share[a, b])])
     claims = Claims()
     why = (
-        "five columns of 1,000 disks: 0.5 to 1.7 %, as without overlaps; a bias of a fifth of the overlap a step on the "
-        "velocity gives 26 to 29 %"
+        "five columns of 1,000 disks: 0.5 to 1.7 %, as without overlaps; a bias of a fifth of the overlap a step on "
+        "the velocity gives 26 to 29 %"
     )
     for s, v in zip(seeds, share["h", "h/4"]):
         what = f"seed {s}: area between the profiles with h and h/4, of the area"

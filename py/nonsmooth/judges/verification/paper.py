@@ -174,7 +174,10 @@ def claims_of(stages):
 
 def wedge_claim(lengths):
     """A claim of the mean :func:`wedge` of several packings, ``lengths`` [m]."""
-    why = "the foot of DP lies below the slip surface and keeps its friction [119]; with a tenth of DP it would hold the slope"
+    why = (
+        "the foot of DP lies below the slip surface and keeps its friction [119]; with a tenth of DP it would hold "
+        "the slope"
+    )
     return Claims(against="the paper").between(NUMBERS["wedge_m"][0], _mean(lengths).mean, *WEDGE, why)
 
 

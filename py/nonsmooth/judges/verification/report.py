@@ -13,7 +13,10 @@ TEMPLATE = Path(__file__).with_name("report.html.j2")
 
 
 def write_report(path, results, *, quick, versions):
-    """Writes the page with all plots in it; ``results``: :class:`~.runner.CheckResult`; ``versions``: {name: version} of what took part."""
+    """Writes the page with all plots in it.
+
+    ``results``: :class:`~.runner.CheckResult`; ``versions``: {name: version} of what took part.
+    """
     subjects = {}
     for result in results:
         subjects.setdefault(result.check.subject, []).append(result)

@@ -35,7 +35,7 @@ class CheckResult(Findings):
 def run_checks(
     checks, out, *, quick=False, threads=1, resume=False, progress=lambda check, text: None, done=lambda result: None
 ):
-    """Runs the checks and yields a :class:`CheckResult` for each, in their order; each is on disk before the next begins.
+    """Runs the checks and yields a :class:`CheckResult` for each, in order; each is on disk before the next begins.
 
     ``resume``: take over what an earlier run with the same ``quick``, engines and code wrote in ``out`` and finished without an error.
     """
