@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import common, figures
-from .report import Section
+from .report import ReportSection
 from .slope_report import modes_section
 
 __all__ = ["QUESTIONS", "sections"]
@@ -20,59 +20,27 @@ def sections(out, scenario, plan, outcomes, summary):
     """The scenario's own sections; figures go to ``out/figures``."""
     folder, strain = out / "figures", ("abscissa", "axial strain [%]", 100.0)
     columns = [("stress", "σ₁/σ₃ [-]", 1.0), ("volume", "volumetric strain [%]", 100.0)]
-    made = [
-        Section(
-            "Stress and volume",
-            plots=[
-                (
-                    figures.courses(
-                        common.by_seed(plan, outcomes, common.curves), columns, strain, folder / "stress_seeds.png"
-                    ),
-                    "All seeds. Stresses are " "running means over 0.2 % of strain.",
-                ),
-                (
-                    figures.courses(
-                        common.by_stiffness(plan, outcomes, common.curves),
-                        columns,
-                        strain,
-                        folder / "stress_stiffness.png",
-                    ),
-                    f"All stiffnesses, " f"seed {plan.ensemble[0][0].seed}.",
-                ),
-            ],
-        )
+    curves = common.by_seed(plan, outcomes, common.curves), common.by_stiffness(plan, outcomes, common.curves)
+    seeds, moduli = (
+        figures.courses(groups, columns, strain, folder / f"stress_{name}.png")
+        for groups, name in zip(curves, ("seeds", "stiffness"))
+    )
+    plots = [
+        (seeds, "All seeds. Stresses are running means over 0.2 % of strain."),
+        (moduli, f"All stiffnesses, seed {plan.ensemble[0][0].seed}."),
     ]
-    made.append(
-        common.course_section(
-            "Bonds",
-            folder / "bonds.png",
-            plan,
-            outcomes,
-            [("bonds_alive", "bonds that hold", 1.0)],
-            ("strain", "axial strain [%]", 100.0),
-        )
-    )
-    speeds = common.course_section(
-        "Motion",
-        folder / "speed.png",
-        plan,
-        outcomes,
-        [("speed_mean_m_per_s", "mean speed of disks [m/s]", 1.0)],
-        ("strain", "axial strain [%]", 100.0),
-    )
+    made, along = [ReportSection("Stress and volume", plots=plots)], ("strain", "axial strain [%]", 100.0)
+    alive = [("bonds_alive", "bonds that hold", 1.0)]
+    made.append(common.course_section("Bonds", folder / "bonds.png", plan, outcomes, alive, along))
+    mean = [("speed_mean_m_per_s", "mean speed of disks [m/s]", 1.0)]
+    speeds = common.course_section("Motion", folder / "speed.png", plan, outcomes, mean, along)
     speeds.text.append(
         "The series of a biaxial test holds no kinetic energy; the mean speed of its disks shows when the sample moves more than its platens."
     )
     made.append(speeds)
     made.append(modes_section(folder, plan, outcomes))
-    made.append(
-        common.force_section(
-            folder,
-            plan,
-            outcomes,
-            "Normal forces of contacts under compression, under the confining pressure before the " "test begins.",
-        )
-    )
+    caption = "Normal forces of contacts under compression, under the confining pressure before the test begins."
+    made.append(common.force_section(folder, plan, outcomes, caption))
     if plan.fragile is not None:
         made.append(common.bonds_section(folder, plan, outcomes, columns, strain, common.curves))
     return made

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 from ...errors import UserError
 
-__all__ = ["Case", "ComparisonError", "Plan", "check_soft", "moduli_of", "modulus_label", "plan", "work_of"]
+__all__ = ["Case", "ComparisonError", "ComparisonPlan", "check_soft", "moduli_of", "modulus_label", "plan", "work_of"]
 
 #: Time step and tolerance of hard runs, as multiples of the section's, coarse to fine; the last is the reference.
 HARD_NUMERICS = ((2.0, 10.0), (2.0, 1.0), (1.0, 10.0), (0.5, 0.5))
@@ -109,7 +109,7 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Plan:
+class ComparisonPlan:
     """Cases by what they are for; a case may serve several ends. ``ensemble``: pairs (hard, soft), one a seed."""
 
     ensemble: tuple[tuple[Case, Case], ...]
@@ -149,7 +149,7 @@ def plan(
     fragile=False,
     bonds_run=False,
     options=None,
-) -> Plan:
+) -> ComparisonPlan:
     """The runs of a comparison.
 
     ``stiffnesses``: Young's moduli [Pa]; ``ensemble``: the one of the ensemble (default: the upper of the middle ones); ``numerics``: pairs as
@@ -187,7 +187,7 @@ def plan(
         return Case("hard", source, disks, seed, step, tolerance, options=_Options(options or {}))
 
     first = seeds[0]
-    return Plan(
+    return ComparisonPlan(
         tuple((hard(seed), soft(middle, seed)) for seed in seeds),
         tuple(soft(e, first) for e in chosen),
         (*(hard(first, *pair) for pair in numerics[:-1]), hard(first), *(hard(first, *pair) for pair in numerics[-1:])),

@@ -20,21 +20,10 @@ def sections(out, scenario, plan, outcomes, summary):
     made = common.deposit_section(folder, plan, outcomes, ground)
     made.append(common.motion_section(folder, plan, outcomes, "time since the release [s]"))
     energy = [("energy_kinetic_J", "kinetic energy [J/m]", 1.0), ("height_m", "height [m]", 1.0)]
-    made.append(
-        common.course_section(
-            "Kinetic energy and height",
-            folder / "energy.png",
-            plan,
-            outcomes,
-            energy,
-            ("time_s", "time since the release " "[s]", 1.0),
-        )
-    )
-    made.append(
-        common.force_section(
-            folder, plan, outcomes, "Normal forces of contacts under compression, at rest before the release."
-        )
-    )
+    path, time = folder / "energy.png", ("time_s", "time since the release [s]", 1.0)
+    made.append(common.course_section("Kinetic energy and height", path, plan, outcomes, energy, time))
+    caption = "Normal forces of contacts under compression, at rest before the release."
+    made.append(common.force_section(folder, plan, outcomes, caption))
     if plan.damping is not None:
         made.append(common.damping_section(folder, plan, outcomes, "time since the release [s]"))
     return made

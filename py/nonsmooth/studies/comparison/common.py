@@ -6,7 +6,7 @@ import numpy as np
 
 from . import deposits, figures
 from .cases import modulus_label
-from .report import Section
+from .report import ReportSection
 
 __all__ = [
     "bonds_section",
@@ -56,60 +56,37 @@ def deposit_section(folder, plan, outcomes, walls):
     if hard.deposit is None or soft.deposit is None:
         return []
     begin = deposits.outline(*hard.begin) if hard.begin is not None else None
-    path = figures.deposits_overlaid(
-        hard.deposit, soft.deposit, begin, walls, deposits.overlap(hard.deposit, soft.deposit), folder / "deposits.png"
+    path, shared = folder / "deposits.png", deposits.overlap(hard.deposit, soft.deposit)
+    caption = (
+        f"The deposits of seed {hard.case.seed}; soft with {modulus_label(soft.case.stiffness)}. Pores are closed; the "
+        "overlap is the area that both cover over the area that either covers."
     )
-    return [
-        Section(
-            "Deposits",
-            plots=[
-                (
-                    path,
-                    f"The deposits of seed {hard.case.seed}; soft with {modulus_label(soft.case.stiffness)}. Pores are "
-                    f"closed; the overlap is the area that both cover over the "
-                    "area that either covers.",
-                )
-            ],
-        )
-    ]
+    figures.deposits_overlaid(hard.deposit, soft.deposit, begin, walls, shared, path)
+    return [ReportSection("Deposits", plots=[(path, caption)])]
 
 
 def motion_section(folder, plan, outcomes, clock):
     """Front and centre of mass against time; ``clock``: label of the time."""
     since, seed = ("abscissa", clock, 1.0), plan.ensemble[0][0].seed
-    return Section(
-        "Front and centre of mass",
-        plots=[
-            (figures.courses(by_seed(plan, outcomes, curves), WAYS, since, folder / "motion_seeds.png"), "All seeds."),
-            (
-                figures.courses(by_stiffness(plan, outcomes, curves), WAYS, since, folder / "motion_stiffness.png"),
-                f"All stiffnesses, seed {seed}.",
-            ),
-        ],
-    )
+    seeds = figures.courses(by_seed(plan, outcomes, curves), WAYS, since, folder / "motion_seeds.png")
+    moduli = figures.courses(by_stiffness(plan, outcomes, curves), WAYS, since, folder / "motion_stiffness.png")
+    plots = [(seeds, "All seeds."), (moduli, f"All stiffnesses, seed {seed}.")]
+    return ReportSection("Front and centre of mass", plots=plots)
 
 
 def course_section(title, path, plan, outcomes, columns, abscissa, stiffness=True):
     """Columns of the series; ``stiffness``: all stiffnesses on one packing, else all seeds."""
     groups = (by_stiffness if stiffness else by_seed)(plan, outcomes, series)
     caption = f"All stiffnesses, seed {plan.ensemble[0][0].seed}." if stiffness else "All seeds."
-    return Section(title, plots=[(figures.courses(groups, columns, abscissa, path), caption)])
+    return ReportSection(title, plots=[(figures.courses(groups, columns, abscissa, path), caption)])
 
 
 def force_section(folder, plan, outcomes, caption):
     """P(N/⟨N⟩)."""
     groups = by_stiffness(plan, outcomes, lambda o: np.array(list(o.forces.values())))
-    return Section(
-        "Force distribution",
-        plots=[
-            (
-                figures.force_distribution(
-                    [(label, colour, found[0]) for label, colour, found in groups], folder / "force_distribution.png"
-                ),
-                caption,
-            )
-        ],
-    )
+    shown = [(label, colour, found[0]) for label, colour, found in groups]
+    path = figures.force_distribution(shown, folder / "force_distribution.png")
+    return ReportSection("Force distribution", plots=[(path, caption)])
 
 
 def damping_section(folder, plan, outcomes, clock):
@@ -131,7 +108,7 @@ def damping_section(folder, plan, outcomes, clock):
         f"{rest:g} at rest and "
         f"{moving:g} while the mass moves, with a linear passage below a tenth of its largest speed."
     ]
-    return Section(
+    return ReportSection(
         "What damping does", text, [(path, f"{modulus_label(throughout.case.stiffness)}, seed {throughout.case.seed}.")]
     )
 
@@ -152,6 +129,6 @@ def bonds_section(folder, plan, outcomes, columns, abscissa, pick=series):
         "them at the same ellipse (BondEllipseEngine); one run with fragile bonds shows what the difference is worth. Fragile bonds hand their load to "
         "neighbours that are as near to their own thresholds."
     ]
-    return Section(
+    return ReportSection(
         "What brittle bonds do", text, [(path, f"{modulus_label(fragile.case.stiffness)}, seed {fragile.case.seed}.")]
     )

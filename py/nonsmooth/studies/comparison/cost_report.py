@@ -48,7 +48,7 @@ def write(out, told):
         "state | contacts | time step | wall time a step | wall time a simulated second | mean overlap | "
         "largest overlap | over hard | contacts that touch or carry force | mean speed"
     ).split(" | ")
-    section = report.Section(
+    section = report.ReportSection(
         "Cost and overlap",
         [
             "Overlaps fall as a power of the stiffness, and cost grows as another: "

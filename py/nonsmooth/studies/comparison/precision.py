@@ -26,7 +26,7 @@ import numpy as np
 from . import deposits
 
 __all__ = [
-    "Fit",
+    "ConvergenceFit",
     "Work",
     "compare_work",
     "curve_difference",
@@ -106,7 +106,7 @@ def force_difference(one, reference):
 
 
 @dataclass(frozen=True)
-class Fit:
+class ConvergenceFit:
     """y = ``scale`` x^``power``; ``power_error``: standard error, NaN for two points; ``points``: how many there were."""
 
     power: float
@@ -119,7 +119,7 @@ class Fit:
 
 
 def power_law(x, y):
-    """:class:`Fit` to ``x``, ``y``, both of shape (n,), by least squares of the logarithms; values that are not positive are left out.
+    """:class:`ConvergenceFit` to ``x``, ``y``, both of shape (n,), by least squares of the logarithms; values that are not positive are left out.
 
     None where fewer than two points of different x are left.
     """
@@ -133,7 +133,7 @@ def power_law(x, y):
     if len(x) > 2:
         rest = y - power * x - constant
         spread = math.sqrt(float(np.sum(rest**2)) / (len(x) - 2) / float(np.sum((x - x.mean()) ** 2)))
-    return Fit(float(power), math.exp(constant), spread, len(x))
+    return ConvergenceFit(float(power), math.exp(constant), spread, len(x))
 
 
 def loglog(at, x, y):

@@ -10,7 +10,7 @@ from . import answers, figures
 from .answers import number, spread
 from .cases import modulus_label
 
-__all__ = ["Section", "common_sections", "tables_of", "write"]
+__all__ = ["ReportSection", "common_sections", "tables_of", "write"]
 
 TEMPLATE = Path(__file__).with_name("report.html.j2")
 
@@ -19,7 +19,7 @@ SHOWN = ("error", "overlap", "front_travel_m")  # of the convergence, in the fig
 
 
 @dataclass
-class Section:
+class ReportSection:
     """A part of the page: ``text`` (sentences), ``plots`` [(path of a PNG, caption)], ``tables`` [(caption, heads, rows)]."""
 
     title: str
@@ -68,95 +68,51 @@ def _quantities(summary):
     for q in summary["quantities"].values():
         cell = lambda w: spread(q[w]["mean"], q[w]["sd"], q["unit"])  # noqa: E731
         within = {None: "not told", True: "yes", False: "no"}[q["agree"]]
-        rows.append(
-            (
-                q["means"],
-                cell("hard"),
-                cell("soft"),
-                number(q["difference"], q["unit"]),
-                "–" if q["difference_95"] is None else "± " + number(q["difference_95"], q["unit"]),
-                within,
-            )
-        )
+        off, half = number(q["difference"], q["unit"]), q["difference_95"]
+        confidence = "–" if half is None else "± " + number(half, q["unit"])
+        rows.append((q["means"], cell("hard"), cell("soft"), off, confidence, within))
     caption = (
         f"Means and standard deviations over seeds {', '.join(map(str, summary['seeds']))}; soft with "
         f"{modulus_label(summary['ensemble_stiffness_Pa'])}. "
         "Differences are soft minus hard of the same packing, with their 95 % confidence (Student's t)."
     )
-    return Section(
-        "All quantities", tables=[(caption, ("quantity", "hard", "soft", "difference", "confidence", "the same"), rows)]
-    )
+    heads = ("quantity", "hard", "soft", "difference", "confidence", "the same")
+    return ReportSection("All quantities", tables=[(caption, heads, rows)])
 
 
 def _overlaps(folder, scenario, plan, outcomes, summary):
     sweep, hard = [outcomes[c] for c in plan.sweep], outcomes[plan.ensemble[0][0]]
-    moduli = [o.case.stiffness for o in sweep]
-    plots = [
-        (
-            figures.overlaps(
-                moduli,
-                [o.overlap_rest for o in sweep],
-                [o.overlap for o in sweep],
-                hard.overlap_rest,
-                hard.overlap,
-                folder / "overlaps.png",
-                scenario.OVERLAP_WHEN,
-            ),
-            f"{scenario.OVERLAP} The same in both worlds.",
-        ),
-        (
-            figures.cost(
-                moduli,
-                [o.cost.rate for o in sweep],
-                [1 / o.cost.step_s for o in sweep],
-                hard.cost.rate,
-                1 / hard.cost.step_s,
-                folder / "cost.png",
-            ),
-            f"Cost of a second of simulation {scenario.COST_WHEN}: steps alone, without records; one thread a run.",
-        ),
-    ]
-    return Section(
-        "Overlaps and cost",
-        [
-            *answers.answer_cost(summary),
-            "Wall times were taken while other runs of the comparison shared the machine; scripts/compare_hard_soft.py "
-            "--cost measures them alone.",
-        ],
-        plots,
+    moduli, every = [o.case.stiffness for o in sweep], [*sweep, hard]
+    *rest, hard_rest = (o.overlap_rest for o in every)
+    *moving, hard_moving = (o.overlap for o in every)
+    *rates, hard_rate = (o.cost.rate for o in every)
+    *steps, hard_steps = (1 / o.cost.step_s for o in every)
+    path = folder / "overlaps.png"
+    overlaps = figures.overlaps(moduli, rest, moving, hard_rest, hard_moving, path, scenario.OVERLAP_WHEN)
+    cost = figures.cost(moduli, rates, steps, hard_rate, hard_steps, folder / "cost.png")
+    caption = f"Cost of a second of simulation {scenario.COST_WHEN}: steps alone, without records; one thread a run."
+    shared = (
+        "Wall times were taken while other runs of the comparison shared the machine; scripts/compare_hard_soft.py "
+        "--cost measures them alone."
     )
+    plots = [(overlaps, f"{scenario.OVERLAP} The same in both worlds."), (cost, caption)]
+    return ReportSection("Overlaps and cost", [*answers.answer_cost(summary), shared], plots)
 
 
 def _work(folder, scenario, summary):
     work = summary["work_precision"]
     short = lambda label: label.removeprefix("soft, ").removeprefix("hard, ")  # noqa: E731
-    panels = [
-        (
-            title,
-            *(
-                [(p["wall_s"], p["error"], short(p["label"])) for p in work[kind][world]]
-                for world in ("hard", "soft", "soft_aside")
-            ),
-        )
-        for kind, title in (
-            ("against_hard", "against the finest hard run"),
-            ("against_own", "against the finest run of its own world"),
-        )
-    ]
+    worlds = ("hard", "soft", "soft_aside")
+    points = lambda kind, world: [(p["wall_s"], p["error"], short(p["label"])) for p in work[kind][world]]  # noqa: E731
+    titles = {"against_hard": "against the finest hard run", "against_own": "against the finest run of its own world"}
+    panels = [(title, *(points(kind, world) for world in worlds)) for kind, title in titles.items()]
     path = figures.work_precision(panels, work["scatter"], folder / "work_precision.png")
-    rows = [
-        (
-            p["label"],
-            number(p["wall_s"], "s"),
-            "–" if p["error"] is None else number(p["error"]),
-            ", ".join(
-                f"{scenario.CURVES.get(n, n.removesuffix('_m').replace('_', ' '))} {number(v, digits=2)}"
-                for n, v in p["parts"].items()
-            ),
-        )
-        for w in ("hard", "soft", "soft_aside")
-        for p in work["against_hard"][w]
-    ]
+    rows = []
+    for p in (p for world in worlds for p in work["against_hard"][world]):
+        named = ((scenario.CURVES.get(n, n.removesuffix("_m").replace("_", " ")), v) for n, v in p["parts"].items())
+        parts = ", ".join(f"{name} {number(v, digits=2)}" for name, v in named)
+        error = "–" if p["error"] is None else number(p["error"])
+        rows.append((p["label"], number(p["wall_s"], "s"), error, parts))
     text = [
         f"Error: root mean square of relative differences of {', '.join(scenario.CURVES.values())} and key quantities, against a reference run "
         f"of the same packing. "
@@ -172,18 +128,12 @@ def _work(folder, scenario, summary):
             else ""
         )
     ]
-    return Section(
-        "Work and precision",
-        text,
-        [
-            (
-                path,
-                "Error against wall time; the lower left is better. In the grey band errors are below the "
-                "scatter over seeds and tell nothing.",
-            )
-        ],
-        [("Errors against the finest hard run", ("run", "wall time", "error", "its parts"), rows)],
+    caption = (
+        "Error against wall time; the lower left is better. In the grey band errors are below the scatter over seeds "
+        "and tell nothing."
     )
+    table = "Errors against the finest hard run", ("run", "wall time", "error", "its parts"), rows
+    return ReportSection("Work and precision", text, [(path, caption)], [table])
 
 
 def _convergence(folder, scenario, summary):
@@ -192,43 +142,28 @@ def _convergence(folder, scenario, summary):
     shown = [
         r for name, r in found["rows"].items() if name in SHOWN or name in scenario.KEYS or name in scenario.CURVES
     ]
-    plots = [
-        (
-            figures.convergence(
-                found["stiffnesses_Pa"],
-                [(r["means"], r["differences"], r["scatter"], r["power"], r["scale"]) for r in shown],
-                folder / "convergence.png",
-            ),
-            "Relative difference of soft runs from the hard one of the same packing, against stiffness; dashed: the power of E that fits best.",
-        )
-    ]
+    moduli = found["stiffnesses_Pa"]
+    curves = [(r["means"], r["differences"], r["scatter"], r["power"], r["scale"]) for r in shown]
+    caption = (
+        "Relative difference of soft runs from the hard one of the same packing, against stiffness; dashed: the power "
+        "of E that fits best."
+    )
+    plots = [(figures.convergence(moduli, curves, folder / "convergence.png"), caption)]
     forces = found["forces"]
     if any(c is not None for c in forces["correlation"]):
-        plots.append(
-            (
-                figures.network(
-                    found["stiffnesses_Pa"],
-                    forces["correlation"],
-                    list(zip(forces["hard_runs"], forces["hard_correlation"])),
-                    folder / "network.png",
-                ),
-                "Forces at the same contacts, soft against hard, and between hard runs of different numerics: in a packing with more contacts "
-                "than it needs, forces are not unique.",
-            )
+        between = list(zip(forces["hard_runs"], forces["hard_correlation"]))
+        caption = (
+            "Forces at the same contacts, soft against hard, and between hard runs of different numerics: in a packing "
+            "with more contacts than it needs, forces are not unique."
         )
-    verdict = {True: "yes", False: "no", None: "–"}
-    table = [
-        (
-            r["means"],
-            *(number(d, digits=2) if d is not None else "–" for d in r["differences"]),
-            "–"
-            if r["power"] is None
-            else f"{r['power']:.2f}" + ("" if r["power_error"] is None else f" ± {r['power_error']:.2f}"),
-            _percent(r["scatter"]),
-            verdict[r["stiffest_within_scatter"]],
-        )
-        for r in rows
-    ]
+        plots.append((figures.network(moduli, forces["correlation"], between, folder / "network.png"), caption))
+    verdict, table = {True: "yes", False: "no", None: "–"}, []
+    for r in rows:
+        differences = (number(d, digits=2) if d is not None else "–" for d in r["differences"])
+        error = "" if r["power_error"] is None else f" ± {r['power_error']:.2f}"
+        power = "–" if r["power"] is None else f"{r['power']:.2f}{error}"
+        within = verdict[r["stiffest_within_scatter"]]
+        table.append((r["means"], *differences, power, _percent(r["scatter"]), within))
     heads = (
         "difference from hard of",
         *(modulus_label(e) for e in found["stiffnesses_Pa"]),
@@ -242,7 +177,9 @@ def _convergence(folder, scenario, summary):
         "further: a chaotic motion depends on details that no stiffness settles, and so do single contact forces. What stays above it does not "
         "converge with the stiffnesses that were run."
     ]
-    return Section("Convergence of soft to hard", text, plots, [("Relative differences by stiffness", heads, table)])
+    return ReportSection(
+        "Convergence of soft to hard", text, plots, [("Relative differences by stiffness", heads, table)]
+    )
 
 
 def _runs(scenario, outcomes):
@@ -260,23 +197,7 @@ def _runs(scenario, outcomes):
         )
         for c, o in sorted(outcomes.items(), key=lambda item: item[0].name)
     ]
-    return Section(
-        "All runs",
-        tables=[
-            (
-                "Each run had one thread of its own; wall times are of the steps, without records.",
-                (
-                    "run",
-                    "seed",
-                    "steps",
-                    "time step",
-                    "simulated",
-                    "wall time",
-                    "wall time a simulated second",
-                    f"mean overlap, {scenario.OVERLAP_WHEN[1]}",
-                    "remarks",
-                ),
-                rows,
-            )
-        ],
-    )
+    heads = "run | seed | steps | time step | simulated | wall time | wall time a simulated second".split(" | ")
+    heads += [f"mean overlap, {scenario.OVERLAP_WHEN[1]}", "remarks"]
+    title = "Each run had one thread of its own; wall times are of the steps, without records."
+    return ReportSection("All runs", tables=[(title, heads, rows)])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import common, figures, slopes
-from .report import Section
+from .report import ReportSection
 
 __all__ = ["QUESTIONS", "modes_section", "sections"]
 
@@ -26,35 +26,21 @@ def sections(out, scenario, plan, outcomes, summary):
         ("dp_shear_N_per_m", "shear force on DP\n[MN/m]", 1e-6),
         ("dp_normal_effective_N_per_m", "effective normal force\non DP [MN/m]", 1e-6),
     ]
-    made.append(
-        common.course_section(
-            "Forces on DP and FB", folder / "forces.png", plan, outcomes, forces, time, stiffness=False
-        )
-    )
+    path = folder / "forces.png"
+    made.append(common.course_section("Forces on DP and FB", path, plan, outcomes, forces, time, stiffness=False))
     energy = [
         ("energy_kinetic_J", "kinetic energy [GJ/m]", 1e-9),
         ("bonds_alive", "bonds that hold", 1.0),
         ("water_m", "water table [m]", 1.0),
     ]
-    made.append(
-        common.course_section("Kinetic energy, bonds, water", folder / "energy.png", plan, outcomes, energy, time)
-    )
-    made.append(
-        common.force_section(
-            folder, plan, outcomes, "Normal forces of contacts under compression, at rest before the water rises (t0)."
-        )
-    )
+    path = folder / "energy.png"
+    made.append(common.course_section("Kinetic energy, bonds, water", path, plan, outcomes, energy, time))
+    caption = "Normal forces of contacts under compression, at rest before the water rises (t0)."
+    made.append(common.force_section(folder, plan, outcomes, caption))
     made.append(modes_section(folder, plan, outcomes))
     if plan.fragile is not None:
-        made.append(
-            common.bonds_section(
-                folder,
-                plan,
-                outcomes,
-                [("bonds_alive", "bonds that hold", 1.0), ("front_m", "place of the front [m]", 1.0)],
-                time,
-            )
-        )
+        shown = [("bonds_alive", "bonds that hold", 1.0), ("front_m", "place of the front [m]", 1.0)]
+        made.append(common.bonds_section(folder, plan, outcomes, shown, time))
     if plan.damping is not None:
         made.append(common.damping_section(folder, plan, outcomes, CLOCK))
     return made
@@ -77,7 +63,7 @@ def modes_section(folder, plan, outcomes):
         "last seen whole, a row of the series before. "
         "Bonds that used less than half of each threshold then count as not known."
     ]
-    return Section(
+    return ReportSection(
         "Broken bonds by mode",
         text,
         [(figures.modes(broken, folder / "modes.png"), "Means over seeds, with standard deviations.")],

@@ -93,7 +93,7 @@ def _run(outcome, error, own):
 def summarise(scenario, plan, outcomes):
     """The summary as a dictionary.
 
-    ``scenario``: an experiment, see :mod:`outcomes`; ``plan``: a cases.Plan; ``outcomes``: {Case: Outcome} of all its cases.
+    ``scenario``: an experiment, see :mod:`outcomes`; ``plan``: a cases.ComparisonPlan; ``outcomes``: {Case: Outcome} of all its cases.
     """
     keys = scenario.KEYS
     pairs = [(outcomes[h], outcomes[s]) for h, s in plan.ensemble]
