@@ -36,7 +36,7 @@ endif()
 
 if(NONSMOOTH_PLUGIN)
     # A gate whose class layout is wrong on purpose, as if the macros had been guessed: the gate must
-    # notice (tests/yade/test_load.py).
+    # notice (tests/yade/dem/test_load.py).
     nonsmooth_gate(nonsmooth_gate_wrong)
     set_target_properties(nonsmooth_gate_wrong PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/wrong_layout")
     if("QT5" IN_LIST YADE_FEATURES)
@@ -45,7 +45,7 @@ if(NONSMOOTH_PLUGIN)
         target_compile_options(nonsmooth_gate_wrong PRIVATE -DYADE_OPENGL)
     endif()
 
-    # What a viewer does to the list of interactions, which slim builds of YADE have not (tests/yade/test_engine.py).
+    # What a viewer does to the list of interactions, which slim builds of YADE have not (tests/yade/dem/test_engine.py).
     add_library(nonsmooth_drawing_lock SHARED tests/yade/drawing_lock.cpp)
     target_link_libraries(nonsmooth_drawing_lock PRIVATE nonsmooth_yade)
     set_target_properties(nonsmooth_drawing_lock PROPERTIES NONSMOOTH_UNOPTIMISED ON)

@@ -1,9 +1,12 @@
 """Runs the tests that should see a mutant, and says what became of it."""
+import functools
 import json
 import re
 import shutil
 import time
 from dataclasses import dataclass
+
+from workplace import ROOT
 
 # modules of checks that a mutant with checks runs: which notices which is a table of its own
 LAW = ("contacts", "bonds", "impacts")
@@ -22,6 +25,18 @@ class Verdict:
     noticed: frozenset = frozenset()
 
 
+def placed(test):
+    """A test of pytest in YADE, "test_x.py::test_y", with the path of its file below the checkout: no two files have the same name."""
+    file = test.partition("::")[0]
+    return "/".join((*_folders().get(file, ("tests", "yade")), test))
+
+
+@functools.cache
+def _folders():
+    """{name of a file of tests in YADE: parts of its folder below the checkout}."""
+    return {path.name: path.relative_to(ROOT).parts[:-1] for path in (ROOT / "tests" / "yade").rglob("test_*.py")}
+
+
 def split(tests):
     """Tests by kind, a dictionary: "gtest", "plain" (pytest without YADE), "yade", "check"."""
     kinds = {"gtest": [], "plain": [], "yade": [], "check": []}
@@ -30,11 +45,11 @@ def split(tests):
         if begin in ("gtest", "check"):
             kinds[begin].append(rest)
         elif begin == "plain":
-            kinds["plain"].append(f"tests/yade/{rest}")
+            kinds["plain"].append(placed(rest))
         elif test.startswith(("fuzz/", "bindings/")):
             kinds["plain"].append(f"tests/{test}")
         else:
-            kinds["yade"].append(f"tests/yade/{test}")
+            kinds["yade"].append(placed(test))
     return kinds
 
 

@@ -26,8 +26,8 @@ class Mutant:
     """``edits``: (file, text that occurs there once, what takes its place); ``broken``: what is wrong, in words; ``tests``: that should see it, one is enough,
     of
 
-        test_records.py::test_x     pytest in YADE, below tests/yade
-        plain:test_figures.py, fuzz/test_x.py, bindings/…  pytest without YADE, which is quicker; "plain:" stands for tests/yade
+        test_records.py::test_x     pytest in YADE, in a folder of tests/yade
+        plain:test_figures.py, fuzz/test_x.py, bindings/…  pytest without YADE, which is quicker; "plain:" stands for such a folder
         gtest:Law.*                 GoogleTest, a filter
         check:landing               scripts/verify.py; all that are named must see it
 

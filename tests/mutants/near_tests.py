@@ -168,7 +168,7 @@ class NearTests:
         for folder, prefix in folders:
             here = self.root / "tests" / folder
             helpers = {}
-            for path in sorted(here.glob("*.py")):
+            for path in sorted(here.rglob("*.py")):
                 text = path.read_text()
                 tree = ast.parse(text)
                 used = self._used(tree), {s for s in self.used_by_scripts if re.search(rf"\b{re.escape(s)}\b", text)}

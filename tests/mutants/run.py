@@ -80,7 +80,7 @@ def quick(files):
     near = [
         m
         for m in fast
-        if m.files & files or any(f"tests/yade/{t.removeprefix('plain:').partition('::')[0]}" in files for t in m.tests)
+        if m.files & files or any(judging.placed(t.removeprefix("plain:")).partition("::")[0] in files for t in m.tests)
     ]
     chosen += near if len(near) <= COUNT - len(chosen) else dice.sample(near, COUNT - len(chosen))
     others = [m for m in fast if m not in chosen]
